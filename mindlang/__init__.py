@@ -1,0 +1,1 @@
+"""The compiler of the mind language: text → File → Mind → Graph."""

@@ -1,0 +1,47 @@
+"""Kinds of events: what can happen in a tick. `sim/lanes/judge.py` notices them."""
+
+from dataclasses import dataclass
+from typing import Annotated
+
+from mindrun.quantity import POSITIVE, THING, Reference
+from mindrun.registry import kind
+
+
+@kind("event", "reach")
+@dataclass(frozen=True, slots=True)
+class Reach:
+    """An item comes into the claw's reach, or the robot's centre inside a zone; the thing then reappears elsewhere."""
+
+    of: Annotated[str, THING]
+
+
+@kind("event", "delivery")
+@dataclass(frozen=True, slots=True)
+class Delivery:
+    """An item is released in, or carried into, a zone; it then reappears elsewhere."""
+
+    of: Annotated[str, THING]
+
+
+@kind("event", "visit")
+@dataclass(frozen=True, slots=True)
+class Visit:
+    """The robot's centre enters a square patch of the arena, of side `size`, for the first time."""
+
+    of: Annotated[str, Reference("place", ("patch",))]
+    size: Annotated[float, POSITIVE] = 4.0
+
+
+@kind("event", "collision")
+@dataclass(frozen=True, slots=True)
+class Collision:
+    """The body, or the item it holds, begins to touch an obstacle or a wall."""
+
+
+@kind("event", "exhaustion")
+@dataclass(frozen=True, slots=True)
+class Exhaustion:
+    """The battery is empty."""
+
+
+Event = Reach | Delivery | Visit | Collision | Exhaustion

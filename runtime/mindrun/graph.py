@@ -1,0 +1,167 @@
+"""The compiled hierarchy as plain data: names resolved to indices, units converted, skills in the order of influence."""
+
+from dataclasses import dataclass
+
+from mindrun.actuators import Gripper, Servo, Wheel
+from mindrun.events import Event
+from mindrun.functions import Function
+from mindrun.learners import Genetic
+from mindrun.measures import Measure
+from mindrun.memory import Cell
+from mindrun.sensors import Battery, Bearing, Contact, Derivative, Held, Inertial, Inside, RangeFinder, Sine
+from mindrun.world import Content, Disc, Scene
+
+SensorKind = RangeFinder | Bearing | Contact | Held | Inside | Inertial | Battery | Derivative | Sine
+ActuatorKind = Wheel | Gripper | Servo
+
+# An expression in postfix order: ("number", x), ("reading", index), ("each", 0), ("measure", index into the task's
+# measures), or (operator, 0) with one of + - * / negate.
+Program = tuple[tuple[str, float | int], ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Sensor:
+    """A sensor and its place in the vector of readings: `width` readings from `start` on."""
+
+    name: str
+    kind: SensorKind
+    start: int
+    width: int
+
+
+@dataclass(frozen=True, slots=True)
+class Memory:
+    """A memory cell; it reads like a sensor of width 1 at `start`."""
+
+    name: str
+    kind: Cell
+    start: int
+
+
+@dataclass(frozen=True, slots=True)
+class Actuator:
+    """An actuator; its place in the tuple is its place in the vector of commands."""
+
+    name: str
+    kind: ActuatorKind
+
+
+@dataclass(frozen=True, slots=True)
+class Edge:
+    """What a skill sends: to the skill, actuator or memory with index `target`.
+
+    The value is the function's output number `output`, or (where `output` is None) the `value` program, clamped to 0..1.
+    """
+
+    to: str  # "skill", "actuator" or "memory"
+    target: int
+    output: int | None
+    value: Program = ()
+
+
+@dataclass(frozen=True, slots=True)
+class Skill:
+    """A skill: `inputs` are indices into the readings, `edges` in the order of the source.
+
+    Among a function's outputs number i belongs to the i-th edge without `at`.
+    """
+
+    name: str
+    function: Function
+    inputs: tuple[int, ...]
+    edges: tuple[Edge, ...]
+
+    @property
+    def outputs(self) -> int:
+        """How many outputs its internal function has."""
+        return sum(edge.output is not None for edge in self.edges)
+
+    @property
+    def is_base(self) -> bool:
+        """Whether it influences no other skill."""
+        return all(edge.to != "skill" for edge in self.edges)
+
+    @property
+    def is_complex(self) -> bool:
+        """Whether it influences other skills."""
+        return not self.is_base
+
+
+@dataclass(frozen=True, slots=True)
+class Thing:
+    """Something that a task's world contains."""
+
+    name: str
+    kind: Content
+
+
+@dataclass(frozen=True, slots=True)
+class Condition:
+    """`left compare right`, with compare one of < <= > >=."""
+
+    left: Program
+    compare: str
+    right: Program
+
+
+@dataclass(frozen=True, slots=True)
+class Reward:
+    """One reward line. `on` is an index into the task's events, or None for "per tick".
+
+    With `each`, a sensor's (start, width), the amount is added once for each of those readings, which the programs
+    read as ("each", 0).
+    """
+
+    text: str
+    amount: Program
+    on: int | None
+    each: tuple[int, int] | None = None
+    when: Condition | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Task:
+    """A task: its world, its end, its rewards. `ends` and `counts` are indices into `events`."""
+
+    name: str
+    scene: Scene
+    things: tuple[Thing, ...]
+    ticks: int
+    measures: tuple[Measure, ...]
+    events: tuple[Event, ...]
+    ends: tuple[int, ...]
+    rewards: tuple[Reward, ...]
+    counts: tuple[int, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Lesson:
+    """Who learns (`skill`), on which task, driven by which master, for how long, and how (`learner`)."""
+
+    curriculum: str
+    skill: str
+    task: str
+    master: str
+    generations: int
+    from_scratch: bool
+    learner: Genetic
+
+
+@dataclass(frozen=True, slots=True)
+class Graph:
+    """A whole mind, compiled. `tick` is in seconds; `skills` stand in topological order, parents first."""
+
+    tick: float
+    body: Disc
+    master: str
+    sensors: tuple[Sensor, ...]
+    memories: tuple[Memory, ...]
+    actuators: tuple[Actuator, ...]
+    skills: tuple[Skill, ...]
+    tasks: tuple[Task, ...]
+    lessons: tuple[Lesson, ...]
+
+    @property
+    def width(self) -> int:
+        """How many readings there are: those of the sensors, then one per memory."""
+        return sum(sensor.width for sensor in self.sensors) + len(self.memories)

@@ -1,0 +1,16 @@
+"""Kinds of memory: driven like an actuator, read like a sensor on the next tick."""
+
+from dataclasses import dataclass
+from typing import Annotated
+
+from mindrun.quantity import RATIO
+from mindrun.registry import kind
+
+
+@kind("memory", "cell")
+@dataclass(frozen=True, slots=True)
+class Cell:
+    """One number: decay·cell + (1 − decay)·command where a skill drives it, decay·cell where none has influence."""
+
+    decay: Annotated[float, RATIO]
+    start: Annotated[float, RATIO] = 0.0

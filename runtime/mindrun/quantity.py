@@ -1,0 +1,48 @@
+"""The types that an argument of a kind can have: what a number means, which units it takes, what it may be."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from math import inf, pi
+
+
+@dataclass(frozen=True, slots=True)
+class Quantity:
+    """A number with a meaning. `units` maps a unit as written to the factor that gives the stored value."""
+
+    name: str
+    units: Mapping[str, float]
+    low: float = -inf
+    high: float = inf
+    whole: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Reference:
+    """The name of something declared elsewhere: a thing of the task, a sensor, a word of a fixed list."""
+
+    noun: str
+    words: tuple[str, ...] = field(default=())
+
+
+@dataclass(frozen=True, slots=True)
+class Span:
+    """`5` (first = last), `4 to 8` (drawn uniformly), or `3 to 1 by 0.1` (a schedule, one step per success)."""
+
+    first: float
+    last: float
+    by: float | None = None
+
+
+NUMBER = Quantity("a number", {"": 1.0})
+LENGTH = Quantity("a length in world units", {"": 1.0}, low=0.0)
+POSITIVE = Quantity("a number above zero", {"": 1.0}, low=1e-9)
+ANGLE = Quantity("an angle", {"deg": pi / 180})
+SECONDS = Quantity("a time", {"s": 1.0}, low=1e-9)
+TICKS = Quantity("a number of ticks", {"ticks": 1.0}, low=0, whole=True)
+GENERATIONS = Quantity("a number of generations", {"generations": 1.0}, low=1, whole=True)
+RATIO = Quantity("a share between 0 and 1", {"": 1.0, "%": 0.01}, low=0.0, high=1.0)
+COUNT = Quantity("a whole number", {"": 1.0}, low=1, whole=True)
+
+THING = Reference("thing")
+SENSOR = Reference("sensor")
+FUNCTION = Reference("Python function")

@@ -1,0 +1,68 @@
+"""Kinds of the language, found by name: frozen dataclasses whose fields are their `.mind` arguments."""
+
+from collections.abc import Callable
+from dataclasses import MISSING, dataclass, fields
+from typing import Annotated, Any, TypeVar, get_args, get_origin, get_type_hints
+
+from mindrun.quantity import Quantity, Reference, Span
+
+T = TypeVar("T")
+
+_kinds: dict[str, dict[str, type[Any]]] = {}
+
+
+@dataclass(frozen=True, slots=True)
+class Argument:
+    """One argument of a kind. `shape` is "one" (a number), "list" (of numbers), "span" or "name"."""
+
+    key: str
+    field: str
+    type: Quantity | Reference
+    shape: str
+    default: Any
+
+    @property
+    def required(self) -> bool:
+        """Whether the argument must be written."""
+        return self.default is MISSING
+
+
+def kind(noun: str, name: str) -> Callable[[type[T]], type[T]]:
+    """Register a frozen dataclass as the kind `name` of `noun`."""
+
+    def register(cls: type[T]) -> type[T]:
+        _kinds.setdefault(noun, {})[name] = cls
+        return cls
+
+    return register
+
+
+def kinds(noun: str) -> dict[str, type[Any]]:
+    """Every kind of a noun, by name."""
+    return _kinds.get(noun, {})
+
+
+def name_of(value: object) -> tuple[str, str]:
+    """The noun and the name under which the kind of `value` is registered."""
+    return next((noun, name) for noun, known in _kinds.items() for name, cls in known.items() if cls is type(value))
+
+
+def arguments(cls: type[Any]) -> tuple[Argument, ...]:
+    """The arguments that a kind takes, in the order of its fields."""
+    hints = get_type_hints(cls, include_extras=True)
+    return tuple(
+        Argument(f.name.removesuffix("_"), f.name, *_type(hints[f.name]), default=f.default) for f in fields(cls)
+    )
+
+
+def _type(hint: Any) -> tuple[Quantity | Reference, str]:
+    assert get_origin(hint) is Annotated, hint
+    plain, meaning = get_args(hint)[:2]
+    match plain, meaning:
+        case _, Reference():
+            return meaning, "name"
+        case _ if plain is Span:
+            return meaning, "span"
+        case _ if get_origin(plain) is tuple:
+            return meaning, "list"
+    return meaning, "one"

@@ -1,0 +1,85 @@
+"""Kinds that make a task's world: bodies, scenes and what they contain."""
+
+from dataclasses import dataclass
+from typing import Annotated
+
+from mindrun.quantity import LENGTH, POSITIVE, Quantity, Span
+from mindrun.registry import kind
+
+DAMPING = Quantity("a damping", {"": 1.0}, low=0.0)
+MANY = Quantity("a whole number", {"": 1.0}, low=0, whole=True)
+
+
+@kind("body", "disc")
+@dataclass(frozen=True, slots=True)
+class Disc:
+    """A round body of diameter `size`; every tick of length dt its velocity is divided by 1 + dt·damping."""
+
+    size: Annotated[float, POSITIVE] = 2.0
+    density: Annotated[float, POSITIVE] = 2.0
+    linear_damping: Annotated[float, DAMPING] = 5.0
+    angular_damping: Annotated[float, DAMPING] = 20.0
+
+
+@kind("task", "plain")
+@dataclass(frozen=True, slots=True)
+class Plain:
+    """A world without borders; the robot starts in its origin."""
+
+
+@kind("task", "arena")
+@dataclass(frozen=True, slots=True)
+class Arena:
+    """A square world of side `size` with walls; the robot starts anywhere in it."""
+
+    size: Annotated[float, POSITIVE] = 100.0
+
+
+ONE = Span(1.0, 1.0)
+NEAR = Span(-1.0, -1.0)  # a plain scene: 10 to 40; an arena: at least 10
+
+
+@kind("content", "item")
+@dataclass(frozen=True, slots=True)
+class Item:
+    """A disc of diameter `size` that the claw can take. `away` is its distance from the robot when it is placed."""
+
+    size: Annotated[Span, LENGTH] = ONE
+    away: Annotated[Span, LENGTH] = NEAR
+
+
+@kind("content", "zone")
+@dataclass(frozen=True, slots=True)
+class Zone:
+    """A square of side `size` on the floor; items are delivered into it."""
+
+    size: Annotated[Span, LENGTH] = ONE
+    away: Annotated[Span, LENGTH] = NEAR
+
+
+@kind("content", "power")
+@dataclass(frozen=True, slots=True)
+class Power:
+    """A square of side `size` on the floor in which the battery charges."""
+
+    size: Annotated[Span, LENGTH] = ONE
+    away: Annotated[Span, LENGTH] = NEAR
+
+
+@kind("content", "obstacle")
+@dataclass(frozen=True, slots=True)
+class Obstacle:
+    """Solid squares of side `size`: `count` of them anywhere, or one at each point of a `grid` of that spacing.
+
+    Each stands up to `jitter` off its point, both ways along both axes.
+    """
+
+    size: Annotated[Span, LENGTH] = ONE
+    grid: Annotated[float, LENGTH] = 0.0
+    jitter: Annotated[float, LENGTH] = 0.0
+    count: Annotated[int, MANY] = 0
+    away: Annotated[Span, LENGTH] = NEAR
+
+
+Content = Item | Zone | Power | Obstacle
+Scene = Plain | Arena
