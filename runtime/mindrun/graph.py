@@ -1,4 +1,4 @@
-"""The compiled hierarchy as plain data: names resolved to indices, units converted, skills in the order of influence."""
+"""The compiled hierarchy as plain data: names as indices, units converted, skills in the order of influence."""
 
 from dataclasses import dataclass
 
@@ -50,7 +50,7 @@ class Actuator:
 class Edge:
     """What a skill sends: to the skill, actuator or memory with index `target`.
 
-    The value is the function's output number `output`, or (where `output` is None) the `value` program, clamped to 0..1.
+    The value is the function's output number `output`, or where that is None the `value` program, clamped to 0..1.
     """
 
     to: str  # "skill", "actuator" or "memory"

@@ -15,7 +15,8 @@ class Genetic:
     """The paper's learner: a genetic algorithm over the weights of one skill.
 
     Every generation, `population` genomes are scored on the same `layouts` worlds; `attempts` independent runs
-    are made and the best is kept. A lesson may say any of these for itself. `mutation` is the spread of a mutated weight, `mutated` the share of weights it hits.
+    are made and the best is kept. `mutation` is the spread of a mutated weight, `mutated` the share of weights it
+    hits. A lesson may say any of these for itself.
     """
 
     population: Annotated[int, POPULATION] = 100

@@ -1,4 +1,4 @@
-"""Kinds of measures: numbers that a reward can use, taken every tick after the step. `sim/lanes/judge.py` takes them."""
+"""Kinds of measures: numbers for rewards, taken every tick after the step by `sim/lanes/judge.py`."""
 
 from dataclasses import dataclass
 from typing import Annotated
