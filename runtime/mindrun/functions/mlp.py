@@ -1,10 +1,15 @@
 """The multi-layer perceptron of the paper (4.1): no biases, sigmoid hidden layers, a linear last layer in 0..1."""
 
 from dataclasses import dataclass
+from itertools import pairwise
 from typing import Annotated
+
+import numpy as np
+from numpy.typing import NDArray
 
 from mindrun.quantity import COUNT, Quantity
 from mindrun.registry import kind
+from mindrun.sigmoid import sigmoid
 
 WIDTH = Quantity("a whole number", {"": 1.0}, low=0, whole=True)
 
@@ -16,3 +21,38 @@ class Mlp:
 
     hidden: Annotated[int, COUNT] = 2
     width: Annotated[int, WIDTH] = 0
+
+
+def layers(inputs: int, outputs: int, mlp: Mlp) -> tuple[tuple[int, int], ...]:
+    """(values in, values out) of each layer, hidden width from Eq. 5; none where the skill has no inputs or outputs."""
+    if inputs == 0 or outputs == 0:
+        return ()
+    width = mlp.width or max(inputs, outputs) + 2
+    return tuple(pairwise((inputs, *[width] * mlp.hidden, outputs)))
+
+
+def weight_count(inputs: int, outputs: int, mlp: Mlp) -> int:
+    """The length of the genome: one weight per connection, no biases."""
+    return sum(before * after for before, after in layers(inputs, outputs, mlp))
+
+
+def matrices(weights: NDArray[np.float32], shape: tuple[tuple[int, int], ...]) -> tuple[NDArray[np.float32], ...]:
+    """A genome as one matrix [values out, values in] per layer: it holds them layer by layer, row by row."""
+    ends = np.cumsum([before * after for before, after in shape])[:-1]
+    parts = np.split(weights, ends) if shape else []
+    return tuple(part.reshape(after, before) for part, (before, after) in zip(parts, shape, strict=True))
+
+
+def perceive(layer_matrices: tuple[NDArray[np.float32], ...], inputs: NDArray[np.float32]) -> NDArray[np.float32]:
+    """The function's outputs for float32 inputs (Eq. 1), before the clamp."""
+    *hidden, last = layer_matrices
+    values = inputs
+    for matrix in hidden:
+        values = sigmoid(_dense(matrix, values))
+    return _dense(last, values)
+
+
+def _dense(matrix: NDArray[np.float32], values: NDArray[np.float32]) -> NDArray[np.float32]:
+    # accumulate adds strictly from left to right; sum and @ leave the order, and with it the last bit, open.
+    products = matrix * values
+    return np.add.accumulate(products, axis=1, out=products)[:, -1]
