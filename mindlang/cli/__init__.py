@@ -1,0 +1,77 @@
+"""The command line `mindc`: one command a file, found by looking, imported only when asked for."""
+
+import os
+import sys
+from importlib import import_module
+from importlib.metadata import version
+from pkgutil import iter_modules
+
+import click
+
+OK, FINDINGS, MISUSE, INTERRUPTED = 0, 1, 2, 130
+HELPERS = {"shared"}
+
+
+class Commands(click.Group):
+    """The modules of this package as commands; each defines a click command called `command`."""
+
+    def list_commands(self, ctx: click.Context) -> list[str]:
+        """The names of all commands."""
+        return sorted(module.name for module in iter_modules(__path__) if module.name not in HELPERS)
+
+    def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:
+        """The command of that name, imported now."""
+        if cmd_name not in self.list_commands(ctx):
+            return None
+        command: click.Command = import_module(f"{__name__}.{cmd_name}").command
+        return command
+
+    def resolve_command(
+        self, ctx: click.Context, args: list[str]
+    ) -> tuple[str | None, click.Command | None, list[str]]:
+        """As click does it, with a suggestion for a name that is nearly right."""
+        if args and not args[0].startswith("-") and args[0] not in self.list_commands(ctx):
+            from mindlang.diagnostic import did_you_mean
+
+            hint = did_you_mean(args[0], self.list_commands(ctx)) or "`mindc --help` lists the commands."
+            raise click.UsageError(f"There is no command called {args[0]!r}. {hint}", ctx)
+        return super().resolve_command(ctx, args)
+
+
+@click.group(cls=Commands, context_settings={"help_option_names": ["-h", "--help"]}, epilog="mindc check examples/collect/collect.mind")
+@click.version_option(version("mindlang"), prog_name="mindc")
+def commands() -> None:
+    """Check, train and run behaviours declared in the mind language."""
+
+
+def main() -> None:
+    """Run one command; whatever happens ends in one message and an exit code, never in a traceback."""
+    try:
+        code = commands.main(standalone_mode=False)
+        sys.stdout.flush()
+    except click.exceptions.Exit as stop:
+        code = stop.exit_code
+    except click.ClickException as misuse:
+        misuse.show()
+        code = misuse.exit_code if isinstance(misuse, click.UsageError) else MISUSE
+    except (click.Abort, KeyboardInterrupt):
+        code = INTERRUPTED
+    except BrokenPipeError:  # the reader, `head` say, has seen enough
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        code = OK
+    except Exception as error:
+        code = _unforeseen(error)
+    sys.exit(code if isinstance(code, int) else OK)
+
+
+def _unforeseen(error: Exception) -> int:
+    if os.environ.get("MIND_DEBUG"):
+        raise error
+    from mindlang.cli.shared import say
+
+    match error:
+        case OSError():
+            say(f"{error.strerror or error}: {error.filename}" if error.filename else str(error))
+        case _:
+            say(f"mindc failed: {type(error).__name__}: {error}", "Set MIND_DEBUG=1 to see where, and please report it.")
+    return FINDINGS

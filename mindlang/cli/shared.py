@@ -1,0 +1,78 @@
+"""What every command needs: a mind loaded or its report printed, data on stdout, talk on stderr."""
+
+from __future__ import annotations
+
+import json
+import os
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, NoReturn
+
+from mindlang.cli import FINDINGS, MISUSE
+
+if TYPE_CHECKING:
+    from rich.console import Console
+
+    from mindlang.compile import Compiled
+    from mindrun.graph import Graph
+
+talk: Console
+
+
+def __getattr__(name: str) -> Any:
+    """`talk`, the console on stderr, made when first used: rich is slow to import."""
+    if name != "talk":
+        raise AttributeError(name)
+    globals()["talk"] = console(stderr=True)
+    return globals()["talk"]
+
+
+def console(stderr: bool = False) -> Console:
+    """A console that colours only a terminal, and honours NO_COLOR and CI."""
+    from rich.console import Console
+
+    plain = bool(os.environ.get("CI")) or not (sys.stderr if stderr else sys.stdout).isatty()
+    return Console(stderr=stderr, force_terminal=False if plain else None, highlight=False, soft_wrap=True)
+
+
+def say(message: str, hint: str = "") -> None:
+    """Print a message and what to do about it on stderr."""
+    from rich.text import Text
+
+    from mindlang.report import visible
+
+    shared = sys.modules[__name__]
+    shared.talk.print(Text(visible(message), "red"))
+    if hint:
+        shared.talk.print(Text(f"  {visible(hint)}"))
+
+
+def fail(message: str, hint: str = "", code: int = FINDINGS) -> NoReturn:
+    """Print a message and what to do about it on stderr, and end with `code`."""
+    say(message, hint)
+    sys.exit(code)
+
+
+def print_json(value: object) -> None:
+    """One JSON document on stdout."""
+    json.dump(value, sys.stdout, indent=2, ensure_ascii=False, allow_nan=False)
+    sys.stdout.write("\n")
+
+
+def load_compiled(path: Path | str) -> Compiled:
+    """The compiled file; its report goes to stderr, and a file with errors ends the program (2 when unreadable)."""
+    from mindlang.compile import load
+    from mindlang.report import print_report
+
+    compiled = load(path)
+    print_report(compiled.diagnostics, sys.modules[__name__].talk)
+    if compiled.graph is None:
+        sys.exit(FINDINGS if compiled.readable else MISUSE)
+    return compiled
+
+
+def load_graph(path: Path | str) -> Graph:
+    """The graph of a file that compiles; otherwise its report on stderr and the end of the program."""
+    graph = load_compiled(path).graph
+    assert graph is not None
+    return graph
