@@ -1,10 +1,21 @@
 """A procedure: a Python function of the readings."""
 
+import sys
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from typing import Annotated
+from hashlib import sha256
+from pathlib import Path
+from types import ModuleType
+from typing import Annotated, Any
 
+import numpy as np
+from numpy.typing import NDArray
+
+from mindrun.errors import ProcedureError
 from mindrun.quantity import FUNCTION
 from mindrun.registry import kind
+
+LONGEST = 1 << 20  # bytes of source
 
 
 @kind("skill", "procedure")
@@ -12,7 +23,66 @@ from mindrun.registry import kind
 class Procedure:
     """A Python function `module.function`: one float per reading in, one float (or a tuple) per output out.
 
-    The module stands beside the source. Its code is imported by `train`, `run` and `bench` only, never by `check`.
+    The module stands beside the source, in one file. Its code is run by `train`, `run` and `bench` only, never by
+    `check`.
     """
 
     from_: Annotated[str, FUNCTION]
+
+    @property
+    def module(self) -> str:
+        """The module's dotted name."""
+        return self.from_.rpartition(".")[0]
+
+
+def module_source(procedure: Procedure, folder: Path) -> str:
+    """The text of a procedure's module, `a.b.f` being in `folder`/a/b.py; nothing is run."""
+    parts = procedure.from_.split(".")
+    if len(parts) < 2 or not all(part.isidentifier() for part in parts):
+        raise ProcedureError(f"procedure from {procedure.from_}: write it as module.function")
+    path = folder.joinpath(*parts[:-1]).with_suffix(".py")
+    try:
+        if not path.resolve().is_relative_to(folder.resolve()):
+            raise ProcedureError(f"procedure from {procedure.from_}: {path} lies outside {folder}")
+        if path.stat().st_size > LONGEST:
+            raise ProcedureError(f"procedure from {procedure.from_}: {path} is larger than 1 MiB")
+        return path.read_text(encoding="utf-8")
+    except (OSError, UnicodeError) as error:
+        raise ProcedureError(f"procedure from {procedure.from_}: cannot read {path} ({error})") from error
+
+
+def load(procedure: Procedure, sources: Mapping[str, str]) -> Callable[..., Any]:
+    """Run a procedure's module, from its text by dotted name, and give the function."""
+    source = sources.get(procedure.module)
+    if source is None:
+        raise ProcedureError(f"procedure from {procedure.from_}: there is no module {procedure.module}")
+    module = ModuleType(f"_mind_{procedure.module.replace('.', '_')}_{sha256(source.encode()).hexdigest()[:12]}")
+    sys.modules[module.__name__] = module  # dataclasses and numba look their module up
+    try:
+        exec(compile(source, f"{procedure.module.replace('.', '/')}.py", "exec"), module.__dict__)
+    except (Exception, SystemExit) as error:
+        raise ProcedureError(f"procedure from {procedure.from_}: its module fails, {_said(error)}") from error
+    function = getattr(module, procedure.from_.rpartition(".")[2], None)
+    if not callable(function):
+        raise ProcedureError(f"procedure from {procedure.from_}: its module has no such function")
+    return function  # type: ignore[no-any-return]
+
+
+def call(
+    procedure: Procedure, function: Callable[..., Any], outputs: int, inputs: NDArray[np.float32]
+) -> NDArray[np.float32]:
+    """The function's outputs for float32 inputs; one without outputs is not called."""
+    if outputs == 0:
+        return np.zeros(0, np.float32)
+    try:
+        answer = function(*inputs.tolist())
+        values = np.array([float(v) for v in (answer if isinstance(answer, tuple | list) else (answer,))])
+    except (Exception, SystemExit) as error:
+        raise ProcedureError(f"procedure {procedure.from_} fails for {inputs.tolist()}: {_said(error)}") from error
+    if len(values) != outputs:
+        raise ProcedureError(f"procedure {procedure.from_} returned {len(values)} values instead of {outputs}")
+    return values.astype(np.float32)
+
+
+def _said(error: BaseException) -> str:
+    return f"{type(error).__name__}: {error}"

@@ -1,0 +1,83 @@
+"""A mind that runs, on numpy alone: the definition that every faster executor agrees with bit for bit."""
+
+from collections.abc import Mapping
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from mindrun.errors import MindError, ReadingsError
+from mindrun.functions import Procedure
+from mindrun.functions.procedure import module_source
+from mindrun.graph import Graph
+from mindrun.think import hierarchy, think
+from mindrun.virtual import virtual_sensors
+from mindrun.weights import reachable
+
+
+def procedure_sources(graph: Graph, folder: Path, master: str | None = None) -> dict[str, str]:
+    """The text of each module that the skills below `master` (default: the mind's) call, by dotted name."""
+    functions = [skill.function for skill in reachable(graph, master or graph.master)]
+    return {f.module: module_source(f, folder) for f in functions if isinstance(f, Procedure)}
+
+
+class Engine:
+    """One mind and its state: the tick's number, the readings before, the memory cells.
+
+    `weights` maps skills to float32 genomes, `procedures` is the folder of the procedures' modules or their texts by
+    dotted name, `master` another skill than the mind's own to be in charge. Raises MindError where one does not fit.
+    """
+
+    def __init__(
+        self,
+        graph: Graph,
+        weights: Mapping[str, NDArray[np.float32]],
+        procedures: Path | Mapping[str, str] | None = None,
+        master: str | None = None,
+    ) -> None:
+        master = master or graph.master
+        if master not in {skill.name for skill in graph.skills}:
+            raise MindError(f"there is no skill {master}")
+        if isinstance(procedures, Path):
+            procedures = procedure_sources(graph, procedures, master)
+        self.graph = graph
+        self._hierarchy = hierarchy(graph, weights, procedures or {}, master)
+        self._virtual = virtual_sensors(graph)
+        self._neutral = np.array([actuator.kind.neutral for actuator in graph.actuators], np.float32)
+        self._places = np.array([memory.start for memory in graph.memories], np.intp)
+        self._decay = np.array([memory.kind.decay for memory in graph.memories], np.float32)
+        self._rest = np.array([1 - memory.kind.decay for memory in graph.memories], np.float32)
+        self.reset()
+
+    def reset(self) -> None:
+        """Back to the state before the first tick."""
+        self._tick = 0
+        self._before: NDArray[np.float32] | None = None
+        self._cells = np.array([memory.kind.start for memory in self.graph.memories], np.float32)
+        self.readings = np.zeros(self.graph.width, np.float32)
+        self.influence = np.zeros(len(self.graph.skills), np.float32)
+        self.faults = 0
+
+    def tick(self, readings: ArrayLike) -> NDArray[np.float32]:
+        """Commands [actuators] for readings [graph.width]; those of virtual sensors and memories are filled in here."""
+        with np.errstate(all="ignore"):
+            self.readings = self._filled(np.array(readings, np.float32))
+            thought = think(self._hierarchy, self.readings)
+            actuators = len(self._neutral)
+            self._remember(thought.command[actuators:], thought.driven[actuators:])
+        self._tick, self._before = self._tick + 1, self.readings
+        self.influence = thought.influence
+        self.faults += thought.faults
+        return np.where(thought.driven[:actuators], thought.command[:actuators], self._neutral)
+
+    def _filled(self, now: NDArray[np.float32]) -> NDArray[np.float32]:
+        if now.shape != (self.graph.width,):
+            raise ReadingsError(f"this mind has {self.graph.width} readings, not {now.shape}")
+        now[self._places] = self._cells
+        for sensor in self._virtual:
+            now[sensor.place] = sensor.read(self._tick, now, self._before)
+        return now
+
+    def _remember(self, command: NDArray[np.float32], driven: NDArray[np.bool_]) -> None:
+        kept = self._decay * self._cells
+        self._cells = np.where(driven, kept + self._rest * command, kept)

@@ -1,0 +1,136 @@
+"""Thinking: readings to commands, without state. Influence comes down (Eq. 2), commands are averaged by it (Eq. 3).
+
+Everything is float32, in the order of the graph: parents first, each skill's edges in theirs.
+"""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from math import isfinite
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mindrun.expression import evaluate
+from mindrun.functions import Compute, computes
+from mindrun.graph import Edge, Graph, Program
+from mindrun.weights import reachable, weights_of
+
+_ZERO, _ONE = np.float32(0.0), np.float32(1.0)
+
+
+@dataclass(frozen=True, slots=True)
+class Sent:
+    """An edge made ready. `to` is a skill's index or, with `drives`, a place in the commands."""
+
+    drives: bool
+    to: int
+    output: int | None
+    value: Program
+
+
+@dataclass(frozen=True, slots=True)
+class Ready:
+    """A skill made ready: what it reads, computes and sends."""
+
+    index: int
+    inputs: NDArray[np.intp]
+    compute: Compute
+    edges: tuple[Sent, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Hierarchy:
+    """The skills that a master reaches, made ready. Commands go over the actuators, then the memories."""
+
+    skills: tuple[Ready, ...]
+    count: int
+    master: int
+    commands: int
+
+
+@dataclass(frozen=True, slots=True)
+class Thought:
+    """What thinking gives: influence [skills], command [commands] where `driven`, and the outputs not sent."""
+
+    influence: NDArray[np.float32]
+    command: NDArray[np.float32]
+    driven: NDArray[np.bool_]
+    faults: int
+
+
+def hierarchy(
+    graph: Graph, weights: Mapping[str, NDArray[np.float32]], sources: Mapping[str, str], master: str
+) -> Hierarchy:
+    """Make every skill ready that `master` reaches; WeightsError or ProcedureError where one cannot be."""
+    numbers = {skill.name: number for number, skill in enumerate(graph.skills)}
+    return Hierarchy(
+        tuple(
+            Ready(
+                numbers[skill.name],
+                np.array(skill.inputs, np.intp),
+                computes(skill.function, len(skill.inputs), skill.outputs, weights_of(skill, weights), sources),
+                tuple(_sent(edge, len(graph.actuators)) for edge in skill.edges),
+            )
+            for skill in reachable(graph, master)
+        ),
+        len(graph.skills),
+        numbers[master],
+        len(graph.actuators) + len(graph.memories),
+    )
+
+
+def _sent(edge: Edge, actuators: int) -> Sent:
+    place = edge.target + (actuators if edge.to == "memory" else 0)
+    return Sent(edge.to != "skill", place, edge.output, edge.value)
+
+
+def think(mind: Hierarchy, readings: NDArray[np.float32]) -> Thought:
+    """Equations 2 and 3 over the full vector of readings; call it where numpy's warnings are off."""
+    influence = np.zeros(mind.count, np.float32)
+    influence[mind.master] = _ONE
+    commands, influences = np.zeros((2, mind.commands), np.float32)
+    faults = 0
+    for skill in mind.skills:
+        own = influence[skill.index]
+        if own == 0:
+            continue
+        for edge, value in zip(skill.edges, _values(skill, readings), strict=True):
+            if not isfinite(value):
+                faults += 1
+                continue
+            value = _clamped(value) * own
+            if edge.drives:
+                commands[edge.to] += value
+                influences[edge.to] += own
+            else:
+                influence[edge.to] += value
+    return _mean(influence, commands, influences, faults)
+
+
+def _values(skill: Ready, readings: NDArray[np.float32]) -> list[np.float32]:
+    """What a skill sends over each edge, before the clamp; all NaN where one of its inputs is not finite."""
+    inputs = readings[skill.inputs]
+    if not np.isfinite(inputs).all():
+        return [np.float32(np.nan)] * len(skill.edges)
+    outputs = skill.compute(inputs)
+    return [
+        np.float32(evaluate(edge.value, readings)) if edge.output is None else outputs[edge.output]
+        for edge in skill.edges
+    ]
+
+
+def _clamped(value: np.float32) -> np.float32:
+    value = value if value > _ZERO else _ZERO
+    return value if value < _ONE else _ONE
+
+
+def _mean(
+    influence: NDArray[np.float32], commands: NDArray[np.float32], influences: NDArray[np.float32], faults: int
+) -> Thought:
+    """Eq. 3. A mean that overflowed is a fault and drives nothing."""
+    mean = commands / influences
+    finite = np.isfinite(mean)
+    driven = (influences > _ZERO) & finite
+    faults += int(np.count_nonzero((influences != _ZERO) & ~finite))
+    command = np.where(mean > _ZERO, mean, _ZERO)
+    return Thought(influence, np.where(command < _ONE, command, _ONE), driven, faults)
