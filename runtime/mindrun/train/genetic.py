@@ -1,0 +1,96 @@
+"""A genetic algorithm with ask and tell: plain arrays, the rng passed in, the state apart from the parameters."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mindrun.learners import Genetic
+
+Genomes = NDArray[np.float32]
+Scores = NDArray[np.float64]
+
+SPREAD = 1.0  # of the weights that a population begins with
+LIMIT = 100.0  # no weight grows beyond it, so a genome is finite always
+TOURNAMENT = 4
+
+
+@dataclass(frozen=True, slots=True)
+class Population:
+    """What has been learnt so far: the last `genomes` [individuals, weights], their `scores` [individuals], its number.
+
+    Generation 0 has no genomes yet.
+    """
+
+    genomes: Genomes
+    scores: Scores
+    generation: int
+
+
+def nobody(weights: int) -> Population:
+    """The population before the first generation, for genomes of so many weights."""
+    return Population(np.empty((0, weights), np.float32), np.empty(0), 0)
+
+
+def ask(population: Population, learner: Genetic, start: Genomes, rng: np.random.Generator) -> Genomes:
+    """The genomes [learner.population, weights] to score next; `start` [0 or 1, weights] is what the skill knows."""
+    if population.generation == 0:
+        return found(start, learner, rng)
+    return breed(population, learner, rng)
+
+
+def tell(population: Population, genomes: Genomes, scores: Scores) -> Population:
+    """The next population: these genomes and what they scored; a score that is not a number counts as -inf."""
+    return Population(genomes, worst_if_nan(scores), population.generation + 1)
+
+
+def found(start: Genomes, learner: Genetic, rng: np.random.Generator) -> Genomes:
+    """The first genomes: random ones, or `start` itself and mutated copies of it."""
+    if not len(start):
+        shape = (learner.population, start.shape[1])
+        return bounded(SPREAD * rng.standard_normal(shape, np.float32))
+    copies = np.repeat(start, learner.population - 1, axis=0)
+    return bounded(np.concatenate([start, mutate(copies, learner, rng)]))
+
+
+def breed(population: Population, learner: Genetic, rng: np.random.Generator) -> Genomes:
+    """The elite unchanged, then children of two chosen parents each, mutated."""
+    ranked = population.genomes[order(population.scores)]
+    elite = min(max(1, round(learner.elite * len(ranked))), len(ranked) - 1)
+    children = learner.population - elite
+    mothers, fathers = choose(len(ranked), children, rng), choose(len(ranked), children, rng)
+    mixed = cross(ranked[mothers], ranked[fathers], rng)
+    return bounded(np.concatenate([ranked[:elite], mutate(mixed, learner, rng)]))
+
+
+def order(scores: Scores) -> NDArray[np.intp]:
+    """The indices of the individuals, best first; equal scores keep their order, NaN comes last."""
+    return np.argsort(-worst_if_nan(scores), kind="stable")
+
+
+def choose(individuals: int, count: int, rng: np.random.Generator) -> NDArray[np.intp]:
+    """The ranks [count] of the winners of `count` tournaments (rank 0 is the best individual)."""
+    winners: NDArray[np.intp] = rng.integers(individuals, size=(count, TOURNAMENT), dtype=np.intp).min(axis=1)
+    return winners
+
+
+def cross(mothers: Genomes, fathers: Genomes, rng: np.random.Generator) -> Genomes:
+    """Children [individuals, weights] that take each weight from either parent."""
+    return np.where(rng.random(mothers.shape, np.float32) < 0.5, mothers, fathers)
+
+
+def mutate(genomes: Genomes, learner: Genetic, rng: np.random.Generator) -> Genomes:
+    """The genomes with a share `mutated` of their weights moved by a normal step of spread `mutation`."""
+    hit = rng.random(genomes.shape, np.float32) < learner.mutated
+    step = np.float32(learner.mutation) * rng.standard_normal(genomes.shape, np.float32)
+    return genomes + np.where(hit, step, np.float32(0))
+
+
+def bounded(genomes: Genomes) -> Genomes:
+    """The genomes with every weight finite and within ±LIMIT."""
+    return np.clip(np.nan_to_num(genomes, nan=0.0), -LIMIT, LIMIT).astype(np.float32, copy=False)
+
+
+def worst_if_nan(scores: Scores) -> Scores:
+    """The scores with -inf for NaN and for +inf, which no honest reward adds up to."""
+    return np.where(np.isfinite(scores), scores, -np.inf)

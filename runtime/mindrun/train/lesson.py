@@ -1,0 +1,194 @@
+"""One lesson: generation after generation, and the weights kept are those that do best on layouts never seen."""
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, replace
+from math import inf
+from typing import Any, Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mindrun.graph import Lesson
+from mindrun.train.genetic import Genomes, Population, Scores, ask, nobody, order, tell, worst_if_nan
+from mindrun.train.seeds import Purpose, Seeds, breeding, layouts
+
+EVERY = 10  # generations between two re-evaluations
+CANDIDATES = 4  # of a generation, that are re-evaluated beside the champion
+FRESH = 16  # layouts of a re-evaluation
+VERDICT = 50  # layouts on which attempts are compared, and as many others on which the best is reported
+
+Clock = Callable[[], float]
+
+
+class Results(Protocol):
+    """What a scorer measured: arrays [genomes, seeds]."""
+
+    @property
+    def total(self) -> NDArray[np.float64]:
+        """The sum of the rewards; -inf where something was not finite."""
+
+    @property
+    def ticks(self) -> NDArray[np.int64]:
+        """How long each evaluation lasted."""
+
+    @property
+    def faults(self) -> NDArray[np.int64]:
+        """How many numbers were not finite."""
+
+
+class Scorer(Protocol):
+    """What scores genomes: `mindrun.sim.rollout.Rollout`, or anything of its shape."""
+
+    @property
+    def genome_length(self) -> int:
+        """How many weights the learner has."""
+
+    def score(self, genomes: Any, seeds: Any) -> Results:
+        """Every genome on every seed; a result depends on its genome and its seed alone."""
+
+
+@dataclass(frozen=True, slots=True)
+class Course:
+    """What stays the same throughout a run; `start` [0 or 1, weights] is what the skill knows before the lesson."""
+
+    lesson: Lesson
+    seed: int
+    start: Genomes
+
+    @property
+    def generations(self) -> int:
+        """How many generations all attempts have together."""
+        return self.lesson.generations * self.lesson.learner.attempts
+
+
+@dataclass(frozen=True, slots=True)
+class State:
+    """Where a run stands, all that is needed to go on.
+
+    `champion` and `kept` are [0 or 1, weights]: the best of this attempt and of the attempts that have ended. Of the
+    kept one, `chosen` is the score that it was chosen for and `reevaluated` its score on yet other layouts.
+    """
+
+    attempt: int
+    population: Population
+    champion: Genomes
+    kept: Genomes
+    chosen: float
+    reevaluated: float
+    best: float
+    ticks: int
+    seconds: float
+    faults: int
+
+
+@dataclass(frozen=True, slots=True)
+class Record:
+    """One generation in the log; attempts and generations count from 1. `reevaluated` is the champion's, if it ran."""
+
+    attempt: int
+    generation: int
+    best: float
+    mean: float
+    reevaluated: float | None
+    ticks: int
+    seconds: float
+    faults: int
+
+
+@dataclass(frozen=True, slots=True)
+class Marks:
+    """The mean score [genomes] over the layouts, and what it took."""
+
+    scores: Scores
+    ticks: int
+    faults: int
+
+
+def begin(course: Course) -> State:
+    """The state before the first generation."""
+    empty = course.start[:0]
+    return State(0, nobody(empty.shape[1]), course.start, empty, -inf, -inf, -inf, 0, 0.0, 0)
+
+
+def teach(course: Course, scorer: Scorer, state: State, clock: Clock) -> Iterator[tuple[State, Record]]:
+    """The state and the record after each generation that is left; who iterates may stop after any of them."""
+    while state.attempt < course.lesson.learner.attempts:
+        began = clock()
+        state, record = generation(course, scorer, state)
+        seconds = clock() - began
+        state = replace(state, seconds=state.seconds + seconds)
+        yield state, replace(record, seconds=seconds)
+
+
+def generation(course: Course, scorer: Scorer, state: State) -> tuple[State, Record]:
+    """One generation: bred, scored, and every now and then its best tried on fresh layouts."""
+    learner, key = course.lesson.learner, (course.seed, state.attempt, state.population.generation)
+    genomes = ask(state.population, learner, course.start, breeding(*key))
+    marks = mark(scorer, genomes, layouts(*key, learner.layouts))
+    population = tell(state.population, genomes, marks.scores)
+    now = replace(
+        state,
+        population=population,
+        best=max(state.best, float(marks.scores.max())),
+        ticks=state.ticks + marks.ticks,
+        faults=state.faults + marks.faults,
+    )
+    number, reevaluated = population.generation, None
+    last = number == course.lesson.generations
+    if last or number == 1 or number % EVERY == 0:
+        now, reevaluated = try_again(now, scorer, layouts(*key, FRESH, Purpose.REEVALUATION))
+    ticks, faults = now.ticks - state.ticks, now.faults - state.faults
+    best, mean = float(marks.scores.max()), _mean(marks.scores)
+    record = Record(state.attempt + 1, number, best, mean, reevaluated, ticks, 0.0, faults)
+    return (judge(course, scorer, now) if last else now), record
+
+
+def try_again(state: State, scorer: Scorer, fresh: Seeds) -> tuple[State, float]:
+    """The champion is who does best on fresh layouts, it or the best of the generation; and its score on them."""
+    ranked = state.population.genomes[order(state.population.scores)]
+    candidates = np.concatenate([state.champion, ranked[:CANDIDATES]])
+    marks = mark(scorer, candidates, fresh)
+    winner = int(order(marks.scores)[0])
+    now = replace(
+        state,
+        champion=candidates[winner : winner + 1],
+        ticks=state.ticks + marks.ticks,
+        faults=state.faults + marks.faults,
+    )
+    return now, float(marks.scores[winner])
+
+
+def judge(course: Course, scorer: Scorer, state: State) -> State:
+    """The end of an attempt: its champion is kept if it beats the kept one, on layouts common to all attempts."""
+    seeds = layouts(course.seed, 0, course.lesson.generations, 2 * VERDICT, Purpose.VERDICT)
+    results = scorer.score(state.champion, seeds)
+    totals = worst_if_nan(results.total[0])
+    chosen, reevaluated = float(totals[:VERDICT].mean()), float(totals[VERDICT:].mean())
+    ended = replace(
+        state,
+        attempt=state.attempt + 1,
+        population=nobody(course.start.shape[1]),
+        champion=course.start,
+        ticks=state.ticks + int(results.ticks.sum()),
+    )
+    if len(state.kept) and chosen <= state.chosen:
+        return ended
+    return replace(ended, kept=state.champion, chosen=chosen, reevaluated=reevaluated)
+
+
+def mark(scorer: Scorer, genomes: Genomes, seeds: Seeds | Sequence[int]) -> Marks:
+    """Score every genome on every seed; a genome with a fault anywhere has -inf."""
+    results = scorer.score(genomes, seeds)
+    faulty = (results.faults > 0) | ~np.isfinite(results.total)
+    scores = np.where(faulty, -inf, results.total).mean(axis=1)
+    return Marks(scores, int(results.ticks.sum()), int(faulty.sum()))
+
+
+def is_finished(course: Course, state: State) -> bool:
+    """Whether every attempt has ended."""
+    return state.attempt >= course.lesson.learner.attempts
+
+
+def _mean(scores: Scores) -> float:
+    finite = scores[np.isfinite(scores)]
+    return float(finite.mean()) if len(finite) else -inf

@@ -1,0 +1,113 @@
+"""The manifest of a run: what is taught, from what, with what; all that a resumed run is held to."""
+
+import json
+import platform
+from collections.abc import Mapping
+from dataclasses import asdict, dataclass, replace
+from hashlib import sha256
+from importlib.metadata import PackageNotFoundError, version
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mindrun.functions import Procedure
+from mindrun.functions.procedure import module_source
+from mindrun.graph import Graph, Lesson
+from mindrun.learners import Genetic
+from mindrun.train.errors import RunError
+from mindrun.weights import reachable
+
+Weights = Mapping[str, NDArray[np.float32]]
+FORMAT = 1
+
+
+@dataclass(frozen=True, slots=True)
+class Manifest:
+    """A run on paper. `mind` and `weights` are SHA-256: of all that the lesson depends on, and by skill as it began."""
+
+    lesson: Lesson
+    seed: int
+    mind: str
+    weights: Mapping[str, str]
+    source: str
+    source_sha256: str
+    command: tuple[str, ...]
+    started: str
+    versions: Mapping[str, str]
+    processor: str
+
+    @property
+    def name(self) -> str:
+        """The lesson's name: the skill, and where it is taught elsewhere than on the task of its name, the task."""
+        lesson = self.lesson
+        return lesson.skill if lesson.skill == lesson.task else f"{lesson.skill}-on-{lesson.task}"
+
+    @property
+    def identity(self) -> str:
+        """A hash of what decides the result; a checkpoint is of this run if it carries it."""
+        parts = (asdict(self.lesson), self.seed, self.mind, dict(self.weights))
+        return _sha256(json.dumps(parts, sort_keys=True).encode())
+
+
+def fingerprint(graph: Graph, lesson: Lesson, procedures: Path | None) -> str:
+    """The SHA-256 of what a lesson depends on: its task, the skills under its master, the body and its parts."""
+    skills = reachable(graph, lesson.master)
+    tasks = tuple(task for task in graph.tasks if task.name == lesson.task)
+    scope = replace(graph, master=lesson.master, tasks=tasks, lessons=())
+    code = [
+        module_source(skill.function, procedures)
+        for skill in skills
+        if isinstance(skill.function, Procedure) and procedures is not None
+    ]
+    return _sha256(repr((scope, code)).encode())
+
+
+def hashes(weights: Weights) -> dict[str, str]:
+    """The SHA-256 of each skill's weights."""
+    return {skill: _sha256(np.ascontiguousarray(array, "<f4").tobytes()) for skill, array in sorted(weights.items())}
+
+
+def versions() -> dict[str, str]:
+    """The versions that a result may depend on."""
+    found = {"python": platform.python_version()}
+    for package in ("mindlang", "mindrun", "numpy", "numba", "pymunk"):
+        try:
+            found[package] = version(package)
+        except PackageNotFoundError:
+            continue
+    return found
+
+
+def processor() -> str:
+    """The processor's name, as well as the system knows it."""
+    try:
+        lines = Path("/proc/cpuinfo").read_text(encoding="utf-8", errors="replace").splitlines()
+    except OSError:
+        lines = []
+    names = (line.partition(":")[2].strip() for line in lines if line.startswith("model name"))
+    return next(names, platform.processor() or platform.machine())
+
+
+def to_json(manifest: Manifest) -> bytes:
+    """The manifest as it stands in the run folder."""
+    return json.dumps({"format": FORMAT, **asdict(manifest)}, indent=2).encode() + b"\n"
+
+
+def from_json(data: bytes) -> Manifest:
+    """The manifest in these bytes; RunError where they are not one."""
+    try:
+        plain: dict[str, Any] = json.loads(data)
+        if plain.pop("format") != FORMAT:
+            raise RunError("the run was made by another version of mindc", "resume it with that version")
+        lesson = plain.pop("lesson")
+        learner = Genetic(**lesson.pop("learner"))
+        command = tuple(plain.pop("command"))
+        return Manifest(lesson=Lesson(learner=learner, **lesson), command=command, **plain)
+    except (ValueError, TypeError, KeyError, AttributeError) as error:
+        raise RunError("the run's manifest is damaged", "start the lesson again without --resume") from error
+
+
+def _sha256(data: bytes) -> str:
+    return sha256(data).hexdigest()

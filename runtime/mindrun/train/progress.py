@@ -1,0 +1,82 @@
+"""The log of a run: one line per generation, in `progress.jsonl` and `progress.csv`."""
+
+import json
+import os
+from dataclasses import asdict, fields
+from itertools import takewhile
+from math import isfinite
+from pathlib import Path
+from types import TracebackType
+
+from mindrun.train import durable
+from mindrun.train.lesson import Record, State
+
+LINES, TABLE = "progress.jsonl", "progress.csv"
+COLUMNS = tuple(field.name for field in fields(Record))
+
+
+class Progress:
+    """The two files of the log, open to append, with only the generations that `state` has behind it."""
+
+    def __init__(self, folder: Path, state: State) -> None:
+        records = [record for record in read(folder) if _is_behind(record, state)]
+        durable.write(folder / LINES, b"".join(_line(record) for record in records))
+        durable.write(folder / TABLE, _row(list(COLUMNS)) + b"".join(_row(list(r.values())) for r in records))
+        self._lines = os.open(folder / LINES, os.O_WRONLY | os.O_APPEND)
+        self._table = os.open(folder / TABLE, os.O_WRONLY | os.O_APPEND)
+
+    def append(self, record: Record) -> None:
+        """Add a generation."""
+        plain = {name: _plain(value) for name, value in asdict(record).items()}
+        _write(self._lines, _line(plain))
+        _write(self._table, _row(list(plain.values())))
+
+    def sync(self) -> None:
+        """Bring the log to the disk, so that it is never behind a checkpoint."""
+        os.fsync(self._lines)
+        os.fsync(self._table)
+
+    def __enter__(self) -> "Progress":
+        return self
+
+    def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, at: TracebackType | None) -> None:
+        os.close(self._lines)
+        os.close(self._table)
+
+
+def read(folder: Path) -> list[dict[str, float | None]]:
+    """The whole lines of a run's log; what follows a line that a crash damaged is left out."""
+    path = folder / LINES
+    lines = path.read_bytes().split(b"\n")[:-1] if path.exists() else []
+    return list(takewhile(bool, map(_record, lines)))
+
+
+def _record(line: bytes) -> dict[str, float | None]:
+    try:
+        record: dict[str, float | None] = json.loads(line)
+    except ValueError:
+        return {}
+    return record if isinstance(record, dict) and tuple(record) == COLUMNS else {}
+
+
+def _is_behind(record: dict[str, float | None], state: State) -> bool:
+    attempt, generation = int(record["attempt"] or 0) - 1, int(record["generation"] or 0)
+    return (attempt, generation) <= (state.attempt, state.population.generation)
+
+
+def _plain(value: float | None) -> float | None:
+    return value if value is not None and isfinite(value) else None
+
+
+def _line(record: dict[str, float | None]) -> bytes:
+    return json.dumps(record).encode() + b"\n"
+
+
+def _row(values: list[str] | list[float | None]) -> bytes:
+    return ",".join("" if value is None else str(value) for value in values).encode() + b"\n"
+
+
+def _write(descriptor: int, data: bytes) -> None:
+    # A full disk may take part of a line and fail only at the rest.
+    while data:
+        data = data[os.write(descriptor, data) :]

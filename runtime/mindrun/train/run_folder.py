@@ -1,0 +1,97 @@
+"""A run's folder, `runs/<lesson>/<utc>-<seed>/`: made once, never overwritten, enough by itself to go on."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from io import BytesIO
+from itertools import count
+from pathlib import Path
+from zipfile import BadZipFile
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mindrun.train import durable
+from mindrun.train.errors import RunError
+from mindrun.train.lesson import Course
+from mindrun.train.manifest import Manifest, Weights, from_json, hashes, to_json
+
+MANIFEST, SOURCE, START, WEIGHTS = "manifest.json", "source.mind", "start.npz", "weights.npy"
+
+
+@dataclass(frozen=True, slots=True)
+class Run:
+    """A run on the disk; `weights` are those of all its skills as it began."""
+
+    folder: Path
+    manifest: Manifest
+    weights: Mapping[str, NDArray[np.float32]]
+
+    def course(self, genome_length: int) -> Course:
+        """What the run teaches, beginning from the skill's weights unless it has none or starts from scratch."""
+        lesson = self.manifest.lesson
+        known = self.weights.get(lesson.skill)
+        start = np.empty((0, genome_length), np.float32) if known is None or lesson.from_scratch else known[None]
+        return Course(lesson, self.manifest.seed, start)
+
+
+def create(runs: Path, manifest: Manifest, source: bytes, weights: Weights) -> Run:
+    """A new run folder under `runs`; RunError where it cannot be written."""
+    stamp = "".join(letter for letter in manifest.started if letter not in "-:")
+    try:
+        folder = _unused(runs / manifest.name, f"{stamp}-{manifest.seed}")
+        durable.write(folder / SOURCE, source)
+        durable.write(folder / START, _packed(weights))
+        durable.write(folder / MANIFEST, to_json(manifest))  # last: with it the folder is a run
+    except OSError as error:
+        raise RunError(
+            f"cannot write a run under {runs}: {error.strerror}", "choose another folder with --runs"
+        ) from error
+    return Run(folder, manifest, dict(weights))
+
+
+def open_run(folder: Path) -> Run:
+    """The run in a folder; RunError where there is none or a part of it is damaged."""
+    try:
+        manifest = from_json((folder / MANIFEST).read_bytes())
+        weights = _unpacked((folder / START).read_bytes())
+    except OSError as error:
+        raise RunError(
+            f"{folder} is not a run: {error.strerror} ({error.filename})",
+            f"a run is a folder with a {MANIFEST}, like runs/GoToObject/20260714T120000Z-1",
+        ) from error
+    if hashes(weights) != manifest.weights:
+        raise RunError(f"{folder / START} is damaged", "start the lesson again without --resume")
+    return Run(folder, manifest, weights)
+
+
+def keep_weights(folder: Path, genome: NDArray[np.float32]) -> None:
+    """Write the best weights so far to the run folder."""
+    file = BytesIO()
+    np.save(file, genome, allow_pickle=False)
+    durable.write(folder / WEIGHTS, file.getvalue())
+
+
+def _unused(parent: Path, name: str) -> Path:
+    parent.mkdir(parents=True, exist_ok=True)
+    for number in count(2):
+        folder = parent / name
+        try:
+            folder.mkdir()
+            return folder
+        except FileExistsError:
+            name = f"{name.rpartition('+')[0] or name}+{number}"
+    raise AssertionError("count never ends")
+
+
+def _packed(weights: Weights) -> bytes:
+    file = BytesIO()
+    np.savez(file, allow_pickle=False, **{skill: np.asarray(array) for skill, array in sorted(weights.items())})
+    return file.getvalue()
+
+
+def _unpacked(data: bytes) -> dict[str, NDArray[np.float32]]:
+    try:
+        with np.load(BytesIO(data), allow_pickle=False) as file:
+            return {skill: file[skill] for skill in file.files}
+    except (ValueError, BadZipFile, EOFError, KeyError, OSError):
+        return {}

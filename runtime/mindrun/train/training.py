@@ -1,0 +1,81 @@
+"""A run from where it stands to its end: generations, their log, a checkpoint every two seconds."""
+
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+
+from mindrun.train import checkpoint
+from mindrun.train.claim import claim
+from mindrun.train.errors import RunError
+from mindrun.train.genetic import Genomes
+from mindrun.train.lesson import Clock, Course, Record, Scorer, State, begin, teach
+from mindrun.train.progress import Progress
+from mindrun.train.run_folder import Run, keep_weights
+
+EVERY = 2.0  # seconds between two checkpoints
+
+
+@dataclass(frozen=True, slots=True)
+class Watch:
+    """Who looks on: told of each generation and each warning, asked between generations whether to stop."""
+
+    report: Callable[[State, Record], None]
+    warn: Callable[[str], None]
+    stop: Callable[[], bool]
+    clock: Clock
+    save_every: float = 2.0  # seconds
+
+
+def train(run: Run, scorer: Scorer, watch: Watch) -> State:
+    """Go on with a run until its lesson is finished or `watch` says stop; the state, which is then saved.
+
+    RunError where another process has the run, its checkpoints are damaged, or the disk takes no more.
+    """
+    course = run.course(scorer.genome_length)
+    with _disk(run.folder), claim(run.folder):
+        now = _standing(run, course, watch)
+        with Progress(run.folder, now) as progress:
+            saved = watch.clock()
+            for now, record in teach(course, scorer, now, watch.clock):  # noqa: B020 - it goes on from the first
+                progress.append(record)
+                watch.report(now, record)
+                if watch.stop():
+                    break
+                if watch.clock() - saved >= watch.save_every:
+                    _save(run, now, progress)
+                    saved = watch.clock()
+            _save(run, now, progress)
+        if len(genomes := best(now)):
+            keep_weights(run.folder, genomes[0])
+    return now
+
+
+def best(state: State) -> Genomes:
+    """The best weights so far [0 or 1, weights]: of the attempts that have ended, else of this one."""
+    return state.kept if len(state.kept) else state.champion
+
+
+def _standing(run: Run, course: Course, watch: Watch) -> State:
+    found = checkpoint.load(run.folder, run.manifest.identity)
+    if found is None:
+        return begin(course)
+    if found.warning:
+        watch.warn(found.warning)
+    return found.state
+
+
+def _save(run: Run, state: State, progress: Progress) -> None:
+    progress.sync()
+    checkpoint.save(run.folder, state, run.manifest.identity)
+
+
+@contextmanager
+def _disk(folder: Path) -> Iterator[None]:
+    try:
+        yield
+    except OSError as error:
+        raise RunError(
+            f"cannot write to {folder}: {error.strerror}",
+            "what was saved last is intact: make room, then go on with --resume",
+        ) from error
