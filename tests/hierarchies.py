@@ -1,0 +1,119 @@
+"""Hypothesis strategies for whole hierarchies, their weights and what they read."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from hypothesis import strategies as st
+from numpy.typing import NDArray
+
+from mindrun.actuators import Gripper, Servo, Wheel
+from mindrun.functions import Function, Mlp, Rule
+from mindrun.graph import Actuator, Edge, Graph, Memory, Program, Sensor, Skill
+from mindrun.memory import Cell
+from mindrun.sensors import Battery, Bearing, Derivative, RangeFinder, Sine
+from mindrun.weights import genes
+from mindrun.world import Disc
+
+SHARES = st.floats(0, 1, width=32)
+WORLDLY = [RangeFinder(at=(0.0, 1.0, 2.0)), Bearing("object"), Battery()]
+ACTUATORS = [Wheel("left", 0.5), Wheel("right", 0.5, delay=2), Gripper(0.0), Servo(0.3)]
+SCALES = [0.1, 1.0, 1.0, 10.0, 1e4, 1e20, 3e38]
+
+
+@dataclass(frozen=True, slots=True)
+class Case:
+    """A hierarchy with weights and what it reads, [ticks, graph.width]."""
+
+    graph: Graph
+    weights: dict[str, NDArray[np.float32]]
+    readings: NDArray[np.float32]
+
+
+@st.composite
+def random_graph(draw: st.DrawFn, fewest_hidden: int = 0) -> Graph:
+    """A hierarchy: shared skills, several parents, drive and influence at once, `at`, memories, virtual sensors."""
+    sensors, memories = draw(_senses())
+    width = sum(sensor.width for sensor in sensors) + len(memories)
+    actuators = tuple(Actuator(f"a{i}", draw(st.sampled_from(ACTUATORS))) for i in range(draw(st.integers(1, 3))))
+    count = draw(st.integers(1, 6))
+    skills = []
+    for number in range(count):
+        targets = [("skill", i) for i in range(number + 1, count)]
+        targets += [("actuator", i) for i in range(len(actuators))] + [("memory", i) for i in range(len(memories))]
+        skills.append(draw(_skills(f"S{number}", width, targets, fewest_hidden)))
+    return Graph(1 / 60, Disc(), "S0", sensors, memories, actuators, tuple(skills), (), ())
+
+
+@st.composite
+def random_case(draw: st.DrawFn, ticks: int = 6) -> Case:
+    """A hierarchy, weights that may be huge, and readings that may be anything."""
+    graph = draw(random_graph())
+    rng = np.random.default_rng(draw(st.integers(0, 2**32 - 1)))
+    weights = {skill.name: draw(st.sampled_from(SCALES)) * rng.uniform(-1, 1, genes(skill)) for skill in graph.skills}
+    readings = rng.random((ticks, graph.width), np.float32)
+    for _ in range(draw(st.integers(0, 3))):
+        place = draw(st.tuples(st.integers(0, ticks - 1), st.integers(0, max(graph.width - 1, 0))))
+        readings[place] = draw(st.sampled_from([np.nan, np.inf, -np.inf, -0.0, 0.0, 1.0, 7.0, -3.0, 3e38, 1e-42]))
+    return Case(graph, {name: values.astype(np.float32) for name, values in weights.items()}, readings)
+
+
+@st.composite
+def _senses(draw: st.DrawFn) -> tuple[tuple[Sensor, ...], tuple[Memory, ...]]:
+    """Sensors and memories; derivatives of anything, and of one another."""
+    kinds = draw(st.lists(st.sampled_from([*WORLDLY, "sine", "derivative"]), min_size=1, max_size=6))
+    cells = [Cell(draw(SHARES), draw(SHARES)) for _ in range(draw(st.integers(0, 2)))]
+    widths = {f"m{i}": 1 for i in range(len(cells))}
+    sensors: list[Sensor] = []
+    start = 0
+    for number, kind in enumerate(kinds):
+        width = 3 if isinstance(kind, RangeFinder) else 1
+        if kind == "sine" or (kind == "derivative" and not widths):
+            kind = Sine(draw(st.sampled_from([0.05, 0.3, 2.0])))
+        elif kind == "derivative":
+            of = draw(st.sampled_from(sorted(widths)))
+            width, kind = widths[of], Derivative(of, draw(st.sampled_from([0.5, 1.0, 30.0])), draw(_dead_zones))
+        sensors.append(Sensor(f"s{number}", kind, start, width))
+        widths[f"s{number}"] = width
+        start += width
+    places = draw(st.permutations(range(len(sensors))))  # a derivative may stand before its source
+    return _placed([sensors[i] for i in places]), tuple(Memory(f"m{i}", c, start + i) for i, c in enumerate(cells))
+
+
+_dead_zones = st.sampled_from([0.0, 0.0, 0.01, 0.4])
+
+
+def _placed(sensors: list[Sensor]) -> tuple[Sensor, ...]:
+    starts = np.cumsum([0, *(sensor.width for sensor in sensors)]).tolist()
+    return tuple(Sensor(s.name, s.kind, start, s.width) for s, start in zip(sensors, starts, strict=False))
+
+
+@st.composite
+def _skills(draw: st.DrawFn, name: str, width: int, targets: list[tuple[str, int]], fewest: int) -> Skill:
+    """A skill over some of the readings that sends to some of the targets."""
+    mlp = st.builds(Mlp, hidden=st.integers(fewest, 3), width=st.integers(0, 6))
+    function: Function = draw(st.one_of(mlp, mlp, st.just(Rule())))
+    inputs = tuple(draw(st.lists(st.integers(0, width - 1), unique=True, max_size=8)))
+    chosen = draw(st.lists(st.sampled_from(targets), unique=True, min_size=1, max_size=5))
+    edges: list[Edge] = []
+    outputs = 0
+    for to, target in chosen:
+        if isinstance(function, Rule) or draw(st.integers(0, 3)) == 0:
+            edges.append(Edge(to, target, None, draw(_programs(inputs))))
+        else:
+            edges.append(Edge(to, target, outputs))
+            outputs += 1
+    return Skill(name, function, inputs, tuple(edges))
+
+
+def _programs(inputs: tuple[int, ...]) -> st.SearchStrategy[Program]:
+    """An expression over a skill's inputs, in postfix order."""
+    number = st.sampled_from([0.0, 0.1, 0.25, 1.0, 2.0, 3.5]).map(lambda x: (("number", x),))
+    reading = st.sampled_from(inputs).map(lambda i: (("reading", i),)) if inputs else number
+    return st.recursive(
+        number | reading,
+        lambda part: st.one_of(
+            st.tuples(part, part, st.sampled_from("+-*/")).map(lambda p: (*p[0], *p[1], (p[2], 0))),
+            part.map(lambda p: (*p, ("negate", 0))),
+        ),
+        max_leaves=5,
+    )

@@ -1,0 +1,160 @@
+"""A mind computed the slow and obvious way, one float32 at a time: what the engine is held against."""
+
+import math
+
+import numpy as np
+
+from mindrun.functions import Mlp
+from mindrun.functions.mlp import layers
+from mindrun.portable import sine
+from mindrun.sensors import Bearing, Derivative, Sine
+from mindrun.sigmoid import DENOMINATOR, LIMIT, NUMERATOR
+
+f = np.float32
+
+
+class Plain:
+    """One mind and its state."""
+
+    def __init__(self, graph, weights, master=None):
+        self.graph, self.weights, self.master = graph, weights, master or graph.master
+        self.t, self.before, self.faults = 0, None, 0
+        self.cells = [f(memory.kind.start) for memory in graph.memories]
+
+    def tick(self, readings):
+        """The commands for the readings of one tick."""
+        with np.errstate(all="ignore"):
+            self.readings = [f(r) for r in readings]
+            self.fill()
+            self.spread()
+            self.before, self.t = self.readings, self.t + 1
+            means = [mean(c, i) for c, i in zip(self.com["memory"], self.total["memory"], strict=True)]
+            for i, memory in enumerate(self.graph.memories):
+                self.cells[i] = f(memory.kind.decay) * self.cells[i]
+                if means[i] is not None:
+                    self.cells[i] = self.cells[i] + f(1 - memory.kind.decay) * means[i]
+            means = [mean(c, i) for c, i in zip(self.com["actuator"], self.total["actuator"], strict=True)]
+            neutral = [f(actuator.kind.neutral) for actuator in self.graph.actuators]
+            return [n if m is None else m for m, n in zip(means, neutral, strict=True)]
+
+    def fill(self):
+        """Set the readings of memories and virtual sensors."""
+        for memory, cell in zip(self.graph.memories, self.cells, strict=True):
+            self.readings[memory.start] = cell
+        done = {s.name for s in self.graph.sensors if not isinstance(s.kind, Derivative)}
+        done |= {memory.name for memory in self.graph.memories}
+        waiting = [s for s in self.graph.sensors if s.name not in done]
+        for sensor in self.graph.sensors:
+            if isinstance(sensor.kind, Sine):
+                turns = self.t / (sensor.kind.period / self.graph.tick)
+                self.readings[sensor.start] = f(0.5 + 0.5 * sine(2 * math.pi * (turns - math.floor(turns))))
+        while waiting:
+            sensor = next(s for s in waiting if s.kind.of in done)
+            waiting.remove(sensor)
+            done.add(sensor.name)
+            source = next(s for s in (*self.graph.sensors, *self.graph.memories) if s.name == sensor.kind.of)
+            for i in range(sensor.width):
+                self.readings[sensor.start + i] = self.derivative(sensor.kind, source, i)
+
+    def derivative(self, kind, source, i):
+        """One reading of a derivative."""
+        if self.before is None:
+            return f(0.5)
+        now, before = self.readings[source.start + i], self.before[source.start + i]
+        if not (math.isfinite(now) and math.isfinite(before)):
+            return f(np.nan)
+        d = now - before
+        if isinstance(source.kind, Bearing):
+            d = d - f(1) if d > 0.5 else d + f(1) if d < -0.5 else d
+        v = clamp(f(0.5) + d * f(0.5 / (self.graph.tick * kind.range)))
+        return f(0.5) if abs(v - f(0.5)) < f(kind.dead_zone) else v
+
+    def spread(self):
+        """Equation 2 and the sums of Equation 3."""
+        self.influence = [f(skill.name == self.master) for skill in self.graph.skills]
+        self.com = {"actuator": [f(0)] * len(self.graph.actuators), "memory": [f(0)] * len(self.graph.memories)}
+        self.total = {noun: list(zeros) for noun, zeros in self.com.items()}
+        for skill, own in zip(self.graph.skills, self.influence, strict=True):  # grows while it is walked, parents first
+            if own == 0:
+                continue
+            inputs = [self.readings[i] for i in skill.inputs]
+            outputs = self.outputs(skill, inputs)
+            for edge in skill.edges:
+                value = outputs[edge.output] if edge.output is not None else f(postfix(edge.value, self.readings))
+                if not all(map(math.isfinite, inputs)) or not math.isfinite(value):
+                    self.faults += 1
+                elif edge.to == "skill":
+                    self.influence[edge.target] += clamp(value) * own
+                else:
+                    self.com[edge.to][edge.target] += clamp(value) * own
+                    self.total[edge.to][edge.target] += own
+
+    def outputs(self, skill, inputs):
+        """The internal function's outputs."""
+        if not isinstance(skill.function, Mlp):
+            return []
+        shape = layers(len(inputs), skill.outputs, skill.function)
+        if not shape:
+            return [f(0)] * skill.outputs
+        weights = iter(self.weights[skill.name])
+        values = inputs
+        for number, (_, after) in enumerate(shape, 1):
+            sums = [dense([next(weights) for _ in values], values) for _ in range(after)]
+            values = sums if number == len(shape) else [sigmoid(s) for s in sums]
+        return values
+
+
+def dense(weights, values):
+    """A neuron's sum, strictly from left to right."""
+    total = weights[0] * values[0]
+    for w, x in zip(weights[1:], values[1:], strict=True):
+        total = total + w * x
+    return total
+
+
+def sigmoid(x):
+    """The sigmoid as it is defined."""
+    h, limit = f(0.5), f(LIMIT)
+    x = x * h
+    x = x if x > -limit else -limit
+    x = x if x < limit else limit
+    y = x * x
+    p, q = f(NUMERATOR[-1]), f(DENOMINATOR[-1])
+    for a in NUMERATOR[-2::-1]:
+        p = p * y + f(a)
+    for b in DENOMINATOR[-2::-1]:
+        q = q * y + f(b)
+    return h + h * (p * x / q)
+
+
+def clamp(v):
+    """Into 0..1."""
+    v = v if v > 0 else f(0)
+    return v if v < 1 else f(1)
+
+
+def mean(com, total):
+    """Equation 3, or None where nothing drives."""
+    return clamp(com / total) if total > 0 and math.isfinite(com / total) else None
+
+
+def postfix(program, readings):
+    """An expression's value in float64."""
+    stack = []
+    for word, operand in program:
+        if word in ("number", "reading"):
+            stack.append(np.float64(operand if word == "number" else readings[operand]))
+        elif word == "negate":
+            stack.append(-stack.pop())
+        else:
+            b, a = stack.pop(), stack.pop()
+            match word:
+                case "+":
+                    stack.append(a + b)
+                case "-":
+                    stack.append(a - b)
+                case "*":
+                    stack.append(a * b)
+                case "/":
+                    stack.append(a / b)
+    return stack.pop()
