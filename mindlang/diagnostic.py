@@ -1,0 +1,51 @@
+"""Errors as data: what is wrong, where, and what to do about it."""
+
+from collections.abc import Iterable
+from dataclasses import dataclass, field
+from difflib import get_close_matches
+
+from mindlang.source import Span
+
+
+@dataclass(frozen=True, slots=True)
+class Label:
+    """A second place that explains a diagnostic."""
+
+    span: Span
+    message: str
+
+
+@dataclass(frozen=True, slots=True)
+class Diagnostic:
+    """One finding. `code` is stable, `message` says what is wrong, `hint` what to do; without a span it is about a file."""
+
+    code: str
+    message: str
+    span: Span | None = None
+    hint: str = ""
+    labels: tuple[Label, ...] = ()
+    severity: str = "error"
+
+
+@dataclass(slots=True)
+class Findings:
+    """Where a stage of the compiler collects what it finds."""
+
+    diagnostics: list[Diagnostic] = field(default_factory=list)
+
+    def error(self, code: str, span: Span, message: str, hint: str = "", *labels: Label) -> None:
+        """Collect an error."""
+        self.diagnostics.append(Diagnostic(code, message, span, hint, labels))
+
+
+def did_you_mean(word: str, known: Iterable[str]) -> str:
+    """A question that names the known word nearest to `word`, or nothing."""
+    by_lower = {name.lower(): name for name in known}
+    near = get_close_matches(word.lower()[:100], by_lower, n=1, cutoff=0.6)
+    return f"Did you mean {by_lower[near[0]]}?" if near else ""
+
+
+def listed(words: Iterable[str], joint: str = "or") -> str:
+    """Words as a sentence lists them: a, b or c."""
+    *most, last = words
+    return f"{', '.join(most)} {joint} {last}" if most else last

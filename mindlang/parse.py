@@ -1,0 +1,117 @@
+"""Text → File, line by line: a bad line is reported and left out, and every other one is read."""
+
+import re
+from collections.abc import Iterator
+from functools import cache
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from mindlang import syntax
+from mindlang.diagnostic import Findings
+from mindlang.mistakes import explain
+from mindlang.source import Source, Span
+
+if TYPE_CHECKING:
+    from lark import Lark
+
+NESTING = 64
+
+_CODE = re.compile(r'(?:"[^"]*"|[^#])*')
+_HEADER = re.compile(r"\s*(body|actuator|sensor|memory|skill|task|curriculum)\s+(\w[\w.+]*)")
+_FACT = re.compile(r"\s*(reads|drives|influences|contains|lasts|ends|rewards|counts|teaches|use|master|tick)\b")
+
+
+@cache
+def grammar() -> "Lark":
+    """The grammar, with `start` for a whole file and `line` for one line."""
+    from lark import Lark
+
+    here = Path(__file__).parent
+    folder = next(folder for folder in (here / "grammar", here.parent / "grammar") if folder.is_dir())
+    return Lark(
+        (folder / "mind.lark").read_text(encoding="utf-8"),
+        parser="lalr",
+        start=["start", "line"],
+        propagate_positions=True,
+        maybe_placeholders=False,
+    )
+
+
+def parse(source: Source, findings: Findings) -> syntax.File:
+    """The file as far as its lines can be read; the others are reported."""
+    settings: list[syntax.Setting] = []
+    blocks: list[tuple[syntax.Header, list[syntax.Fact]]] = []
+    above: list[syntax.Fact] | None = None
+    for line in _lines(source, findings):
+        match line:
+            case syntax.Header():
+                above = []
+                blocks.append((line, above))
+            case syntax.Use() | syntax.Master() | syntax.Tick():
+                above = None
+                settings.append(line)
+            case None:  # an unreadable line, perhaps a header: its facts are lost with it
+                above = []
+            case _ if above is None:
+                hint = "A fact stands below the skill, task or curriculum to which it belongs."
+                findings.error("homeless-fact", line.span, "This fact belongs to no declaration.", hint)
+            case _:
+                above.append(line)
+    return syntax.File(source, tuple(settings), tuple(syntax.Declaration(head, tuple(facts)) for head, facts in blocks))
+
+
+def _lines(source: Source, findings: Findings) -> Iterator[syntax.Line | None]:
+    offset = 0
+    for text in source.text.split("\n"):
+        found = _CODE.match(text.removesuffix("\r"))
+        code = found[0].rstrip(" \t") if found else ""
+        if code:
+            yield from _line(Span(source, offset, offset + len(code)), code, findings)
+        offset += len(text) + 1
+
+
+def _line(span: Span, code: str, findings: Findings) -> Iterator[syntax.Line | None]:
+    """What the line says, or after reporting it what can be saved of it."""
+    from lark import UnexpectedInput
+
+    from mindlang.build import build
+
+    if _depth(code) > NESTING:
+        hint = f"At most {NESTING} parentheses and signs may stand inside one another."
+        findings.error("nested-too-deep", span, "This expression is nested too deep.", hint)
+        return
+    try:
+        yield build(grammar().parse(code, start="line"), span.source, span.start)
+    except UnexpectedInput as error:
+        findings.diagnostics.append(explain(error, code, span))
+        yield from _saved(code, span)
+
+
+def _saved(code: str, span: Span) -> Iterator[syntax.Header | None]:
+    if header := _HEADER.match(code):
+        noun, name = (
+            syntax.Name(header[i], Span(span.source, span.start + header.start(i), span.start + header.end(i)))
+            for i in (1, 2)
+        )
+        yield syntax.Header(noun, name, None, span)
+    elif not _FACT.match(code):
+        yield None
+
+
+def _depth(code: str) -> int:
+    """How many parentheses and signs stand inside one another at most."""
+    deepest = open_ = signs = 0
+    for character in code:
+        match character:
+            case "(":
+                open_ += 1
+            case ")":
+                open_ -= 1
+            case "-":
+                signs += 1
+            case " " | "\t":
+                continue
+            case _:
+                signs = 0
+        deepest = max(deepest, open_ + signs)
+    return deepest

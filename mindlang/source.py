@@ -1,0 +1,56 @@
+"""Text with places in it: a source, and spans that know their line and column."""
+
+from dataclasses import dataclass, field
+from pathlib import Path
+
+LIMIT = 1 << 20  # bytes
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Source:
+    """The text of one file. `name` is what the user called it, `folder` where its relative paths begin."""
+
+    name: str
+    text: str = field(repr=False)
+    folder: Path = Path()
+
+    def line(self, number: int) -> str:
+        """The text of a line, counted from 1, without its end."""
+        return self.text.split("\n", number)[number - 1].rstrip("\r")
+
+
+@dataclass(frozen=True, slots=True)
+class Span:
+    """A stretch of a source, from offset `start` up to `end`."""
+
+    source: Source = field(repr=False)
+    start: int
+    end: int
+
+    @property
+    def text(self) -> str:
+        """The characters in it."""
+        return self.source.text[self.start : self.end]
+
+    @property
+    def line(self) -> int:
+        """The line on which it starts, counted from 1."""
+        return self.source.text.count("\n", 0, self.start) + 1
+
+    @property
+    def column(self) -> int:
+        """The column at which it starts, counted from 1."""
+        return self.start - self.source.text.rfind("\n", 0, self.start)
+
+
+def decode(data: bytes) -> str:
+    """The text of a source file; ValueError says in the user's words why the bytes are none."""
+    if len(data) > LIMIT:
+        raise ValueError("is larger than 1 MiB")
+    if b"\0" in data:
+        raise ValueError("is a binary file")
+    try:
+        return data.decode("utf-8-sig")
+    except UnicodeDecodeError as error:
+        line = data.count(b"\n", 0, error.start) + 1
+        raise ValueError(f"is not UTF-8 text (line {line})") from error
