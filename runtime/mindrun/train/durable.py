@@ -12,8 +12,8 @@ def write(path: Path, data: bytes) -> None:
 
 
 def write_beside(path: Path, data: bytes) -> Path:
-    """Write `data` to a temporary file beside `path`, on the disk; the file's path."""
-    spare = path.with_name(f"{path.name}.{os.getpid()}.tmp")
+    """Write `data` to a temporary file beside `path`, on the disk; its path. One process at a time may do that."""
+    spare = path.with_name(f"{path.name}.tmp")
     try:
         with spare.open("wb") as file:
             file.write(data)

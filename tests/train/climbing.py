@@ -1,0 +1,76 @@
+"""A lesson that costs next to nothing: a sphere to climb down, with noise that depends on the layout."""
+
+from dataclasses import dataclass
+from time import perf_counter
+
+import numpy as np
+from mindrun.graph import Lesson
+from mindrun.learners import Genetic
+from mindrun.train.manifest import Manifest, hashes
+from mindrun.train.training import Watch
+from numpy.typing import NDArray
+
+LENGTH = 12
+
+
+@dataclass(frozen=True, slots=True)
+class Results:
+    total: NDArray[np.float64]
+    ticks: NDArray[np.int64]
+    faults: NDArray[np.int64]
+
+
+@dataclass(frozen=True, slots=True)
+class Sphere:
+    """The score of a genome is minus its squared distance from all ones, give or take `noise`."""
+
+    genome_length: int = LENGTH
+    noise: float = 0.5
+
+    def score(self, genomes: NDArray[np.float32], seeds: NDArray[np.uint64]) -> Results:
+        distance = ((genomes.astype(np.float64) - 1.0) ** 2).sum(axis=1)
+        luck = self.noise * np.sin(np.outer(distance, 1.0 + np.asarray(seeds) % 97))
+        total = -distance[:, None] + luck
+        return Results(total, np.full(total.shape, 100), np.zeros(total.shape, np.int64))
+
+
+@dataclass(frozen=True, slots=True)
+class Faulty(Sphere):
+    """The sphere, where every genome with a first weight above `above` gives NaN."""
+
+    above: float = 0.0
+
+    def score(self, genomes: NDArray[np.float32], seeds: NDArray[np.uint64]) -> Results:
+        results = Sphere.score(self, genomes, seeds)
+        bad = genomes[:, 0] > self.above
+        total = np.where(bad[:, None], np.nan, results.total)
+        return Results(total, results.ticks, results.faults + bad[:, None])
+
+
+def lesson(generations: int = 30, **learner: float) -> Lesson:
+    return Lesson("School", "Climb", "Climb", "Climb", generations, False, Genetic(**{"population": 20, **learner}))
+
+
+def manifest(lesson: Lesson, seed: int = 1, weights: dict[str, NDArray[np.float32]] | None = None) -> Manifest:
+    return Manifest(
+        lesson=lesson,
+        seed=seed,
+        mind="0" * 64,
+        weights=hashes(weights or {}),
+        source="/nowhere/climb.mind",
+        source_sha256="0" * 64,
+        command=("mindc", "train"),
+        started="2026-07-14T12:00:00Z",
+        versions={},
+        processor="",
+    )
+
+
+def forget(*_: object) -> None:
+    """A report or a warning that nobody reads."""
+
+
+def unwatched(save_every: float = 0.0, stop_after: int = 10**9) -> Watch:
+    """Save after every generation; stop after so many."""
+    left = iter(range(1, 10**9))
+    return Watch(forget, forget, lambda: next(left) >= stop_after, perf_counter, save_every)

@@ -1,0 +1,69 @@
+"""One lesson, on a sphere."""
+
+from dataclasses import replace
+
+import numpy as np
+from climbing import LENGTH, Faulty, Sphere, lesson
+from mindrun.train.lesson import Course, Record, State, begin, teach
+
+UNKNOWN = np.empty((0, LENGTH), np.float32)
+
+
+def taught(course: Course, scorer: Sphere) -> tuple[State, list[Record]]:
+    ticking = iter(range(10**6))
+    passed = list(teach(course, scorer, begin(course), lambda: float(next(ticking))))
+    return passed[-1][0], [record for _, record in passed]
+
+
+def test_a_lesson_teaches() -> None:
+    state, records = taught(Course(lesson(100), 1, UNKNOWN), Sphere())
+    assert [record.generation for record in records] == list(range(1, 101))
+    assert state.reevaluated > -2.0
+    assert records[0].best < records[-1].best
+
+
+def test_the_same_seed_gives_the_same_bits_and_another_seed_others() -> None:
+    first, again, other = (taught(Course(lesson(), seed, UNKNOWN), Sphere())[0] for seed in (1, 1, 2))
+    assert first.kept.tobytes() == again.kept.tobytes()
+    assert first.kept.tobytes() != other.kept.tobytes()
+
+
+def test_the_reevaluated_score_is_not_the_biased_maximum() -> None:
+    state, _ = taught(Course(lesson(60), 1, UNKNOWN), Sphere(noise=5.0))
+    honest = Sphere(noise=5.0).score(state.kept, np.arange(10_000)).total.mean()
+    assert abs(state.reevaluated - honest) < 2.0
+    assert state.best > state.reevaluated
+
+
+def test_several_attempts_keep_the_best_of_them() -> None:
+    course = Course(lesson(5, attempts=4), 1, UNKNOWN)
+    state, records = taught(course, Sphere())
+    assert [record.attempt for record in records] == [attempt for attempt in range(1, 5) for _ in range(5)]
+    alone = taught(replace(course, lesson=lesson(5)), Sphere())[0]
+    assert state.chosen >= alone.chosen
+
+
+def test_it_starts_from_what_the_skill_knows_and_never_ends_worse() -> None:
+    known = np.ones((1, LENGTH), np.float32)
+    state, records = taught(Course(lesson(5), 1, known), Sphere(noise=0.0))
+    assert state.kept.tobytes() == known.tobytes()
+    assert records[0].best == 0.0
+
+
+def test_scores_that_are_not_numbers_come_last_and_are_counted() -> None:
+    state, records = taught(Course(lesson(60), 1, UNKNOWN), Faulty())
+    assert state.kept[0, 0] <= 0.0
+    assert state.faults == sum(record.faults for record in records) > 0
+
+
+def test_a_lesson_in_which_everything_fails_says_so_by_its_score() -> None:
+    state, records = taught(Course(lesson(3), 1, UNKNOWN), Faulty(above=-1e9))
+    assert state.reevaluated == -np.inf
+    assert all(record.best == -np.inf for record in records)
+
+
+def test_ticks_and_seconds_add_up() -> None:
+    state, records = taught(Course(lesson(30), 1, UNKNOWN), Sphere())
+    assert state.seconds == sum(record.seconds for record in records) == 30.0
+    verdict = 100 * 100
+    assert state.ticks == sum(record.ticks for record in records) + verdict

@@ -1,0 +1,74 @@
+"""A run that is killed and resumed ends in the same bits as one that was not."""
+
+import random
+import signal
+import subprocess
+import sys
+from pathlib import Path
+from time import sleep
+
+from climbing import Sphere, lesson, manifest, unwatched
+from mindrun.train.progress import read
+from mindrun.train.run_folder import Run, create
+from mindrun.train.training import train
+
+KILLS = 20
+CLIMB = Path(__file__).with_name("climb.py")
+
+
+def made(runs: Path) -> Run:
+    return create(runs, manifest(lesson(500, attempts=3)), b"", {})
+
+
+def end(run: Run) -> tuple[bytes, list[dict[str, float | None]]]:
+    records = [{key: value for key, value in record.items() if key != "seconds"} for record in read(run.folder)]
+    return (run.folder / "weights.npy").read_bytes(), records
+
+
+def test_killed_at_twenty_random_moments_it_ends_in_the_same_bits(tmp_path: Path) -> None:
+    undisturbed, disturbed = made(tmp_path), made(tmp_path)
+    train(undisturbed, Sphere(), unwatched(save_every=2.0))
+    moments = random.Random(0)
+    codes = [live(disturbed, moments.uniform(0, 0.06)) for _ in range(KILLS)]
+    assert codes == [-signal.SIGKILL] * KILLS
+    assert 0 < len(read(disturbed.folder)) < 1500
+    assert subprocess.run([sys.executable, CLIMB, disturbed.folder], capture_output=True, check=False).returncode == 0
+    assert end(disturbed) == end(undisturbed)
+
+
+def live(run: Run, seconds: float) -> int:
+    with subprocess.Popen([sys.executable, CLIMB, run.folder, "", "0.001"], stdout=subprocess.PIPE) as process:
+        assert process.stdout is not None
+        process.stdout.readline()
+        sleep(seconds)
+        process.kill()
+        return process.wait()
+
+
+def test_stopped_and_resumed_after_any_generation_it_ends_in_the_same_bits(tmp_path: Path) -> None:
+    course = manifest(lesson(5, attempts=2))
+    undisturbed = create(tmp_path, course, b"", {})
+    train(undisturbed, Sphere(), unwatched())
+    for generations in range(1, 10):
+        stopped = create(tmp_path, course, b"", {})
+        train(stopped, Sphere(), unwatched(stop_after=generations))
+        train(stopped, Sphere(), unwatched())
+        assert end(stopped) == end(undisturbed)
+
+
+def test_a_finished_run_that_is_resumed_stays_as_it_is(tmp_path: Path) -> None:
+    run = create(tmp_path, manifest(lesson(5)), b"", {})
+    first = train(run, Sphere(), unwatched())
+    before = end(run)
+    assert train(run, Sphere(), unwatched()).reevaluated == first.reevaluated
+    assert end(run) == before
+
+
+def test_the_previous_checkpoint_gives_the_same_bits(tmp_path: Path) -> None:
+    course = manifest(lesson(9))
+    undisturbed, damaged = create(tmp_path, course, b"", {}), create(tmp_path, course, b"", {})
+    train(undisturbed, Sphere(), unwatched())
+    train(damaged, Sphere(), unwatched(stop_after=4))
+    (damaged.folder / "checkpoint").write_bytes(b"half a check")
+    train(damaged, Sphere(), unwatched())
+    assert end(damaged) == end(undisturbed)
