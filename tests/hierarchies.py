@@ -4,8 +4,6 @@ from dataclasses import dataclass
 
 import numpy as np
 from hypothesis import strategies as st
-from numpy.typing import NDArray
-
 from mindrun.actuators import Gripper, Servo, Wheel
 from mindrun.functions import Function, Mlp, Rule
 from mindrun.graph import Actuator, Edge, Graph, Memory, Program, Sensor, Skill
@@ -13,6 +11,7 @@ from mindrun.memory import Cell
 from mindrun.sensors import Battery, Bearing, Derivative, RangeFinder, Sine
 from mindrun.weights import genes
 from mindrun.world import Disc
+from numpy.typing import NDArray
 
 SHARES = st.floats(0, 1, width=32)
 WORLDLY = [RangeFinder(at=(0.0, 1.0, 2.0)), Bearing("object"), Battery()]

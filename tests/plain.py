@@ -3,7 +3,6 @@
 import math
 
 import numpy as np
-
 from mindrun.functions import Mlp
 from mindrun.functions.mlp import layers
 from mindrun.portable import sine
@@ -74,7 +73,7 @@ class Plain:
         self.influence = [f(skill.name == self.master) for skill in self.graph.skills]
         self.com = {"actuator": [f(0)] * len(self.graph.actuators), "memory": [f(0)] * len(self.graph.memories)}
         self.total = {noun: list(zeros) for noun, zeros in self.com.items()}
-        for skill, own in zip(self.graph.skills, self.influence, strict=True):  # grows while it is walked, parents first
+        for skill, own in zip(self.graph.skills, self.influence, strict=True):
             if own == 0:
                 continue
             inputs = [self.readings[i] for i in skill.inputs]

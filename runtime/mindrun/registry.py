@@ -47,6 +47,11 @@ def name_of(value: object) -> tuple[str, str]:
     return next((noun, name) for noun, known in _kinds.items() for name, cls in known.items() if cls is type(value))
 
 
+def names() -> dict[type[Any], str]:
+    """The name of every registered kind."""
+    return {cls: name for known in _kinds.values() for name, cls in known.items()}
+
+
 def arguments(cls: type[Any]) -> tuple[Argument, ...]:
     """The arguments that a kind takes, in the order of its fields."""
     hints = get_type_hints(cls, include_extras=True)

@@ -1,6 +1,7 @@
 """A skill's trained numbers: one flat float32 vector, the genome."""
 
 from collections.abc import Mapping
+from io import BytesIO
 
 import numpy as np
 from numpy.typing import NDArray
@@ -42,3 +43,27 @@ def reachable(graph: Graph, master: str) -> tuple[Skill, ...]:
             found.append(skill)
             reached |= {graph.skills[edge.target].name for edge in skill.edges if edge.to == "skill"}
     return tuple(found)
+
+
+def to_npy(weights: NDArray[np.float32]) -> bytes:
+    """A genome as the bytes of a .npy file."""
+    file = BytesIO()
+    np.save(file, weights.astype("<f4"), allow_pickle=False)
+    return file.getvalue()
+
+
+def from_npy(data: bytes) -> NDArray[np.float32]:
+    """The genome in the bytes of a .npy file; WeightsError unless it is exactly one vector of finite float32."""
+    file = BytesIO(data)
+    try:
+        version = np.lib.format.read_magic(file)
+        shape, _, dtype = np.lib.format.read_array_header_1_0(file)
+    except (ValueError, EOFError) as error:
+        raise WeightsError("these weights are damaged") from error
+    values = data[file.tell() :]
+    if version != (1, 0) or dtype != np.dtype("<f4") or len(shape) != 1 or len(values) != 4 * shape[0]:
+        raise WeightsError("these weights are damaged")
+    weights = np.frombuffer(values, "<f4").astype(np.float32)
+    if not np.isfinite(weights).all():
+        raise WeightsError("these weights are not finite")
+    return weights

@@ -7,11 +7,10 @@ import pytest
 from hierarchies import Case, random_case
 from hypothesis import given
 from hypothesis import strategies as st
-from plain import Plain
-
 from mindrun.engine import Engine
 from mindrun.portable import cosine, sine
 from mindrun.sigmoid import sigmoid
+from plain import Plain
 
 
 @given(random_case(), st.data())

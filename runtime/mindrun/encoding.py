@@ -1,0 +1,100 @@
+"""A graph as plain data for JSON, and back: the dataclasses say what must stand there, and nothing else may."""
+
+from collections.abc import Mapping
+from dataclasses import fields, is_dataclass
+from math import isfinite
+from types import NoneType, UnionType
+from typing import Annotated, Any, Union, get_args, get_origin, get_type_hints
+
+from mindrun.errors import BundleError
+from mindrun.graph import Graph
+from mindrun.quantity import Quantity, Reference
+from mindrun.registry import names
+from mindrun.sound import flaw
+
+
+def encode(value: object) -> Any:
+    """A graph, or any part of one, as dicts, lists, strings and numbers; a kind names itself under "is"."""
+    if isinstance(value, tuple):
+        return [encode(part) for part in value]
+    if not is_dataclass(value):
+        return value
+    data = {field.name: encode(getattr(value, field.name)) for field in fields(value)}
+    name = names().get(type(value))
+    return data if name is None else {"is": name, **data}
+
+
+def decode(data: object) -> Graph:
+    """The graph that `encode` made this data of; BundleError where anything is missing, unknown or out of range."""
+    graph: Graph = _decode(Graph, data, "graph")
+    found = flaw(graph)
+    if found:
+        raise BundleError(f"this graph is damaged: {found}")
+    return graph
+
+
+def _decode(hint: Any, data: Any, where: str) -> Any:
+    """The value of type `hint` that stands at `where`."""
+    origin, parts = get_origin(hint), get_args(hint)
+    if origin is Annotated:
+        return _in_range(parts[1], _decode(parts[0], data, where), where)
+    if origin in (Union, UnionType):
+        return _decode_union(parts, data, where)
+    if origin is tuple:
+        return _decode_tuple(parts, data, where)
+    if isinstance(hint, type) and is_dataclass(hint):
+        return _decode_fields(hint, data, where)
+    return _decode_plain(hint, data, where)
+
+
+def _decode_plain(hint: Any, data: Any, where: str) -> Any:
+    if hint is float and type(data) is int and abs(data) < 2**53:
+        data = float(data)
+    if type(data) is not hint or (hint is float and not isfinite(data)):
+        raise BundleError(f"this graph is damaged: {where} is not a {hint.__name__}")
+    return data
+
+
+def _decode_union(hints: tuple[Any, ...], data: Any, where: str) -> Any:
+    if data is None and NoneType in hints:
+        return None
+    hints = tuple(hint for hint in hints if hint is not NoneType)
+    if isinstance(data, Mapping) and "is" in data:
+        hints = tuple(hint for hint in hints if names().get(hint) == data["is"])
+    elif len(hints) > 1:  # a number in an expression
+        hints = tuple(hint for hint in hints if hint is type(data))
+    if len(hints) != 1:
+        raise BundleError(f"this graph is damaged: {where} is of an unknown kind")
+    return _decode(hints[0], data, where)
+
+
+def _decode_tuple(hints: tuple[Any, ...], data: Any, where: str) -> tuple[Any, ...]:
+    if not isinstance(data, list):
+        raise BundleError(f"this graph is damaged: {where} is not a list")
+    if hints[-1] is Ellipsis:
+        hints = hints[:1] * len(data)
+    if len(hints) != len(data):
+        raise BundleError(f"this graph is damaged: {where} has {len(data)} entries")
+    return tuple(_decode(hint, part, f"{where}[{i}]") for i, (hint, part) in enumerate(zip(hints, data, strict=True)))
+
+
+def _decode_fields(cls: type[Any], data: Any, where: str) -> Any:
+    hints = get_type_hints(cls, include_extras=True)
+    expected = {"is", *hints} if cls in names() else set(hints)
+    if not isinstance(data, Mapping) or set(data) != expected or data.get("is") != names().get(cls):
+        raise BundleError(f"this graph is damaged: {where} is not a {cls.__name__}")
+    return cls(**{name: _decode(hint, data[name], f"{where}.{name}") for name, hint in hints.items()})
+
+
+def _in_range(meaning: Quantity | Reference, value: Any, where: str) -> Any:
+    """`value` if it is what its argument may be: `neutral` is a share, a wheel's side left or right."""
+    match meaning, value:
+        case Quantity(low=low, high=high), int() | float():
+            fine = low <= value <= high
+        case Reference(words=words), str():
+            fine = not words or value in words
+        case _:
+            fine = True
+    if not fine:
+        raise BundleError(f"this graph is damaged: {where} cannot be {value}")
+    return value

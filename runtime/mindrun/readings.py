@@ -1,0 +1,52 @@
+"""Readings by sensor name, as people and other programs write them, to the vector that the engine takes."""
+
+from collections.abc import Mapping
+from difflib import get_close_matches
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mindrun.errors import ReadingsError
+from mindrun.graph import Graph, Sensor
+from mindrun.sensors import Derivative, Sine
+
+
+def physical(graph: Graph) -> dict[str, Sensor]:
+    """The sensors that someone has to read; the engine computes the others."""
+    return {sensor.name: sensor for sensor in graph.sensors if not isinstance(sensor.kind, Derivative | Sine)}
+
+
+def vector(graph: Graph, given: Mapping[str, Any], fill: float | None = None) -> NDArray[np.float32]:
+    """Readings [graph.width] from `{"proximity": [1, 0.5], "battery": 0.4}`; a missing sensor reads `fill`.
+
+    NaN stands for a reading that failed. Raises ReadingsError for anything else that is not a number in 0..1.
+    """
+    sensors = physical(graph)
+    for name in given:
+        if name not in sensors:
+            raise ReadingsError(_unknown(graph, name))
+    readings = np.zeros(graph.width, np.float32)
+    for name, sensor in sensors.items():
+        if name not in given and fill is None:
+            raise ReadingsError(f"there is no reading of sensor {name} (--fill 0.5 would set it)")
+        values = given.get(name, [fill] * sensor.width)
+        readings[sensor.start : sensor.start + sensor.width] = _checked(sensor, values)
+    return readings
+
+
+def _checked(sensor: Sensor, given: Any) -> list[float]:
+    values: list[Any] = given if isinstance(given, list) else [given]
+    if len(values) != sensor.width:
+        raise ReadingsError(f"sensor {sensor.name} has {sensor.width} readings, not {len(values)}")
+    for value in values:
+        if type(value) not in (int, float) or value < 0 or value > 1:
+            raise ReadingsError(f"sensor {sensor.name} cannot read {value!r}: a reading is a number from 0 to 1")
+    return values
+
+
+def _unknown(graph: Graph, name: str) -> str:
+    if name in {s.name for s in graph.sensors} | {m.name for m in graph.memories}:
+        return f"{name} is computed by the mind itself, leave it out"
+    near = get_close_matches(name, physical(graph), 1)
+    return f"there is no sensor {name}" + (f"; did you mean {near[0]}?" if near else "")
