@@ -52,10 +52,12 @@ class _Builder(Transformer_NonRecursive[Token, Any]):
         return syntax.Reads(self._name(parts[0]), self._span(meta))
 
     def drives(self, meta: Any, parts: list[Any]) -> syntax.Drives:
-        return syntax.Drives(self._name(parts[0]), *(parts[1:] or [None]), self._span(meta))
+        name, at = (*parts, None)[:2]
+        return syntax.Drives(self._name(name), at, self._span(meta))
 
     def influences(self, meta: Any, parts: list[Any]) -> syntax.Influences:
-        return syntax.Influences(self._name(parts[0]), *(parts[1:] or [None]), self._span(meta))
+        name, at = (*parts, None)[:2]
+        return syntax.Influences(self._name(name), at, self._span(meta))
 
     def contains(self, meta: Any, parts: list[Any]) -> syntax.Contains:
         return syntax.Contains(self._name(parts[0]), parts[1], self._span(meta))
@@ -68,9 +70,9 @@ class _Builder(Transformer_NonRecursive[Token, Any]):
 
     def rewards(self, meta: Any, parts: list[Any]) -> syntax.Rewards:
         amount, *rest = parts
-        on, each, when = (
-            next((part for part in rest if isinstance(part, form)), None) for form in (Phrase, syntax.Each, syntax.When)
-        )
+        on = next((part for part in rest if isinstance(part, Phrase)), None)
+        each = next((part for part in rest if isinstance(part, syntax.Each)), None)
+        when = next((part for part in rest if isinstance(part, syntax.When)), None)
         return syntax.Rewards(amount, on, each, when, self._span(meta))
 
     def counts(self, meta: Any, parts: list[Any]) -> syntax.Counts:
@@ -117,13 +119,13 @@ class _Builder(Transformer_NonRecursive[Token, Any]):
     def expression(self, meta: Any, parts: list[Any]) -> Expression:
         return Expression(tuple(_terms(parts[0])), self._span(meta))
 
-    def sum(self, meta: Any, parts: list[Any]) -> Terms:
+    def chain(self, meta: Any, parts: list[Any]) -> Terms:
         terms = _terms(parts[0])
         for operator, right in zip(parts[1::2], parts[2::2], strict=True):
             terms += [*_terms(right), Operator(str(operator), self._span(operator))]
         return terms
 
-    product = sum
+    product = chain
 
     def negative(self, meta: Any, parts: list[Any]) -> Terms:
         return [*_terms(parts[1]), Operator("negate", self._span(parts[0]))]

@@ -17,7 +17,10 @@ class Label:
 
 @dataclass(frozen=True, slots=True)
 class Diagnostic:
-    """One finding. `code` is stable, `message` says what is wrong, `hint` what to do; without a span it is about a file."""
+    """One finding. `code` is stable, `message` says what is wrong, `hint` what to do.
+
+    Without a span it is about a file that could not be read.
+    """
 
     code: str
     message: str

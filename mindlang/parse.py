@@ -2,6 +2,7 @@
 
 import re
 from collections.abc import Iterator
+from dataclasses import dataclass, field
 from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -37,30 +38,45 @@ def grammar() -> "Lark":
     )
 
 
+@dataclass(slots=True)
+class _Block:
+    header: syntax.Header | None
+    facts: list[syntax.Fact] = field(default_factory=list)
+    whole: bool = True
+
+
+class _Unread:
+    """A line that cannot be read but surely is a fact or a setting."""
+
+
 def parse(source: Source, findings: Findings) -> syntax.File:
     """The file as far as its lines can be read; the others are reported."""
     settings: list[syntax.Setting] = []
-    blocks: list[tuple[syntax.Header, list[syntax.Fact]]] = []
-    above: list[syntax.Fact] | None = None
+    blocks: list[_Block] = []
+    above: _Block | None = None
     for line in _lines(source, findings):
         match line:
-            case syntax.Header():
-                above = []
-                blocks.append((line, above))
+            case syntax.Header() | None:  # None is an unreadable line, perhaps a header: its facts are lost with it
+                above = _Block(line)
+                blocks.append(above)
             case syntax.Use() | syntax.Master() | syntax.Tick():
                 above = None
                 settings.append(line)
-            case None:  # an unreadable line, perhaps a header: its facts are lost with it
-                above = []
+            case _Unread():
+                above = above or _Block(None)
+                above.whole = False
             case _ if above is None:
                 hint = "A fact stands below the skill, task or curriculum to which it belongs."
                 findings.error("homeless-fact", line.span, "This fact belongs to no declaration.", hint)
             case _:
-                above.append(line)
-    return syntax.File(source, tuple(settings), tuple(syntax.Declaration(head, tuple(facts)) for head, facts in blocks))
+                above.facts.append(line)
+    declarations = (
+        syntax.Declaration(block.header, tuple(block.facts), block.whole) for block in blocks if block.header
+    )
+    return syntax.File(source, tuple(settings), tuple(declarations))
 
 
-def _lines(source: Source, findings: Findings) -> Iterator[syntax.Line | None]:
+def _lines(source: Source, findings: Findings) -> Iterator[syntax.Line | _Unread | None]:
     offset = 0
     for text in source.text.split("\n"):
         found = _CODE.match(text.removesuffix("\r"))
@@ -70,7 +86,7 @@ def _lines(source: Source, findings: Findings) -> Iterator[syntax.Line | None]:
         offset += len(text) + 1
 
 
-def _line(span: Span, code: str, findings: Findings) -> Iterator[syntax.Line | None]:
+def _line(span: Span, code: str, findings: Findings) -> Iterator[syntax.Line | _Unread | None]:
     """What the line says, or after reporting it what can be saved of it."""
     from lark import UnexpectedInput
 
@@ -79,6 +95,7 @@ def _line(span: Span, code: str, findings: Findings) -> Iterator[syntax.Line | N
     if _depth(code) > NESTING:
         hint = f"At most {NESTING} parentheses and signs may stand inside one another."
         findings.error("nested-too-deep", span, "This expression is nested too deep.", hint)
+        yield _Unread()
         return
     try:
         yield build(grammar().parse(code, start="line"), span.source, span.start)
@@ -87,15 +104,15 @@ def _line(span: Span, code: str, findings: Findings) -> Iterator[syntax.Line | N
         yield from _saved(code, span)
 
 
-def _saved(code: str, span: Span) -> Iterator[syntax.Header | None]:
+def _saved(code: str, span: Span) -> Iterator[syntax.Header | _Unread | None]:
     if header := _HEADER.match(code):
         noun, name = (
             syntax.Name(header[i], Span(span.source, span.start + header.start(i), span.start + header.end(i)))
             for i in (1, 2)
         )
         yield syntax.Header(noun, name, None, span)
-    elif not _FACT.match(code):
-        yield None
+    else:
+        yield _Unread() if _FACT.match(code) else None
 
 
 def _depth(code: str) -> int:

@@ -196,10 +196,11 @@ class Header:
 
 @dataclass(frozen=True, slots=True)
 class Declaration:
-    """A header and the facts below it."""
+    """A header and the facts below it; it is `whole` when every line below it could be read."""
 
     header: Header
     facts: tuple[Fact, ...]
+    whole: bool = True
 
 
 @dataclass(frozen=True, slots=True)

@@ -38,7 +38,11 @@ class Commands(click.Group):
         return super().resolve_command(ctx, args)
 
 
-@click.group(cls=Commands, context_settings={"help_option_names": ["-h", "--help"]}, epilog="mindc check examples/collect/collect.mind")
+@click.group(
+    cls=Commands,
+    context_settings={"help_option_names": ["-h", "--help"]},
+    epilog="mindc check examples/collect/collect.mind",
+)
 @click.version_option(version("mindlang"), prog_name="mindc")
 def commands() -> None:
     """Check, train and run behaviours declared in the mind language."""
@@ -73,5 +77,7 @@ def _unforeseen(error: Exception) -> int:
         case OSError():
             say(f"{error.strerror or error}: {error.filename}" if error.filename else str(error))
         case _:
-            say(f"mindc failed: {type(error).__name__}: {error}", "Set MIND_DEBUG=1 to see where, and please report it.")
+            say(
+                f"mindc failed: {type(error).__name__}: {error}", "Set MIND_DEBUG=1 to see where, and please report it."
+            )
     return FINDINGS

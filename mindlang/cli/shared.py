@@ -5,28 +5,29 @@ from __future__ import annotations
 import json
 import os
 import sys
+from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NoReturn
 
 from mindlang.cli import FINDINGS, MISUSE
 
 if TYPE_CHECKING:
+    from mindrun.graph import Graph
     from rich.console import Console
 
     from mindlang.compile import Compiled
-    from mindrun.graph import Graph
 
 talk: Console
 
 
 def __getattr__(name: str) -> Any:
-    """`talk`, the console on stderr, made when first used: rich is slow to import."""
+    """`talk`, the console on stderr, made when first asked for: rich is slow to import."""
     if name != "talk":
         raise AttributeError(name)
-    globals()["talk"] = console(stderr=True)
-    return globals()["talk"]
+    return console(stderr=True)
 
 
+@cache
 def console(stderr: bool = False) -> Console:
     """A console that colours only a terminal, and honours NO_COLOR and CI."""
     from rich.console import Console
@@ -41,10 +42,9 @@ def say(message: str, hint: str = "") -> None:
 
     from mindlang.report import visible
 
-    shared = sys.modules[__name__]
-    shared.talk.print(Text(visible(message), "red"))
+    console(stderr=True).print(Text(visible(message), "red"))
     if hint:
-        shared.talk.print(Text(f"  {visible(hint)}"))
+        console(stderr=True).print(Text(f"  {visible(hint)}"))
 
 
 def fail(message: str, hint: str = "", code: int = FINDINGS) -> NoReturn:
@@ -65,7 +65,7 @@ def load_compiled(path: Path | str) -> Compiled:
     from mindlang.report import print_report
 
     compiled = load(path)
-    print_report(compiled.diagnostics, sys.modules[__name__].talk)
+    print_report(compiled.diagnostics, console(stderr=True))
     if compiled.graph is None:
         sys.exit(FINDINGS if compiled.readable else MISUSE)
     return compiled

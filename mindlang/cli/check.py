@@ -1,0 +1,38 @@
+"""`mindc check`: is everything in these files right?"""
+
+import sys
+
+import click
+
+
+@click.command(
+    epilog="Examples:  mindc check collect.mind  ·  mindc check *.mind --json  ·  cat a.mind | mindc check -"
+)
+@click.argument("files", nargs=-1, required=True, metavar="FILE…")
+@click.option("--json", "as_data", is_flag=True, help="One JSON document instead: mindc check collect.mind --json")
+def command(files: tuple[str, ...], as_data: bool) -> None:
+    """Read files, and report everything that is wrong in them.
+
+    Ends with 0 when nothing is wrong, with 1 when something is, with 2 when a file cannot be read.
+    """
+    from mindlang.cli import FINDINGS, MISUSE, OK
+    from mindlang.cli.shared import console, print_json
+    from mindlang.compile import load
+    from mindlang.report import as_json, print_report
+
+    compiled = {file: load(file) for file in files}
+    found = [diagnostic for result in compiled.values() for diagnostic in result.diagnostics]
+    if as_data:
+        print_json(
+            {
+                "files": [{"file": file, "ok": result.graph is not None} for file, result in compiled.items()],
+                "diagnostics": [as_json(diagnostic) for diagnostic in found],
+            }
+        )
+    elif found:
+        print_report(found, console(stderr=True))
+        click.echo(f"{len(found)} mistake{'s' if len(found) > 1 else ''}", err=True)
+    else:
+        click.echo("nothing wrong", err=True)
+    readable = all(result.readable for result in compiled.values())
+    sys.exit(MISUSE if not readable else FINDINGS if found else OK)

@@ -1,0 +1,69 @@
+"""The way through: text → File → Mind → Graph, for any input without an exception."""
+
+import sys
+from dataclasses import dataclass
+from pathlib import Path
+
+from mindrun.graph import Graph
+
+from mindlang.diagnostic import Diagnostic, Findings
+from mindlang.lower import lower
+from mindlang.model import Mind
+from mindlang.resolve import resolve
+from mindlang.source import LIMIT, Source, Span, decode
+from mindlang.syntax import File
+from mindlang.use import files, read
+
+
+@dataclass(frozen=True, slots=True)
+class Compiled:
+    """What became of a file. `graph` and `mind` are None where the diagnostics hold an error."""
+
+    graph: Graph | None
+    mind: Mind | None
+    diagnostics: tuple[Diagnostic, ...]
+    sources: tuple[Source, ...]
+
+    @property
+    def readable(self) -> bool:
+        """Whether the main file could be read at all."""
+        return bool(self.sources)
+
+
+def load(path: Path | str) -> Compiled:
+    """The file at `path`, or with "-" standard input, compiled; whatever is wrong is in the diagnostics."""
+    try:
+        if str(path) == "-":
+            source = Source("<stdin>", decode(sys.stdin.buffer.read(LIMIT + 1)), Path.cwd().resolve())
+        else:
+            source = read(Path(path), str(path))
+    except OSError as error:
+        return _unreadable(f"{path} cannot be read: {error.strerror or error}.", "Is the path right?")
+    except ValueError as error:
+        return _unreadable(f"{path} {error}.", "A .mind file is UTF-8 text of at most 1 MiB.")
+    return compile_source(source, Path(path).resolve())
+
+
+def compile_source(source: Source, path: Path = Path("-")) -> Compiled:
+    """A source that has been read, compiled together with the files that it uses."""
+    findings = Findings()
+    if not any(line.strip() and not line.lstrip().startswith("#") for line in source.text.split("\n")):
+        hint = "A file needs a tick, a master, a body, actuators, sensors and skills: mindc show one of the examples."
+        diagnostic = Diagnostic("empty-file", "There is nothing in this file.", Span(source, 0, 0), hint)
+        return Compiled(None, None, (diagnostic,), (source,))
+    parsed, complete = files(source, path, findings)
+    mind = resolve(parsed, findings) if complete else None  # names of a missing file would all seem unknown
+    graph = lower(mind) if mind else None
+    return Compiled(graph, mind, _sorted(findings, parsed), tuple(file.source for file in parsed))
+
+
+def _sorted(findings: Findings, parsed: list[File]) -> tuple[Diagnostic, ...]:
+    """The diagnostics file by file, in the order of their lines."""
+    order = {id(file.source): index for index, file in enumerate(parsed)}
+    return tuple(
+        sorted(findings.diagnostics, key=lambda d: (order[id(d.span.source)], d.span.start) if d.span else (-1, 0))
+    )
+
+
+def _unreadable(message: str, hint: str) -> Compiled:
+    return Compiled(None, None, (Diagnostic("unreadable", message, None, hint),), ())

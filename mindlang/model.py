@@ -1,0 +1,158 @@
+"""A mind: names resolved, units converted, every part with the place where it was written."""
+
+from dataclasses import dataclass
+from typing import Generic, TypeVar
+
+from mindrun.events import Event
+from mindrun.functions import Function
+from mindrun.graph import ActuatorKind, SensorKind
+from mindrun.learners import Genetic
+from mindrun.measures import Measure
+from mindrun.memory import Cell
+from mindrun.world import Content, Disc, Scene
+
+from mindlang.source import Span
+from mindlang.syntax import Declaration, Drives, File, Influences, Operator, Rewards, Teaches
+
+K = TypeVar("K")
+
+
+@dataclass(frozen=True, slots=True)
+class Part(Generic[K]):
+    """Something with a name and a kind: a sensor, an actuator, a memory, a body, a thing of a task."""
+
+    name: str
+    kind: K
+    span: Span
+
+
+@dataclass(frozen=True, slots=True)
+class Number:
+    """A number, `%` converted."""
+
+    value: float
+    span: Span
+
+
+@dataclass(frozen=True, slots=True)
+class Reading:
+    """The reading of a sensor or memory of width 1."""
+
+    name: str
+    span: Span
+
+
+@dataclass(frozen=True, slots=True)
+class EachReading:
+    """The reading that `for each` names."""
+
+    span: Span
+
+
+@dataclass(frozen=True, slots=True)
+class Measured:
+    """The value of a measure."""
+
+    measure: Measure
+    span: Span
+
+
+Term = Number | Reading | EachReading | Measured | Operator
+
+
+@dataclass(frozen=True, slots=True)
+class Expression:
+    """Terms in postfix order."""
+
+    terms: tuple[Term, ...]
+    span: Span
+
+
+@dataclass(frozen=True, slots=True)
+class Edge:
+    """What a skill sends to a "skill", an "actuator" or a "memory": an output of its function, or the value of `at`."""
+
+    to: str
+    target: str
+    at: Expression | None
+    fact: Drives | Influences
+
+
+@dataclass(frozen=True, slots=True)
+class Skill:
+    """A skill; `reads` are names of sensors and memories."""
+
+    name: str
+    function: Function
+    reads: tuple[str, ...]
+    edges: tuple[Edge, ...]
+    declaration: Declaration
+
+    @property
+    def subskills(self) -> tuple[str, ...]:
+        """The skills that it influences."""
+        return tuple(edge.target for edge in self.edges if edge.to == "skill")
+
+
+@dataclass(frozen=True, slots=True)
+class Condition:
+    """`left compare right`."""
+
+    left: Expression
+    compare: str
+    right: Expression
+
+
+@dataclass(frozen=True, slots=True)
+class Reward:
+    """A reward, per tick where `on` is None; `each` is the sensor that it goes through."""
+
+    amount: Expression
+    on: Event | None
+    each: str | None
+    when: Condition | None
+    fact: Rewards
+
+
+@dataclass(frozen=True, slots=True)
+class Task:
+    """A task: its world, its end, its rewards and what its benchmark counts."""
+
+    name: str
+    scene: Scene
+    things: tuple[Part[Content], ...]
+    ticks: int
+    ends: tuple[Event, ...]
+    rewards: tuple[Reward, ...]
+    counts: tuple[Event, ...]
+    declaration: Declaration
+
+
+@dataclass(frozen=True, slots=True)
+class Lesson:
+    """Who learns what, driven by whom, for how many generations, and how."""
+
+    curriculum: str
+    skill: str
+    task: str
+    master: str
+    generations: int
+    from_scratch: bool
+    learner: Genetic
+    fact: Teaches
+
+
+@dataclass(frozen=True, slots=True)
+class Mind:
+    """A whole mind, in the order of its sources. `tick` is in seconds."""
+
+    tick: float
+    master: str
+    body: Part[Disc]
+    sensors: tuple[Part[SensorKind], ...]
+    memories: tuple[Part[Cell], ...]
+    actuators: tuple[Part[ActuatorKind], ...]
+    skills: tuple[Skill, ...]
+    tasks: tuple[Task, ...]
+    lessons: tuple[Lesson, ...]
+    files: tuple[File, ...]

@@ -1,0 +1,109 @@
+"""Diagnostics for people and for programs: an excerpt with a caret on a terminal, plain data for JSON."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from typing import TYPE_CHECKING, Any
+from unicodedata import category, combining, east_asian_width
+
+from mindlang.diagnostic import Diagnostic
+from mindlang.source import Span
+
+if TYPE_CHECKING:
+    from rich.console import Console
+
+WIDE = 100  # columns of an excerpt
+MOST = 100  # diagnostics printed
+
+Segment = tuple[str, str]  # text and style
+
+
+def print_report(diagnostics: Sequence[Diagnostic], console: Console) -> None:
+    """Print diagnostics; after the first hundred only their number."""
+    if not diagnostics:
+        return
+    from rich.text import Text
+
+    for diagnostic in diagnostics[:MOST]:
+        console.print(Text.assemble(*_segments(diagnostic)))
+    if len(diagnostics) > MOST:
+        console.print(f"… and {len(diagnostics) - MOST} more.")
+
+
+def plain(diagnostic: Diagnostic) -> str:
+    """A diagnostic as text without colours."""
+    return "".join(text for text, _ in _segments(diagnostic))
+
+
+def as_json(diagnostic: Diagnostic) -> dict[str, Any]:
+    """A diagnostic as plain data; columns are counted in characters from 1."""
+    return {
+        "code": diagnostic.code,
+        "severity": diagnostic.severity,
+        "message": diagnostic.message,
+        "hint": diagnostic.hint,
+        **(_place(diagnostic.span) if diagnostic.span else {}),
+        "labels": [{"message": label.message, **_place(label.span)} for label in diagnostic.labels],
+    }
+
+
+def _place(span: Span) -> dict[str, Any]:
+    end = Span(span.source, span.end, span.end)
+    return {
+        "file": span.source.name,
+        "line": span.line,
+        "column": span.column,
+        "end_line": end.line,
+        "end_column": end.column,
+    }
+
+
+def _segments(diagnostic: Diagnostic) -> Iterator[Segment]:
+    if diagnostic.span:
+        yield f"{_where(diagnostic.span)}: ", "bold"
+    yield f"{diagnostic.severity}: ", "red" if diagnostic.severity == "error" else "yellow"
+    yield f"{visible(diagnostic.message)} [{diagnostic.code}]\n", ""
+    if diagnostic.span:
+        yield from _excerpt(diagnostic.span, "^", "red")
+    for label in diagnostic.labels:
+        yield f"  {_where(label.span)}: {visible(label.message)}\n", "dim"
+        yield from _excerpt(label.span, "-", "blue")
+    if diagnostic.hint:
+        yield f"  {visible(diagnostic.hint)}\n", "cyan"
+
+
+def _where(span: Span) -> str:
+    return f"{visible(span.source.name)}:{span.line}:{span.column}"
+
+
+def _excerpt(span: Span, mark: str, style: str) -> Iterator[Segment]:
+    """The line of a span, as much of it as fits, and marks below the span."""
+    line = span.source.line(span.line)
+    column = span.column - 1
+    first = max(0, column - WIDE // 2) if len(line) > WIDE else 0
+    shown = line[first : first + WIDE]
+    indent = visible(line[first:column])
+    marked = visible(shown[column - first : column - first + span.end - span.start])
+    number = str(span.line)
+    yield f"  {number} | ", "dim"
+    yield f"{'…' if first else ''}{visible(shown)}{'…' if first + WIDE < len(line) else ''}\n", ""
+    yield f"  {' ' * len(number)} | {' ' * (_cells(indent) + bool(first))}", "dim"
+    yield f"{mark * max(1, _cells(marked))}\n", style
+
+
+def visible(text: str) -> str:
+    """Text that does to a terminal only what it seems to: control and direction characters are spelt out."""
+    return "".join(_visible(character) for character in text)
+
+
+def _visible(character: str) -> str:
+    if character == "\t":
+        return "    "
+    if category(character) in {"Cc", "Cf", "Cs", "Co", "Cn", "Zl", "Zp"}:
+        return f"\\u{ord(character):04x}"
+    return character
+
+
+def _cells(text: str) -> int:
+    """How many columns a terminal gives to a text."""
+    return sum(0 if combining(c) else 2 if east_asian_width(c) in "WF" else 1 for c in text)

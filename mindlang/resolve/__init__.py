@@ -1,0 +1,99 @@
+"""Files → Mind: names found, kinds built, units converted, and everything that is wrong reported."""
+
+from collections.abc import Sequence
+from typing import TypeVar
+
+from mindrun.quantity import SECONDS
+from mindrun.world import Disc
+
+from mindlang import model
+from mindlang.diagnostic import Findings, Label
+from mindlang.hierarchy import check_cycles
+from mindlang.resolve.curricula import lessons
+from mindlang.resolve.names import Names, gather
+from mindlang.resolve.parts import parts, widths
+from mindlang.resolve.quantities import convert
+from mindlang.resolve.skills import skills
+from mindlang.resolve.tasks import tasks
+from mindlang.source import Span
+from mindlang.syntax import File, Master, Setting, Tick
+
+S = TypeVar("S", bound=Setting)
+
+
+def resolve(files: Sequence[File], findings: Findings) -> model.Mind | None:
+    """The mind that the files declare, the main one first; None when anything in them is wrong."""
+    all_read = not findings.diagnostics
+    names = gather(files, findings)
+    tick = _tick(files, findings)
+    sensors = parts("sensor", names, findings)
+    width = dict.fromkeys(names.of("sensor", "memory"), 1) | widths(sensors, findings)
+    memories, actuators = parts("memory", names, findings), parts("actuator", names, findings)
+    known_skills = skills(names, width, findings)
+    check_cycles(known_skills, findings)
+    known_tasks = tasks(names, sensors, width, tick, findings)
+    known_lessons = tuple(lessons(names, known_skills, findings))
+    body = _body(names, findings)
+    master = _master(files[0], names, findings)
+    if all_read:
+        _check_complete(files, names, known_skills, findings)
+    if findings.diagnostics or body is None:
+        return None
+    return model.Mind(
+        tick, master, body, sensors, memories, actuators, known_skills, known_tasks, known_lessons, tuple(files)
+    )
+
+
+def _settings(file: File, form: type[S]) -> list[S]:
+    return [setting for setting in file.settings if isinstance(setting, form)]
+
+
+def _tick(files: Sequence[File], findings: Findings) -> float:
+    """The tick in seconds, on which all files agree."""
+    first: tuple[float, Span] | None = None
+    for setting in (setting for file in files for setting in _settings(file, Tick)):
+        seconds = convert(setting.amount, SECONDS, findings)
+        if seconds and first and seconds != first[0]:
+            label = Label(first[1], "first said here")
+            findings.error(
+                "tick-differs", setting.span, "The tick differs from the one said before.", "Use one tick.", label
+            )
+        if seconds and not first:
+            first = seconds, setting.span
+    return first[0] if first else 1.0
+
+
+def _body(names: Names, findings: Findings) -> model.Part[Disc] | None:
+    declared = list(names.declarations("body"))
+    for _, again in declared[1:]:
+        first = Label(declared[0][1].header.span, "the first one")
+        findings.error("second-body", again.header.span, "A mind has one body.", "Leave one of the two out.", first)
+    return next(iter(parts("body", names, findings)), None)
+
+
+def _master(file: File, names: Names, findings: Findings) -> str:
+    """The master of the main file; those of used files do not count."""
+    settings = _settings(file, Master)
+    for again in settings[1:]:
+        first = Label(settings[0].span, "first said here")
+        findings.error("second-master", again.span, "A mind has one master.", "Leave one of the two lines out.", first)
+    for setting in settings[:1]:
+        names.find(setting.name, ("skill",), findings)
+    return settings[0].name.text if settings else ""
+
+
+def _check_complete(
+    files: Sequence[File], names: Names, known_skills: tuple[model.Skill, ...], findings: Findings
+) -> None:
+    """Report what every mind needs and this one lacks."""
+    below = {name for skill in known_skills for name in skill.subskills}
+    top = next((skill.name for skill in known_skills if skill.name not in below), "SKILL")
+    needs = (
+        (any(_settings(file, Tick) for file in files), "no-tick", "how long a tick is", "tick 1/60 s"),
+        (bool(_settings(files[0], Master)), "no-master", "which skill is the master", f"master {top}"),
+        (bool(names.of("body")), "no-body", "which body the robot has", "body Robot is disc size 2"),
+    )
+    start = Span(files[0].source, 0, 0)
+    for there, code, what, line in needs:
+        if not there:
+            findings.error(code, start, f"The file does not say {what}.", f"Add the line {line}.")

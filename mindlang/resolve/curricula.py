@@ -1,0 +1,88 @@
+"""Curricula: who is taught what, under which master, for how long."""
+
+from collections.abc import Iterator, Mapping
+from dataclasses import replace
+from typing import Any
+
+from mindrun.functions import Mlp
+from mindrun.quantity import GENERATIONS
+
+from mindlang import model
+from mindlang.diagnostic import Findings
+from mindlang.resolve.kinds import Scope, make, overrides
+from mindlang.resolve.names import Names
+from mindlang.resolve.parts import refuse_facts
+from mindlang.resolve.quantities import convert
+from mindlang.syntax import Argument, Name, Teaches
+
+
+def lessons(names: Names, skills: tuple[model.Skill, ...], findings: Findings) -> Iterator[model.Lesson]:
+    """Every lesson of every curriculum that is well said, in order."""
+    by_name = {skill.name: skill for skill in skills}
+    for name, declaration in names.declarations("curriculum"):
+        refuse_facts(declaration, (Teaches,), findings)
+        phrase = declaration.header.phrase
+        learner = make("curriculum", phrase, Scope(names, None), findings) if phrase else None
+        for fact in declaration.facts:
+            if isinstance(fact, Teaches):
+                lesson = _lesson(name, fact, learner, names, by_name, findings)
+                yield from [lesson] if lesson else []
+
+
+def _lesson(
+    curriculum: str, fact: Teaches, learner: Any, names: Names, skills: Mapping[str, model.Skill], findings: Findings
+) -> model.Lesson | None:
+    before = len(findings.diagnostics)
+    master = fact.master or fact.skill
+    found = [names.find(fact.skill, ("skill",), findings), names.find(fact.task, ("task",), findings)]
+    if fact.master:
+        found.append(names.find(fact.master, ("skill",), findings))
+    generations = convert(fact.generations, GENERATIONS, findings)
+    scratch, arguments = _from_scratch(fact.arguments, findings)
+    said = overrides(type(learner), "teaches", arguments, findings) if learner else {}
+    if found[0]:
+        _check_learns(fact, skills[fact.skill.text], findings)
+    if None not in found:
+        _check_reached(fact, master, skills, findings)
+    if learner is None or generations is None or len(findings.diagnostics) > before:
+        return None
+    return model.Lesson(
+        curriculum,
+        fact.skill.text,
+        fact.task.text,
+        master.text,
+        int(generations),
+        scratch,
+        replace(learner, **said),
+        fact,
+    )
+
+
+def _from_scratch(written: tuple[Argument, ...], findings: Findings) -> tuple[bool, tuple[Argument, ...]]:
+    """Whether the lesson says `from scratch`, and its other arguments."""
+    said = tuple(argument for argument in written if argument.key.text == "from")
+    for argument in said:
+        if not isinstance(argument.value, Name) or argument.value.text != "scratch":
+            message = "A lesson starts from scratch or, without this, from the weights that the skill has."
+            findings.error("from-scratch", argument.span, message, "Write from scratch.")
+    return bool(said), tuple(argument for argument in written if argument not in said)
+
+
+def _check_learns(fact: Teaches, skill: model.Skill, findings: Findings) -> None:
+    if skill.function is not None and not isinstance(skill.function, Mlp):
+        kind = type(skill.function).__name__.lower()
+        hint = f"Leave the lesson out, or make {skill.name} an mlp."
+        findings.error("cannot-learn", fact.skill.span, f"{skill.name} is a {kind}, which does not learn.", hint)
+
+
+def _check_reached(fact: Teaches, master: Name, skills: Mapping[str, model.Skill], findings: Findings) -> None:
+    """Report a learner that the master never influences: nothing that it does would show."""
+    reached, waiting = {master.text}, [master.text]
+    while waiting:
+        new = [skill for skill in skills[waiting.pop()].subskills if skill not in reached]
+        reached.update(new)
+        waiting += new
+    if fact.skill.text not in reached:
+        hint = f"Let {master.text} or a skill below it influence {fact.skill.text}, or leave under out."
+        message = f"{master.text} has no influence on {fact.skill.text}, which would learn nothing."
+        findings.error("out-of-reach", master.span, message, hint)

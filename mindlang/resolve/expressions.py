@@ -1,0 +1,91 @@
+"""Expressions: their readings and measures found, their numbers converted."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from mindrun.quantity import Quantity
+from mindrun.registry import kinds
+
+from mindlang import model, syntax
+from mindlang.diagnostic import Findings, did_you_mean
+from mindlang.resolve.kinds import Scope, make
+from mindlang.resolve.quantities import convert
+from mindlang.syntax import Amount, Operator, Phrase
+
+PLAIN = Quantity("a plain number", {"": 1.0, "%": 0.01})
+
+
+@dataclass(frozen=True, slots=True)
+class Visible:
+    """What an expression can see: readings with their widths, the name of `for each`, in a task measures.
+
+    `elsewhere` are the readings that exist but are no inputs of the skill.
+    """
+
+    readings: Mapping[str, int]
+    measures: Scope | None = None
+    each: str | None = None
+    elsewhere: Mapping[str, int] | None = None
+
+
+def resolve(expression: syntax.Expression, visible: Visible, findings: Findings) -> model.Expression:
+    """The expression with its names resolved; a term that cannot be is reported and left out."""
+    divided = (
+        right for right, operator in zip(expression.terms, expression.terms[1:], strict=False) if _divides(operator)
+    )
+    for right in divided:
+        if isinstance(right, Amount) and right.number == 0:
+            findings.error("division-by-zero", right.span, "This divides by zero.", "Divide by something else.")
+    terms = [_term(term, visible, findings) for term in expression.terms]
+    return model.Expression(tuple(term for term in terms if term), expression.span)
+
+
+def _divides(term: syntax.Term) -> bool:
+    return isinstance(term, Operator) and term.symbol == "/"
+
+
+def _term(term: syntax.Term, visible: Visible, findings: Findings) -> model.Term | None:
+    match term:
+        case Operator():
+            return term
+        case Amount():
+            value = convert(term, PLAIN, findings)
+            return None if value is None else model.Number(value, term.span)
+        case Phrase(arguments=()) if term.kind.text == visible.each:
+            return model.EachReading(term.span)
+        case Phrase(arguments=()) if term.kind.text in visible.readings:
+            return _reading(term, visible, findings)
+        case Phrase() if visible.measures and term.kind.text in kinds("measure"):
+            measure = make("measure", term, visible.measures, findings)
+            return model.Measured(measure, term.span) if measure else None
+    _unknown(term, visible, findings)
+    return None
+
+
+def _reading(term: Phrase, visible: Visible, findings: Findings) -> model.Reading | None:
+    name, width = term.kind.text, visible.readings[term.kind.text]
+    if width == 1:
+        return model.Reading(name, term.span)
+    if visible.measures:
+        hint = f"Write p instead and add for each p in {name}."
+    else:
+        hint = "Only a sensor with one reading can stand here; give the direction that you mean a sensor of its own."
+    findings.error("wide-reading", term.span, f"{name} has {width} readings; an expression takes one number.", hint)
+    return None
+
+
+def _unknown(term: Phrase, visible: Visible, findings: Findings) -> None:
+    name = term.kind.text
+    if name in visible.readings:
+        findings.error("reading-argument", term.span, f"{name} is a reading and takes no arguments.", f"Write {name}.")
+    elif visible.elsewhere and name in visible.elsewhere:
+        hint = f"Add the line reads {name}; an expression after at sees the inputs of its own skill."
+        findings.error("not-an-input", term.span, f"The skill does not read {name}.", hint)
+    elif visible.measures:
+        hint = did_you_mean(name, [*visible.readings, *kinds("measure")])
+        hint = hint or "A reward is made of sensors, memories and measures such as forward or progress toward X."
+        findings.error("unknown-measure", term.kind.span, f"There is no reading or measure called {name}.", hint)
+    else:
+        hint = did_you_mean(name, [*visible.readings, *(visible.elsewhere or ())])
+        hint = hint or "An expression after at is made of numbers and the inputs of its skill."
+        findings.error("unknown-reading", term.kind.span, f"There is no reading called {name}.", hint)

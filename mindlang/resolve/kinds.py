@@ -1,0 +1,150 @@
+"""Phrases → kinds: the kind found in the registry, its arguments checked and converted."""
+
+from collections.abc import Iterable, Mapping, Set
+from dataclasses import dataclass
+from typing import Any
+
+from mindrun.quantity import Quantity, Reference
+from mindrun.registry import Argument as Parameter
+from mindrun.registry import arguments, kinds
+
+from mindlang.diagnostic import Findings, Label, did_you_mean, listed
+from mindlang.mistakes import VERBS
+from mindlang.resolve import quantities
+from mindlang.resolve.names import Names
+from mindlang.syntax import Argument, Name, Phrase
+
+# What a kind can be about where not every item, zone and power will do. Obstacles are many: no kind is about one.
+ABOUT: Mapping[tuple[str, str], Set[str]] = {
+    ("sensor", "contact"): {"item"},
+    ("sensor", "held"): {"item"},
+    ("sensor", "inside"): {"zone", "power"},
+    ("event", "delivery"): {"item"},
+}
+PLACES: Set[str] = {"item", "zone", "power"}
+WHY = {
+    "neutral": "It is what the actuator is sent when nothing influences it and whenever something fails: "
+    "a wheel's 0 is full reverse."
+}
+
+
+@dataclass(frozen=True, slots=True)
+class Scope:
+    """What the arguments of a phrase can name. `things` are None where no task says which there are."""
+
+    names: Names
+    things: Mapping[str, Set[str]] | None
+    place: str = "any task"
+
+
+def make(noun: str, phrase: Phrase, scope: Scope, findings: Findings) -> Any:
+    """The kind that a phrase names, with its arguments, or None after reporting what is wrong with it."""
+    cls = kinds(noun).get(phrase.kind.text)
+    if cls is None:
+        hint = did_you_mean(phrase.kind.text, kinds(noun)) or f"There is {listed(sorted(kinds(noun)), 'and')}."
+        findings.error("unknown-kind", phrase.kind.span, f"There is no kind of {noun} called {phrase.kind.text}.", hint)
+        return None
+    before = len(findings.diagnostics)
+    parameters = {parameter.key: parameter for parameter in arguments(cls)}
+    values = {
+        parameters[key].field: _value(noun, phrase, parameters[key], argument, scope, findings)
+        for key, argument in _by_key(phrase.kind.text, phrase.arguments, parameters, findings).items()
+    }
+    for key, parameter in parameters.items():
+        if parameter.required and parameter.field not in values:
+            _missing(noun, phrase, key, findings)
+    return cls(**values) if len(findings.diagnostics) == before else None
+
+
+def overrides(cls: type[Any], kind: str, written: Iterable[Argument], findings: Findings) -> dict[str, Any]:
+    """The fields that arguments give to an instance of `cls`, all of them numbers."""
+    parameters = {parameter.key: parameter for parameter in arguments(cls)}
+    found = _by_key(kind, written, parameters, findings)
+    return {parameters[key].field: _number(parameters[key], argument, findings) for key, argument in found.items()}
+
+
+def _by_key(
+    kind: str, written: Iterable[Argument], parameters: Mapping[str, Parameter], findings: Findings
+) -> dict[str, Argument]:
+    found: dict[str, Argument] = {}
+    for argument in written:
+        key = argument.key.text
+        if key not in parameters:
+            _unknown(kind, argument.key, parameters, findings)
+        elif key in found:
+            first = Label(found[key].span, "first said here")
+            findings.error("repeated-argument", argument.key.span, f"{key} is said twice.", "Leave one out.", first)
+        else:
+            found[key] = argument
+    return found
+
+
+def _unknown(kind: str, key: Name, parameters: Mapping[str, Parameter], findings: Findings) -> None:
+    if key.text in VERBS:
+        findings.error("two-facts", key.span, "Two facts stand on one line.", f"Begin a new line before {key.text}.")
+        return
+    takes = f"{kind} takes {listed(parameters, 'and')}." if parameters else f"{kind} takes no arguments."
+    hint = did_you_mean(key.text, parameters) or takes
+    findings.error("unknown-argument", key.span, f"{kind} has no argument called {key.text}.", hint)
+
+
+def _missing(noun: str, phrase: Phrase, key: str, findings: Findings) -> None:
+    reason = WHY.get(key, "")
+    example = (
+        f"Write {phrase.kind.text} {key} …" if key != "neutral" else "Write neutral 0.5 for a wheel that stands still."
+    )
+    message = f"{phrase.kind.text} needs {key}."
+    findings.error("missing-argument", phrase.span, message, f"{reason} {example}".strip())
+
+
+def _value(
+    noun: str, phrase: Phrase, parameter: Parameter, argument: Argument, scope: Scope, findings: Findings
+) -> Any:
+    if not isinstance(parameter.type, Reference):
+        return _number(parameter, argument, findings)
+    if not isinstance(argument.value, Name):
+        message = f"A number cannot stand after {parameter.key}."
+        findings.error("not-a-name", argument.value.span, message, f"Here stands the name of a {parameter.type.noun}.")
+        return None
+    _check(noun, phrase, parameter.type, argument.value, scope, findings)
+    return argument.value.text
+
+
+def _number(parameter: Parameter, argument: Argument, findings: Findings) -> Any:
+    assert isinstance(parameter.type, Quantity)
+    match parameter.shape:
+        case "one":
+            return quantities.one(argument.value, parameter.type, findings)
+        case "list":
+            return quantities.many(argument.value, parameter.type, findings)
+        case _:
+            return quantities.span(argument.value, parameter.type, findings)
+
+
+def _check(noun: str, phrase: Phrase, type_: Reference, name: Name, scope: Scope, findings: Findings) -> None:
+    match type_.noun:
+        case "thing":
+            _check_thing(name, ABOUT.get((noun, phrase.kind.text), PLACES), phrase.kind.text, scope, findings)
+        case "sensor":
+            scope.names.find(name, ("sensor", "memory"), findings)
+        case "Python function":
+            if "." not in name.text:
+                hint = f"Write the module and the function: procedure from module.{name.text}."
+                findings.error("no-module", name.span, f"{name.text} does not say in which module it is.", hint)
+        case _ if name.text not in type_.words:
+            hint = did_you_mean(name.text, type_.words) or f"It is {listed(type_.words)}."
+            findings.error(f"unknown-{type_.noun}", name.span, f"There is no {type_.noun} called {name.text}.", hint)
+
+
+def _check_thing(name: Name, about: Set[str], kind: str, scope: Scope, findings: Findings) -> None:
+    if scope.things is None:
+        return
+    if name.text not in scope.things:
+        hint = (
+            did_you_mean(name.text, scope.things) or f"Add contains {name.text} is {listed(sorted(about))} to the task."
+        )
+        findings.error("unknown-thing", name.span, f"There is nothing called {name.text} in {scope.place}.", hint)
+    elif not scope.things[name.text] & about:
+        is_ = listed(sorted(scope.things[name.text]))
+        hint = f"{name.text} is {is_}; {kind} is about {listed(sorted(about))}."
+        findings.error("unfit-thing", name.span, f"{kind} cannot be about {name.text}.", hint)

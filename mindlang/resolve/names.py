@@ -1,0 +1,90 @@
+"""The names of a mind: every noun has its own, and each is declared once."""
+
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
+
+from mindlang.diagnostic import Findings, Label, did_you_mean, listed
+from mindlang.syntax import Contains, Declaration, File, Name
+
+# A memory is read like a sensor and driven like an actuator, so its name must be neither's.
+SHARED = {"sensor": ("memory",), "actuator": ("memory",), "memory": ("sensor", "actuator")}
+DOES = {
+    "sensor": "a skill reads sensors",
+    "memory": "a skill reads and drives memories",
+    "actuator": "a skill drives actuators",
+    "skill": "skills are influenced, taught, and one is the master",
+}
+
+
+@dataclass(frozen=True, slots=True)
+class Names:
+    """Declarations by noun and name, in the order of the sources."""
+
+    table: dict[str, dict[str, Declaration]]
+
+    def of(self, *nouns: str) -> list[str]:
+        """The names declared with one of these nouns."""
+        return [name for noun in nouns for name in self.table.get(noun, {})]
+
+    def noun_of(self, name: str, nouns: Iterable[str]) -> str | None:
+        """The first of the nouns with which the name is declared."""
+        return next((noun for noun in nouns if name in self.table.get(noun, {})), None)
+
+    def declarations(self, noun: str) -> Iterator[tuple[str, Declaration]]:
+        """The declarations of a noun with their names."""
+        yield from self.table.get(noun, {}).items()
+
+    def find(self, name: Name, nouns: Sequence[str], findings: Findings) -> str | None:
+        """The noun with which the name is declared; a name that is not is reported."""
+        if noun := self.noun_of(name.text, nouns):
+            return noun
+        wanted = listed(nouns)
+        other = self.noun_of(name.text, [noun for noun in DOES if noun not in nouns])
+        if other:
+            hint = f"There is {_a(other)} of that name, but {DOES[other]}."
+        else:
+            hint = did_you_mean(name.text, self.of(*nouns)) or self._offer(nouns)
+        findings.error(f"unknown-{nouns[0]}", name.span, f"There is no {wanted} called {name.text}.", hint)
+        return None
+
+    def _offer(self, nouns: Sequence[str]) -> str:
+        known = self.of(*nouns)
+        if not known:
+            return f"Declare it: {nouns[0]} NAME {'in' if nouns[0] == 'task' else 'is'} KIND."
+        more = ", …" if len(known) > 8 else ""
+        return f"There is {', '.join(known[:8])}{more}." if len(known) > 1 else f"The only one is {known[0]}."
+
+    def things(self) -> dict[str, set[str]]:
+        """The things that some task contains, with the kinds that they are of."""
+        found: dict[str, set[str]] = {}
+        for _, task in self.declarations("task"):
+            for name, kinds in things_of(task).items():
+                found.setdefault(name, set()).update(kinds)
+        return found
+
+
+def things_of(task: Declaration) -> dict[str, set[str]]:
+    """The things of one task, with the kinds that they are of."""
+    found: dict[str, set[str]] = {}
+    for fact in task.facts:
+        if isinstance(fact, Contains):
+            found.setdefault(fact.name.text, set()).add(fact.phrase.kind.text)
+    return found
+
+
+def gather(files: Iterable[File], findings: Findings) -> Names:
+    """All declarations by name; of two with one name the second is reported."""
+    names = Names({})
+    for declaration in (declaration for file in files for declaration in file.declarations):
+        noun, name = declaration.header.noun.text, declaration.header.name
+        if other := names.noun_of(name.text, (noun, *SHARED.get(noun, ()))):
+            first = Label(names.table[other][name.text].header.name.span, "first declared here")
+            message = f"There is already {_a(other)} called {name.text}."
+            findings.error("duplicate-name", name.span, message, "Give one of the two another name.", first)
+        else:
+            names.table.setdefault(noun, {})[name.text] = declaration
+    return names
+
+
+def _a(noun: str) -> str:
+    return f"an {noun}" if noun[0] in "aeiou" else f"a {noun}"

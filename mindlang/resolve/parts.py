@@ -1,0 +1,64 @@
+"""Sensors, memories, actuators and the body; how many readings each sensor has."""
+
+from typing import Any
+
+from mindrun.sensors import Derivative, RangeFinder
+
+from mindlang.diagnostic import Findings
+from mindlang.model import Part
+from mindlang.resolve.kinds import Scope, make
+from mindlang.resolve.names import Names
+from mindlang.syntax import Declaration, Fact
+
+
+def parts(noun: str, names: Names, findings: Findings) -> tuple[Part[Any], ...]:
+    """The parts declared with a noun, as far as their kinds are well said."""
+    things = names.things() if names.of("task") else None
+    found = []
+    for name, declaration in names.declarations(noun):
+        refuse_facts(declaration, (), findings)
+        header = declaration.header
+        kind = header.phrase and make(noun, header.phrase, Scope(names, things), findings)
+        if kind:
+            found.append(Part(name, kind, header.name.span))
+    return tuple(found)
+
+
+def refuse_facts(declaration: Declaration, allowed: tuple[type[Fact], ...], findings: Findings) -> None:
+    """Report the facts that a declaration of this noun cannot have."""
+    noun = declaration.header.noun.text
+    for fact in declaration.facts:
+        if not isinstance(fact, allowed):
+            verb = type(fact).__name__.lower()
+            verbs = ", ".join(form.__name__.lower() for form in allowed)
+            hint = (
+                f"Below {noun} {declaration.header.name.text} can stand {verbs}."
+                if allowed
+                else "It is said in one line."
+            )
+            findings.error("foreign-fact", fact.span, f"{noun.capitalize()} has no {verb}.", hint)
+
+
+def widths(sensors: tuple[Part[Any], ...], findings: Findings) -> dict[str, int]:
+    """How many readings each sensor has; derivatives of one another are reported."""
+    found = {sensor.name: 1 for sensor in sensors}
+    derived = {sensor.name: sensor for sensor in sensors if isinstance(sensor.kind, Derivative)}
+    found |= {sensor.name: len(sensor.kind.at) for sensor in sensors if isinstance(sensor.kind, RangeFinder)}
+    done: set[str] = set()
+    for name in derived:
+        chain, last = {name: None}, name
+        while last in derived and last not in done:
+            last = derived[last].kind.of
+            if last in chain:
+                _loop([*chain], last, derived, findings)
+                break
+            chain[last] = None
+        found.update(dict.fromkeys(chain, found.get(last, 1)))
+        done.update(chain)
+    return found
+
+
+def _loop(chain: list[str], again: str, derived: dict[str, Part[Any]], findings: Findings) -> None:
+    path = [*chain[chain.index(again) :], again]
+    message = f"A sensor is derived from itself: {' → '.join(path)}."
+    findings.error("derivative-loop", derived[again].span, message, "Derive one of them from another sensor.")

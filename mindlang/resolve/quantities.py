@@ -1,0 +1,99 @@
+"""Amounts as written → numbers: units converted, ranges and whole numbers checked."""
+
+from math import inf, isfinite
+
+from mindrun.quantity import Quantity, Span
+
+from mindlang.diagnostic import Findings, listed
+from mindlang.syntax import Amount, Numbers, Range, Value
+
+
+def convert(amount: Amount, quantity: Quantity, findings: Findings, unit: str = "") -> float | int | None:
+    """The value of an amount, `unit` being that of its list, or None after reporting why it has none."""
+    written = amount.unit or unit
+    if not isfinite(amount.number):
+        hint = "A fraction is not over 0, and a number has fewer than 300 digits."
+        findings.error("not-a-number", amount.span, f"{amount.span.text[:40]} is not a number.", hint)
+        return None
+    if written not in quantity.units:
+        _wrong_unit(amount, quantity, findings)
+        return None
+    # 7 / 100 is the number nearest to 7%; 7 * 0.01 is not.
+    value = amount.number / 100 if written == "%" else amount.number * quantity.units[written]
+    if quantity.whole and not value.is_integer():
+        findings.error(
+            "not-whole", amount.span, f"{amount.span.text} is not a whole number.", f"Here stands {quantity.name}."
+        )
+        return None
+    if not quantity.low <= value <= quantity.high:
+        findings.error("out-of-range", amount.span, f"{amount.span.text} is out of range.", _bounds(quantity))
+        return None
+    return int(value) if quantity.whole else value
+
+
+def _wrong_unit(amount: Amount, quantity: Quantity, findings: Findings) -> None:
+    bare = amount.span.text.removesuffix(amount.unit).strip()
+    units = [f"{bare} {unit}".replace(" %", "%").strip() for unit in quantity.units]
+    message = f"{amount.unit} is not a unit of {quantity.name}." if amount.unit else "This number needs a unit."
+    findings.error("wrong-unit", amount.span, message, f"Here stands {quantity.name}: write {listed(units)}.")
+
+
+def _bounds(quantity: Quantity) -> str:
+    if quantity.high != inf:
+        return f"Here stands {quantity.name}, from {quantity.low:g} to {quantity.high:g}."
+    low = "above 0" if 0 < quantity.low < 1e-6 else f"at least {quantity.low:g}"
+    return f"Here stands {quantity.name}, {low}."
+
+
+def one(value: Value, quantity: Quantity, findings: Findings) -> float | int | None:
+    """The value of an argument that takes one number."""
+    match value:
+        case Numbers(amounts=(amount,)):
+            return convert(amount, quantity, findings)
+        case Numbers() | Range():
+            hint = f"Here stands {quantity.name}, for example {_example(value)}."
+            findings.error("one-number", value.span, "Only one number can stand here.", hint)
+        case _:
+            findings.error(
+                "not-a-number", value.span, f"{value.text} is not a number.", f"Here stands {quantity.name}."
+            )
+    return None
+
+
+def _example(value: Numbers | Range) -> str:
+    return (value.amounts[0] if isinstance(value, Numbers) else value.first).span.text
+
+
+def many(value: Value, quantity: Quantity, findings: Findings) -> tuple[float | int, ...] | None:
+    """The values of an argument that takes a list; the last unit goes for all that have none."""
+    match value:
+        case Numbers(amounts=amounts):
+            numbers = [convert(amount, quantity, findings, amounts[-1].unit) for amount in amounts]
+            return tuple(n for n in numbers if n is not None) if None not in numbers else None
+        case Range():
+            findings.error(
+                "no-range", value.span, "A list cannot be a range.", "Write each number, with spaces between."
+            )
+        case _:
+            findings.error(
+                "not-a-number", value.span, f"{value.text} is not a number.", f"Here stands {quantity.name}."
+            )
+    return None
+
+
+def span(value: Value, quantity: Quantity, findings: Findings) -> Span | None:
+    """The value of an argument that takes one number, a range or a schedule."""
+    if not isinstance(value, Range):
+        number = one(value, quantity, findings)
+        return None if number is None else Span(number, number)
+    unit = value.last.unit
+    first, last = (convert(amount, quantity, findings, unit) for amount in (value.first, value.last))
+    step = Quantity(f"the step of a schedule, {quantity.name}", quantity.units, low=1e-9)
+    by = convert(value.by, step, findings, unit) if value.by else None
+    if first is None or last is None or (value.by and by is None):
+        return None
+    if by is None and first > last:
+        hint = f"Write {value.last.span.text} to {value.first.span.text}, or for a schedule add by and its step."
+        findings.error("range-backwards", value.span, "This range ends below its beginning.", hint)
+        return None
+    return Span(first, last, by)

@@ -1,0 +1,102 @@
+"""Skills: what they read, what they drive and influence, and that their function fits."""
+
+from collections.abc import Mapping
+from typing import Any
+
+from mindrun.functions import Function, Mlp, Rule
+
+from mindlang import model
+from mindlang.diagnostic import Findings, Label
+from mindlang.resolve.expressions import Visible, resolve
+from mindlang.resolve.kinds import Scope, make
+from mindlang.resolve.names import Names
+from mindlang.resolve.parts import refuse_facts
+from mindlang.source import Span
+from mindlang.syntax import Declaration, Drives, Influences, Reads
+
+
+def skills(names: Names, widths: Mapping[str, int], findings: Findings) -> tuple[model.Skill, ...]:
+    """Every skill, without the lines that are reported."""
+    return tuple(
+        _skill(name, declaration, names, widths, findings) for name, declaration in names.declarations("skill")
+    )
+
+
+def _skill(
+    name: str, declaration: Declaration, names: Names, widths: Mapping[str, int], findings: Findings
+) -> model.Skill:
+    refuse_facts(declaration, (Reads, Drives, Influences), findings)
+    phrase = declaration.header.phrase
+    function: Any = make("skill", phrase, Scope(names, None), findings) if phrase else None
+    reads = _reads(declaration, names, findings)
+    visible = Visible({read: widths[read] for read in reads}, elsewhere=widths)
+    edges = _edges(declaration, names, visible, findings)
+    if function:
+        _check(declaration, function, reads, edges, findings)
+    return model.Skill(name, function, reads, edges, declaration)
+
+
+def _reads(declaration: Declaration, names: Names, findings: Findings) -> tuple[str, ...]:
+    found: dict[str, Span] = {}
+    for fact in declaration.facts:
+        if isinstance(fact, Reads) and names.find(fact.name, ("sensor", "memory"), findings):
+            _once(found, fact.name.text, fact.span, "reads", findings)
+    return tuple(found)
+
+
+def _edges(declaration: Declaration, names: Names, visible: Visible, findings: Findings) -> tuple[model.Edge, ...]:
+    edges = []
+    seen: dict[str, Span] = {}
+    for fact in declaration.facts:
+        match fact:
+            case Drives():
+                to = names.find(fact.name, ("actuator", "memory"), findings)
+            case Influences():
+                to = names.find(fact.name, ("skill",), findings)
+            case _:
+                continue
+        at = resolve(fact.at, visible, findings) if fact.at else None
+        verb = type(fact).__name__.lower()
+        if to and _once(seen, fact.name.text, fact.span, verb, findings):
+            edges.append(model.Edge(to, fact.name.text, at, fact))
+    return tuple(edges)
+
+
+def _once(seen: dict[str, Span], name: str, span: Span, verb: str, findings: Findings) -> bool:
+    if name in seen:
+        first = Label(seen[name], "first said here")
+        findings.error(
+            "repeated-fact", span, f"The skill already {verb} {name}.", "Leave one of the two lines out.", first
+        )
+        return False
+    seen[name] = span
+    return True
+
+
+def _check(
+    declaration: Declaration,
+    function: Function,
+    reads: tuple[str, ...],
+    edges: tuple[model.Edge, ...],
+    findings: Findings,
+) -> None:
+    """Report a function that has nothing to work on; lines that are missing because they are wrong count as there."""
+    if not declaration.whole:
+        return
+    name = declaration.header.name
+    if not any(isinstance(fact, Drives | Influences) for fact in declaration.facts):
+        hint = "Add drives and an actuator, or influences and a skill."
+        findings.error("idle-skill", name.span, f"{name.text} drives nothing and influences nothing.", hint)
+    elif isinstance(function, Rule):
+        for edge in edges:
+            if edge.at is None:
+                hint = "A rule has no function of its own: write at and the value, for example at 1."
+                findings.error("missing-at", edge.fact.span, "This line of a rule does not say its value.", hint)
+    elif all(fact.at for fact in declaration.facts if isinstance(fact, Drives | Influences)):
+        hint = f"Write skill {name.text} is rule, or leave at out of a line."
+        findings.error(
+            "no-outputs", name.span, f"Every line of {name.text} says its value, so its function has none.", hint
+        )
+    if isinstance(function, Mlp) and not any(isinstance(fact, Reads) for fact in declaration.facts):
+        hint = "Add reads and a sensor, or make it a rule with at on every line."
+        findings.error("no-inputs", name.span, f"{name.text} reads nothing, so it has nothing to learn from.", hint)

@@ -1,0 +1,84 @@
+"""The files of a mind: the main one and those that it uses, all of them inside the project."""
+
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from mindlang.diagnostic import Findings
+from mindlang.parse import parse
+from mindlang.source import LIMIT, Source, decode
+from mindlang.syntax import File, Use
+
+DEEP = 64
+
+
+@dataclass(slots=True)
+class _Project:
+    root: Path
+    findings: Findings
+    files: dict[Path, File] = field(default_factory=dict)
+    open: list[Path] = field(default_factory=list)
+    complete: bool = True
+
+
+def read(path: Path, name: str) -> Source:
+    """The source at a path; OSError or ValueError says why it cannot be read."""
+    if path.is_dir():
+        raise ValueError("is a folder")
+    with path.open("rb") as file:
+        return Source(name, decode(file.read(LIMIT + 1)), path.resolve().parent)
+
+
+def files(source: Source, path: Path, findings: Findings) -> tuple[list[File], bool]:
+    """The main file and after it, once each, the files that it uses; and whether all of them could be read."""
+    project = _Project(source.folder, findings)
+    _add(path, source, project)
+    return list(project.files.values()), project.complete
+
+
+def _add(path: Path, source: Source, project: _Project) -> None:
+    file = parse(source, project.findings)
+    project.files[path] = file
+    project.open.append(path)
+    for use in file.settings:
+        if isinstance(use, Use):
+            _follow(use, project)
+    project.open.pop()
+
+
+def _follow(use: Use, project: _Project) -> None:
+    target = _inside(use, project)
+    if target is None:
+        project.complete = False
+    elif target in project.open:
+        loop = [*project.open[project.open.index(target) :], target]
+        names = " → ".join(path.relative_to(project.root).as_posix() for path in loop)
+        hint = "Move what both need into a third file, and use that in both."
+        project.findings.error("use-loop", use.span, f"Files use one another in a circle: {names}.", hint)
+    elif len(project.open) > DEEP:
+        hint = f"Files may use one another {DEEP} deep; use this one from nearer to the top."
+        project.findings.error("use-too-deep", use.span, "Files use one another too deep.", hint)
+    elif target not in project.files:
+        try:
+            source = read(target, Path(use.span.source.name).parent.joinpath(use.path).as_posix())
+        except OSError as error:
+            project.complete = False
+            hint = "The path is relative to the file in which it stands."
+            project.findings.error("unreadable-use", use.span, f"{use.path} cannot be read: {error.strerror}.", hint)
+        except ValueError as error:
+            project.complete = False
+            project.findings.error("unreadable-use", use.span, f"{use.path} {error}.", "Use a .mind file.")
+        else:
+            _add(target, source, project)
+
+
+def _inside(use: Use, project: _Project) -> Path | None:
+    """The path of the used file, or None after reporting that it is outside of the project."""
+    try:
+        target = (use.span.source.folder / use.path).resolve()
+    except (OSError, RuntimeError, ValueError):
+        target = Path("/")
+    if not use.path or Path(use.path).is_absolute() or not target.is_relative_to(project.root):
+        hint = f"Use files in {project.root.name or 'the folder of the main file'} or below it, by a relative path."
+        project.findings.error("outside-project", use.span, f'"{use.path}" is not inside the project.', hint)
+        return None
+    return target
