@@ -1,0 +1,94 @@
+"""Which lessons to teach: those of a curriculum, those asked for, and what must be taught before them."""
+
+from collections.abc import Collection, Sequence
+from dataclasses import dataclass, replace
+
+from mindrun.graph import Graph, Lesson, Skill
+from mindrun.train.errors import RunError
+from mindrun.weights import genes, reachable
+
+from mindlang.diagnostic import did_you_mean, listed
+
+
+@dataclass(frozen=True, slots=True)
+class Wishes:
+    """What the command line says instead of the source; None leaves it as it stands there."""
+
+    generations: int | None = None
+    population: int | None = None
+    attempts: int | None = None
+    from_scratch: bool = False
+
+    def applied(self, lesson: Lesson) -> Lesson:
+        """The lesson as it is wished for."""
+        learner = replace(
+            lesson.learner,
+            population=self.population or lesson.learner.population,
+            attempts=self.attempts or lesson.learner.attempts,
+        )
+        return replace(
+            lesson,
+            generations=self.generations or lesson.generations,
+            from_scratch=self.from_scratch or lesson.from_scratch,
+            learner=learner,
+        )
+
+
+def lessons(graph: Graph, curriculum: str | None, skills: Sequence[str]) -> tuple[Lesson, ...]:
+    """The lessons of a curriculum (the first where None), only those of `skills` where there are any.
+
+    A skill that the first curriculum does not teach is looked for in the others. RunError for an unknown name.
+    """
+    if not graph.lessons:
+        raise RunError(
+            "there is nothing to teach", "add a curriculum that says: teaches SKILL on TASK for N generations"
+        )
+    names = list(dict.fromkeys(lesson.curriculum for lesson in graph.lessons))
+    if curriculum is not None and curriculum not in names:
+        raise RunError(f"there is no curriculum called {curriculum}", _one_of(curriculum, names))
+    if not skills:
+        return _of(graph, curriculum or names[0])
+    searched = [curriculum] if curriculum else names
+    return tuple(lesson for skill in skills for lesson in _teaching(graph, searched, skill))
+
+
+def learner_of(graph: Graph, lesson: Lesson) -> Skill:
+    """The skill that a lesson teaches; RunError where it has nothing to learn."""
+    skill = next(skill for skill in graph.skills if skill.name == lesson.skill)
+    if genes(skill) == 0:
+        raise RunError(
+            f"{skill.name} has no weights to learn",
+            f"only an mlp learns: make {skill.name} one, or take the lesson out",
+        )
+    return skill
+
+
+def subskills(graph: Graph, lesson: Lesson) -> tuple[str, ...]:
+    """The skills whose weights a lesson needs: all that learn under its master, but the learner."""
+    return tuple(skill.name for skill in reachable(graph, lesson.master) if genes(skill) and skill.name != lesson.skill)
+
+
+def refuse_untaught(graph: Graph, lesson: Lesson, taught: Collection[str], source: str) -> None:
+    """RunError where a skill that the lesson needs has no weights; the hint says what to train first."""
+    missing = [skill for skill in reversed(subskills(graph, lesson)) if skill not in taught]
+    if missing:
+        raise RunError(
+            f"{lesson.skill} cannot be taught before {listed(missing, 'and')}",
+            f"mindc train {source} {' '.join(missing)}",
+        )
+
+
+def _of(graph: Graph, curriculum: str) -> tuple[Lesson, ...]:
+    return tuple(lesson for lesson in graph.lessons if lesson.curriculum == curriculum)
+
+
+def _teaching(graph: Graph, curricula: Sequence[str], skill: str) -> tuple[Lesson, ...]:
+    for curriculum in curricula:
+        if found := tuple(lesson for lesson in _of(graph, curriculum) if lesson.skill == skill):
+            return found
+    taught = [lesson.skill for curriculum in curricula for lesson in _of(graph, curriculum)]
+    raise RunError(f"no lesson teaches {skill}", _one_of(skill, taught))
+
+
+def _one_of(name: str, known: Sequence[str]) -> str:
+    return did_you_mean(name, known) or f"there is {listed(dict.fromkeys(known), 'and')}"
