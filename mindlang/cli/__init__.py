@@ -41,7 +41,7 @@ class Commands(click.Group):
 @click.group(
     cls=Commands,
     context_settings={"help_option_names": ["-h", "--help"]},
-    epilog="mindc check examples/collect/collect.mind",
+    epilog="Try: mindc check examples/collect/collect.mind",
 )
 @click.version_option(version("mindlang"), prog_name="mindc")
 def commands() -> None:

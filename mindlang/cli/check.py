@@ -5,9 +5,15 @@ import sys
 import click
 
 
-@click.command(
-    epilog="Examples:  mindc check collect.mind  ·  mindc check *.mind --json  ·  cat a.mind | mindc check -"
-)
+EXAMPLES = """\b
+Examples:
+  mindc check collect.mind
+  mindc check examples/*.mind --json
+  cat collect.mind | mindc check -
+"""
+
+
+@click.command(epilog=EXAMPLES)
 @click.argument("files", nargs=-1, required=True, metavar="FILE…")
 @click.option("--json", "as_data", is_flag=True, help="One JSON document instead: mindc check collect.mind --json")
 def command(files: tuple[str, ...], as_data: bool) -> None:

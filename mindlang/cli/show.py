@@ -1,0 +1,36 @@
+"""`mindc show`: the hierarchy of a mind, as a tree, as a drawing, as data."""
+
+import sys
+
+import click
+
+EXAMPLES = """\b
+Examples:
+  mindc show collect.mind
+  mindc show collect.mind --dot | dot -Tsvg > collect.svg
+  mindc show collect.mind --json
+"""
+
+
+@click.command(epilog=EXAMPLES)
+@click.argument("file")
+@click.option("--dot", "as_dot", is_flag=True, help="Graphviz instead: mindc show collect.mind --dot | dot -Tsvg")
+@click.option("--json", "as_data", is_flag=True, help="The compiled graph as JSON: mindc show collect.mind --json")
+def command(file: str, as_dot: bool, as_data: bool) -> None:
+    """Show the hierarchy of a mind, from the master down."""
+    from dataclasses import asdict
+
+    from mindlang.cli.shared import console, load_compiled, print_json
+    from mindlang.drawing import dot, tree
+
+    if as_dot and as_data:
+        raise click.UsageError("Choose one of --dot and --json.")
+    compiled = load_compiled(file)
+    assert compiled.graph
+    assert compiled.mind
+    if as_data:
+        print_json(asdict(compiled.graph))
+    elif as_dot:
+        sys.stdout.write(dot(compiled.mind) + "\n")
+    else:
+        console().print(tree(compiled.mind))

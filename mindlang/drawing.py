@@ -1,0 +1,91 @@
+"""A hierarchy for the eye: a tree from the master down, and Graphviz."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING, Any
+
+from mindrun.registry import arguments, name_of
+
+from mindlang.model import Edge, Mind, Skill
+
+if TYPE_CHECKING:
+    from rich.tree import Tree
+
+
+def tree(mind: Mind) -> Tree:
+    """The hierarchy below the master; a skill with several parents is shown in full once, then only named.
+
+    Skills that the master does not reach follow as trees of their own, below the same root.
+    """
+    from rich.text import Text
+    from rich.tree import Tree
+
+    skills = {skill.name: skill for skill in mind.skills}
+    influenced = {name for skill in mind.skills for name in skill.subskills}
+    tops = [mind.master, *(skill.name for skill in mind.skills if skill.name not in influenced)]
+    root = Tree(Text(f"{mind.master} is the master"), guide_style="dim")
+    shown: set[str] = set()
+    waiting: list[tuple[Any, str, Edge | None]] = [(root, name, None) for name in reversed(dict.fromkeys(tops))]
+    while waiting:
+        above, name, edge = waiting.pop()
+        if name in shown:
+            above.add(Text.assemble((name, "bold"), _at(edge), ("  (shown above)", "dim")))
+            continue
+        shown.add(name)
+        branch = above.add(Text.assemble((name, "bold"), _at(edge), (f"  {phrase(skills[name].function)}", "cyan")))
+        for line in _lines(skills[name]):
+            branch.add(Text(line))
+        below = [(branch, edge.target, edge) for edge in skills[name].edges if edge.to == "skill"]
+        waiting += reversed(below)
+    return root
+
+
+def phrase(kind: object) -> str:
+    """A kind with the arguments that differ from their defaults, much as it is written."""
+    said = ((argument, getattr(kind, argument.field)) for argument in arguments(type(kind)))
+    words = [f"{argument.key} {value}" for argument, value in said if value != argument.default]
+    return " ".join([name_of(kind)[1], *words])
+
+
+def dot(mind: Mind) -> str:
+    """The hierarchy as a Graphviz digraph: sensors above, skills between, actuators and memories below."""
+    lines = ["digraph mind {", "  rankdir=TB", "  node [fontname=sans]"]
+    lines += [f"  {_id('input', part.name)} [label={_quoted(part.name)} shape=ellipse]" for part in mind.sensors]
+    lines += [f"  {_id('actuator', part.name)} [label={_quoted(part.name)} shape=house]" for part in mind.actuators]
+    lines += [f"  {_id('input', part.name)} [label={_quoted(part.name)} shape=cylinder]" for part in mind.memories]
+    for skill in mind.skills:
+        bold = " style=bold" if skill.name == mind.master else ""
+        lines.append(f"  {_id('skill', skill.name)} [label={_quoted(skill.name)} shape=box{bold}]")
+    for skill in mind.skills:
+        lines += _arrows(skill)
+    return "\n".join([*lines, "}"])
+
+
+def _arrows(skill: Skill) -> Iterator[str]:
+    here = _id("skill", skill.name)
+    for name in skill.reads:
+        yield f"  {_id('input', name)} -> {here} [style=dotted]"
+    for edge in skill.edges:
+        label = f" [label={_quoted(edge.at.span.text)}]" if edge.at else ""
+        yield f"  {here} -> {_id('input' if edge.to == 'memory' else edge.to, edge.target)}{label}"
+
+
+def _id(noun: str, name: str) -> str:
+    return _quoted(f"{noun} {name}")
+
+
+def _quoted(text: str) -> str:
+    return f'"{text}"'
+
+
+def _at(edge: Edge | None) -> str:
+    return f" at {edge.at.span.text}" if edge and edge.at else ""
+
+
+def _lines(skill: Skill) -> Iterator[str]:
+    if skill.reads:
+        yield f"reads {', '.join(skill.reads)}"
+    for edge in skill.edges:
+        if edge.to != "skill":
+            yield f"drives {edge.target}{_at(edge)}"
