@@ -1,0 +1,62 @@
+"""A graph in the order of its weights."""
+
+from dataclasses import replace
+from heapq import heapify, heappop, heappush
+
+from mindrun.graph import Edge, Graph, Skill
+
+from mindlang.lock import Lock
+from mindlang.signature import signature, target
+
+
+def arrange(graph: Graph, lock: Lock) -> Graph:
+    """The graph in the order of its weights, so that moving lines about in the source changes no bit.
+
+    Skills stand parents first and otherwise by name; what a trained skill reads and sends stands as in its line.
+    """
+    graph = _by_name(graph)
+    return replace(graph, skills=tuple(_as_taught(graph, skill, lock) for skill in graph.skills))
+
+
+def _as_taught(graph: Graph, skill: Skill, lock: Lock) -> Skill:
+    """A skill with what it reads and sends in the order of its line, if it is the same by name."""
+    entry = lock.get(skill.name)
+    if entry is None or not entry.signature.reads:
+        return skill
+    own = signature(graph, skill)
+    taught = entry.signature
+    if sorted(own.reads) != sorted(taught.reads) or sorted(own.sends) != sorted(taught.sends):
+        return skill
+    places = {s.name: range(s.start, s.start + s.width) for s in graph.sensors}
+    places |= {m.name: range(m.start, m.start + 1) for m in graph.memories if m.name not in places}
+    inputs = tuple(index for read in taught.reads for index in places[read.partition(":")[0]])
+    learned = {target(graph, edge): edge for edge in skill.edges if edge.output is not None}
+    edges = [replace(learned[name], output=number) for number, name in enumerate(taught.sends)]
+    return replace(skill, inputs=inputs, edges=(*edges, *(edge for edge in skill.edges if edge.output is None)))
+
+
+def _by_name(graph: Graph) -> Graph:
+    """The graph with its skills parents first, otherwise by name: sums over parents are taken in this order."""
+    children = {
+        skill.name: {target(graph, edge) for edge in skill.edges if edge.to == "skill"} for skill in graph.skills
+    }
+    parents = {name: sum(name in below for below in children.values()) for name in children}
+    ready = [name for name, count in parents.items() if count == 0]
+    heapify(ready)
+    order: list[str] = []
+    while ready:
+        order.append(heappop(ready))
+        for child in children[order[-1]]:
+            parents[child] -= 1
+            if parents[child] == 0:
+                heappush(ready, child)
+    place = {name: index for index, name in enumerate(order)}
+    moved = {
+        skill.name: replace(skill, edges=tuple(_moved(graph, edge, place) for edge in skill.edges))
+        for skill in graph.skills
+    }
+    return replace(graph, skills=tuple(moved[name] for name in order))
+
+
+def _moved(graph: Graph, edge: Edge, place: dict[str, int]) -> Edge:
+    return replace(edge, target=place[target(graph, edge)]) if edge.to == "skill" else edge

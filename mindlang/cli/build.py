@@ -1,0 +1,74 @@
+"""`mindc build`: a mind with its weights in one file, for `python -m mindrun`."""
+
+from __future__ import annotations
+
+from hashlib import sha256
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import click
+
+if TYPE_CHECKING:
+    from mindlang.ready import Ready
+
+EXAMPLES = """\b
+Examples:
+  mindc build collect.mind -o collect.bundle
+  mindc build collect.mind -o avoid.bundle --master Avoid
+  mindc build collect.mind -o collect.bundle --json
+"""
+
+
+@click.command(epilog=EXAMPLES)
+@click.argument("file")
+@click.option("-o", "--output", required=True, type=click.Path(path_type=Path), help="The bundle: -o collect.bundle")
+@click.option("--master", metavar="SKILL", help="Another skill in charge: --master Avoid")
+@click.option("--json", "as_json", is_flag=True, help="Say what was built as one JSON document: --json")
+@click.option("-q", "--quiet", is_flag=True, help="Print nothing but errors: -q")
+def command(file: str, output: Path, master: str | None, as_json: bool, quiet: bool) -> None:
+    """Build a bundle of FILE: its hierarchy, the weights of every skill that can act, and the text of its procedures.
+
+    Refuses skills that have not been taught, or whose weights belong to another declaration.
+    """
+    from mindrun.bundle import write_bundle
+    from mindrun.engine import procedure_sources
+    from mindrun.errors import MindError
+
+    from mindlang.cli import MISUSE
+    from mindlang.cli.shared import fail, load_compiled, print_json, say
+    from mindlang.diagnostic import did_you_mean
+    from mindlang.ready import make_ready
+
+    compiled = load_compiled(file)
+    assert compiled.graph is not None
+    skills = [skill.name for skill in compiled.graph.skills]
+    if master is not None and master not in skills:
+        fail(f"There is no skill {master}.", did_you_mean(master, skills), MISUSE)
+    try:
+        ready = make_ready(compiled.graph, compiled.sources, master)
+        if ready.refusals:
+            for refusal in ready.refusals[:-1]:
+                say(refusal)
+            fail(ready.refusals[-1], f"mindc train {file}")
+        procedures = procedure_sources(ready.graph, compiled.sources[0].folder)
+        write_bundle(output, ready.graph, ready.weights, procedures)
+    except MindError as error:
+        fail(str(error), code=MISUSE)
+    except OSError as error:
+        fail(f"{output} cannot be written: {error.strerror}")
+    for note in ready.notes:
+        say(f"note: {note}")
+    if as_json:
+        print_json(_built(output, ready))
+    elif not quiet:
+        click.echo(f"{output}: {ready.graph.master} in charge, {len(ready.weights)} trained skills", err=True)
+
+
+def _built(output: Path, ready: Ready) -> dict[str, object]:
+    return {
+        "bundle": str(output),
+        "sha256": sha256(output.read_bytes()).hexdigest(),
+        "master": ready.graph.master,
+        "skills": sorted(ready.weights),
+        "notes": list(ready.notes),
+    }

@@ -1,0 +1,45 @@
+"""A mind with the weights that it needs to act: what `build`, `run` and `bench` begin with."""
+
+from collections.abc import Iterable
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+import numpy as np
+from mindrun.graph import Graph
+from mindrun.weights import reachable
+from numpy.typing import NDArray
+
+from mindlang.arrange import arrange
+from mindlang.lock import read_locks
+from mindlang.source import Source
+from mindlang.trained import Trained, status, trained_weights
+
+
+@dataclass(frozen=True, slots=True)
+class Ready:
+    """A graph, arranged and with its master, and the weights of all skills below it; `refusals` say what is missing."""
+
+    graph: Graph
+    weights: dict[str, NDArray[np.float32]]
+    refusals: tuple[str, ...]
+    notes: tuple[str, ...]
+
+
+def make_ready(graph: Graph, sources: Iterable[Source], master: str | None = None) -> Ready:
+    """The graph of these sources with the weights of their locks; LockError where a lock or weights are damaged."""
+    lock = read_locks(paths(sources))
+    graph = replace(arrange(graph, lock), master=master or graph.master)
+    needed = [skill.name for skill in reachable(graph, graph.master)]
+    weights, refusals = trained_weights(graph, lock, needed)
+    notes = (
+        f"{name} was {note}"
+        for name, state in status(graph, lock).items()
+        if name in needed and isinstance(state, Trained)
+        for note in state.notes
+    )
+    return Ready(graph, weights, tuple(refusals), tuple(notes))
+
+
+def paths(sources: Iterable[Source]) -> list[Path]:
+    """Where these sources stand, the main one first; their locks stand beside them."""
+    return [source.folder / Path(source.name).name for source in sources]

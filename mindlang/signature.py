@@ -1,0 +1,82 @@
+"""What a genome fits, by name: taken from a graph, and compared with another."""
+
+from collections.abc import Iterator
+from dataclasses import fields, replace
+
+from mindrun.functions import Mlp
+from mindrun.functions.mlp import layers
+from mindrun.graph import Edge, Graph, Skill
+from mindrun.registry import names
+
+from mindlang.lock import Signature
+
+
+def signature(graph: Graph, skill: Skill) -> Signature:
+    """The signature of a skill that learns."""
+    reads = (f"{name}:{width}" if width > 1 else name for name, width in _reads(graph, skill))
+    sends = (target(graph, edge) for edge in skill.edges if edge.output is not None)
+    return Signature(_function(skill), tuple(reads), tuple(sends))
+
+
+def differences(old: Signature, new: Signature, derived: bool) -> tuple[str, ...]:
+    """What keeps weights from fitting, as sentences; order is no difference.
+
+    With `derived`, a width that follows from Eq. 5 is not told where what is read or sent tells it already.
+    """
+    found = [*_read_differences(_widths(old), _widths(new)), *_changes("sends", set(old.sends), set(new.sends))]
+    (old_kind, before), (new_kind, now) = _arguments(old), _arguments(new)
+    if old_kind != new_kind:
+        return (f"was {old_kind}, now {new_kind}", *found)
+    for key in before | now:
+        if before.get(key) != now.get(key) and not (key == "width" and derived and found):
+            found.append(f"{key} was {before.get(key, 'not there')}, now {now.get(key, 'not there')}")
+    return tuple(found)
+
+
+def _reads(graph: Graph, skill: Skill) -> Iterator[tuple[str, int]]:
+    """The names and widths of what a skill reads, in its order."""
+    at = {sensor.start: (sensor.name, sensor.width) for sensor in graph.sensors}
+    at |= {memory.start: (memory.name, 1) for memory in graph.memories}
+    return (at[index] for index in skill.inputs if index in at)
+
+
+def target(graph: Graph, edge: Edge) -> str:
+    """The name of what an edge goes to."""
+    match edge.to:
+        case "skill":
+            return graph.skills[edge.target].name
+        case "actuator":
+            return graph.actuators[edge.target].name
+    return graph.memories[edge.target].name
+
+
+def _function(skill: Skill) -> str:
+    """The function as a phrase, every argument said: mlp hidden 2 width 14."""
+    function = skill.function
+    if isinstance(function, Mlp):
+        shape = layers(len(skill.inputs), skill.outputs, function)
+        function = replace(function, width=shape[0][1] if len(shape) > 1 else function.width)
+    arguments = (f"{field.name} {getattr(function, field.name)}" for field in fields(function))
+    return " ".join([names()[type(function)], *arguments])
+
+
+def _arguments(of: Signature) -> tuple[str, dict[str, str]]:
+    kind, *words = of.function.split()
+    return kind, dict(zip(words[::2], words[1::2], strict=False))
+
+
+def _widths(of: Signature) -> dict[str, int]:
+    parts = (read.partition(":") for read in of.reads)
+    return {name: int(width) if width.isdecimal() else 1 for name, _, width in parts}
+
+
+def _read_differences(old: dict[str, int], new: dict[str, int]) -> Iterator[str]:
+    yield from _changes("reads", set(old), set(new))
+    for name in sorted(old.keys() & new.keys()):
+        if old[name] != new[name]:
+            yield f"{name} had {old[name]} reading{'s' * (old[name] != 1)}, now {new[name]}"
+
+
+def _changes(verb: str, old: set[str], new: set[str]) -> Iterator[str]:
+    yield from (f"{verb} {name} is new" for name in sorted(new - old))
+    yield from (f"{verb} {name} is gone" for name in sorted(old - new))
