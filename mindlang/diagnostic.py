@@ -41,11 +41,22 @@ class Findings:
         self.diagnostics.append(Diagnostic(code, message, span, hint, labels))
 
 
-def did_you_mean(word: str, known: Iterable[str]) -> str:
-    """A question that names the known word nearest to `word`, or nothing."""
+def nearest(word: str, known: Iterable[str]) -> str | None:
+    """The known word that is most like `word`, if one is."""
     by_lower = {name.lower(): name for name in known}
     near = get_close_matches(word.lower()[:100], by_lower, n=1, cutoff=0.6)
-    return f"Did you mean {by_lower[near[0]]}?" if near else ""
+    return by_lower[near[0]] if near else None
+
+
+def did_you_mean(word: str, known: Iterable[str]) -> str:
+    """A question that names the known word nearest to `word`, or nothing."""
+    near = nearest(word, known)
+    return f"Did you mean {near}?" if near else ""
+
+
+def a(noun: str) -> str:
+    """A noun with its article."""
+    return f"an {noun}" if noun[:1] in "aeiou" else f"a {noun}"
 
 
 def listed(words: Iterable[str], joint: str = "or") -> str:

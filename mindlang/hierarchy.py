@@ -50,6 +50,6 @@ def check_cycles(skills: tuple[Skill, ...], findings: Findings) -> None:
     steps = nx.find_cycle(graph)
     path = " → ".join([steps[0][0], *(target for _, target in steps)])
     spans = [graph.edges[step]["edge"].fact.span for step in steps]
-    labels = (Label(span, f"{source} influences {target}") for (source, target), span in zip(steps, spans, strict=True))
+    labels = (Label(span, "and from there on") for span in spans[1:])
     hint = "Influence flows one way, from the master down: take one of these lines out."
     findings.error("influence-cycle", spans[0], f"Skills influence one another in a circle: {path}.", hint, *labels)

@@ -8,8 +8,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from mindlang import syntax
-from mindlang.diagnostic import Findings
-from mindlang.mistakes import explain
+from mindlang.diagnostic import Findings, nearest
+from mindlang.explain import explain, proper
+from mindlang.mistakes import NOUNS, SETTINGS, VERBS
 from mindlang.source import Source, Span
 
 if TYPE_CHECKING:
@@ -18,8 +19,7 @@ if TYPE_CHECKING:
 NESTING = 64
 
 _CODE = re.compile(r'(?:"[^"]*"|[^#])*')
-_HEADER = re.compile(r"\s*(body|actuator|sensor|memory|skill|task|curriculum)\s+(\w[\w.+]*)")
-_FACT = re.compile(r"\s*(reads|drives|influences|contains|lasts|ends|rewards|counts|teaches|use|master|tick)\b")
+_HEADER = re.compile(r"\s*(\w+)\s+(\w[\w.+]*)")
 
 
 @cache
@@ -46,7 +46,7 @@ class _Block:
 
 
 class _Unread:
-    """A line that cannot be read but surely is a fact or a setting."""
+    """A line that cannot be read, and no header."""
 
 
 def parse(source: Source, findings: Findings) -> syntax.File:
@@ -56,7 +56,7 @@ def parse(source: Source, findings: Findings) -> syntax.File:
     above: _Block | None = None
     for line in _lines(source, findings):
         match line:
-            case syntax.Header() | None:  # None is an unreadable line, perhaps a header: its facts are lost with it
+            case syntax.Header():
                 above = _Block(line)
                 blocks.append(above)
             case syntax.Use() | syntax.Master() | syntax.Tick():
@@ -76,7 +76,7 @@ def parse(source: Source, findings: Findings) -> syntax.File:
     return syntax.File(source, tuple(settings), tuple(declarations))
 
 
-def _lines(source: Source, findings: Findings) -> Iterator[syntax.Line | _Unread | None]:
+def _lines(source: Source, findings: Findings) -> Iterator[syntax.Line | _Unread]:
     offset = 0
     for text in source.text.split("\n"):
         found = _CODE.match(text.removesuffix("\r"))
@@ -86,7 +86,7 @@ def _lines(source: Source, findings: Findings) -> Iterator[syntax.Line | _Unread
         offset += len(text) + 1
 
 
-def _line(span: Span, code: str, findings: Findings) -> Iterator[syntax.Line | _Unread | None]:
+def _line(span: Span, code: str, findings: Findings) -> Iterator[syntax.Line | _Unread]:
     """What the line says, or after reporting it what can be saved of it."""
     from lark import UnexpectedInput
 
@@ -101,18 +101,17 @@ def _line(span: Span, code: str, findings: Findings) -> Iterator[syntax.Line | _
         yield build(grammar().parse(code, start="line"), span.source, span.start)
     except UnexpectedInput as error:
         findings.diagnostics.append(explain(error, code, span))
-        yield from _saved(code, span)
+        yield _saved(code, span)
 
 
-def _saved(code: str, span: Span) -> Iterator[syntax.Header | _Unread | None]:
-    if header := _HEADER.match(code):
-        noun, name = (
-            syntax.Name(header[i], Span(span.source, span.start + header.start(i), span.start + header.end(i)))
-            for i in (1, 2)
-        )
-        yield syntax.Header(noun, name, None, span)
-    else:
-        yield _Unread() if _FACT.match(code) else None
+def _saved(code: str, span: Span) -> syntax.Header | _Unread:
+    """The header that a malformed line was meant to be, so that its name is known and its facts have a home."""
+    found = _HEADER.match(code)
+    noun = nearest(found[1], (*NOUNS, *VERBS, *SETTINGS)) if found else None
+    if not found or noun not in NOUNS:
+        return _Unread()
+    nouns, names = (Span(span.source, span.start + found.start(i), span.start + found.end(i)) for i in (1, 2))
+    return syntax.Header(syntax.Name(noun, nouns), syntax.Name(proper(noun, found[2]), names), None, span)
 
 
 def _depth(code: str) -> int:

@@ -78,7 +78,7 @@ def _inside(use: Use, project: _Project) -> Path | None:
     except (OSError, RuntimeError, ValueError):
         target = Path("/")
     if not use.path or Path(use.path).is_absolute() or not target.is_relative_to(project.root):
-        hint = f"Use files in {project.root.name or 'the folder of the main file'} or below it, by a relative path."
+        hint = f"Use files in the folder {project.root.name} or below it, by a relative path."
         project.findings.error("outside-project", use.span, f'"{use.path}" is not inside the project.', hint)
         return None
     return target

@@ -4,7 +4,6 @@ import sys
 
 import click
 
-
 EXAMPLES = """\b
 Examples:
   mindc check collect.mind

@@ -8,7 +8,7 @@ from mindrun.quantity import Quantity, Reference
 from mindrun.registry import Argument as Parameter
 from mindrun.registry import arguments, kinds
 
-from mindlang.diagnostic import Findings, Label, did_you_mean, listed
+from mindlang.diagnostic import Findings, Label, a, did_you_mean, listed
 from mindlang.mistakes import VERBS
 from mindlang.resolve import quantities
 from mindlang.resolve.names import Names
@@ -41,7 +41,7 @@ def make(noun: str, phrase: Phrase, scope: Scope, findings: Findings) -> Any:
     """The kind that a phrase names, with its arguments, or None after reporting what is wrong with it."""
     cls = kinds(noun).get(phrase.kind.text)
     if cls is None:
-        hint = did_you_mean(phrase.kind.text, kinds(noun)) or f"There is {listed(sorted(kinds(noun)), 'and')}."
+        hint = did_you_mean(phrase.kind.text, kinds(noun)) or f"Known are {listed(sorted(kinds(noun)), 'and')}."
         findings.error("unknown-kind", phrase.kind.span, f"There is no kind of {noun} called {phrase.kind.text}.", hint)
         return None
     before = len(findings.diagnostics)
@@ -144,7 +144,7 @@ def _check_thing(name: Name, about: Set[str], kind: str, scope: Scope, findings:
             did_you_mean(name.text, scope.things) or f"Add contains {name.text} is {listed(sorted(about))} to the task."
         )
         findings.error("unknown-thing", name.span, f"There is nothing called {name.text} in {scope.place}.", hint)
-    elif not scope.things[name.text] & about:
-        is_ = listed(sorted(scope.things[name.text]))
-        hint = f"{name.text} is {is_}; {kind} is about {listed(sorted(about))}."
+    elif not scope.things[name.text] & about and scope.things[name.text] <= set(kinds("content")):
+        is_ = listed(a(kind) for kind in sorted(scope.things[name.text]))
+        hint = f"{name.text} is {is_}; {kind} is about {listed(a(kind) for kind in sorted(about))}."
         findings.error("unfit-thing", name.span, f"{kind} cannot be about {name.text}.", hint)

@@ -3,7 +3,7 @@
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 
-from mindlang.diagnostic import Findings, Label, did_you_mean, listed
+from mindlang.diagnostic import Findings, Label, a, did_you_mean, listed
 from mindlang.syntax import Contains, Declaration, File, Name
 
 # A memory is read like a sensor and driven like an actuator, so its name must be neither's.
@@ -41,7 +41,7 @@ class Names:
         wanted = listed(nouns)
         other = self.noun_of(name.text, [noun for noun in DOES if noun not in nouns])
         if other:
-            hint = f"There is {_a(other)} of that name, but {DOES[other]}."
+            hint = f"There is {a(other)} of that name, but {DOES[other]}."
         else:
             hint = did_you_mean(name.text, self.of(*nouns)) or self._offer(nouns)
         findings.error(f"unknown-{nouns[0]}", name.span, f"There is no {wanted} called {name.text}.", hint)
@@ -52,10 +52,12 @@ class Names:
         if not known:
             return f"Declare it: {nouns[0]} NAME {'in' if nouns[0] == 'task' else 'is'} KIND."
         more = ", …" if len(known) > 8 else ""
-        return f"There is {', '.join(known[:8])}{more}." if len(known) > 1 else f"The only one is {known[0]}."
+        return f"Declared are {', '.join(known[:8])}{more}." if len(known) > 1 else f"The only one is {known[0]}."
 
-    def things(self) -> dict[str, set[str]]:
-        """The things that some task contains, with the kinds that they are of."""
+    def things(self) -> dict[str, set[str]] | None:
+        """The things that some task contains, with the kinds that they are of; None where this is not known."""
+        if not all(task.whole for _, task in self.declarations("task")) or not self.of("task"):
+            return None
         found: dict[str, set[str]] = {}
         for _, task in self.declarations("task"):
             for name, kinds in things_of(task).items():
@@ -79,12 +81,8 @@ def gather(files: Iterable[File], findings: Findings) -> Names:
         noun, name = declaration.header.noun.text, declaration.header.name
         if other := names.noun_of(name.text, (noun, *SHARED.get(noun, ()))):
             first = Label(names.table[other][name.text].header.name.span, "first declared here")
-            message = f"There is already {_a(other)} called {name.text}."
+            message = f"There is already {a(other)} called {name.text}."
             findings.error("duplicate-name", name.span, message, "Give one of the two another name.", first)
         else:
             names.table.setdefault(noun, {})[name.text] = declaration
     return names
-
-
-def _a(noun: str) -> str:
-    return f"an {noun}" if noun[0] in "aeiou" else f"a {noun}"

@@ -4,16 +4,18 @@ from typing import Any
 
 from mindrun.sensors import Derivative, RangeFinder
 
-from mindlang.diagnostic import Findings
+from mindlang.diagnostic import Findings, a, listed
 from mindlang.model import Part
 from mindlang.resolve.kinds import Scope, make
 from mindlang.resolve.names import Names
 from mindlang.syntax import Declaration, Fact
 
+ONE_LINE = "All that there is to say of it stands in its one line."
+
 
 def parts(noun: str, names: Names, findings: Findings) -> tuple[Part[Any], ...]:
     """The parts declared with a noun, as far as their kinds are well said."""
-    things = names.things() if names.of("task") else None
+    things = names.things()
     found = []
     for name, declaration in names.declarations(noun):
         refuse_facts(declaration, (), findings)
@@ -30,13 +32,9 @@ def refuse_facts(declaration: Declaration, allowed: tuple[type[Fact], ...], find
     for fact in declaration.facts:
         if not isinstance(fact, allowed):
             verb = type(fact).__name__.lower()
-            verbs = ", ".join(form.__name__.lower() for form in allowed)
-            hint = (
-                f"Below {noun} {declaration.header.name.text} can stand {verbs}."
-                if allowed
-                else "It is said in one line."
-            )
-            findings.error("foreign-fact", fact.span, f"{noun.capitalize()} has no {verb}.", hint)
+            verbs = [form.__name__.lower() for form in allowed]
+            hint = f"Below {noun} {declaration.header.name.text} can stand {listed(verbs)}." if verbs else ONE_LINE
+            findings.error("foreign-fact", fact.span, f"{verb} does not belong to {a(noun)}.", hint)
 
 
 def widths(sensors: tuple[Part[Any], ...], findings: Findings) -> dict[str, int]:

@@ -26,7 +26,8 @@ def convert(amount: Amount, quantity: Quantity, findings: Findings, unit: str = 
         )
         return None
     if not quantity.low <= value <= quantity.high:
-        findings.error("out-of-range", amount.span, f"{amount.span.text} is out of range.", _bounds(quantity))
+        message = f"{amount.span.text[:40]} is too {'small' if value < quantity.low else 'large'}."
+        findings.error("out-of-range", amount.span, message, _bounds(quantity))
         return None
     return int(value) if quantity.whole else value
 
@@ -34,15 +35,14 @@ def convert(amount: Amount, quantity: Quantity, findings: Findings, unit: str = 
 def _wrong_unit(amount: Amount, quantity: Quantity, findings: Findings) -> None:
     bare = amount.span.text.removesuffix(amount.unit).strip()
     units = [f"{bare} {unit}".replace(" %", "%").strip() for unit in quantity.units]
-    message = f"{amount.unit} is not a unit of {quantity.name}." if amount.unit else "This number needs a unit."
+    message = f"The unit {amount.unit} does not fit here." if amount.unit else "This number needs a unit."
     findings.error("wrong-unit", amount.span, message, f"Here stands {quantity.name}: write {listed(units)}.")
 
 
 def _bounds(quantity: Quantity) -> str:
-    if quantity.high != inf:
-        return f"Here stands {quantity.name}, from {quantity.low:g} to {quantity.high:g}."
-    low = "above 0" if 0 < quantity.low < 1e-6 else f"at least {quantity.low:g}"
-    return f"Here stands {quantity.name}, {low}."
+    low = "more than 0" if 0 < quantity.low < 1e-6 else f"at least {quantity.low:g}"
+    high = f" and at most {quantity.high:g}" if quantity.high != inf else ""
+    return f"Write {low}{high}."
 
 
 def one(value: Value, quantity: Quantity, findings: Findings) -> float | int | None:
@@ -68,8 +68,11 @@ def many(value: Value, quantity: Quantity, findings: Findings) -> tuple[float | 
     """The values of an argument that takes a list; the last unit goes for all that have none."""
     match value:
         case Numbers(amounts=amounts):
-            numbers = [convert(amount, quantity, findings, amounts[-1].unit) for amount in amounts]
-            return tuple(n for n in numbers if n is not None) if None not in numbers else None
+            last = convert(amounts[-1], quantity, findings)
+            if last is None:  # its unit goes for all: one message will do
+                return None
+            numbers = [convert(amount, quantity, findings, amounts[-1].unit) for amount in amounts[:-1]]
+            return (*(n for n in numbers if n is not None), last) if None not in numbers else None
         case Range():
             findings.error(
                 "no-range", value.span, "A list cannot be a range.", "Write each number, with spaces between."

@@ -29,7 +29,9 @@ def _skill(
     phrase = declaration.header.phrase
     function: Any = make("skill", phrase, Scope(names, None), findings) if phrase else None
     reads = _reads(declaration, names, findings)
-    visible = Visible({read: widths[read] for read in reads}, elsewhere=widths)
+    # A line that could not be read may have been an input.
+    all_read = declaration.whole and len(reads) == sum(isinstance(fact, Reads) for fact in declaration.facts)
+    visible = Visible({read: widths[read] for read in reads} if all_read else widths, elsewhere=widths)
     edges = _edges(declaration, names, visible, findings)
     if function:
         _check(declaration, function, reads, edges, findings)

@@ -39,7 +39,7 @@ def _task(
     findings: Findings,
 ) -> model.Task:  # fmt: skip
     refuse_facts(declaration, (Contains, Lasts, Ends, Rewards, Counts), findings)
-    scope = Scope(names, things_of(declaration), f"task {name}")
+    scope = Scope(names, things_of(declaration) if declaration.whole else None, f"task {name}")
     phrase = declaration.header.phrase
     scene: Any = make("task", phrase, scope, findings) if phrase else None
     things = _things(declaration, scope, findings)

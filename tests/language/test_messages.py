@@ -1,0 +1,60 @@
+"""Every mistake gets one message: `wrong/NAME.mind` has one mistake, `wrong/NAME.txt` is what mindc says of it.
+
+After a change of words: UPDATE=1 pytest tests/language/test_messages.py, and read the difference.
+"""
+
+import os
+from pathlib import Path
+
+import pytest
+
+from mindlang.compile import load
+from mindlang.diagnostic import Findings
+from mindlang.mistakes import MISTAKES, Mistake
+from mindlang.parse import parse
+from mindlang.report import plain
+from mindlang.source import Source
+
+HERE = Path(__file__).parent
+CASES = sorted((HERE / "wrong").glob("*.mind"))
+
+
+@pytest.mark.parametrize("path", CASES, ids=lambda path: path.stem)
+def test_one_message_for_one_mistake(path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(path.parent)
+    compiled = load(path.name)
+    said = "\n".join(plain(diagnostic) for diagnostic in compiled.diagnostics)
+    expected = path.with_suffix(".txt")
+    if os.environ.get("UPDATE"):
+        expected.write_text(said, encoding="utf-8")
+    assert said == expected.read_text(encoding="utf-8")
+    assert compiled.graph is None
+    assert len(compiled.diagnostics) == 1
+
+
+def test_the_program_that_the_cases_change_is_right() -> None:
+    assert load(HERE / "right.mind").diagnostics == ()
+
+
+@pytest.mark.parametrize("mistake", MISTAKES, ids=lambda mistake: mistake.code)
+def test_the_example_of_a_mistake_is_explained_by_it(mistake: Mistake) -> None:
+    findings = Findings()
+    parse(Source("example", mistake.example), findings)
+    assert [diagnostic.code for diagnostic in findings.diagnostics] == [mistake.code]
+    assert "{" not in findings.diagnostics[0].message + findings.diagnostics[0].hint.replace("{{", "")
+
+
+def test_all_bad_lines_are_reported_in_one_go_and_without_echoes() -> None:
+    text = (HERE / "right.mind").read_text(encoding="utf-8")
+    text = (
+        text.replace("sensor eyes is", "sensor eyes")
+        .replace("  lasts 1000", "  last 1000")
+        .replace("drives l", "drive l")
+    )
+    findings = Findings()
+    parse(Source("right.mind", text), findings)
+    assert [(diagnostic.code, diagnostic.span and diagnostic.span.line) for diagnostic in findings.diagnostics] == [
+        ("missing-is", 8),
+        ("no-verb", 14),
+        ("no-verb", 24),
+    ]
