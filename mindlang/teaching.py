@@ -1,6 +1,6 @@
 """Which lessons to teach: those of a curriculum, those asked for, and what must be taught before them."""
 
-from collections.abc import Collection, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 from mindrun.graph import Graph, Lesson, Skill
@@ -8,6 +8,7 @@ from mindrun.train.errors import RunError
 from mindrun.weights import genes, reachable
 
 from mindlang.diagnostic import did_you_mean, listed
+from mindlang.trained import Status, Trained
 
 
 @dataclass(frozen=True, slots=True)
@@ -68,14 +69,16 @@ def subskills(graph: Graph, lesson: Lesson) -> tuple[str, ...]:
     return tuple(skill.name for skill in reachable(graph, lesson.master) if genes(skill) and skill.name != lesson.skill)
 
 
-def refuse_untaught(graph: Graph, lesson: Lesson, taught: Collection[str], source: str) -> None:
-    """RunError where a skill that the lesson needs has no weights; the hint says what to train first."""
-    missing = [skill for skill in reversed(subskills(graph, lesson)) if skill not in taught]
-    if missing:
-        raise RunError(
-            f"{lesson.skill} cannot be taught before {listed(missing, 'and')}",
-            f"mindc train {source} {' '.join(missing)}",
-        )
+def is_due(lesson: Lesson, before: Sequence[Lesson], state: Status) -> bool:
+    """Whether a lesson has yet to be taught; `before` are the lessons that come before it.
+
+    A skill whose weights fit is left alone, except where they came from an earlier lesson of the same skill.
+    """
+    if not isinstance(state, Trained):
+        return True
+    taught = (state.entry.taught.task, state.entry.taught.master)
+    earlier = {(other.task, other.master) for other in before if other.skill == lesson.skill}
+    return taught in earlier and taught != (lesson.task, lesson.master)
 
 
 def _of(graph: Graph, curriculum: str) -> tuple[Lesson, ...]:

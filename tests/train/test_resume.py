@@ -17,7 +17,7 @@ CLIMB = Path(__file__).with_name("climb.py")
 
 
 def made(runs: Path) -> Run:
-    return create(runs, manifest(lesson(500, attempts=3)), b"", {})
+    return create(runs, manifest(lesson(500, attempts=3)), {}, {})
 
 
 def end(run: Run) -> tuple[bytes, list[dict[str, float | None]]]:
@@ -47,17 +47,17 @@ def live(run: Run, seconds: float) -> int:
 
 def test_stopped_and_resumed_after_any_generation_it_ends_in_the_same_bits(tmp_path: Path) -> None:
     course = manifest(lesson(5, attempts=2))
-    undisturbed = create(tmp_path, course, b"", {})
+    undisturbed = create(tmp_path, course, {}, {})
     train(undisturbed, Sphere(), unwatched())
     for generations in range(1, 10):
-        stopped = create(tmp_path, course, b"", {})
+        stopped = create(tmp_path, course, {}, {})
         train(stopped, Sphere(), unwatched(stop_after=generations))
         train(stopped, Sphere(), unwatched())
         assert end(stopped) == end(undisturbed)
 
 
 def test_a_finished_run_that_is_resumed_stays_as_it_is(tmp_path: Path) -> None:
-    run = create(tmp_path, manifest(lesson(5)), b"", {})
+    run = create(tmp_path, manifest(lesson(5)), {}, {})
     first = train(run, Sphere(), unwatched())
     before = end(run)
     assert train(run, Sphere(), unwatched()).reevaluated == first.reevaluated
@@ -66,7 +66,7 @@ def test_a_finished_run_that_is_resumed_stays_as_it_is(tmp_path: Path) -> None:
 
 def test_the_previous_checkpoint_gives_the_same_bits(tmp_path: Path) -> None:
     course = manifest(lesson(9))
-    undisturbed, damaged = create(tmp_path, course, b"", {}), create(tmp_path, course, b"", {})
+    undisturbed, damaged = create(tmp_path, course, {}, {}), create(tmp_path, course, {}, {})
     train(undisturbed, Sphere(), unwatched())
     train(damaged, Sphere(), unwatched(stop_after=4))
     (damaged.folder / "checkpoint").write_bytes(b"half a check")

@@ -19,15 +19,15 @@ WEIGHTS = {"Climb": np.arange(12, dtype=np.float32), "Go+Avoid": np.ones(3, np.f
 
 
 def made(runs: Path, generations: int = 6) -> Run:
-    return create(runs, manifest(lesson(generations)), b"master Climb\n", {})
+    return create(runs, manifest(lesson(generations)), {"climb.mind": "master Climb\n"}, {})
 
 
 def test_a_run_is_found_again_as_it_was_made(tmp_path: Path) -> None:
-    made_one = create(tmp_path, manifest(lesson(), weights=WEIGHTS), b"master Climb\n", WEIGHTS)
+    made_one = create(tmp_path, manifest(lesson(), weights=WEIGHTS), {"climb.mind": "master Climb\n"}, WEIGHTS)
     again = open_run(made_one.folder)
     assert again.manifest == made_one.manifest
     assert again.course(12).start.tolist() == [list(range(12))]
-    assert (again.folder / "source.mind").read_bytes() == b"master Climb\n"
+    assert (again.folder / "source" / "climb.mind").read_text() == "master Climb\n"
 
 
 def test_the_folder_is_named_by_lesson_time_and_seed_and_never_used_twice(tmp_path: Path) -> None:
@@ -75,7 +75,7 @@ def test_the_lock_of_a_dead_process_is_taken_over(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("name", ["manifest.json", "start.npz"])
 def test_a_damaged_part_is_refused(tmp_path: Path, name: str) -> None:
-    run = create(tmp_path, manifest(lesson(), weights=WEIGHTS), b"", WEIGHTS)
+    run = create(tmp_path, manifest(lesson(), weights=WEIGHTS), {}, WEIGHTS)
     data = (run.folder / name).read_bytes()
     for damaged in (b"", data[: len(data) // 2], b"[]", b"\xff" * 100):
         (run.folder / name).write_bytes(damaged)

@@ -10,7 +10,7 @@ from mindrun.learners import Genetic
 Genomes = NDArray[np.float32]
 Scores = NDArray[np.float64]
 
-SPREAD = 1.0  # of the weights that a population begins with
+SPREAD = 4.0  # of the weights that a population begins with
 LIMIT = 100.0  # no weight grows beyond it, so a genome is finite always
 TOURNAMENT = 4
 

@@ -25,14 +25,17 @@ FORMAT = 1
 
 @dataclass(frozen=True, slots=True)
 class Manifest:
-    """A run on paper. `mind` and `weights` are SHA-256: of all that the lesson depends on, and by skill as it began."""
+    """A run on paper, with SHA-256 hashes: `mind` of all that the lesson depends on, `weights` by skill as it began.
+
+    `source` is the path of the main file, `sources` has the hash of each file of the mind, by path from the main one.
+    """
 
     lesson: Lesson
     seed: int
     mind: str
     weights: Mapping[str, str]
     source: str
-    source_sha256: str
+    sources: Mapping[str, str]
     command: tuple[str, ...]
     started: str
     versions: Mapping[str, str]

@@ -15,7 +15,7 @@ from mindrun.train.errors import RunError
 from mindrun.train.lesson import Course
 from mindrun.train.manifest import Manifest, Weights, from_json, hashes, to_json
 
-MANIFEST, SOURCE, START, WEIGHTS = "manifest.json", "source.mind", "start.npz", "weights.npy"
+MANIFEST, SOURCES, START, WEIGHTS = "manifest.json", "source", "start.npz", "weights.npy"
 
 
 @dataclass(frozen=True, slots=True)
@@ -34,12 +34,14 @@ class Run:
         return Course(lesson, self.manifest.seed, start)
 
 
-def create(runs: Path, manifest: Manifest, source: bytes, weights: Weights) -> Run:
-    """A new run folder under `runs`; RunError where it cannot be written."""
+def create(runs: Path, manifest: Manifest, sources: Mapping[str, str], weights: Weights) -> Run:
+    """A new run folder under `runs`, with the text of each source by its path; RunError where it cannot be written."""
     stamp = "".join(letter for letter in manifest.started if letter not in "-:")
     try:
         folder = _unused(runs / manifest.name, f"{stamp}-{manifest.seed}")
-        durable.write(folder / SOURCE, source)
+        for path, text in sources.items():
+            (folder / SOURCES / path).parent.mkdir(parents=True, exist_ok=True)
+            durable.write(folder / SOURCES / path, text.encode())
         durable.write(folder / START, _packed(weights))
         durable.write(folder / MANIFEST, to_json(manifest))  # last: with it the folder is a run
     except OSError as error:

@@ -1,0 +1,105 @@
+"""What a lesson is taught from: a mind with its lock, and the run that a lesson of it becomes."""
+
+import sys
+from collections.abc import Mapping
+from dataclasses import dataclass
+from datetime import datetime
+from hashlib import sha256
+from pathlib import Path
+
+import numpy as np
+from mindrun.graph import Graph, Lesson
+from mindrun.train.errors import RunError
+from mindrun.train.manifest import Manifest, fingerprint, hashes, processor, versions
+from mindrun.train.run_folder import Run, create
+from numpy.typing import NDArray
+
+from mindlang.arrange import arrange
+from mindlang.compile import Compiled
+from mindlang.diagnostic import listed
+from mindlang.lock import Lock, lock_path, read_locks
+from mindlang.teaching import learner_of, subskills
+from mindlang.trained import Status, status, trained_weights
+
+Weights = dict[str, NDArray[np.float32]]
+
+
+@dataclass(frozen=True, slots=True)
+class Book:
+    """A mind in the order of its weights; `sources` has the text of its files, by path from the folder of `source`."""
+
+    source: Path
+    sources: Mapping[str, str]
+    graph: Graph
+    lock: Lock
+
+    @property
+    def folder(self) -> Path:
+        """Where the source stands, and the procedures beside it."""
+        return self.source.parent
+
+    @property
+    def statuses(self) -> dict[str, Status]:
+        """How each skill stands to the lock."""
+        return status(self.graph, self.lock)
+
+
+def open_book(path: Path, compiled: Compiled) -> Book:
+    """The book of a file that compiled; LockError where its lock is damaged."""
+    assert compiled.graph is not None
+    source = path.resolve()
+    paths = [(file.folder / Path(file.name).name, file.text) for file in compiled.sources]
+    lock = read_locks(file for file, _ in paths)
+    sources = {file.relative_to(source.parent).as_posix(): text for file, text in paths}
+    return Book(source, sources, arrange(compiled.graph, lock), lock)
+
+
+def begin(book: Book, lesson: Lesson, seed: int, runs: Path, now: datetime) -> Run:
+    """A new run of a lesson; RunError where it cannot begin, and what to train first where that is why."""
+    learner_of(book.graph, lesson)
+    weights = _needed(book, lesson) | (_known(book, lesson) if not lesson.from_scratch else {})
+    manifest = Manifest(
+        lesson=lesson,
+        seed=seed,
+        mind=fingerprint(book.graph, lesson, book.folder),
+        weights=hashes(weights),
+        source=str(book.source),
+        sources={path: sha256(text.encode()).hexdigest() for path, text in book.sources.items()},
+        command=("mindc", *sys.argv[1:]),
+        started=now.strftime("%Y-%m-%dT%H:%M:%SZ"),
+        versions=versions(),
+        processor=processor(),
+    )
+    return create(runs, manifest, book.sources, weights)
+
+
+def refuse_changed(book: Book, run: Run) -> None:
+    """RunError where the run was begun with a mind that differs in something the lesson depends on."""
+    lesson = run.manifest.lesson
+    if fingerprint(book.graph, lesson, book.folder) != run.manifest.mind:
+        raise RunError(
+            f"{book.source} has changed since this run of {lesson.skill} began, so it cannot go on",
+            f"undo the change ({run.folder / 'source'} has it as it was), or begin anew: "
+            f"mindc train {book.source} {lesson.skill}",
+        )
+
+
+def keep_path(book: Book) -> Path:
+    """The lock to which what is learnt goes."""
+    return lock_path(book.source)
+
+
+def _needed(book: Book, lesson: Lesson) -> Weights:
+    skills = subskills(book.graph, lesson)
+    weights, refusals = trained_weights(book.graph, book.lock, skills)
+    if refusals:
+        first = [skill for skill in reversed(skills) if skill not in weights]
+        raise RunError(
+            f"{lesson.skill} cannot be taught yet: {listed(refusals, 'and')}",
+            f"first: mindc train {book.source} {' '.join(first)}",
+        )
+    return weights
+
+
+def _known(book: Book, lesson: Lesson) -> Weights:
+    return trained_weights(book.graph, book.lock, {lesson.skill})[0]

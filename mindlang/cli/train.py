@@ -1,0 +1,72 @@
+"""`mindc train`: teach the skills of a mind."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import click
+
+from mindlang.cli import INTERRUPTED, MISUSE, OK
+from mindlang.cli.shared import fail
+
+EXAMPLES = """\b
+Examples:
+  mindc train collect.mind                      every lesson that has no weights or stale ones
+  mindc train collect.mind GoToObject --generations 50 --seed 1
+  mindc train collect.mind --curriculum OnTheJob
+  mindc train --resume runs/GoToObject/20260714T120000Z-1
+"""
+COUNT = click.IntRange(min=1)
+
+
+@click.command(epilog=EXAMPLES)
+@click.argument("file", required=False)
+@click.argument("skills", nargs=-1, metavar="[SKILL]...")
+@click.option("--curriculum", metavar="NAME", help="Whose lessons to teach (default: the first in the file).")
+@click.option("--generations", type=COUNT, help="Instead of what the lesson says.")
+@click.option("--population", type=click.IntRange(min=4), help="Genomes in a generation.")
+@click.option("--attempts", type=COUNT, help="Independent attempts, of which the best is kept.")
+@click.option("--from-scratch", is_flag=True, help="Forget the weights that the skill has.")
+@click.option("--force", is_flag=True, help="Teach lessons whose weights are up to date, too.")
+@click.option("--seed", type=click.IntRange(0, 2**63 - 1), help="The same seed gives the same weights.")
+@click.option("--workers", type=COUNT, help="How many cores to use (default: all). Changes nothing else.")
+@click.option("--runs", type=click.Path(path_type=Path), default="runs", show_default=True, help="Where runs are kept.")
+@click.option("--resume", type=click.Path(path_type=Path), metavar="RUN", help="Go on with a run that was stopped.")
+@click.option("--json", "as_json", is_flag=True, help="Print one line of JSON per lesson.")
+@click.option("-q", "--quiet", is_flag=True, help="Print nothing but errors.")
+def command(
+    file: str | None,
+    skills: tuple[str, ...],
+    resume: Path | None,
+    generations: int | None,
+    population: int | None,
+    attempts: int | None,
+    from_scratch: bool,
+    workers: int | None,
+    as_json: bool,
+    quiet: bool,
+    **options: Any,
+) -> int:
+    """Teach the skills of FILE, in the order of its curriculum: those named, or all without up-to-date weights.
+
+    Runs the Python code of the file's procedures. Every lesson gets a folder under runs/, from which it can go on after
+    Ctrl-C, a crash or a power cut. The weights go to FILE's lock.
+    """
+    from mindrun.errors import MindError
+
+    from mindlang.school import School
+    from mindlang.teaching import Wishes
+
+    if (file is None) == (resume is None) or file == "-":
+        fail("Say what to train: a file, or --resume and a run.", "mindc train --help has examples.", MISUSE)
+    school = School(workers, as_json, quiet)
+    wishes = Wishes(generations, population, attempts, from_scratch)
+    try:
+        if resume:
+            finished = school.resume(resume)
+        else:
+            finished = school.teach_file(Path(str(file)), skills, wishes=wishes, **options)
+    except MindError as error:
+        fail(str(error), getattr(error, "hint", ""))
+    return OK if finished else INTERRUPTED

@@ -1,0 +1,172 @@
+"""Teaching one lesson after the other, with something to look at, and keeping what was learnt."""
+
+import json
+import os
+import secrets
+import shlex
+from collections.abc import Sequence
+from dataclasses import dataclass
+from datetime import UTC, datetime
+from math import isfinite
+from pathlib import Path
+from time import perf_counter
+from typing import Any
+
+from mindrun.sim.rollout import Rollout
+from mindrun.train.errors import RunError
+from mindrun.train.lesson import Record, State
+from mindrun.train.run_folder import Run, open_run
+from mindrun.train.training import Watch, train
+
+from mindlang.book import Book, begin, keep_path, open_book, refuse_changed
+from mindlang.cli.shared import load_compiled, talk
+from mindlang.interruption import Interruption
+from mindlang.lock import Entry, Taught
+from mindlang.teaching import Wishes, is_due, lessons
+from mindlang.trained import record
+from mindlang.watching import Bar, Lines, Pace, Silent, Watcher, duration, number, rate
+
+
+@dataclass(frozen=True, slots=True)
+class School:
+    """Teaches on so many cores (all where None); talks on stderr and, with `as_json`, prints results on stdout."""
+
+    workers: int | None
+    as_json: bool
+    quiet: bool
+
+    def teach_file(
+        self,
+        file: Path,
+        skills: Sequence[str],
+        curriculum: str | None,
+        wishes: Wishes,
+        force: bool,
+        seed: int | None,
+        runs: Path,
+    ) -> bool:
+        """Teach the lessons that are due, or those asked for; False if it was interrupted."""
+        seed = secrets.randbits(31) if seed is None else seed
+        compiled = load_compiled(file)
+        book = open_book(file, compiled)
+        chosen = lessons(book.graph, curriculum, skills)
+        taught = 0
+        for place, lesson in enumerate(chosen):
+            book = open_book(file, compiled)  # the lesson before has changed the lock
+            if skills or force or is_due(lesson, chosen[:place], book.statuses[lesson.skill]):
+                run = begin(book, wishes.applied(lesson), seed, runs, datetime.now(UTC))
+                taught += 1
+                if not self._teach(run, book):
+                    return False
+        if not taught:
+            self._say(f"nothing to do: all {len(chosen)} lessons have been taught (--force teaches them again)")
+        return True
+
+    def resume(self, folder: Path) -> bool:
+        """Go on with a run; False if it was interrupted."""
+        run = open_run(folder)
+        source = Path(run.manifest.source)
+        if not source.exists():
+            raise RunError(f"{source}, from which this run began, is gone", f"its text is in {folder / 'source'}")
+        book = open_book(source, load_compiled(source))
+        refuse_changed(book, run)
+        return self._teach(run, book)
+
+    def _teach(self, run: Run, book: Book) -> bool:
+        lesson, again = run.manifest.lesson, f"mindc train --resume {shlex.quote(str(run.folder))}"
+        self._say(_opening(run))
+        rollout = Rollout(
+            book.graph,
+            run.weights,
+            lesson.task,
+            lesson.master,
+            lesson.skill,
+            procedures=book.folder,
+            workers=self.workers or len(os.sched_getaffinity(0)),
+        )
+        course = run.course(rollout.genome_length)
+        watcher = self._watcher(run, course.generations)
+
+        def asked() -> None:
+            watcher.close()
+            self._say("finishing this generation; Ctrl-C again stops at once")
+
+        def report(state: State, record: Record) -> None:
+            done = state.attempt * lesson.generations + state.population.generation
+            watcher.report(record, done, perf_counter())
+
+        try:
+            with Interruption(asked) as interruption:
+                watch = Watch(report, self._say, lambda: interruption.asked, perf_counter)
+                state = train(run, rollout, watch)
+        finally:
+            watcher.close()
+        if state.attempt < lesson.learner.attempts:
+            talk.print(f"saved; to go on: {again}", markup=False)
+            return False
+        self._finish(run, book, state)
+        return True
+
+    def _finish(self, run: Run, book: Book, state: State) -> None:
+        lesson = run.manifest.lesson
+        if not isfinite(state.reevaluated):
+            raise RunError(
+                f"{lesson.skill} has learnt nothing: the rewards of every genome were not finite numbers",
+                f"look at the rewards of the task {lesson.task}",
+            )
+        taught = Taught(
+            lesson.task,
+            lesson.master,
+            lesson.generations,
+            lesson.learner.population,
+            run.manifest.seed,
+            state.reevaluated,
+        )
+        entry = record(keep_path(book), book.graph, lesson.skill, state.kept[0], taught, run.weights)
+        self._say(
+            f"{lesson.skill} has learnt: {number(state.reevaluated)} on fresh layouts after {lesson.generations} "
+            f"generations, in {duration(state.seconds)} at {rate(state.ticks / max(state.seconds, 1e-9))}; "
+            f"weights in {keep_path(book).name}"
+        )
+        if self.as_json:
+            print(json.dumps(_result(run, state, entry), allow_nan=False), flush=True)
+
+    def _watcher(self, run: Run, generations: int) -> Watcher:
+        pace = Pace(generations, perf_counter())
+        if self.quiet:
+            return Silent()
+        return (Bar if talk.is_terminal else Lines)(talk, run.manifest.name, pace)
+
+    def _say(self, text: str) -> None:
+        if not self.quiet:
+            talk.print(text, markup=False)
+
+
+def _opening(run: Run) -> str:
+    lesson = run.manifest.lesson
+    start = "from its weights" if lesson.skill in run.weights and not lesson.from_scratch else "from scratch"
+    where = f"on {lesson.task}" + (f" under {lesson.master}" if lesson.master != lesson.skill else "")
+    return f"{lesson.skill} {where} {start}, seed {run.manifest.seed}, in {run.folder}"
+
+
+def _result(run: Run, state: State, entry: Entry) -> dict[str, Any]:
+    lesson = run.manifest.lesson
+    return {
+        "lesson": run.manifest.name,
+        "curriculum": lesson.curriculum,
+        "skill": lesson.skill,
+        "task": lesson.task,
+        "master": lesson.master,
+        "generations": lesson.generations,
+        "population": lesson.learner.population,
+        "attempts": lesson.learner.attempts,
+        "seed": run.manifest.seed,
+        "best": state.best,
+        "reevaluated": state.reevaluated,
+        "ticks": state.ticks,
+        "seconds": round(state.seconds, 3),
+        "ticks_per_second": round(state.ticks / max(state.seconds, 1e-9)),
+        "faults": state.faults,
+        "weights": entry.weights,
+        "run": str(run.folder),
+    }
