@@ -1,4 +1,4 @@
-"""What all tests share: its presence puts tests/ on the path, so that they can import `hierarchies` and `plain`."""
+"""What all tests share."""
 
 from hypothesis import settings
 

@@ -4,13 +4,14 @@ import math
 
 import numpy as np
 import pytest
-from hierarchies import Case, random_case
 from hypothesis import given
 from hypothesis import strategies as st
 from mindrun.engine import Engine
 from mindrun.portable import cosine, sine
 from mindrun.sigmoid import sigmoid
-from plain import Plain
+
+from tests.hierarchies import Case, random_case
+from tests.plain import Plain
 
 
 @given(random_case(), st.data())

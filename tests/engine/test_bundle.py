@@ -1,0 +1,136 @@
+"""Bundles: what is written is what is read, and nothing else is."""
+
+import json
+import zipfile
+from contextlib import suppress
+from dataclasses import replace
+from hashlib import sha256
+from pathlib import Path
+
+import numpy as np
+import pytest
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+from mindrun.actuators import Wheel
+from mindrun.bundle import Bundle, pack, read_bundle, unpack, write_bundle
+from mindrun.encoding import decode, encode
+from mindrun.engine import Engine
+from mindrun.errors import BundleError
+from mindrun.functions import Mlp, Procedure
+from mindrun.graph import Graph
+from mindrun.weights import genes
+
+from tests.hierarchies import random_graph
+from tests.minds import always, mind, rule, skill
+
+
+def example() -> Bundle:
+    """A bundle with one of everything."""
+    top = rule("Top", always("skill", 1, 1.0), always("skill", 2, 1.0))
+    go = skill("Go+On", Mlp(1), (0,), ("actuator", 0))
+    grip = skill("Grip", Procedure("parts.claw.grip"), (0,), ("actuator", 1))
+    weights = {"Go+On": np.arange(genes(go), dtype=np.float32)}
+    return Bundle(mind(top, go, grip), weights, {"parts.claw": "def grip(r): return r"})
+
+
+@given(random_graph(fewest_hidden=1), st.integers(0, 2**32 - 1))
+@settings(max_examples=50)
+def test_there_and_back(graph: Graph, seed: int) -> None:
+    rng = np.random.default_rng(seed)
+    weights = {s.name: rng.standard_normal(genes(s)).astype(np.float32) for s in graph.skills if genes(s)}
+    data = pack(Bundle(graph, weights, {}))
+    back = unpack(data)
+    assert back.graph == graph
+    assert {name: w.tobytes() for name, w in back.weights.items()} == {n: w.tobytes() for n, w in weights.items()}
+    assert pack(back) == data
+
+
+def test_a_bundle_runs_with_its_procedures(tmp_path: Path) -> None:
+    bundle = example()
+    write_bundle(tmp_path / "a.bundle", bundle.graph, bundle.weights, bundle.procedures)
+    back = read_bundle(tmp_path / "a.bundle")
+    assert Engine(back.graph, back.weights, back.procedures).tick([0.25])[1] == 0.25
+    with zipfile.ZipFile(tmp_path / "a.bundle") as archive:
+        assert archive.testzip() is None
+        assert archive.namelist()[0] == "manifest.json"
+
+
+def test_reading_runs_no_procedure() -> None:
+    unpack(pack(replace(example(), procedures={"parts.claw": "raise SystemExit('ran')"})))
+
+
+def test_a_bundle_replaces_another_only_when_it_is_whole(tmp_path: Path) -> None:
+    path = tmp_path / "a.bundle"
+    path.write_text("old")
+    with pytest.raises(BundleError):
+        write_bundle(path, replace(example().graph, master="Nobody"), {}, {})
+    assert path.read_text() == "old"
+    assert list(tmp_path.iterdir()) == [path]
+
+
+def test_no_truncated_bundle_is_read() -> None:
+    data = pack(example())
+    for length in [*range(0, len(data), 7), len(data) - 1]:
+        with pytest.raises(BundleError):
+            unpack(data[:length])
+
+
+def test_no_bit_can_flip() -> None:
+    data = pack(example())
+    for place in range(0, 8 * len(data), 37):
+        flipped = bytearray(data)
+        flipped[place // 8] ^= 1 << place % 8
+        with pytest.raises(BundleError):
+            unpack(bytes(flipped))
+
+
+@given(st.data())
+@settings(max_examples=300, suppress_health_check=[HealthCheck.too_slow])
+def test_a_bundle_forged_with_care_is_read_or_refused(data: st.DataObject) -> None:
+    """The hash at the end made right again after a change: still no other exception."""
+    body = bytearray(pack(example())[:-64])
+    for _ in range(data.draw(st.integers(1, 4))):
+        body[data.draw(st.integers(0, len(body) - 1))] = data.draw(st.integers(0, 255))
+    with suppress(BundleError):
+        unpack(bytes(body) + sha256(body).hexdigest().encode())
+
+
+@pytest.mark.parametrize("data", [b"", b"PK", b"not a bundle", b"PK\x05\x06" + bytes(18), b"\xff" * 200])
+def test_other_files_are_refused(tmp_path: Path, data: bytes) -> None:
+    path = tmp_path / "x.bundle"
+    path.write_bytes(data)
+    with pytest.raises(BundleError, match=r"x\.bundle: this"):
+        read_bundle(path)
+
+
+def test_a_missing_file_or_a_folder_is_refused(tmp_path: Path) -> None:
+    with pytest.raises(BundleError, match="No such file"):
+        read_bundle(tmp_path / "x.bundle")
+    with pytest.raises(BundleError, match="directory"):
+        read_bundle(tmp_path)
+
+
+def test_what_cannot_be_read_is_not_built() -> None:
+    bundle = example()
+    wheel = replace(bundle.graph.actuators[0], kind=Wheel("left", neutral=7.0))
+    with pytest.raises(BundleError, match="neutral cannot be 7"):
+        decode(encode(replace(bundle.graph, actuators=(wheel,))))
+
+
+@given(st.data())
+@settings(max_examples=300)
+def test_a_changed_graph_is_read_or_refused(data: st.DataObject) -> None:
+    """Any part of the JSON replaced by anything: a graph comes out, or a BundleError, and nothing else."""
+    tree = json.loads(json.dumps(encode(example().graph)))
+    node, key = data.draw(st.sampled_from(_places(tree)))
+    node[key] = data.draw(
+        st.one_of(st.none(), st.booleans(), st.integers(-3, 10**30), st.floats(), st.text(max_size=3), st.just([]))
+    )
+    with suppress(BundleError):
+        decode(tree)
+
+
+def _places(tree: object) -> list[tuple[dict | list, str | int]]:
+    """Every place of a JSON tree."""
+    keys = tree.keys() if isinstance(tree, dict) else range(len(tree)) if isinstance(tree, list) else ()
+    return [(tree, key) for key in keys] + [place for key in keys for place in _places(tree[key])]

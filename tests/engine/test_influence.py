@@ -1,0 +1,121 @@
+"""Equations 2, 3 and 6, neutral, memory, and numbers that must not get through."""
+
+import numpy as np
+import pytest
+from mindrun.engine import Engine
+from mindrun.errors import MindError, ReadingsError, WeightsError
+from mindrun.functions import Mlp
+from mindrun.functions.mlp import weight_count
+from mindrun.graph import Edge
+from mindrun.memory import Cell
+from mindrun.weights import genes
+
+from tests.minds import CLAW, always, mind, rule, skill
+
+STEER = (("actuator", 0), ("actuator", 1))
+
+
+def test_equation_6() -> None:
+    """Figure 15: two constant skills under full influence meet in the middle."""
+    both = rule("Both", always("skill", 1, 1.0), always("skill", 2, 1.0))
+    forward, backward = rule("Forward", always("actuator", 0, 1.0)), rule("Backward", always("actuator", 0, 0.0))
+    engine = Engine(mind(both, forward, backward), {})
+    assert engine.tick([0.0])[0] == 0.5
+    assert engine.influence.tolist() == [1.0, 1.0, 1.0]
+
+
+def test_a_single_driver_acts_fully_whatever_its_influence() -> None:
+    engine = Engine(mind(rule("Top", always("skill", 1, 0.001)), rule("Go", always("actuator", 0, 1.0))), {})
+    assert engine.tick([0.0]).tolist() == [1.0, 0.5]
+
+
+def test_a_shared_skill_adds_up_its_influence() -> None:
+    top = rule("Top", always("skill", 1, 0.5), always("skill", 2, 0.25))
+    left = rule("Left", always("skill", 3, 1.0), always("actuator", 0, 0.0))
+    right = rule("Right", always("skill", 3, 1.0))
+    engine = Engine(mind(top, left, right, rule("Go", always("actuator", 0, 1.0))), {})
+    assert engine.tick([0.0])[0] == np.float32(0.75) / np.float32(1.25)
+    assert engine.influence.tolist() == [1.0, 0.5, 0.25, 0.75]
+
+
+def test_neutral_where_nothing_influences() -> None:
+    silent = rule("Top", always("skill", 1, 0.0))
+    engine = Engine(mind(silent, rule("Go", always("actuator", 0, 1.0)), actuators=(CLAW,)), {})
+    assert engine.tick([0.0]).tolist() == [0.25]
+    assert engine.faults == 0
+
+
+def test_the_papers_weight_counts() -> None:
+    assert sum(weight_count(inputs, 2, Mlp(2)) for inputs in (1, 1, 12, 13, 13, 7)) == 1510
+    assert weight_count(21, 3, Mlp(3)) == 1610
+    assert weight_count(0, 2, Mlp(2)) == 0
+
+
+def test_memory_reads_on_the_next_tick() -> None:
+    write = rule("Top", always("memory", 0, 1.0), Edge("actuator", 0, None, (("reading", 1),)), reads=(1,))
+    engine = Engine(mind(write, cells=(Cell(decay=0.5, start=0.25),)), {})
+    assert [engine.tick([0.0, 9.0])[0] for _ in range(3)] == [0.25, 0.625, 0.8125]
+
+
+def test_memory_decays_where_nothing_drives_it() -> None:
+    read = rule("Top", Edge("actuator", 0, None, (("reading", 1),)), reads=(1,))
+    engine = Engine(mind(read, cells=(Cell(decay=0.5, start=1.0),)), {})
+    assert [engine.tick([0.0, 9.0])[0] for _ in range(3)] == [1.0, 0.5, 0.25]
+
+
+@pytest.mark.parametrize("bad", [np.nan, np.inf, -np.inf])
+def test_a_reading_that_is_not_finite_never_reaches_an_actuator(bad: float) -> None:
+    graph = mind(skill("Go", Mlp(1), (0,), *STEER), rule("Rest", always("actuator", 0, 1.0)))
+    engine = Engine(graph, {"Go": np.ones(genes(graph.skills[0]), np.float32)})
+    assert engine.tick([bad]).tolist() == [0.5, 0.5]
+    assert engine.faults == 2
+    assert engine.tick([1.0]).tolist() == [1.0, 1.0]
+    assert engine.faults == 2
+
+
+def test_outputs_that_overflow_are_not_sent() -> None:
+    graph = mind(skill("Go", Mlp(1), (0, 1), *STEER), readings=2)
+    engine = Engine(graph, {"Go": np.full(genes(graph.skills[0]), 3e38, np.float32)})
+    assert engine.tick([1.0, 1.0]).tolist() == [0.5, 0.5]
+    assert engine.faults == 2
+
+
+@pytest.mark.parametrize("above", [0.0, 1.0])
+def test_a_division_by_zero_is_not_sent(above: float) -> None:
+    ratio = Edge("actuator", 0, None, (("number", above), ("reading", 0), ("/", 0)))
+    engine = Engine(mind(rule("Go", ratio, always("actuator", 1, 1.0), reads=(0,))), {})
+    assert engine.tick([0.0]).tolist() == [0.5, 1.0]
+    assert engine.faults == 1
+
+
+def test_influence_of_zero_sends_nothing_and_is_no_fault() -> None:
+    graph = mind(rule("Top", always("skill", 1, 0.0)), skill("Go", Mlp(1), (0,), *STEER))
+    engine = Engine(graph, {"Go": np.ones(genes(graph.skills[1]), np.float32)})
+    engine.tick([np.nan])
+    assert engine.faults == 0
+
+
+def test_any_skill_can_be_the_master() -> None:
+    graph = mind(rule("Top", always("actuator", 0, 0.0)), rule("Go", always("actuator", 0, 1.0)))
+    assert Engine(graph, {}, master="Go").tick([0.0])[0] == 1.0
+    with pytest.raises(MindError, match="there is no skill Stop"):
+        Engine(graph, {}, master="Stop")
+
+
+@pytest.mark.parametrize(
+    ("weights", "message"),
+    [
+        ({}, "skill Go has no weights"),
+        ({"Go": np.ones(3, np.float32)}, "skill Go needs 12 float32 weights, not 3 of float32"),
+        ({"Go": np.ones(12)}, "skill Go needs 12 float32 weights, not 12 of float64"),
+        ({"Go": np.full(12, np.nan, np.float32)}, "skill Go has weights that are not finite"),
+    ],
+)
+def test_weights_are_checked(weights: dict[str, np.ndarray], message: str) -> None:
+    with pytest.raises(WeightsError, match=message):
+        Engine(mind(skill("Go", Mlp(1), (0,), *STEER)), weights)
+
+
+def test_readings_have_the_width_of_the_mind() -> None:
+    with pytest.raises(ReadingsError, match="has 1 readings"):
+        Engine(mind(rule("Go", always("actuator", 0, 1.0))), {}).tick([0.0, 1.0])

@@ -1,0 +1,82 @@
+"""Procedures: Python functions inside a mind, and all they can do wrong."""
+
+from pathlib import Path
+
+import pytest
+from mindrun.engine import Engine
+from mindrun.errors import ProcedureError
+from mindrun.functions import Procedure
+
+from tests.minds import mind, skill
+
+
+def engine(folder: Path, text: str, name: str = "claw.grip", outputs: int = 2) -> Engine:
+    """An engine whose only skill is a procedure of a module with this text."""
+    (folder / "claw.py").write_text(text)
+    targets = [("actuator", i) for i in range(outputs)]
+    return Engine(mind(skill("Go", Procedure(name), (0, 1), *targets), readings=2), {}, folder)
+
+
+def test_one_float_per_reading_in_one_per_output_out(tmp_path: Path) -> None:
+    text = "def grip(near, held):\n    assert type(near) is float\n    return near - held, held"
+    assert engine(tmp_path, text).tick([1.0, 0.25]).tolist() == [0.75, 0.25]
+
+
+def test_a_single_output_needs_no_tuple(tmp_path: Path) -> None:
+    assert engine(tmp_path, "def grip(a, b): return a / 4", outputs=1).tick([1.0, 0.0]).tolist() == [0.25, 0.5]
+
+
+def test_modules_stand_in_folders(tmp_path: Path) -> None:
+    (tmp_path / "parts").mkdir()
+    (tmp_path / "parts" / "arm.py").write_text("def up(a, b): return [a, b]")
+    assert engine(tmp_path, "", "parts.arm.up").tick([1.0, 0.0]).tolist() == [1.0, 0.0]
+
+
+def test_what_is_not_finite_is_not_sent(tmp_path: Path) -> None:
+    running = engine(tmp_path, "def grip(a, b): return float('nan'), 1e300")
+    assert running.tick([0.0, 0.0]).tolist() == [0.5, 0.5]
+    assert running.faults == 2
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ("def grip(a, b): return 1", "returned 1 values instead of 2"),
+        ("def grip(a, b): return 'x', 'y'", "could not convert string"),
+        ("def grip(a, b): return None", "fails"),
+        ("def grip(a): return 1, 2", "takes 1 positional argument"),
+        ("def grip(a, b): return a / b, 1", "ZeroDivisionError"),
+        ("import sys\ndef grip(a, b): sys.exit(0)", "SystemExit"),
+    ],
+)
+def test_a_call_that_fails_says_so(tmp_path: Path, text: str, message: str) -> None:
+    running = engine(tmp_path, text)
+    with pytest.raises(ProcedureError, match=message):
+        running.tick([0.0, 0.0])
+
+
+@pytest.mark.parametrize(
+    ("text", "name", "message"),
+    [
+        ("def grip(: pass", "claw.grip", "SyntaxError"),
+        ("raise SystemExit", "claw.grip", "its module fails"),
+        ("", "claw.grip", "has no such function"),
+        ("grip = 3", "claw.grip", "has no such function"),
+        ("", "paw.grip", "cannot read"),
+        ("", "grip", "write it as module.function"),
+        ("", "..claw.grip", "write it as module.function"),
+        ("", "os/path.join", "write it as module.function"),
+    ],
+)
+def test_a_module_that_fails_says_so(tmp_path: Path, text: str, name: str, message: str) -> None:
+    with pytest.raises(ProcedureError, match=message):
+        engine(tmp_path, text, name)
+
+
+def test_a_link_does_not_lead_out(tmp_path: Path) -> None:
+    inside = tmp_path / "inside"
+    inside.mkdir()
+    (tmp_path / "secret.py").write_text("def f(a, b): return 1, 1")
+    (inside / "claw.py").symlink_to(tmp_path / "secret.py")
+    with pytest.raises(ProcedureError, match="lies outside"):
+        Engine(mind(skill("Go", Procedure("claw.f"), (0,), ("actuator", 0))), {}, inside)
