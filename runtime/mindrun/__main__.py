@@ -81,19 +81,21 @@ def _share(text: str) -> float:
 
 def _run(engine: Engine, options: argparse.Namespace) -> None:
     """Print one line of commands per line of readings, each at once: a robot may be waiting for it."""
+    source = _source(options.readings)
     names = [actuator.name for actuator in engine.graph.actuators]
     skills = [skill.name for skill in engine.graph.skills]
     for number, given in _lines(options.readings):
         try:
             commands = engine.tick(vector(engine.graph, given, options.fill))
         except ReadingsError as error:
-            raise ReadingsError(f"{options.readings}, line {number}: {error}") from error
+            raise ReadingsError(f"{source}, line {number}: {error}") from error
         line: dict[str, Any] = {"commands": dict(zip(names, commands.tolist(), strict=True))}
         if options.influence:
             line["influence"] = dict(zip(skills, engine.influence.tolist(), strict=True))
         print(json.dumps(line, ensure_ascii=False), flush=True)
     if engine.faults:
-        print(f"{engine.faults} outputs were not sent, because a number was not finite", file=sys.stderr)
+        what = "1 output was" if engine.faults == 1 else f"{engine.faults} outputs were"
+        print(f"{what} not sent, because a number was not finite", file=sys.stderr)
 
 
 def _lines(name: str) -> Iterator[tuple[int, dict[str, Any]]]:
@@ -104,11 +106,15 @@ def _lines(name: str) -> Iterator[tuple[int, dict[str, Any]]]:
             while text := file.readline(LONGEST):
                 number += 1
                 if text.strip():
-                    yield number, _object(text, f"{name}, line {number}")
+                    yield number, _object(text, f"{_source(name)}, line {number}")
     except UnicodeDecodeError as error:
-        raise ReadingsError(f"{name} is not UTF-8 text") from error
+        raise ReadingsError(f"{_source(name)} is not UTF-8 text") from error
     except OSError as error:
         raise ReadingsError(f"cannot read {name}: {error.strerror}") from error
+
+
+def _source(name: str) -> str:
+    return "standard input" if name == "-" else name
 
 
 def _object(text: str, where: str) -> dict[str, Any]:

@@ -38,7 +38,8 @@ def vector(graph: Graph, given: Mapping[str, Any], fill: float | None = None) ->
 def _checked(sensor: Sensor, given: Any) -> list[float]:
     values: list[Any] = given if isinstance(given, list) else [given]
     if len(values) != sensor.width:
-        raise ReadingsError(f"sensor {sensor.name} has {sensor.width} readings, not {len(values)}")
+        many = f"{sensor.width} reading{'s' * (sensor.width > 1)}"
+        raise ReadingsError(f"sensor {sensor.name} has {many}, not {len(values)}")
     for value in values:
         if type(value) not in (int, float) or value < 0 or value > 1:
             raise ReadingsError(f"sensor {sensor.name} cannot read {value!r}: a reading is a number from 0 to 1")
