@@ -161,6 +161,6 @@ def _blob(folder: Path, weights: str) -> Path:
 
 
 def _forget(folder: Path, weights: str) -> None:
-    """Remove old weights, unless a line names them still: files in one folder share their weights."""
-    if not any(weights.encode() in lock.read_bytes() for lock in folder.glob("*.lock")):
+    """Remove old weights, unless a skill has them still: the locks of one folder share their weights."""
+    if not any(f"| weights {weights}".encode() in lock.read_bytes() for lock in folder.glob("*.lock")):
         _blob(folder, weights).unlink(missing_ok=True)

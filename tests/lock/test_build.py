@@ -1,0 +1,145 @@
+"""`mindc build`, from the source and its lock to a bundle that runs."""
+
+import json
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+from mindrun.bundle import read_bundle
+from mindrun.engine import Engine
+from mindrun.weights import genes
+
+from mindlang.arrange import arrange
+from mindlang.cli.shared import load_graph
+from mindlang.lock import Taught, read_lock
+from mindlang.trained import FOLDER, record
+
+SOURCE = """tick 1/60 s
+master Top
+body Robot is disc
+
+actuator left_wheel is wheel side left neutral 0.5
+actuator claw is gripper neutral 0
+
+sensor battery is battery
+sensor pulse is sine period 2 s
+
+skill Top is mlp hidden 1
+  reads battery
+  influences Go
+  influences Grip at 1
+
+skill Go is mlp hidden 2
+  reads battery
+  reads pulse
+  drives left_wheel
+
+skill Grip is procedure from claw.grip
+  reads battery
+  drives claw
+"""
+TAUGHT = Taught("Go", "Go", 10, 20, 1, 1.5)
+
+
+@pytest.fixture
+def source(tmp_path: Path) -> Path:
+    """A mind with a procedure, whose skills have all been taught."""
+    path = tmp_path / "small.mind"
+    path.write_text(SOURCE)
+    (tmp_path / "claw.py").write_text("def grip(battery):\n    return battery / 2\n")
+    graph = arrange(load_graph(path), {})
+    rng = np.random.default_rng(1)
+    for skill in graph.skills:
+        if genes(skill):
+            weights = rng.standard_normal(genes(skill)).astype(np.float32)
+            record(path.with_suffix(".lock"), graph, skill.name, weights, TAUGHT, {})
+    return path
+
+
+def build(*words: object) -> subprocess.CompletedProcess[str]:
+    """Run mindc build."""
+    command = [sys.executable, "-c", "from mindlang.cli import main; main()", "build", *map(str, words)]
+    return subprocess.run(command, capture_output=True, text=True, timeout=60, check=False)
+
+
+def test_a_bundle_is_built_and_runs(source: Path) -> None:
+    out = source.with_suffix(".bundle")
+    said = build(source, "-o", out, "--json")
+    assert said.returncode == 0, said.stderr
+    assert json.loads(said.stdout)["skills"] == ["Go", "Top"]
+    bundle = read_bundle(out)
+    assert Engine(bundle.graph, bundle.weights, bundle.procedures).tick([1.0, 0.0])[1] == 0.5
+    first = out.read_bytes()
+    build(source, "-o", out)
+    assert out.read_bytes() == first
+
+
+def test_moving_lines_changes_no_byte_of_the_weights(source: Path) -> None:
+    moved = SOURCE.replace("  reads battery\n  reads pulse\n", "  reads pulse  # first\n  reads battery\n")
+    build(source, "-o", source.with_suffix(".bundle"))
+    source.write_text(moved)
+    assert build(source, "-o", source.with_name("moved.bundle")).returncode == 0
+    first, second = read_bundle(source.with_suffix(".bundle")), read_bundle(source.with_name("moved.bundle"))
+    assert first.graph == second.graph
+    assert first.weights["Go"].tobytes() == second.weights["Go"].tobytes()
+
+
+def test_stale_weights_are_refused_with_the_difference(source: Path) -> None:
+    source.write_text(SOURCE.replace("  reads pulse\n", ""))
+    said = build(source, "-o", source.with_suffix(".bundle"))
+    assert said.returncode == 1
+    assert said.stderr.splitlines() == [
+        "the weights of Go are stale: reads pulse is gone",
+        f"  mindc train {source}",
+    ]
+    assert not source.with_suffix(".bundle").exists()
+
+
+def test_only_what_the_master_reaches_is_needed(source: Path) -> None:
+    source.write_text(SOURCE.replace("mlp hidden 1", "mlp hidden 3"))
+    assert build(source, "-o", source.with_suffix(".bundle")).returncode == 1
+    assert build(source, "-o", source.with_suffix(".bundle"), "--master", "Go").returncode == 0
+    assert read_bundle(source.with_suffix(".bundle")).graph.master == "Go"
+
+
+def _cut_lock(source: Path) -> None:
+    source.with_suffix(".lock").write_text("damaged")
+
+
+def _flip_weights(source: Path) -> None:
+    entry = read_lock(source.with_suffix(".lock"))["Go"]
+    blob = source.parent / FOLDER / f"{entry.weights}.npy"
+    blob.write_bytes(blob.read_bytes()[:-1] + b"!")
+
+
+def _lose_procedure(source: Path) -> None:
+    (source.parent / "claw.py").unlink()
+
+
+@pytest.mark.parametrize("damage", [_cut_lock, _flip_weights, _lose_procedure])
+def test_what_is_damaged_is_unreadable_input(source: Path, damage) -> None:
+    damage(source)
+    out = source.with_suffix(".bundle")
+    out.write_text("old")
+    said = build(source, "-o", out)
+    assert said.returncode == 2
+    assert len(said.stderr.splitlines()) == 1
+    assert out.read_text() == "old"
+
+
+def test_wrong_usage(source: Path) -> None:
+    out = source.with_suffix(".bundle")
+    said = build(source, "-o", out, "--master", "Goo")
+    assert (said.returncode, said.stderr) == (2, "There is no skill Goo.\n  Did you mean Go?\n")
+    assert build(source).returncode == 2
+    assert build(source.with_name("no.mind"), "-o", out).returncode == 2
+    said = build(source, "-o", source.parent / "no" / "a.bundle")
+    assert (said.returncode, "Traceback" in said.stderr) == (1, False)
+    assert "No such file" in said.stderr
+
+
+def test_building_runs_no_procedure(source: Path) -> None:
+    (source.parent / "claw.py").write_text("raise SystemExit('it ran')")
+    assert build(source, "-o", source.with_suffix(".bundle")).returncode == 0

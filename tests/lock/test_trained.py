@@ -1,0 +1,236 @@
+"""Which weights fit: found again in any order of lines, stale with the exact difference, refused if damaged."""
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+from mindrun.engine import Engine
+from mindrun.functions import Mlp
+from mindrun.graph import Edge, Graph, Sensor
+from mindrun.sensors import RangeFinder
+from mindrun.weights import genes
+
+from mindlang.arrange import arrange
+from mindlang.lock import LockError, Taught, read_lock
+from mindlang.trained import FOLDER, NotLearning, Stale, Trained, Untaught, digest, record, status, trained_weights
+from tests.hierarchies import random_graph
+from tests.minds import CLAW, WHEELS, always, mind, rule, skill
+
+TAUGHT = Taught("Task", "Top", 10, 20, 3, 1.5)
+
+
+def example() -> Graph:
+    """Top over Go and Turn; Go reads a sensor with three readings."""
+    top = skill("Top", Mlp(1), (3,), ("skill", 1), ("skill", 2))
+    go = skill("Go", Mlp(2), (0, 1, 2, 3), ("actuator", 0), ("actuator", 1))
+    turn = rule("Turn", always("actuator", 0, 1.0))
+    graph = mind(top, go, turn, readings=1, actuators=(*WHEELS, CLAW))
+    eyes = Sensor("eyes", RangeFinder(at=(0.0, 1.0, 2.0)), 0, 3)
+    return replace(graph, sensors=(eyes, replace(graph.sensors[0], name="battery", start=3)))
+
+
+def with_skill(graph: Graph, place: int, **changes: object) -> Graph:
+    """The graph with one skill changed."""
+    skills = list(graph.skills)
+    skills[place] = replace(skills[place], **changes)
+    return replace(graph, skills=tuple(skills))
+
+
+def teach(path: Path, graph: Graph, seed: int = 1) -> dict[str, np.ndarray]:
+    """Random weights for every skill that learns, base skills first, recorded."""
+    rng = np.random.default_rng(seed)
+    weights: dict[str, np.ndarray] = {}
+    for each in reversed(graph.skills):
+        if genes(each):
+            weights[each.name] = rng.standard_normal(genes(each)).astype(np.float32)
+            record(path, graph, each.name, weights[each.name], TAUGHT, weights)
+    return weights
+
+
+def names(graph: Graph) -> list[str]:
+    """The names of the skills."""
+    return [each.name for each in graph.skills]
+
+
+def test_what_was_recorded_is_found(tmp_path: Path) -> None:
+    graph, path = example(), tmp_path / "a.lock"
+    weights = teach(path, graph)
+    lock = read_lock(path)
+    found, refusals = trained_weights(graph, lock, names(graph))
+    assert refusals == []
+    assert {name: w.tobytes() for name, w in found.items()} == {name: w.tobytes() for name, w in weights.items()}
+    assert lock["Top"].subskills == (("Go", digest(weights["Go"])),)
+    line = "Go is mlp hidden 2 width 6 | reads eyes:3 battery | sends left_wheel right_wheel | weights "
+    assert str(lock["Go"]).startswith(line)
+    states = status(graph, lock)
+    assert isinstance(states["Top"], Trained)
+    assert isinstance(states["Turn"], NotLearning)
+
+
+def test_untaught(tmp_path: Path) -> None:
+    assert status(example(), {})["Go"] == Untaught()
+    assert trained_weights(example(), {}, ["Go"]) == ({}, ["Go has not been taught"])
+
+
+def _edges(*targets: tuple[str, int]) -> tuple[Edge, ...]:
+    return tuple(Edge(to, target, i) for i, (to, target) in enumerate(targets))
+
+
+@pytest.mark.parametrize(
+    ("changes", "differences"),
+    [
+        ({"function": Mlp(3)}, ("hidden was 2, now 3",)),
+        ({"function": Mlp(2, width=9)}, ("width was 6, now 9",)),
+        ({"inputs": (0, 1, 2)}, ("reads battery is gone",)),
+        ({"inputs": (3,)}, ("reads eyes is gone",)),
+        ({"edges": _edges(("actuator", 0), ("actuator", 2))}, ("sends claw is new", "sends right_wheel is gone")),
+        ({"function": Mlp(3), "inputs": (3,)}, ("reads eyes is gone", "hidden was 2, now 3")),
+    ],
+)
+def test_stale(tmp_path: Path, changes: dict[str, object], differences: tuple[str, ...]) -> None:
+    path = tmp_path / "a.lock"
+    teach(path, example())
+    changed = with_skill(example(), 1, **changes)
+    lock = read_lock(path)
+    assert status(changed, lock)["Go"] == Stale(differences)
+    assert trained_weights(changed, lock, ["Go"])[1] == [f"the weights of Go are stale: {'; '.join(differences)}"]
+
+
+def test_stale_where_a_sensor_has_other_readings(tmp_path: Path) -> None:
+    path = tmp_path / "a.lock"
+    teach(path, example())
+    graph = with_skill(with_skill(example(), 1, inputs=(0, 1, 2)), 0, inputs=(2,))
+    eyes, battery = graph.sensors
+    changed = replace(graph, sensors=(replace(eyes, width=2), replace(battery, start=2)))
+    states = status(changed, read_lock(path))
+    assert states["Go"] == Stale(("eyes had 3 readings, now 2",))
+    assert isinstance(states["Top"], Trained)
+
+
+def test_edges_with_at_take_no_weights(tmp_path: Path) -> None:
+    path = tmp_path / "a.lock"
+    teach(path, example())
+    go = example().skills[1]
+    changed = with_skill(example(), 1, edges=(always("actuator", 2, 1.0), *go.edges))
+    assert isinstance(status(changed, read_lock(path))["Go"], Trained)
+
+
+def test_a_retrained_subskill_only_marks_its_parents(tmp_path: Path) -> None:
+    graph, path = example(), tmp_path / "a.lock"
+    old = teach(path, graph)["Go"]
+    new = old + np.float32(1)
+    record(path, graph, "Go", new, TAUGHT, {})
+    state = status(graph, read_lock(path))["Top"]
+    assert isinstance(state, Trained)
+    assert state.notes == (f"taught with another Go ({digest(old)[:4]}…, now {digest(new)[:4]}…)",)
+
+
+def test_record_keeps_what_it_does_not_replace(tmp_path: Path) -> None:
+    graph, path = example(), tmp_path / "a.lock"
+    old = teach(path, graph)
+    other = replace(graph, skills=tuple(replace(each, name=f"{each.name}2") for each in graph.skills))
+    teach(path, other, seed=2)
+    assert set(read_lock(path)) == {"Go", "Go2", "Top", "Top2"}
+    record(path, graph, "Go", old["Go"] * 2, TAUGHT, {})
+    blobs = {file.stem for file in (tmp_path / FOLDER).iterdir()}
+    assert blobs == {entry.weights for entry in read_lock(path).values()}, "the old weights of Go are gone"
+
+
+def test_weights_that_another_lock_names_stay(tmp_path: Path) -> None:
+    graph = example()
+    old = teach(tmp_path / "a.lock", graph)["Go"]
+    record(tmp_path / "b.lock", graph, "Go", old, TAUGHT, {})
+    record(tmp_path / "b.lock", graph, "Go", old * 2, TAUGHT, {})
+    assert trained_weights(graph, read_lock(tmp_path / "a.lock"), ["Go"])[0]["Go"].tobytes() == old.tobytes()
+
+
+def test_a_damaged_lock_is_not_overwritten(tmp_path: Path) -> None:
+    path = tmp_path / "a.lock"
+    path.write_text("damaged")
+    with pytest.raises(LockError):
+        record(path, example(), "Go", np.ones(genes(example().skills[1]), np.float32), TAUGHT, {})
+    assert path.read_text() == "damaged"
+
+
+@pytest.mark.parametrize("damage", ["flip", "cut", "gone", "link"])
+def test_damaged_weights_are_refused(tmp_path: Path, damage: str) -> None:
+    graph, path = example(), tmp_path / "in" / "a.lock"
+    path.parent.mkdir()
+    teach(path, graph)
+    lock = read_lock(path)
+    blob = path.parent / FOLDER / f"{lock['Go'].weights}.npy"
+    data = blob.read_bytes()
+    blob.unlink()
+    match damage:
+        case "flip":
+            blob.write_bytes(data[:200] + bytes([data[200] ^ 1]) + data[201:])
+        case "cut":
+            blob.write_bytes(data[:-1])
+        case "link":
+            (tmp_path / "outside").write_bytes(data)
+            blob.symlink_to(tmp_path / "outside")
+    message = {"gone": "cannot be read", "link": "leads out of"}.get(damage, "is damaged")
+    with pytest.raises(LockError, match=message):
+        trained_weights(graph, lock, ["Go"])
+
+
+@given(random_graph(fewest_hidden=1), st.data())
+@settings(max_examples=60, suppress_health_check=[HealthCheck.too_slow])
+def test_reordering_the_source_changes_no_bit(
+    tmp_path_factory: pytest.TempPathFactory, graph: Graph, data: st.DataObject
+) -> None:
+    """Whole sensors read in another order, edges sent in another order, skills declared in another order."""
+    path = tmp_path_factory.mktemp("lock") / "a.lock"
+    graph = arrange(_whole_sensors(graph), {})
+    weights = teach(path, graph)
+    lock = read_lock(path)
+    shuffled = arrange(_shuffled(graph, data.draw), lock)
+    assert names(shuffled) == names(graph)
+    found, refusals = trained_weights(shuffled, lock, names(shuffled))
+    assert refusals == []
+    first, second = Engine(graph, weights), Engine(shuffled, found)
+    for readings in np.random.default_rng(0).random((3, graph.width), np.float32):
+        assert first.tick(readings).tobytes() == second.tick(readings).tobytes()
+        assert first.influence.tobytes() == second.influence.tobytes()
+
+
+def _whole_sensors(graph: Graph) -> Graph:
+    """The graph with skills that read whole sensors, as the language has it, and at least one."""
+    spans = [tuple(range(s.start, s.start + s.width)) for s in graph.sensors] + [(m.start,) for m in graph.memories]
+    skills = []
+    for each in graph.skills:
+        inputs = [i for span in spans if set(span) & set(each.inputs) for i in span]
+        skills.append(replace(each, inputs=tuple(inputs or spans[0])))
+    return replace(graph, skills=tuple(skills))
+
+
+def _shuffled(graph: Graph, draw) -> Graph:
+    spans = [tuple(range(s.start, s.start + s.width)) for s in graph.sensors] + [(m.start,) for m in graph.memories]
+    order = _another_order(graph, draw)
+    place = {old: new for new, old in enumerate(order)}
+    skills = []
+    for old in order:
+        each = graph.skills[old]
+        read = [span for span in spans if set(span) <= set(each.inputs)]
+        inputs = tuple(i for span in draw(st.permutations(read)) for i in span)
+        edges, output = [], 0
+        for edge in draw(st.permutations(each.edges)):
+            target = place[edge.target] if edge.to == "skill" else edge.target
+            edges.append(replace(edge, target=target, output=None if edge.output is None else output))
+            output += edge.output is not None
+        skills.append(replace(each, inputs=inputs, edges=tuple(edges)))
+    return replace(graph, skills=tuple(skills))
+
+
+def _another_order(graph: Graph, draw) -> list[int]:
+    """Any order of the skills in which parents come first."""
+    left = list(range(len(graph.skills)))
+    order: list[int] = []
+    while left:
+        children = {e.target for i in left for e in graph.skills[i].edges if e.to == "skill"}
+        order.append(draw(st.sampled_from([i for i in left if i not in children])))
+        left.remove(order[-1])
+    return order
