@@ -1,0 +1,1 @@
+"""Simulated worlds: many of them in lanes, compiled once for every program."""

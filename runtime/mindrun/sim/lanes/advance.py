@@ -1,0 +1,137 @@
+"""Many ticks of many worlds: a lane that ends takes the next job, and the lanes close ranks when none is left."""
+
+import numpy as np
+
+from mindrun.sim.chipmunk import close_space
+from mindrun.sim.lanes.act import act
+from mindrun.sim.lanes.arithmetic import compiled, entry
+from mindrun.sim.lanes.judge import judge, patch_of
+from mindrun.sim.lanes.sense import sense
+from mindrun.sim.lanes.step import step
+from mindrun.sim.lanes.think import begin, think
+from mindrun.sim.place import draw
+from mindrun.sim.tables import INERTIAL_TICKS, VISIT
+
+
+@entry
+def advance(t, s, jobs, ticks, interrupt):
+    """Run all lanes for so many ticks, or until every job is done; returns how many lanes are still at work."""
+    for _ in range(ticks):
+        if jobs.lanes[0] == 0:
+            break
+        before(t, s, jobs)
+        think(t, s, jobs.lanes[0], 0, len(t.skills))
+        after(t, s, jobs, interrupt)
+    return jobs.lanes[0]
+
+
+@compiled
+def before(t, s, jobs):
+    """The first half of a tick: sense, and the master's influence."""
+    sense(t, s, jobs.lanes[0], jobs.clock[0])
+    begin(t, s, jobs.lanes[0])
+
+
+@compiled
+def after(t, s, jobs, interrupt):
+    """The second half of a tick: act, step, judge; lanes whose run is over write their result and begin the next."""
+    n, clock = jobs.lanes[0], jobs.clock[0]
+    act(t, s, n, clock)
+    s.stack[5, :n] = s.body[0, :n]
+    s.stack[6, :n] = s.body[1, :n]
+    step(t, s, n)
+    judge(t, s, n, clock, interrupt)
+    s.last[:, :n] = s.commands[:, :n]
+    jobs.clock[0] = clock + 1
+    p = n - 1
+    while p >= 0:
+        if s.ended[p] >= 0 or s.tick[p] >= t.world[0].ticks:
+            finish(t, s, jobs, p)
+            if not begin_job(t, s, jobs, p):
+                last = jobs.lanes[0] - 1
+                if p != last:
+                    move(s, last, p)
+                jobs.lanes[0] = last
+        p -= 1
+
+
+@entry
+def fill(t, s, jobs, lanes):
+    """Begin as many jobs as there are lanes."""
+    for p in range(lanes):
+        if not begin_job(t, s, jobs, p):
+            break
+        jobs.lanes[0] = p + 1
+
+
+@compiled
+def begin_job(t, s, jobs, p):
+    """Lane p begins the next job from nothing; False where there is none."""
+    job = jobs.next[0]
+    if job >= len(jobs.genome):
+        return False
+    jobs.next[0] = job + 1
+    s.job[p] = job
+    s.random[p] = jobs.seeds[jobs.seed[job]]
+    draw(t, s, p)
+    genome = jobs.genomes[jobs.genome[job]]
+    for i in range(len(genome)):
+        s.genome[i, p] = genome[i]
+    reset(t, s, p)
+    return True
+
+
+@compiled
+def reset(t, s, p):
+    """Everything of lane p that is not its world, its genome or its generator, as at the beginning of a run."""
+    s.held[p], s.near[p], s.touching[p], s.faults[p] = -1, 0, 0, 0
+    s.tick[p], s.counts[p], s.ended[p] = 0, 0, -1
+    s.battery[p] = t.world[0].start
+    s.lines[:, p] = 0.0
+    s.changes[:, p] = 0.0
+    s.anchor[:, p] = np.nan
+    for i in range(INERTIAL_TICKS):
+        s.trail[2 * i, p], s.trail[2 * i + 1, p] = s.body[0, p], s.body[1, p]
+    for i in range(len(t.actuators)):
+        actuator = t.actuators[i]
+        s.last[i, p] = actuator.neutral
+        for k in range(actuator.delay):
+            s.late[actuator.ring + k, p] = actuator.neutral
+    for i in range(len(t.memories)):
+        s.readings[t.memories[i].row, p] = t.memories[i].start
+    s.board[p] = 0
+    for i in range(len(t.events)):
+        event = t.events[i]
+        if event.kind == VISIT:
+            s.board[p, event.board + patch_of(s.body, t.world[0].half, event.patch, event.columns, p)] = 1
+
+
+@compiled
+def finish(t, s, jobs, p):
+    """Write down what came of lane p's job, and free its Space."""
+    job = s.job[p]
+    for i in range(len(t.rewards)):
+        jobs.lines[job, i] = s.lines[i, p]
+    jobs.counts[job], jobs.ticks[job], jobs.ended[job] = s.counts[p], s.tick[p], s.ended[p]
+    jobs.faults[job] = s.faults[p]
+    close_space(t.library, s.handles[p], 1 + len(t.things))
+    s.job[p] = -1
+
+
+@compiled
+def move(s, a, b):
+    """Lane a becomes lane b, whose own run is over. Scratch rows stay; the circles change places with their Space."""
+    for rows in (s.body, s.heading, s.boxes, s.things, s.trail, s.changes, s.lines, s.anchor):
+        for i in range(rows.shape[0]):
+            rows[i, b] = rows[i, a]
+    for rows in (s.readings, s.before, s.genome, s.late, s.last, s.commands):
+        for i in range(rows.shape[0]):
+            rows[i, b] = rows[i, a]
+    for row in (s.held, s.counts, s.tick, s.ended, s.faults, s.job, s.near, s.touching, s.slot_count):
+        row[b] = row[a]
+    s.battery[b], s.random[b] = s.battery[a], s.random[a]
+    s.board[b] = s.board[a]
+    for i in range(s.slot_boxes.shape[0]):
+        s.slot_boxes[i, b] = s.slot_boxes[i, a]
+    for i in range(s.handles.shape[1]):
+        s.handles[a, i], s.handles[b, i] = s.handles[b, i], s.handles[a, i]

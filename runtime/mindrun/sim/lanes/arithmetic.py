@@ -1,0 +1,129 @@
+"""Arithmetic that gives the same bits on every processor: + − × ÷ only, in a fixed order, no fused operations."""
+
+import os
+from collections.abc import Callable
+from hashlib import sha256
+from pathlib import Path
+from typing import Any
+
+import numba
+import numpy as np
+
+from mindrun.portable import C1, C2, C3, C4, C5, C6, PART_1, PART_2, PART_3, S1, S2, S3, S4, S5, S6
+from mindrun.sigmoid import DENOMINATOR, LIMIT, NUMERATOR
+
+
+def _own_cache() -> None:
+    """Keep compiled code in a folder named after the sources: numba does not notice when a callee elsewhere changes."""
+    here = Path(__file__).parent
+    digest = sha256(numba.__version__.encode())
+    for path in sorted(
+        [*here.glob("*.py"), *here.parent.glob("*.py"), here.parents[1] / "sigmoid.py", here.parents[1] / "portable.py"]
+    ):
+        digest.update(path.read_bytes())
+    base = Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache")
+    numba.config.CACHE_DIR = str(base / "mind" / f"compiled-{digest.hexdigest()[:16]}")
+
+
+if "NUMBA_CACHE_DIR" not in os.environ:
+    _own_cache()
+
+# Stages call each other compiled; only an `entry` can be called from Python, and takes twice as long to compile.
+Decorator = Callable[[Callable[..., Any]], Callable[..., Any]]
+OPTIONS = {"nogil": True, "error_model": "numpy"}
+entry: Decorator = numba.njit(cache=True, **OPTIONS)
+compiled: Decorator = numba.njit(cache=True, no_cpython_wrapper=True, no_cfunc_wrapper=True, **OPTIONS)
+inlined: Decorator = numba.njit(inline="always", **OPTIONS)
+
+F = np.float32
+ZERO, HALF, ONE = F(0), F(0.5), F(1)
+TINY = F(1e-7)
+A1, A3, A5, A7, A9, A11, A13 = (F(a) for a in NUMERATOR)
+B0, B2, B4, B6 = (F(b) for b in DENOMINATOR)
+TOP = F(LIMIT)
+HUGE = F(3.4e38)
+
+
+@inlined
+def sigmoid(x):
+    """1 / (1 + e^−x), as a rational function of x/2."""
+    x = x * HALF
+    x = x if x > -TOP else -TOP
+    x = x if x < TOP else TOP
+    y = x * x
+    p = A13
+    p = p * y + A11
+    p = p * y + A9
+    p = p * y + A7
+    p = p * y + A5
+    p = p * y + A3
+    p = p * y + A1
+    p = p * x
+    q = B6
+    q = q * y + B4
+    q = q * y + B2
+    q = q * y + B0
+    return HALF + HALF * (p / q)
+
+
+@inlined
+def clamp(v):
+    """`v` within 0..1; the caller has looked whether it is finite."""
+    v = v if v > ZERO else ZERO
+    return v if v < ONE else ONE
+
+
+@inlined
+def finite(v):
+    """Whether a float32 is neither infinite nor NaN."""
+    return abs(v) <= HUGE
+
+
+@inlined
+def sine_cosine(x):
+    """(sin x, cos x) of a float64: the arithmetic of `mindrun.portable`, with selects for its branches."""
+    k = np.floor(x * 0.6366197723675814 + 0.5)
+    r = ((x - k * PART_1) - k * PART_2) - k * PART_3
+    z = r * r
+    s = r + z * r * (S1 + z * (S2 + z * (S3 + z * (S4 + z * (S5 + z * S6)))))
+    half = 0.5 * z
+    rest = 1.0 - half
+    tail = z * z * (C1 + z * (C2 + z * (C3 + z * (C4 + z * (C5 + z * C6)))))
+    c = rest + (((1.0 - rest) - half) + tail)
+    q = k - 4.0 * np.floor(k * 0.25)
+    odd = (q == 1.0) | (q == 3.0)
+    sine = c if odd else s
+    cosine = s if odd else c
+    sine = -sine if q >= 2.0 else sine
+    cosine = -cosine if (q == 1.0) | (q == 2.0) else cosine
+    return sine, cosine
+
+
+PI32, HALF_PI32 = F(np.pi), F(np.pi / 2)
+# Abramowitz and Stegun 4.4.49: within 2e-8.
+T1, T3, T5, T7 = F(0.9999993329), F(-0.3332985605), F(0.1994653599), F(-0.1390853351)
+T9, T11, T13, T15 = F(0.0964200441), F(-0.0559098861), F(0.0218612288), F(-0.0040540580)
+PER_TURN = F(0.5 / np.pi)
+
+
+@inlined
+def bearing(x, y):
+    """0.5 − atan2(y, x)/2π of float32s; 0.5 at the origin."""
+    ax, ay = abs(x), abs(y)
+    low = ax if ax < ay else ay
+    high = ax if ax > ay else ay
+    t = low / (high if high > TINY else ONE)
+    z = t * t
+    p = T15
+    p = p * z + T13
+    p = p * z + T11
+    p = p * z + T9
+    p = p * z + T7
+    p = p * z + T5
+    p = p * z + T3
+    p = p * z + T1
+    angle = p * t
+    angle = HALF_PI32 - angle if ay > ax else angle
+    angle = PI32 - angle if x < ZERO else angle
+    angle = -angle if y < ZERO else angle
+    return HALF - angle * PER_TURN

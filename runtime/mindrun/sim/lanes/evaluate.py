@@ -1,0 +1,50 @@
+"""Expressions: a postfix program over all lanes at once, in float64."""
+
+from mindrun.sim.lanes.arithmetic import compiled
+from mindrun.sim.tables import ADD, DIVIDE, EACH, MEASURE, MULTIPLY, NEGATE, NUMBER, READING, SUBTRACT
+
+
+@compiled
+def evaluate(codes, readings, measures, each, stack, active, n):
+    """Leave the program's values for the lanes active[0..n] in stack[0]; `each` is the row that "for each" is at."""
+    top = 0
+    for i in range(len(codes)):
+        op, arg, value = codes[i].op, codes[i].arg, codes[i].value
+        if op == NUMBER:
+            stack[top, :n] = value
+            top += 1
+        elif op in (READING, EACH):
+            row = readings[each if op == EACH else arg]
+            for k in range(n):
+                stack[top, k] = row[active[k]]
+            top += 1
+        elif op == MEASURE:
+            for k in range(n):
+                stack[top, k] = measures[arg, active[k]]
+            top += 1
+        elif op == NEGATE:
+            for k in range(n):
+                stack[top - 1, k] = -stack[top - 1, k]
+        else:
+            top -= 1
+            combine(op, stack[top - 1], stack[top], n)
+
+
+@compiled
+def combine(op, left, right, n):
+    """left = left op right."""
+    if op == ADD:
+        for k in range(n):
+            left[k] = left[k] + right[k]
+    elif op == SUBTRACT:
+        for k in range(n):
+            left[k] = left[k] - right[k]
+    elif op == MULTIPLY:
+        for k in range(n):
+            left[k] = left[k] * right[k]
+    elif op == DIVIDE:
+        for k in range(n):
+            left[k] = left[k] / right[k]
+
+
+__all__ = ["evaluate"]

@@ -1,0 +1,211 @@
+"""Judge: measures and events of the tick, the rewards they earn, and what has been reached appears elsewhere."""
+
+import numpy as np
+
+from mindrun.sim.lanes.arithmetic import compiled
+from mindrun.sim.lanes.evaluate import evaluate
+from mindrun.sim.lanes.sense import in_claw, inside
+from mindrun.sim.place import succeed
+from mindrun.sim.tables import (
+    ADVANCE,
+    CHANGE,
+    COLLISION,
+    DELIVERY,
+    EXHAUSTION,
+    FORWARD,
+    GREATER,
+    INERTIAL_TICKS,
+    ITEM,
+    LESS,
+    LESS_EQUAL,
+    POWER,
+    REACH,
+    RETREAT,
+    VISIT,
+    WHEEL_LEFT,
+    WHEEL_RIGHT,
+    ZONE,
+)
+
+
+@compiled
+def judge(t, s, n, clock, interrupt):
+    """Everything that a task does with a tick once the robot has moved."""
+    for i in range(len(t.measures)):
+        measure = t.measures[i]
+        if measure.kind == CHANGE:
+            change(t, s, measure, s.measures[i], n, clock)
+        elif measure.kind == FORWARD:
+            forward(s.measures[i], s.body, s.heading, s.stack[5:7], n)
+        else:
+            progress(s.measures[i], s.body, s.things, measure.thing, measure.kind, n)
+    drain(t, s, n)
+    for i in range(len(t.events)):
+        notice(t, s, t.events[i], s.events[i], n)
+    for i in range(len(t.rewards)):
+        reward(t, s, t.rewards[i], s.lines[i], n)
+    for i in range(len(t.events)):
+        settle(t, s, i, n, interrupt)
+    oldest = clock % INERTIAL_TICKS
+    for p in range(n):
+        s.tick[p] += 1
+        s.trail[2 * oldest, p], s.trail[2 * oldest + 1, p] = s.stack[5, p], s.stack[6, p]
+
+
+@compiled
+def progress(out, body, things, i, kind, n):
+    """The distance to thing i that this tick closed, or its positive or negative part."""
+    for p in range(n):
+        dx, dy = things[4 * i, p] - body[0, p], things[4 * i + 1, p] - body[1, p]
+        closed = things[4 * i + 3, p] - np.sqrt(dx * dx + dy * dy)
+        if kind == ADVANCE:
+            closed = closed if closed > 0.0 else 0.0
+        elif kind == RETREAT:
+            closed = -closed if closed < 0.0 else 0.0
+        out[p] = closed
+
+
+@compiled
+def forward(out, body, heading, before, n):
+    """1 where the robot moved forward; `before` holds x and y of the tick's beginning."""
+    for p in range(n):
+        along = (body[0, p] - before[0, p]) * heading[0, p] + (body[1, p] - before[1, p]) * heading[1, p]
+        out[p] = 1.0 if along > 1e-6 else 0.0
+
+
+@compiled
+def change(t, s, measure, out, n, clock):
+    """How much each side's wheel command changed over the last ticks, beyond a share: ΣΔ of the paper's Table 5."""
+    slot = measure.ring + clock % measure.over
+    total = s.changes.shape[0] // 2
+    for p in range(n):
+        s.changes[slot, p] = 0.0
+        s.changes[total + slot, p] = 0.0
+        out[p] = 0.0
+    for i in range(len(t.actuators)):
+        kind = t.actuators[i].kind
+        if kind in (WHEEL_LEFT, WHEEL_RIGHT):
+            row = slot if kind == WHEEL_LEFT else total + slot
+            for p in range(n):
+                s.changes[row, p] += abs(np.float64(s.commands[i, p]) - np.float64(s.last[i, p]))
+    for side in range(2):
+        first = side * total + measure.ring
+        for p in range(n):
+            varied = 0.0
+            for k in range(measure.over):
+                varied += s.changes[first + k, p]
+            out[p] += max(0.0, varied - measure.beyond)
+
+
+@compiled
+def drain(t, s, n):
+    """The battery charges inside a power zone, and empties elsewhere."""
+    world = t.world[0]
+    for p in range(n):
+        charged = False
+        for i in range(len(t.things)):
+            if t.things[i].kind == POWER and inside(s.things, i, s.body[0, p], s.body[1, p], p):
+                charged = True
+        left = s.battery[p] + world.charge if charged else s.battery[p] - world.drain
+        s.battery[p] = min(1.0, max(0.0, left))
+
+
+@compiled
+def notice(t, s, event, out, n):
+    """How often the event happened in this tick, per lane."""
+    world, kind, i = t.world[0], event.kind, event.thing
+    for p in range(n):
+        happened = False
+        if kind == REACH and t.things[i].kind == ITEM:
+            happened = in_claw(s.body, s.heading, s.things, world.radius, world.claw, i, p)
+        elif kind == REACH:
+            happened = inside(s.things, i, s.body[0, p], s.body[1, p], p)
+        elif kind == DELIVERY:
+            if s.held[p] == i:
+                for z in range(len(t.things)):
+                    if t.things[z].kind == ZONE and inside(s.things, z, s.things[4 * i, p], s.things[4 * i + 1, p], p):
+                        happened = True
+        elif kind == VISIT:
+            patch = patch_of(s.body, world.half, event.patch, event.columns, p)
+            happened = s.board[p, event.board + patch] == 0
+            s.board[p, event.board + patch] = 1
+        elif kind == COLLISION:
+            happened = s.touching[p] == 1
+        elif kind == EXHAUSTION:
+            happened = s.battery[p] == 0.0
+        out[p] = 1.0 if happened else 0.0
+
+
+@compiled
+def patch_of(body, half, patch, columns, p):
+    """The number of the patch that the robot's centre is in."""
+    x = min(columns - 1, max(0, int((body[0, p] + half) / patch)))
+    y = min(columns - 1, max(0, int((body[1, p] + half) / patch)))
+    return y * columns + x
+
+
+@compiled
+def reward(t, s, line, total, n):
+    """Add what a reward line pays in this tick to its sums."""
+    if line.on >= 0 and not some(s.events[line.on], n):
+        return
+    for p in range(n):
+        s.active[p] = p
+    for k in range(max(1, line.eachs)):
+        each = line.each + k
+        paid = s.stack[7]
+        for p in range(n):
+            paid[p] = s.events[line.on, p] if line.on >= 0 else 1.0
+        if line.compare >= 0:
+            run(t, s, line.right, line.rights, each, n)
+            for p in range(n):
+                s.stack[8, p] = s.stack[9, p]
+            run(t, s, line.left, line.lefts, each, n)
+            only_when(paid, s.stack[9], s.stack[8], line.compare, n)
+        run(t, s, line.code, line.length, each, n)
+        for p in range(n):
+            total[p] += s.stack[9, p] if paid[p] > 0.0 else 0.0
+
+
+@compiled
+def run(t, s, first, length, each, n):
+    """Evaluate a program into stack[9]."""
+    evaluate(t.codes[first : first + length], s.readings, s.measures, each, s.stack[9:], s.active, n)
+
+
+@compiled
+def some(events, n):
+    """Whether the event happened in any lane."""
+    for p in range(n):  # noqa: SIM110 (numba compiles loops, not any())
+        if events[p] > 0.0:
+            return True
+    return False
+
+
+@compiled
+def only_when(paid, left, right, compare, n):
+    """Nothing is paid where left compare right does not hold."""
+    for p in range(n):
+        a, b = left[p], right[p]
+        if compare == LESS:
+            holds = a < b
+        elif compare == LESS_EQUAL:
+            holds = a <= b
+        elif compare == GREATER:
+            holds = a > b
+        else:
+            holds = a >= b
+        paid[p] = paid[p] if holds else 0.0
+
+
+@compiled
+def settle(t, s, i, n, interrupt):
+    """Count an event, end the runs that it ends, and let what was reached or delivered appear elsewhere."""
+    event = t.events[i]
+    for p in range(n):
+        if s.events[i, p] > 0.0:
+            s.counts[p] += event.counts
+            if event.ends and interrupt and s.ended[p] < 0:
+                s.ended[p] = i
+            if event.kind == REACH or event.kind == DELIVERY:
+                succeed(t, s, event.thing, p)

@@ -1,0 +1,232 @@
+"""Sense: every reading of every lane, from where the robots and the things are."""
+
+import numpy as np
+
+from mindrun.sim.lanes.arithmetic import HALF, HUGE, ONE, TINY, ZERO, F, bearing, clamp, compiled, sine_cosine
+from mindrun.sim.tables import (
+    BATTERY,
+    BEARING,
+    CONTACT,
+    DERIVATIVE,
+    HELD,
+    INERTIAL,
+    INERTIAL_TICKS,
+    INSIDE,
+    RANGE,
+    SINE,
+)
+
+SLACK = 2.0  # how far a robot may move before the boxes that its rays can meet are chosen anew
+
+
+@compiled
+def sense(t, s, n, clock):
+    """Fill the rows of the sensors that somebody reads, in the order of the table (sources before derivatives)."""
+    world = t.world[0]
+    see(s.body, s.heading, s.things, len(t.things), n)
+    if world.rays > 0:
+        look(t, s, n)
+    for i in range(len(t.sensors)):
+        sensor = t.sensors[i]
+        kind, row = sensor.kind, sensor.start
+        if kind == RANGE:
+            for ray in range(sensor.width):
+                distance(s.readings[row + ray], s.sines[4 * (sensor.ray + ray)], F(world.radius), F(sensor.range),
+                         sensor.dead_zone, n)  # fmt: skip
+        elif kind == SINE:
+            wave(s.readings[row], s.tick, sensor.period, n)
+        elif kind == DERIVATIVE:
+            for k in range(sensor.width):
+                derive(s.readings[row + k], s.readings[sensor.source + k], s.before[sensor.before + k], s.tick,
+                       sensor.gain, sensor.dead_zone, sensor.turns, n)  # fmt: skip
+        elif kind == INERTIAL:
+            oldest = clock % INERTIAL_TICKS
+            moved(s.readings[row], s.body, s.trail[2 * oldest], s.trail[2 * oldest + 1], sensor.gain,
+                  sensor.dead_zone, n)  # fmt: skip
+        elif kind == BATTERY:
+            for p in range(n):
+                s.readings[row, p] = F(s.battery[p])
+        elif sensor.thing < 0:
+            s.readings[row, :n] = HALF if kind == BEARING else ZERO
+        elif kind == BEARING:
+            turn(s.readings[row], s.body, s.heading, s.things[4 * sensor.thing : 4 * sensor.thing + 4], sensor.range,
+                 sensor.dead_zone, n)  # fmt: skip
+        elif kind == CONTACT:
+            for p in range(n):
+                s.readings[row, p] = (
+                    ONE if in_claw(s.body, s.heading, s.things, world.radius, world.claw, sensor.thing, p) else ZERO
+                )
+        elif kind == HELD:
+            for p in range(n):
+                s.readings[row, p] = ONE if s.held[p] == sensor.thing else ZERO
+        elif kind == INSIDE:
+            for p in range(n):
+                s.readings[row, p] = ONE if inside(s.things, sensor.thing, s.body[0, p], s.body[1, p], p) else ZERO
+
+
+@compiled
+def see(body, heading, things, count, n):
+    """Headings, and the distance of every thing when the tick begins."""
+    for p in range(n):
+        heading[1, p], heading[0, p] = sine_cosine(body[2, p])
+    for i in range(count):
+        for p in range(n):
+            dx, dy = things[4 * i, p] - body[0, p], things[4 * i + 1, p] - body[1, p]
+            things[4 * i + 3, p] = np.sqrt(dx * dx + dy * dy)
+
+
+@compiled
+def turn(out, body, heading, thing, reach, dead_zone, n):
+    """A bearing: 0.5 − atan2/2π in the body's frame."""
+    for p in range(n):
+        dx, dy = F(thing[0, p] - body[0, p]), F(thing[1, p] - body[1, p])
+        c, q = F(heading[0, p]), F(heading[1, p])
+        v = bearing(c * dx + q * dy, c * dy - q * dx)
+        v = HALF if abs(v - HALF) < dead_zone else v
+        out[p] = v if thing[3, p] <= reach else HALF
+
+
+@compiled
+def wave(out, tick, period, n):
+    """0.5 + 0.5 sin(2πt/T)."""
+    for p in range(n):
+        turns = tick[p] / period
+        sine, _ = sine_cosine(2 * np.pi * (turns - np.floor(turns)))
+        out[p] = F(0.5 + 0.5 * sine)
+
+
+@compiled
+def derive(out, now, before, tick, gain, dead_zone, turns, n):
+    """0.5 + change · gain, the short way round a circle; 0.5 in the first tick."""
+    for p in range(n):
+        d = now[p] - before[p]
+        over = F(1 if d > HALF else 0) - F(1 if d < -HALF else 0)
+        d = d - over if turns else d
+        v = clamp(HALF + d * gain)
+        v = HALF if abs(v - HALF) < dead_zone else v
+        out[p] = v if tick[p] > 0 else HALF
+    for p in range(n):
+        before[p] = now[p]
+
+
+@compiled
+def moved(out, body, x, y, gain, dead_zone, n):
+    """The displacement since the oldest place of the trail, as a share of `range`."""
+    for p in range(n):
+        dx, dy = body[0, p] - x[p], body[1, p] - y[p]
+        v = clamp(F(np.sqrt(dx * dx + dy * dy)) * gain)
+        out[p] = ZERO if v < dead_zone else v
+
+
+@compiled
+def in_claw(body, heading, things, radius, reach, i, p):
+    """Whether thing i is ahead of the claw and its rim within the claw's reach."""
+    dx, dy = things[4 * i, p] - body[0, p], things[4 * i + 1, p] - body[1, p]
+    ahead = heading[0, p] * dx + heading[1, p] * dy - radius
+    aside = heading[0, p] * dy - heading[1, p] * dx
+    far = reach + things[4 * i + 2, p] / 2
+    return ahead >= 0 and ahead * ahead + aside * aside <= far * far
+
+
+@compiled
+def inside(things, i, x, y, p):
+    """Whether a point is inside the square of thing i."""
+    half = things[4 * i + 2, p] / 2
+    return abs(things[4 * i, p] - x) <= half and abs(things[4 * i + 1, p] - y) <= half
+
+
+@compiled
+def look(t, s, n):
+    """The distance from each robot's centre along each ray, into the first of the ray's four rows in `sines`."""
+    world = t.world[0]
+    count = choose(s.body, s.boxes, s.anchor, s.slot_boxes, s.slot_count, world.range + world.radius + SLACK, n)
+    for k in range(count):
+        place(s.body, s.boxes, s.slot_boxes[k], s.slot_count, k, s.slots[4 * k + 4 : 4 * k + 8], n)
+    for ray in range(len(t.ray_row)):
+        rows = s.sines[4 * ray : 4 * ray + 4]
+        aim(s.heading, t.rays[0, ray], t.rays[1, ray], rows, n)
+        walls(s.body, F(world.half), rows, n)
+        for k in range(count):
+            slab(s.slots[4 * k + 4], s.slots[4 * k + 5], s.slots[4 * k + 6], s.slots[4 * k + 7], rows[1], rows[2],
+                 rows[0], n)  # fmt: skip
+
+
+@compiled
+def aim(heading, cosine, sine, rows, n):
+    """The reciprocals of a ray's direction, which is never quite along an axis."""
+    for p in range(n):
+        c, q = F(heading[0, p]), F(heading[1, p])
+        x, y = c * cosine - q * sine, q * cosine + c * sine
+        x = x if abs(x) > TINY else TINY
+        y = y if abs(y) > TINY else TINY
+        rows[1, p] = ONE / x
+        rows[2, p] = ONE / y
+
+
+@compiled
+def walls(body, half, rows, n):
+    """The distance to the walls of the arena, if there are any."""
+    for p in range(n):
+        px, py = F(body[0, p]), F(body[1, p])
+        ix, iy = rows[1, p], rows[2, p]
+        a, b = (half - px) * ix, (-half - px) * ix
+        c, d = (half - py) * iy, (-half - py) * iy
+        tx, ty = a if a > b else b, c if c > d else d
+        rows[0, p] = tx if tx < ty else ty
+
+
+@compiled
+def slab(left, right, low, high, ix, iy, out, n):
+    """The distance to one box per lane, given by its sides relative to the robot, if that is nearer."""
+    for p in range(n):
+        a, b, c, d = left[p] * ix[p], right[p] * ix[p], low[p] * iy[p], high[p] * iy[p]
+        ab, ba = a if a < b else b, a if a > b else b
+        cd, dc = c if c < d else d, c if c > d else d
+        enter, leave = ab if ab > cd else cd, ba if ba < dc else dc
+        hit = enter if (enter <= leave) & (enter >= ZERO) else HUGE
+        out[p] = hit if hit < out[p] else out[p]
+
+
+@compiled
+def distance(out, far, radius, reach, dead_zone, n):
+    """A range finder's reading from the distance along its ray."""
+    scale = ONE / reach
+    for p in range(n):
+        v = clamp((far[p] - radius) * scale)
+        out[p] = ZERO if v < dead_zone else v
+
+
+@compiled
+def choose(body, boxes, anchor, slot_boxes, slot_count, reach, n):
+    """Which boxes each lane's rays can meet, chosen anew for a lane that has moved; the largest number of them.
+
+    The choice is only ever too generous, so that no reading depends on when it was made.
+    """
+    total = boxes.shape[0] // 3 if boxes.shape[0] >= 3 else 0
+    most = 0
+    for p in range(n):
+        dx, dy = body[0, p] - anchor[0, p], body[1, p] - anchor[1, p]
+        if not dx * dx + dy * dy < (SLACK * 0.9) ** 2:
+            anchor[0, p], anchor[1, p] = body[0, p], body[1, p]
+            found = 0
+            for b in range(total):
+                margin = boxes[3 * b + 2, p] + reach
+                if abs(boxes[3 * b, p] - body[0, p]) < margin and abs(boxes[3 * b + 1, p] - body[1, p]) < margin:
+                    slot_boxes[found, p] = b
+                    found += 1
+            slot_count[p] = found
+        most = max(most, slot_count[p])
+    return most
+
+
+@compiled
+def place(body, boxes, chosen, slot_count, k, sides, n):
+    """The sides of each lane's k-th box relative to the robot; a box that no ray meets where there is none."""
+    for p in range(n):
+        if k < slot_count[p]:
+            b = 3 * chosen[p]
+            dx, dy, half = F(boxes[b, p] - body[0, p]), F(boxes[b + 1, p] - body[1, p]), F(boxes[b + 2, p])
+            sides[0, p], sides[1, p] = dx - half, dx + half
+            sides[2, p], sides[3, p] = dy - half, dy + half
+        else:
+            sides[0, p], sides[1, p], sides[2, p], sides[3, p] = HUGE, HUGE, HUGE, HUGE

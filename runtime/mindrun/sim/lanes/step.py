@@ -1,0 +1,119 @@
+"""Step: one tick of physics. Free flight is plain arithmetic in Chipmunk's order; Chipmunk steps what could touch."""
+
+from mindrun.sim.chipmunk import open_space, push, step_space
+from mindrun.sim.lanes.act import carry
+from mindrun.sim.lanes.arithmetic import compiled, sine_cosine
+from mindrun.sim.tables import WHEEL_LEFT, WHEEL_RIGHT
+
+MARGIN = 0.01  # beyond the rounding of any distance here
+LINGER = 5  # ticks: Chipmunk forgets a contact after three
+
+
+@compiled
+def step(t, s, n):
+    """Damp, push with the wheels, move; then the headings and the held items follow."""
+    world = t.world[0]
+    thrust(t, s, n)
+    find_near(t, s, n)
+    fly(s.body, s.row, s.stack, s.near, world.dt, world.mass_inv, world.moment_inv, n)
+    for p in range(n):
+        s.touching[p] <<= 1  # bit 0 this tick, bit 1 the tick before
+        s.touching[p] &= 3
+        if s.near[p] > 0:
+            if s.handles[p, 0] == 0:
+                open_space(t, s, p)
+            push(t, s, p)
+            if step_space(t, s, p, world.dt) > 0:
+                s.touching[p] |= 1
+    for p in range(n):
+        s.heading[1, p], s.heading[0, p] = sine_cosine(s.body[2, p])
+    carry(s.held, s.body, s.heading, s.things, t.things, n)
+
+
+@compiled
+def thrust(t, s, n):
+    """Damped velocities into the body; force along the heading and torque into the scratch rows stack[0..2]."""
+    world = t.world[0]
+    s.stack[0:2, :n] = 0.0
+    for i in range(len(t.actuators)):
+        actuator = t.actuators[i]
+        if actuator.kind == WHEEL_LEFT:
+            wheel(s.commands[i], actuator.thrust, s.stack[0], s.stack[1], -world.radius, n)
+        elif actuator.kind == WHEEL_RIGHT:
+            wheel(s.commands[i], actuator.thrust, s.stack[0], s.stack[1], world.radius, n)
+    damp(s.body, s.heading, s.stack, world.linear, world.angular, n)
+
+
+@compiled
+def wheel(commands, strength, force, torque, arm, n):
+    """(2v − 1)·thrust on the left (arm < 0) or right rim."""
+    for p in range(n):
+        f = (2.0 * commands[p] - 1.0) * strength
+        force[p] += f
+        torque[p] += arm * f
+
+
+@compiled
+def damp(body, heading, stack, linear, angular, n):
+    """v / (1 + dt·c), as JBox2D does; then stack holds the force's x and y and the torque in rows 2, 3, 1."""
+    for p in range(n):
+        body[3, p] = body[3, p] * linear
+        body[4, p] = body[4, p] * linear
+        body[5, p] = body[5, p] * angular
+        stack[2, p] = stack[0, p] * heading[0, p]
+        stack[3, p] = stack[0, p] * heading[1, p]
+
+
+@compiled
+def fly(body, row, stack, near, dt, mass_inv, moment_inv, n):
+    """Chipmunk's step of a body that touches nothing: move with the old velocity, then add force and torque.
+
+    A lane that Chipmunk will step keeps its state.
+    """
+    for p in range(n):
+        free = near[p] == 0
+        body[0, p] = body[0, p] + body[3, p] * dt if free else body[0, p]
+        body[1, p] = body[1, p] + body[4, p] * dt if free else body[1, p]
+        body[2, p] = body[2, p] + body[5, p] * dt if free else body[2, p]
+        body[3, p] = body[3, p] + stack[2, p] * mass_inv * dt if free else body[3, p]
+        body[4, p] = body[4, p] + stack[3, p] * mass_inv * dt if free else body[4, p]
+        body[5, p] = body[5, p] + stack[1, p] * moment_inv * dt if free else body[5, p]
+
+
+@compiled
+def find_near(t, s, n):
+    """Count down `near`, and begin anew where the robot or what it holds could touch something after this tick."""
+    world = t.world[0]
+    total = s.boxes.shape[0] // 3
+    reach = world.radius + MARGIN
+    gap = s.stack[4]
+    clearance(s.body, world.half, world.dt, gap, n)
+    for b in range(total):
+        approach(s.boxes[3 * b], s.boxes[3 * b + 1], s.boxes[3 * b + 2], s.body, world.dt, gap, n)
+    for p in range(n):
+        s.near[p] = max(0, s.near[p] - 1)
+        if s.held[p] >= 0:
+            thing = 4 * s.held[p]
+            item_reach = t.things[s.held[p]].hold + s.things[thing + 2, p] / 2 + MARGIN
+            if gap[p] < item_reach:
+                s.near[p] = LINGER
+        if gap[p] < reach:
+            s.near[p] = LINGER
+
+
+@compiled
+def clearance(body, half, dt, gap, n):
+    """The distance between the robot's next centre and the walls."""
+    for p in range(n):
+        x, y = abs(body[0, p] + body[3, p] * dt), abs(body[1, p] + body[4, p] * dt)
+        gap[p] = half - (x if x > y else y)
+
+
+@compiled
+def approach(bx, by, half, body, dt, gap, n):
+    """`gap` lowered to the distance along the axes between the robot's next centre and a box, if that is nearer."""
+    for p in range(n):
+        x = abs(body[0, p] + body[3, p] * dt - bx[p]) - half[p]
+        y = abs(body[1, p] + body[4, p] * dt - by[p]) - half[p]
+        far = x if x > y else y
+        gap[p] = far if far < gap[p] else gap[p]

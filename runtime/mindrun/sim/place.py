@@ -1,0 +1,138 @@
+"""Places drawn at random: the obstacles, where the robot starts, where things appear and reappear.
+
+Every world has its own generator (SplitMix64), seeded by the layout alone, so that all genomes of a generation meet
+the same world. Everything is placed clear of everything else, with room for the robot between.
+"""
+
+import numpy as np
+
+from mindrun.sim.lanes.arithmetic import compiled, sine_cosine
+
+GOLDEN, MIX_1, MIX_2 = np.uint64(0x9E3779B97F4A7C15), np.uint64(0xBF58476D1CE4E5B9), np.uint64(0x94D049BB133111EB)
+S30, S27, S31, S11 = np.uint64(30), np.uint64(27), np.uint64(31), np.uint64(11)
+UNIT = 2.0**-53
+TRIES = 1000
+
+
+@compiled
+def uniform(random, p, low, high):
+    """The next number of lane p's generator, between low and high."""
+    random[p] += GOLDEN
+    z = random[p]
+    z = (z ^ (z >> S30)) * MIX_1
+    z = (z ^ (z >> S27)) * MIX_2
+    z = z ^ (z >> S31)
+    return low + (high - low) * (np.float64(z >> S11) * UNIT)
+
+
+@compiled
+def draw(t, s, p):
+    """A fresh world in lane p: grids of obstacles, the robot, loose obstacles, then the things in their order."""
+    world, obstacles = t.world[0], t.obstacles
+    s.boxes[:, p] = 1e9
+    s.boxes[2::3, p] = 0.0
+    box = 0
+    for i in range(len(obstacles)):
+        box = draw_grid(s, obstacles[i], world.half, box, p)
+    start(s, world.half, world.radius, p)
+    for i in range(len(obstacles)):
+        for _ in range(obstacles[i].count):
+            size = uniform(s.random, p, obstacles[i].first, obstacles[i].last)
+            x, y = find(s, world.half, world.radius, obstacles[i].low, obstacles[i].high, size / 2, -1, p)
+            s.boxes[3 * box, p], s.boxes[3 * box + 1, p], s.boxes[3 * box + 2, p] = x, y, size / 2
+            box += 1
+    s.things[:, p] = 1e9
+    for i in range(len(t.things)):
+        thing = t.things[i]
+        fixed = thing.by == thing.by  # a schedule, or one size; NaN: drawn
+        s.things[4 * i + 2, p] = thing.first if fixed else uniform(s.random, p, thing.first, thing.last)
+        put(t, s, i, p)
+
+
+@compiled
+def draw_grid(s, obstacle, half, box, p):
+    """One obstacle at each crossing of the grid, a little off it; the number of the next box."""
+    for row in range(obstacle.lines):
+        for column in range(obstacle.lines):
+            middle = (obstacle.lines - 1) / 2
+            x = (column - middle) * obstacle.grid + uniform(s.random, p, -obstacle.jitter, obstacle.jitter)
+            y = (row - middle) * obstacle.grid + uniform(s.random, p, -obstacle.jitter, obstacle.jitter)
+            size = uniform(s.random, p, obstacle.first, obstacle.last)
+            s.boxes[3 * box, p], s.boxes[3 * box + 1, p], s.boxes[3 * box + 2, p] = x, y, size / 2
+            box += 1
+    return box
+
+
+@compiled
+def start(s, half, radius, p):
+    """The robot at rest: in the origin of a plain scene, anywhere clear in an arena; facing anywhere."""
+    s.body[:, p] = 0.0
+    if half < 1e300:
+        for _ in range(TRIES):
+            s.body[0, p] = uniform(s.random, p, -half + 3 * radius, half - 3 * radius)
+            s.body[1, p] = uniform(s.random, p, -half + 3 * radius, half - 3 * radius)
+            if clear(s, s.body[0, p], s.body[1, p], 3 * radius, p):
+                break
+    s.body[2, p] = uniform(s.random, p, 0.0, 2 * np.pi)
+
+
+@compiled
+def clear(s, x, y, margin, p):
+    """Whether no obstacle comes within `margin` of a point, along the axes."""
+    for b in range(s.boxes.shape[0] // 3):
+        gap = s.boxes[3 * b + 2, p] + margin
+        if abs(s.boxes[3 * b, p] - x) < gap and abs(s.boxes[3 * b + 1, p] - y) < gap:
+            return False
+    return True
+
+
+@compiled
+def find(s, half, radius, low, high, extent, but, p):
+    """A place for something of that half size: low..high from the robot, clear of obstacles, walls and other things.
+
+    The last one tried where no try succeeds.
+    """
+    x, y = 0.0, 0.0
+    for _ in range(TRIES):
+        if half < 1e300:
+            room = max(half - extent - 2 * radius, 0.0)
+            x, y = uniform(s.random, p, -room, room), uniform(s.random, p, -room, room)
+        else:
+            sine, cosine = sine_cosine(uniform(s.random, p, 0.0, 2 * np.pi))
+            far = uniform(s.random, p, low, high)
+            x, y = s.body[0, p] + far * cosine, s.body[1, p] + far * sine
+        dx, dy = x - s.body[0, p], y - s.body[1, p]
+        far = np.sqrt(dx * dx + dy * dy)
+        ok = far > low - 1e-9 and far < high + 1e-9 and clear(s, x, y, extent + 2 * radius, p)
+        for i in range(s.things.shape[0] // 4):
+            gap = extent + s.things[4 * i + 2, p] / 2
+            if i != but and abs(s.things[4 * i, p] - x) < gap and abs(s.things[4 * i + 1, p] - y) < gap:
+                ok = False
+        if ok:
+            break
+    return x, y
+
+
+@compiled
+def put(t, s, i, p):
+    """Thing i somewhere else in lane p."""
+    world, thing = t.world[0], t.things[i]
+    x, y = find(s, world.half, world.radius, thing.low, thing.high, s.things[4 * i + 2, p] / 2, i, p)
+    s.things[4 * i, p], s.things[4 * i + 1, p] = x, y
+
+
+@compiled
+def succeed(t, s, i, p):
+    """Thing i has been reached or delivered: it takes the next step of its schedule and reappears elsewhere."""
+    thing = t.things[i]
+    size = s.things[4 * i + 2, p]
+    if thing.by != thing.by:
+        size = uniform(s.random, p, thing.first, thing.last)
+    elif thing.first > thing.last:
+        size = max(thing.last, size - thing.by)
+    elif thing.first < thing.last:
+        size = min(thing.last, size + thing.by)
+    s.things[4 * i + 2, p] = size
+    if s.held[p] == i:
+        s.held[p] = -1
+    put(t, s, i, p)

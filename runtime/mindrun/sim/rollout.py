@@ -1,0 +1,166 @@
+"""Rollouts: genomes on layouts, scored in lanes on every core. A result depends on its genome and its seed alone."""
+
+from collections.abc import Mapping, Sequence
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mindrun.graph import Graph
+from mindrun.sim import chipmunk
+from mindrun.sim.lanes.advance import advance, fill
+from mindrun.sim.procedures import Procedures
+from mindrun.sim.slow import advance_slowly
+from mindrun.sim.state import Jobs, State, empty_state
+from mindrun.sim.tables import ITEM, Sizes, Tables, build, genome_length
+
+Array = NDArray[Any]
+LANES = 128
+SLICE = 1000  # ticks between two looks at whether to stop
+
+
+@dataclass(frozen=True, slots=True)
+class Scores:
+    """What came of every genome on every seed: arrays [genomes, seeds].
+
+    `total` is −∞ where a reward was not a number; `by_line` [genomes, seeds, lines] sums each reward line; `ended_by`
+    is an index into the task's events, −1 where the run lasted its time; `faults` counts values that were not sent.
+    """
+
+    total: NDArray[np.float64]
+    by_line: NDArray[np.float64]
+    counts: NDArray[np.int64]
+    ticks: NDArray[np.int64]
+    ended_by: NDArray[np.int64]
+    faults: NDArray[np.int64]
+
+
+@dataclass(frozen=True, slots=True)
+class Tile:
+    """Some lanes that run together, and what must outlive them."""
+
+    state: State
+    kept: Any
+
+
+class Rollout:
+    """Runs a task under a master; where there is a `learner`, every genome is a set of its weights."""
+
+    def __init__(
+        self,
+        graph: Graph,
+        weights: Mapping[str, NDArray[np.float32]],
+        task: str,
+        master: str,
+        learner: str | None = None,
+        *,
+        procedures: Path | None = None,
+        interrupt: bool = True,
+        workers: int = 1,
+        lanes: int = LANES,
+    ) -> None:
+        self.graph = graph
+        self.task = next(t for t in graph.tasks if t.name == task)
+        self.procedures = Procedures(graph, master, procedures)
+        self.interrupt, self.workers, self.lanes = interrupt, workers, lanes
+        self.genome_length = genome_length(graph, learner)
+        self.tables: Tables
+        self.sizes: Sizes
+        addresses = self.procedures.addresses
+        library = chipmunk.library()
+        self.tables, self.sizes = build(graph, weights, self.task, master, learner, addresses, library)
+
+    def score(self, genomes: NDArray[np.float32], seeds: Sequence[int]) -> Scores:
+        """Every genome [genomes, genome_length] on every seed; ValueError where a weight is not finite."""
+        if not np.isfinite(genomes).all():
+            raise ValueError("a genome has weights that are not finite numbers")
+        jobs = self.jobs(np.ascontiguousarray(genomes, np.float32), np.array(seeds, np.uint64))
+        workers = max(1, min(self.workers, len(jobs.genome)))
+        shares = [np.arange(worker, len(jobs.genome), workers) for worker in range(workers)]
+        if workers == 1:
+            parts = [self._run(jobs, shares[0])]
+        else:
+            with ThreadPoolExecutor(workers) as pool:
+                parts = list(pool.map(lambda share: self._run(jobs, share), shares))
+        return _scores(parts, shares, (len(genomes), len(seeds)))
+
+    def jobs(self, genomes: NDArray[np.float32], seeds: NDArray[np.uint64]) -> Jobs:
+        """Every genome on every seed, as jobs that have not begun."""
+        pairs = np.indices((len(genomes), len(seeds))).reshape(2, -1)
+        return _jobs(genomes, seeds, pairs[0], pairs[1], len(self.tables.rewards))
+
+    def tile(self, lanes: int) -> Tile:
+        """Room for so many lanes."""
+        state = empty_state(self.tables, self.sizes, lanes)
+        holds = [float(thing["hold"]) if thing["kind"] == ITEM else None for thing in self.tables.things]
+        radius = float(self.tables.world[0]["radius"])
+        return Tile(state, chipmunk.prepare(state.handles, state.floats, state.batch, radius, holds))
+
+    def _run(self, jobs: Jobs, share: NDArray[np.int64]) -> Jobs:
+        mine = _jobs(jobs.genomes, jobs.seeds, jobs.genome[share], jobs.seed[share], jobs.lines.shape[1])
+        lanes = lanes_for(len(share), self.lanes)
+        tile = self.tile(lanes)
+        self.fill(tile, mine)
+        while self.advance(tile, mine, SLICE):
+            pass
+        return mine
+
+    def fill(self, tile: Tile, jobs: Jobs) -> None:
+        """Begin a job in every lane."""
+        fill(self.tables, tile.state, jobs, len(tile.state.tick))
+
+    def advance(self, tile: Tile, jobs: Jobs, ticks: int) -> int:
+        """Run so many ticks; how many lanes are still at work."""
+        if self.procedures.slow:
+            return advance_slowly(self.graph, self.procedures, self.tables, tile.state, jobs, ticks, self.interrupt)
+        return int(advance(self.tables, tile.state, jobs, ticks, self.interrupt))
+
+
+def lanes_for(jobs: int, most: int) -> int:
+    """Lanes for so many jobs: no more than `most`, few rounds, whole vectors of 16."""
+    rounds = -(-jobs // most)
+    lanes = -(-jobs // max(1, rounds))
+    return max(1, min(most, -(-lanes // 16) * 16 if lanes > 1 else 1))
+
+
+def _jobs(genomes: Array, seeds: Array, genome: Array, seed: Array, lines: int) -> Jobs:
+    count = len(genome)
+    return Jobs(
+        genomes=genomes,
+        seeds=seeds,
+        genome=np.ascontiguousarray(genome, np.int64),
+        seed=np.ascontiguousarray(seed, np.int64),
+        next=np.zeros(1, np.int64),
+        lanes=np.zeros(1, np.int64),
+        clock=np.zeros(1, np.int64),
+        lines=np.zeros((count, max(1, lines))),
+        counts=np.zeros(count, np.int64),
+        ticks=np.zeros(count, np.int64),
+        ended=np.zeros(count, np.int64),
+        faults=np.zeros(count, np.int64),
+    )
+
+
+def _scores(parts: Sequence[Jobs], shares: Sequence[Array], shape: tuple[int, int]) -> Scores:
+    order = np.argsort(np.concatenate(shares))
+
+    def joined(name: str) -> Array:
+        whole: Array = np.concatenate([getattr(part, name) for part in parts])[order]
+        return whole.reshape(*shape, *whole.shape[1:])
+
+    lines = joined("lines")
+    total = np.zeros(shape)
+    for i in range(lines.shape[2]):  # in the order of the source, so that every executor adds alike
+        total = total + lines[:, :, i]
+    broken = ~np.isfinite(total)
+    return Scores(
+        total=np.where(broken, -np.inf, total),
+        by_line=lines,
+        counts=joined("counts"),
+        ticks=joined("ticks"),
+        ended_by=joined("ended"),
+        faults=joined("faults") + broken,
+    )

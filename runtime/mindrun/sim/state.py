@@ -1,0 +1,137 @@
+"""What the lanes change: the state of every world, its scratch rows, the jobs to run and their results."""
+
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mindrun.sim.tables import INERTIAL_TICKS, Sizes, Tables
+
+Array = NDArray[Any]
+
+
+class State(NamedTuple):
+    """Arrays [row, lane]; a lane is one world with one robot in it."""
+
+    # the world
+    body: Array  # [6] float64: x, y, angle, their velocities
+    heading: Array  # [2] float64: cosine and sine of the angle
+    boxes: Array  # [3·boxes] float64: x, y, half side of each
+    things: Array  # [4·things] float64: x, y, size, distance to the robot when the tick began
+    held: Array  # the thing that the claw holds, or −1
+    battery: Array
+    random: Array  # uint64
+    # the mind
+    readings: Array  # [readings] float32
+    before: Array  # [derivatives] float32: what they read in the tick before
+    genome: Array  # [weights] float32, of the learner
+    influence: Array  # [skills] float32
+    sums: Array  # [2·(actuators + memories)] float32: command sums, then influence sums
+    commands: Array  # [actuators] float32, as they act
+    late: Array  # [delays] float32: commands that wait
+    # the judge
+    trail: Array  # [2·20] float64: where the robot was
+    changes: Array  # [2·changes] float64: how much each side's wheel command changed
+    last: Array  # [actuators] float32: the commands of the tick before
+    board: Array  # [lane, patches] uint8: visited
+    measures: Array  # float64
+    events: Array  # float64: how often each happened in this tick
+    lines: Array  # float64: the sum of each reward line
+    counts: Array
+    tick: Array
+    ended: Array  # the event that ended the run, −1 while it goes on or where it ran its time
+    faults: Array
+    job: Array
+    # contact
+    near: Array  # ticks for which Chipmunk still steps this lane
+    touching: Array
+    handles: Array  # [lane, …] uint64: space, body, robot's shape, held shapes, boxes' shapes, walls' shapes
+    floats: Array  # [lane, 16] float64: a body's state on its way to Chipmunk and back
+    batch: Array  # [lane, 8] int64: pymunk's batch structures that point at `floats`
+    touches: Array  # [lane] int64: contacts of the last step
+    # scratch
+    gathered: Array  # [inputs] float32
+    hidden: Array  # [2·width] float32
+    stack: Array  # [depth] float64
+    sines: Array  # [4·rays] float32: direction and its reciprocals
+    slots: Array  # [4·boxes + 1] float32 …
+    slot_boxes: Array  # [boxes] int64: which boxes a lane's rays can meet
+    slot_count: Array
+    anchor: Array  # [2] float64: where the slots were chosen
+    active: Array  # [lanes] int64
+    row: Array  # [3] float32
+
+
+class Jobs(NamedTuple):
+    """What to run, genome by layout, and what came of it."""
+
+    genomes: Array  # [genomes, weights] float32
+    seeds: Array  # uint64
+    genome: Array  # [jobs] index
+    seed: Array  # [jobs] index
+    next: Array  # [1]: the next job to start
+    lanes: Array  # [1]: how many lanes are at work
+    clock: Array  # [1]: ticks since the beginning, for the rings
+    lines: Array  # [jobs, lines]
+    counts: Array
+    ticks: Array
+    ended: Array
+    faults: Array
+
+
+DEPTH = 9 + 64  # scratch rows of the stages, then room for the deepest expression
+HANDLES = 3
+
+
+def empty_state(tables: Tables, sizes: Sizes, lanes: int) -> State:
+    """Room for so many lanes, all idle."""
+    sinks = len(tables.actuators) + len(tables.memories)
+    things, boxes, rays = len(tables.things), sizes.boxes, len(tables.ray_row)
+
+    def zeros(rows: int, kind: Any = np.float64) -> Array:
+        return np.zeros((max(1, rows), lanes), kind)
+
+    return State(
+        body=zeros(6),
+        heading=zeros(2),
+        boxes=zeros(3 * boxes),
+        things=zeros(4 * things),
+        held=np.full(lanes, -1, np.int64),
+        battery=np.zeros(lanes),
+        random=np.zeros(lanes, np.uint64),
+        readings=zeros(sizes.readings, np.float32),
+        before=zeros(sizes.before, np.float32),
+        genome=zeros(sizes.genome, np.float32),
+        influence=zeros(sizes.skills, np.float32),
+        sums=zeros(2 * sinks, np.float32),
+        commands=zeros(len(tables.actuators), np.float32),
+        late=zeros(sizes.delays, np.float32),
+        trail=zeros(2 * INERTIAL_TICKS),
+        changes=zeros(2 * sizes.changes),
+        last=zeros(len(tables.actuators), np.float32),
+        board=np.zeros((lanes, max(1, sizes.patches)), np.uint8),
+        measures=zeros(len(tables.measures)),
+        events=zeros(len(tables.events)),
+        lines=zeros(len(tables.rewards)),
+        counts=np.zeros(lanes, np.int64),
+        tick=np.zeros(lanes, np.int64),
+        ended=np.full(lanes, -1, np.int64),
+        faults=np.zeros(lanes, np.int64),
+        job=np.full(lanes, -1, np.int64),
+        near=np.zeros(lanes, np.int64),
+        touching=np.zeros(lanes, np.int64),
+        handles=np.zeros((lanes, HANDLES + things + boxes + 4), np.uint64),
+        floats=np.zeros((lanes, 16)),
+        batch=np.zeros((lanes, 8), np.int64),
+        touches=np.zeros(lanes, np.int64),
+        gathered=zeros(sizes.inputs, np.float32),
+        hidden=zeros(2 * sizes.width, np.float32),
+        stack=zeros(DEPTH),
+        sines=zeros(4 * rays, np.float32),
+        slots=zeros(4 * boxes + 4, np.float32),
+        slot_boxes=zeros(boxes, np.int64),
+        slot_count=np.zeros(lanes, np.int64),
+        anchor=zeros(2),
+        active=np.zeros(lanes, np.int64),
+        row=zeros(3, np.float32),
+    )

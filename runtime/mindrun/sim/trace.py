@@ -1,0 +1,79 @@
+"""One run, tick by tick: what the pictures, the videos and the tests look at."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mindrun.sim.rollout import Rollout
+from mindrun.sim.state import Jobs
+
+
+@dataclass(frozen=True, slots=True)
+class Moment:
+    """The world and the mind after one tick; `tick` counts from 1.
+
+    `body` is x, y, angle and their velocities; `things` [things, 3] is x, y and size of each; `held` the number of the
+    thing in the claw or −1; `events` how often each happened; `lines` the sum of each reward line so far.
+    """
+
+    tick: int
+    body: NDArray[np.float64]
+    things: NDArray[np.float64]
+    held: int
+    battery: float
+    touching: bool
+    readings: NDArray[np.float32]
+    influence: NDArray[np.float32]
+    commands: NDArray[np.float32]
+    events: NDArray[np.int64]
+    lines: NDArray[np.float64]
+
+
+@dataclass(frozen=True, slots=True)
+class Run:
+    """A run that is about to begin: the obstacles [boxes, 3] as x, y and half side, and its moments."""
+
+    boxes: NDArray[np.float64]
+    begin: NDArray[np.float64]  # the robot's x, y, angle
+    things: NDArray[np.float64]
+    moments: Iterator[Moment]
+    jobs: Jobs
+
+
+def trace(rollout: Rollout, seed: int, genome: NDArray[np.float32] | None = None) -> Run:
+    """The run that `rollout.score` would make of that genome and seed."""
+    genomes = np.zeros((1, 0), np.float32) if genome is None else genome[None].astype(np.float32)
+    jobs = rollout.jobs(genomes, np.array([seed], np.uint64))
+    tile = rollout.tile(1)
+    rollout.fill(tile, jobs)
+    s = tile.state
+    boxes = s.boxes[: 3 * rollout.sizes.boxes, 0].reshape(-1, 3).copy()
+    things = _things(s, rollout)
+
+    def moments() -> Iterator[Moment]:
+        working = 1
+        while working:
+            working = rollout.advance(tile, jobs, 1)
+            yield Moment(
+                tick=int(s.tick[0]),
+                body=s.body[:, 0].copy(),
+                things=_things(s, rollout),
+                held=int(s.held[0]),
+                battery=float(s.battery[0]),
+                touching=bool(s.touching[0] & 1),
+                readings=s.readings[:, 0].copy(),
+                influence=s.influence[:, 0].copy(),
+                commands=s.commands[:, 0].copy(),
+                events=s.events[: len(rollout.task.events), 0].astype(np.int64),
+                lines=s.lines[: len(rollout.task.rewards), 0].copy(),
+            )
+
+    return Run(boxes, s.body[:3, 0].copy(), things, moments(), jobs)
+
+
+def _things(state: Any, rollout: Rollout) -> NDArray[np.float64]:
+    rows: NDArray[np.float64] = state.things[: 4 * len(rollout.tables.things), 0].reshape(-1, 4)[:, :3].copy()
+    return rows

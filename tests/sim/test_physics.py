@@ -1,0 +1,42 @@
+"""Free flight and contacts equal a loop of plain pymunk, bit for bit."""
+
+import numpy as np
+import pytest
+from mindrun.portable import cosine, sine
+from mindrun.sim.rollout import Rollout
+from mindrun.sim.trace import trace
+
+from tests.sim.minds import drifter
+from tests.sim.plain import PlainRobot
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_free_flight_equals_space_step(seed: int) -> None:
+    rollout = Rollout(drifter(scene="plain", ticks=10_000), {}, "Drift", "Drift")
+    run = trace(rollout, seed)
+    plain = PlainRobot(run.begin, [], None)
+    angle = run.begin[2]
+    for moment in run.moments:
+        left, right = (float(v) for v in moment.commands[:2])
+        state = plain.step(left, right, cosine(angle), sine(angle))
+        assert state == tuple(moment.body)
+        angle = moment.body[2]
+    assert moment.tick == 10_000
+
+
+@pytest.mark.parametrize("seed", range(12))
+def test_contacts_equal_plain_pymunk(seed: int) -> None:
+    """A robot that drives into obstacles, walls and corners, with and without an item in its claw."""
+    rollout = Rollout(drifter(scene="arena", ticks=5_000, crowded=True), {}, "Drift", "Drift", interrupt=False)
+    run = trace(rollout, seed)
+    plain = PlainRobot(run.begin, run.boxes, 20.0, item=1.0)
+    angle, touched, carried = run.begin[2], 0, 0
+    for moment in run.moments:
+        left, right = (float(v) for v in moment.commands[:2])
+        holds = moment.held >= 0
+        state = plain.step(left, right, cosine(angle), sine(angle), holds)
+        assert np.array_equal(state, moment.body), f"tick {moment.tick}"
+        angle = moment.body[2]
+        touched += moment.touching
+        carried += holds
+    assert touched > 20

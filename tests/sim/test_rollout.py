@@ -1,0 +1,67 @@
+"""A result depends on its genome and its seed alone: not on lanes, workers, batch or order."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from mindrun.graph import Graph
+from mindrun.sim.rollout import Rollout, Scores
+from mindrun.weights import genes
+
+from mindlang.compile import load
+
+COLLECT = Path(__file__).parents[2] / "examples" / "collect" / "collect.mind"
+
+
+@pytest.fixture(scope="module")
+def collect() -> Graph:
+    graph = load(COLLECT).graph
+    assert graph
+    return graph
+
+
+def some_weights(graph: Graph, seed: int = 0) -> dict[str, np.ndarray]:
+    """Random weights; the last layers lean up, so that influence reaches the wheels."""
+    rng = np.random.default_rng(seed)
+    weights = {}
+    for skill in graph.skills:
+        genome = rng.normal(0.0, 1.5, genes(skill))
+        genome[-len(genome) // 4 :] += 0.3
+        weights[skill.name] = genome.astype(np.float32)
+    return weights
+
+
+def same(a: Scores, b: Scores) -> bool:
+    return all(
+        np.array_equal(getattr(a, name), getattr(b, name))
+        for name in ("total", "by_line", "counts", "ticks", "ended_by", "faults")
+    )
+
+
+@pytest.mark.parametrize(("task", "learner"), [("Avoid", "Avoid"), ("Collect", "Collect"), ("Collect", "Avoid")])
+def test_lanes_workers_and_order_change_nothing(collect: Graph, task: str, learner: str) -> None:
+    weights = some_weights(collect, 4)
+    master = task
+    rng = np.random.default_rng(1)
+
+    def rollout(**options: int) -> Rollout:
+        return Rollout(collect, weights, task, master, learner, **options)
+
+    genomes = rng.normal(0.2, 1.0, (13, rollout().genome_length)).astype(np.float32)
+    seeds = [3, 4, 5]
+    first = rollout(lanes=64).score(genomes, seeds)
+    assert len(np.unique(first.total)) > 5
+    assert same(first, rollout(lanes=1).score(genomes, seeds))
+    assert same(first, rollout(lanes=7, workers=2).score(genomes, seeds))
+    order = rng.permutation(13)
+    again = rollout(lanes=16, workers=2).score(genomes[order], seeds)
+    assert np.array_equal(first.total[order], again.total)
+    assert np.array_equal(first.by_line[order], again.by_line)
+
+
+def test_a_genome_that_is_not_finite_is_refused(collect: Graph) -> None:
+    rollout = Rollout(collect, {}, "GoToObject", "GoToObject", "GoToObject")
+    genomes = np.zeros((2, rollout.genome_length), np.float32)
+    genomes[1, 3] = np.nan
+    with pytest.raises(ValueError, match="finite"):
+        rollout.score(genomes, [1])
