@@ -3,7 +3,7 @@
 import re
 from collections.abc import Iterator
 from dataclasses import dataclass, field
-from functools import cache
+from functools import cache, lru_cache
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -14,9 +14,10 @@ from mindlang.mistakes import NOUNS, SETTINGS, VERBS
 from mindlang.source import Source, Span
 
 if TYPE_CHECKING:
-    from lark import Lark
+    from lark import Lark, Token, Tree
 
 NESTING = 64
+MOST = 1000  # unreadable lines, after which this is no mind
 
 _CODE = re.compile(r'(?:"[^"]*"|[^#])*')
 _HEADER = re.compile(r"\s*(\w+)\s+(\w[\w.+]*)")
@@ -36,6 +37,12 @@ def grammar() -> "Lark":
         propagate_positions=True,
         maybe_placeholders=False,
     )
+
+
+@lru_cache(maxsize=4096)
+def _tree(code: str) -> "Tree[Token]":
+    """Lark's tree of a line; an editor reads the same lines again and again."""
+    return grammar().parse(code, start="line")
 
 
 @dataclass(slots=True)
@@ -82,7 +89,12 @@ def _lines(source: Source, findings: Findings) -> Iterator[syntax.Line | _Unread
         found = _CODE.match(text.removesuffix("\r"))
         code = found[0].rstrip(" \t") if found else ""
         if code:
-            yield from _line(Span(source, offset, offset + len(code)), code, findings)
+            span = Span(source, offset, offset + len(code))
+            if len(findings.diagnostics) > MOST:
+                hint = "Is this a .mind file?"
+                findings.error("too-many-mistakes", span, "Too many lines cannot be read; this is where I stop.", hint)
+                return
+            yield from _line(span, code, findings)
         offset += len(text) + 1
 
 
@@ -98,7 +110,7 @@ def _line(span: Span, code: str, findings: Findings) -> Iterator[syntax.Line | _
         yield _Unread()
         return
     try:
-        yield build(grammar().parse(code, start="line"), span.source, span.start)
+        yield build(_tree(code), span.source, span.start)
     except UnexpectedInput as error:
         findings.diagnostics.append(explain(error, code, span))
         yield _saved(code, span)

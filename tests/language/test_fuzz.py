@@ -1,0 +1,165 @@
+"""Ten thousand sources, none of them meant well: every one gets a graph or messages, and gets them soon."""
+
+import re
+import shutil
+from functools import cache
+from pathlib import Path
+from random import Random
+from time import process_time
+
+import pytest
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+from hypothesis.extra.lark import from_lark
+from lark import UnexpectedInput
+
+from examples import EXAMPLES, RIGHT, TOUR
+from mindlang.compile import Compiled, compile_source, load
+from mindlang.diagnostic import Findings
+from mindlang.parse import grammar, parse
+from mindlang.report import as_json, plain
+from mindlang.source import Source
+
+SEEDS = [RIGHT, *EXAMPLES]
+WORD = re.compile(rb"\w+|\s+|.", re.DOTALL)
+SOON = 1.0  # seconds of the processor, so that a busy machine changes nothing
+
+relaxed = settings(max_examples=1500, suppress_health_check=list(HealthCheck), database=None, derandomize=True)
+
+
+def sane(found: Compiled) -> None:
+    """What must hold of any result: a graph or errors, and messages that can be printed."""
+    assert (found.graph is None) == bool(found.diagnostics)
+    for diagnostic in found.diagnostics[:20]:
+        assert plain(diagnostic).isprintable() or "\n" in plain(diagnostic)
+        assert as_json(diagnostic)["code"]
+
+
+@pytest.fixture
+def project(tmp_path: Path) -> Path:
+    """A folder in which the used file of the tour is found."""
+    shutil.copy(TOUR.with_name("parts.mind"), tmp_path)
+    return tmp_path
+
+
+def flip(data: bytes, rng: Random) -> bytes:
+    at = rng.randrange(len(data))
+    return data[:at] + bytes([data[at] ^ 1 << rng.randrange(8)]) + data[at + 1 :]
+
+
+def delete(data: bytes, rng: Random) -> bytes:
+    words = WORD.findall(data)
+    del words[rng.randrange(len(words))]
+    return b"".join(words)
+
+
+def duplicate(data: bytes, rng: Random) -> bytes:
+    words = WORD.findall(data)
+    at = rng.randrange(len(words))
+    return b"".join([*words[:at], words[at], b" " * rng.randrange(2), *words[at:]])
+
+
+def swap_lines(data: bytes, rng: Random) -> bytes:
+    lines = data.split(b"\n")
+    one, other = rng.randrange(len(lines)), rng.randrange(len(lines))
+    lines[one], lines[other] = lines[other], lines[one]
+    return b"\n".join(lines)
+
+
+def splice(data: bytes, rng: Random) -> bytes:
+    other = rng.choice(SEEDS).read_bytes()
+    start = rng.randrange(len(other))
+    at = rng.randrange(len(data))
+    return data[:at] + other[start : start + rng.randrange(200)] + data[at + rng.randrange(100) :]
+
+
+def insert(data: bytes, rng: Random) -> bytes:
+    at = rng.randrange(len(data))
+    odd = ["\0", "(" * 99, "-" * 99, "\u202e", "9" * 999, '"', "1/0", "\r", "é", "\ufeff", "#", " at ", "\udfff", ","]
+    return data[:at] + rng.choice(odd).encode("utf-8", "surrogatepass") + data[at:]
+
+
+@pytest.mark.parametrize("chunk", range(7))
+def test_mutations_of_the_examples(chunk: int, project: Path) -> None:
+    path = project / "mutant.mind"
+    for seed in range(1000):
+        rng = Random(1000 * chunk + seed)
+        data = rng.choice(SEEDS).read_bytes()
+        for _ in range(rng.randint(1, 4)):
+            data = rng.choice((flip, delete, duplicate, swap_lines, splice, insert))(data, rng) or b" "
+        path.write_bytes(data)
+        start = process_time()
+        sane(load(path))
+        assert process_time() - start < SOON, data
+
+
+@cache
+def words() -> dict[str, st.SearchStrategy[str]]:
+    """Names for the grammar's terminals: with those of the examples, what it makes has some meaning."""
+    text = "\n".join(seed.read_text(encoding="utf-8") for seed in SEEDS)
+    found = sorted(set(re.findall(r"(?<!\w)[A-Za-z][\w+]*", text)))
+    return {
+        "NAME": st.sampled_from([f" {word} " for word in found if word[0].islower()]),
+        "TITLE": st.sampled_from([f" {word} " for word in found if word[0].isupper()]),
+        "NUMBER": st.sampled_from([" 0", " 1", " 1/60", " 0.5", " 20", " 1/0"]),
+        "UNIT": st.sampled_from([" s ", " deg ", " ticks ", " generations ", "% "]),
+        "PART": st.sampled_from(["sensor", "actuator", "memory"]),
+        "WHOLE": st.sampled_from(["body", "skill", "curriculum"]),
+        "TASK": st.just("task"),
+        "TEXT": st.sampled_from([' "parts.mind"', ' ""', ' "../x"', ' "/"']),
+        "COMMENT": st.just(" "),
+        "__IGNORE_0": st.just(" "),
+    }
+
+
+def from_grammar(start: str) -> st.SearchStrategy[str]:
+    """Sources, or single lines, as the grammar makes them, with spaces between its own words."""
+    ends = {"_NL": st.just("\n")} if start == "start" else {}
+    made = from_lark(grammar(), start=start, explicit=words() | ends)
+    return made.map(
+        lambda text: text.replace("pertick", "per tick ").replace("foreach", "for each").replace("endson", "ends on")
+    )
+
+
+@relaxed
+@given(from_grammar("start"))
+def test_programs_from_the_grammar(text: str) -> None:
+    start = process_time()
+    sane(compile_source(Source("fuzz.mind", text, Path(__file__).parent)))
+    assert process_time() - start < SOON
+
+
+@relaxed
+@given(st.lists(from_grammar("line"), min_size=1, max_size=3))
+def test_lines_from_the_grammar_below_a_right_program(lines: list[str]) -> None:
+    text = RIGHT.read_text(encoding="utf-8") + "\n".join(lines)
+    start = process_time()
+    sane(compile_source(Source("fuzz.mind", text, Path(__file__).parent)))
+    assert process_time() - start < SOON
+
+
+def read_whole(text: str) -> bool:
+    """Whether the grammar takes the text as one file."""
+    try:
+        grammar().parse(text + "\n", start="start")
+    except UnexpectedInput:
+        return False
+    return True
+
+
+@settings(relaxed, max_examples=600)
+@given(st.lists(from_grammar("line") | st.sampled_from(RIGHT.read_text(encoding="utf-8").split("\n")), max_size=4))
+def test_line_by_line_is_the_same_language_as_the_whole_file(lines: list[str]) -> None:
+    text = "\n".join(lines)
+    findings = Findings()
+    parse(Source("fuzz.mind", text), findings)
+    assert read_whole(text) == (not findings.diagnostics)
+
+
+@pytest.mark.parametrize("seed", range(300))
+def test_mutants_are_the_same_language_too(seed: int) -> None:
+    rng = Random(seed)
+    data = rng.choice((delete, duplicate, swap_lines))(RIGHT.read_bytes(), rng)
+    text, findings = data.decode(), Findings()
+    parse(Source("fuzz.mind", text), findings)
+    assert read_whole(text) == (not findings.diagnostics)
