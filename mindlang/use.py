@@ -19,6 +19,11 @@ class _Project:
     open: list[Path] = field(default_factory=list)
     complete: bool = True
 
+    def refuse(self, code: str, use: Use, message: str, hint: str) -> None:
+        """Report a file that is not read."""
+        self.findings.error(code, use.span, message, hint)
+        self.complete = False
+
 
 def read(path: Path, name: str) -> Source:
     """The source at a path; OSError or ValueError says why it cannot be read."""
@@ -47,38 +52,38 @@ def _add(path: Path, source: Source, project: _Project) -> None:
 
 def _follow(use: Use, project: _Project) -> None:
     target = _inside(use, project)
-    if target is None:
-        project.complete = False
-    elif target in project.open:
+    if target in project.open:
         loop = [*project.open[project.open.index(target) :], target]
         names = " → ".join(path.relative_to(project.root).as_posix() for path in loop)
         hint = "Move what both need into a third file, and use that in both."
-        project.findings.error("use-loop", use.span, f"Files use one another in a circle: {names}.", hint)
+        project.refuse("use-loop", use, f"Files use one another in a circle: {names}.", hint)
     elif len(project.open) > DEEP:
         hint = f"Files may use one another {DEEP} deep; use this one from nearer to the top."
-        project.findings.error("use-too-deep", use.span, "Files use one another too deep.", hint)
-    elif target not in project.files:
-        try:
-            source = read(target, Path(use.span.source.name).parent.joinpath(use.path).as_posix())
-        except OSError as error:
-            project.complete = False
-            hint = "The path is relative to the file in which it stands."
-            project.findings.error("unreadable-use", use.span, f"{use.path} cannot be read: {error.strerror}.", hint)
-        except ValueError as error:
-            project.complete = False
-            project.findings.error("unreadable-use", use.span, f"{use.path} {error}.", "Use a .mind file.")
-        else:
-            _add(target, source, project)
+        project.refuse("use-too-deep", use, "Files use one another too deep.", hint)
+    elif target and target not in project.files:
+        _read(target, use, project)
 
 
 def _inside(use: Use, project: _Project) -> Path | None:
     """The path of the used file, or None after reporting that it is outside of the project."""
     try:
         target = (use.span.source.folder / use.path).resolve()
-    except (OSError, RuntimeError, ValueError):
+    except (OSError, RuntimeError, ValueError):  # a loop of links, a name too long
         target = Path("/")
-    if not use.path or Path(use.path).is_absolute() or not target.is_relative_to(project.root):
-        hint = f"Use files in the folder {project.root.name} or below it, by a relative path."
-        project.findings.error("outside-project", use.span, f'"{use.path}" is not inside the project.', hint)
-        return None
-    return target
+    if use.path and not Path(use.path).is_absolute() and target.is_relative_to(project.root):
+        return target
+    hint = f"Use files in the folder {project.root.name} or below it, by a relative path."
+    project.refuse("outside-project", use, f'"{use.path}" is not inside the project.', hint)
+    return None
+
+
+def _read(target: Path, use: Use, project: _Project) -> None:
+    try:
+        source = read(target, Path(use.span.source.name).parent.joinpath(use.path).as_posix())
+    except OSError as error:
+        hint = "The path is relative to the file in which it stands."
+        project.refuse("unreadable-use", use, f"{use.path} cannot be read: {error.strerror}.", hint)
+    except ValueError as error:
+        project.refuse("unreadable-use", use, f"{use.path} {error}.", "Use a .mind file.")
+    else:
+        _add(target, source, project)

@@ -3,7 +3,6 @@
 import os
 import sys
 from importlib import import_module
-from importlib.metadata import version
 from pkgutil import iter_modules
 
 import click
@@ -43,7 +42,7 @@ class Commands(click.Group):
     context_settings={"help_option_names": ["-h", "--help"]},
     epilog="Try: mindc check examples/collect/collect.mind",
 )
-@click.version_option(version("mindlang"), prog_name="mindc")
+@click.version_option(package_name="mindlang", prog_name="mindc")
 def commands() -> None:
     """Check, train and run behaviours declared in the mind language."""
 

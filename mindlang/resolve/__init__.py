@@ -4,6 +4,7 @@ from collections.abc import Sequence
 from typing import TypeVar
 
 from mindrun.quantity import SECONDS
+from mindrun.sensors import Battery
 from mindrun.world import Disc
 
 from mindlang import model
@@ -14,7 +15,7 @@ from mindlang.resolve.names import Names, gather
 from mindlang.resolve.parts import parts, widths
 from mindlang.resolve.quantities import convert
 from mindlang.resolve.skills import skills
-from mindlang.resolve.tasks import tasks
+from mindlang.resolve.tasks import Robot, tasks
 from mindlang.source import Span
 from mindlang.syntax import File, Master, Setting, Tick
 
@@ -31,7 +32,8 @@ def resolve(files: Sequence[File], findings: Findings) -> model.Mind | None:
     memories, actuators = parts("memory", names, findings), parts("actuator", names, findings)
     known_skills = skills(names, width, findings)
     check_cycles(known_skills, findings)
-    known_tasks = tasks(names, sensors, width, tick, findings)
+    has_battery = any(isinstance(sensor.kind, Battery) for sensor in sensors)
+    known_tasks = tasks(Robot(names, width, tick, has_battery), findings)
     known_lessons = tuple(lessons(names, known_skills, findings))
     body = _body(names, findings)
     master = _master(files[0], names, findings)

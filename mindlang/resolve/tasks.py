@@ -1,13 +1,12 @@
 """Tasks: their worlds, their ends, their rewards."""
 
 from collections.abc import Iterator, Mapping
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from typing import Any, TypeVar
 
-from mindrun.events import Delivery, Event, Exhaustion, Visit
+from mindrun.events import Delivery, Exhaustion, Visit
 from mindrun.quantity import SECONDS, TICKS
-from mindrun.sensors import Battery
-from mindrun.world import Arena, Zone
+from mindrun.world import Plain, Zone
 
 from mindlang import model, syntax
 from mindlang.diagnostic import Findings, Label
@@ -23,44 +22,43 @@ LASTS = replace(TICKS, low=1.0)
 F = TypeVar("F", bound=Fact)
 
 
-def tasks(
-    names: Names, sensors: tuple[model.Part[Any], ...], widths: Mapping[str, int], tick: float, findings: Findings
-) -> tuple[model.Task, ...]:
+@dataclass(frozen=True, slots=True)
+class Robot:
+    """What tasks need to know of the rest of the mind."""
+
+    names: Names
+    widths: Mapping[str, int]
+    tick: float
+    has_battery: bool
+
+
+@dataclass(frozen=True, slots=True)
+class _World:
+    scene: Any
+    things: tuple[model.Part[Any], ...]
+    scope: Scope
+    has_battery: bool
+
+
+def tasks(robot: Robot, findings: Findings) -> tuple[model.Task, ...]:
     """Every task, without the lines that are reported."""
-    has_battery = any(isinstance(sensor.kind, Battery) for sensor in sensors)
-    return tuple(
-        _task(name, declaration, names, widths, tick, has_battery, findings)
-        for name, declaration in names.declarations("task")
-    )
+    return tuple(_task(name, declaration, robot, findings) for name, declaration in robot.names.declarations("task"))
 
 
-def _task(
-    name: str, declaration: Declaration, names: Names, widths: Mapping[str, int], tick: float, has_battery: bool,
-    findings: Findings,
-) -> model.Task:  # fmt: skip
+def _task(name: str, declaration: Declaration, robot: Robot, findings: Findings) -> model.Task:
     refuse_facts(declaration, (Contains, Lasts, Ends, Rewards, Counts), findings)
-    scope = Scope(names, things_of(declaration) if declaration.whole else None, f"task {name}")
+    scope = Scope(robot.names, things_of(declaration) if declaration.whole else None, f"task {name}")
     phrase = declaration.header.phrase
-    scene: Any = make("task", phrase, scope, findings) if phrase else None
-    things = _things(declaration, scope, findings)
-
-    def event(written: Phrase) -> Any:
-        made = make("event", written, scope, findings)
-        if scene and made:
-            _possible(made, written, scene, things, has_battery, findings)
-        return made
-
-    visible = Visible(widths, scope)
+    scene = make("task", phrase, scope, findings) if phrase else None
+    world = _World(scene, _things(declaration, scope, findings), scope, robot.has_battery)
     return model.Task(
         name,
-        scene,
-        things,
-        _ticks(declaration, tick, findings),
-        tuple(event(fact.event) for fact in _facts(declaration, Ends)),
-        tuple(
-            _reward(fact, fact.on and event(fact.on), names, visible, findings) for fact in _facts(declaration, Rewards)
-        ),
-        tuple(event(fact.event) for fact in _facts(declaration, Counts)),
+        world.scene,
+        world.things,
+        _ticks(declaration, robot.tick, findings),
+        tuple(_event(fact.event, world, findings) for fact in _facts(declaration, Ends)),
+        tuple(_reward(fact, world, robot, findings) for fact in _facts(declaration, Rewards)),
+        tuple(_event(fact.event, world, findings) for fact in _facts(declaration, Counts)),
         declaration,
     )
 
@@ -85,11 +83,10 @@ def _things(declaration: Declaration, scope: Scope, findings: Findings) -> tuple
 def _ticks(declaration: Declaration, tick: float, findings: Findings) -> int:
     lasts = list(_facts(declaration, Lasts))
     name = declaration.header.name
-    if not lasts and declaration.whole:
-        findings.error(
-            "endless-task", name.span, f"{name.text} does not say how long it lasts.", "Add lasts 10000 ticks."
-        )
     if not lasts:
+        if declaration.whole:
+            message = f"{name.text} does not say how long it lasts."
+            findings.error("endless-task", name.span, message, "Add lasts 10000 ticks.")
         return 1
     for again in lasts[1:]:
         first = Label(lasts[0].span, "first said here")
@@ -101,32 +98,29 @@ def _ticks(declaration: Declaration, tick: float, findings: Findings) -> int:
     return int(convert(amount, LASTS, findings) or 1)
 
 
-def _possible(
-    event: Event,
-    written: Phrase,
-    scene: Any,
-    things: tuple[model.Part[Any], ...],
-    has_battery: bool,
-    findings: Findings,
-) -> None:
-    """Report an event that can never happen in the task."""
+def _event(written: Phrase, world: _World, findings: Findings) -> Any:
+    """The event of a phrase; one that can never happen in the world is reported."""
+    event = make("event", written, world.scope, findings)
     match event:
-        case Visit() if not isinstance(scene, Arena):
+        case Visit() if isinstance(world.scene, Plain):
             hint = "Patches are of an arena: write in arena size 100."
             findings.error("impossible-event", written.span, "A plain scene has no patches to visit.", hint)
-        case Delivery() if not any(isinstance(thing.kind, Zone) for thing in things):
+        case Delivery() if not any(isinstance(thing.kind, Zone) for thing in world.things):
             hint = "Add contains drop_zone is zone size 5."
             findings.error("impossible-event", written.span, "The task has no zone to deliver to.", hint)
-        case Exhaustion() if not has_battery:
+        case Exhaustion() if not world.has_battery:
             hint = "Declare one: sensor battery is battery."
             findings.error("impossible-event", written.span, "Without a battery nothing is exhausted.", hint)
+    return event
 
 
-def _reward(fact: Rewards, on: Any, names: Names, visible: Visible, findings: Findings) -> model.Reward:
+def _reward(fact: Rewards, world: _World, robot: Robot, findings: Findings) -> model.Reward:
+    visible = Visible(robot.widths, world.scope)
     each = None
     if fact.each:
         visible = replace(visible, each=fact.each.name.text)
-        each = fact.each.sensor.text if names.find(fact.each.sensor, ("sensor", "memory"), findings) else None
+        each = fact.each.sensor.text if robot.names.find(fact.each.sensor, ("sensor", "memory"), findings) else None
+    on = _event(fact.on, world, findings) if fact.on else None
     when = _condition(fact.when, visible, findings) if fact.when else None
     return model.Reward(resolve(fact.amount, visible, findings), on, each, when, fact)
 

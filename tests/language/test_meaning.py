@@ -6,6 +6,7 @@ import pytest
 from mindrun.graph import Graph
 from mindrun.learners import Genetic
 from mindrun.quantity import Span
+from mindrun.registry import arguments, kinds
 from mindrun.sensors import RangeFinder
 from mindrun.world import Obstacle
 
@@ -100,6 +101,12 @@ def test_each_noun_has_its_own_names_and_no_word_is_reserved() -> None:
         "task Reads in plain\nlasts 1 ticks\nrewards per + at per tick when when < on\n"
     )
     assert found.diagnostics == ()
+
+
+def test_no_measure_or_event_has_an_argument_that_would_end_its_phrase() -> None:
+    made = [cls for noun in ("measure", "event") for cls in kinds(noun).values()]
+    assert made
+    assert not {"per", "on", "for", "when"} & {argument.key for cls in made for argument in arguments(cls)}
 
 
 def test_a_range_and_a_grid() -> None:
