@@ -1,6 +1,6 @@
 """Kinds of measures: numbers for rewards, taken every tick after the step by `sim/lanes/judge.py`."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Annotated
 
 from mindrun.quantity import RATIO, THING, TICKS, Reference
@@ -44,7 +44,7 @@ class Change:
 
     of: Annotated[str, Reference("quantity", ("thrust",))]
     beyond: Annotated[float, RATIO] = 0.0
-    over: Annotated[int, TICKS] = 10
+    over: Annotated[int, replace(TICKS, low=1.0)] = 10
 
 
 Measure = Progress | Advance | Retreat | Forward | Change
