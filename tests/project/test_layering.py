@@ -1,0 +1,81 @@
+"""Who may import whom: the compiler imports what runs, never back, and the robot needs numpy alone."""
+
+import json
+import subprocess
+import sys
+import tomllib
+from collections.abc import Iterable
+from pathlib import Path
+
+import pytest
+
+from tests.project.sources import COMPILER, ROOT, RUNTIME, imported, modules, package
+
+OUR_OWN = {"mindlang", "mindrun"}
+MODULES = {"opencv-python-headless": "cv2", "pyyaml": "yaml"}  # whose names differ from what is imported
+WORKSTATION = {"numba", "llvmlite", "pymunk", "cv2"}
+SIM = RUNTIME / "sim"
+
+
+def foreign(files: Iterable[Path]) -> dict[str, set[str]]:
+    """For each file that imports something of neither Python nor this project: what."""
+    found = {str(path.relative_to(ROOT)): {package(name) for name in imported(path)} for path in files}
+    ours = OUR_OWN | sys.stdlib_module_names
+    return {path: names - ours for path, names in found.items() if names - ours}
+
+
+def loaded_by(*words: str) -> set[str]:
+    """The packages that a `mindc` command has loaded when it ends."""
+    program = f"""
+import json, sys
+from mindlang.cli import commands
+try:
+    commands.main({list(words)!r}, standalone_mode=False)
+except SystemExit:
+    pass
+print(json.dumps(sorted(sys.modules)))
+"""
+    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True, cwd=ROOT)
+    return {package(name) for name in json.loads(done.stdout.splitlines()[-1])}
+
+
+def test_the_runtime_never_imports_the_compiler() -> None:
+    assert [path for path in modules(RUNTIME) if "mindlang" in {package(name) for name in imported(path)}] == []
+
+
+def test_the_robot_needs_numpy_alone() -> None:
+    robot = [path for path in modules(RUNTIME) if not path.is_relative_to(SIM)]
+    assert {name for names in foreign(robot).values() for name in names} == {"numpy"}
+
+
+def test_only_the_simulated_world_needs_a_workstation() -> None:
+    allowed = WORKSTATION | {"numpy"}
+    assert {path: names - allowed for path, names in foreign(modules(SIM)).items() if names - allowed} == {}
+
+
+def test_the_robot_never_imports_the_simulated_world() -> None:
+    robot = [path for path in modules(RUNTIME) if not path.is_relative_to(SIM)]
+    assert [path for path in robot if any(name.startswith("mindrun.sim") for name in imported(path))] == []
+
+
+def test_only_commands_know_the_command_line() -> None:
+    assert [path for path in modules(RUNTIME) if "click" in {package(name) for name in imported(path)}] == []
+    inner = [path for path in modules(COMPILER) if path.parent.name != "cli"]
+    assert [path for path in inner if "click" in {package(name) for name in imported(path)}] == []
+
+
+def test_what_is_imported_is_declared() -> None:
+    declared = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]["dependencies"]
+    distributions = [requirement.split(">")[0] for requirement in declared]
+    known = {MODULES.get(name, name) for name in distributions}
+    assert {path: names - known for path, names in foreign(modules(COMPILER, RUNTIME)).items() if names - known} == {}
+
+
+@pytest.mark.parametrize("words", [("--help",), ("check", "--help"), ("train", "--help")])
+def test_help_loads_nothing_heavy(words: tuple[str, ...]) -> None:
+    heavy = WORKSTATION | {"networkx", "numpy", "lark", "rich", "yaml"}
+    assert loaded_by(*words) & heavy == set()
+
+
+def test_check_loads_nothing_that_simulates() -> None:
+    assert loaded_by("check", "examples/collect/collect.mind") & WORKSTATION == set()
