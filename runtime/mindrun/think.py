@@ -94,7 +94,7 @@ def think(mind: Hierarchy, readings: NDArray[np.float32]) -> Thought:
         own = influence[skill.index]
         if own == 0:
             continue
-        for edge, value in zip(skill.edges, _values(skill, readings), strict=True):
+        for edge, value in zip(skill.edges, values(skill, readings), strict=True):
             if not isfinite(value):
                 faults += 1
                 continue
@@ -107,7 +107,7 @@ def think(mind: Hierarchy, readings: NDArray[np.float32]) -> Thought:
     return _mean(influence, commands, influences, faults)
 
 
-def _values(skill: Ready, readings: NDArray[np.float32]) -> list[np.float32]:
+def values(skill: Ready, readings: NDArray[np.float32]) -> list[np.float32]:
     """What a skill sends over each edge, before the clamp; all NaN where one of its inputs is not finite."""
     inputs = readings[skill.inputs]
     if not np.isfinite(inputs).all():

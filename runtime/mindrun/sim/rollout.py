@@ -1,9 +1,10 @@
 """Rollouts: genomes on layouts, scored in lanes on every core. A result depends on its genome and its seed alone."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from pathlib import Path
+from threading import Event
 from typing import Any
 
 import numpy as np
@@ -19,7 +20,7 @@ from mindrun.sim.tables import ITEM, Sizes, Tables, build, genome_length
 
 Array = NDArray[Any]
 LANES = 128
-SLICE = 1000  # ticks between two looks at whether to stop
+SLICE, SLOW_SLICE = 1000, 20  # ticks between two looks at whether to stop; where procedures run in Python
 
 
 @dataclass(frozen=True, slots=True)
@@ -73,18 +74,31 @@ class Rollout:
         library = chipmunk.library()
         self.tables, self.sizes = build(graph, weights, self.task, master, learner, addresses, library)
 
-    def score(self, genomes: NDArray[np.float32], seeds: Sequence[int]) -> Scores:
-        """Every genome [genomes, genome_length] on every seed; ValueError where a weight is not finite."""
+    def score(
+        self,
+        genomes: NDArray[np.float32],
+        seeds: Sequence[int],
+        ended: Callable[[int], None] = lambda runs: None,
+    ) -> Scores:
+        """Every genome [genomes, genome_length] on every seed; ValueError where a weight is not finite.
+
+        `ended` is told now and then, from any thread, how many more runs have ended. Ctrl-C stops all workers.
+        """
         if not np.isfinite(genomes).all():
             raise ValueError("a genome has weights that are not finite numbers")
         jobs = self.jobs(np.ascontiguousarray(genomes, np.float32), np.array(seeds, np.uint64))
         workers = max(1, min(self.workers, len(jobs.genome)))
         shares = [np.arange(worker, len(jobs.genome), workers) for worker in range(workers)]
+        stop = Event()
         if workers == 1:
-            parts = [self._run(jobs, shares[0])]
+            parts = [self._run(jobs, shares[0], stop, ended)]
         else:
             with ThreadPoolExecutor(workers) as pool:
-                parts = list(pool.map(lambda share: self._run(jobs, share), shares))
+                try:
+                    parts = list(pool.map(lambda share: self._run(jobs, share, stop, ended), shares))
+                except BaseException:
+                    stop.set()  # before the pool waits for its threads
+                    raise
         return _scores(parts, shares, (len(genomes), len(seeds)))
 
     def jobs(self, genomes: NDArray[np.float32], seeds: NDArray[np.uint64]) -> Jobs:
@@ -99,13 +113,16 @@ class Rollout:
         radius = float(self.tables.world[0]["radius"])
         return Tile(state, chipmunk.prepare(state.handles, state.floats, state.batch, radius, holds))
 
-    def _run(self, jobs: Jobs, share: NDArray[np.int64]) -> Jobs:
+    def _run(self, jobs: Jobs, share: NDArray[np.int64], stop: Event, ended: Callable[[int], None]) -> Jobs:
         mine = _jobs(jobs.genomes, jobs.seeds, jobs.genome[share], jobs.seed[share], jobs.lines.shape[1])
-        lanes = lanes_for(len(share), self.lanes)
-        tile = self.tile(lanes)
+        tile = self.tile(lanes_for(len(share), self.lanes))
         self.fill(tile, mine)
-        while self.advance(tile, mine, SLICE):
-            pass
+        told, working = 0, 1
+        while working and not stop.is_set():
+            working = self.advance(tile, mine, SLOW_SLICE if self.procedures.slow else SLICE)
+            done = int(mine.next[0]) - working
+            ended(done - told)
+            told = done
         return mine
 
     def fill(self, tile: Tile, jobs: Jobs) -> None:

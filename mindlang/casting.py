@@ -1,0 +1,96 @@
+"""Who plays what: the task of a run, the master in charge, and the weights of all skills below it."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Never
+
+from mindrun.errors import MindError
+from mindrun.graph import Graph, Task
+from mindrun.weights import genes, reachable
+
+from mindlang.compile import Compiled
+from mindlang.diagnostic import did_you_mean, listed
+from mindlang.ready import Ready, make_ready
+
+if TYPE_CHECKING:
+    from mindrun.sim.rollout import Rollout
+
+
+class CastingError(MindError):
+    """A run that cannot begin: what is wrong, and in `hint` what to do. `misuse`: the command line is what is wrong."""
+
+    def __init__(self, message: str, hint: str = "", misuse: bool = False) -> None:
+        super().__init__(message)
+        self.hint, self.misuse = hint, misuse
+
+
+@dataclass(frozen=True, slots=True)
+class Cast:
+    """A task, the master in charge of it, and a mind that is ready to run."""
+
+    task: Task
+    master: str
+    ready: Ready
+    folder: Path
+
+    def rollout(self, interrupt: bool = True, workers: int = 1) -> Rollout:
+        """The task under the master, in the simulator. Runs the text of the procedures' modules."""
+        from mindrun.sim.rollout import Rollout
+
+        return Rollout(
+            self.ready.graph,
+            self.ready.weights,
+            self.task.name,
+            self.master,
+            procedures=self.folder,
+            interrupt=interrupt,
+            workers=workers,
+        )
+
+
+def cast(file: str, compiled: Compiled, task: str | None, master: str | None) -> Cast:
+    """The task and the master of these names, or those meant without; CastingError where they cannot perform."""
+    assert compiled.graph is not None
+    chosen = task_of(compiled.graph, task)
+    leader = master_of(compiled.graph, chosen, master)
+    ready = make_ready(compiled.graph, compiled.sources, leader)
+    if ready.refusals:
+        raise CastingError("\n".join(ready.refusals), f"mindc train {file} {' '.join(_missing(ready))}")
+    return Cast(chosen, leader, ready, compiled.sources[0].folder)
+
+
+def task_of(graph: Graph, name: str | None) -> Task:
+    """The task of that name; without one, that on which the mind's master is taught, else the first in the file."""
+    if not graph.tasks:
+        raise CastingError("there is no task to run", "add one: task Go in plain")
+    if name is None:
+        taught = (lesson.task for lesson in graph.lessons if lesson.master == graph.master)
+        name = next(taught, graph.tasks[0].name)
+    return next((task for task in graph.tasks if task.name == name), None) or _unknown(
+        "task", name, [task.name for task in graph.tasks]
+    )
+
+
+def master_of(graph: Graph, task: Task, name: str | None) -> str:
+    """Who is in charge of a task: the skill of that name; without one, the master of the task's first lesson.
+
+    Where no lesson is on the task, the mind's own master.
+    """
+    if name is None:
+        return next((lesson.master for lesson in graph.lessons if lesson.task == task.name), graph.master)
+    skills = [skill.name for skill in graph.skills]
+    return name if name in skills else _unknown("skill", name, skills)
+
+
+def _unknown(noun: str, name: str, known: Sequence[str]) -> Never:
+    hint = did_you_mean(name, known) or f"There is {listed(known, 'and')}."
+    raise CastingError(f"there is no {noun} called {name}", hint, misuse=True)
+
+
+def _missing(ready: Ready) -> list[str]:
+    """The skills without weights that fit, subskills first."""
+    reached = reachable(ready.graph, ready.graph.master)
+    return [skill.name for skill in reversed(reached) if genes(skill) and skill.name not in ready.weights]

@@ -1,0 +1,59 @@
+"""`mindc bench`: many runs of a task, for a figure that can be trusted."""
+
+from __future__ import annotations
+
+import click
+
+EXAMPLES = """\b
+Examples:
+  mindc bench collect.mind
+  mindc bench collect.mind --task Collect --runs 200 --seed 1
+  mindc bench collect.mind --task Collect --no-interruption --json
+  mindc bench collect.mind --task Collect --master Avoid --workers 1
+"""
+COUNT = click.IntRange(min=1)
+
+
+@click.command(epilog=EXAMPLES)
+@click.argument("file")
+@click.option("--task", metavar="TASK", help="Default: the task on which the master is taught, else the first.")
+@click.option("--runs", type=COUNT, default=200, show_default=True, help="How many layouts to run the task on.")
+@click.option("--seed", type=click.IntRange(0, 2**63 - 1), default=1, show_default=True, help="Draws the layouts.")
+@click.option("--workers", type=COUNT, help="How many cores to use (default: all). Changes nothing else.")
+@click.option("--master", metavar="SKILL", help="Who is in charge. Default: the master of the task's first lesson.")
+@click.option("--no-interruption", is_flag=True, help="Go on to the last tick, whatever would end a run.")
+@click.option("--json", "as_json", is_flag=True, help="Print one JSON document instead.")
+@click.option("-q", "--quiet", is_flag=True, help="Print nothing but results and errors.")
+def command(
+    file: str,
+    task: str | None,
+    runs: int,
+    seed: int,
+    workers: int | None,
+    master: str | None,
+    no_interruption: bool,
+    as_json: bool,
+    quiet: bool,
+) -> None:
+    """Run a task of FILE on many layouts, with the weights that its skills were taught.
+
+    Runs the Python code of the file's procedures. Each run has a seed of its own; `mindc run --seed` repeats it.
+    """
+    import os
+
+    from mindlang import outcome
+    from mindlang.cli.shared import console, print_json
+    from mindlang.stage import Stage, layouts
+    from mindlang.summary import bench_summary
+
+    stage = Stage(quiet)
+    workers = workers or len(os.sched_getaffinity(0))
+    cast, rollout = stage.prepare(file, task, master, interrupt=not no_interruption, workers=workers)
+    seeds = layouts(seed, runs)
+    scores, seconds = stage.score(rollout, seeds)
+    found = {"task": cast.task.name, "master": cast.master, "seed": seed, "workers": workers}
+    found |= outcome.many(cast.task, scores, seeds, seconds)
+    if as_json:
+        print_json(found)
+    else:
+        console().print(bench_summary(found))

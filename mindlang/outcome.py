@@ -1,0 +1,72 @@
+"""What came of one run, and of many, as plain data: the contents of `--json`."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from math import isfinite, sqrt
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from mindrun.graph import Task
+
+from mindlang.drawing import phrase
+
+if TYPE_CHECKING:
+    from mindrun.sim.rollout import Scores
+
+TIME = "time"
+
+
+def events(task: Task) -> list[str]:
+    """The events of a task as they are written."""
+    return [phrase(event) for event in task.events]
+
+
+def one(task: Task, scores: Scores) -> dict[str, Any]:
+    """The single run of `scores`; a sum that is not a finite number is None."""
+    by_line: dict[str, float] = {}
+    for reward, paid in zip(task.rewards, scores.by_line[0, 0], strict=False):
+        by_line[reward.text] = by_line.get(reward.text, 0.0) + float(paid)
+    ended = int(scores.ended_by[0, 0])
+    return {
+        "score": _number(scores.total[0, 0]),
+        "by_line": {text: _number(paid) for text, paid in by_line.items()},
+        "counts": int(scores.counts[0, 0]),
+        "counted": [events(task)[event] for event in task.counts],
+        "ticks": int(scores.ticks[0, 0]),
+        "of_ticks": task.ticks,
+        "ended_by": events(task)[ended] if ended >= 0 else None,
+        "faults": int(scores.faults[0, 0]),
+    }
+
+
+def many(task: Task, scores: Scores, seeds: Sequence[int], seconds: float) -> dict[str, Any]:
+    """All runs of one genome. `count_std` is that of the sample; the best and the worst run are named by their seed."""
+    totals, counts, ticks = scores.total[0], scores.counts[0], int(scores.ticks.sum())
+    names = [*events(task), TIME]  # a run that lasts its time is ended by −1
+    ended = np.bincount(scores.ended_by[0] % len(names), minlength=len(names))
+    return {
+        "runs": len(seeds),
+        "count_mean": float(counts.mean()),
+        "count_std": float(counts.std(ddof=1)) if len(counts) > 1 else 0.0,
+        "counted": [names[event] for event in task.counts],
+        "runtime_mean": float(scores.ticks[0].mean() / task.ticks),
+        "ended": {name: int(n) for name, n in zip(names, ended, strict=True) if n},
+        "score_mean": _number(totals.mean()),
+        "score_std": _number(np.std(totals, ddof=1)) if len(totals) > 1 and np.isfinite(totals).all() else None,
+        "best_seed": int(seeds[int(totals.argmax())]),
+        "worst_seed": int(seeds[int(totals.argmin())]),
+        "faults": int(scores.faults.sum()),
+        "ticks": ticks,
+        "seconds": round(seconds, 3),
+        "ticks_per_second": round(ticks / max(seconds, 1e-9)),
+    }
+
+
+def standard_error(deviation: float, runs: int) -> float:
+    """How far a mean of so many runs may be off."""
+    return deviation / sqrt(runs)
+
+
+def _number(value: float) -> float | None:
+    return float(value) if isfinite(value) else None

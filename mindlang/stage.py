@@ -1,0 +1,115 @@
+"""What `run` and `bench` do beside computing: loading a cast, showing progress, writing pictures, and saying so."""
+
+from __future__ import annotations
+
+import os
+from dataclasses import dataclass
+from pathlib import Path
+from time import perf_counter
+from typing import Any
+
+import numpy as np
+from mindrun.errors import MindError
+from mindrun.sim.rollout import Rollout, Scores
+from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
+
+from mindlang.casting import Cast, CastingError, cast
+from mindlang.cli import FINDINGS, MISUSE
+from mindlang.cli.shared import fail, load_compiled, say, talk
+from mindlang.compiling import WAIT, is_compiled
+
+NOBODY = np.zeros((1, 0), np.float32)  # the genome where nobody learns
+
+
+def layouts(seed: int, runs: int) -> list[int]:
+    """The seeds of so many runs."""
+    return [int(word) for word in np.random.SeedSequence(seed).generate_state(runs, np.uint64)]
+
+
+@dataclass(frozen=True, slots=True)
+class Stage:
+    """Talks on stderr, unless it is to be quiet; what is wrong ends the program with one message."""
+
+    quiet: bool
+
+    def prepare(
+        self, file: str, task: str | None, master: str | None, interrupt: bool, workers: int = 1
+    ) -> tuple[Cast, Rollout]:
+        """The cast of a run, in the simulator."""
+        compiled = load_compiled(file)
+        try:
+            found = cast(file, compiled, task, master)
+            self.say(*(f"note: {note}" for note in found.ready.notes))
+            self.say(*([] if is_compiled() else [WAIT]))
+            rollout = found.rollout(interrupt, workers)
+        except CastingError as error:
+            *first, last = str(error).split("\n")
+            for line in first:
+                say(line)
+            fail(last, error.hint, MISUSE if error.misuse else FINDINGS)
+        except MindError as error:
+            fail(str(error), code=MISUSE)
+        for skill, reason in rollout.procedures.slow.items():
+            self.say(f"{skill} runs in Python, which is slow: {reason}")
+        return found, rollout
+
+    def score(self, rollout: Rollout, seeds: list[int]) -> tuple[Scores, float]:
+        """All runs, and the seconds that they took."""
+        with self._progress() as progress:
+            bar = progress.add_task(f"{rollout.task.name}", total=len(seeds))
+            begin = perf_counter()
+            scores = rollout.score(NOBODY, seeds, lambda runs: progress.advance(bar, runs))
+            return scores, perf_counter() - begin
+
+    def draw(self, cast: Cast, rollout: Rollout, found: dict[str, Any], path: Path) -> None:
+        """The picture of a run, written to `path`."""
+        from mindrun.train.durable import write
+
+        from mindlang.pictures.picture import picture, png
+        from mindlang.pictures.story import tell
+
+        story = tell(cast, rollout, found["seed"])
+        try:
+            write(path, png(picture(story, found)))
+        except OSError as error:
+            fail(f"{path} cannot be written: {error.strerror}", code=MISUSE)
+        self.say(f"{path}: the path of the robot")
+
+    def film(self, cast: Cast, rollout: Rollout, found: dict[str, Any], path: Path, speed: float | None) -> None:
+        """The video of a run, written to `path`."""
+        from mindlang.pictures.film import Film, FilmError
+        from mindlang.pictures.story import tell
+
+        film = Film.of(tell(cast, rollout, found["seed"]), found, speed)
+        try:
+            with self._progress() as progress:
+                bar = progress.add_task(path.name, total=film.frames)
+                film.write(path, lambda: progress.advance(bar))
+        except FilmError as error:
+            fail(str(error), code=MISUSE)
+        except OSError as error:
+            fail(f"{path} cannot be written: {error.strerror}", code=MISUSE)
+        self.say(f"{path}: {film.frames / film.FPS:.0f} s at {film.speed:g} times the robot's speed")
+
+    def refuse_unwritable(self, path: Path | None, suffix: str) -> None:
+        """End the program where nothing could be written to `path`, before any work is done."""
+        if path is None:
+            return
+        if path.suffix.lower() != suffix:
+            fail(f"{path} must end in {suffix}", code=MISUSE)
+        if path.is_dir():
+            fail(f"{path} cannot be written: it is a folder", code=MISUSE)
+        if not path.parent.is_dir():
+            fail(f"{path} cannot be written: there is no folder {path.parent}", code=MISUSE)
+        if not os.access(path.parent, os.W_OK) or (path.exists() and not os.access(path, os.W_OK)):
+            fail(f"{path} cannot be written: permission denied", code=MISUSE)
+
+    def say(self, *lines: str) -> None:
+        """Print lines on stderr."""
+        for line in () if self.quiet else lines:
+            talk.print(line, markup=False)
+
+    def _progress(self) -> Progress:
+        columns = (TextColumn("{task.description}", markup=False), BarColumn(30), MofNCompleteColumn())
+        hidden = self.quiet or not talk.is_terminal
+        return Progress(*columns, TimeRemainingColumn(), console=talk, transient=True, disable=hidden)
