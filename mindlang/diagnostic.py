@@ -40,6 +40,10 @@ class Findings:
         """Collect an error."""
         self.diagnostics.append(Diagnostic(code, message, span, hint, labels))
 
+    def suggest(self, word: str, known: Iterable[str]) -> str:
+        """`did_you_mean` for the first hundred diagnostics: comparing names takes time, and nobody reads more."""
+        return did_you_mean(word, known) if len(self.diagnostics) < 100 else ""
+
 
 def nearest(word: str, known: Iterable[str]) -> str | None:
     """The known word that is most like `word`, if one is."""

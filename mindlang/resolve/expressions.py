@@ -7,7 +7,7 @@ from mindrun.quantity import Quantity
 from mindrun.registry import kinds
 
 from mindlang import model, syntax
-from mindlang.diagnostic import Findings, did_you_mean
+from mindlang.diagnostic import Findings
 from mindlang.resolve.kinds import Scope, make
 from mindlang.resolve.quantities import convert
 from mindlang.syntax import Amount, Operator, Phrase
@@ -82,10 +82,10 @@ def _unknown(term: Phrase, visible: Visible, findings: Findings) -> None:
         hint = f"Add the line reads {name}; an expression after at sees the inputs of its own skill."
         findings.error("not-an-input", term.span, f"The skill does not read {name}.", hint)
     elif visible.measures:
-        hint = did_you_mean(name, [*visible.readings, *kinds("measure")])
+        hint = findings.suggest(name, [*visible.readings, *kinds("measure")])
         hint = hint or "A reward is made of sensors, memories and measures such as forward or progress toward X."
         findings.error("unknown-measure", term.kind.span, f"There is no reading or measure called {name}.", hint)
     else:
-        hint = did_you_mean(name, [*visible.readings, *(visible.elsewhere or ())])
+        hint = findings.suggest(name, [*visible.readings, *(visible.elsewhere or ())])
         hint = hint or "An expression after at is made of numbers and the inputs of its skill."
         findings.error("unknown-reading", term.kind.span, f"There is no reading called {name}.", hint)

@@ -24,7 +24,7 @@ ABOUT: Mapping[tuple[str, str], Set[str]] = {
 PLACES: Set[str] = {"item", "zone", "power"}
 WHY = {
     "neutral": "It is what the actuator is sent when nothing influences it and whenever something fails: "
-    "a wheel's 0 is full reverse."
+    "a wheel's 0 is full reverse. Write neutral 0.5 for a wheel that stands still."
 }
 
 
@@ -52,7 +52,7 @@ def make(noun: str, phrase: Phrase, scope: Scope, findings: Findings) -> Any:
     }
     for key, parameter in parameters.items():
         if parameter.required and parameter.field not in values:
-            _missing(noun, phrase, key, findings)
+            _missing(phrase, key, findings)
     return cls(**values) if len(findings.diagnostics) == before else None
 
 
@@ -88,13 +88,10 @@ def _unknown(kind: str, key: Name, parameters: Mapping[str, Parameter], findings
     findings.error("unknown-argument", key.span, f"{kind} has no argument called {key.text}.", hint)
 
 
-def _missing(noun: str, phrase: Phrase, key: str, findings: Findings) -> None:
-    reason = WHY.get(key, "")
-    example = (
-        f"Write {phrase.kind.text} {key} …" if key != "neutral" else "Write neutral 0.5 for a wheel that stands still."
-    )
-    message = f"{phrase.kind.text} needs {key}."
-    findings.error("missing-argument", phrase.span, message, f"{reason} {example}".strip())
+def _missing(phrase: Phrase, key: str, findings: Findings) -> None:
+    kind = phrase.kind.text
+    hint = WHY.get(key, f"Write {kind} {key} …")
+    findings.error("missing-argument", phrase.span, f"{kind} needs {key}.", hint)
 
 
 def _value(

@@ -3,7 +3,7 @@
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 
-from mindlang.diagnostic import Findings, Label, a, did_you_mean, listed
+from mindlang.diagnostic import Findings, Label, a, listed
 from mindlang.syntax import Contains, Declaration, File, Name
 
 # A memory is read like a sensor and driven like an actuator, so its name must be neither's.
@@ -43,7 +43,7 @@ class Names:
         if other:
             hint = f"There is {a(other)} of that name, but {DOES[other]}."
         else:
-            hint = did_you_mean(name.text, self.of(*nouns)) or self._offer(nouns)
+            hint = findings.suggest(name.text, self.of(*nouns)) or self._offer(nouns)
         findings.error(f"unknown-{nouns[0]}", name.span, f"There is no {wanted} called {name.text}.", hint)
         return None
 
