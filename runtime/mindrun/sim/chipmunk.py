@@ -20,7 +20,7 @@ ffi, lib = _chipmunk.ffi, _chipmunk.lib
 ITERATIONS = 8
 FRICTION = 0.2  # Box2D's default; elasticity is 0 in both engines
 WALL = 1.0  # half the thickness of a wall, outside the arena
-HASH_CELL, HASH_COUNT = 10.0, 100
+HASH_CELL, HASH_COUNT = 20.0, 20
 
 # The functions in use. Their addresses travel in a table: compiled code that held them could not be cached.
 FUNCTIONS = (

@@ -5,6 +5,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from mindrun.sim.lanes.vector import WIDE
 from mindrun.sim.tables import INERTIAL_TICKS, Sizes, Tables
 
 Array = NDArray[Any]
@@ -88,8 +89,10 @@ def empty_state(tables: Tables, sizes: Sizes, lanes: int) -> State:
     sinks = len(tables.actuators) + len(tables.memories)
     things, boxes, rays = len(tables.things), sizes.boxes, len(tables.ray_row)
 
+    whole = -(-lanes // WIDE) * WIDE  # the perceptrons take sixteen lanes at a time
+
     def zeros(rows: int, kind: Any = np.float64) -> Array:
-        return np.zeros((max(1, rows), lanes), kind)
+        return np.zeros((max(1, rows), whole), kind)
 
     return State(
         body=zeros(6),

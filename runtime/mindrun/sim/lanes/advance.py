@@ -4,7 +4,7 @@ import numpy as np
 
 from mindrun.sim.chipmunk import close_space
 from mindrun.sim.lanes.act import act
-from mindrun.sim.lanes.arithmetic import compiled, entry
+from mindrun.sim.lanes.arithmetic import compiled, entry, sine_cosine
 from mindrun.sim.lanes.judge import judge, patch_of
 from mindrun.sim.lanes.sense import sense
 from mindrun.sim.lanes.step import step
@@ -87,6 +87,7 @@ def reset(t, s, p):
     s.held[p], s.near[p], s.touching[p], s.faults[p] = -1, 0, 0, 0
     s.tick[p], s.counts[p], s.ended[p] = 0, 0, -1
     s.battery[p] = t.world[0].start
+    s.heading[1, p], s.heading[0, p] = sine_cosine(s.body[2, p])
     s.lines[:, p] = 0.0
     s.changes[:, p] = 0.0
     s.anchor[:, p] = np.nan

@@ -23,7 +23,7 @@ SLACK = 2.0  # how far a robot may move before the boxes that its rays can meet 
 def sense(t, s, n, clock):
     """Fill the rows of the sensors that somebody reads, in the order of the table (sources before derivatives)."""
     world = t.world[0]
-    see(s.body, s.heading, s.things, len(t.things), n)
+    see(s.body, s.things, len(t.things), n)
     if world.rays > 0:
         look(t, s, n)
     for i in range(len(t.sensors)):
@@ -65,10 +65,8 @@ def sense(t, s, n, clock):
 
 
 @compiled
-def see(body, heading, things, count, n):
-    """Headings, and the distance of every thing when the tick begins."""
-    for p in range(n):
-        heading[1, p], heading[0, p] = sine_cosine(body[2, p])
+def see(body, things, count, n):
+    """The distance of every thing when the tick begins."""
     for i in range(count):
         for p in range(n):
             dx, dy = things[4 * i, p] - body[0, p], things[4 * i + 1, p] - body[1, p]

@@ -1,7 +1,8 @@
 """Think: influence flows down the hierarchy (Eq. 2) and the skills that have some compute what they send (Eq. 1)."""
 
-from mindrun.sim.lanes.arithmetic import ONE, ZERO, F, clamp, compiled, finite, sigmoid
+from mindrun.sim.lanes.arithmetic import ONE, ZERO, F, clamp, compiled, finite
 from mindrun.sim.lanes.evaluate import evaluate
+from mindrun.sim.lanes.vector import WIDE, load, sigmoids, splat, store
 from mindrun.sim.procedures import call
 from mindrun.sim.tables import MLP, PROCEDURE
 
@@ -70,92 +71,56 @@ def perceive(t, s, skill, n):
     half = s.hidden.shape[0] // 2
     source, inputs, place = s.gathered, skill.inputs, skill.weights if not skill.own else 0
     base = half
-    for _ in range(skill.hidden):
+    for layer in range(skill.hidden + 1):
         base = half - base
         target = s.hidden[base : base + half]
-        dense(t, s, skill.own, place, source, inputs, target, skill.width, n)
-        for q in range(skill.width):
-            squash(target[q], n)
-        place += inputs * skill.width
-        source, inputs = target, skill.width
-    base = half - base
-    dense(t, s, skill.own, place, source, inputs, s.hidden[base : base + half], skill.outputs, n)
+        last = layer == skill.hidden
+        outputs = skill.outputs if last else skill.width
+        if skill.own:
+            dense_own(s.genome[place:], source, inputs, target, outputs, last, n)
+        else:
+            dense(t.weights[place:], source, inputs, target, outputs, last, n)
+        place += inputs * outputs
+        source, inputs = target, outputs
     return base
 
 
 @compiled
-def squash(values, n):
-    """The sigmoid of a row."""
-    for p in range(n):
-        values[p] = sigmoid(values[p])
+def dense(w, source, inputs, target, outputs, last, n):
+    """target[q] = Σ weight · source[j], summed in the order of j; then the sigmoid, but for the last layer.
+
+    Sixteen lanes and four outputs at a time; w is flat, output after output.
+    """
+    for p in range(0, n, WIDE):
+        for q in range(0, outputs - 3, 4):
+            a, b, c, d = splat(ZERO), splat(ZERO), splat(ZERO), splat(ZERO)
+            first = q * inputs
+            for j in range(inputs):
+                x = load(source, j, p)
+                a = a + splat(w[first + j]) * x
+                b = b + splat(w[first + inputs + j]) * x
+                c = c + splat(w[first + 2 * inputs + j]) * x
+                d = d + splat(w[first + 3 * inputs + j]) * x
+            store(target, q, p, a if last else sigmoids(a))
+            store(target, q + 1, p, b if last else sigmoids(b))
+            store(target, q + 2, p, c if last else sigmoids(c))
+            store(target, q + 3, p, d if last else sigmoids(d))
+        for q in range(outputs - outputs % 4, outputs):
+            a = splat(ZERO)
+            for j in range(inputs):
+                a = a + splat(w[q * inputs + j]) * load(source, j, p)
+            store(target, q, p, a if last else sigmoids(a))
 
 
 @compiled
-def dense(t, s, own, place, source, inputs, target, outputs, n):
-    """target[q] = Σ weight · source[j], summed in the order of j; eight inputs a pass."""
-    for q in range(outputs):
-        out = target[q]
-        out[:n] = ZERO
-        j = 0
-        if own:
-            w = s.genome[place : place + inputs]
-            while j + 4 <= inputs:
-                add_4_own(out, w[j], source[j], w[j + 1], source[j + 1], w[j + 2], source[j + 2], w[j + 3],
-                          source[j + 3], n)  # fmt: skip
-                j += 4
-            while j < inputs:
-                add_own(out, w[j], source[j], n)
-                j += 1
-        else:
-            v = t.weights[place : place + inputs]
-            while j + 8 <= inputs:
-                add_8(out, v[j : j + 8], source[j], source[j + 1], source[j + 2], source[j + 3], source[j + 4],
-                      source[j + 5], source[j + 6], source[j + 7], n)  # fmt: skip
-                j += 8
-            while j + 4 <= inputs:
-                add_4(out, v[j : j + 4], source[j], source[j + 1], source[j + 2], source[j + 3], n)
-                j += 4
-            while j < inputs:
-                add_1(out, v[j], source[j], n)
-                j += 1
-        place += inputs
-
-
-@compiled
-def add_8(out, w, a, b, c, d, e, f, g, h, n):
-    """out += w0·a + … + w7·h, from left to right."""
-    w0, w1, w2, w3, w4, w5, w6, w7 = w[0], w[1], w[2], w[3], w[4], w[5], w[6], w[7]
-    for p in range(n):
-        out[p] = out[p] + w0 * a[p] + w1 * b[p] + w2 * c[p] + w3 * d[p] + w4 * e[p] + w5 * f[p] + w6 * g[p] + w7 * h[p]
-
-
-@compiled
-def add_4(out, w, a, b, c, d, n):
-    """out += w0·a + … + w3·d, from left to right."""
-    w0, w1, w2, w3 = w[0], w[1], w[2], w[3]
-    for p in range(n):
-        out[p] = out[p] + w0 * a[p] + w1 * b[p] + w2 * c[p] + w3 * d[p]
-
-
-@compiled
-def add_1(out, w, a, n):
-    """out += w·a."""
-    for p in range(n):
-        out[p] = out[p] + w * a[p]
-
-
-@compiled
-def add_4_own(out, w, a, x, b, y, c, z, d, n):
-    """out += w·a + x·b + y·c + z·d, from left to right, every lane with its own weights."""
-    for p in range(n):
-        out[p] = out[p] + w[p] * a[p] + x[p] * b[p] + y[p] * c[p] + z[p] * d[p]
-
-
-@compiled
-def add_own(out, w, a, n):
-    """out += w·a, every lane with its own weight."""
-    for p in range(n):
-        out[p] = out[p] + w[p] * a[p]
+def dense_own(w, source, inputs, target, outputs, last, n):
+    """As `dense`, with weights [weight, lane] of each lane's own."""
+    for p in range(0, n, WIDE):
+        for q in range(outputs):
+            a = splat(ZERO)
+            for j in range(inputs):
+                a = a + load(w, q * inputs + j, p) * load(source, j, p)
+            store(target, q, p, a if last else sigmoids(a))
 
 
 @compiled

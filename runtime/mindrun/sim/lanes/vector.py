@@ -1,0 +1,136 @@
+"""Sixteen lanes side by side as one value of compiled code, float32: sums stay in registers while a layer is computed.
+
+LLVM makes of it what the processor has: one AVX-512 register, two of AVX2, four of NEON. Every operation rounds like
+its scalar twin, so a result does not depend on the width.
+"""
+
+import operator
+from collections.abc import Callable
+from typing import Any
+
+from llvmlite import ir
+from numba import types
+from numba.core import cgutils
+from numba.extending import intrinsic, models, overload, register_model
+
+from mindrun.sim.lanes.arithmetic import A1, A3, A5, A7, A9, A11, A13, B0, B2, B4, B6, HALF, TOP, compiled
+
+WIDE = 16
+_FLOAT = ir.FloatType()
+_VECTOR = ir.VectorType(_FLOAT, WIDE)
+
+
+class Vector(types.Type):
+    """The type of sixteen float32 lanes."""
+
+    def __init__(self) -> None:
+        super().__init__("Vector")
+
+
+vector = Vector()
+
+
+@register_model(Vector)
+class _VectorModel(models.PrimitiveModel):
+    def __init__(self, manager: Any, kind: Any) -> None:
+        super().__init__(manager, kind, _VECTOR)
+
+
+def _splat(builder: Any, value: Any) -> Any:
+    first = builder.insert_element(ir.Constant(_VECTOR, ir.Undefined), value, ir.Constant(ir.IntType(32), 0))
+    zeros = ir.Constant(ir.VectorType(ir.IntType(32), WIDE), [0] * WIDE)
+    return builder.shuffle_vector(first, ir.Constant(_VECTOR, ir.Undefined), zeros)
+
+
+@intrinsic
+def splat(typingctx, value):
+    """The same number in every lane."""
+    return vector(types.float32), lambda context, builder, signature, args: _splat(builder, args[0])
+
+
+def _address(context: Any, builder: Any, kind: Any, array: Any, row: Any, lane: Any) -> Any:
+    view = context.make_array(kind)(context, builder, array)
+    pointer = cgutils.get_item_pointer(context, builder, kind, view, [row, lane], wraparound=False)
+    return builder.bitcast(pointer, _VECTOR.as_pointer())
+
+
+@intrinsic
+def load(typingctx, array, row, lane):
+    """Sixteen lanes of a row of a float32 array [row, lane], from `lane` on."""
+
+    def generate(context, builder, signature, args):
+        where = _address(context, builder, signature.args[0], *args)
+        return builder.load(where, align=4)
+
+    return vector(array, types.intp, types.intp), generate
+
+
+@intrinsic
+def store(typingctx, array, row, lane, value):
+    """Sixteen lanes into a row of a float32 array [row, lane], from `lane` on."""
+
+    def generate(context, builder, signature, args):
+        where = _address(context, builder, signature.args[0], *args[:3])
+        builder.store(args[3], where, align=4)
+        return context.get_dummy_value()
+
+    return types.void(array, types.intp, types.intp, vector), generate
+
+
+def _operation(make: Callable[[Any, Any, Any], Any]) -> Any:
+    @intrinsic
+    def operate(typingctx, left, right):
+        return vector(vector, vector), lambda context, builder, signature, args: make(builder, *args)
+
+    return operate
+
+
+ADD = _operation(lambda builder, a, b: builder.fadd(a, b))
+MULTIPLY = _operation(lambda builder, a, b: builder.fmul(a, b))
+DIVIDE = _operation(lambda builder, a, b: builder.fdiv(a, b))
+LOWEST = _operation(lambda builder, a, b: builder.select(builder.fcmp_ordered("<", a, b), a, b))
+HIGHEST = _operation(lambda builder, a, b: builder.select(builder.fcmp_ordered(">", a, b), a, b))
+
+
+@overload(operator.add)
+def _add(left, right):
+    if left is vector and right is vector:
+        return lambda left, right: ADD(left, right)
+    return None
+
+
+@overload(operator.mul)
+def _multiply(left, right):
+    if left is vector and right is vector:
+        return lambda left, right: MULTIPLY(left, right)
+    return None
+
+
+@overload(operator.truediv)
+def _divide(left, right):
+    if left is vector and right is vector:
+        return lambda left, right: DIVIDE(left, right)
+    return None
+
+
+@compiled
+def sigmoids(x):
+    """`arithmetic.sigmoid` in sixteen lanes."""
+    half = splat(HALF)
+    x = x * half
+    x = HIGHEST(x, splat(-TOP))
+    x = LOWEST(x, splat(TOP))
+    y = x * x
+    p = splat(A13)
+    p = p * y + splat(A11)
+    p = p * y + splat(A9)
+    p = p * y + splat(A7)
+    p = p * y + splat(A5)
+    p = p * y + splat(A3)
+    p = p * y + splat(A1)
+    p = p * x
+    q = splat(B6)
+    q = q * y + splat(B4)
+    q = q * y + splat(B2)
+    q = q * y + splat(B0)
+    return half + half * (p / q)
