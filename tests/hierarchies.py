@@ -14,9 +14,10 @@ from mindrun.world import Disc
 from numpy.typing import NDArray
 
 SHARES = st.floats(0, 1, width=32)
-WORLDLY = [RangeFinder(at=(0.0, 1.0, 2.0)), Bearing("object"), Battery()]
+EYES = 10
+WORLDLY = [RangeFinder(at=tuple(map(float, range(EYES)))), Bearing("object"), Battery()]
 ACTUATORS = [Wheel("left", 0.5), Wheel("right", 0.5, delay=2), Gripper(0.0), Servo(0.3)]
-SCALES = [0.1, 1.0, 1.0, 10.0, 1e4, 1e20, 3e38]
+SCALES = [0.1, 0.3, 0.3, 1.0, 10.0, 1e4, 1e20, 3e38]
 
 
 @dataclass(frozen=True, slots=True)
@@ -48,9 +49,10 @@ def random_case(draw: st.DrawFn, ticks: int = 6) -> Case:
     """A hierarchy, weights that may be huge, and readings that may be anything."""
     graph = draw(random_graph())
     rng = np.random.default_rng(draw(st.integers(0, 2**32 - 1)))
-    weights = {skill.name: draw(st.sampled_from(SCALES)) * rng.uniform(-1, 1, genes(skill)) for skill in graph.skills}
+    # more often above zero than below: most skills then have influence
+    weights = {skill.name: draw(st.sampled_from(SCALES)) * rng.uniform(-0.7, 1, genes(skill)) for skill in graph.skills}
     readings = rng.random((ticks, graph.width), np.float32)
-    for _ in range(draw(st.integers(0, 3))):
+    for _ in range(draw(st.integers(0, 6))):
         place = draw(st.tuples(st.integers(0, ticks - 1), st.integers(0, max(graph.width - 1, 0))))
         readings[place] = draw(st.sampled_from([np.nan, np.inf, -np.inf, -0.0, 0.0, 1.0, 7.0, -3.0, 3e38, 1e-42]))
     return Case(graph, {name: values.astype(np.float32) for name, values in weights.items()}, readings)
@@ -59,13 +61,13 @@ def random_case(draw: st.DrawFn, ticks: int = 6) -> Case:
 @st.composite
 def _senses(draw: st.DrawFn) -> tuple[tuple[Sensor, ...], tuple[Memory, ...]]:
     """Sensors and memories; derivatives of anything, and of one another."""
-    kinds = draw(st.lists(st.sampled_from([*WORLDLY, "sine", "derivative"]), min_size=1, max_size=6))
+    kinds = draw(st.lists(st.sampled_from([*WORLDLY, "sine", "derivative", "derivative"]), min_size=2, max_size=7))
     cells = [Cell(draw(SHARES), draw(SHARES)) for _ in range(draw(st.integers(0, 2)))]
     widths = {f"m{i}": 1 for i in range(len(cells))}
     sensors: list[Sensor] = []
     start = 0
     for number, kind in enumerate(kinds):
-        width = 3 if isinstance(kind, RangeFinder) else 1
+        width = EYES if isinstance(kind, RangeFinder) else 1
         if kind == "sine" or (kind == "derivative" and not widths):
             kind = Sine(draw(st.sampled_from([0.05, 0.3, 2.0])))
         elif kind == "derivative":
@@ -89,9 +91,9 @@ def _placed(sensors: list[Sensor]) -> tuple[Sensor, ...]:
 @st.composite
 def _skills(draw: st.DrawFn, name: str, width: int, targets: list[tuple[str, int]], fewest: int) -> Skill:
     """A skill over some of the readings that sends to some of the targets."""
-    mlp = st.builds(Mlp, hidden=st.integers(fewest, 3), width=st.integers(0, 6))
+    mlp = st.builds(Mlp, hidden=st.integers(fewest, 3), width=st.sampled_from([0, 0, 1, 5, 17]))
     function: Function = draw(st.one_of(mlp, mlp, st.just(Rule())))
-    inputs = tuple(draw(st.lists(st.integers(0, width - 1), unique=True, max_size=8)))
+    inputs = tuple(draw(st.lists(st.integers(0, width - 1), unique=True, max_size=16)))
     chosen = draw(st.lists(st.sampled_from(targets), unique=True, min_size=1, max_size=5))
     edges: list[Edge] = []
     outputs = 0

@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from mindrun.engine import Engine
 from mindrun.portable import cosine, sine
@@ -15,6 +15,7 @@ from tests.plain import Plain
 
 
 @given(random_case(), st.data())
+@settings(max_examples=300, suppress_health_check=[HealthCheck.too_slow])
 def test_same_bits_as_plain_python(case: Case, data: st.DataObject) -> None:
     master = data.draw(st.sampled_from([skill.name for skill in case.graph.skills]))
     engine, plain = Engine(case.graph, case.weights, master=master), Plain(case.graph, case.weights, master)
