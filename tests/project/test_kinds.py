@@ -15,14 +15,9 @@ for room in ("sensors", "actuators", "memory", "measures", "events", "world", "f
 
 
 def matched() -> set[str]:
-    """The names of all classes that the tables of the simulated world tell apart by `match` or `isinstance`."""
+    """The names of all classes that the tables of the simulated world tell apart by `match`."""
     nodes = [node for path in modules(RUNTIME / "sim") for node in ast.walk(tree(path))]
-    tested = [node.cls for node in nodes if isinstance(node, ast.MatchClass)]
-    for node in nodes:
-        match node:
-            case ast.Call(func=ast.Name(id="isinstance"), args=[_, cls]):
-                tested.append(cls)
-    return {ast.unparse(cls).rpartition(".")[2] for cls in tested}
+    return {ast.unparse(node.cls).rpartition(".")[2] for node in nodes if isinstance(node, ast.MatchClass)}
 
 
 @pytest.mark.parametrize(
