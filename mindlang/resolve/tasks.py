@@ -6,7 +6,7 @@ from typing import Any, TypeVar
 
 from mindrun.events import Delivery, Exhaustion, Visit
 from mindrun.quantity import SECONDS, TICKS
-from mindrun.world import Plain, Zone
+from mindrun.world import Arena, Obstacle, Plain, Zone, grid_lines
 
 from mindlang import model, syntax
 from mindlang.diagnostic import Findings, Label
@@ -17,7 +17,8 @@ from mindlang.resolve.parts import refuse_facts
 from mindlang.resolve.quantities import convert
 from mindlang.syntax import Contains, Counts, Declaration, Ends, Fact, Lasts, Phrase, Rewards
 
-LASTS = replace(TICKS, low=1.0)
+LASTS = replace(TICKS, low=1.0, high=1e9)
+MOST_OBSTACLES = 2500  # in one world
 
 F = TypeVar("F", bound=Fact)
 
@@ -50,7 +51,7 @@ def _task(name: str, declaration: Declaration, robot: Robot, findings: Findings)
     scope = Scope(robot.names, things_of(declaration) if declaration.whole else None, f"task {name}")
     phrase = declaration.header.phrase
     scene = make("task", phrase, scope, findings) if phrase else None
-    world = _World(scene, _things(declaration, scope, findings), scope, robot.has_battery)
+    world = _World(scene, _things(declaration, scene, scope, findings), scope, robot.has_battery)
     return model.Task(
         name,
         world.scene,
@@ -67,7 +68,7 @@ def _facts(declaration: Declaration, form: type[F]) -> Iterator[F]:
     return (fact for fact in declaration.facts if isinstance(fact, form))
 
 
-def _things(declaration: Declaration, scope: Scope, findings: Findings) -> tuple[model.Part[Any], ...]:
+def _things(declaration: Declaration, scene: Any, scope: Scope, findings: Findings) -> tuple[model.Part[Any], ...]:
     found: dict[str, model.Part[Any]] = {}
     for fact in _facts(declaration, Contains):
         name = fact.name.text
@@ -76,8 +77,22 @@ def _things(declaration: Declaration, scope: Scope, findings: Findings) -> tuple
             first = Label(found[name].span, "first said here")
             message = f"The task already contains something called {name}."
             findings.error("duplicate-thing", fact.name.span, message, "Give one of the two another name.", first)
+        _check_obstacles(kind, scene, fact.phrase, findings)
         found.setdefault(name, model.Part(name, kind, fact.name.span))
     return tuple(found.values())
+
+
+def _check_obstacles(kind: Any, scene: Any, phrase: Phrase, findings: Findings) -> None:
+    """A grid needs the borders of an arena, and a world has room for so many obstacles."""
+    match kind, scene:
+        case Obstacle(grid=grid), Plain() if grid:
+            hint = "Write in arena size 100, or count 10 instead of the grid."
+            findings.error("endless-grid", phrase.span, "In a plain scene a grid of obstacles would never end.", hint)
+        case Obstacle(grid=grid), Arena(size=size) if grid and grid_lines(size, grid) ** 2 > MOST_OBSTACLES:
+            message = f"That is a grid of {grid_lines(size, grid) ** 2} obstacles."
+            findings.error("too-many-obstacles", phrase.span, message, f"A world takes {MOST_OBSTACLES}: space it out.")
+        case Obstacle(grid=0.0, count=0), _:
+            findings.error("no-obstacles", phrase.span, "That makes no obstacle.", "Add grid 20, or count 10.")
 
 
 def _ticks(declaration: Declaration, tick: float, findings: Findings) -> int:

@@ -3,8 +3,10 @@
 from dataclasses import dataclass
 from typing import Annotated
 
-from mindrun.quantity import POSITIVE, THING, Reference
+from mindrun.quantity import THING, Quantity, Reference
 from mindrun.registry import kind
+
+PATCH = Quantity("a length in world units", {"": 1.0}, low=0.1)
 
 
 @kind("event", "reach")
@@ -29,7 +31,7 @@ class Visit:
     """The robot's centre enters a square patch of the arena, of side `size`, for the first time."""
 
     of: Annotated[str, Reference("place", ("patch",))]
-    size: Annotated[float, POSITIVE] = 4.0
+    size: Annotated[float, PATCH] = 4.0
 
 
 @kind("event", "collision")

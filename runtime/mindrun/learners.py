@@ -6,7 +6,7 @@ from typing import Annotated
 from mindrun.quantity import COUNT, POSITIVE, RATIO, Quantity
 from mindrun.registry import kind
 
-POPULATION = Quantity("a whole number of at least 4", {"": 1.0}, low=4, whole=True)
+POPULATION = Quantity("a whole number of at least 4", {"": 1.0}, low=4, high=100_000, whole=True)
 
 
 @kind("curriculum", "genetic")

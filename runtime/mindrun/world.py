@@ -7,7 +7,7 @@ from mindrun.quantity import LENGTH, POSITIVE, Quantity, Span
 from mindrun.registry import kind
 
 DAMPING = Quantity("a damping", {"": 1.0}, low=0.0)
-MANY = Quantity("a whole number", {"": 1.0}, low=0, whole=True)
+MANY = Quantity("a whole number", {"": 1.0}, low=0, high=1000, whole=True)
 
 
 @kind("body", "disc")
@@ -79,6 +79,11 @@ class Obstacle:
     jitter: Annotated[float, LENGTH] = 0.0
     count: Annotated[int, MANY] = 0
     away: Annotated[Span, LENGTH] = NEAR
+
+
+def grid_lines(size: float, spacing: float) -> int:
+    """How many lines of a grid of that spacing cross an arena, none on its walls."""
+    return max(0, round(size / spacing) - 1)
 
 
 Content = Item | Zone | Power | Obstacle

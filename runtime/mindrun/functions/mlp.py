@@ -7,11 +7,12 @@ from typing import Annotated
 import numpy as np
 from numpy.typing import NDArray
 
-from mindrun.quantity import COUNT, Quantity
+from mindrun.quantity import Quantity
 from mindrun.registry import kind
 from mindrun.sigmoid import sigmoid
 
-WIDTH = Quantity("a whole number", {"": 1.0}, low=0, whole=True)
+WIDTH = Quantity("a whole number", {"": 1.0}, low=0, high=1000, whole=True)
+HIDDEN = Quantity("a whole number", {"": 1.0}, low=0, high=16, whole=True)
 
 
 @kind("skill", "mlp")
@@ -19,7 +20,7 @@ WIDTH = Quantity("a whole number", {"": 1.0}, low=0, whole=True)
 class Mlp:
     """A perceptron with `hidden` layers of `width` neurons (0: Eq. 5, max(inputs, outputs) + 2)."""
 
-    hidden: Annotated[int, COUNT] = 2
+    hidden: Annotated[int, HIDDEN] = 2
     width: Annotated[int, WIDTH] = 0
 
 

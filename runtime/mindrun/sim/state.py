@@ -80,7 +80,7 @@ class Jobs(NamedTuple):
     faults: Array
 
 
-DEPTH = 9 + 64  # scratch rows of the stages, then room for the deepest expression
+STAGES = 9  # scratch rows of the stages; then room for the deepest expression
 HANDLES = 3
 
 
@@ -129,7 +129,7 @@ def empty_state(tables: Tables, sizes: Sizes, lanes: int) -> State:
         touches=np.zeros(lanes, np.int64),
         gathered=zeros(sizes.inputs, np.float32),
         hidden=zeros(2 * sizes.width, np.float32),
-        stack=zeros(DEPTH),
+        stack=zeros(STAGES + sizes.depth),
         sines=zeros(4 * rays, np.float32),
         slots=zeros(4 * boxes + 4, np.float32),
         slot_boxes=zeros(boxes, np.int64),

@@ -98,17 +98,21 @@ class Sizes:
     changes: int
     patches: int
     boxes: int
+    depth: int
 
 
 @dataclass(slots=True)
 class _Codes:
     rows: list[tuple[int, int, float]] = field(default_factory=list)
+    depth: int = 1
 
     def add(self, program: Program) -> tuple[int, int]:
         """Where the program begins, and how long it is."""
-        first = len(self.rows)
+        first, depth = len(self.rows), 0
         for name, value in program:
             op = OPERATIONS[name]
+            depth += 1 if op <= MEASURE else 0 if op == NEGATE else -1
+            self.depth = max(self.depth, depth)
             number = float(value) if op == NUMBER else 0.0
             self.rows.append((op, 0 if op == NUMBER else int(value), number))
         return first, len(self.rows) - first
@@ -163,6 +167,7 @@ def build(
         changes=changes,
         patches=patches,
         boxes=box_count(task),
+        depth=codes.depth,
     )
     return tables, sizes
 
@@ -182,14 +187,14 @@ def obstacles_of(task: Task) -> list[world.Obstacle]:
     return [thing.kind for thing in task.things if isinstance(thing.kind, world.Obstacle)]
 
 
-def grid_lines(task: Task, spacing: float) -> int:
-    """How many lines of a grid of that spacing cross the arena, none on its walls."""
-    return max(0, round(task.scene.size / spacing) - 1) if isinstance(task.scene, world.Arena) else 0
-
-
 def box_count(task: Task) -> int:
     """How many square obstacles the task's world has."""
-    return sum(grid_lines(task, o.grid) ** 2 if o.grid else o.count for o in obstacles_of(task))
+    return sum(_lines(task, o) ** 2 if o.grid else o.count for o in obstacles_of(task))
+
+
+def _lines(task: Task, obstacle: world.Obstacle) -> int:
+    gridded = obstacle.grid and isinstance(task.scene, world.Arena)
+    return world.grid_lines(task.scene.size, obstacle.grid) if gridded else 0
 
 
 def _skills(
@@ -345,7 +350,7 @@ def _obstacles(task: Task) -> list[Any]:
         away, size = obstacle.away, obstacle.size
         low, high = (0.0, inf) if isinstance(task.scene, world.Arena) else (10.0, 40.0)
         low, high = (away.first, away.last) if away.first >= 0 else (low, high)
-        lines = grid_lines(task, obstacle.grid) if obstacle.grid else 0
+        lines = _lines(task, obstacle)
         count = 0 if obstacle.grid else obstacle.count
         rows.append((size.first, size.last, obstacle.grid, obstacle.jitter, lines, count, low, high))
     return rows

@@ -9,3 +9,7 @@ class RunError(MindError):
     def __init__(self, message: str, hint: str = "") -> None:
         super().__init__(message)
         self.hint = hint
+
+
+class NotFoundError(RunError):
+    """What was asked for is not there."""

@@ -1,21 +1,24 @@
 """A run's folder, `runs/<lesson>/<utc>-<seed>/`: made once, never overwritten, enough by itself to go on."""
 
+import json
 from collections.abc import Mapping
 from dataclasses import dataclass
 from io import BytesIO
 from itertools import count
 from pathlib import Path
+from typing import Any
 from zipfile import BadZipFile
 
 import numpy as np
 from numpy.typing import NDArray
 
 from mindrun.train import durable
-from mindrun.train.errors import RunError
+from mindrun.train.errors import NotFoundError, RunError
 from mindrun.train.lesson import Course
 from mindrun.train.manifest import Manifest, Weights, from_json, hashes, to_json
 
 MANIFEST, SOURCES, START, WEIGHTS = "manifest.json", "source", "start.npz", "weights.npy"
+RESULT = "result.json"
 
 
 @dataclass(frozen=True, slots=True)
@@ -57,7 +60,7 @@ def open_run(folder: Path) -> Run:
         manifest = from_json((folder / MANIFEST).read_bytes())
         weights = _unpacked((folder / START).read_bytes())
     except OSError as error:
-        raise RunError(
+        raise NotFoundError(
             f"{folder} is not a run: {error.strerror} ({error.filename})",
             f"a run is a folder with a {MANIFEST}, like runs/GoToObject/20260714T120000Z-1",
         ) from error
@@ -71,6 +74,20 @@ def keep_weights(folder: Path, genome: NDArray[np.float32]) -> None:
     file = BytesIO()
     np.save(file, genome, allow_pickle=False)
     durable.write(folder / WEIGHTS, file.getvalue())
+
+
+def keep_result(folder: Path, result: Mapping[str, Any]) -> None:
+    """Write what came of the run, once it has been kept elsewhere too."""
+    durable.write(folder / RESULT, json.dumps(result, indent=2, allow_nan=False).encode() + b"\n")
+
+
+def read_result(folder: Path) -> dict[str, Any] | None:
+    """What came of the run; None while it is not finished."""
+    try:
+        result: dict[str, Any] = json.loads((folder / RESULT).read_bytes())
+    except (OSError, ValueError):
+        return None
+    return result
 
 
 def _unused(parent: Path, name: str) -> Path:
