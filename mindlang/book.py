@@ -18,7 +18,7 @@ from mindlang.arrange import arrange
 from mindlang.compile import Compiled
 from mindlang.diagnostic import listed
 from mindlang.lock import Lock, lock_path, read_locks
-from mindlang.teaching import learner_of, subskills
+from mindlang.teaching import subskills
 from mindlang.trained import Status, status, trained_weights
 
 Weights = dict[str, NDArray[np.float32]]
@@ -56,7 +56,6 @@ def open_book(path: Path, compiled: Compiled) -> Book:
 
 def begin(book: Book, lesson: Lesson, seed: int, runs: Path, now: datetime) -> Run:
     """A new run of a lesson; RunError where it cannot begin, and what to train first where that is why."""
-    learner_of(book.graph, lesson)
     weights = _needed(book, lesson) | (_known(book, lesson) if not lesson.from_scratch else {})
     manifest = Manifest(
         lesson=lesson,

@@ -10,21 +10,22 @@ from datetime import UTC, datetime
 from math import isfinite
 from pathlib import Path
 from time import perf_counter
-from typing import Any
 
+import numba
 from mindrun.sim.rollout import Rollout
 from mindrun.train.errors import RunError
 from mindrun.train.lesson import Record, State
-from mindrun.train.run_folder import Run, open_run
+from mindrun.train.run_folder import Run, keep_result, open_run, read_result
 from mindrun.train.training import Watch, train
 
 from mindlang.book import Book, begin, keep_path, open_book, refuse_changed
 from mindlang.cli.shared import load_compiled, talk
 from mindlang.interruption import Interruption
 from mindlang.lock import Entry, Taught
+from mindlang.results import Result, closing, opening, result_of
 from mindlang.teaching import Wishes, is_due, lessons
 from mindlang.trained import record
-from mindlang.watching import Bar, Lines, Pace, Silent, Watcher, duration, number, rate
+from mindlang.watching import Bar, Lines, Pace, Silent, Watcher
 
 
 @dataclass(frozen=True, slots=True)
@@ -73,9 +74,26 @@ class School:
         return self._teach(run, book)
 
     def _teach(self, run: Run, book: Book) -> bool:
-        lesson, again = run.manifest.lesson, f"mindc train --resume {shlex.quote(str(run.folder))}"
-        self._say(_opening(run))
-        rollout = Rollout(
+        if (result := read_result(run.folder)) is not None:
+            self._say(f"{run.folder} has finished already")
+            self._print(result)
+            return True
+        state = self._watched(run, self._rollout(run, book))
+        if state.attempt < run.manifest.lesson.learner.attempts:
+            talk.print(f"saved; to go on: mindc train --resume {shlex.quote(str(run.folder))}", markup=False)
+            return False
+        result = result_of(run, state, _keep(run, book, state).weights)
+        keep_result(run.folder, result)
+        self._say(f"{closing(result)}; weights in {keep_path(book).name}")
+        self._print(result)
+        return True
+
+    def _rollout(self, run: Run, book: Book) -> Rollout:
+        lesson = run.manifest.lesson
+        self._say(opening(run))
+        if not Path(numba.config.CACHE_DIR).is_dir():
+            self._say("the simulator is compiled for this machine first, once: this takes up to a minute")
+        return Rollout(
             book.graph,
             run.weights,
             lesson.task,
@@ -84,8 +102,10 @@ class School:
             procedures=book.folder,
             workers=self.workers or len(os.sched_getaffinity(0)),
         )
-        course = run.course(rollout.genome_length)
-        watcher = self._watcher(run, course.generations)
+
+    def _watched(self, run: Run, rollout: Rollout) -> State:
+        lesson = run.manifest.lesson
+        watcher = self._watcher(run, run.course(rollout.genome_length).generations)
 
         def asked() -> None:
             watcher.close()
@@ -97,39 +117,9 @@ class School:
 
         try:
             with Interruption(asked) as interruption:
-                watch = Watch(report, self._say, lambda: interruption.asked, perf_counter)
-                state = train(run, rollout, watch)
+                return train(run, rollout, Watch(report, self._say, lambda: interruption.asked, perf_counter))
         finally:
             watcher.close()
-        if state.attempt < lesson.learner.attempts:
-            talk.print(f"saved; to go on: {again}", markup=False)
-            return False
-        self._finish(run, book, state)
-        return True
-
-    def _finish(self, run: Run, book: Book, state: State) -> None:
-        lesson = run.manifest.lesson
-        if not isfinite(state.reevaluated):
-            raise RunError(
-                f"{lesson.skill} has learnt nothing: the rewards of every genome were not finite numbers",
-                f"look at the rewards of the task {lesson.task}",
-            )
-        taught = Taught(
-            lesson.task,
-            lesson.master,
-            lesson.generations,
-            lesson.learner.population,
-            run.manifest.seed,
-            state.reevaluated,
-        )
-        entry = record(keep_path(book), book.graph, lesson.skill, state.kept[0], taught, run.weights)
-        self._say(
-            f"{lesson.skill} has learnt: {number(state.reevaluated)} on fresh layouts after {lesson.generations} "
-            f"generations, in {duration(state.seconds)} at {rate(state.ticks / max(state.seconds, 1e-9))}; "
-            f"weights in {keep_path(book).name}"
-        )
-        if self.as_json:
-            print(json.dumps(_result(run, state, entry), allow_nan=False), flush=True)
 
     def _watcher(self, run: Run, generations: int) -> Watcher:
         pace = Pace(generations, perf_counter())
@@ -141,32 +131,19 @@ class School:
         if not self.quiet:
             talk.print(text, markup=False)
 
+    def _print(self, result: Result) -> None:
+        if self.as_json:
+            print(json.dumps(result, allow_nan=False), flush=True)
 
-def _opening(run: Run) -> str:
+
+def _keep(run: Run, book: Book, state: State) -> Entry:
+    """Put what was learnt into the lock; RunError where nothing was."""
     lesson = run.manifest.lesson
-    start = "from its weights" if lesson.skill in run.weights and not lesson.from_scratch else "from scratch"
-    where = f"on {lesson.task}" + (f" under {lesson.master}" if lesson.master != lesson.skill else "")
-    return f"{lesson.skill} {where} {start}, seed {run.manifest.seed}, in {run.folder}"
-
-
-def _result(run: Run, state: State, entry: Entry) -> dict[str, Any]:
-    lesson = run.manifest.lesson
-    return {
-        "lesson": run.manifest.name,
-        "curriculum": lesson.curriculum,
-        "skill": lesson.skill,
-        "task": lesson.task,
-        "master": lesson.master,
-        "generations": lesson.generations,
-        "population": lesson.learner.population,
-        "attempts": lesson.learner.attempts,
-        "seed": run.manifest.seed,
-        "best": state.best,
-        "reevaluated": state.reevaluated,
-        "ticks": state.ticks,
-        "seconds": round(state.seconds, 3),
-        "ticks_per_second": round(state.ticks / max(state.seconds, 1e-9)),
-        "faults": state.faults,
-        "weights": entry.weights,
-        "run": str(run.folder),
-    }
+    if not isfinite(state.reevaluated):
+        raise RunError(
+            f"{lesson.skill} has learnt nothing: the rewards of every genome were not finite numbers",
+            f"look at the rewards of the task {lesson.task}",
+        )
+    population, seed = lesson.learner.population, run.manifest.seed
+    taught = Taught(lesson.task, lesson.master, lesson.generations, population, seed, state.reevaluated)
+    return record(keep_path(book), book.graph, lesson.skill, state.kept[0], taught, run.weights)

@@ -3,8 +3,8 @@
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
-from mindrun.graph import Graph, Lesson, Skill
-from mindrun.train.errors import RunError
+from mindrun.graph import Graph, Lesson
+from mindrun.train.errors import NotFoundError, RunError
 from mindrun.weights import genes, reachable
 
 from mindlang.diagnostic import did_you_mean, listed
@@ -38,7 +38,7 @@ class Wishes:
 def lessons(graph: Graph, curriculum: str | None, skills: Sequence[str]) -> tuple[Lesson, ...]:
     """The lessons of a curriculum (the first where None), only those of `skills` where there are any.
 
-    A skill that the first curriculum does not teach is looked for in the others. RunError for an unknown name.
+    A skill that the first curriculum does not teach is looked for in the others. NotFoundError for an unknown name.
     """
     if not graph.lessons:
         raise RunError(
@@ -46,22 +46,11 @@ def lessons(graph: Graph, curriculum: str | None, skills: Sequence[str]) -> tupl
         )
     names = list(dict.fromkeys(lesson.curriculum for lesson in graph.lessons))
     if curriculum is not None and curriculum not in names:
-        raise RunError(f"there is no curriculum called {curriculum}", _one_of(curriculum, names))
+        raise NotFoundError(f"there is no curriculum called {curriculum}", _one_of(curriculum, names))
     if not skills:
         return _of(graph, curriculum or names[0])
     searched = [curriculum] if curriculum else names
     return tuple(lesson for skill in skills for lesson in _teaching(graph, searched, skill))
-
-
-def learner_of(graph: Graph, lesson: Lesson) -> Skill:
-    """The skill that a lesson teaches; RunError where it has nothing to learn."""
-    skill = next(skill for skill in graph.skills if skill.name == lesson.skill)
-    if genes(skill) == 0:
-        raise RunError(
-            f"{skill.name} has no weights to learn",
-            f"only an mlp learns: make {skill.name} one, or take the lesson out",
-        )
-    return skill
 
 
 def subskills(graph: Graph, lesson: Lesson) -> tuple[str, ...]:
@@ -90,8 +79,8 @@ def _teaching(graph: Graph, curricula: Sequence[str], skill: str) -> tuple[Lesso
         if found := tuple(lesson for lesson in _of(graph, curriculum) if lesson.skill == skill):
             return found
     taught = [lesson.skill for curriculum in curricula for lesson in _of(graph, curriculum)]
-    raise RunError(f"no lesson teaches {skill}", _one_of(skill, taught))
+    raise NotFoundError(f"no lesson teaches {skill}", _one_of(skill, taught))
 
 
 def _one_of(name: str, known: Sequence[str]) -> str:
-    return did_you_mean(name, known) or f"there is {listed(dict.fromkeys(known), 'and')}"
+    return did_you_mean(name, known) or f"There is {listed(dict.fromkeys(known), 'and')}"

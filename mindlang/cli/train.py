@@ -54,6 +54,7 @@ def command(
     Ctrl-C, a crash or a power cut. The weights go to FILE's lock.
     """
     from mindrun.errors import MindError
+    from mindrun.train.errors import NotFoundError
 
     from mindlang.school import School
     from mindlang.teaching import Wishes
@@ -67,6 +68,8 @@ def command(
             finished = school.resume(resume)
         else:
             finished = school.teach_file(Path(str(file)), skills, wishes=wishes, **options)
+    except NotFoundError as error:
+        fail(str(error), error.hint, MISUSE)
     except MindError as error:
         fail(str(error), getattr(error, "hint", ""))
     return OK if finished else INTERRUPTED

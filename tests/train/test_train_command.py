@@ -1,0 +1,144 @@
+"""`mindc train`, as its users call it."""
+
+import json
+import os
+import re
+import signal
+import subprocess
+import sys
+from pathlib import Path
+from time import sleep
+
+import pytest
+
+MIND = """\
+tick 1/60 s
+master Drive
+body Robot is disc
+actuator left_wheel is wheel side left thrust 80 neutral 0.5
+actuator right_wheel is wheel side right thrust 80 neutral 0.5
+sensor bearing is bearing of object
+skill Go is mlp hidden 1
+  reads bearing
+  drives left_wheel
+  drives right_wheel
+skill Drive is mlp hidden 1
+  reads bearing
+  influences Go
+task Reach in plain
+  contains object is item size 3
+  lasts 100 ticks
+  rewards 10 on reach of object
+  rewards progress toward object per tick
+task Broken in plain
+  contains object is item size 3
+  lasts 10 ticks
+  rewards 1 / (forward - forward) per tick
+curriculum School is genetic population 8
+  teaches Go on Reach for 3 generations
+  teaches Drive on Reach for 2 generations
+curriculum Rest is genetic population 8
+  teaches Go on Broken for 2 generations
+"""
+
+
+@pytest.fixture
+def project(tmp_path: Path) -> Path:
+    (tmp_path / "drive.mind").write_text(MIND)
+    return tmp_path
+
+
+def mindc(project: Path, *arguments: str) -> "subprocess.CompletedProcess[str]":
+    return subprocess.run(
+        [sys.executable, "-c", "from mindlang.cli import main; main()", "train", *arguments],
+        cwd=project,
+        capture_output=True,
+        text=True,
+        check=False,
+        env={**os.environ, "CI": "1"},
+    )
+
+
+def test_all_lessons_are_taught_in_order_and_then_there_is_nothing_to_do(project: Path) -> None:
+    done = mindc(project, "drive.mind", "--seed", "1", "--json")
+    assert done.returncode == 0, done.stderr
+    results = [json.loads(line) for line in done.stdout.splitlines()]
+    assert [result["skill"] for result in results] == ["Go", "Drive"]
+    for result in results:
+        folder = project / result["run"]
+        assert re.fullmatch(r"runs/[\w-]+/\d{8}T\d{6}Z-1", result["run"])
+        assert {path.name for path in folder.iterdir()} >= {
+            "manifest.json",
+            "progress.jsonl",
+            "checkpoint",
+            "weights.npy",
+        }
+        assert (project / "weights" / f"{result['weights']}.npy").exists()
+    again = mindc(project, "drive.mind", "--json")
+    assert (again.returncode, again.stdout) == (0, "")
+    assert "nothing to do" in again.stderr
+
+
+def test_any_number_of_workers_gives_the_same_bits(project: Path) -> None:
+    runs = [
+        mindc(project, "drive.mind", "Go", "--seed", "5", "--from-scratch", "--workers", n, "--json") for n in "123"
+    ]
+    assert len({json.loads(run.stdout)["weights"] for run in runs}) == 1
+
+
+@pytest.mark.parametrize(
+    ("arguments", "code", "said"),
+    [
+        (("drive.mind", "Drive"), 1, "first: mindc train"),
+        (("drive.mind", "Goo"), 2, "Did you mean Go?"),
+        (("drive.mind", "--curriculum", "Scool"), 2, "Did you mean School?"),
+        (("drive.mind", "--curriculum", "Rest", "Go"), 1, "were not finite numbers"),
+        (("none.mind",), 2, "cannot be read"),
+        ((), 2, "Say what to train"),
+        (("--resume", "nowhere"), 2, "is not a run"),
+        (("drive.mind", "Go", "--runs", "drive.mind"), 1, "cannot write a run under"),
+    ],
+)
+def test_what_cannot_be_done_is_said(project: Path, arguments: tuple[str, ...], code: int, said: str) -> None:
+    refused = mindc(project, *arguments)
+    assert refused.returncode == code
+    assert said in refused.stderr
+    assert "Traceback" not in refused.stderr
+    assert not (project / "drive.lock").exists()
+
+
+def test_ctrl_c_finishes_the_generation_and_the_run_goes_on_as_if_nothing_had_been(project: Path) -> None:
+    run, weights = interrupted(project)
+    assert json.loads(mindc(project, "--resume", run, "--json").stdout)["weights"] == weights
+    once_more = mindc(project, "--resume", run)
+    assert (once_more.returncode, "has finished already" in once_more.stderr) == (0, True)
+
+
+def test_a_run_whose_source_has_changed_is_refused(project: Path) -> None:
+    run, _ = interrupted(project)
+    comments = MIND.replace("master", "# a comment changes nothing\nmaster")
+    (project / "drive.mind").write_text(comments.replace("Go is mlp hidden 1", "Go is mlp hidden 2"))
+    refused = mindc(project, "--resume", run)
+    assert refused.returncode == 1
+    assert "has changed since this run of Go began" in refused.stderr
+    (project / "drive.mind").write_text(comments)
+    assert mindc(project, "--resume", run).returncode == 0
+
+
+def interrupted(project: Path) -> tuple[str, str]:
+    """A run stopped with Ctrl-C, and the weights with which it would have ended."""
+    arguments = ("drive.mind", "Go", "--seed", "3", "--generations", "400", "--from-scratch", "--json")
+    whole = json.loads(mindc(project, *arguments, "--runs", "undisturbed").stdout)
+    command = [sys.executable, "-c", "from mindlang.cli import main; main()", "train", *arguments]
+    with subprocess.Popen(command, cwd=project, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as process:
+        logs = project.glob("runs/Go-on-Reach/*/progress.jsonl")
+        while process.poll() is None and not any(
+            log.stat().st_size for log in project.glob("runs/Go-on-Reach/*/progress.jsonl")
+        ):
+            sleep(0.005)
+        process.send_signal(signal.SIGINT)
+        _, talk = process.communicate()
+    assert process.returncode == 130
+    run = str(next(logs).parent)
+    assert f"mindc train --resume {run.removeprefix(f'{project}/')}" in talk
+    return run, whole["weights"]
