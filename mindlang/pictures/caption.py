@@ -1,0 +1,93 @@
+"""What stands around a picture: the run in words above it, its legend and its scale below."""
+
+from typing import Any
+
+from mindrun.world import Item
+
+from mindlang.pictures.canvas import Canvas, square, text_width
+from mindlang.pictures.path import Path, draw_cross
+from mindlang.pictures.story import Story
+from mindlang.pictures.theme import Theme, mixed
+from mindlang.pictures.world import thing_colour
+
+GAP = 22.0  # between two entries
+SMALL, LARGE = 11.0, 14.0
+LEAST = 0.005  # of the run: a skill that was in control for less is not in the legend
+
+
+def draw_title(canvas: Canvas, story: Story, found: dict[str, Any], theme: Theme, x: float, y: float) -> None:
+    """The task, and the facts of the run side by side, each below its name."""
+    canvas.text(x, y, story.task.name, 24, theme.ink, bold=True)
+    for name, value in _facts(story, found):
+        canvas.text(x, y + 25, name, SMALL, theme.faint)
+        canvas.text(x, y + 46, value, LARGE, theme.ink)
+        x += max(_width(canvas, name, SMALL), _width(canvas, value, LARGE)) + 1.6 * GAP
+
+
+def _facts(story: Story, found: dict[str, Any]) -> list[tuple[str, str]]:
+    seconds = found["ticks"] * story.graph.tick
+    score = "not a number" if found["score"] is None else f"{found['score']:,.1f}"
+    facts = [("in charge", found["master"]), ("seed", str(found["seed"])), ("score", score)]
+    if found["counted"]:
+        facts.append((" and ".join(found["counted"]), str(found["counts"])))
+    facts.append(("ticks", f"{found['ticks']:,} of {found['of_ticks']:,} ({seconds:.0f} s)"))
+    return [*facts, ("ended by", found["ended_by"] or "time")]
+
+
+def draw_legend(canvas: Canvas, story: Story, path: Path, theme: Theme, x: float, y: float, right: float) -> None:
+    """What the colours and marks mean, in lines that end before `right`."""
+    begin = x
+    for draw, name in _entries(canvas, story, path, theme):
+        wide = 26 + _width(canvas, name, SMALL) + GAP
+        if x + wide > right and x > begin:
+            x, y = begin, y + 22
+        draw(x, y - 4)
+        canvas.text(x + 26, y, name, SMALL, theme.ink)
+        x += wide
+
+
+def _entries(canvas: Canvas, story: Story, path: Path, theme: Theme) -> list[Any]:
+    def bar(colour: Any) -> Any:
+        return lambda x, y: canvas.line([(x, y), (x + 18, y)], colour, 3.0)
+
+    def ramp(x: float, y: float) -> None:
+        for i in range(18):
+            canvas.line([(x + i, y), (x + i + 1, y)], mixed(theme.early, theme.late, i / 17), 3.0)
+
+    def box(colour: Any) -> Any:
+        return lambda x, y: canvas.polygon(square(x + 9, y, 6), colour, 0.75)
+
+    seconds = story.ticks * story.graph.tick
+    entries: list[Any] = [
+        (bar(colour), f"{name} {share:.0%}")
+        for colour, (name, share) in zip(path.colours, path.shares.items(), strict=False)
+        if share >= LEAST
+    ] or [(ramp, f"path, 0 to {seconds:.0f} s")]
+    entries.append((lambda x, y: canvas.disc(x + 9, y, 4.5, theme.ink, width=1.6), "start"))
+    for thing in story.contents:
+        colour = thing_colour(thing.kind, theme)
+        is_item = isinstance(thing.kind, Item)
+        entries.append((_dot(canvas, colour) if is_item else box(colour), thing.name))
+    if len(story.boxes):
+        entries.append((box(theme.rock_edge), "obstacle"))
+    if hits := len(story.collisions):
+        entries.append((lambda x, y: draw_cross(canvas, x + 9, y, 5, theme), f"collision ({hits})"))
+    return entries
+
+
+def _dot(canvas: Canvas, colour: Any) -> Any:
+    return lambda x, y: canvas.disc(x + 9, y, 6, colour)
+
+
+def draw_scale(canvas: Canvas, units_per_pixel: float, theme: Theme, right: float, y: float) -> None:
+    """A bar of a round number of units that ends at `right`."""
+    units = next(n for n in (1000, 500, 200, 100, 50, 20, 10, 5, 2, 1, 0.5, 0) if n / units_per_pixel <= 130)
+    long = units / units_per_pixel
+    canvas.line([(right - long, y), (right, y)], theme.ink, 1.6)
+    for end in (right - long, right):
+        canvas.line([(end, y - 4), (end, y + 4)], theme.ink, 1.6)
+    canvas.text(right - long / 2, y - 9, f"{units:g} units", SMALL, theme.ink, align="centre")
+
+
+def _width(canvas: Canvas, text: str, size: float) -> float:
+    return text_width(text, size * canvas.pen) / canvas.pen

@@ -1,0 +1,127 @@
+"""The film of a run: the world at the left, the hierarchy at the right, as in the paper's Figure 15."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path as FilePath
+from typing import Any, ClassVar
+
+import cv2
+from mindrun.world import Arena
+
+from mindlang.pictures.canvas import Canvas, Image, View, blank, pasted
+from mindlang.pictures.panel import Panel
+from mindlang.pictures.path import Path, draw_cross
+from mindlang.pictures.story import Story
+from mindlang.pictures.theme import NIGHT
+from mindlang.pictures.world import WALL, draw_floor, draw_items, draw_robot, draw_zones
+
+WIDTH, HEIGHT = 1280, 720
+MINUTE = 60.0  # seconds that a whole run lasts, sped up
+WINDOW = 60.0  # units of a plain scene that are seen around the robot
+TRAIL = 8.0  # seconds of the film for which the path stays
+FLASH = 0.7  # seconds of the film for which a collision does
+
+
+class FilmError(Exception):
+    """A video that cannot be encoded or written; the text is for the user."""
+
+
+@dataclass(frozen=True, slots=True)
+class Film:
+    """A story at so many times the robot's speed."""
+
+    story: Story
+    found: dict[str, Any]
+    speed: float
+    FPS: ClassVar[int] = 30
+
+    @classmethod
+    def of(cls, story: Story, found: dict[str, Any], speed: float | None) -> "Film":
+        """A film; without a speed one that shows the whole of the task's time in a minute, if that is not slower."""
+        long = story.task.ticks * story.graph.tick
+        return cls(story, found, speed or max(1.0, round(long / MINUTE, 1)))
+
+    @property
+    def step(self) -> float:
+        """Ticks from one frame to the next."""
+        return self.speed / self.FPS / self.story.graph.tick
+
+    @property
+    def frames(self) -> int:
+        """How many frames the film has; the last shows the last tick."""
+        return int(-(-(self.story.ticks - 1) // self.step)) + 1
+
+    def write(self, path: FilePath, wrote: Callable[[], None]) -> None:
+        """Encode the film into `path`, which is only replaced when it is whole; `wrote` is told of each frame."""
+        spare = path.with_name(f".{path.stem}.part{path.suffix}")
+        writer = cv2.VideoWriter(str(spare), cv2.VideoWriter.fourcc(*"mp4v"), self.FPS, (WIDTH, HEIGHT))
+        try:
+            if not writer.isOpened():
+                raise FilmError(f"{path} cannot be written: OpenCV cannot encode a video there")
+            panel, trail = Panel(self.story, NIGHT, HEIGHT + 8, 86, WIDTH - HEIGHT - 16, HEIGHT - 96), self._trail()
+            for number in range(self.frames):
+                writer.write(self.frame(panel, trail, min(self.story.ticks, 1 + round(number * self.step))))
+                wrote()
+            writer.release()
+            if _frames_in(spare) != self.frames:
+                raise FilmError(f"{path} cannot be written whole: is the disk full?")
+            spare.replace(path)
+        finally:
+            writer.release()
+            spare.unlink(missing_ok=True)
+
+    def frame(self, panel: Panel, trail: Path, tick: int) -> Image:
+        """The film's image of a tick."""
+        page = blank(WIDTH, HEIGHT, NIGHT.page)
+        pasted(page, self._world(trail, tick), 0, 0)
+        canvas = Canvas(page, View(0.0, 0.0, 1.0), down=True)
+        self._title(canvas, tick)
+        panel.draw(canvas, tick)
+        return page
+
+    def _trail(self) -> Path:
+        return Path.of(self.story, NIGHT)
+
+    def _world(self, trail: Path, tick: int) -> Image:
+        story, past = self.story, round(TRAIL * self.FPS * self.step)
+        canvas = Canvas(blank(HEIGHT, HEIGHT, self._ground), self._view(tick))
+        draw_floor(canvas, story, NIGHT)
+        draw_zones(canvas, story, NIGHT, tick)
+        trail.draw(canvas, max(0, tick - past), tick, 2.0)
+        draw_items(canvas, story, NIGHT, tick)
+        draw_robot(canvas, story, NIGHT, tick)
+        recent = tick - FLASH * self.FPS * self.step
+        for x, y, _ in story.body[story.collisions[(story.collisions > recent) & (story.collisions <= tick)]]:
+            draw_cross(canvas, x, y, 9 / canvas.view.scale, NIGHT)
+        return canvas.image
+
+    @property
+    def _ground(self) -> tuple[int, int, int]:
+        return NIGHT.page if isinstance(self.story.task.scene, Arena) else NIGHT.floor
+
+    def _view(self, tick: int) -> View:
+        """The whole arena; of a plain scene what is around the robot."""
+        scene = self.story.task.scene
+        half = scene.size / 2 + 2 * WALL if isinstance(scene, Arena) else WINDOW / 2
+        middle = self.story.body[tick, :2] * (not isinstance(scene, Arena))
+        return View.around(middle - half, middle + half, HEIGHT, HEIGHT)
+
+    def _title(self, canvas: Canvas, tick: int) -> None:
+        story, left = self.story, HEIGHT + 24.0
+        canvas.text(left, 38, story.task.name, 17, NIGHT.ink, bold=True)
+        said: list[str] = [
+            f"{tick * story.graph.tick:.1f} s",
+            f"speed {self.speed:g}",
+            f"score {story.lines[tick - 1].sum():,.1f}",
+            *([f"{' and '.join(self.found['counted'])} {story.counts[tick - 1]}"] if self.found["counted"] else []),
+            f"seed {self.found['seed']}",
+        ]
+        for text in said:
+            left += canvas.text(left, 66, text, 11, NIGHT.faint) + 22
+
+
+def _frames_in(path: FilePath) -> int:
+    video = cv2.VideoCapture(str(path))
+    count = int(video.get(cv2.CAP_PROP_FRAME_COUNT))
+    video.release()
+    return count

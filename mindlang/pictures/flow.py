@@ -1,0 +1,57 @@
+"""What flows through a hierarchy in one tick: each link's command alone, and the influence that it transmits."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from math import isfinite
+
+import numpy as np
+from mindrun.engine import procedure_sources
+from mindrun.think import hierarchy, values
+from numpy.typing import NDArray
+
+from mindlang.pictures.story import Story
+
+Sink = tuple[str, int]  # "skill", "actuator" or "memory", and its index
+
+
+@dataclass(frozen=True, slots=True)
+class Link:
+    """From a skill's index to a skill, an actuator or a memory."""
+
+    source: int
+    target: Sink
+
+
+@dataclass(frozen=True, slots=True)
+class Flowing:
+    """What a link carries in one tick, both 0..1: what its skill commands, and the influence behind it."""
+
+    command: float
+    transmitted: float
+
+
+class Flow:
+    """The links of the skills that a story's master reaches, and what they carry."""
+
+    def __init__(self, story: Story) -> None:
+        graph, ready = story.graph, story.cast.ready
+        sources = procedure_sources(graph, story.cast.folder, story.cast.master)
+        self._story = story
+        self._hierarchy = hierarchy(graph, ready.weights, sources, story.cast.master)
+        self.skills = [skill.index for skill in self._hierarchy.skills]
+        self.links = [
+            Link(index, (edge.to, edge.target)) for index in self.skills for edge in graph.skills[index].edges
+        ]
+
+    def at(self, tick: int) -> list[Flowing]:
+        """What each link carried in a tick, in the order of `links`."""
+        influence = self._story.influence[tick - 1]
+        with np.errstate(all="ignore"):
+            return list(self._flowing(self._story.readings[tick - 1], influence))
+
+    def _flowing(self, readings: NDArray[np.float32], influence: NDArray[np.float32]) -> Iterator[Flowing]:
+        for skill in self._hierarchy.skills:
+            own = float(influence[skill.index])
+            for sent, value in zip(skill.edges, values(skill, readings), strict=True):
+                command = min(1.0, max(0.0, float(value))) if isfinite(value) else 0.0
+                yield Flowing(command, own if sent.drives else command * own)

@@ -1,0 +1,116 @@
+"""The hierarchy in one tick, after the paper's Figure 15: a link's middle is the command, its rim the influence."""
+
+from collections.abc import Sequence
+from itertools import pairwise
+
+import numpy as np
+from mindrun.actuators import Gripper
+from numpy.typing import NDArray
+
+from mindlang.pictures.canvas import Canvas, text_width
+from mindlang.pictures.flow import Flow, Flowing, Sink
+from mindlang.pictures.layout import Layout, Place
+from mindlang.pictures.story import Story
+from mindlang.pictures.theme import Theme, mixed
+
+BEND = np.linspace(0.0, 1.0, 24)
+LARGEST, SMALLEST = 11.0, 5.0  # capitals of names, in pixels
+RIM, CORE = 7.0, 2.0
+
+
+class Panel:
+    """Draws the hierarchy of a story into a rectangle of a canvas."""
+
+    def __init__(self, story: Story, theme: Theme, left: float, top: float, width: float, height: float) -> None:
+        self._story, self._theme = story, theme
+        self._flow = Flow(story)
+        self._layout = Layout.of(self._flow.links, self._flow.skills, Place(left, top, width, height))
+        boxes = self._layout.boxes.items()
+        self._size = min([LARGEST, *(_fitting(self._name(sink), place) for sink, place in boxes)])
+
+    def draw(self, canvas: Canvas, tick: int) -> None:
+        """The hierarchy in a tick, the first of which is 1."""
+        flowing = list(zip(self._layout.stops, self._flow.at(tick), strict=True))
+        for stops, carried in sorted(flowing, key=lambda pair: pair[1].transmitted):  # what is bright lies on top
+            self._link(canvas, stops, carried)
+        for sink, place in self._layout.boxes.items():
+            match sink:
+                case "skill", index:
+                    self._skill(canvas, self._name(sink), place, float(self._story.influence[tick - 1, index]))
+                case "actuator", index:
+                    self._actuator(canvas, index, place, float(self._story.commands[tick - 1, index]))
+                case "memory", index:
+                    cell = self._story.graph.memories[index]
+                    self._gauge(canvas, cell.name, place, float(self._story.readings[tick - 1, cell.start]), 0.0)
+
+    def _link(self, canvas: Canvas, stops: Sequence[Place], carried: Flowing) -> None:
+        theme, line = self._theme, _curve(stops)
+        canvas.line(line, mixed(theme.dark, theme.glow, carried.transmitted), RIM)
+        canvas.line(line, theme.page, CORE + 2)
+        canvas.line(line, mixed(theme.dark, theme.glow, carried.command), CORE)
+
+    def _skill(self, canvas: Canvas, name: str, place: Place, influence: float) -> None:
+        theme = self._theme
+        rim = mixed(theme.dark, theme.glow, influence)
+        self._box(canvas, place, mixed(theme.floor, theme.glow, 0.22 * influence), rim)
+        number = mixed(theme.rock_edge, theme.glow, influence)
+        ink = mixed(theme.faint, theme.ink, 4 * influence)
+        canvas.text(place.x, place.y - 2, name, self._size, ink, align="centre")
+        canvas.text(place.x, place.y + self._size + 6, f"{influence:.2f}", self._size, number, align="centre")
+
+    def _actuator(self, canvas: Canvas, index: int, place: Place, command: float) -> None:
+        actuator = self._story.graph.actuators[index]
+        middle = 0.0 if isinstance(actuator.kind, Gripper) else actuator.kind.neutral
+        self._gauge(canvas, actuator.name, place, command, middle)
+
+    def _gauge(self, canvas: Canvas, name: str, place: Place, value: float, middle: float) -> None:
+        """A bar from `middle` to the value."""
+        theme = self._theme
+        self._box(canvas, place, theme.floor, theme.rock)
+        left, width = place.x - 0.42 * place.width, 0.84 * place.width
+        below = place.y + place.height / 4
+        canvas.text(left, place.y - 2, name, self._size, theme.ink)
+        canvas.text(left + width, place.y - 2, f"{value:.2f}", self._size, theme.faint, align="right")
+        canvas.line([(left, below), (left + width, below)], theme.dark, 6.0)
+        canvas.line([(left + middle * width, below), (left + value * width, below)], theme.late, 6.0)
+        canvas.line([(left + middle * width, below - 6), (left + middle * width, below + 6)], theme.faint)
+
+    def _box(self, canvas: Canvas, place: Place, fill: tuple[int, int, int], rim: tuple[int, int, int]) -> None:
+        outline = _rounded(place, 8.0)
+        canvas.polygon(outline, fill)
+        canvas.line(outline, rim, 2.0, closed=True)
+
+    def _name(self, sink: Sink) -> str:
+        graph, (noun, index) = self._story.graph, sink
+        if noun == "skill":
+            return graph.skills[index].name
+        return graph.actuators[index].name if noun == "actuator" else graph.memories[index].name
+
+
+def _fitting(name: str, place: Place) -> float:
+    """The size at which a name, and a number behind it, fit into a box."""
+    room = 0.84 * place.width
+    return max(SMALLEST, LARGEST * room / text_width(f"{name} 0.00"[: max(len(name), 8)], LARGEST))
+
+
+def _curve(stops: Sequence[Place]) -> NDArray[np.float64]:
+    """Through boxes one below the other, from the lower side of each to the upper side of the next; upright at both."""
+    sway = BEND * BEND * (3 - 2 * BEND)
+    parts = []
+    for source, target in pairwise(stops):
+        y, end = source.y + source.height / 2, target.y - target.height / 2
+        parts.append(np.column_stack([source.x + (target.x - source.x) * sway, y + (end - y) * BEND]))
+    return np.concatenate(parts)
+
+
+def _rounded(place: Place, radius: float) -> NDArray[np.float64]:
+    """The outline of a box with round corners."""
+    radius = min(radius, place.width / 3, place.height / 3)
+    turn = np.linspace(0.0, np.pi / 2, 6)
+    corners = []
+    for quarter, (side, up) in enumerate(((1, 1), (-1, 1), (-1, -1), (1, -1))):
+        x = place.x + side * (place.width / 2 - radius)
+        y = place.y + up * (place.height / 2 - radius)
+        angle = turn + quarter * np.pi / 2
+        corners.append(np.column_stack([x + radius * np.cos(angle), y + radius * np.sin(angle)]))
+    return np.concatenate(corners)

@@ -1,0 +1,88 @@
+"""The path of the robot, coloured by the skill in control or, where there is only one, by time."""
+
+from dataclasses import dataclass
+from itertools import pairwise
+
+import numpy as np
+from mindrun.world import Item
+from numpy.typing import NDArray
+
+from mindlang.pictures.canvas import Canvas, square
+from mindlang.pictures.story import Story
+from mindlang.pictures.theme import Colour, Theme, mixed
+from mindlang.pictures.world import thing_colour
+
+STEPS = 64  # shades of a path by time
+MOST_NUMBERED = 40
+
+
+@dataclass(frozen=True, slots=True)
+class Path:
+    """The robot's places [ticks + 1, 2], and per tick which of the `colours` the path has.
+
+    `shares` says how much of the run each skill was in control, by name; it is empty for a path by time.
+    """
+
+    places: NDArray[np.float64]
+    keys: NDArray[np.int64]
+    colours: list[Colour]
+    shares: dict[str, float]
+
+    @classmethod
+    def of(cls, story: Story, theme: Theme) -> "Path":
+        """By skill, where several drive the wheels."""
+        movers = [skill.name for skill in story.movers()]
+        places = story.body[:, :2]
+        if len(movers) > 1:
+            keys = story.in_control()
+            shares = np.bincount(keys, minlength=len(movers)) / max(1, story.ticks)
+            colours = [theme.skills[i % len(theme.skills)] for i in range(len(movers))]
+            return cls(places, keys, colours, dict(zip(movers, shares.tolist(), strict=True)))
+        keys = np.arange(story.ticks) * STEPS // max(1, story.ticks)
+        return cls(places, keys, [mixed(theme.early, theme.late, i / STEPS) for i in range(STEPS)], {})
+
+    def draw(self, canvas: Canvas, first: int, last: int, width: float) -> None:
+        """The path from tick `first` to tick `last`."""
+        keys = self.keys[first:last]
+        for begin, end in _stretches(keys):
+            canvas.line(self.places[first + begin : first + end + 1], self.colours[keys[begin]], width)
+
+
+def _stretches(keys: NDArray[np.int64]) -> list[tuple[int, int]]:
+    """Where equal keys begin and end."""
+    changes = np.flatnonzero(np.diff(keys)) + 1
+    return list(pairwise([0, *(int(change) for change in changes), len(keys)])) if len(keys) else []
+
+
+def draw_marks(canvas: Canvas, story: Story, theme: Theme) -> None:
+    """Where the run began, and every collision."""
+    unit = canvas.pen / canvas.view.scale
+    x, y, _ = story.body[0]
+    canvas.disc(x, y, 5 * unit, theme.floor)
+    canvas.disc(x, y, 5 * unit, theme.ink, width=1.8)
+    for x, y, _ in story.body[story.collisions]:
+        draw_cross(canvas, x, y, 5.5 * unit, theme)
+
+
+def draw_cross(canvas: Canvas, x: float, y: float, size: float, theme: Theme) -> None:
+    """The mark of a collision."""
+    for colour, width in ((theme.floor, 4.5), (theme.crash, 2.2)):
+        canvas.line([(x - size, y - size), (x + size, y + size)], colour, width)
+        canvas.line([(x - size, y + size), (x + size, y - size)], colour, width)
+
+
+def draw_former(canvas: Canvas, story: Story, theme: Theme) -> None:
+    """Faintly, where things were before, numbered in their order where there are not too many."""
+    for number, thing in enumerate(story.contents):
+        colour = thing_colour(thing.kind, theme)
+        former = story.placements(number)[:-1]
+        for order, (x, y, size) in enumerate(former, 1):
+            if isinstance(thing.kind, Item):
+                canvas.disc(x, y, size / 2, colour, 0.16)
+                canvas.disc(x, y, size / 2, colour, 0.45, width=1.0)
+            else:
+                canvas.polygon(square(x, y, size / 2), colour, 0.08)
+                canvas.line(square(x, y, size / 2), colour, 1.0, 0.4, closed=True)
+            if len(former) <= MOST_NUMBERED:
+                below = 9 * canvas.pen / canvas.view.scale
+                canvas.text(x + size / 2 + below / 3, y - below, str(order), 9, theme.faint)

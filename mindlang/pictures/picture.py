@@ -1,0 +1,63 @@
+"""The picture of a run: its world as it was in the end, and the path that led there."""
+
+from typing import Any
+
+import cv2
+import numpy as np
+from mindrun.world import Arena
+
+from mindlang.pictures.canvas import Canvas, Image, View, blank, pasted
+from mindlang.pictures.caption import draw_legend, draw_scale, draw_title
+from mindlang.pictures.path import Path, draw_former, draw_marks
+from mindlang.pictures.story import Story
+from mindlang.pictures.theme import PAPER
+from mindlang.pictures.world import WALL, draw_floor, draw_items, draw_robot, draw_zones
+
+SIZE = 1000
+ABOVE, BELOW, SIDE = 96, 74, 28  # what stands around the world
+FINE = 2  # drawn so many times larger, then averaged
+MARGIN = 6.0  # units around a plain scene
+
+
+def picture(story: Story, found: dict[str, Any]) -> Image:
+    """The picture of a story with the outcome `found`."""
+    page = blank(FINE * SIZE, FINE * SIZE, PAPER.page)
+    wide, high = FINE * (SIZE - 2 * SIDE), FINE * (SIZE - ABOVE - BELOW)
+    view = view_of(story, wide, high)
+    pasted(page, _world(story, view, wide, high), FINE * SIDE, FINE * ABOVE)
+    canvas = Canvas(page, View(0.0, 0.0, FINE), pen=FINE, down=True)
+    draw_title(canvas, story, found, PAPER, SIDE, 34)
+    draw_legend(canvas, story, Path.of(story, PAPER), PAPER, SIDE, SIZE - 46, SIZE - SIDE - 170)
+    draw_scale(canvas, FINE / view.scale, PAPER, SIZE - SIDE, SIZE - 44)
+    return cv2.resize(page, (SIZE, SIZE), interpolation=cv2.INTER_AREA).astype(np.uint8)
+
+
+def view_of(story: Story, width: int, height: int) -> View:
+    """The arena, or in a plain scene all that happened."""
+    if isinstance(story.task.scene, Arena):
+        half = story.task.scene.size / 2 + WALL
+        return View.around([-half, -half], [half, half], width, height)
+    places = [story.body[:, :2], *(story.placements(i)[:, :2] for i in range(len(story.contents)))]
+    seen = np.concatenate([*places, story.boxes[:, :2]])
+    return View.around(seen.min(axis=0) - MARGIN, seen.max(axis=0) + MARGIN, width, height)
+
+
+def png(image: Image) -> bytes:
+    """An image as the contents of a PNG file."""
+    done, data = cv2.imencode(".png", image)
+    assert done
+    return bytes(data)
+
+
+def _world(story: Story, view: View, width: int, height: int) -> Image:
+    is_plain = not isinstance(story.task.scene, Arena)
+    image = blank(width, height, PAPER.floor if is_plain else PAPER.page)
+    canvas = Canvas(image, view, pen=FINE)
+    draw_floor(canvas, story, PAPER)
+    draw_former(canvas, story, PAPER)
+    draw_zones(canvas, story, PAPER, story.ticks)
+    Path.of(story, PAPER).draw(canvas, 0, story.ticks, 2.0)
+    draw_marks(canvas, story, PAPER)
+    draw_items(canvas, story, PAPER, story.ticks)
+    draw_robot(canvas, story, PAPER, story.ticks)
+    return image

@@ -1,0 +1,113 @@
+"""A run written down tick by tick, as arrays: what pictures and films are drawn from."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from mindrun.actuators import Wheel
+from mindrun.graph import Graph, Skill, Task, Thing
+from mindrun.sim.rollout import Rollout
+from mindrun.sim.tables import things_of
+from mindrun.sim.trace import trace
+from mindrun.weights import reachable
+from numpy.typing import NDArray
+
+from mindlang.casting import Cast
+
+Floats = NDArray[np.float64]
+JUMP = 0.5  # units: nothing moves that far in a tick but what reappears elsewhere
+
+
+@dataclass(frozen=True, slots=True)
+class Story:
+    """Row 0 of `body` [ticks + 1, 3], `things` [ticks + 1, things, 3] and `held` is the beginning.
+
+    `readings`, `influence`, `commands`, `lines` and `touching` have a row per tick.
+    """
+
+    cast: Cast
+    boxes: Floats
+    body: Floats
+    things: Floats
+    held: NDArray[np.int64]
+    readings: NDArray[np.float32]
+    influence: NDArray[np.float32]
+    commands: NDArray[np.float32]
+    lines: Floats
+    touching: NDArray[np.bool_]
+    counts: NDArray[np.int64]
+
+    @property
+    def graph(self) -> Graph:
+        """The mind."""
+        return self.cast.ready.graph
+
+    @property
+    def task(self) -> Task:
+        """The task."""
+        return self.cast.task
+
+    @property
+    def ticks(self) -> int:
+        """How many ticks the run had."""
+        return len(self.body) - 1
+
+    @property
+    def contents(self) -> list[Thing]:
+        """The things of the world, in the order of `things`."""
+        return things_of(self.task)
+
+    @property
+    def collisions(self) -> NDArray[np.int64]:
+        """The ticks in which the robot began to touch something."""
+        return np.flatnonzero(self.touching & ~np.concatenate([[False], self.touching[:-1]])) + 1
+
+    def placements(self, thing: int) -> Floats:
+        """Every place and size [n, 3] that a thing was put at; the last is where it is now or was taken from."""
+        track = self.things[:, thing]
+        jumps = np.linalg.norm(np.diff(track[:, :2], axis=0), axis=1) > JUMP
+        placed: Floats = track[np.concatenate([[True], jumps])]
+        return placed
+
+    def movers(self) -> list[Skill]:
+        """The skills under the master that drive a wheel."""
+        wheels = {i for i, actuator in enumerate(self.graph.actuators) if isinstance(actuator.kind, Wheel)}
+        return [
+            skill
+            for skill in reachable(self.graph, self.cast.master)
+            if any(edge.to == "actuator" and edge.target in wheels for edge in skill.edges)
+        ]
+
+    def in_control(self) -> NDArray[np.int64]:
+        """Per tick the mover with the most influence, as a place in `movers`."""
+        columns = [self.graph.skills.index(skill) for skill in self.movers()]
+        chosen: NDArray[np.int64] = np.argmax(self.influence[:, columns], axis=1)
+        return chosen
+
+
+def tell(cast: Cast, rollout: Rollout, seed: int) -> Story:
+    """The story of the run that `rollout` makes of a seed."""
+    run = trace(rollout, seed)
+    moments = list(run.moments)
+    counted = [cast.task.counts.count(event) for event in range(len(cast.task.events))]
+    events = np.array([moment.events for moment in moments]).reshape(len(moments), -1)
+    return Story(
+        cast,
+        run.boxes,
+        np.array([run.begin, *(moment.body[:3] for moment in moments)]),
+        np.array([run.things, *(moment.things for moment in moments)]),
+        np.array([-1, *(moment.held for moment in moments)]),
+        _as_read(cast.ready.graph, np.array([moment.readings for moment in moments])),
+        np.array([moment.influence for moment in moments]),
+        np.array([moment.commands for moment in moments]),
+        np.array([moment.lines for moment in moments]).reshape(len(moments), -1),
+        np.array([moment.touching for moment in moments]),
+        np.cumsum(events @ np.array(counted, np.int64)),
+    )
+
+
+def _as_read(graph: Graph, readings: NDArray[np.float32]) -> NDArray[np.float32]:
+    """The readings with the memory cells as they were read: a moment has them as its tick left them."""
+    for memory in graph.memories:
+        readings[1:, memory.start] = readings[:-1, memory.start]
+        readings[0, memory.start] = memory.kind.start
+    return readings

@@ -1,0 +1,87 @@
+"""Colours: a light theme for pictures on paper, a dark one for films, in which influence glows."""
+
+from dataclasses import dataclass
+
+Colour = tuple[int, int, int]  # blue, green, red, as OpenCV has them
+
+
+def colour(code: str) -> Colour:
+    """The colour of a code #rrggbb."""
+    red, green, blue = (int(code[i : i + 2], 16) for i in (1, 3, 5))
+    return blue, green, red
+
+
+def mixed(first: Colour, second: Colour, share: float) -> Colour:
+    """`first` with a share of `second`, 0 to 1."""
+    share = min(1.0, max(0.0, share))
+    blue, green, red = (round(a + (b - a) * share) for a, b in zip(first, second, strict=True))
+    return blue, green, red
+
+
+@dataclass(frozen=True, slots=True)
+class Theme:
+    """What has which colour."""
+
+    page: Colour
+    floor: Colour
+    grid: Colour
+    wall: Colour
+    rock: Colour
+    rock_edge: Colour
+    ink: Colour
+    faint: Colour
+    item: Colour
+    zone: Colour
+    power: Colour
+    robot: Colour
+    ray: Colour
+    crash: Colour
+    early: Colour  # a path by time, from
+    late: Colour  # to
+    skills: tuple[Colour, ...]  # a path by skill
+    dark: Colour  # no influence
+    glow: Colour  # full influence
+
+
+PAPER = Theme(
+    page=colour("#f6f4ef"),
+    floor=colour("#fffefb"),
+    grid=colour("#eeebe3"),
+    wall=colour("#3b4252"),
+    rock=colour("#c3c7cf"),
+    rock_edge=colour("#8b919e"),
+    ink=colour("#23272f"),
+    faint=colour("#8a8f99"),
+    item=colour("#e8871e"),
+    zone=colour("#3a9d5d"),
+    power=colour("#8e5bd0"),
+    robot=colour("#23272f"),
+    ray=colour("#e2555f"),
+    crash=colour("#d62839"),
+    early=colour("#a9d6f5"),
+    late=colour("#123c7c"),
+    skills=tuple(map(colour, ("#2878c8", "#e0559b", "#14a39a", "#d9a404", "#7b5cd6", "#6b8e23", "#c0562f", "#5b6b7f"))),
+    dark=colour("#dddad2"),
+    glow=colour("#1f9d4d"),
+)
+NIGHT = Theme(
+    page=colour("#14171c"),
+    floor=colour("#1b1f26"),
+    grid=colour("#242932"),
+    wall=colour("#79839a"),
+    rock=colour("#3d4554"),
+    rock_edge=colour("#606b80"),
+    ink=colour("#eceff4"),
+    faint=colour("#8b94a5"),
+    item=colour("#ffa040"),
+    zone=colour("#4cc97a"),
+    power=colour("#b48cff"),
+    robot=colour("#f4f6fa"),
+    ray=colour("#ff6b74"),
+    crash=colour("#ff4d5e"),
+    early=colour("#1f3a5c"),
+    late=colour("#6fb8ff"),
+    skills=tuple(map(colour, ("#5aa9f0", "#f07db8", "#3fcfc4", "#f2c744", "#a58bf5", "#a5c94c", "#f08a5d", "#93a4bb"))),
+    dark=colour("#262b34"),
+    glow=colour("#39ff88"),
+)

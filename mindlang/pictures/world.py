@@ -1,0 +1,107 @@
+"""The world of a run: floor, walls, obstacles, things, and the robot with its rays and its claw."""
+
+from math import cos, sin
+
+import numpy as np
+from mindrun.actuators import Gripper
+from mindrun.sensors import RangeFinder
+from mindrun.world import Arena, Item, Power, Zone
+
+from mindlang.pictures.canvas import Canvas, square
+from mindlang.pictures.story import Story
+from mindlang.pictures.theme import Colour, Theme, mixed
+
+GRID = 10.0  # units
+WALL = 0.8
+
+
+def draw_floor(canvas: Canvas, story: Story, theme: Theme) -> None:
+    """The floor with a line every ten units, the walls and the obstacles."""
+    half = story.task.scene.size / 2 if isinstance(story.task.scene, Arena) else 0.0
+    if half:
+        canvas.polygon(square(0, 0, half + WALL), theme.wall)
+        canvas.polygon(square(0, 0, half), theme.floor)
+    _grid(canvas, theme, half)
+    for x, y, size in story.boxes:
+        canvas.polygon(square(x, y, size), theme.rock)
+        canvas.line(square(x, y, size), theme.rock_edge, 1.2, closed=True)
+
+
+def _grid(canvas: Canvas, theme: Theme, half: float) -> None:
+    view, (height, width) = canvas.view, canvas.image.shape[:2]
+    left, right = (-half, half) if half else (view.left, view.left + width / view.scale)
+    low, high = (-half, half) if half else (view.top - height / view.scale, view.top)
+    for x in np.arange(np.floor(left / GRID) * GRID + GRID, right - 1e-6, GRID):
+        canvas.line([(x, low), (x, high)], theme.grid)
+    for y in np.arange(np.floor(low / GRID) * GRID + GRID, high - 1e-6, GRID):
+        canvas.line([(left, y), (right, y)], theme.grid)
+
+
+def thing_colour(kind: object, theme: Theme) -> Colour:
+    """The colour of an item, a zone or a power zone."""
+    match kind:
+        case Item():
+            return theme.item
+        case Zone():
+            return theme.zone
+        case Power():
+            return theme.power
+    return theme.faint
+
+
+def draw_zones(canvas: Canvas, story: Story, theme: Theme, tick: int) -> None:
+    """The zones as they are after a tick: below the path."""
+    for thing, (x, y, size) in zip(story.contents, story.things[tick], strict=True):
+        if not isinstance(thing.kind, Item):
+            fill = thing_colour(thing.kind, theme)
+            canvas.polygon(square(x, y, size / 2), fill, 0.22)
+            canvas.line(square(x, y, size / 2), fill, 1.6, closed=True)
+
+
+def draw_items(canvas: Canvas, story: Story, theme: Theme, tick: int) -> None:
+    """The items as they are after a tick."""
+    for thing, (x, y, size) in zip(story.contents, story.things[tick], strict=True):
+        if isinstance(thing.kind, Item):
+            fill = thing_colour(thing.kind, theme)
+            canvas.disc(x, y, size / 2, fill)
+            canvas.disc(x, y, size / 2, mixed(fill, theme.ink, 0.45), width=1.2)
+
+
+def draw_robot(canvas: Canvas, story: Story, theme: Theme, tick: int) -> None:
+    """The robot as it is after a tick: rays, claw, body, and a line that shows its heading."""
+    x, y, angle = story.body[tick]
+    radius = story.graph.body.size / 2
+    if tick:
+        _rays(canvas, story, theme, tick)
+        _claw(canvas, story, theme, tick)
+    canvas.disc(x, y, radius, theme.robot)
+    canvas.disc(x, y, radius, theme.floor, width=1.2)
+    tip = (x + 0.95 * radius * cos(angle), y + 0.95 * radius * sin(angle))
+    canvas.line([(x, y), tip], theme.floor, 2.0)
+
+
+def _rays(canvas: Canvas, story: Story, theme: Theme, tick: int) -> None:
+    x, y, angle = story.body[tick]
+    radius = story.graph.body.size / 2
+    for sensor in story.graph.sensors:
+        rows = slice(sensor.start, sensor.start + sensor.width)
+        if not isinstance(sensor.kind, RangeFinder) or not story.readings[:, rows].any():  # nobody reads it
+            continue
+        for at, reading in zip(sensor.kind.at, story.readings[tick - 1, rows], strict=True):
+            way = np.array([cos(angle + at), sin(angle + at)])
+            end = (x, y) + way * (radius + float(reading) * sensor.kind.range)
+            canvas.line([(x, y) + way * radius, end], theme.ray, 1.0, 0.3 + 0.4 * (reading < 1.0))
+            if reading < 1.0:
+                canvas.disc(end[0], end[1], 2.5 * canvas.pen / canvas.view.scale, theme.ray)
+
+
+def _claw(canvas: Canvas, story: Story, theme: Theme, tick: int) -> None:
+    x, y, angle = story.body[tick]
+    radius = story.graph.body.size / 2
+    for number, actuator in enumerate(story.graph.actuators):
+        if isinstance(actuator.kind, Gripper):
+            apart = 0.35 if story.commands[tick - 1, number] > 0.5 else 0.75
+            for side in (-1.0, 1.0):
+                shape = np.array([(0.8, 0.5 * side), (1.4, apart * side), (1.9, apart * 0.8 * side)]) * radius
+                turned = shape @ np.array([(cos(angle), sin(angle)), (-sin(angle), cos(angle))])
+                canvas.line(turned + np.array([x, y]), theme.robot, 2.2)
