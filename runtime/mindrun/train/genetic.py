@@ -10,7 +10,9 @@ from mindrun.learners import Genetic
 Genomes = NDArray[np.float32]
 Scores = NDArray[np.float64]
 
-SPREAD = 4.0  # of the weights that a population begins with
+# Of the weights that a population begins with. Without biases, small weights leave every sigmoid near 1/2: on GoToObject
+# 1 got stuck in 5 of 6 seeds after 100 M ticks, 2 needed 21 M, 4 and 6 often had a good genome in the first generation.
+SPREAD = 4.0
 LIMIT = 100.0  # no weight grows beyond it, so a genome is finite always
 TOURNAMENT = 4
 
