@@ -184,11 +184,6 @@ def mark(scorer: Scorer, genomes: Genomes, seeds: Seeds | Sequence[int]) -> Mark
     return Marks(scores, int(results.ticks.sum()), int(faulty.sum()))
 
 
-def is_finished(course: Course, state: State) -> bool:
-    """Whether every attempt has ended."""
-    return state.attempt >= course.lesson.learner.attempts
-
-
 def _mean(scores: Scores) -> float:
     finite = scores[np.isfinite(scores)]
     return float(finite.mean()) if len(finite) else -inf
