@@ -11,8 +11,8 @@ Genomes = NDArray[np.float32]
 Scores = NDArray[np.float64]
 
 # Of the weights that a population begins with. Without biases, small weights leave every sigmoid near 1/2. Tried on a
-# stand-in for GoToObject, 6 seeds each, until 17 targets: with 1 one seed got there in 100 M ticks, with 2 all by the 10th
-# generation, with 4 five in the first; 6 (until 22 targets) was no better than 4.
+# stand-in for GoToObject, 6 seeds each, until 17 targets: with 1 one seed got there in 100 M ticks, with 2 all by the
+# 10th generation, with 4 five in the first; 6 (until 22 targets) was no better than 4.
 SPREAD = 4.0
 LIMIT = 100.0  # no weight grows beyond it, so a genome is finite always
 TOURNAMENT = 4
