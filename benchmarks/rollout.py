@@ -1,0 +1,216 @@
+"""Agent-ticks per second per core beside a plain pymunk loop, in one run: python benchmarks/rollout.py [--json].
+
+One agent-tick is one robot for one tick: ten rays, the hierarchy's perceptrons, physics, rewards. Both programs take
+turns, round after round, so that they see the same machine; every figure is a median with its smallest and largest.
+"""
+
+import argparse
+import json
+import os
+import subprocess
+import sys
+import tempfile
+import time
+from collections.abc import Callable, Sequence
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass, replace
+from pathlib import Path
+from statistics import median
+from typing import Any
+
+import numpy as np
+from mindrun.graph import Graph
+from mindrun.sim.rollout import Rollout
+from mindrun.sim.trace import trace
+from mindrun.train.manifest import processor, versions
+from plain_pymunk import Robot
+from workloads import Weights, collect, with_obstacles, with_skills
+
+LANES = 128
+WARM = 300  # ticks before the clock starts: robots leave their places, caches fill
+
+
+@dataclass(frozen=True, slots=True)
+class Figure:
+    """Rates of several rounds, per second."""
+
+    rates: Sequence[float]
+
+    def __float__(self) -> float:
+        return median(self.rates)
+
+    def __str__(self) -> str:
+        return f"{float(self):>12,.0f}  ({min(self.rates):,.0f} .. {max(self.rates):,.0f})"
+
+    def plain(self) -> dict[str, float]:
+        """For JSON."""
+        return {"median": round(float(self)), "min": round(min(self.rates)), "max": round(max(self.rates))}
+
+
+@dataclass(frozen=True, slots=True)
+class Effort:
+    """How long to measure."""
+
+    rounds: int
+    ticks: int  # of the lanes, in a round
+    plain: int  # of the plain loop, in a round
+
+
+class Lanes:
+    """Some tiles of lanes, one per worker, that have left their beginning behind."""
+
+    def __init__(
+        self, graph: Graph, weights: Weights, learner: str | None = None, lanes: int = LANES, workers: int = 1
+    ) -> None:
+        self.rollout = Rollout(_endless(graph), weights, "Collect", graph.master, learner, interrupt=False)
+        rng, genome = np.random.default_rng(1), weights.get(learner or "", np.zeros(0, np.float32))
+        genomes = genome + rng.normal(0.0, 0.02, (lanes, len(genome)))  # nearly the same behaviour
+        each = np.arange(lanes)
+        self.parts = []
+        for worker in range(workers):
+            seeds = (1 + worker * lanes + each).astype(np.uint64)
+            jobs = self.rollout.jobs(genomes.astype(np.float32), seeds[:1])._replace(seeds=seeds, seed=each)
+            tile = self.rollout.tile(lanes)
+            self.rollout.fill(tile, jobs)
+            self.parts.append((tile, jobs))
+        self.lanes = lanes
+        self.rate(WARM)
+
+    def rate(self, ticks: int) -> float:
+        """Agent-ticks per second of all workers together."""
+        begin = time.perf_counter()
+        with ThreadPoolExecutor(len(self.parts)) as pool:
+            working = list(pool.map(lambda part: self.rollout.advance(*part, ticks), self.parts))
+        assert working == [self.lanes] * len(self.parts), "a run ended while it was measured"
+        return len(self.parts) * self.lanes * ticks / (time.perf_counter() - begin)
+
+    def awake(self) -> float:
+        """The mean number of skills under influence."""
+        return float((self.parts[0][0].state.influence > 0).sum(axis=0).mean())
+
+
+def _endless(graph: Graph) -> Graph:
+    return replace(graph, tasks=tuple(replace(task, ticks=10**9) for task in graph.tasks))
+
+
+class Plain:
+    """Robots of the plain loop on the layouts of the lanes."""
+
+    def __init__(self, graph: Graph, weights: Weights, robots: int = 4) -> None:
+        rollout = Rollout(graph, weights, "Collect", graph.master, interrupt=False)
+        self.robots = [Robot(graph, weights, trace(rollout, seed), seed) for seed in range(1, robots + 1)]
+        self.rate(WARM)
+
+    def rate(self, ticks: int) -> float:
+        """Agent-ticks per second."""
+        begin = time.perf_counter()
+        for robot in self.robots:
+            for _ in range(ticks):
+                robot.tick()
+        return len(self.robots) * ticks / (time.perf_counter() - begin)
+
+
+def take_turns(rounds: int, **measures: Callable[[], float]) -> dict[str, Figure]:
+    """Every measure once a round."""
+    rates: dict[str, list[float]] = {name: [] for name in measures}
+    for _ in range(rounds):
+        for name, measure in measures.items():
+            rates[name].append(measure())
+    return {name: Figure(found) for name, found in rates.items()}
+
+
+def main_figures(graph: Graph, weights: Weights, effort: Effort) -> dict[str, Any]:
+    """The whole hierarchy in its arena, beside the plain loop, on one core and on two."""
+    plain, frozen = Plain(graph, weights), Lanes(graph, weights)
+    own, pair = Lanes(graph, weights, graph.master), Lanes(graph, weights, graph.master, workers=2)
+    found = take_turns(
+        effort.rounds,
+        plain_pymunk=lambda: plain.rate(effort.plain),
+        own_genomes=lambda: own.rate(effort.ticks),
+        all_frozen=lambda: frozen.rate(effort.ticks),
+        two_workers=lambda: pair.rate(effort.ticks),
+    )
+    ratios = {
+        "own_genomes_to_plain": float(found["own_genomes"]) / float(found["plain_pymunk"]),
+        "all_frozen_to_plain": float(found["all_frozen"]) / float(found["plain_pymunk"]),
+        "two_workers_to_one": float(found["two_workers"]) / float(found["own_genomes"]),
+    }
+    return {"figures": found, "ratios": ratios, "skills_awake": frozen.awake(), "skills": len(graph.skills)}
+
+
+def growth(graph: Graph, weights: Weights, effort: Effort) -> dict[str, dict[str, Figure]]:
+    """Rates for growing numbers of lanes, of obstacles and of skills."""
+    by_lanes = {str(n): Lanes(graph, weights, graph.master, lanes=n) for n in (16, 32, 64, 128, 256)}
+    grids = {f"grid {grid}": Lanes(with_obstacles(graph, grid), weights, graph.master) for grid in (20, 10, 7)}
+    by_obstacles = {f"{lanes.rollout.sizes.boxes} ({name})": lanes for name, lanes in grids.items()}
+    by_skills = {str(n): Lanes(*with_skills(n)) for n in (2, 5, 10, 20, 50)}
+    sweeps = {"lanes": by_lanes, "obstacles": by_obstacles, "skills": by_skills}
+    return {
+        name: take_turns(effort.rounds, **{k: _rate(lanes, effort.ticks) for k, lanes in sweep.items()})
+        for name, sweep in sweeps.items()
+    }
+
+
+def _rate(lanes: Lanes, ticks: int) -> Callable[[], float]:
+    return lambda: lanes.rate(max(1, ticks * LANES // lanes.lanes))
+
+
+def starts() -> dict[str, float]:
+    """Seconds of a first `mindc run`, which compiles the simulator, and of later ones."""
+    mind = Path(__file__).parent.parent / "examples" / "braitenberg.mind"
+    program = "from mindlang.cli import main; main()"
+    with tempfile.TemporaryDirectory() as cache:
+        seconds = []
+        for _ in range(3):
+            begin = time.perf_counter()
+            subprocess.run(
+                [sys.executable, "-c", program, "run", str(mind), "--seed", "1", "--json"],
+                check=True, capture_output=True, env=os.environ | {"NUMBA_CACHE_DIR": cache},
+            )  # fmt: skip
+            seconds.append(time.perf_counter() - begin)
+    return {"first": seconds[0], "later": min(seconds[1:])}
+
+
+def machine() -> str:
+    """What this was measured on."""
+    known = versions()
+    return f"{processor()}, {os.cpu_count()} cores, " + ", ".join(f"{name} {known[name]}" for name in sorted(known))
+
+
+def show(found: dict[str, Any]) -> None:
+    """Print for reading."""
+    print(found["machine"], f"load {found['load']:.1f} before it began", sep="\n")
+    print(f"\nCollect with {found['weights']} weights; {found['skills_awake']:.1f} of {found['skills']} skills awake")
+    print("agent-ticks per second, median (smallest .. largest)")
+    for name, figure in found["figures"].items():
+        print(f"  {name:<16}{figure}")
+    for name, ratio in found["ratios"].items():
+        print(f"  {name:<24}{ratio:8.2f}")
+    for name, sweep in found.get("growth", {}).items():
+        print(f"by {name}")
+        for size, figure in sweep.items():
+            print(f"  {size:<16}{figure}")
+    if "starts" in found:
+        print(f"first start {found['starts']['first']:.1f} s, later {found['starts']['later']:.2f} s")
+
+
+def main() -> None:
+    """Measure and print."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--json", action="store_true")
+    parser.add_argument("--quick", action="store_true", help="only the main figures, fewer rounds")
+    options = parser.parse_args()
+    effort = Effort(5, 1500, 150) if options.quick else Effort(9, 3000, 500)
+    graph, weights, origin = collect()
+    found: dict[str, Any] = {"machine": machine(), "load": os.getloadavg()[0], "weights": origin}
+    found |= main_figures(graph, weights, effort)
+    if not options.quick:
+        found |= {"growth": growth(graph, weights, effort), "starts": starts()}
+    if options.json:
+        print(json.dumps(found, default=Figure.plain))
+    else:
+        show(found)
+
+
+if __name__ == "__main__":
+    main()
