@@ -1,28 +1,14 @@
 """Ticks with procedures that run in Python: the compiled stages one by one, and the procedures between them."""
 
-from collections.abc import Callable
-from typing import Any
-
 import numpy as np
 
 from mindrun.functions import Procedure
 from mindrun.functions.procedure import call
 from mindrun.graph import Graph
-from mindrun.sim.lanes import advance, think
-from mindrun.sim.lanes.arithmetic import entry
+from mindrun.sim.lanes.stages import after, before, run_skills, send, wake
 from mindrun.sim.procedures import Procedures
 from mindrun.sim.state import Jobs, State
 from mindrun.sim.tables import Tables
-
-
-def python_of(compiled: Any) -> Callable[..., Any]:
-    """The plain function of a compiled stage, to be compiled anew with a way in from Python."""
-    function: Callable[..., Any] = compiled.py_func
-    return function
-
-
-before, after = entry(python_of(advance.before)), entry(python_of(advance.after))
-run_skills, wake, send = (entry(python_of(stage)) for stage in (think.think, think.wake, think.send))
 
 
 def advance_slowly(
@@ -56,4 +42,4 @@ def _run(graph: Graph, procedures: Procedures, name: str, tables: Tables, state:
             state.hidden[: skill["outputs"], k] = call(
                 function, procedures.functions[name], int(skill["outputs"]), inputs
             )
-    send(tables, state, i, 0, count)
+    send(tables, state, i, 0, count, lanes)

@@ -37,6 +37,7 @@ class State(NamedTuple):
     board: Array  # [lane, patches] uint8: visited
     measures: Array  # float64
     events: Array  # float64: how often each happened in this tick
+    happened: Array  # [events]: in how many lanes
     lines: Array  # float64: the sum of each reward line
     counts: Array
     tick: Array
@@ -54,8 +55,8 @@ class State(NamedTuple):
     gathered: Array  # [inputs] float32
     hidden: Array  # [2·width] float32
     stack: Array  # [depth] float64
-    sines: Array  # [4·rays] float32: direction and its reciprocals
-    slots: Array  # [4·boxes + 1] float32 …
+    sight: Array  # [4 + rays] float32: heading and place, then how far each ray goes
+    slots: Array  # [4·boxes] float32: the sides of the boxes that a lane's rays can meet, relative to the robot
     slot_boxes: Array  # [boxes] int64: which boxes a lane's rays can meet
     slot_count: Array
     anchor: Array  # [2] float64: where the slots were chosen
@@ -115,6 +116,7 @@ def empty_state(tables: Tables, sizes: Sizes, lanes: int) -> State:
         board=np.zeros((lanes, max(1, sizes.patches)), np.uint8),
         measures=zeros(len(tables.measures)),
         events=zeros(len(tables.events)),
+        happened=np.zeros(max(1, len(tables.events)), np.int64),
         lines=zeros(len(tables.rewards)),
         counts=np.zeros(lanes, np.int64),
         tick=np.zeros(lanes, np.int64),
@@ -130,8 +132,8 @@ def empty_state(tables: Tables, sizes: Sizes, lanes: int) -> State:
         gathered=zeros(sizes.inputs, np.float32),
         hidden=zeros(2 * sizes.width, np.float32),
         stack=zeros(STAGES + sizes.depth),
-        sines=zeros(4 * rays, np.float32),
-        slots=zeros(4 * boxes + 4, np.float32),
+        sight=zeros(4 + rays, np.float32),
+        slots=zeros(4 * boxes, np.float32),
         slot_boxes=zeros(boxes, np.int64),
         slot_count=np.zeros(lanes, np.int64),
         anchor=zeros(2),

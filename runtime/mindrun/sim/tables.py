@@ -58,7 +58,7 @@ REWARD = _row(
 WORLD = _row(
     dt="f8", linear="f8", angular="f8", mass="f8", moment="f8", mass_inv="f8", moment_inv="f8", radius="f8",
     half="f8", ticks="i8", start="f8", drain="f8", charge="f8", inertial="i8", rays="i8", range="f8", master="i8",
-    claw="f8",
+    claw="f8", battery="i8",
 )  # fmt: skip
 
 
@@ -421,11 +421,13 @@ def _world(graph: Graph, task: Task, rays: int, used: Sequence[Sensor], master: 
     battery = next((s.kind for s in graph.sensors if isinstance(s.kind, sensors.Battery)), sensors.Battery())
     half = task.scene.size / 2 if isinstance(task.scene, world.Arena) else inf
     reach = max([0.0, *(s.kind.range for s in used if isinstance(s.kind, sensors.RangeFinder))])
+    drained = any(isinstance(event, events.Exhaustion) for event in task.events)
+    powered = drained or any(isinstance(s.kind, sensors.Battery) for s in used)
     inertial = any(isinstance(s.kind, sensors.Inertial) for s in used)
     claw = next((a.kind.reach for a in graph.actuators if isinstance(a.kind, actuators.Gripper)), 1.5)
     row = (
         dt, 1.0 / (1.0 + dt * body.linear_damping), 1.0 / (1.0 + dt * body.angular_damping), mass, moment,
         1.0 / mass, 1.0 / moment, radius, half, task.ticks, battery.start, battery.drain, battery.charge, inertial,
-        rays, reach, master, claw,
+        rays, reach, master, claw, powered,
     )  # fmt: skip
     return np.array([row], WORLD)

@@ -1,9 +1,10 @@
 """Act: the commands that the influence makes (Eq. 3), their delays, the memory cells, and the claw."""
 
-from mindrun.sim.lanes.arithmetic import HALF, ZERO, compiled
+from mindrun.sim.lanes.arithmetic import HALF, ONE, ZERO, F, clamp, compiled, finite
 from mindrun.sim.lanes.sense import in_claw
-from mindrun.sim.lanes.think import mean
 from mindrun.sim.tables import GRIPPER, ITEM
+
+UNDRIVEN = F(-1)
 
 
 @compiled
@@ -12,8 +13,7 @@ def act(t, s, n, clock):
     sinks = s.sums.shape[0] // 2
     for i in range(len(t.actuators)):
         actuator = t.actuators[i]
-        for p in range(n):
-            s.commands[i, p] = mean(s.sums[i], s.sums[sinks + i], actuator.neutral, p)
+        means(s.sums[i], s.sums[sinks + i], actuator.neutral, s.commands[i], s.faults, n)
         if actuator.delay > 0:
             wait(s.commands[i], s.late[actuator.ring + clock % actuator.delay], n)
         if actuator.kind == GRIPPER:
@@ -21,7 +21,22 @@ def act(t, s, n, clock):
     for i in range(len(t.memories)):
         memory = t.memories[i]
         sink = len(t.actuators) + i
-        remember(s.readings[memory.row], s.sums[sink], s.sums[sinks + sink], memory.decay, memory.rest, n)
+        means(s.sums[sink], s.sums[sinks + sink], UNDRIVEN, s.row[2], s.faults, n)
+        remember(s.readings[memory.row], s.row[2], memory.decay, memory.rest, n)
+
+
+@compiled
+def means(total, weight, neutral, out, faults, n):
+    """The influence-weighted mean of the commands (Eq. 3); `neutral` where there are none.
+
+    A mean that is no finite number, because sums overflowed, is a fault and gives `neutral` too.
+    """
+    for p in range(n):
+        driven = weight[p] > ZERO
+        value = total[p] / (weight[p] if driven else ONE)
+        sound = finite(value)
+        out[p] = clamp(value) if driven & sound else neutral
+        faults[p] += 1 if driven & (not sound) else 0
 
 
 @compiled
@@ -32,22 +47,20 @@ def wait(commands, late, n):
 
 
 @compiled
-def remember(cell, total, weight, decay, rest, n):
+def remember(cell, command, decay, rest, n):
     """decay·cell + (1 − decay)·command where a skill drives the cell, else decay·cell."""
     for p in range(n):
-        value = decay * cell[p]
-        if weight[p] > ZERO:
-            value = value + rest * mean(total, weight, ZERO, p)
-        cell[p] = value
+        kept = decay * cell[p]
+        cell[p] = kept + rest * command[p] if command[p] >= ZERO else kept
 
 
 @compiled
 def grip(commands, held, body, heading, things, kinds, radius, reach, n):
     """Close above 0.5 on the first item in reach; open and the item stays where it is."""
     for p in range(n):
-        if commands[p] <= HALF:
-            held[p] = -1
-        elif held[p] < 0:
+        held[p] = -1 if commands[p] <= HALF else held[p]
+    for p in range(n):
+        if commands[p] > HALF and held[p] < 0:
             for i in range(len(kinds)):
                 if kinds[i].kind == ITEM and held[p] < 0 and in_claw(body, heading, things, radius, reach, i, p):
                     held[p] = i

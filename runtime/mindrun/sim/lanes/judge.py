@@ -39,13 +39,15 @@ def judge(t, s, n, clock, interrupt):
             forward(s.measures[i], s.body, s.heading, s.stack[5:7], n)
         else:
             progress(s.measures[i], s.body, s.things, measure.thing, measure.kind, n)
-    drain(t, s, n)
+    if t.world[0].battery:
+        drain(t, s, n)
     for i in range(len(t.events)):
-        notice(t, s, t.events[i], s.events[i], n)
+        s.happened[i] = notice(t, s, t.events[i], s.events[i], n)
     for i in range(len(t.rewards)):
         reward(t, s, t.rewards[i], s.lines[i], n)
     for i in range(len(t.events)):
-        settle(t, s, i, n, interrupt)
+        if s.happened[i] > 0:
+            settle(t, s, i, n, interrupt)
     oldest = clock % INERTIAL_TICKS
     for p in range(n):
         s.tick[p] += 1
@@ -112,8 +114,9 @@ def drain(t, s, n):
 
 @compiled
 def notice(t, s, event, out, n):
-    """How often the event happened in this tick, per lane."""
+    """Whether the event happened in this tick, per lane; returns in how many."""
     world, kind, i = t.world[0], event.kind, event.thing
+    count = 0
     for p in range(n):
         happened = False
         if kind == REACH and t.things[i].kind == ITEM:
@@ -134,6 +137,8 @@ def notice(t, s, event, out, n):
         elif kind == EXHAUSTION:
             happened = s.battery[p] == 0.0
         out[p] = 1.0 if happened else 0.0
+        count += 1 if happened else 0
+    return count
 
 
 @compiled
@@ -147,7 +152,7 @@ def patch_of(body, half, patch, columns, p):
 @compiled
 def reward(t, s, line, total, n):
     """Add what a reward line pays in this tick to its sums."""
-    if line.on >= 0 and not some(s.events[line.on], n):
+    if line.on >= 0 and s.happened[line.on] == 0:
         return
     for p in range(n):
         s.active[p] = p
@@ -171,15 +176,6 @@ def reward(t, s, line, total, n):
 def run(t, s, first, length, each, n):
     """Evaluate a program into stack[9]."""
     evaluate(t.codes[first : first + length], s.readings, s.measures, each, s.stack[9:], s.active, n)
-
-
-@compiled
-def some(events, n):
-    """Whether the event happened in any lane."""
-    for p in range(n):  # noqa: SIM110 (numba compiles loops, not any())
-        if events[p] > 0.0:
-            return True
-    return False
 
 
 @compiled

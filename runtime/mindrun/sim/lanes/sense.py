@@ -2,7 +2,8 @@
 
 import numpy as np
 
-from mindrun.sim.lanes.arithmetic import HALF, HUGE, ONE, TINY, ZERO, F, bearing, clamp, compiled, sine_cosine
+from mindrun.sim.lanes.arithmetic import HALF, HUGE, ONE, ZERO, F, bearing, clamp, compiled, sine_cosine
+from mindrun.sim.lanes.vector import HIGHEST, LOWEST, WIDE, load, splat, store, where_ordered
 from mindrun.sim.tables import (
     BATTERY,
     BEARING,
@@ -31,7 +32,7 @@ def sense(t, s, n, clock):
         kind, row = sensor.kind, sensor.start
         if kind == RANGE:
             for ray in range(sensor.width):
-                distance(s.readings[row + ray], s.sines[4 * (sensor.ray + ray)], F(world.radius), F(sensor.range),
+                distance(s.readings[row + ray], s.sight[4 + sensor.ray + ray], F(world.radius), F(sensor.range),
                          sensor.dead_zone, n)  # fmt: skip
         elif kind == SINE:
             wave(s.readings[row], s.tick, sensor.period, n)
@@ -135,54 +136,37 @@ def inside(things, i, x, y, p):
 
 @compiled
 def look(t, s, n):
-    """The distance from each robot's centre along each ray, into the first of the ray's four rows in `sines`."""
+    """The distance from each robot's centre along each ray: rows 4 and on of `sight`, after heading and place."""
     world = t.world[0]
     count = choose(s.body, s.boxes, s.anchor, s.slot_boxes, s.slot_count, world.range + world.radius + SLACK, n)
     for k in range(count):
-        place(s.body, s.boxes, s.slot_boxes[k], s.slot_count, k, s.slots[4 * k + 4 : 4 * k + 8], n)
-    for ray in range(len(t.ray_row)):
-        rows = s.sines[4 * ray : 4 * ray + 4]
-        aim(s.heading, t.rays[0, ray], t.rays[1, ray], rows, n)
-        walls(s.body, F(world.half), rows, n)
-        for k in range(count):
-            slab(s.slots[4 * k + 4], s.slots[4 * k + 5], s.slots[4 * k + 6], s.slots[4 * k + 7], rows[1], rows[2],
-                 rows[0], n)  # fmt: skip
+        place(s.body, s.boxes, s.slot_boxes[k], s.slot_count, k, s.slots[4 * k : 4 * k + 4], n)
+    for p in range(n):
+        s.sight[0, p], s.sight[1, p] = F(s.heading[0, p]), F(s.heading[1, p])
+        s.sight[2, p], s.sight[3, p] = F(s.body[0, p]), F(s.body[1, p])
+    for p in range(0, n, WIDE):
+        for ray in range(len(t.ray_row)):
+            store(s.sight, 4 + ray, p, along(s.sight, t.rays[0, ray], t.rays[1, ray], F(world.half), s.slots, count, p))
 
 
 @compiled
-def aim(heading, cosine, sine, rows, n):
-    """The reciprocals of a ray's direction, which is never quite along an axis."""
-    for p in range(n):
-        c, q = F(heading[0, p]), F(heading[1, p])
-        x, y = c * cosine - q * sine, q * cosine + c * sine
-        x = x if abs(x) > TINY else TINY
-        y = y if abs(y) > TINY else TINY
-        rows[1, p] = ONE / x
-        rows[2, p] = ONE / y
-
-
-@compiled
-def walls(body, half, rows, n):
-    """The distance to the walls of the arena, if there are any."""
-    for p in range(n):
-        px, py = F(body[0, p]), F(body[1, p])
-        ix, iy = rows[1, p], rows[2, p]
-        a, b = (half - px) * ix, (-half - px) * ix
-        c, d = (half - py) * iy, (-half - py) * iy
-        tx, ty = a if a > b else b, c if c > d else d
-        rows[0, p] = tx if tx < ty else ty
-
-
-@compiled
-def slab(left, right, low, high, ix, iy, out, n):
-    """The distance to one box per lane, given by its sides relative to the robot, if that is nearer."""
-    for p in range(n):
-        a, b, c, d = left[p] * ix[p], right[p] * ix[p], low[p] * iy[p], high[p] * iy[p]
-        ab, ba = a if a < b else b, a if a > b else b
-        cd, dc = c if c < d else d, c if c > d else d
-        enter, leave = ab if ab > cd else cd, ba if ba < dc else dc
-        hit = enter if (enter <= leave) & (enter >= ZERO) else HUGE
-        out[p] = hit if hit < out[p] else out[p]
+def along(sight, cosine, sine, half, slots, count, p):
+    """The distance to what a ray meets first in sixteen lanes: a wall, or one of the boxes (the slab method)."""
+    c, q = load(sight, 0, p), load(sight, 1, p)
+    ix = splat(ONE) / (c * splat(cosine) - q * splat(sine))
+    iy = splat(ONE) / (q * splat(cosine) + c * splat(sine))
+    x, y = load(sight, 2, p), load(sight, 3, p)
+    tx = HIGHEST((splat(half) - x) * ix, (splat(-half) - x) * ix)
+    ty = HIGHEST((splat(half) - y) * iy, (splat(-half) - y) * iy)
+    nearest = LOWEST(tx, ty)
+    for k in range(count):
+        a, b = load(slots, 4 * k, p) * ix, load(slots, 4 * k + 1, p) * ix
+        c, d = load(slots, 4 * k + 2, p) * iy, load(slots, 4 * k + 3, p) * iy
+        enter = HIGHEST(LOWEST(a, b), LOWEST(c, d))
+        leave = LOWEST(HIGHEST(a, b), HIGHEST(c, d))
+        hit = where_ordered(enter, leave, enter, splat(HUGE))
+        nearest = LOWEST(where_ordered(splat(ZERO), hit, hit, splat(HUGE)), nearest)
+    return nearest
 
 
 @compiled

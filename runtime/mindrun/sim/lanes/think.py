@@ -6,6 +6,8 @@ from mindrun.sim.lanes.vector import WIDE, load, sigmoids, splat, store
 from mindrun.sim.procedures import call
 from mindrun.sim.tables import MLP, PROCEDURE
 
+NOT_SENT = F(-1)
+
 
 @compiled
 def begin(t, s, n):
@@ -26,7 +28,7 @@ def think(t, s, n, first, last):
                 out = perceive(t, s, skill, count)
             elif skill.kind == PROCEDURE:
                 call(skill.address, s.gathered, skill.inputs, s.hidden, skill.outputs, count)
-            send(t, s, i, out, count)
+            send(t, s, i, out, count, n)
 
 
 @compiled
@@ -35,7 +37,8 @@ def wake(t, s, n, i):
     skill = t.skills[i]
     count = awake(s.influence[skill.index], s.active, n, skill.own)
     if count > 0:
-        gather(t.inputs[skill.input : skill.input + skill.inputs], s.readings, s.gathered, s.active, s.row[0], count)
+        rows = t.inputs[skill.input : skill.input + skill.inputs]
+        gather(rows, s.readings, s.gathered, s.active, s.row[0], count, count == n)
     return count
 
 
@@ -54,15 +57,20 @@ def awake(influence, active, n, own):
 
 
 @compiled
-def gather(rows, readings, gathered, active, sound, count):
+def gather(rows, readings, gathered, active, sound, count, everywhere):
     """The inputs of a skill side by side; `sound` becomes 0 where all of them are finite, else NaN."""
     sound[:count] = ZERO
     for j in range(len(rows)):
         source, target = readings[rows[j]], gathered[j]
-        for k in range(count):
-            target[k] = source[active[k]]
-        for k in range(count):
-            sound[k] += target[k] - target[k]
+        if everywhere:
+            for k in range(count):
+                target[k] = source[k]
+                sound[k] += source[k] - source[k]
+        else:
+            for k in range(count):
+                target[k] = source[active[k]]
+            for k in range(count):
+                sound[k] += target[k] - target[k]
 
 
 @compiled
@@ -124,7 +132,7 @@ def dense_own(w, source, inputs, target, outputs, last, n):
 
 
 @compiled
-def send(t, s, i, out, n):
+def send(t, s, i, out, n, lanes):
     """Every edge's value, times skill i's influence, to where it goes; a value that is not finite is not sent."""
     skill = t.skills[i]
     influence, sinks = s.influence[skill.index], s.sums.shape[0] // 2
@@ -137,47 +145,46 @@ def send(t, s, i, out, n):
             evaluate(t.codes[edge.code : edge.code + edge.length], s.readings, s.measures, 0, s.stack, s.active, n)
             for k in range(n):
                 values[k] = F(s.stack[0, k])
+        check(values, s.row[0], s.row[2], s.active, s.faults, influence, n)
         if edge.to_skill:
-            pass_on(s.influence[edge.target], values, influence, s.row[0], s.active, s.faults, n)
+            spread(s.row[2], influence, s.influence[edge.target], s.active, n, n == lanes)
         else:
-            command(
-                s.sums[edge.target], s.sums[sinks + edge.target], values, influence, s.row[0], s.active, s.faults, n
-            )
+            spread(s.row[2], influence, s.sums[edge.target], s.active, n, n == lanes)
+            weigh(s.row[2], influence, s.sums[sinks + edge.target], s.active, n, n == lanes)
 
 
 @compiled
-def pass_on(target, values, influence, sound, active, faults, n):
-    """Influence to a subskill (Eq. 2)."""
+def check(values, sound, sent, active, faults, influence, n):
+    """What is sent: the values clamped to 0..1; −1 where one is not finite, which is a fault, or not sound."""
+    broken = 0
     for k in range(n):
-        p = active[k]
-        if influence[p] > ZERO:
-            if finite(values[k]) and sound[k] == ZERO:
-                target[p] += clamp(values[k]) * influence[p]
-            else:
-                faults[p] += 1
+        fine = finite(values[k]) & (sound[k] == ZERO)
+        sent[k] = clamp(values[k]) if fine else NOT_SENT
+        broken += 0 if fine else 1
+    if broken > 0:
+        for k in range(n):
+            faults[active[k]] += 1 if sent[k] < ZERO and influence[active[k]] > ZERO else 0
 
 
 @compiled
-def command(total, weight, values, influence, sound, active, faults, n):
-    """A command to an actuator or a memory, and the influence behind it (Eq. 3)."""
-    for k in range(n):
-        p = active[k]
-        if influence[p] > ZERO:
-            if finite(values[k]) and sound[k] == ZERO:
-                total[p] += clamp(values[k]) * influence[p]
-                weight[p] += influence[p]
-            else:
-                faults[p] += 1
+def spread(sent, influence, target, active, n, everywhere):
+    """Add value times influence (Eq. 2) where a value is sent."""
+    if everywhere:
+        for p in range(n):
+            target[p] += sent[p] * influence[p] if sent[p] >= ZERO else ZERO
+    else:
+        for k in range(n):
+            p = active[k]
+            target[p] += sent[k] * influence[p] if sent[k] >= ZERO else ZERO
 
 
 @compiled
-def mean(total, weight, neutral, p):
-    """The influence-weighted mean of the commands (Eq. 3); `neutral` where there are none, or none that is finite."""
-    if weight[p] > ZERO:
-        value = total[p] / weight[p]
-        if finite(value):
-            return clamp(value)
-    return neutral
-
-
-__all__ = ["begin", "mean", "think"]
+def weigh(sent, influence, target, active, n, everywhere):
+    """Add the influence behind each command that is sent (Eq. 3)."""
+    if everywhere:
+        for p in range(n):
+            target[p] += influence[p] if sent[p] >= ZERO else ZERO
+    else:
+        for k in range(n):
+            p = active[k]
+            target[p] += influence[p] if sent[k] >= ZERO else ZERO

@@ -88,14 +88,32 @@ def _operation(make: Callable[[Any, Any, Any], Any]) -> Any:
 ADD = _operation(lambda builder, a, b: builder.fadd(a, b))
 MULTIPLY = _operation(lambda builder, a, b: builder.fmul(a, b))
 DIVIDE = _operation(lambda builder, a, b: builder.fdiv(a, b))
+SUBTRACT = _operation(lambda builder, a, b: builder.fsub(a, b))
 LOWEST = _operation(lambda builder, a, b: builder.select(builder.fcmp_ordered("<", a, b), a, b))
 HIGHEST = _operation(lambda builder, a, b: builder.select(builder.fcmp_ordered(">", a, b), a, b))
+
+
+@intrinsic
+def where_ordered(typingctx, low, high, yes, no):
+    """`yes` in the lanes where low <= high, `no` in the others and where either is NaN."""
+
+    def generate(context, builder, signature, args):
+        return builder.select(builder.fcmp_ordered("<=", args[0], args[1]), args[2], args[3])
+
+    return vector(vector, vector, vector, vector), generate
 
 
 @overload(operator.add)
 def _add(left, right):
     if left is vector and right is vector:
         return lambda left, right: ADD(left, right)
+    return None
+
+
+@overload(operator.sub)
+def _subtract(left, right):
+    if left is vector and right is vector:
+        return lambda left, right: SUBTRACT(left, right)
     return None
 
 
