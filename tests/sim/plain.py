@@ -16,7 +16,7 @@ class PlainRobot:
     def __init__(self, pose: Sequence[float], boxes: Sequence[Sequence[float]], half: float | None, item: float = 0.0):
         self.space = pymunk.Space()
         self.space.iterations = 8
-        self.space.use_spatial_hash(10.0, 100)
+        self.space.use_spatial_hash(20.0, 20)
         for x, y, h in boxes:
             self._box(x - h, y - h, x + h, y + h)
         if half is not None:
