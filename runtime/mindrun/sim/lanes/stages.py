@@ -32,6 +32,6 @@ def wake(t, s, n, i):
 
 
 @entry
-def send(t, s, i, out, n):
+def send(t, s, i, out, n, lanes):
     """As `think.send`."""
-    think.send(t, s, i, out, n)
+    think.send(t, s, i, out, n, lanes)
