@@ -1,0 +1,67 @@
+"""`mindc run --video`: a film that OpenCV can read, with as many frames as its speed says."""
+
+from pathlib import Path
+
+import cv2
+import numpy as np
+import pytest
+
+from mindlang.casting import cast
+from mindlang.compile import load
+from mindlang.pictures.film import HEIGHT, WIDTH
+from mindlang.pictures.flow import Flow, Link
+from mindlang.pictures.layout import Layout, Place
+from mindlang.pictures.story import tell
+from tests.calling import Call
+
+
+def test_a_film_has_its_frames(mindc: Call, rules: Path) -> None:
+    path = rules.with_name("run.mp4")
+    said = mindc("run", rules, "--task", "Chase", "--seed", 3, "--video", path, "--speed", 10)
+    assert said.code == 0
+    assert said.err.endswith(f"{path}: 2 s at 10 times the robot's speed\n")
+    video = cv2.VideoCapture(str(path))
+    frames = []
+    while (read := video.read())[0]:
+        frames.append(read[1])
+    assert len(frames) == 61  # 1,200 ticks of 1/60 s at 10 times the speed, 30 frames a second, and the last
+    assert frames[0].shape == (HEIGHT, WIDTH, 3)
+    assert np.abs(frames[0].astype(int) - frames[-1]).max() > 50
+    assert sorted(file.suffix for file in rules.parent.iterdir()) == [".mind", ".mp4"]
+
+
+def test_a_film_that_fails_leaves_the_old_one(mindc: Call, rules: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    path = rules.with_name("run.mp4")
+    path.write_bytes(b"old")
+    monkeypatch.setattr("mindlang.pictures.film._frames_in", lambda path: 3)
+    said = mindc("run", rules, "--task", "Roam", "--seed", 3, "--video", path, "--speed", 20)
+    assert said.code == 2
+    assert said.err.endswith(f"{path} cannot be written whole: is the disk full?\n")
+    assert path.read_bytes() == b"old"
+    assert len(list(rules.parent.iterdir())) == 2
+
+
+def test_what_flows_adds_up_to_the_influence(rules: Path) -> None:
+    found = cast(str(rules), load(rules), "Roam", None)
+    story = tell(found, found.rollout(), 3)
+    flow = Flow(story)
+    for tick in (1, story.ticks // 2, story.ticks):
+        received = np.zeros(len(story.graph.skills))
+        for link, carried in zip(flow.links, flow.at(tick), strict=True):
+            if link.target[0] == "skill":
+                received[link.target[1]] += carried.transmitted
+        received[[skill.name for skill in story.graph.skills].index(found.master)] += 1
+        assert received == pytest.approx(story.influence[tick - 1], abs=1e-6)
+
+
+def test_a_link_that_passes_a_row_goes_between_its_boxes() -> None:
+    links = [Link(0, ("skill", 1)), Link(0, ("skill", 2)), Link(1, ("skill", 3)), Link(2, ("actuator", 0))]
+    links += [Link(3, ("actuator", 0)), Link(0, ("actuator", 1))]
+    layout = Layout.of(links, [0, 1, 2, 3], Place(0.0, 0.0, 400.0, 400.0))
+    assert [len(stops) for stops in layout.stops] == [2, 2, 2, 3, 2, 4]
+    heights = {sink: place.y for sink, place in layout.boxes.items()}
+    assert heights["skill", 0] < heights["skill", 1] == heights["skill", 2] < heights["skill", 3]
+    assert heights["actuator", 0] == heights["actuator", 1] == max(heights.values())
+    for stop in layout.stops[3][1:-1] + layout.stops[5][1:-1]:
+        for box in layout.boxes.values():
+            assert abs(stop.x - box.x) > box.width / 2 or abs(stop.y - box.y) > 1

@@ -1,0 +1,112 @@
+"""`mindc run --picture`: what its pixels show, and paths that cannot be written."""
+
+import json
+from pathlib import Path
+
+import cv2
+import numpy as np
+import pytest
+
+from mindlang.casting import cast
+from mindlang.compile import load
+from mindlang.outcome import one
+from mindlang.pictures.canvas import Image
+from mindlang.pictures.picture import ABOVE, BELOW, SIDE, SIZE, picture, view_of
+from mindlang.pictures.story import Story, tell
+from mindlang.pictures.theme import PAPER
+from mindlang.stage import NOBODY
+from tests.calling import Call
+
+
+def told(file: Path, task: str, seed: int = 3) -> tuple[Story, Image]:
+    """A story and its picture."""
+    found = cast(str(file), load(file), task, None)
+    rollout = found.rollout()
+    outcome = one(found.task, rollout.score(NOBODY, [seed]))
+    story = tell(found, rollout, seed)
+    return story, picture(story, {"task": task, "master": found.master, "seed": seed} | outcome)
+
+
+def pixel(story: Story, image: Image, x: float, y: float) -> np.ndarray:
+    """The colour at a place of the world."""
+    view = view_of(story, SIZE - 2 * SIDE, SIZE - ABOVE - BELOW)
+    column, row = SIDE + (x - view.left) * view.scale, ABOVE + (view.top - y) * view.scale
+    return image[round(row), round(column)].astype(int)
+
+
+def near(found: np.ndarray, colour: tuple[int, int, int]) -> bool:
+    return bool(np.abs(found - colour).max() < 40)
+
+
+def test_the_robot_stands_where_the_run_ended(rules: Path) -> None:
+    story, image = told(rules, "Chase")
+    assert image.shape == (SIZE, SIZE, 3)
+    x, y, angle = story.body[-1]
+    assert near(pixel(story, image, x - 0.6 * np.cos(angle), y - 0.6 * np.sin(angle)), PAPER.robot)
+    assert near(pixel(story, image, *story.things[-1, 0, :2]), PAPER.item)
+
+
+def test_obstacles_walls_and_the_start_are_there(rules: Path) -> None:
+    story, image = told(rules, "Roam")
+    assert len(story.boxes) == 9
+    shown = [near(pixel(story, image, x, y), PAPER.rock) for x, y, _ in story.boxes]
+    assert sum(shown) >= 8  # the robot may stand against one
+    assert near(pixel(story, image, 20.4, 7.0), PAPER.wall)
+
+
+def test_what_is_told_is_what_is_scored(rules: Path) -> None:
+    found = cast(str(rules), load(rules), "Chase", None)
+    rollout = found.rollout()
+    story, scores = tell(found, rollout, 3), rollout.score(NOBODY, [3])
+    assert story.ticks == scores.ticks[0, 0]
+    assert story.counts[-1] == scores.counts[0, 0] > 0
+    assert np.array_equal(story.lines[-1], scores.by_line[0, 0])
+    assert len(story.placements(0)) == story.counts[-1] + 1
+
+
+def test_the_picture_is_a_png_and_the_result_is_printed(mindc: Call, rules: Path) -> None:
+    path = rules.with_name("path.png")
+    said = mindc("run", rules, "--task", "Roam", "--seed", 3, "--picture", path, "--json")
+    assert json.loads(said.out)["seed"] == 3
+    assert said.err.endswith(f"{path}: the path of the robot\n")
+    assert path.read_bytes()[:8] == b"\x89PNG\r\n\x1a\n"
+    image = cv2.imread(str(path))
+    assert image is not None
+    assert image.shape == (SIZE, SIZE, 3)
+
+
+@pytest.mark.parametrize(
+    ("option", "name", "message"),
+    [
+        ("--picture", "no/path.png", "cannot be written: there is no folder"),
+        ("--picture", "path.jpg", "must end in .png"),
+        ("--picture", "folder.png", "cannot be written: it is a folder"),
+        ("--video", "no/run.mp4", "cannot be written: there is no folder"),
+        ("--video", "run.avi", "must end in .mp4"),
+    ],
+)
+def test_a_path_that_cannot_be_written_is_refused_first(
+    mindc: Call, rules: Path, option: str, name: str, message: str
+) -> None:
+    (rules.parent / "folder.png").mkdir()
+    before = sorted(rules.parent.iterdir())
+    said = mindc("run", rules, option, rules.parent / name)
+    assert (said.code, said.out) == (2, "")
+    assert message in said.err
+    assert len(said.err.splitlines()) == 1
+    assert sorted(rules.parent.iterdir()) == before
+
+
+def test_a_picture_that_fails_leaves_the_old_one(mindc: Call, rules: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    path = rules.with_name("path.png")
+    path.write_bytes(b"old")
+
+    def full(*_: object) -> None:
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr("os.fsync", full)
+    said = mindc("run", rules, "--task", "Roam", "--seed", 3, "--picture", path)
+    assert said.code == 2
+    assert said.err.endswith(f"{path} cannot be written: No space left on device\n")
+    assert "with Roam in charge" in said.out
+    assert path.read_bytes() == b"old"

@@ -1,0 +1,40 @@
+"""`mindc run` with procedures: what they raise, and what numba cannot compile."""
+
+import json
+from pathlib import Path
+
+import pytest
+
+from tests.calling import RULES, Call
+
+CALLING = RULES.replace("skill Turn is rule", "skill Turn is procedure from turning.turn\n  reads feeler").replace(
+    "  drives left_wheel at 0.9\n  drives right_wheel at 0.1\n", "  drives left_wheel\n  drives right_wheel\n"
+)
+FAST = "def turn(left, ahead, right):\n    return 0.9, 0.1\n"
+SLOW = "def turn(left, ahead, right):\n    return [*{'left': 0.9, 'right': 0.1}.values()]\n"
+
+
+@pytest.fixture
+def calling(tmp_path: Path) -> Path:
+    path = tmp_path / "calling.mind"
+    path.write_text(CALLING, encoding="utf-8")
+    return path
+
+
+def test_a_slow_procedure_gives_the_same_run_and_says_so(mindc: Call, calling: Path, tmp_path: Path) -> None:
+    module = tmp_path / "turning.py"
+    module.write_text(FAST)
+    options = ("run", calling, "--task", "Roam", "--seed", 2, "--json")
+    fast = mindc(*options)
+    module.write_text(SLOW)
+    slow = mindc(*options)
+    assert json.loads(fast.out) == json.loads(slow.out)
+    assert "Turn runs in Python" not in fast.err
+    assert "Turn runs in Python, which is slow: " in slow.err
+
+
+def test_a_missing_procedure_is_unreadable_input(mindc: Call, calling: Path) -> None:
+    said = mindc("run", calling)
+    assert said.code == 2
+    assert "turning" in said.err
+    assert "Traceback" not in said.err

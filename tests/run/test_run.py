@@ -1,0 +1,141 @@
+"""`mindc run` and `mindc bench` on a mind that has nothing to learn."""
+
+import json
+import math
+import os
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+
+from mindlang.stage import layouts
+from tests.calling import RULES, Call
+
+RUN_KEYS = {"score", "by_line", "counts", "ticks", "ended_by", "seed", "task", "master"}
+BENCH_KEYS = {"runs", "count_mean", "count_std", "runtime_mean", "ended", "ticks", "seconds"}
+
+
+def test_run_as_json_says_everything_and_adds_up(mindc: Call, rules: Path) -> None:
+    said = mindc("run", rules, "--task", "Chase", "--seed", 3, "--json")
+    found = json.loads(said.out)
+    assert said.code == 0
+    assert set(found) >= RUN_KEYS
+    assert list(found["by_line"]) == [
+        "rewards 10 on reach of ball",
+        "rewards 0.001 * progress toward ball per tick",
+    ]
+    assert math.isclose(sum(found["by_line"].values()), found["score"], rel_tol=1e-12)
+    assert (found["task"], found["master"], found["seed"], found["ticks"]) == ("Chase", "Roam", 3, 1200)
+    assert found["by_line"]["rewards 10 on reach of ball"] == 10 * found["counts"] > 0
+
+
+def test_the_same_seed_gives_the_same_run_and_a_drawn_one_is_printed(mindc: Call, rules: Path) -> None:
+    first = json.loads(mindc("run", rules, "--json").out)
+    assert json.loads(mindc("run", rules, "--seed", first["seed"], "--json").out) == first
+
+
+def test_without_a_task_it_is_the_first_unless_the_master_is_taught(mindc: Call, rules: Path) -> None:
+    assert json.loads(mindc("run", rules, "--json").out)["task"] == "Chase"
+
+
+def test_another_master_and_no_interruption(mindc: Call, rules: Path) -> None:
+    options = ("run", rules, "--task", "Roam", "--seed", 3, "--master", "Chase", "--json")
+    found = json.loads(mindc(*options).out)
+    assert (found["master"], found["ended_by"]) == ("Chase", "collision")
+    assert found["ticks"] < 600
+    longer = json.loads(mindc(*options, "--no-interruption").out)
+    assert (longer["ended_by"], longer["ticks"]) == (None, 600)
+
+
+def test_the_summary_is_for_people(mindc: Call, rules: Path) -> None:
+    said = mindc("run", rules, "--seed", 3)
+    assert "Chase with Roam in charge" in said.out
+    assert "rewards 10 on reach of ball" in said.out
+    assert "1,200 of 1,200, lasted its time" in said.out
+    assert "runs from" not in said.out
+
+
+def test_bench_is_run_many_times(mindc: Call, rules: Path) -> None:
+    found = json.loads(mindc("bench", rules, "--task", "Roam", "--runs", 6, "--seed", 5, "--json").out)
+    assert set(found) >= BENCH_KEYS
+    runs = [json.loads(mindc("run", rules, "--task", "Roam", "--seed", s, "--json").out) for s in layouts(5, 6)]
+    assert found["count_mean"] == sum(run["counts"] for run in runs) / 6
+    assert found["ticks"] == sum(run["ticks"] for run in runs)
+    assert math.isclose(found["score_mean"], sum(run["score"] for run in runs) / 6)
+    assert math.isclose(found["runtime_mean"], found["ticks"] / 6 / 600)
+    ended = [run["ended_by"] or "time" for run in runs]
+    assert found["ended"] == {name: ended.count(name) for name in set(ended)}
+    assert found["best_seed"] == max(runs, key=lambda run: run["score"])["seed"]
+
+
+def test_workers_change_nothing(mindc: Call, rules: Path) -> None:
+    one, two = (
+        json.loads(mindc("bench", rules, "--runs", 9, "--workers", workers, "--json").out) for workers in (1, 2)
+    )
+    for key in ("seconds", "ticks_per_second", "workers"):
+        del one[key], two[key]
+    assert one == two
+
+
+def test_a_first_run_says_why_it_takes_so_long(mindc: Call, rules: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("mindlang.stage.is_compiled", lambda: False)
+    assert mindc("run", rules, "--seed", 3).err == "compiling the simulator once (about half a minute)…\n"
+    assert mindc("run", rules, "--seed", 3, "--quiet").err == ""
+
+
+def test_bench_for_people(mindc: Call, rules: Path) -> None:
+    said = mindc("bench", rules, "--runs", 4)
+    assert said.code == 0
+    assert "4 from seed 1" in said.out
+    assert "lasted its time: 100%" in said.out
+
+
+@pytest.mark.parametrize(
+    ("options", "message", "hint"),
+    [
+        (["--task", "Chas"], "there is no task called Chas", "Did you mean Chase?"),
+        (["--master", "Roma"], "there is no skill called Roma", "Did you mean Roam?"),
+    ],
+)
+@pytest.mark.parametrize("command", ["run", "bench"])
+def test_unknown_names_are_wrong_usage(
+    mindc: Call, rules: Path, command: str, options: list[str], message: str, hint: str
+) -> None:
+    assert mindc(command, rules, *options) == (2, "", f"{message}\n  {hint}\n")
+
+
+def test_a_mind_without_a_task_says_so(mindc: Call, rules: Path) -> None:
+    rules.write_text(RULES[: RULES.index("task ")].replace("sensor ball_bearing is bearing of ball\n", "").replace(
+        "  reads ball_bearing\n  drives left_wheel at 3 * ball_bearing - 0.7\n"
+        "  drives right_wheel at 2.3 - 3 * ball_bearing\n", "  drives left_wheel at 1\n"))  # fmt: skip
+    assert mindc("run", rules) == (1, "", "there is no task to run\n  add one: task Go in plain\n")
+
+
+def test_a_score_that_is_not_a_number_is_null_and_a_fault(mindc: Call, rules: Path) -> None:
+    broken = RULES.replace("rewards 10 on reach", "rewards 1 / (feeler - feeler) on reach", 1)
+    rules.write_text(broken.replace("at 0 30 330 deg", "at 0 deg"))
+    found = json.loads(mindc("run", rules, "--task", "Chase", "--seed", 3, "--json").out)
+    assert found["score"] is None
+    assert found["faults"] > 0
+    assert "not a number" in mindc("run", rules, "--task", "Chase", "--seed", 3).out
+    assert json.loads(mindc("bench", rules, "--task", "Chase", "--runs", 3, "--json").out)["score_mean"] is None
+
+
+@pytest.mark.parametrize("workers", [1, 2])
+def test_ctrl_c_ends_a_long_bench_at_once(rules: Path, workers: int) -> None:
+    rules.write_text(RULES.replace("lasts 600 ticks", "lasts 1000000 ticks"))
+    command = ["bench", str(rules), "--task", "Roam", "--runs", "512", "--no-interruption", "--workers", str(workers)]
+    with subprocess.Popen(
+        [sys.executable, "-c", "from mindlang.cli import main; main()", *command],
+        stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, env=os.environ,
+    ) as process:  # fmt: skip
+        time.sleep(6)
+        begin = time.monotonic()
+        process.send_signal(signal.SIGINT)
+        out, err = process.communicate(timeout=30)
+    assert (process.returncode, out) == (130, "")
+    assert "Traceback" not in err
+    assert time.monotonic() - begin < 10  # on a busy machine; a second on an idle one
