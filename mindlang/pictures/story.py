@@ -6,7 +6,7 @@ import numpy as np
 from mindrun.actuators import Wheel
 from mindrun.graph import Graph, Skill, Task, Thing
 from mindrun.sim.rollout import Rollout
-from mindrun.sim.tables import things_of
+from mindrun.sim.task_rows import things_of
 from mindrun.sim.trace import trace
 from mindrun.weights import reachable
 from numpy.typing import NDArray

@@ -25,4 +25,3 @@ class Genetic:
     elite: Annotated[float, RATIO] = 0.1
     mutation: Annotated[float, POSITIVE] = 0.5
     mutated: Annotated[float, RATIO] = 0.1
-

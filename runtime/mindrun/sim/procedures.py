@@ -64,7 +64,9 @@ def compile_procedure(function: Callable[..., Any], inputs: int, outputs: int) -
         if outputs != (1 if single else getattr(result, "count", None)):
             raise NotCompilableError(f"it returns {result}, not {outputs} numbers")
         return numba.cfunc(SIGNATURE)(_looped(scalar, inputs, outputs, single))
-    except numba.core.errors.NumbaError as error:
+    except NotCompilableError:
+        raise
+    except Exception as error:  # numba fails in many ways, and whatever it cannot compile runs in Python
         raise NotCompilableError(str(error).splitlines()[0]) from error
 
 

@@ -12,11 +12,12 @@ from numpy.typing import NDArray
 
 from mindrun.graph import Graph
 from mindrun.sim import chipmunk
+from mindrun.sim.codes import ITEM
 from mindrun.sim.lanes.advance import advance, fill
 from mindrun.sim.procedures import Procedures
 from mindrun.sim.slow import advance_slowly
 from mindrun.sim.state import Jobs, State, empty_state
-from mindrun.sim.tables import ITEM, Sizes, Tables, build, genome_length
+from mindrun.sim.tables import Sizes, Tables, build, genome_length
 
 Array = NDArray[Any]
 LANES = 128

@@ -5,8 +5,9 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from mindrun.sim.codes import INERTIAL_TICKS
 from mindrun.sim.lanes.vector import WIDE
-from mindrun.sim.tables import INERTIAL_TICKS, Sizes, Tables
+from mindrun.sim.tables import Sizes, Tables
 
 Array = NDArray[Any]
 

@@ -1,8 +1,8 @@
 """Act: the commands that the influence makes (Eq. 3), their delays, the memory cells, and the claw."""
 
+from mindrun.sim.codes import GRIPPER, ITEM
 from mindrun.sim.lanes.arithmetic import HALF, ONE, ZERO, F, clamp, compiled, finite
 from mindrun.sim.lanes.sense import in_claw
-from mindrun.sim.tables import GRIPPER, ITEM
 
 UNDRIVEN = F(-1)
 

@@ -3,6 +3,7 @@
 import numpy as np
 
 from mindrun.sim.chipmunk import close_space
+from mindrun.sim.codes import INERTIAL_TICKS, VISIT
 from mindrun.sim.lanes.act import act
 from mindrun.sim.lanes.arithmetic import compiled, entry, sine_cosine
 from mindrun.sim.lanes.judge import judge, patch_of
@@ -10,7 +11,6 @@ from mindrun.sim.lanes.sense import sense
 from mindrun.sim.lanes.step import step
 from mindrun.sim.lanes.think import begin, think
 from mindrun.sim.place import draw
-from mindrun.sim.tables import INERTIAL_TICKS, VISIT
 
 
 @entry

@@ -2,11 +2,7 @@
 
 import numpy as np
 
-from mindrun.sim.lanes.arithmetic import compiled
-from mindrun.sim.lanes.evaluate import evaluate
-from mindrun.sim.lanes.sense import in_claw, inside
-from mindrun.sim.place import succeed
-from mindrun.sim.tables import (
+from mindrun.sim.codes import (
     ADVANCE,
     CHANGE,
     COLLISION,
@@ -26,6 +22,10 @@ from mindrun.sim.tables import (
     WHEEL_RIGHT,
     ZONE,
 )
+from mindrun.sim.lanes.arithmetic import compiled
+from mindrun.sim.lanes.evaluate import evaluate
+from mindrun.sim.lanes.sense import in_claw, inside
+from mindrun.sim.place import succeed
 
 
 @compiled

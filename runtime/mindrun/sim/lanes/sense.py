@@ -2,9 +2,7 @@
 
 import numpy as np
 
-from mindrun.sim.lanes.arithmetic import HALF, HUGE, ONE, ZERO, F, bearing, clamp, compiled, sine_cosine
-from mindrun.sim.lanes.vector import HIGHEST, LOWEST, WIDE, load, splat, store, where_ordered
-from mindrun.sim.tables import (
+from mindrun.sim.codes import (
     BATTERY,
     BEARING,
     CONTACT,
@@ -16,6 +14,8 @@ from mindrun.sim.tables import (
     RANGE,
     SINE,
 )
+from mindrun.sim.lanes.arithmetic import HALF, HUGE, ONE, ZERO, F, bearing, clamp, compiled, sine_cosine
+from mindrun.sim.lanes.vector import HIGHEST, LOWEST, WIDE, load, splat, store, where_ordered
 
 SLACK = 2.0  # how far a robot may move before the boxes that its rays can meet are chosen anew
 

@@ -1,9 +1,9 @@
 """Step: one tick of physics. Free flight is plain arithmetic in Chipmunk's order; Chipmunk steps what could touch."""
 
 from mindrun.sim.chipmunk import open_space, push, step_space
+from mindrun.sim.codes import WHEEL_LEFT, WHEEL_RIGHT
 from mindrun.sim.lanes.act import carry
 from mindrun.sim.lanes.arithmetic import compiled, sine_cosine
-from mindrun.sim.tables import WHEEL_LEFT, WHEEL_RIGHT
 
 MARGIN = 0.01  # beyond the rounding of any distance here
 LINGER = 5  # ticks: Chipmunk forgets a contact after three

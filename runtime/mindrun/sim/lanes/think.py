@@ -1,10 +1,10 @@
 """Think: influence flows down the hierarchy (Eq. 2) and the skills that have some compute what they send (Eq. 1)."""
 
+from mindrun.sim.codes import MLP, PROCEDURE
 from mindrun.sim.lanes.arithmetic import ONE, ZERO, F, clamp, compiled, finite
 from mindrun.sim.lanes.evaluate import evaluate
 from mindrun.sim.lanes.vector import WIDE, load, sigmoids, splat, store
 from mindrun.sim.procedures import call
-from mindrun.sim.tables import MLP, PROCEDURE
 
 NOT_SENT = F(-1)
 

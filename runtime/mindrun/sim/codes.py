@@ -1,0 +1,48 @@
+"""Kinds as numbers, and the columns of the tables: what compiled code sees of a program."""
+
+from typing import Any
+
+import numpy as np
+
+RANGE, BEARING, CONTACT, HELD, INSIDE, INERTIAL, BATTERY, DERIVATIVE, SINE = range(9)
+WHEEL_LEFT, WHEEL_RIGHT, GRIPPER, SERVO = range(4)
+MLP, RULE, PROCEDURE = range(3)
+ITEM, ZONE, POWER = range(3)
+PROGRESS, ADVANCE, RETREAT, FORWARD, CHANGE = range(5)
+REACH, DELIVERY, VISIT, COLLISION, EXHAUSTION = range(5)
+NUMBER, READING, EACH, MEASURE, ADD, SUBTRACT, MULTIPLY, DIVIDE, NEGATE = range(9)
+LESS, LESS_EQUAL, GREATER, GREATER_EQUAL = range(4)
+
+OPERATIONS = {name: code for code, name in enumerate(("number", "reading", "each", "measure", *"+-*/", "negate"))}
+COMPARES = {"<": LESS, "<=": LESS_EQUAL, ">": GREATER, ">=": GREATER_EQUAL}
+INERTIAL_TICKS = 20
+
+
+def _row(**columns: str) -> np.dtype[Any]:
+    return np.dtype(list(columns.items()), align=True)
+
+
+SENSOR = _row(
+    kind="i8", start="i8", width="i8", thing="i8", source="i8", ray="i8", before="i8", turns="i8",
+    range="f8", dead_zone="f4", gain="f4", period="f8",
+)  # fmt: skip
+SKILL = _row(
+    kind="i8", index="i8", input="i8", inputs="i8", outputs="i8", hidden="i8", width="i8", weights="i8", own="i8",
+    edge="i8", edges="i8", address="u8",
+)  # fmt: skip
+EDGE = _row(to_skill="i8", target="i8", output="i8", code="i8", length="i8")
+CODE = _row(op="i8", arg="i8", value="f8")
+ACTUATOR = _row(kind="i8", thrust="f8", neutral="f4", reach="f8", delay="i8", ring="i8")
+MEMORY = _row(row="i8", decay="f4", rest="f4", start="f4")
+THING = _row(kind="i8", first="f8", last="f8", by="f8", low="f8", high="f8", hold="f8", moves="i8")
+OBSTACLE = _row(first="f8", last="f8", grid="f8", jitter="f8", lines="i8", count="i8", low="f8", high="f8")
+MEASURES = _row(kind="i8", thing="i8", beyond="f8", over="i8", ring="i8")
+EVENT = _row(kind="i8", thing="i8", columns="i8", patch="f8", board="i8", ends="i8", counts="i8")
+REWARD = _row(
+    code="i8", length="i8", on="i8", each="i8", eachs="i8", compare="i8", left="i8", lefts="i8", right="i8", rights="i8"
+)
+WORLD = _row(
+    dt="f8", linear="f8", angular="f8", mass="f8", moment="f8", mass_inv="f8", moment_inv="f8", radius="f8",
+    half="f8", ticks="i8", start="f8", drain="f8", charge="f8", inertial="i8", rays="i8", range="f8", master="i8",
+    claw="f8", battery="i8",
+)  # fmt: skip

@@ -1,0 +1,170 @@
+"""The mind's rows of the tables: skills and their edges, sensors, actuators, memories."""
+
+from collections.abc import Mapping, Sequence
+from math import inf
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mindrun import actuators, sensors
+from mindrun.functions import Mlp, Procedure, Rule
+from mindrun.functions.mlp import layers
+from mindrun.graph import Actuator, Graph, Sensor, Skill, Task
+from mindrun.memory import Cell
+from mindrun.sim.codes import (
+    BATTERY,
+    BEARING,
+    CONTACT,
+    DERIVATIVE,
+    GRIPPER,
+    HELD,
+    INERTIAL,
+    INERTIAL_TICKS,
+    INSIDE,
+    MLP,
+    PROCEDURE,
+    RANGE,
+    RULE,
+    SERVO,
+    SINE,
+    WHEEL_LEFT,
+    WHEEL_RIGHT,
+)  # fmt: skip
+from mindrun.sim.programs import Programs
+from mindrun.sim.task_rows import things_of
+from mindrun.weights import weights_of
+
+Array = NDArray[Any]
+Floats = NDArray[np.float32]
+
+
+def skill_rows(
+    graph: Graph,
+    reached: Sequence[Skill],
+    weights: Mapping[str, Floats],
+    learner: str | None,
+    addresses: Mapping[str, int],
+    codes: Programs,
+) -> tuple[list[Any], list[int], list[Any], list[Floats]]:
+    rows: list[Any] = []
+    inputs: list[int] = []
+    edges: list[Any] = []
+    shared: list[Floats] = []
+    for skill in reached:
+        kind, hidden, width = _function(skill)
+        place = sum(len(part) for part in shared)
+        rows.append((
+            kind, graph.skills.index(skill), len(inputs), len(skill.inputs), skill.outputs, hidden, width, place,
+            skill.name == learner, len(edges), len(skill.edges), addresses.get(skill.name, 0),
+        ))  # fmt: skip
+        inputs.extend(skill.inputs)
+        for edge in skill.edges:
+            target = edge.target + (len(graph.actuators) if edge.to == "memory" else 0)
+            output = -1 if edge.output is None else edge.output
+            edges.append((edge.to == "skill", target, output, *codes.add(edge.value)))
+        if kind == MLP and skill.name != learner:
+            shared.append(weights_of(skill, weights))
+    return rows, inputs, edges, shared
+
+
+def _function(skill: Skill) -> tuple[int, int, int]:
+    match skill.function:
+        case Mlp(hidden=hidden) as mlp:
+            shape = layers(len(skill.inputs), skill.outputs, mlp)
+            return MLP, hidden if shape else 0, shape[0][1] if hidden and shape else 0
+        case Procedure():
+            return PROCEDURE, 0, 0
+        case Rule():
+            return RULE, 0, 0
+
+
+def used_sensors(graph: Graph, reached: Sequence[Skill], task: Task) -> list[Sensor]:
+    """The sensors that a reached skill or a reward reads, and what those derive from; sources first."""
+    rows = {row for skill in reached for row in skill.inputs}
+    for reward in task.rewards:
+        programs = [reward.amount] + ([reward.when.left, reward.when.right] if reward.when else [])
+        rows |= {int(value) for program in programs for name, value in program if name == "reading"}
+        rows |= set(range(reward.each[0], sum(reward.each))) if reward.each else set()
+    by_name = {sensor.name: sensor for sensor in graph.sensors}
+    ordered: dict[str, Sensor] = {}
+    for sensor in graph.sensors:
+        if rows.intersection(range(sensor.start, sensor.start + sensor.width)):
+            chain = [sensor]
+            while isinstance(chain[-1].kind, sensors.Derivative) and chain[-1].kind.of in by_name:
+                chain.append(by_name[chain[-1].kind.of])
+            for link in reversed(chain):
+                ordered.setdefault(link.name, link)
+    return list(ordered.values())
+
+
+def sensor_rows(graph: Graph, used: Sequence[Sensor], task: Task) -> tuple[list[Any], Array, Array, int]:
+    things = {thing.name: i for i, thing in enumerate(things_of(task))}
+    starts = {m.name: m.start for m in graph.memories} | {s.name: s.start for s in graph.sensors}
+    circular = {s.name for s in graph.sensors if isinstance(s.kind, sensors.Bearing)}
+    rows: list[Any] = []
+    angles: list[float] = []
+    ray_row: list[int] = []
+    before = 0
+    for sensor in used:
+        code, thing, source, reach, dead_zone, gain, period = _sensor(sensor, graph, things, starts)
+        turns = isinstance(sensor.kind, sensors.Derivative) and sensor.kind.of in circular
+        rows.append((
+            code, sensor.start, sensor.width, thing, source, len(angles), before, turns, reach, dead_zone, gain, period
+        ))  # fmt: skip
+        if isinstance(sensor.kind, sensors.RangeFinder):
+            angles.extend(sensor.kind.at)
+            ray_row.extend(range(sensor.start, sensor.start + sensor.width))
+        before += sensor.width if code == DERIVATIVE else 0
+    turn = np.array(angles, np.float64)
+    return rows, np.array([np.cos(turn), np.sin(turn)], np.float32), np.array(ray_row, np.int64), before
+
+
+def _sensor(
+    sensor: Sensor, graph: Graph, things: Mapping[str, int], starts: Mapping[str, int]
+) -> tuple[int, int, int, float, float, float, float]:
+    """(code, thing or −1, source row, range, dead zone, gain, period in ticks)."""
+    match sensor.kind:
+        case sensors.RangeFinder(range=reach, dead_zone=zone):
+            return RANGE, -1, 0, reach, zone, 0.0, 1.0
+        case sensors.Bearing(of=of, range=reach, dead_zone=zone):
+            return BEARING, things.get(of, -1), 0, reach or inf, zone, 0.0, 1.0
+        case sensors.Contact(of=of):
+            return CONTACT, things.get(of, -1), 0, 0.0, 0.0, 0.0, 1.0
+        case sensors.Held(of=of):
+            return HELD, things.get(of, -1), 0, 0.0, 0.0, 0.0, 1.0
+        case sensors.Inside(of=of):
+            return INSIDE, things.get(of, -1), 0, 0.0, 0.0, 0.0, 1.0
+        case sensors.Inertial(range=reach, dead_zone=zone):
+            return INERTIAL, -1, 0, 0.0, zone, 1.0 / (INERTIAL_TICKS * graph.tick * reach), 1.0
+        case sensors.Battery():
+            return BATTERY, -1, 0, 0.0, 0.0, 0.0, 1.0
+        case sensors.Derivative(of=of, range=spread, dead_zone=zone):
+            return DERIVATIVE, -1, starts[of], 0.0, zone, 0.5 / (graph.tick * spread), 1.0
+        case sensors.Sine(period=period):
+            return SINE, -1, 0, 0.0, 0.0, 0.0, period / graph.tick
+
+
+def actuator_rows(graph: Graph) -> tuple[list[Any], int]:
+    rows: list[Any] = []
+    ring = 0
+    for actuator in graph.actuators:
+        code, thrust, reach = _actuator(actuator)
+        delay = actuator.kind.delay
+        rows.append((code, thrust, actuator.kind.neutral, reach, delay, ring))
+        ring += delay
+    return rows, ring
+
+
+def _actuator(actuator: Actuator) -> tuple[int, float, float]:
+    match actuator.kind:
+        case actuators.Wheel(side=side, thrust=thrust):
+            return WHEEL_LEFT if side == "left" else WHEEL_RIGHT, thrust, 0.0
+        case actuators.Gripper(reach=reach):
+            return GRIPPER, 0.0, reach
+        case actuators.Servo():
+            return SERVO, 0.0, 0.0
+
+
+def memory_row(start: int, cell: Cell) -> tuple[int, float, float, float]:
+    return start, cell.decay, 1.0 - cell.decay, cell.start

@@ -1,0 +1,157 @@
+"""The task's rows of the tables: its world, what it contains, its measures, events and rewards."""
+
+from collections.abc import Sequence
+from math import ceil, inf, nan, pi
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mindrun import actuators, events, measures, sensors, world
+from mindrun.graph import Graph, Reward, Sensor, Task, Thing
+from mindrun.sim.codes import (
+    ADVANCE,
+    CHANGE,
+    COLLISION,
+    COMPARES,
+    DELIVERY,
+    EXHAUSTION,
+    FORWARD,
+    ITEM,
+    POWER,
+    PROGRESS,
+    REACH,
+    RETREAT,
+    VISIT,
+    WORLD,
+    ZONE,
+)  # fmt: skip
+from mindrun.sim.programs import Programs
+
+Array = NDArray[Any]
+
+
+def things_of(task: Task) -> list[Thing]:
+    """What the task contains but its obstacles."""
+    return [thing for thing in task.things if not isinstance(thing.kind, world.Obstacle)]
+
+
+def obstacles_of(task: Task) -> list[world.Obstacle]:
+    """The obstacles of a task."""
+    return [thing.kind for thing in task.things if isinstance(thing.kind, world.Obstacle)]
+
+
+def box_count(task: Task) -> int:
+    """How many square obstacles the task's world has."""
+    return sum(_lines(task, o) ** 2 if o.grid else o.count for o in obstacles_of(task))
+
+
+def _lines(task: Task, obstacle: world.Obstacle) -> int:
+    if isinstance(task.scene, world.Arena) and obstacle.grid:
+        return world.grid_lines(task.scene.size, obstacle.grid)
+    return 0
+
+
+def thing_rows(graph: Graph, task: Task) -> list[Any]:
+    moving = {e.of for e in task.events if isinstance(e, events.Reach | events.Delivery)}
+    rows = []
+    for thing in things_of(task):
+        kind = thing.kind
+        code = {world.Item: ITEM, world.Zone: ZONE, world.Power: POWER}[type(kind)]
+        size, away = kind.size, kind.away
+        low, high = (away.first, away.last) if away.first >= 0 else _default_away(task)
+        hold = graph.body.size / 2 + max(size.first, size.last) / 2
+        by = nan if size.by is None else size.by
+        if size.first == size.last:
+            by = 0.0
+        rows.append((code, size.first, size.last, by, low, high, hold, thing.name in moving))
+    return rows
+
+
+def obstacle_rows(task: Task) -> list[Any]:
+    rows = []
+    for obstacle in obstacles_of(task):
+        away, size = obstacle.away, obstacle.size
+        low, high = (0.0, inf) if isinstance(task.scene, world.Arena) else (10.0, 40.0)
+        low, high = (away.first, away.last) if away.first >= 0 else (low, high)
+        lines = _lines(task, obstacle)
+        count = 0 if obstacle.grid else obstacle.count
+        rows.append((size.first, size.last, obstacle.grid, obstacle.jitter, lines, count, low, high))
+    return rows
+
+
+def _default_away(task: Task) -> tuple[float, float]:
+    return (10.0, inf) if isinstance(task.scene, world.Arena) else (10.0, 40.0)
+
+
+def measure_rows(task: Task) -> tuple[list[Any], int]:
+    names = [thing.name for thing in things_of(task)]
+    rows: list[Any] = []
+    ring = 0
+    for measure in task.measures:
+        match measure:
+            case measures.Progress(toward=thing):
+                rows.append((PROGRESS, names.index(thing), 0.0, 0, 0))
+            case measures.Advance(toward=thing):
+                rows.append((ADVANCE, names.index(thing), 0.0, 0, 0))
+            case measures.Retreat(from_=thing):
+                rows.append((RETREAT, names.index(thing), 0.0, 0, 0))
+            case measures.Forward():
+                rows.append((FORWARD, -1, 0.0, 0, 0))
+            case measures.Change(beyond=beyond, over=over):
+                rows.append((CHANGE, -1, beyond, max(1, over), ring))
+                ring += max(1, over)
+    return rows, ring
+
+
+def event_rows(task: Task) -> tuple[list[Any], int]:
+    names = [thing.name for thing in things_of(task)]
+    rows: list[Any] = []
+    board = 0
+    for i, event in enumerate(task.events):
+        kind, thing, columns, patch = COLLISION, -1, 0, 1.0
+        match event:
+            case events.Reach(of=of):
+                kind, thing = REACH, names.index(of)
+            case events.Delivery(of=of):
+                kind, thing = DELIVERY, names.index(of)
+            case events.Visit(size=size):
+                assert isinstance(task.scene, world.Arena)
+                kind, patch, columns = VISIT, size, ceil(task.scene.size / size)
+            case events.Collision():
+                kind = COLLISION
+            case events.Exhaustion():
+                kind = EXHAUSTION
+        rows.append((kind, thing, columns, patch, board, i in task.ends, task.counts.count(i)))
+        board += columns * columns
+    return rows, board
+
+
+def reward_row(reward: Reward, codes: Programs) -> tuple[int, ...]:
+    first, length = codes.add(reward.amount)
+    each, eachs = reward.each or (0, 0)
+    left, right, compare = (0, 0), (0, 0), -1
+    if reward.when:
+        left, right = codes.add(reward.when.left), codes.add(reward.when.right)
+        compare = COMPARES[reward.when.compare]
+    return first, length, -1 if reward.on is None else reward.on, each, eachs, compare, *left, *right
+
+
+def world_row(graph: Graph, task: Task, rays: int, used: Sequence[Sensor], master: int) -> Array:
+    body, dt = graph.body, graph.tick
+    radius = body.size / 2
+    mass = body.density * pi * radius**2
+    moment = mass * radius**2 / 2
+    battery = next((s.kind for s in graph.sensors if isinstance(s.kind, sensors.Battery)), sensors.Battery())
+    half = task.scene.size / 2 if isinstance(task.scene, world.Arena) else inf
+    reach = max([0.0, *(s.kind.range for s in used if isinstance(s.kind, sensors.RangeFinder))])
+    drained = any(isinstance(event, events.Exhaustion) for event in task.events)
+    powered = drained or any(isinstance(s.kind, sensors.Battery) for s in used)
+    inertial = any(isinstance(s.kind, sensors.Inertial) for s in used)
+    claw = next((a.kind.reach for a in graph.actuators if isinstance(a.kind, actuators.Gripper)), 1.5)
+    row = (
+        dt, 1.0 / (1.0 + dt * body.linear_damping), 1.0 / (1.0 + dt * body.angular_damping), mass, moment,
+        1.0 / mass, 1.0 / moment, radius, half, task.ticks, battery.start, battery.drain, battery.charge, inertial,
+        rays, reach, master, claw, powered,
+    )  # fmt: skip
+    return np.array([row], WORLD)
