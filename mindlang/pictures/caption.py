@@ -5,14 +5,13 @@ from typing import Any
 from mindrun.world import Item
 
 from mindlang.pictures.canvas import Canvas, square, text_width
-from mindlang.pictures.path import Path, draw_cross
+from mindlang.pictures.path import LEAST, Path, draw_cross
 from mindlang.pictures.story import Story
 from mindlang.pictures.theme import Theme, mixed
 from mindlang.pictures.world import thing_colour
 
 GAP = 22.0  # between two entries
 SMALL, LARGE = 11.0, 14.0
-LEAST = 0.005  # of the run: a skill that was in control for less is not in the legend
 
 
 def draw_title(canvas: Canvas, story: Story, found: dict[str, Any], theme: Theme, x: float, y: float) -> None:

@@ -17,7 +17,7 @@ from mindlang.pictures.world import WALL, draw_floor, draw_items, draw_robot, dr
 
 WIDTH, HEIGHT = 1280, 720
 MINUTE = 60.0  # seconds that a whole run lasts, sped up
-WINDOW = 60.0  # units of a plain scene that are seen around the robot
+WINDOW = 84.0  # units of a plain scene that are seen around the robot
 TRAIL = 8.0  # seconds of the film for which the path stays
 FLASH = 0.7  # seconds of the film for which a collision does
 

@@ -13,6 +13,7 @@ from mindlang.pictures.theme import Colour, Theme, mixed
 from mindlang.pictures.world import thing_colour
 
 STEPS = 64  # shades of a path by time
+LEAST = 0.005  # of the run: a skill that was in control for less does not count
 MOST_NUMBERED = 40
 
 
@@ -30,12 +31,12 @@ class Path:
 
     @classmethod
     def of(cls, story: Story, theme: Theme) -> "Path":
-        """By skill, where several drive the wheels."""
+        """By skill, where several were in control."""
         movers = [skill.name for skill in story.movers()]
         places = story.body[:, :2]
-        if len(movers) > 1:
-            keys = story.in_control()
-            shares = np.bincount(keys, minlength=len(movers)) / max(1, story.ticks)
+        keys = story.in_control() if movers else np.zeros(story.ticks, np.int64)
+        shares = np.bincount(keys, minlength=len(movers)) / max(1, story.ticks)
+        if np.count_nonzero(shares >= LEAST) > 1:
             colours = [theme.skills[i % len(theme.skills)] for i in range(len(movers))]
             return cls(places, keys, colours, dict(zip(movers, shares.tolist(), strict=True)))
         keys = np.arange(story.ticks) * STEPS // max(1, story.ticks)
