@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Self
 
 from mindrun.errors import MindError
-from mindrun.train.durable import write
+from mindrun.durable import write
 
 VERSION = "# mind lock 1:"
 HEADER = f"{VERSION} what has been taught. `mindc train` writes it; it belongs under version control, with weights/."

@@ -1,7 +1,6 @@
 """Teaching one lesson after the other, with something to look at, and keeping what was learnt."""
 
 import json
-import os
 import secrets
 import shlex
 from collections.abc import Sequence
@@ -11,8 +10,7 @@ from math import isfinite
 from pathlib import Path
 from time import perf_counter
 
-import numba
-from mindrun.sim.rollout import Rollout
+from mindrun.sim.rollout import Rollout, cores
 from mindrun.train.errors import RunError
 from mindrun.train.lesson import Record, State
 from mindrun.train.run_folder import Run, keep_result, open_run, read_result
@@ -20,6 +18,7 @@ from mindrun.train.training import Watch, train
 
 from mindlang.book import Book, begin, keep_path, open_book, refuse_changed
 from mindlang.cli.shared import load_compiled, talk
+from mindlang.compiling import WAIT, is_compiled
 from mindlang.interruption import Interruption
 from mindlang.lock import Entry, Taught
 from mindlang.results import Result, closing, opening, result_of
@@ -91,8 +90,8 @@ class School:
     def _rollout(self, run: Run, book: Book) -> Rollout:
         lesson = run.manifest.lesson
         self._say(opening(run))
-        if not Path(numba.config.CACHE_DIR).is_dir():
-            self._say("the simulator is compiled for this machine first, once: this takes up to a minute")
+        if not is_compiled():
+            self._say(WAIT)
         return Rollout(
             book.graph,
             run.weights,
@@ -100,7 +99,7 @@ class School:
             lesson.master,
             lesson.skill,
             procedures=book.folder,
-            workers=self.workers or len(os.sched_getaffinity(0)),
+            workers=self.workers or cores(),
         )
 
     def _watched(self, run: Run, rollout: Rollout) -> State:

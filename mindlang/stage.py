@@ -63,7 +63,7 @@ class Stage:
 
     def draw(self, cast: Cast, rollout: Rollout, found: dict[str, Any], path: Path) -> None:
         """The picture of a run, written to `path`."""
-        from mindrun.train.durable import write
+        from mindrun.durable import write
 
         from mindlang.pictures.picture import picture, png
         from mindlang.pictures.story import tell

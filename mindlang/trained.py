@@ -12,7 +12,7 @@ import numpy as np
 from mindrun.errors import WeightsError
 from mindrun.functions import Mlp
 from mindrun.graph import Graph, Skill
-from mindrun.train.durable import write
+from mindrun.durable import write
 from mindrun.weights import from_npy, genes, reachable, to_npy, weights_of
 from numpy.typing import NDArray
 

@@ -39,7 +39,7 @@ def command(
 
     Runs the Python code of the file's procedures. Each run has a seed of its own; `mindc run --seed` repeats it.
     """
-    import os
+    from mindrun.sim.rollout import cores
 
     from mindlang import outcome
     from mindlang.cli.shared import console, print_json
@@ -47,7 +47,7 @@ def command(
     from mindlang.summary import bench_summary
 
     stage = Stage(quiet)
-    workers = workers or len(os.sched_getaffinity(0))
+    workers = workers or cores()
     cast, rollout = stage.prepare(file, task, master, interrupt=not no_interruption, workers=workers)
     seeds = layouts(seed, runs)
     scores, seconds = stage.score(rollout, seeds)

@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from mindlang.compile import Compiled
 
 talk: Console
+WIDE = 1000  # columns
 
 
 def __getattr__(name: str) -> Any:
@@ -33,7 +34,10 @@ def console(stderr: bool = False) -> Console:
     from rich.console import Console
 
     plain = bool(os.environ.get("CI")) or not (sys.stderr if stderr else sys.stdout).isatty()
-    return Console(stderr=stderr, force_terminal=False if plain else None, highlight=False, soft_wrap=True)
+    width = WIDE if plain else None  # a file or a pipe has no edge to cut lines at
+    return Console(
+        stderr=stderr, force_terminal=False if plain else None, highlight=False, soft_wrap=True, width=width
+    )
 
 
 def say(message: str, hint: str = "") -> None:

@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 from mindrun.encoding import decode, encode
 from mindrun.errors import BundleError, WeightsError
 from mindrun.graph import Graph
-from mindrun.train.durable import write
+from mindrun.durable import write
 from mindrun.weights import from_npy, to_npy, weights_of
 
 FORMAT = "mind bundle 1"

@@ -1,5 +1,6 @@
 """Rollouts: genomes on layouts, scored in lanes on every core. A result depends on its genome and its seed alone."""
 
+import os
 from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
@@ -135,6 +136,11 @@ class Rollout:
         if self.procedures.slow:
             return advance_slowly(self.graph, self.procedures, self.tables, tile.state, jobs, ticks, self.interrupt)
         return int(advance(self.tables, tile.state, jobs, ticks, self.interrupt))
+
+
+def cores() -> int:
+    """How many cores this process may use."""
+    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
 
 def lanes_for(jobs: int, most: int) -> int:

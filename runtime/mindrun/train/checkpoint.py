@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from mindrun.train.durable import sync_folder, write_beside
+from mindrun.durable import sync_folder, write_beside
 from mindrun.train.errors import RunError
 from mindrun.train.genetic import Population
 from mindrun.train.lesson import State

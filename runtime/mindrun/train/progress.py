@@ -8,7 +8,7 @@ from math import isfinite
 from pathlib import Path
 from types import TracebackType
 
-from mindrun.train import durable
+from mindrun import durable
 from mindrun.train.lesson import Record, State
 
 LINES, TABLE = "progress.jsonl", "progress.csv"

@@ -12,7 +12,7 @@ from zipfile import BadZipFile
 import numpy as np
 from numpy.typing import NDArray
 
-from mindrun.train import durable
+from mindrun import durable
 from mindrun.train.errors import NotFoundError, RunError
 from mindrun.train.lesson import Course
 from mindrun.train.manifest import Manifest, Weights, from_json, hashes, to_json
