@@ -10,8 +10,8 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Self
 
-from mindrun.errors import MindError
 from mindrun.durable import write
+from mindrun.errors import MindError
 
 VERSION = "# mind lock 1:"
 HEADER = f"{VERSION} what has been taught. `mindc train` writes it; it belongs under version control, with weights/."

@@ -9,10 +9,10 @@ from hashlib import sha256
 from pathlib import Path
 
 import numpy as np
+from mindrun.durable import write
 from mindrun.errors import WeightsError
 from mindrun.functions import Mlp
 from mindrun.graph import Graph, Skill
-from mindrun.durable import write
 from mindrun.weights import from_npy, genes, reachable, to_npy, weights_of
 from numpy.typing import NDArray
 

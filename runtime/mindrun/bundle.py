@@ -15,10 +15,10 @@ from typing import Any, NoReturn
 import numpy as np
 from numpy.typing import NDArray
 
+from mindrun.durable import write
 from mindrun.encoding import decode, encode
 from mindrun.errors import BundleError, WeightsError
 from mindrun.graph import Graph
-from mindrun.durable import write
 from mindrun.weights import from_npy, to_npy, weights_of
 
 FORMAT = "mind bundle 1"
