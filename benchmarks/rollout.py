@@ -24,7 +24,7 @@ from mindrun.sim.rollout import Rollout
 from mindrun.sim.trace import trace
 from mindrun.train.manifest import processor, versions
 from plain_pymunk import Robot
-from workloads import Weights, collect, with_obstacles, with_skills
+from workloads import STUCK, Weights, collect, random_weights, with_obstacles, with_skills
 
 LANES = 128
 WARM = 300  # ticks before the clock starts: robots leave their places, caches fill
@@ -84,9 +84,14 @@ class Lanes:
         assert working == [self.lanes] * len(self.parts), "a run ended while it was measured"
         return len(self.parts) * self.lanes * ticks / (time.perf_counter() - begin)
 
-    def awake(self) -> float:
-        """The mean number of skills under influence."""
-        return float((self.parts[0][0].state.influence > 0).sum(axis=0).mean())
+    def behaviour(self) -> dict[str, float]:
+        """What the robots do now: skills under influence, and the shares that move and that Chipmunk steps."""
+        state = self.parts[0][0].state
+        return {
+            "skills_awake": float((state.influence > 0).sum(axis=0).mean()),
+            "moving": float((np.hypot(state.body[3], state.body[4]) > 0.5).mean()),
+            "in_contact": float((state.near > 0).mean()),
+        }
 
 
 def _endless(graph: Graph) -> Graph:
@@ -135,7 +140,17 @@ def main_figures(graph: Graph, weights: Weights, effort: Effort) -> dict[str, An
         "all_frozen_to_plain": float(found["all_frozen"]) / float(found["plain_pymunk"]),
         "two_workers_to_one": float(found["two_workers"]) / float(found["own_genomes"]),
     }
-    return {"figures": found, "ratios": ratios, "skills_awake": frozen.awake(), "skills": len(graph.skills)}
+    return {"figures": found, "ratios": ratios, "behaviour": frozen.behaviour()}
+
+
+def worst_case(graph: Graph, effort: Effort) -> dict[str, Any]:
+    """Robots that push against obstacles, so that Chipmunk steps them all the time."""
+    weights = random_weights(graph, STUCK)
+    plain, own = Plain(graph, weights), Lanes(graph, weights, graph.master)
+    figures = {"plain_pymunk": lambda: plain.rate(effort.plain), "own_genomes": lambda: own.rate(effort.ticks)}
+    found = take_turns(effort.rounds, **figures)
+    ratio = float(found["own_genomes"]) / float(found["plain_pymunk"])
+    return {"figures": found, "ratios": {"own_genomes_to_plain": ratio}, "behaviour": own.behaviour()}
 
 
 def growth(graph: Graph, weights: Weights, effort: Effort) -> dict[str, dict[str, Figure]]:
@@ -177,15 +192,22 @@ def machine() -> str:
     return f"{processor()}, {os.cpu_count()} cores, " + ", ".join(f"{name} {known[name]}" for name in sorted(known))
 
 
+def show_case(title: str, case: dict[str, Any]) -> None:
+    """Print a workload's rates and ratios, and what its robots do."""
+    print(title + ": {skills_awake:.1f} skills awake, {moving:.0%} moving, {in_contact:.0%} in contact".format(
+        **case["behaviour"]))  # fmt: skip
+    for name, figure in case["figures"].items():
+        print(f"  {name:<16}{figure}")
+    for name, ratio in case["ratios"].items():
+        print(f"  {name:<24}{ratio:8.2f}")
+
+
 def show(found: dict[str, Any]) -> None:
     """Print for reading."""
     print(found["machine"], f"load {found['load']:.1f} before it began", sep="\n")
-    print(f"\nCollect with {found['weights']} weights; {found['skills_awake']:.1f} of {found['skills']} skills awake")
     print("agent-ticks per second, median (smallest .. largest)")
-    for name, figure in found["figures"].items():
-        print(f"  {name:<16}{figure}")
-    for name, ratio in found["ratios"].items():
-        print(f"  {name:<24}{ratio:8.2f}")
+    show_case(f"Collect with {found['weights']} weights", found["collect"])
+    show_case("Collect with robots that are stuck", found["worst_case"])
     for name, sweep in found.get("growth", {}).items():
         print(f"by {name}")
         for size, figure in sweep.items():
@@ -203,7 +225,7 @@ def main() -> None:
     effort = Effort(5, 1500, 150) if options.quick else Effort(9, 3000, 500)
     graph, weights, origin = collect()
     found: dict[str, Any] = {"machine": machine(), "load": os.getloadavg()[0], "weights": origin}
-    found |= main_figures(graph, weights, effort)
+    found |= {"collect": main_figures(graph, weights, effort), "worst_case": worst_case(graph, effort)}
     if not options.quick:
         found |= {"growth": growth(graph, weights, effort), "starts": starts()}
     if options.json:
