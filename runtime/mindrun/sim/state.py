@@ -88,56 +88,33 @@ HANDLES = 3
 
 def empty_state(tables: Tables, sizes: Sizes, lanes: int) -> State:
     """Room for so many lanes, all idle."""
-    sinks = len(tables.actuators) + len(tables.memories)
-    things, boxes, rays = len(tables.things), sizes.boxes, len(tables.ray_row)
-
     whole = -(-lanes // WIDE) * WIDE  # the perceptrons take sixteen lanes at a time
-
-    def zeros(rows: int, kind: Any = np.float64) -> Array:
-        return np.zeros((max(1, rows), whole), kind)
-
+    things, boxes, rays, events = len(tables.things), sizes.boxes, len(tables.ray_row), len(tables.events)
+    actuators = len(tables.actuators)
+    doubles = {
+        "body": 6, "heading": 2, "boxes": 3 * boxes, "things": 4 * things, "trail": 2 * INERTIAL_TICKS,
+        "changes": 2 * sizes.changes, "measures": len(tables.measures), "events": events,
+        "lines": len(tables.rewards), "stack": STAGES + sizes.depth, "anchor": 2,
+    }  # fmt: skip
+    singles = {
+        "readings": sizes.readings, "before": sizes.before, "genome": sizes.genome, "influence": sizes.skills,
+        "sums": 2 * (actuators + len(tables.memories)), "commands": actuators, "late": sizes.delays,
+        "last": actuators, "gathered": sizes.inputs, "hidden": 2 * sizes.width, "sight": 4 + rays,
+        "slots": 4 * boxes, "row": 3,
+    }  # fmt: skip
+    numbers = (
+        "held", "counts", "tick", "ended", "faults", "job", "near", "touching", "touches", "slot_count", "active",
+    )  # fmt: skip
     return State(
-        body=zeros(6),
-        heading=zeros(2),
-        boxes=zeros(3 * boxes),
-        things=zeros(4 * things),
-        held=np.full(lanes, -1, np.int64),
+        **{name: np.zeros((max(1, rows), whole)) for name, rows in doubles.items()},
+        **{name: np.zeros((max(1, rows), whole), np.float32) for name, rows in singles.items()},
+        **{name: np.zeros(lanes, np.int64) for name in numbers},
         battery=np.zeros(lanes),
         random=np.zeros(lanes, np.uint64),
-        readings=zeros(sizes.readings, np.float32),
-        before=zeros(sizes.before, np.float32),
-        genome=zeros(sizes.genome, np.float32),
-        influence=zeros(sizes.skills, np.float32),
-        sums=zeros(2 * sinks, np.float32),
-        commands=zeros(len(tables.actuators), np.float32),
-        late=zeros(sizes.delays, np.float32),
-        trail=zeros(2 * INERTIAL_TICKS),
-        changes=zeros(2 * sizes.changes),
-        last=zeros(len(tables.actuators), np.float32),
         board=np.zeros((lanes, max(1, sizes.patches)), np.uint8),
-        measures=zeros(len(tables.measures)),
-        events=zeros(len(tables.events)),
-        happened=np.zeros(max(1, len(tables.events)), np.int64),
-        lines=zeros(len(tables.rewards)),
-        counts=np.zeros(lanes, np.int64),
-        tick=np.zeros(lanes, np.int64),
-        ended=np.full(lanes, -1, np.int64),
-        faults=np.zeros(lanes, np.int64),
-        job=np.full(lanes, -1, np.int64),
-        near=np.zeros(lanes, np.int64),
-        touching=np.zeros(lanes, np.int64),
+        happened=np.zeros(max(1, events), np.int64),
         handles=np.zeros((lanes, HANDLES + things + boxes + 4), np.uint64),
         floats=np.zeros((lanes, 16)),
         batch=np.zeros((lanes, 8), np.int64),
-        touches=np.zeros(lanes, np.int64),
-        gathered=zeros(sizes.inputs, np.float32),
-        hidden=zeros(2 * sizes.width, np.float32),
-        stack=zeros(STAGES + sizes.depth),
-        sight=zeros(4 + rays, np.float32),
-        slots=zeros(4 * boxes, np.float32),
-        slot_boxes=zeros(boxes, np.int64),
-        slot_count=np.zeros(lanes, np.int64),
-        anchor=zeros(2),
-        active=np.zeros(lanes, np.int64),
-        row=zeros(3, np.float32),
+        slot_boxes=np.zeros((max(1, boxes), whole), np.int64),
     )
