@@ -11,7 +11,7 @@ from mindrun.engine import Engine
 from mindrun.graph import Graph
 from mindrun.weights import genes
 
-from mindlang.cli.shared import load_graph
+from mindlang.terminal import load_graph
 
 COLLECT = Path(__file__).parent.parent / "examples" / "collect" / "collect.mind"
 

@@ -9,7 +9,7 @@ from mindrun.weights import genes
 from numpy.typing import NDArray
 
 from mindlang.compile import Compiled, compile_source, load
-from mindlang.ready import make_ready
+from mindlang.lock.ready import make_ready
 from mindlang.source import Source
 
 Weights = dict[str, NDArray[np.float32]]

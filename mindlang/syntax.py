@@ -4,6 +4,13 @@ from dataclasses import dataclass
 
 from mindlang.source import Source, Span
 
+# The words with which a line begins; the names of parts begin with a small letter, all others with a capital one.
+PARTS = ("sensor", "actuator", "memory")
+WHOLES = ("body", "skill", "curriculum")
+NOUNS = (*PARTS, *WHOLES, "task")
+VERBS = ("reads", "drives", "influences", "contains", "lasts", "ends", "rewards", "counts", "teaches")
+SETTINGS = ("use", "master", "tick")
+
 
 @dataclass(frozen=True, slots=True)
 class Name:

@@ -7,8 +7,7 @@ from typing import NamedTuple
 
 import pytest
 
-from mindlang import cli
-from mindlang.cli import shared
+from mindlang import cli, terminal
 
 RULES = """tick 1/60 s
 master Roam
@@ -65,11 +64,11 @@ def caller(capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) 
     """A function that calls mindc with its arguments."""
 
     def call(*arguments: object) -> Said:
-        shared.console.cache_clear()
+        terminal.console.cache_clear()
         monkeypatch.setattr(sys, "argv", ["mindc", *map(str, arguments)])
         with pytest.raises(SystemExit) as stop:
             cli.main()
-        shared.console.cache_clear()
+        terminal.console.cache_clear()
         said = capsys.readouterr()
         assert isinstance(stop.value.code, int)
         return Said(stop.value.code, said.out, said.err)

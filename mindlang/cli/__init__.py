@@ -7,8 +7,7 @@ from pkgutil import iter_modules
 
 import click
 
-OK, FINDINGS, MISUSE, INTERRUPTED = 0, 1, 2, 130
-HELPERS = {"shared"}
+from mindlang.terminal import FINDINGS, INTERRUPTED, MISUSE, OK, say
 
 
 class Commands(click.Group):
@@ -16,7 +15,7 @@ class Commands(click.Group):
 
     def list_commands(self, ctx: click.Context) -> list[str]:
         """The names of all commands."""
-        return sorted(module.name for module in iter_modules(__path__) if module.name not in HELPERS)
+        return sorted(module.name for module in iter_modules(__path__))
 
     def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:
         """The command of that name, imported now."""
@@ -70,8 +69,6 @@ def main() -> None:
 def _unforeseen(error: Exception) -> int:
     if os.environ.get("MIND_DEBUG"):
         raise error
-    from mindlang.cli.shared import say
-
     match error:
         case OSError():
             say(f"{error.strerror or error}: {error.filename}" if error.filename else str(error))

@@ -41,10 +41,10 @@ def command(
     """
     from mindrun.sim.rollout import cores
 
-    from mindlang import outcome
-    from mindlang.cli.shared import console, print_json
-    from mindlang.stage import Stage, layouts
-    from mindlang.summary import bench_summary
+    from mindlang.run import outcome
+    from mindlang.run.stage import Stage, layouts
+    from mindlang.run.summary import bench_summary
+    from mindlang.terminal import console, print_json
 
     stage = Stage(quiet)
     workers = workers or cores()

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import click
 
 if TYPE_CHECKING:
-    from mindlang.ready import Ready
+    from mindlang.lock.ready import Ready
 
 EXAMPLES = """\b
 Examples:
@@ -34,10 +34,9 @@ def command(file: str, output: Path, master: str | None, as_json: bool, quiet: b
     from mindrun.engine import procedure_sources
     from mindrun.errors import MindError
 
-    from mindlang.cli import MISUSE
-    from mindlang.cli.shared import fail, load_compiled, print_json, say
     from mindlang.diagnostic import did_you_mean
-    from mindlang.ready import make_ready
+    from mindlang.lock.ready import make_ready
+    from mindlang.terminal import MISUSE, fail, load_compiled, print_json, say
 
     compiled = load_compiled(file)
     assert compiled.graph is not None

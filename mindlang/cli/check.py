@@ -20,10 +20,9 @@ def command(files: tuple[str, ...], as_data: bool) -> None:
 
     Ends with 0 when nothing is wrong, with 1 when something is, with 2 when a file cannot be read.
     """
-    from mindlang.cli import FINDINGS, MISUSE, OK
-    from mindlang.cli.shared import console, print_json
     from mindlang.compile import load
     from mindlang.report import as_json, print_report
+    from mindlang.terminal import FINDINGS, MISUSE, OK, console, print_json
 
     compiled = {file: load(file) for file in files}
     found = [diagnostic for result in compiled.values() for diagnostic in result.diagnostics]

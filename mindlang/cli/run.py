@@ -48,10 +48,10 @@ def command(
     """
     import secrets
 
-    from mindlang import outcome
-    from mindlang.cli.shared import console, print_json
-    from mindlang.stage import NOBODY, Stage
-    from mindlang.summary import run_summary
+    from mindlang.run import outcome
+    from mindlang.run.stage import NOBODY, Stage
+    from mindlang.run.summary import run_summary
+    from mindlang.terminal import console, print_json
 
     stage = Stage(quiet)
     stage.refuse_unwritable(picture, ".png")

@@ -20,8 +20,8 @@ def command(file: str, as_dot: bool, as_data: bool) -> None:
     """Show the hierarchy of a mind, from the master down."""
     from dataclasses import asdict
 
-    from mindlang.cli.shared import console, load_compiled, print_json
     from mindlang.drawing import dot, tree
+    from mindlang.terminal import console, load_compiled, print_json
 
     if as_dot and as_data:
         raise click.UsageError("Choose one of --dot and --json.")

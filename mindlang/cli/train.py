@@ -7,8 +7,7 @@ from typing import Any
 
 import click
 
-from mindlang.cli import INTERRUPTED, MISUSE, OK
-from mindlang.cli.shared import fail
+from mindlang.terminal import INTERRUPTED, MISUSE, OK, fail
 
 EXAMPLES = """\b
 Examples:
@@ -57,7 +56,7 @@ def command(
     from mindrun.train.errors import NotFoundError
 
     from mindlang.school import School
-    from mindlang.teaching import Wishes
+    from mindlang.school.teaching import Wishes
 
     if (file is None) == (resume is None) or file == "-":
         fail("Say what to train: a file, or --resume and a run.", "mindc train --help has examples.", MISUSE)

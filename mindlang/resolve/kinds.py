@@ -9,10 +9,9 @@ from mindrun.registry import Argument as Parameter
 from mindrun.registry import arguments, kinds
 
 from mindlang.diagnostic import Findings, Label, a, did_you_mean, listed
-from mindlang.mistakes import VERBS
 from mindlang.resolve import quantities
 from mindlang.resolve.names import Names
-from mindlang.syntax import Argument, Name, Phrase
+from mindlang.syntax import VERBS, Argument, Name, Phrase
 
 # What a kind can be about where not every item, zone and power will do. Obstacles are many: no kind is about one.
 ABOUT: Mapping[tuple[str, str], Set[str]] = {

@@ -10,8 +10,7 @@ import click
 import pytest
 
 from examples import COLLECT, EXAMPLES, RIGHT, TOUR
-from mindlang import cli
-from mindlang.cli import shared
+from mindlang import cli, terminal
 
 WRONG = Path(__file__).parent / "wrong" / "unknown-sensor.mind"
 HEAVY = {"numba", "numpy.testing", "cv2", "pymunk", "networkx", "yaml", "llvmlite"}
@@ -26,14 +25,14 @@ def mindc(*arguments: object, text: str = "", **environment: str) -> subprocess.
 
 def main(capsys: pytest.CaptureFixture[str], *arguments: object) -> tuple[int, str, str]:
     """The exit code, stdout and stderr of a command, run in this process."""
-    shared.console.cache_clear()
+    terminal.console.cache_clear()
     old, sys.argv = sys.argv, ["mindc", *map(str, arguments)]
     try:
         with pytest.raises(SystemExit) as stop:
             cli.main()
     finally:
         sys.argv = old
-        shared.console.cache_clear()
+        terminal.console.cache_clear()
     said = capsys.readouterr()
     assert isinstance(stop.value.code, int)
     return stop.value.code, said.out, said.err

@@ -10,8 +10,8 @@ import pytest
 
 from mindlang.compile import load
 from mindlang.diagnostic import Findings
-from mindlang.mistakes import MISTAKES, Mistake
 from mindlang.parse import parse
+from mindlang.parse.mistakes import MISTAKES, Mistake
 from mindlang.report import plain
 from mindlang.source import Source
 

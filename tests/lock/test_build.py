@@ -11,10 +11,10 @@ from mindrun.bundle import read_bundle
 from mindrun.engine import Engine
 from mindrun.weights import genes
 
-from mindlang.arrange import arrange
-from mindlang.cli.shared import load_graph
 from mindlang.lock import Taught, read_lock
-from mindlang.trained import FOLDER, record
+from mindlang.lock.arrange import arrange
+from mindlang.lock.trained import FOLDER, record
+from mindlang.terminal import load_graph
 
 SOURCE = """tick 1/60 s
 master Top

@@ -13,9 +13,9 @@ from mindrun.graph import Edge, Graph, Sensor
 from mindrun.sensors import RangeFinder
 from mindrun.weights import genes
 
-from mindlang.arrange import arrange
 from mindlang.lock import LockError, Taught, read_lock
-from mindlang.trained import FOLDER, NotLearning, Stale, Trained, Untaught, digest, record, status, trained_weights
+from mindlang.lock.arrange import arrange
+from mindlang.lock.trained import FOLDER, NotLearning, Stale, Trained, Untaught, digest, record, status, trained_weights
 from tests.hierarchies import random_graph
 from tests.minds import CLAW, WHEELS, always, mind, rule, skill
 

@@ -6,12 +6,12 @@ import cv2
 import numpy as np
 import pytest
 
-from mindlang.casting import cast
 from mindlang.compile import load
 from mindlang.pictures.film import HEIGHT, WIDTH
 from mindlang.pictures.flow import Flow, Link
 from mindlang.pictures.layout import Layout, Place
 from mindlang.pictures.story import tell
+from mindlang.run.casting import cast
 from tests.calling import Call
 
 

@@ -7,14 +7,14 @@ import cv2
 import numpy as np
 import pytest
 
-from mindlang.casting import cast
 from mindlang.compile import load
-from mindlang.outcome import one
 from mindlang.pictures.canvas import Image
 from mindlang.pictures.picture import ABOVE, BELOW, SIDE, SIZE, picture, view_of
 from mindlang.pictures.story import Story, tell
 from mindlang.pictures.theme import PAPER
-from mindlang.stage import NOBODY
+from mindlang.run.casting import cast
+from mindlang.run.outcome import one
+from mindlang.run.stage import NOBODY
 from tests.calling import Call
 
 

@@ -11,7 +11,7 @@ from pathlib import Path
 
 import pytest
 
-from mindlang.stage import layouts
+from mindlang.run.stage import layouts
 from tests.calling import RULES, Call
 
 RUN_KEYS = {"score", "by_line", "counts", "ticks", "ended_by", "seed", "task", "master"}
@@ -81,7 +81,7 @@ def test_workers_change_nothing(mindc: Call, rules: Path) -> None:
 
 
 def test_a_first_run_says_why_it_takes_so_long(mindc: Call, rules: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("mindlang.stage.is_compiled", lambda: False)
+    monkeypatch.setattr("mindlang.run.stage.is_compiled", lambda: False)
     assert mindc("run", rules, "--seed", 3).err == "compiling the simulator once (about half a minute)…\n"
     assert mindc("run", rules, "--seed", 3, "--quiet").err == ""
 

@@ -7,10 +7,10 @@ import numpy as np
 import pytest
 from mindrun.weights import genes
 
-from mindlang.arrange import arrange
-from mindlang.cli.shared import load_graph
 from mindlang.lock import Taught, lock_path
-from mindlang.trained import record
+from mindlang.lock.arrange import arrange
+from mindlang.lock.trained import record
+from mindlang.terminal import load_graph
 from tests.calling import RULES, Call
 
 LEARNT = (

@@ -6,7 +6,7 @@ from heapq import heapify, heappop, heappush
 from mindrun.graph import Edge, Graph, Skill
 
 from mindlang.lock import Lock
-from mindlang.signature import signature, target
+from mindlang.lock.signature import signature, target
 
 
 def arrange(graph: Graph, lock: Lock) -> Graph:

@@ -17,7 +17,7 @@ from mindrun.weights import from_npy, genes, reachable, to_npy, weights_of
 from numpy.typing import NDArray
 
 from mindlang.lock import Entry, Lock, LockError, Taught, read_lock, write_lock
-from mindlang.signature import differences, signature
+from mindlang.lock.signature import differences, signature
 
 Weights = NDArray[np.float32]
 FOLDER = "weights"

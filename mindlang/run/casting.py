@@ -13,7 +13,7 @@ from mindrun.weights import genes, reachable
 
 from mindlang.compile import Compiled
 from mindlang.diagnostic import did_you_mean, listed
-from mindlang.ready import Ready, make_ready
+from mindlang.lock.ready import Ready, make_ready
 
 if TYPE_CHECKING:
     from mindrun.sim.rollout import Rollout

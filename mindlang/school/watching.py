@@ -1,12 +1,13 @@
 """What a user sees of a lesson while it is taught: a bar on a terminal, a line now and then elsewhere."""
 
 from dataclasses import dataclass
-from math import isfinite
 from typing import Protocol
 
 from mindrun.train.lesson import Record
 from rich.console import Console
 from rich.progress import BarColumn, Progress, TextColumn
+
+from mindlang.figures import duration, number, rate
 
 SECONDS = 5.0  # between two lines
 
@@ -89,24 +90,3 @@ class Bar:
     def close(self) -> None:
         """Take the bar away; the cursor is back."""
         self._progress.stop()
-
-
-def number(value: float | None) -> str:
-    """A score for reading; – where there is none."""
-    return f"{value:.2f}" if value is not None and isfinite(value) else "–"
-
-
-def rate(ticks_per_second: float) -> str:
-    """A number of ticks per second for reading."""
-    if ticks_per_second >= 1e6:
-        return f"{ticks_per_second / 1e6:.1f} M ticks/s"
-    return f"{ticks_per_second / 1e3:.0f} k ticks/s"
-
-
-def duration(seconds: float) -> str:
-    """A time for reading: 8 s, 2 min 5 s, 3 h 12 min."""
-    whole = round(seconds)
-    hours, minutes = whole // 3600, whole // 60 % 60
-    if hours:
-        return f"{hours} h {minutes} min"
-    return f"{minutes} min {whole % 60} s" if minutes else f"{whole} s"

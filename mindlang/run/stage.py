@@ -13,10 +13,9 @@ from mindrun.errors import MindError
 from mindrun.sim.rollout import Rollout, Scores
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
 
-from mindlang.casting import Cast, CastingError, cast
-from mindlang.cli import FINDINGS, MISUSE
-from mindlang.cli.shared import fail, load_compiled, say, talk
-from mindlang.compiling import WAIT, is_compiled
+from mindlang.run.casting import Cast, CastingError, cast
+from mindlang.simulator import WAIT, is_compiled
+from mindlang.terminal import FINDINGS, MISUSE, fail, load_compiled, say, talk
 
 NOBODY = np.zeros((1, 0), np.float32)  # the genome where nobody learns
 

@@ -2,11 +2,7 @@
 
 from dataclasses import dataclass
 
-PARTS = ("sensor", "actuator", "memory")
-WHOLES = ("body", "skill", "curriculum")
-NOUNS = (*PARTS, *WHOLES, "task")
-VERBS = ("reads", "drives", "influences", "contains", "lasts", "ends", "rewards", "counts", "teaches")
-SETTINGS = ("use", "master", "tick")
+from mindlang.syntax import PARTS, VERBS, WHOLES
 
 
 @dataclass(frozen=True, slots=True)

@@ -4,8 +4,9 @@ import re
 from typing import TYPE_CHECKING
 
 from mindlang.diagnostic import Diagnostic, a, did_you_mean, listed
-from mindlang.mistakes import MISTAKES, NOUNS, PARTS, SETTINGS, VERBS
+from mindlang.parse.mistakes import MISTAKES
 from mindlang.source import Span
+from mindlang.syntax import NOUNS, PARTS, SETTINGS, VERBS
 
 if TYPE_CHECKING:
     from lark import UnexpectedInput

@@ -6,8 +6,8 @@ from rich.console import Group, RenderableType
 from rich.table import Table
 from rich.text import Text
 
-from mindlang.outcome import TIME, standard_error
-from mindlang.watching import duration, rate
+from mindlang.figures import duration, rate
+from mindlang.run.outcome import TIME, standard_error
 
 
 def run_summary(found: dict[str, Any]) -> RenderableType:

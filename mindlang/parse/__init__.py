@@ -9,9 +9,9 @@ from typing import TYPE_CHECKING
 
 from mindlang import syntax
 from mindlang.diagnostic import Findings, nearest
-from mindlang.explain import explain, proper
-from mindlang.mistakes import NOUNS, SETTINGS, VERBS
+from mindlang.parse.explain import explain, proper
 from mindlang.source import Source, Span
+from mindlang.syntax import NOUNS, SETTINGS, VERBS
 
 if TYPE_CHECKING:
     from lark import Lark, Token, Tree
@@ -28,7 +28,7 @@ def grammar() -> "Lark":
     """The grammar, with `start` for a whole file and `line` for one line."""
     from lark import Lark
 
-    here = Path(__file__).parent
+    here = Path(__file__).parents[1]
     folder = next(folder for folder in (here / "grammar", here.parent / "grammar") if folder.is_dir())
     return Lark(
         (folder / "mind.lark").read_text(encoding="utf-8"),
@@ -102,7 +102,7 @@ def _line(span: Span, code: str, findings: Findings) -> Iterator[syntax.Line | _
     """What the line says, or after reporting it what can be saved of it."""
     from lark import UnexpectedInput
 
-    from mindlang.build import build
+    from mindlang.parse.build import build
 
     if _depth(code) > NESTING:
         hint = f"At most {NESTING} parentheses and signs may stand inside one another."

@@ -14,12 +14,12 @@ from mindrun.train.manifest import Manifest, fingerprint, hashes, processor, ver
 from mindrun.train.run_folder import Run, create
 from numpy.typing import NDArray
 
-from mindlang.arrange import arrange
 from mindlang.compile import Compiled
 from mindlang.diagnostic import listed
 from mindlang.lock import Lock, lock_path, read_locks
-from mindlang.teaching import subskills
-from mindlang.trained import Status, status, trained_weights
+from mindlang.lock.arrange import arrange
+from mindlang.lock.trained import Status, status, trained_weights
+from mindlang.school.teaching import subskills
 
 Weights = dict[str, NDArray[np.float32]]
 

@@ -9,10 +9,10 @@ from mindrun.graph import Graph
 from mindrun.weights import reachable
 from numpy.typing import NDArray
 
-from mindlang.arrange import arrange
 from mindlang.lock import read_locks
+from mindlang.lock.arrange import arrange
+from mindlang.lock.trained import Trained, status, trained_weights
 from mindlang.source import Source
-from mindlang.trained import Trained, status, trained_weights
 
 
 @dataclass(frozen=True, slots=True)

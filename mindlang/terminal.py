@@ -9,14 +9,13 @@ from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NoReturn
 
-from mindlang.cli import FINDINGS, MISUSE
-
 if TYPE_CHECKING:
     from mindrun.graph import Graph
     from rich.console import Console
 
     from mindlang.compile import Compiled
 
+OK, FINDINGS, MISUSE, INTERRUPTED = 0, 1, 2, 130  # how a program ends
 talk: Console
 WIDE = 1000  # columns
 
@@ -35,9 +34,7 @@ def console(stderr: bool = False) -> Console:
 
     plain = bool(os.environ.get("CI")) or not (sys.stderr if stderr else sys.stdout).isatty()
     width = WIDE if plain else None  # a file or a pipe has no edge to cut lines at
-    return Console(
-        stderr=stderr, force_terminal=False if plain else None, highlight=False, soft_wrap=True, width=width
-    )
+    return Console(stderr=stderr, force_terminal=False if plain else None, highlight=False, soft_wrap=True, width=width)
 
 
 def say(message: str, hint: str = "") -> None:

@@ -5,7 +5,7 @@ from typing import Any
 from mindrun.train.lesson import State
 from mindrun.train.run_folder import Run
 
-from mindlang.watching import duration, number, rate
+from mindlang.figures import duration, number, rate
 
 Result = dict[str, Any]
 

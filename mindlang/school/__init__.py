@@ -16,15 +16,15 @@ from mindrun.train.lesson import Record, State
 from mindrun.train.run_folder import Run, keep_result, open_run, read_result
 from mindrun.train.training import Watch, train
 
-from mindlang.book import Book, begin, keep_path, open_book, refuse_changed
-from mindlang.cli.shared import load_compiled, talk
-from mindlang.compiling import WAIT, is_compiled
-from mindlang.interruption import Interruption
 from mindlang.lock import Entry, Taught
-from mindlang.results import Result, closing, opening, result_of
-from mindlang.teaching import Wishes, is_due, lessons
-from mindlang.trained import record
-from mindlang.watching import Bar, Lines, Pace, Silent, Watcher
+from mindlang.lock.trained import record
+from mindlang.school.book import Book, begin, keep_path, open_book, refuse_changed
+from mindlang.school.interruption import Interruption
+from mindlang.school.results import Result, closing, opening, result_of
+from mindlang.school.teaching import Wishes, is_due, lessons
+from mindlang.school.watching import Bar, Lines, Pace, Silent, Watcher
+from mindlang.simulator import WAIT, is_compiled
+from mindlang.terminal import load_compiled, talk
 
 
 @dataclass(frozen=True, slots=True)

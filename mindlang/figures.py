@@ -1,0 +1,24 @@
+"""Numbers for reading: scores, rates, times."""
+
+from math import isfinite
+
+
+def number(value: float | None) -> str:
+    """A score for reading; – where there is none."""
+    return f"{value:.2f}" if value is not None and isfinite(value) else "–"
+
+
+def rate(ticks_per_second: float) -> str:
+    """A number of ticks per second for reading."""
+    if ticks_per_second >= 1e6:
+        return f"{ticks_per_second / 1e6:.1f} M ticks/s"
+    return f"{ticks_per_second / 1e3:.0f} k ticks/s"
+
+
+def duration(seconds: float) -> str:
+    """A time for reading: 8 s, 2 min 5 s, 3 h 12 min."""
+    whole = round(seconds)
+    hours, minutes = whole // 3600, whole // 60 % 60
+    if hours:
+        return f"{hours} h {minutes} min"
+    return f"{minutes} min {whole % 60} s" if minutes else f"{whole} s"
