@@ -10,10 +10,9 @@ import numpy as np
 from mindrun.engine import Engine
 from mindrun.graph import Graph
 from mindrun.weights import genes
+from workloads import COLLECT, graph_of
 
-from mindlang.terminal import load_graph
-
-COLLECT = Path(__file__).parent.parent / "examples" / "collect" / "collect.mind"
+from mindlang.compile import load
 
 
 def engine_of(graph: Graph, rng: np.random.Generator) -> Engine:
@@ -41,7 +40,7 @@ def main() -> None:
     parser.add_argument("--json", action="store_true")
     options = parser.parse_args()
     rng = np.random.default_rng(1)
-    graph = load_graph(options.mind)
+    graph = graph_of(load(options.mind))
     taken = microseconds(engine_of(graph, rng), rng, options.ticks)
     found = {"mind": options.mind.name, "skills": len(graph.skills), "ticks": options.ticks, "microseconds": taken}
     print(json.dumps(found) if options.json else f"{options.mind.name}: {taken:.0f} µs per tick (median)")

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
-from mindrun.registry import arguments, name_of
+from mindrun.registry import arguments, names
 
 from mindlang.model import Edge, Mind, Skill
 
@@ -45,7 +45,7 @@ def phrase(kind: object) -> str:
     """A kind with the arguments that differ from their defaults, much as it is written."""
     said = ((argument, getattr(kind, argument.field)) for argument in arguments(type(kind)))
     words = [f"{argument.key} {value}" for argument, value in said if value != argument.default]
-    return " ".join([name_of(kind)[1], *words])
+    return " ".join([names()[type(kind)], *words])
 
 
 def dot(mind: Mind) -> str:

@@ -1,21 +1,23 @@
 """The hierarchy of influence: parents before children, and the cycle that makes this impossible."""
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from heapq import heapify, heappop, heappush
-from typing import Any
+from typing import Any, TypeVar
 
 from mindlang.diagnostic import Findings, Label
 from mindlang.model import Skill
 
+T = TypeVar("T", int, str)
 
-def digraph(skills: Iterable[Skill]) -> Any:
+
+def digraph(skills: tuple[Skill, ...]) -> Any:
     """The influences as a networkx graph; an edge carries its `edge`, a skill its `skill`."""
     import networkx as nx  # slow to import, and a mind without cycles does without it
 
     graph = nx.DiGraph()
     for skill in skills:
         graph.add_node(skill.name, skill=skill)
-    for skill in list(skills):
+    for skill in skills:
         graph.add_edges_from((skill.name, edge.target, {"edge": edge}) for edge in skill.edges if edge.to == "skill")
     return graph
 
@@ -23,21 +25,36 @@ def digraph(skills: Iterable[Skill]) -> Any:
 def in_order(skills: tuple[Skill, ...]) -> tuple[Skill, ...]:
     """The skills with parents first, otherwise in their order; those on or below a cycle are missing."""
     place = {skill.name: index for index, skill in enumerate(skills)}
-    parents = dict.fromkeys(place, 0)
-    for skill in skills:
-        for child in skill.subskills:
+    children = {place[skill.name]: [place[name] for name in skill.subskills] for skill in skills}
+    return tuple(skills[index] for index in parents_first(children))
+
+
+def parents_first(children: Mapping[T, Iterable[T]]) -> list[T]:
+    """The keys with parents first, otherwise the smallest first; those on or below a cycle are missing."""
+    parents = dict.fromkeys(children, 0)
+    for below in children.values():
+        for child in below:
             parents[child] += 1
-    ready = [place[name] for name, count in parents.items() if count == 0]
+    ready = [key for key, count in parents.items() if count == 0]
     heapify(ready)
-    order = []
+    order: list[T] = []
     while ready:
-        skill = skills[heappop(ready)]
-        order.append(skill)
-        for child in skill.subskills:
+        order.append(heappop(ready))
+        for child in children[order[-1]]:
             parents[child] -= 1
             if parents[child] == 0:
-                heappush(ready, place[child])
-    return tuple(order)
+                heappush(ready, child)
+    return order
+
+
+def reached(skills: Mapping[str, Skill], master: str) -> set[str]:
+    """The names of the skills that a master influences, itself among them; there may be cycles yet."""
+    found, waiting = {master}, [master]
+    while waiting:
+        new = [name for name in skills[waiting.pop()].subskills if name not in found]
+        found.update(new)
+        waiting += new
+    return found
 
 
 def check_cycles(skills: tuple[Skill, ...], findings: Findings) -> None:

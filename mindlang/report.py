@@ -35,7 +35,7 @@ def plain(diagnostic: Diagnostic) -> str:
     return "".join(text for text, _ in _segments(diagnostic))
 
 
-def as_json(diagnostic: Diagnostic) -> dict[str, Any]:
+def as_data(diagnostic: Diagnostic) -> dict[str, Any]:
     """A diagnostic as plain data; columns are counted in characters from 1."""
     return {
         "code": diagnostic.code,

@@ -14,6 +14,11 @@ class Source:
     text: str = field(repr=False)
     folder: Path = Path()
 
+    @property
+    def path(self) -> Path:
+        """Where the file stands."""
+        return self.folder / Path(self.name).name
+
     def line(self, number: int) -> str:
         """The text of a line, counted from 1, without its end."""
         return self.text.split("\n", number)[number - 1].rstrip("\r")

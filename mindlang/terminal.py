@@ -10,7 +10,6 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, NoReturn
 
 if TYPE_CHECKING:
-    from mindrun.graph import Graph
     from rich.console import Console
 
     from mindlang.compile import Compiled
@@ -70,10 +69,3 @@ def load_compiled(path: Path | str) -> Compiled:
     if compiled.graph is None:
         sys.exit(FINDINGS if compiled.readable else MISUSE)
     return compiled
-
-
-def load_graph(path: Path | str) -> Graph:
-    """The graph of a file that compiles; otherwise its report on stderr and the end of the program."""
-    graph = load_compiled(path).graph
-    assert graph is not None
-    return graph

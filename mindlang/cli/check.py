@@ -14,23 +14,23 @@ Examples:
 
 @click.command(epilog=EXAMPLES)
 @click.argument("files", nargs=-1, required=True, metavar="FILE…")
-@click.option("--json", "as_data", is_flag=True, help="One JSON document instead: mindc check collect.mind --json")
-def command(files: tuple[str, ...], as_data: bool) -> None:
+@click.option("--json", "as_json", is_flag=True, help="One JSON document instead: mindc check collect.mind --json")
+def command(files: tuple[str, ...], as_json: bool) -> None:
     """Read files, and report everything that is wrong in them.
 
     Ends with 0 when nothing is wrong, with 1 when something is, with 2 when a file cannot be read.
     """
     from mindlang.compile import load
-    from mindlang.report import as_json, print_report
+    from mindlang.report import as_data, print_report
     from mindlang.terminal import FINDINGS, MISUSE, OK, console, print_json
 
     compiled = {file: load(file) for file in files}
     found = [diagnostic for result in compiled.values() for diagnostic in result.diagnostics]
-    if as_data:
+    if as_json:
         print_json(
             {
                 "files": [{"file": file, "ok": result.graph is not None} for file, result in compiled.items()],
-                "diagnostics": [as_json(diagnostic) for diagnostic in found],
+                "diagnostics": [as_data(diagnostic) for diagnostic in found],
             }
         )
     elif found:

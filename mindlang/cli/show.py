@@ -15,20 +15,20 @@ Examples:
 @click.command(epilog=EXAMPLES)
 @click.argument("file")
 @click.option("--dot", "as_dot", is_flag=True, help="Graphviz instead: mindc show collect.mind --dot | dot -Tsvg")
-@click.option("--json", "as_data", is_flag=True, help="The compiled graph as JSON: mindc show collect.mind --json")
-def command(file: str, as_dot: bool, as_data: bool) -> None:
+@click.option("--json", "as_json", is_flag=True, help="The compiled graph as JSON: mindc show collect.mind --json")
+def command(file: str, as_dot: bool, as_json: bool) -> None:
     """Show the hierarchy of a mind, from the master down."""
     from dataclasses import asdict
 
     from mindlang.drawing import dot, tree
     from mindlang.terminal import console, load_compiled, print_json
 
-    if as_dot and as_data:
+    if as_dot and as_json:
         raise click.UsageError("Choose one of --dot and --json.")
     compiled = load_compiled(file)
     assert compiled.graph
     assert compiled.mind
-    if as_data:
+    if as_json:
         print_json(asdict(compiled.graph))
     elif as_dot:
         sys.stdout.write(dot(compiled.mind) + "\n")

@@ -70,5 +70,5 @@ def command(
     except NotFoundError as error:
         fail(str(error), error.hint, MISUSE)
     except MindError as error:
-        fail(str(error), getattr(error, "hint", ""))
+        fail(str(error), error.hint)
     return OK if finished else INTERRUPTED

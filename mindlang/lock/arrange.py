@@ -1,12 +1,12 @@
 """A graph in the order of its weights."""
 
 from dataclasses import replace
-from heapq import heapify, heappop, heappush
 
 from mindrun.graph import Edge, Graph, Skill
 
+from mindlang.hierarchy import parents_first
 from mindlang.lock import Lock
-from mindlang.lock.signature import signature, target
+from mindlang.lock.signature import signature
 
 
 def arrange(graph: Graph, lock: Lock) -> Graph:
@@ -30,7 +30,7 @@ def _as_taught(graph: Graph, skill: Skill, lock: Lock) -> Skill:
     places = {s.name: range(s.start, s.start + s.width) for s in graph.sensors}
     places |= {m.name: range(m.start, m.start + 1) for m in graph.memories if m.name not in places}
     inputs = tuple(index for read in taught.reads for index in places[read.partition(":")[0]])
-    learned = {target(graph, edge): edge for edge in skill.edges if edge.output is not None}
+    learned = {graph.named(edge.to, edge.target): edge for edge in skill.edges if edge.output is not None}
     edges = [replace(learned[name], output=number) for number, name in enumerate(taught.sends)]
     return replace(skill, inputs=inputs, edges=(*edges, *(edge for edge in skill.edges if edge.output is None)))
 
@@ -38,18 +38,10 @@ def _as_taught(graph: Graph, skill: Skill, lock: Lock) -> Skill:
 def _by_name(graph: Graph) -> Graph:
     """The graph with its skills parents first, otherwise by name: sums over parents are taken in this order."""
     children = {
-        skill.name: {target(graph, edge) for edge in skill.edges if edge.to == "skill"} for skill in graph.skills
+        skill.name: [graph.named(edge.to, edge.target) for edge in skill.edges if edge.to == "skill"]
+        for skill in graph.skills
     }
-    parents = {name: sum(name in below for below in children.values()) for name in children}
-    ready = [name for name, count in parents.items() if count == 0]
-    heapify(ready)
-    order: list[str] = []
-    while ready:
-        order.append(heappop(ready))
-        for child in children[order[-1]]:
-            parents[child] -= 1
-            if parents[child] == 0:
-                heappush(ready, child)
+    order = parents_first(children)
     place = {name: index for index, name in enumerate(order)}
     moved = {
         skill.name: replace(skill, edges=tuple(_moved(graph, edge, place) for edge in skill.edges))
@@ -59,4 +51,4 @@ def _by_name(graph: Graph) -> Graph:
 
 
 def _moved(graph: Graph, edge: Edge, place: dict[str, int]) -> Edge:
-    return replace(edge, target=place[target(graph, edge)]) if edge.to == "skill" else edge
+    return replace(edge, target=place[graph.named("skill", edge.target)]) if edge.to == "skill" else edge

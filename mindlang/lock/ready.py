@@ -2,7 +2,6 @@
 
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
-from pathlib import Path
 
 import numpy as np
 from mindrun.graph import Graph
@@ -27,7 +26,7 @@ class Ready:
 
 def make_ready(graph: Graph, sources: Iterable[Source], master: str | None = None) -> Ready:
     """The graph of these sources with the weights of their locks; LockError where a lock or weights are damaged."""
-    lock = read_locks(paths(sources))
+    lock = read_locks(source.path for source in sources)
     graph = replace(arrange(graph, lock), master=master or graph.master)
     needed = [skill.name for skill in reachable(graph, graph.master)]
     weights, refusals = trained_weights(graph, lock, needed)
@@ -38,8 +37,3 @@ def make_ready(graph: Graph, sources: Iterable[Source], master: str | None = Non
         for note in state.notes
     )
     return Ready(graph, weights, tuple(refusals), tuple(notes))
-
-
-def paths(sources: Iterable[Source]) -> list[Path]:
-    """Where these sources stand, the main one first; their locks stand beside them."""
-    return [source.folder / Path(source.name).name for source in sources]

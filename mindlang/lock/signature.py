@@ -5,7 +5,7 @@ from dataclasses import fields, replace
 
 from mindrun.functions import Mlp
 from mindrun.functions.mlp import layers
-from mindrun.graph import Edge, Graph, Skill
+from mindrun.graph import Graph, Skill
 from mindrun.registry import names
 
 from mindlang.lock import Signature
@@ -14,7 +14,7 @@ from mindlang.lock import Signature
 def signature(graph: Graph, skill: Skill) -> Signature:
     """The signature of a skill that learns."""
     reads = (f"{name}:{width}" if width > 1 else name for name, width in _reads(graph, skill))
-    sends = (target(graph, edge) for edge in skill.edges if edge.output is not None)
+    sends = (graph.named(edge.to, edge.target) for edge in skill.edges if edge.output is not None)
     return Signature(_function(skill), tuple(reads), tuple(sends))
 
 
@@ -38,16 +38,6 @@ def _reads(graph: Graph, skill: Skill) -> Iterator[tuple[str, int]]:
     at = {sensor.start: (sensor.name, sensor.width) for sensor in graph.sensors}
     at |= {memory.start: (memory.name, 1) for memory in graph.memories}
     return (at[index] for index in skill.inputs if index in at)
-
-
-def target(graph: Graph, edge: Edge) -> str:
-    """The name of what an edge goes to."""
-    match edge.to:
-        case "skill":
-            return graph.skills[edge.target].name
-        case "actuator":
-            return graph.actuators[edge.target].name
-    return graph.memories[edge.target].name
 
 
 def _function(skill: Skill) -> str:

@@ -81,10 +81,7 @@ class Panel:
         canvas.line(outline, rim, 2.0, closed=True)
 
     def _name(self, sink: Sink) -> str:
-        graph, (noun, index) = self._story.graph, sink
-        if noun == "skill":
-            return graph.skills[index].name
-        return graph.actuators[index].name if noun == "actuator" else graph.memories[index].name
+        return self._story.graph.named(*sink)
 
 
 def _fitting(name: str, place: Place) -> float:

@@ -9,6 +9,7 @@ from mindrun.quantity import GENERATIONS
 
 from mindlang import model
 from mindlang.diagnostic import Findings
+from mindlang.hierarchy import reached
 from mindlang.resolve.kinds import Scope, make, overrides
 from mindlang.resolve.names import Names
 from mindlang.resolve.parts import refuse_facts
@@ -77,12 +78,7 @@ def _check_learns(fact: Teaches, skill: model.Skill, findings: Findings) -> None
 
 def _check_reached(fact: Teaches, master: Name, skills: Mapping[str, model.Skill], findings: Findings) -> None:
     """Report a learner that the master never influences: nothing that it does would show."""
-    reached, waiting = {master.text}, [master.text]
-    while waiting:
-        new = [skill for skill in skills[waiting.pop()].subskills if skill not in reached]
-        reached.update(new)
-        waiting += new
-    if fact.skill.text not in reached:
+    if fact.skill.text not in reached(skills, master.text):
         hint = f"Let {master.text} or a skill below it influence {fact.skill.text}, or leave under out."
         message = f"{master.text} has no influence on {fact.skill.text}, which would learn nothing."
         findings.error("out-of-reach", master.span, message, hint)

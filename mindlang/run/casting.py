@@ -20,11 +20,11 @@ if TYPE_CHECKING:
 
 
 class CastingError(MindError):
-    """A run that cannot begin: what is wrong, and in `hint` what to do. `misuse`: the command line is what is wrong."""
+    """A run that cannot begin. `misuse`: the command line is what is wrong."""
 
     def __init__(self, message: str, hint: str = "", misuse: bool = False) -> None:
-        super().__init__(message)
-        self.hint, self.misuse = hint, misuse
+        super().__init__(message, hint)
+        self.misuse = misuse
 
 
 @dataclass(frozen=True, slots=True)

@@ -48,9 +48,8 @@ def open_book(path: Path, compiled: Compiled) -> Book:
     """The book of a file that compiled; LockError where its lock is damaged."""
     assert compiled.graph is not None
     source = path.resolve()
-    paths = [(file.folder / Path(file.name).name, file.text) for file in compiled.sources]
-    lock = read_locks(file for file, _ in paths)
-    sources = {file.relative_to(source.parent).as_posix(): text for file, text in paths}
+    lock = read_locks(file.path for file in compiled.sources)
+    sources = {file.path.relative_to(source.parent).as_posix(): file.text for file in compiled.sources}
     return Book(source, sources, arrange(compiled.graph, lock), lock)
 
 

@@ -2,7 +2,11 @@
 
 
 class MindError(Exception):
-    """Something a user gave is wrong; the text says what, and where it can, what to do."""
+    """Something a user gave is wrong: the text says what, and `hint`, where there is one, what to do."""
+
+    def __init__(self, message: str, hint: str = "") -> None:
+        super().__init__(message)
+        self.hint = hint
 
 
 class WeightsError(MindError):

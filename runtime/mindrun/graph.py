@@ -165,3 +165,12 @@ class Graph:
     def width(self) -> int:
         """How many readings there are: those of the sensors, then one per memory."""
         return sum(sensor.width for sensor in self.sensors) + len(self.memories)
+
+    def named(self, noun: str, index: int) -> str:
+        """The name of the "skill", "actuator" or "memory" that an edge goes to by its index."""
+        match noun:
+            case "skill":
+                return self.skills[index].name
+            case "actuator":
+                return self.actuators[index].name
+        return self.memories[index].name

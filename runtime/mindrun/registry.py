@@ -42,11 +42,6 @@ def kinds(noun: str) -> dict[str, type[Any]]:
     return _kinds.get(noun, {})
 
 
-def name_of(value: object) -> tuple[str, str]:
-    """The noun and the name under which the kind of `value` is registered."""
-    return next((noun, name) for noun, known in _kinds.items() for name, cls in known.items() if cls is type(value))
-
-
 def names() -> dict[type[Any], str]:
     """The name of every registered kind."""
     return {cls: name for known in _kinds.values() for name, cls in known.items()}

@@ -6,7 +6,7 @@ import pytest
 
 from examples import RIGHT, changed, codes, compiled
 from mindlang.compile import Compiled, load
-from mindlang.report import as_json, plain
+from mindlang.report import as_data, plain
 
 TEXT = RIGHT.read_text(encoding="utf-8")
 TICK, REST = "tick 1/60 s\n", TEXT.removeprefix("tick 1/60 s\n")
@@ -152,7 +152,7 @@ def test_a_long_line_is_shown_around_its_mistake() -> None:
 
 
 def test_a_diagnostic_as_data() -> None:
-    data = as_json(changed(("reads holding", "reads holdin")).diagnostics[0])
+    data = as_data(changed(("reads holding", "reads holdin")).diagnostics[0])
     assert data == {
         "code": "unknown-sensor",
         "severity": "error",

@@ -17,7 +17,7 @@ from examples import EXAMPLES, RIGHT, TOUR
 from mindlang.compile import Compiled, compile_source, load
 from mindlang.diagnostic import Findings
 from mindlang.parse import grammar, parse
-from mindlang.report import as_json, plain
+from mindlang.report import as_data, plain
 from mindlang.source import Source
 
 SEEDS = [RIGHT, *EXAMPLES]
@@ -32,7 +32,7 @@ def sane(found: Compiled) -> None:
     assert (found.graph is None) == bool(found.diagnostics)
     for diagnostic in found.diagnostics[:20]:
         assert plain(diagnostic).isprintable() or "\n" in plain(diagnostic)
-        assert as_json(diagnostic)["code"]
+        assert as_data(diagnostic)["code"]
 
 
 @pytest.fixture

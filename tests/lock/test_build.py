@@ -11,10 +11,10 @@ from mindrun.bundle import read_bundle
 from mindrun.engine import Engine
 from mindrun.weights import genes
 
+from mindlang.compile import load
 from mindlang.lock import Taught, read_lock
 from mindlang.lock.arrange import arrange
 from mindlang.lock.trained import FOLDER, record
-from mindlang.terminal import load_graph
 
 SOURCE = """tick 1/60 s
 master Top
@@ -49,7 +49,9 @@ def source(tmp_path: Path) -> Path:
     path = tmp_path / "small.mind"
     path.write_text(SOURCE)
     (tmp_path / "claw.py").write_text("def grip(battery):\n    return battery / 2\n")
-    graph = arrange(load_graph(path), {})
+    compiled = load(path).graph
+    assert compiled
+    graph = arrange(compiled, {})
     rng = np.random.default_rng(1)
     for skill in graph.skills:
         if genes(skill):

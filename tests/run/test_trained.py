@@ -7,10 +7,10 @@ import numpy as np
 import pytest
 from mindrun.weights import genes
 
+from mindlang.compile import load
 from mindlang.lock import Taught, lock_path
 from mindlang.lock.arrange import arrange
 from mindlang.lock.trained import record
-from mindlang.terminal import load_graph
 from tests.calling import RULES, Call
 
 LEARNT = (
@@ -36,7 +36,9 @@ def learnt(tmp_path: Path) -> Path:
 
 def teach(path: Path, *skills: str) -> None:
     """Random weights into the lock, as if they had been learnt."""
-    graph, rng = arrange(load_graph(path), {}), np.random.default_rng(1)
+    compiled, rng = load(path).graph, np.random.default_rng(1)
+    assert compiled
+    graph = arrange(compiled, {})
     for skill in graph.skills:
         if skill.name in skills:
             weights = rng.standard_normal(genes(skill)).astype(np.float32)

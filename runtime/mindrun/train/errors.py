@@ -4,11 +4,7 @@ from mindrun.errors import MindError
 
 
 class RunError(MindError):
-    """A run that cannot begin or go on: what is wrong, and in `hint` what to do."""
-
-    def __init__(self, message: str, hint: str = "") -> None:
-        super().__init__(message)
-        self.hint = hint
+    """A run that cannot begin or go on."""
 
 
 class NotFoundError(RunError):

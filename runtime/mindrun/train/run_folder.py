@@ -16,6 +16,7 @@ from mindrun import durable
 from mindrun.train.errors import NotFoundError, RunError
 from mindrun.train.lesson import Course
 from mindrun.train.manifest import Manifest, Weights, from_json, hashes, to_json
+from mindrun.weights import to_npy
 
 MANIFEST, SOURCES, START, WEIGHTS = "manifest.json", "source", "start.npz", "weights.npy"
 RESULT = "result.json"
@@ -71,9 +72,7 @@ def open_run(folder: Path) -> Run:
 
 def keep_weights(folder: Path, genome: NDArray[np.float32]) -> None:
     """Write the best weights so far to the run folder."""
-    file = BytesIO()
-    np.save(file, genome, allow_pickle=False)
-    durable.write(folder / WEIGHTS, file.getvalue())
+    durable.write(folder / WEIGHTS, to_npy(genome))
 
 
 def keep_result(folder: Path, result: Mapping[str, Any]) -> None:

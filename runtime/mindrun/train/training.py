@@ -24,7 +24,7 @@ class Watch:
     warn: Callable[[str], None]
     stop: Callable[[], bool]
     clock: Clock
-    save_every: float = 2.0  # seconds
+    save_every: float = EVERY
 
 
 def train(run: Run, scorer: Scorer, watch: Watch) -> State:
