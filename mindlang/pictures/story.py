@@ -62,9 +62,9 @@ class Story:
         return np.flatnonzero(self.touching & ~np.concatenate([[False], self.touching[:-1]])) + 1
 
     def placements(self, thing: int) -> Floats:
-        """Every place and size [n, 3] that a thing was put at; the last is where it is now or was taken from."""
+        """Every place and size [n, 3] where a thing appeared; the claw that takes it up makes no new place."""
         track = self.things[:, thing]
-        jumps = np.linalg.norm(np.diff(track[:, :2], axis=0), axis=1) > JUMP
+        jumps = (np.linalg.norm(np.diff(track[:, :2], axis=0), axis=1) > JUMP) & (self.held[1:] != thing)
         placed: Floats = track[np.concatenate([[True], jumps])]
         return placed
 
