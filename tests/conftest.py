@@ -1,6 +1,23 @@
 """What all tests share."""
 
+from pathlib import Path
+
+import pytest
 from hypothesis import settings
+
+from tests.calling import Call, caller, write_rules
 
 settings.register_profile("mind", deadline=None)  # a shared machine takes its time
 settings.load_profile("mind")
+
+
+@pytest.fixture
+def mindc(capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) -> Call:
+    """Mindc called in this process."""
+    return caller(capsys, monkeypatch)
+
+
+@pytest.fixture
+def rules(tmp_path: Path) -> Path:
+    """A small mind that has nothing to learn, as a file."""
+    return write_rules(tmp_path)

@@ -3,14 +3,12 @@
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
 
-import numpy as np
 from mindrun.graph import Graph
-from mindrun.weights import reachable
-from numpy.typing import NDArray
+from mindrun.weights import Weights, reachable
 
 from mindlang.lock import read_locks
 from mindlang.lock.arrange import arrange
-from mindlang.lock.trained import Trained, status, trained_weights
+from mindlang.lock.status import Trained, status, trained_weights
 from mindlang.source import Source
 
 
@@ -19,7 +17,7 @@ class Ready:
     """A graph, arranged and with its master, and the weights of all skills below it; `refusals` say what is missing."""
 
     graph: Graph
-    weights: dict[str, NDArray[np.float32]]
+    weights: dict[str, Weights]
     refusals: tuple[str, ...]
     notes: tuple[str, ...]
 

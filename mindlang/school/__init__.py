@@ -17,7 +17,7 @@ from mindrun.train.run_folder import Run, keep_result, open_run, read_result
 from mindrun.train.training import Watch, train
 
 from mindlang.lock import Entry, Taught
-from mindlang.lock.trained import record
+from mindlang.lock.blobs import record
 from mindlang.school.book import Book, begin, keep_path, open_book, refuse_changed
 from mindlang.school.interruption import Interruption
 from mindlang.school.results import Result, closing, opening, result_of

@@ -7,21 +7,18 @@ from datetime import datetime
 from hashlib import sha256
 from pathlib import Path
 
-import numpy as np
 from mindrun.graph import Graph, Lesson
 from mindrun.train.errors import RunError
 from mindrun.train.manifest import Manifest, fingerprint, hashes, processor, versions
 from mindrun.train.run_folder import Run, create
-from numpy.typing import NDArray
+from mindrun.weights import Weights
 
 from mindlang.compile import Compiled
 from mindlang.diagnostic import listed
 from mindlang.lock import Lock, lock_path, read_locks
 from mindlang.lock.arrange import arrange
-from mindlang.lock.trained import Status, status, trained_weights
+from mindlang.lock.status import Status, status, trained_weights
 from mindlang.school.teaching import subskills
-
-Weights = dict[str, NDArray[np.float32]]
 
 
 @dataclass(frozen=True, slots=True)
@@ -87,7 +84,7 @@ def keep_path(book: Book) -> Path:
     return lock_path(book.source)
 
 
-def _needed(book: Book, lesson: Lesson) -> Weights:
+def _needed(book: Book, lesson: Lesson) -> dict[str, Weights]:
     skills = subskills(book.graph, lesson)
     weights, refusals = trained_weights(book.graph, book.lock, skills)
     if refusals:
@@ -99,5 +96,5 @@ def _needed(book: Book, lesson: Lesson) -> Weights:
     return weights
 
 
-def _known(book: Book, lesson: Lesson) -> Weights:
+def _known(book: Book, lesson: Lesson) -> dict[str, Weights]:
     return trained_weights(book.graph, book.lock, {lesson.skill})[0]

@@ -8,7 +8,7 @@ from mindrun.train.errors import NotFoundError, RunError
 from mindrun.weights import genes, reachable
 
 from mindlang.diagnostic import did_you_mean, listed
-from mindlang.lock.trained import Status, Trained
+from mindlang.lock.status import Status, Trained
 
 
 @dataclass(frozen=True, slots=True)

@@ -12,14 +12,11 @@ from io import BytesIO
 from pathlib import Path
 from typing import Any, NoReturn
 
-import numpy as np
-from numpy.typing import NDArray
-
 from mindrun.durable import write
 from mindrun.encoding import decode, encode
 from mindrun.errors import BundleError, WeightsError
 from mindrun.graph import Graph
-from mindrun.weights import from_npy, to_npy, weights_of
+from mindrun.weights import Weights, from_npy, to_npy, weights_of
 
 FORMAT = "mind bundle 1"
 LARGEST = 64 << 20  # bytes; nothing is compressed, so this also limits what is read
@@ -31,13 +28,11 @@ class Bundle:
     """What is in a bundle: `procedures` has the text of each module by dotted name."""
 
     graph: Graph
-    weights: dict[str, NDArray[np.float32]]
+    weights: dict[str, Weights]
     procedures: dict[str, str]
 
 
-def write_bundle(
-    path: Path, graph: Graph, weights: Mapping[str, NDArray[np.float32]], procedures: Mapping[str, str]
-) -> None:
+def write_bundle(path: Path, graph: Graph, weights: Mapping[str, Weights], procedures: Mapping[str, str]) -> None:
     """Write a mind to one file, which replaces an older one only when it is whole; the same mind, the same bytes."""
     data = pack(Bundle(graph, dict(weights), dict(procedures)))
     unpack(data)  # nothing is written that cannot be read

@@ -12,7 +12,7 @@ from mindrun.functions.procedure import module_source
 from mindrun.graph import Graph
 from mindrun.think import hierarchy, think
 from mindrun.virtual import virtual_sensors
-from mindrun.weights import reachable
+from mindrun.weights import Weights, reachable
 
 
 def procedure_sources(graph: Graph, folder: Path, master: str | None = None) -> dict[str, str]:
@@ -31,7 +31,7 @@ class Engine:
     def __init__(
         self,
         graph: Graph,
-        weights: Mapping[str, NDArray[np.float32]],
+        weights: Mapping[str, Weights],
         procedures: Path | Mapping[str, str] | None = None,
         master: str | None = None,
     ) -> None:

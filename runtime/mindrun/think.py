@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from mindrun.expression import evaluate
 from mindrun.functions import Compute, computes
 from mindrun.graph import Edge, Graph, Program
-from mindrun.weights import reachable, weights_of
+from mindrun.weights import Weights, reachable, weights_of
 
 _ZERO, _ONE = np.float32(0.0), np.float32(1.0)
 
@@ -58,9 +58,7 @@ class Thought:
     faults: int
 
 
-def hierarchy(
-    graph: Graph, weights: Mapping[str, NDArray[np.float32]], sources: Mapping[str, str], master: str
-) -> Hierarchy:
+def hierarchy(graph: Graph, weights: Mapping[str, Weights], sources: Mapping[str, str], master: str) -> Hierarchy:
     """Make every skill ready that `master` reaches; WeightsError or ProcedureError where one cannot be."""
     numbers = {skill.name: number for number, skill in enumerate(graph.skills)}
     return Hierarchy(

@@ -10,6 +10,7 @@ from mindrun.errors import WeightsError
 from mindrun.functions import genome_length
 from mindrun.graph import Graph, Skill
 
+Weights = NDArray[np.float32]  # of one skill: [genes]
 NONE = np.zeros(0, np.float32)
 
 
@@ -18,7 +19,7 @@ def genes(skill: Skill) -> int:
     return genome_length(skill.function, len(skill.inputs), skill.outputs)
 
 
-def weights_of(skill: Skill, weights: Mapping[str, NDArray[np.float32]]) -> NDArray[np.float32]:
+def weights_of(skill: Skill, weights: Mapping[str, Weights]) -> Weights:
     """A skill's weights, checked: as many as its function has, float32, finite; else WeightsError."""
     expected = genes(skill)
     if expected == 0:
@@ -45,14 +46,14 @@ def reachable(graph: Graph, master: str) -> tuple[Skill, ...]:
     return tuple(found)
 
 
-def to_npy(weights: NDArray[np.float32]) -> bytes:
+def to_npy(weights: Weights) -> bytes:
     """A genome as the bytes of a .npy file."""
     file = BytesIO()
     np.save(file, weights.astype("<f4"), allow_pickle=False)
     return file.getvalue()
 
 
-def from_npy(data: bytes) -> NDArray[np.float32]:
+def from_npy(data: bytes) -> Weights:
     """The genome in the bytes of a .npy file; WeightsError unless it is exactly one vector of finite float32."""
     file = BytesIO(data)
     try:

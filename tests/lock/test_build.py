@@ -14,7 +14,7 @@ from mindrun.weights import genes
 from mindlang.compile import load
 from mindlang.lock import Taught, read_lock
 from mindlang.lock.arrange import arrange
-from mindlang.lock.trained import FOLDER, record
+from mindlang.lock.blobs import FOLDER, record
 
 SOURCE = """tick 1/60 s
 master Top

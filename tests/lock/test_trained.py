@@ -15,7 +15,8 @@ from mindrun.weights import genes
 
 from mindlang.lock import LockError, Taught, read_lock
 from mindlang.lock.arrange import arrange
-from mindlang.lock.trained import FOLDER, NotLearning, Stale, Trained, Untaught, digest, record, status, trained_weights
+from mindlang.lock.blobs import FOLDER, digest, record
+from mindlang.lock.status import NotLearning, Stale, Trained, Untaught, status, trained_weights
 from tests.hierarchies import random_graph
 from tests.minds import CLAW, WHEELS, always, mind, rule, skill
 

@@ -10,7 +10,7 @@ from mindrun.weights import genes
 from mindlang.compile import load
 from mindlang.lock import Taught, lock_path
 from mindlang.lock.arrange import arrange
-from mindlang.lock.trained import record
+from mindlang.lock.blobs import record
 from tests.calling import RULES, Call
 
 LEARNT = (

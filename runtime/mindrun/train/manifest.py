@@ -10,16 +10,14 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from mindrun.functions import Procedure
 from mindrun.functions.procedure import module_source
 from mindrun.graph import Graph, Lesson
 from mindrun.learners import Genetic
 from mindrun.train.errors import RunError
-from mindrun.weights import reachable
+from mindrun.weights import Weights, reachable
 
-Weights = Mapping[str, NDArray[np.float32]]
 FORMAT = 1
 
 
@@ -67,7 +65,7 @@ def fingerprint(graph: Graph, lesson: Lesson, procedures: Path | None) -> str:
     return _sha256(repr((scope, code)).encode())
 
 
-def hashes(weights: Weights) -> dict[str, str]:
+def hashes(weights: Mapping[str, Weights]) -> dict[str, str]:
     """The SHA-256 of each skill's weights."""
     return {skill: _sha256(np.ascontiguousarray(array, "<f4").tobytes()) for skill, array in sorted(weights.items())}
 

@@ -10,13 +10,12 @@ from typing import Any
 from zipfile import BadZipFile
 
 import numpy as np
-from numpy.typing import NDArray
 
 from mindrun import durable
 from mindrun.train.errors import NotFoundError, RunError
 from mindrun.train.lesson import Course
-from mindrun.train.manifest import Manifest, Weights, from_json, hashes, to_json
-from mindrun.weights import to_npy
+from mindrun.train.manifest import Manifest, from_json, hashes, to_json
+from mindrun.weights import Weights, to_npy
 
 MANIFEST, SOURCES, START, WEIGHTS = "manifest.json", "source", "start.npz", "weights.npy"
 RESULT = "result.json"
@@ -28,7 +27,7 @@ class Run:
 
     folder: Path
     manifest: Manifest
-    weights: Mapping[str, NDArray[np.float32]]
+    weights: Mapping[str, Weights]
 
     def course(self, genome_length: int) -> Course:
         """What the run teaches, beginning from the skill's weights unless it has none or starts from scratch."""
@@ -38,7 +37,7 @@ class Run:
         return Course(lesson, self.manifest.seed, start)
 
 
-def create(runs: Path, manifest: Manifest, sources: Mapping[str, str], weights: Weights) -> Run:
+def create(runs: Path, manifest: Manifest, sources: Mapping[str, str], weights: Mapping[str, Weights]) -> Run:
     """A new run folder under `runs`, with the text of each source by its path; RunError where it cannot be written."""
     stamp = "".join(letter for letter in manifest.started if letter not in "-:")
     try:
@@ -70,7 +69,7 @@ def open_run(folder: Path) -> Run:
     return Run(folder, manifest, weights)
 
 
-def keep_weights(folder: Path, genome: NDArray[np.float32]) -> None:
+def keep_weights(folder: Path, genome: Weights) -> None:
     """Write the best weights so far to the run folder."""
     durable.write(folder / WEIGHTS, to_npy(genome))
 
@@ -101,13 +100,13 @@ def _unused(parent: Path, name: str) -> Path:
     raise AssertionError("count never ends")
 
 
-def _packed(weights: Weights) -> bytes:
+def _packed(weights: Mapping[str, Weights]) -> bytes:
     file = BytesIO()
     np.savez(file, allow_pickle=False, **{skill: np.asarray(array) for skill, array in sorted(weights.items())})
     return file.getvalue()
 
 
-def _unpacked(data: bytes) -> dict[str, NDArray[np.float32]]:
+def _unpacked(data: bytes) -> dict[str, Weights]:
     try:
         with np.load(BytesIO(data), allow_pickle=False) as file:
             return {skill: file[skill] for skill in file.files}

@@ -1,0 +1,84 @@
+"""Files of weights beside a lock: read and held against it, and new ones kept."""
+
+import fcntl
+import os
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
+from hashlib import sha256
+from pathlib import Path
+
+from mindrun.durable import write
+from mindrun.errors import WeightsError
+from mindrun.graph import Graph, Skill
+from mindrun.weights import Weights, from_npy, reachable, to_npy, weights_of
+
+from mindlang.lock import Entry, LockError, Taught, read_lock, write_lock
+from mindlang.lock.signature import signature
+
+FOLDER = "weights"
+
+
+def load_weights(entry: Entry, skill: Skill) -> Weights:
+    """The weights of an entry, held against its hash and its skill; LockError where they are not those."""
+    path = _blob(entry.folder, entry.weights)
+    try:
+        if not path.resolve().is_relative_to(entry.folder.resolve()):
+            raise LockError(f"{path} leads out of {entry.folder}")
+        data = path.read_bytes()
+        if sha256(data).hexdigest() != entry.weights:
+            raise LockError(f"{path}, the weights of {entry.skill}, is damaged: get it back, or train {entry.skill}")
+        return weights_of(skill, {skill.name: from_npy(data)})
+    except OSError as error:
+        raise LockError(f"{path}, the weights of {entry.skill}, cannot be read: {error.strerror}") from error
+    except WeightsError as error:
+        raise LockError(f"{path}, the weights of {entry.skill}, do not fit: {error}") from error
+
+
+def record(
+    path: Path, graph: Graph, skill: str, weights: Weights, taught: Taught, others: Mapping[str, Weights]
+) -> Entry:
+    """Keep what a lesson taught: the weights as a file, the skill's line in the lock at `path`; the other lines stay.
+
+    `others` are the weights of the skills that it was taught with. A file of the skill's old weights goes when no lock
+    of the folder names it.
+    """
+    below = reachable(graph, skill)
+    subskills = tuple(sorted((sub.name, digest(others[sub.name])) for sub in below[1:] if sub.name in others))
+    entry = Entry(skill, signature(graph, below[0]), digest(weights), taught, subskills, path.parent)
+    try:
+        with _alone(path.parent / FOLDER):
+            lock = read_lock(path)
+            write(_blob(path.parent, entry.weights), to_npy(weights))
+            write_lock(path, lock | {skill: entry})
+            if skill in lock:
+                _forget(path.parent, lock[skill].weights)
+    except OSError as error:
+        raise LockError(f"the weights of {skill} cannot be written: {error.strerror} ({error.filename})") from error
+    return entry
+
+
+def digest(weights: Weights) -> str:
+    """The SHA-256 of weights as they lie in their file."""
+    return sha256(to_npy(weights)).hexdigest()
+
+
+@contextmanager
+def _alone(folder: Path) -> Iterator[None]:
+    """Let one process at a time change a folder of weights and the locks beside it."""
+    folder.mkdir(exist_ok=True)
+    descriptor = os.open(folder, os.O_RDONLY)
+    try:
+        fcntl.flock(descriptor, fcntl.LOCK_EX)
+        yield
+    finally:
+        os.close(descriptor)
+
+
+def _blob(folder: Path, weights: str) -> Path:
+    return folder / FOLDER / f"{weights}.npy"
+
+
+def _forget(folder: Path, weights: str) -> None:
+    """Remove old weights, unless a skill has them still: the locks of one folder share their weights."""
+    if not any(f"| weights {weights}".encode() in lock.read_bytes() for lock in folder.glob("*.lock")):
+        _blob(folder, weights).unlink(missing_ok=True)
