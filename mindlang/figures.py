@@ -3,8 +3,13 @@
 from math import isfinite
 
 
+def score(value: float | None, digits: int = 2) -> str:
+    """A score in a summary or a picture; None where it is not a finite number."""
+    return f"{value:,.{digits}f}" if value is not None else "not a number"
+
+
 def number(value: float | None) -> str:
-    """A score for reading; – where there is none."""
+    """A score in a line of progress; – where there is none yet, or it is not finite."""
     return f"{value:.2f}" if value is not None and isfinite(value) else "–"
 
 

@@ -4,6 +4,7 @@ from typing import Any
 
 from mindrun.world import Item
 
+from mindlang.figures import score
 from mindlang.pictures.canvas import Canvas, square, text_width
 from mindlang.pictures.path import LEAST, Path, draw_cross
 from mindlang.pictures.story import Story
@@ -25,8 +26,7 @@ def draw_title(canvas: Canvas, story: Story, found: dict[str, Any], theme: Theme
 
 def _facts(story: Story, found: dict[str, Any]) -> list[tuple[str, str]]:
     seconds = found["ticks"] * story.graph.tick
-    score = "not a number" if found["score"] is None else f"{found['score']:,.1f}"
-    facts = [("in charge", found["master"]), ("seed", str(found["seed"])), ("score", score)]
+    facts = [("in charge", found["master"]), ("seed", str(found["seed"])), ("score", score(found["score"], 1))]
     if found["counted"]:
         facts.append((" and ".join(found["counted"]), str(found["counts"])))
     facts.append(("ticks", f"{found['ticks']:,} of {found['of_ticks']:,} ({seconds:.0f} s)"))

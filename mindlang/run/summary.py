@@ -6,7 +6,7 @@ from rich.console import Group, RenderableType
 from rich.table import Table
 from rich.text import Text
 
-from mindlang.figures import duration, rate
+from mindlang.figures import duration, rate, score
 from mindlang.run.outcome import TIME, standard_error
 
 
@@ -21,8 +21,8 @@ def run_summary(found: dict[str, Any]) -> RenderableType:
     )
     sums = _grid()
     for text, paid in found["by_line"].items():
-        sums.add_row(_score(paid), Text(text))
-    sums.add_row(Text(_score(found["score"]), "bold"), Text("score", "bold"))
+        sums.add_row(score(paid), Text(text))
+    sums.add_row(Text(score(found["score"]), "bold"), Text("score", "bold"))
     return Group(_title(found), facts, "", sums)
 
 
@@ -30,16 +30,16 @@ def bench_summary(found: dict[str, Any]) -> RenderableType:
     """Many runs: means with their standard errors, how they ended, how fast they were."""
     runs = found["runs"]
     means = f"{found['count_mean']:.2f} ± {standard_error(found['count_std'], runs):.2f}"
-    score = _score(found["score_mean"])
+    earned = score(found["score_mean"])
     if found["score_std"] is not None:
-        score += f" ± {standard_error(found['score_std'], runs):.2f}"
+        earned += f" ± {standard_error(found['score_std'], runs):.2f}"
     ended = ", ".join(
         f"{'lasted its time' if name == TIME else name}: {n / runs:.0%}" for name, n in found["ended"].items()
     )
     facts = _facts(
         ("runs", f"{runs} from seed {found['seed']}"),
         ("counted", _counted(found, f"{means}  ")),
-        ("score", score),
+        ("score", earned),
         ("run time", f"{found['runtime_mean']:.1%} of the task's ticks"),
         ("ended by", ended),
         ("best run", f"seed {found['best_seed']}"),
@@ -75,7 +75,3 @@ def _grid() -> Table:
     table.add_column(justify="right")
     table.add_column()
     return table
-
-
-def _score(value: float | None) -> str:
-    return f"{value:,.2f}" if value is not None else "not a number"

@@ -9,55 +9,40 @@ from pathlib import Path
 import click
 import pytest
 
-from examples import COLLECT, EXAMPLES, RIGHT, TOUR
-from mindlang import cli, terminal
+from tests.calling import Call
+from tests.language.examples import COLLECT, EXAMPLES, RIGHT, TOUR
 
 WRONG = Path(__file__).parent / "wrong" / "unknown-sensor.mind"
 HEAVY = {"numba", "numpy.testing", "cv2", "pymunk", "networkx", "yaml", "llvmlite"}
 
 
-def mindc(*arguments: object, text: str = "", **environment: str) -> subprocess.CompletedProcess[str]:
+def process(*arguments: object, text: str = "", **environment: str) -> subprocess.CompletedProcess[str]:
     command = [sys.executable, "-c", "from mindlang.cli import main; main()", *map(str, arguments)]
     return subprocess.run(
         command, input=text, capture_output=True, text=True, check=False, env=os.environ | environment, timeout=60
     )
 
 
-def main(capsys: pytest.CaptureFixture[str], *arguments: object) -> tuple[int, str, str]:
-    """The exit code, stdout and stderr of a command, run in this process."""
-    terminal.console.cache_clear()
-    old, sys.argv = sys.argv, ["mindc", *map(str, arguments)]
-    try:
-        with pytest.raises(SystemExit) as stop:
-            cli.main()
-    finally:
-        sys.argv = old
-        terminal.console.cache_clear()
-    said = capsys.readouterr()
-    assert isinstance(stop.value.code, int)
-    return stop.value.code, said.out, said.err
-
-
-def test_check_says_that_nothing_is_wrong(capsys: pytest.CaptureFixture[str]) -> None:
+def test_check_says_that_nothing_is_wrong(mindc: Call) -> None:
     minds = [path for path in EXAMPLES if path.name != "parts.mind"]
-    assert main(capsys, "check", *minds) == (0, "", "nothing wrong\n")
+    assert mindc("check", *minds) == (0, "", "nothing wrong\n")
 
 
-def test_check_reports_and_ends_with_one(capsys: pytest.CaptureFixture[str]) -> None:
-    code, out, err = main(capsys, "check", RIGHT, WRONG)
+def test_check_reports_and_ends_with_one(mindc: Call) -> None:
+    code, out, err = mindc("check", RIGHT, WRONG)
     assert (code, out) == (1, "")
     assert WRONG.with_suffix(".txt").read_text(encoding="utf-8").splitlines()[1] in err
     assert err.endswith("1 mistake\n")
 
 
-def test_check_ends_with_two_where_a_file_cannot_be_read(capsys: pytest.CaptureFixture[str]) -> None:
-    code, out, err = main(capsys, "check", "nowhere.mind", RIGHT)
+def test_check_ends_with_two_where_a_file_cannot_be_read(mindc: Call) -> None:
+    code, out, err = mindc("check", "nowhere.mind", RIGHT)
     assert (code, out) == (2, "")
     assert err.startswith("error: nowhere.mind cannot be read")
 
 
-def test_check_as_json_is_one_document(capsys: pytest.CaptureFixture[str]) -> None:
-    code, out, err = main(capsys, "check", "--json", RIGHT, WRONG)
+def test_check_as_json_is_one_document(mindc: Call) -> None:
+    code, out, err = mindc("check", "--json", RIGHT, WRONG)
     data = json.loads(out)
     assert (code, err) == (1, "")
     assert [file["ok"] for file in data["files"]] == [True, False]
@@ -65,14 +50,14 @@ def test_check_as_json_is_one_document(capsys: pytest.CaptureFixture[str]) -> No
 
 
 def test_a_dash_is_standard_input() -> None:
-    assert mindc("check", "-", text=RIGHT.read_text(encoding="utf-8")).returncode == 0
-    found = mindc("check", "-", text="reads x\n")
+    assert process("check", "-", text=RIGHT.read_text(encoding="utf-8")).returncode == 0
+    found = process("check", "-", text="reads x\n")
     assert found.returncode == 1
     assert "<stdin>:1:1: error:" in found.stderr
 
 
-def test_show_draws_a_shared_skill_once(capsys: pytest.CaptureFixture[str]) -> None:
-    code, out, err = main(capsys, "show", COLLECT)
+def test_show_draws_a_shared_skill_once(mindc: Call) -> None:
+    code, out, err = mindc("show", COLLECT)
     assert (code, err) == (0, "")
     assert out.startswith("Collect is the master\n")
     assert out.count("Avoid  (shown above)") == 1
@@ -81,31 +66,31 @@ def test_show_draws_a_shared_skill_once(capsys: pytest.CaptureFixture[str]) -> N
     assert "reads proximity, moving, pulse" in out
 
 
-def test_show_as_graphviz_and_as_json(capsys: pytest.CaptureFixture[str]) -> None:
-    _, dot, _ = main(capsys, "show", TOUR, "--dot")
+def test_show_as_graphviz_and_as_json(mindc: Call) -> None:
+    _, dot, _ = mindc("show", TOUR, "--dot")
     assert dot.startswith("digraph mind {")
     assert dot.endswith("}\n")
     assert '  "skill Work" -> "skill Avoid" [label="1/2"]' in dot
-    _, data, _ = main(capsys, "show", TOUR, "--json")
+    _, data, _ = mindc("show", TOUR, "--json")
     assert json.loads(data)["master"] == "Live"
 
 
 @pytest.mark.parametrize(("path", "code"), [(WRONG, 1), ("nowhere.mind", 2)])
-def test_show_of_a_bad_file_is_its_report(path: object, code: int, capsys: pytest.CaptureFixture[str]) -> None:
-    found = main(capsys, "show", path)
+def test_show_of_a_bad_file_is_its_report(path: object, code: int, mindc: Call) -> None:
+    found = mindc("show", path)
     assert found[:2] == (code, "")
     assert "error: " in found[2]
 
 
 @pytest.mark.parametrize("arguments", [["chekc"], ["check"], ["check", "--jsn", "x"], ["show", "x", "--dot", "--json"]])
-def test_wrong_usage_ends_with_two(arguments: list[str], capsys: pytest.CaptureFixture[str]) -> None:
-    code, out, err = main(capsys, *arguments)
+def test_wrong_usage_ends_with_two(arguments: list[str], mindc: Call) -> None:
+    code, out, err = mindc(*arguments)
     assert (code, out) == (2, "")
     assert "Traceback" not in err
 
 
-def test_a_misspelt_command_is_suggested(capsys: pytest.CaptureFixture[str]) -> None:
-    assert "Did you mean check?" in main(capsys, "chekc")[2]
+def test_a_misspelt_command_is_suggested(mindc: Call) -> None:
+    assert "Did you mean check?" in mindc("chekc")[2]
 
 
 @pytest.mark.parametrize(
@@ -118,22 +103,22 @@ def test_a_misspelt_command_is_suggested(capsys: pytest.CaptureFixture[str]) -> 
     ],
 )
 def test_no_exception_becomes_a_traceback(
-    raised: BaseException, code: int, said: str, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+    raised: BaseException, code: int, said: str, mindc: Call, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     def fail(*_: object) -> None:
         raise raised
 
     monkeypatch.setattr("mindlang.compile.load", fail)
     monkeypatch.delenv("MIND_DEBUG", raising=False)
-    found = main(capsys, "check", RIGHT)
+    found = mindc("check", RIGHT)
     assert found[0] == code
     assert said in found[2]
     assert "Traceback" not in found[2]
 
 
-def test_every_flag_of_check_and_show_has_an_example(capsys: pytest.CaptureFixture[str]) -> None:
+def test_every_flag_of_check_and_show_has_an_example(mindc: Call) -> None:
     for name, flags in (("check", ["--json"]), ("show", ["--dot", "--json"])):
-        _, out, _ = main(capsys, name, "--help")
+        _, out, _ = mindc(name, "--help")
         assert "Examples:" in out
         assert all(out.count(flag) >= 2 for flag in flags)
 
@@ -150,4 +135,4 @@ def test_the_quick_commands_import_nothing_heavy(arguments: list[str]) -> None:
 
 
 def test_colours_only_on_a_terminal() -> None:
-    assert "\x1b" not in mindc("check", WRONG, NO_COLOR="", FORCE_COLOR="").stderr
+    assert "\x1b" not in process("check", WRONG, NO_COLOR="", FORCE_COLOR="").stderr

@@ -11,8 +11,8 @@ from mindrun.quantity import Span
 from mindrun.sensors import Sine
 from mindrun.world import Arena, Item, Obstacle
 
-from examples import COLLECT, compiled
 from mindlang.compile import load
+from tests.language.examples import COLLECT, compiled
 
 
 @pytest.fixture(scope="module")

@@ -4,9 +4,9 @@ from pathlib import Path
 
 import pytest
 
-from examples import RIGHT, changed, codes, compiled
 from mindlang.compile import Compiled, load
 from mindlang.report import as_data, plain
+from tests.language.examples import RIGHT, changed, codes, compiled
 
 TEXT = RIGHT.read_text(encoding="utf-8")
 TICK, REST = "tick 1/60 s\n", TEXT.removeprefix("tick 1/60 s\n")

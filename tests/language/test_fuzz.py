@@ -13,12 +13,12 @@ from hypothesis import strategies as st
 from hypothesis.extra.lark import from_lark
 from lark import UnexpectedInput
 
-from examples import EXAMPLES, RIGHT, TOUR
 from mindlang.compile import Compiled, compile_source, load
 from mindlang.diagnostic import Findings
 from mindlang.parse import grammar, parse
 from mindlang.report import as_data, plain
 from mindlang.source import Source
+from tests.language.examples import EXAMPLES, RIGHT, TOUR
 
 SEEDS = [RIGHT, *EXAMPLES]
 WORD = re.compile(rb"\w+|\s+|.", re.DOTALL)

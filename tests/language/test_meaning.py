@@ -10,8 +10,8 @@ from mindrun.registry import arguments, kinds
 from mindrun.sensors import RangeFinder
 from mindrun.world import Obstacle
 
-from examples import TOUR, changed, codes, compiled
 from mindlang.compile import load
+from tests.language.examples import TOUR, changed, codes, compiled
 
 
 @pytest.fixture(scope="module")

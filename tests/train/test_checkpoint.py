@@ -4,11 +4,12 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from climbing import LENGTH, Sphere, lesson
 from mindrun.train import checkpoint
 from mindrun.train.checkpoint import load, pack, save, unpack
 from mindrun.train.errors import RunError
 from mindrun.train.lesson import Course, State, begin, teach
+
+from tests.train.climbing import LENGTH, Sphere, lesson
 
 RUN = "a run"
 

@@ -3,8 +3,9 @@
 from dataclasses import replace
 
 import numpy as np
-from climbing import LENGTH, Faulty, Sphere, lesson
 from mindrun.train.lesson import Course, Record, State, begin, teach
+
+from tests.train.climbing import LENGTH, Faulty, Sphere, lesson
 
 UNKNOWN = np.empty((0, LENGTH), np.float32)
 

@@ -7,10 +7,11 @@ import sys
 from pathlib import Path
 from time import sleep
 
-from climbing import Sphere, lesson, manifest, unwatched
 from mindrun.train.progress import read
 from mindrun.train.run_folder import Run, create
 from mindrun.train.training import train
+
+from tests.train.climbing import Sphere, lesson, manifest, unwatched
 
 KILLS = 20
 CLIMB = Path(__file__).with_name("climb.py")

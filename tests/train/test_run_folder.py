@@ -8,12 +8,13 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from climbing import Sphere, lesson, manifest, unwatched
 from mindrun.train.claim import claim
 from mindrun.train.errors import RunError
 from mindrun.train.progress import read
 from mindrun.train.run_folder import Run, create, open_run
 from mindrun.train.training import train
+
+from tests.train.climbing import Sphere, lesson, manifest, unwatched
 
 WEIGHTS = {"Climb": np.arange(12, dtype=np.float32), "Go+Avoid": np.ones(3, np.float32)}
 
