@@ -20,13 +20,12 @@ from typing import Any
 
 import numpy as np
 from mindrun.graph import Graph
-from mindrun.sim.rollout import Rollout
+from mindrun.sim.rollout import LANES, Rollout
 from mindrun.sim.trace import trace
 from mindrun.train.manifest import processor, versions
 from plain_pymunk import Robot
 from workloads import STUCK, Weights, collect, random_weights, with_obstacles, with_skills
 
-LANES = 128
 WARM = 300  # ticks before the clock starts: robots leave their places, caches fill
 
 
@@ -155,7 +154,7 @@ def worst_case(graph: Graph, effort: Effort) -> dict[str, Any]:
 
 def growth(graph: Graph, weights: Weights, effort: Effort) -> dict[str, dict[str, Figure]]:
     """Rates for growing numbers of lanes, of obstacles and of skills."""
-    by_lanes = {str(n): Lanes(graph, weights, graph.master, lanes=n) for n in (16, 32, 64, 128, 256)}
+    by_lanes = {str(n): Lanes(graph, weights, graph.master, lanes=n) for n in (16, 32, 64, 128, 256, 512)}
     grids = {f"grid {grid}": Lanes(with_obstacles(graph, grid), weights, graph.master) for grid in (20, 10, 7)}
     by_obstacles = {f"{lanes.rollout.sizes.boxes} ({name})": lanes for name, lanes in grids.items()}
     by_skills = {str(n): Lanes(*with_skills(n)) for n in (2, 5, 10, 20, 50)}

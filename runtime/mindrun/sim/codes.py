@@ -43,6 +43,6 @@ REWARD = _row(
 )
 WORLD = _row(
     dt="f8", linear="f8", angular="f8", mass="f8", moment="f8", mass_inv="f8", moment_inv="f8", radius="f8",
-    half="f8", ticks="i8", start="f8", drain="f8", charge="f8", inertial="i8", rays="i8", range="f8", master="i8",
+    half="f8", ticks="i8", start="f8", drain="f8", charge="f8", rays="i8", near="f8", master="i8",
     claw="f8", battery="i8",
 )  # fmt: skip

@@ -47,6 +47,7 @@ def skill_rows(
     addresses: Mapping[str, int],
     codes: Programs,
 ) -> tuple[list[Any], list[int], list[Any], list[Floats]]:
+    """Rows of SKILL, the inputs one after the other, rows of EDGE, and the weights of the skills that do not learn."""
     rows: list[Any] = []
     inputs: list[int] = []
     edges: list[Any] = []
@@ -99,6 +100,7 @@ def used_sensors(graph: Graph, reached: Sequence[Skill], task: Task) -> list[Sen
 
 
 def sensor_rows(graph: Graph, used: Sequence[Sensor], task: Task) -> tuple[list[Any], Array, Array, int]:
+    """Rows of SENSOR, directions [2, rays] of all rays, the reading that each writes, and how many are derived."""
     things = {thing.name: i for i, thing in enumerate(things_of(task))}
     starts = {m.name: m.start for m in graph.memories} | {s.name: s.start for s in graph.sensors}
     circular = {s.name for s in graph.sensors if isinstance(s.kind, sensors.Bearing)}
@@ -146,6 +148,7 @@ def _sensor(
 
 
 def actuator_rows(graph: Graph) -> tuple[list[Any], int]:
+    """Rows of ACTUATOR, and how many commands wait at any time."""
     rows: list[Any] = []
     ring = 0
     for actuator in graph.actuators:
@@ -167,4 +170,5 @@ def _actuator(actuator: Actuator) -> tuple[int, float, float]:
 
 
 def memory_row(start: int, cell: Cell) -> tuple[int, float, float, float]:
+    """A row of MEMORY."""
     return start, cell.decay, 1.0 - cell.decay, cell.start

@@ -21,7 +21,7 @@ from mindrun.sim.state import Jobs, State, empty_state
 from mindrun.sim.tables import Sizes, Tables, build, genome_length
 
 Array = NDArray[Any]
-LANES = 128
+LANES = 256
 SLICE, SLOW_SLICE = 1000, 20  # ticks between two looks at whether to stop; where procedures run in Python
 
 

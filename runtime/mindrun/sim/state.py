@@ -58,8 +58,9 @@ class State(NamedTuple):
     stack: Array  # [depth] float64
     sight: Array  # [4 + rays] float32: heading and place, then how far each ray goes
     slots: Array  # [4·boxes] float32: the sides of the boxes that a lane's rays can meet, relative to the robot
-    slot_boxes: Array  # [boxes] int64: which boxes a lane's rays can meet
+    slot_boxes: Array  # [boxes] int64: which boxes a lane's rays or robot can meet
     slot_count: Array
+    slot_most: Array  # [1]: of any lane
     anchor: Array  # [2] float64: where the slots were chosen
     active: Array  # [lanes] int64
     row: Array  # [3] float32
@@ -112,6 +113,7 @@ def empty_state(tables: Tables, sizes: Sizes, lanes: int) -> State:
         battery=np.zeros(lanes),
         random=np.zeros(lanes, np.uint64),
         board=np.zeros((lanes, max(1, sizes.patches)), np.uint8),
+        slot_most=np.zeros(1, np.int64),
         happened=np.zeros(max(1, events), np.int64),
         handles=np.zeros((lanes, HANDLES + things + boxes + 4), np.uint64),
         floats=np.zeros((lanes, 16)),

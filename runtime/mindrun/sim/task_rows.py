@@ -53,6 +53,7 @@ def _lines(task: Task, obstacle: world.Obstacle) -> int:
 
 
 def thing_rows(graph: Graph, task: Task) -> list[Any]:
+    """Rows of THING, the items, zones and powers in the order of the source."""
     moving = {e.of for e in task.events if isinstance(e, events.Reach | events.Delivery)}
     rows = []
     for thing in things_of(task):
@@ -69,6 +70,7 @@ def thing_rows(graph: Graph, task: Task) -> list[Any]:
 
 
 def obstacle_rows(task: Task) -> list[Any]:
+    """Rows of OBSTACLE."""
     rows = []
     for obstacle in obstacles_of(task):
         away, size = obstacle.away, obstacle.size
@@ -85,6 +87,7 @@ def _default_away(task: Task) -> tuple[float, float]:
 
 
 def measure_rows(task: Task) -> tuple[list[Any], int]:
+    """Rows of MEASURES, and how many changes of thrust are remembered."""
     names = [thing.name for thing in things_of(task)]
     rows: list[Any] = []
     ring = 0
@@ -105,6 +108,7 @@ def measure_rows(task: Task) -> tuple[list[Any], int]:
 
 
 def event_rows(task: Task) -> tuple[list[Any], int]:
+    """Rows of EVENT, and how many patches there are to visit."""
     names = [thing.name for thing in things_of(task)]
     rows: list[Any] = []
     board = 0
@@ -128,6 +132,7 @@ def event_rows(task: Task) -> tuple[list[Any], int]:
 
 
 def reward_row(reward: Reward, codes: Programs) -> tuple[int, ...]:
+    """A row of REWARD; its programs go to `codes`."""
     first, length = codes.add(reward.amount)
     each, eachs = reward.each or (0, 0)
     left, right, compare = (0, 0), (0, 0), -1
@@ -138,20 +143,22 @@ def reward_row(reward: Reward, codes: Programs) -> tuple[int, ...]:
 
 
 def world_row(graph: Graph, task: Task, rays: int, used: Sequence[Sensor], master: int) -> Array:
+    """The numbers of the body, the battery and the scene."""
     body, dt = graph.body, graph.tick
     radius = body.size / 2
     mass = body.density * pi * radius**2
     moment = mass * radius**2 / 2
     battery = next((s.kind for s in graph.sensors if isinstance(s.kind, sensors.Battery)), sensors.Battery())
     half = task.scene.size / 2 if isinstance(task.scene, world.Arena) else inf
-    reach = max([0.0, *(s.kind.range for s in used if isinstance(s.kind, sensors.RangeFinder))])
+    sizes = [max(t.kind.size.first, t.kind.size.last) for t in task.things if isinstance(t.kind, world.Item)]
+    ranges = [s.kind.range for s in used if isinstance(s.kind, sensors.RangeFinder)]
+    near = radius + max([1.0, *sizes, *ranges])  # how far the rays reach, or the item in the claw, and no less than 1
     drained = any(isinstance(event, events.Exhaustion) for event in task.events)
     powered = drained or any(isinstance(s.kind, sensors.Battery) for s in used)
-    inertial = any(isinstance(s.kind, sensors.Inertial) for s in used)
     claw = next((a.kind.reach for a in graph.actuators if isinstance(a.kind, actuators.Gripper)), 1.5)
     row = (
         dt, 1.0 / (1.0 + dt * body.linear_damping), 1.0 / (1.0 + dt * body.angular_damping), mass, moment,
-        1.0 / mass, 1.0 / moment, radius, half, task.ticks, battery.start, battery.drain, battery.charge, inertial,
-        rays, reach, master, claw, powered,
+        1.0 / mass, 1.0 / moment, radius, half, task.ticks, battery.start, battery.drain, battery.charge,
+        rays, near, master, claw, powered,
     )  # fmt: skip
     return np.array([row], WORLD)

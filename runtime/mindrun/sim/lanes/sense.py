@@ -17,7 +17,7 @@ from mindrun.sim.codes import (
 from mindrun.sim.lanes.arithmetic import HALF, HUGE, ONE, ZERO, F, bearing, clamp, compiled, sine_cosine
 from mindrun.sim.lanes.vector import HIGHEST, LOWEST, WIDE, load, splat, store, where_ordered
 
-SLACK = 2.0  # how far a robot may move before the boxes that its rays can meet are chosen anew
+SLACK = 2.0  # how far a robot may move before the boxes near it are chosen anew
 
 
 @compiled
@@ -25,6 +25,7 @@ def sense(t, s, n, clock):
     """Fill the rows of the sensors that somebody reads, in the order of the table (sources before derivatives)."""
     world = t.world[0]
     see(s.body, s.things, len(t.things), n)
+    s.slot_most[0] = choose(s.body, s.boxes, s.anchor, s.slot_boxes, s.slot_count, world.near + SLACK, n)
     if world.rays > 0:
         look(t, s, n)
     for i in range(len(t.sensors)):
@@ -138,7 +139,7 @@ def inside(things, i, x, y, p):
 def look(t, s, n):
     """The distance from each robot's centre along each ray: rows 4 and on of `sight`, after heading and place."""
     world = t.world[0]
-    count = choose(s.body, s.boxes, s.anchor, s.slot_boxes, s.slot_count, world.range + world.radius + SLACK, n)
+    count = s.slot_most[0]
     for k in range(count):
         place(s.body, s.boxes, s.slot_boxes[k], s.slot_count, k, s.slots[4 * k : 4 * k + 4], n)
     for p in range(n):
@@ -180,9 +181,9 @@ def distance(out, far, radius, reach, dead_zone, n):
 
 @compiled
 def choose(body, boxes, anchor, slot_boxes, slot_count, reach, n):
-    """Which boxes each lane's rays can meet, chosen anew for a lane that has moved; the largest number of them.
+    """Which boxes each lane's rays or robot can meet, chosen anew for a lane that has moved; the most of any lane.
 
-    The choice is only ever too generous, so that no reading depends on when it was made.
+    The choice is only ever too generous, so that nothing depends on when it was made.
     """
     total = boxes.shape[0] // 3 if boxes.shape[0] >= 3 else 0
     most = 0

@@ -4,6 +4,7 @@ from mindrun.sim.chipmunk import open_space, push, step_space
 from mindrun.sim.codes import WHEEL_LEFT, WHEEL_RIGHT
 from mindrun.sim.lanes.act import carry
 from mindrun.sim.lanes.arithmetic import compiled, sine_cosine
+from mindrun.sim.lanes.sense import SLACK
 
 MARGIN = 0.01  # beyond the rounding of any distance here
 LINGER = 5  # ticks: Chipmunk forgets a contact after three
@@ -84,12 +85,11 @@ def fly(body, row, stack, near, dt, mass_inv, moment_inv, n):
 def find_near(t, s, n):
     """Count down `near`, and begin anew where the robot or what it holds could touch something after this tick."""
     world = t.world[0]
-    total = s.boxes.shape[0] // 3
     reach = world.radius + MARGIN
     gap = s.stack[4]
     clearance(s.body, world.half, world.dt, gap, n)
-    for b in range(total):
-        approach(s.boxes[3 * b], s.boxes[3 * b + 1], s.boxes[3 * b + 2], s.body, world.dt, gap, n)
+    for k in range(s.slot_most[0]):
+        approach(s.boxes, s.slot_boxes[k], s.slot_count, k, s.body, world.dt, gap, n)
     for p in range(n):
         s.near[p] = max(0, s.near[p] - 1)
         if s.held[p] >= 0:
@@ -97,7 +97,9 @@ def find_near(t, s, n):
             item_reach = t.things[s.held[p]].hold + s.things[thing + 2, p] / 2 + MARGIN
             if gap[p] < item_reach:
                 s.near[p] = LINGER
-        if gap[p] < reach:
+        x, y = s.body[0, p] + s.body[3, p] * world.dt, s.body[1, p] + s.body[4, p] * world.dt
+        leap = (x - s.anchor[0, p]) ** 2 + (y - s.anchor[1, p]) ** 2 > SLACK * SLACK  # away from the boxes it knows
+        if leap or gap[p] < reach:
             s.near[p] = LINGER
 
 
@@ -110,10 +112,13 @@ def clearance(body, half, dt, gap, n):
 
 
 @compiled
-def approach(bx, by, half, body, dt, gap, n):
-    """`gap` lowered to the distance along the axes between the robot's next centre and a box, if that is nearer."""
+def approach(boxes, chosen, slot_count, k, body, dt, gap, n):
+    """`gap` lowered to the distance along the axes between the robot's next centre and its k-th box, if it has one."""
     for p in range(n):
-        x = abs(body[0, p] + body[3, p] * dt - bx[p]) - half[p]
-        y = abs(body[1, p] + body[4, p] * dt - by[p]) - half[p]
+        if k >= slot_count[p]:
+            continue
+        b = 3 * chosen[p]
+        x = abs(body[0, p] + body[3, p] * dt - boxes[b, p]) - boxes[b + 2, p]
+        y = abs(body[1, p] + body[4, p] * dt - boxes[b + 1, p]) - boxes[b + 2, p]
         far = x if x > y else y
         gap[p] = far if far < gap[p] else gap[p]
