@@ -13,6 +13,7 @@ from numba import types
 from numba.extending import intrinsic
 from pymunk import _chipmunk
 
+from mindrun.sim.codes import FORCE_X, FORCE_Y, TORQUE
 from mindrun.sim.lanes.arithmetic import compiled
 
 ffi, lib = _chipmunk.ffi, _chipmunk.lib
@@ -152,12 +153,12 @@ def close_space(c, handles, circles):
 
 
 @compiled
-def push(t, s, p):
+def push_body(t, s, p):
     """Lane p's state, force and torque into its body; what the claw holds becomes solid, what it dropped does not."""
     c, row = t.library, s.floats[p]
     for i in range(6):
         row[i] = s.body[i, p]
-    row[6], row[7], row[8] = s.stack[2, p], s.stack[3, p], s.stack[1, p]
+    row[6], row[7], row[8] = s.push[FORCE_X, p], s.push[FORCE_Y, p], s.push[TORQUE, p]
     s.batch[p, 0] = NUMBERS
     call(c[BODY_SET], s.handles[p, 1], s.batch[p, 5:].ctypes.data)
     for i in range(len(t.things)):

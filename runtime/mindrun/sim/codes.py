@@ -13,6 +13,8 @@ REACH, DELIVERY, VISIT, COLLISION, EXHAUSTION = range(5)
 NUMBER, READING, EACH, MEASURE, ADD, SUBTRACT, MULTIPLY, DIVIDE, NEGATE = range(9)
 LESS, LESS_EQUAL, GREATER, GREATER_EQUAL = range(4)
 
+FORCE, TORQUE, FORCE_X, FORCE_Y = range(4)  # rows of what pushes a body
+
 OPERATIONS = {name: code for code, name in enumerate(("number", "reading", "each", "measure", *"+-*/", "negate"))}
 COMPARES = {"<": LESS, "<=": LESS_EQUAL, ">": GREATER, ">=": GREATER_EQUAL}
 INERTIAL_TICKS = 20
@@ -34,7 +36,7 @@ EDGE = _row(to_skill="i8", target="i8", output="i8", code="i8", length="i8")
 CODE = _row(op="i8", arg="i8", value="f8")
 ACTUATOR = _row(kind="i8", thrust="f8", neutral="f4", reach="f8", delay="i8", ring="i8")
 MEMORY = _row(row="i8", decay="f4", rest="f4", start="f4")
-THING = _row(kind="i8", first="f8", last="f8", by="f8", low="f8", high="f8", hold="f8", moves="i8")
+THING = _row(kind="i8", first="f8", last="f8", by="f8", low="f8", high="f8", hold="f8", drawn="i8")
 OBSTACLE = _row(first="f8", last="f8", grid="f8", jitter="f8", lines="i8", count="i8", low="f8", high="f8")
 MEASURES = _row(kind="i8", thing="i8", beyond="f8", over="i8", ring="i8")
 EVENT = _row(kind="i8", thing="i8", columns="i8", patch="f8", board="i8", ends="i8", counts="i8")

@@ -33,7 +33,7 @@ def draw(t, s, p):
     s.boxes[2::3, p] = 0.0
     box = 0
     for i in range(len(obstacles)):
-        box = draw_grid(s, obstacles[i], world.half, box, p)
+        box = draw_grid(s, obstacles[i], box, p)
     start(s, world.half, world.radius, p)
     for i in range(len(obstacles)):
         for _ in range(obstacles[i].count):
@@ -44,13 +44,12 @@ def draw(t, s, p):
     s.things[:, p] = 1e9
     for i in range(len(t.things)):
         thing = t.things[i]
-        fixed = thing.by == thing.by  # a schedule, or one size; NaN: drawn
-        s.things[4 * i + 2, p] = thing.first if fixed else uniform(s.random, p, thing.first, thing.last)
+        s.things[4 * i + 2, p] = uniform(s.random, p, thing.first, thing.last) if thing.drawn else thing.first
         put(t, s, i, p)
 
 
 @compiled
-def draw_grid(s, obstacle, half, box, p):
+def draw_grid(s, obstacle, box, p):
     """One obstacle at each crossing of the grid, a little off it; the number of the next box."""
     for row in range(obstacle.lines):
         for column in range(obstacle.lines):
@@ -126,7 +125,7 @@ def succeed(t, s, i, p):
     """Thing i has been reached or delivered: it takes the next step of its schedule and reappears elsewhere."""
     thing = t.things[i]
     size = s.things[4 * i + 2, p]
-    if thing.by != thing.by:
+    if thing.drawn:
         size = uniform(s.random, p, thing.first, thing.last)
     elif thing.first > thing.last:
         size = max(thing.last, size - thing.by)

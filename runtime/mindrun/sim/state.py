@@ -55,7 +55,12 @@ class State(NamedTuple):
     # scratch
     gathered: Array  # [inputs] float32
     hidden: Array  # [2·width] float32
-    stack: Array  # [depth] float64
+    stack: Array  # [depth] float64, of expressions
+    push: Array  # [4] float64: force along the heading, torque, and the force's x and y
+    was: Array  # [2] float64: x and y when the tick began
+    gap: Array  # float64: to what is nearest after this tick
+    paid: Array  # float64: whether a reward line pays
+    limit: Array  # float64: the right side of its condition
     sight: Array  # [4 + rays] float32: heading and place, then how far each ray goes
     slots: Array  # [4·boxes] float32: the sides of the boxes that a lane's rays can meet, relative to the robot
     slot_boxes: Array  # [boxes] int64: which boxes a lane's rays or robot can meet
@@ -63,7 +68,9 @@ class State(NamedTuple):
     slot_most: Array  # [1]: of any lane
     anchor: Array  # [2] float64: where the slots were chosen
     active: Array  # [lanes] int64
-    row: Array  # [3] float32
+    sound: Array  # float32: 0 where all inputs of a skill are finite, else NaN
+    values: Array  # float32: of an edge with `at`
+    sent: Array  # float32: the values of an edge, −1 where nothing is sent
 
 
 class Jobs(NamedTuple):
@@ -83,7 +90,6 @@ class Jobs(NamedTuple):
     faults: Array
 
 
-STAGES = 9  # scratch rows of the stages; then room for the deepest expression
 HANDLES = 3
 
 
@@ -95,13 +101,13 @@ def empty_state(tables: Tables, sizes: Sizes, lanes: int) -> State:
     doubles = {
         "body": 6, "heading": 2, "boxes": 3 * boxes, "things": 4 * things, "trail": 2 * INERTIAL_TICKS,
         "changes": 2 * sizes.changes, "measures": len(tables.measures), "events": events,
-        "lines": len(tables.rewards), "stack": STAGES + sizes.depth, "anchor": 2,
+        "lines": len(tables.rewards), "stack": sizes.depth, "push": 4, "was": 2, "anchor": 2,
     }  # fmt: skip
     singles = {
         "readings": sizes.readings, "before": sizes.before, "genome": sizes.genome, "influence": sizes.skills,
         "sums": 2 * (actuators + len(tables.memories)), "commands": actuators, "late": sizes.delays,
         "last": actuators, "gathered": sizes.inputs, "hidden": 2 * sizes.width, "sight": 4 + rays,
-        "slots": 4 * boxes, "row": 3,
+        "slots": 4 * boxes,
     }  # fmt: skip
     numbers = (
         "held", "counts", "tick", "ended", "faults", "job", "near", "touching", "touches", "slot_count", "active",
@@ -110,7 +116,8 @@ def empty_state(tables: Tables, sizes: Sizes, lanes: int) -> State:
         **{name: np.zeros((max(1, rows), whole)) for name, rows in doubles.items()},
         **{name: np.zeros((max(1, rows), whole), np.float32) for name, rows in singles.items()},
         **{name: np.zeros(lanes, np.int64) for name in numbers},
-        battery=np.zeros(lanes),
+        **{name: np.zeros(lanes) for name in ("battery", "gap", "paid", "limit")},
+        **{name: np.zeros(whole, np.float32) for name in ("sound", "values", "sent")},
         random=np.zeros(lanes, np.uint64),
         board=np.zeros((lanes, max(1, sizes.patches)), np.uint8),
         slot_most=np.zeros(1, np.int64),

@@ -1,7 +1,7 @@
 """The task's rows of the tables: its world, what it contains, its measures, events and rewards."""
 
 from collections.abc import Sequence
-from math import ceil, inf, nan, pi
+from math import ceil, inf, pi
 from typing import Any
 
 import numpy as np
@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from mindrun import actuators, events, measures, sensors, world
 from mindrun.graph import Graph, Reward, Sensor, Task, Thing
+from mindrun.quantity import Span
 from mindrun.sim.codes import (
     ADVANCE,
     CHANGE,
@@ -54,18 +55,14 @@ def _lines(task: Task, obstacle: world.Obstacle) -> int:
 
 def thing_rows(graph: Graph, task: Task) -> list[Any]:
     """Rows of THING, the items, zones and powers in the order of the source."""
-    moving = {e.of for e in task.events if isinstance(e, events.Reach | events.Delivery)}
     rows = []
     for thing in things_of(task):
         kind = thing.kind
         code = {world.Item: ITEM, world.Zone: ZONE, world.Power: POWER}[type(kind)]
         size, away = kind.size, kind.away
-        low, high = (away.first, away.last) if away.first >= 0 else _default_away(task)
+        drawn = size.by is None and size.first != size.last
         hold = graph.body.size / 2 + max(size.first, size.last) / 2
-        by = nan if size.by is None else size.by
-        if size.first == size.last:
-            by = 0.0
-        rows.append((code, size.first, size.last, by, low, high, hold, thing.name in moving))
+        rows.append((code, size.first, size.last, size.by or 0.0, *_away(away, task, 10.0), hold, drawn))
     return rows
 
 
@@ -74,16 +71,17 @@ def obstacle_rows(task: Task) -> list[Any]:
     rows = []
     for obstacle in obstacles_of(task):
         away, size = obstacle.away, obstacle.size
-        low, high = (0.0, inf) if isinstance(task.scene, world.Arena) else (10.0, 40.0)
-        low, high = (away.first, away.last) if away.first >= 0 else (low, high)
-        lines = _lines(task, obstacle)
         count = 0 if obstacle.grid else obstacle.count
-        rows.append((size.first, size.last, obstacle.grid, obstacle.jitter, lines, count, low, high))
+        lines = _lines(task, obstacle)
+        rows.append((size.first, size.last, obstacle.grid, obstacle.jitter, lines, count, *_away(away, task, 0.0)))
     return rows
 
 
-def _default_away(task: Task) -> tuple[float, float]:
-    return (10.0, inf) if isinstance(task.scene, world.Arena) else (10.0, 40.0)
+def _away(away: Span, task: Task, nearest: float) -> tuple[float, float]:
+    """How far from the robot something is placed; in an arena that does not say so at least `nearest`."""
+    if away.first >= 0:
+        return away.first, away.last
+    return (nearest, inf) if isinstance(task.scene, world.Arena) else (10.0, 40.0)
 
 
 def measure_rows(task: Task) -> tuple[list[Any], int]:

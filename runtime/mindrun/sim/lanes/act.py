@@ -21,8 +21,8 @@ def act(t, s, n, clock):
     for i in range(len(t.memories)):
         memory = t.memories[i]
         sink = len(t.actuators) + i
-        means(s.sums[sink], s.sums[sinks + sink], UNDRIVEN, s.row[2], s.faults, n)
-        remember(s.readings[memory.row], s.row[2], memory.decay, memory.rest, n)
+        means(s.sums[sink], s.sums[sinks + sink], UNDRIVEN, s.sent, s.faults, n)
+        remember(s.readings[memory.row], s.sent, memory.decay, memory.rest, n)
 
 
 @compiled

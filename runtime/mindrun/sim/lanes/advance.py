@@ -37,8 +37,7 @@ def after(t, s, jobs, interrupt):
     """The second half of a tick: act, step, judge; lanes whose run is over write their result and begin the next."""
     n, clock = jobs.lanes[0], jobs.clock[0]
     act(t, s, n, clock)
-    s.stack[5, :n] = s.body[0, :n]
-    s.stack[6, :n] = s.body[1, :n]
+    s.was[:, :n] = s.body[:2, :n]
     step(t, s, n)
     judge(t, s, n, clock, interrupt)
     s.last[:, :n] = s.commands[:, :n]

@@ -45,6 +45,3 @@ def combine(op, left, right, n):
     elif op == DIVIDE:
         for k in range(n):
             left[k] = left[k] / right[k]
-
-
-__all__ = ["evaluate"]

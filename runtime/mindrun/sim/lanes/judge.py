@@ -36,7 +36,7 @@ def judge(t, s, n, clock, interrupt):
         if measure.kind == CHANGE:
             change(t, s, measure, s.measures[i], n, clock)
         elif measure.kind == FORWARD:
-            forward(s.measures[i], s.body, s.heading, s.stack[5:7], n)
+            forward(s.measures[i], s.body, s.heading, s.was, n)
         else:
             progress(s.measures[i], s.body, s.things, measure.thing, measure.kind, n)
     if t.world[0].battery:
@@ -51,7 +51,7 @@ def judge(t, s, n, clock, interrupt):
     oldest = clock % INERTIAL_TICKS
     for p in range(n):
         s.tick[p] += 1
-        s.trail[2 * oldest, p], s.trail[2 * oldest + 1, p] = s.stack[5, p], s.stack[6, p]
+        s.trail[2 * oldest, p], s.trail[2 * oldest + 1, p] = s.was[0, p], s.was[1, p]
 
 
 @compiled
@@ -158,24 +158,24 @@ def reward(t, s, line, total, n):
         s.active[p] = p
     for k in range(max(1, line.eachs)):
         each = line.each + k
-        paid = s.stack[7]
+        paid = s.paid
         for p in range(n):
             paid[p] = s.events[line.on, p] if line.on >= 0 else 1.0
         if line.compare >= 0:
             run(t, s, line.right, line.rights, each, n)
             for p in range(n):
-                s.stack[8, p] = s.stack[9, p]
+                s.limit[p] = s.stack[0, p]
             run(t, s, line.left, line.lefts, each, n)
-            only_when(paid, s.stack[9], s.stack[8], line.compare, n)
+            only_when(paid, s.stack[0], s.limit, line.compare, n)
         run(t, s, line.code, line.length, each, n)
         for p in range(n):
-            total[p] += s.stack[9, p] if paid[p] > 0.0 else 0.0
+            total[p] += s.stack[0, p] if paid[p] > 0.0 else 0.0
 
 
 @compiled
 def run(t, s, first, length, each, n):
-    """Evaluate a program into stack[9]."""
-    evaluate(t.codes[first : first + length], s.readings, s.measures, each, s.stack[9:], s.active, n)
+    """Evaluate a program into stack[0]."""
+    evaluate(t.codes[first : first + length], s.readings, s.measures, each, s.stack, s.active, n)
 
 
 @compiled

@@ -1,7 +1,7 @@
 """Step: one tick of physics. Free flight is plain arithmetic in Chipmunk's order; Chipmunk steps what could touch."""
 
-from mindrun.sim.chipmunk import open_space, push, step_space
-from mindrun.sim.codes import WHEEL_LEFT, WHEEL_RIGHT
+from mindrun.sim.chipmunk import open_space, push_body, step_space
+from mindrun.sim.codes import FORCE, FORCE_X, FORCE_Y, TORQUE, WHEEL_LEFT, WHEEL_RIGHT
 from mindrun.sim.lanes.act import carry
 from mindrun.sim.lanes.arithmetic import compiled, sine_cosine
 from mindrun.sim.lanes.sense import SLACK
@@ -16,14 +16,14 @@ def step(t, s, n):
     world = t.world[0]
     thrust(t, s, n)
     find_near(t, s, n)
-    fly(s.body, s.row, s.stack, s.near, world.dt, world.mass_inv, world.moment_inv, n)
+    fly(s.body, s.push, s.near, world.dt, world.mass_inv, world.moment_inv, n)
     for p in range(n):
         s.touching[p] <<= 1  # bit 0 this tick, bit 1 the tick before
         s.touching[p] &= 3
         if s.near[p] > 0:
             if s.handles[p, 0] == 0:
                 open_space(t, s, p)
-            push(t, s, p)
+            push_body(t, s, p)
             if step_space(t, s, p, world.dt) > 0:
                 s.touching[p] |= 1
     for p in range(n):
@@ -33,16 +33,16 @@ def step(t, s, n):
 
 @compiled
 def thrust(t, s, n):
-    """Damped velocities into the body; force along the heading and torque into the scratch rows stack[0..2]."""
+    """Damped velocities into the body; force and torque into `push`."""
     world = t.world[0]
-    s.stack[0:2, :n] = 0.0
+    s.push[:2, :n] = 0.0
     for i in range(len(t.actuators)):
         actuator = t.actuators[i]
         if actuator.kind == WHEEL_LEFT:
-            wheel(s.commands[i], actuator.thrust, s.stack[0], s.stack[1], -world.radius, n)
+            wheel(s.commands[i], actuator.thrust, s.push[FORCE], s.push[TORQUE], -world.radius, n)
         elif actuator.kind == WHEEL_RIGHT:
-            wheel(s.commands[i], actuator.thrust, s.stack[0], s.stack[1], world.radius, n)
-    damp(s.body, s.heading, s.stack, world.linear, world.angular, n)
+            wheel(s.commands[i], actuator.thrust, s.push[FORCE], s.push[TORQUE], world.radius, n)
+    damp(s.body, s.heading, s.push, world.linear, world.angular, n)
 
 
 @compiled
@@ -55,18 +55,18 @@ def wheel(commands, strength, force, torque, arm, n):
 
 
 @compiled
-def damp(body, heading, stack, linear, angular, n):
-    """v / (1 + dt·c), as JBox2D does; then stack holds the force's x and y and the torque in rows 2, 3, 1."""
+def damp(body, heading, push, linear, angular, n):
+    """v / (1 + dt·c), as JBox2D does; and the force turned into the world."""
     for p in range(n):
         body[3, p] = body[3, p] * linear
         body[4, p] = body[4, p] * linear
         body[5, p] = body[5, p] * angular
-        stack[2, p] = stack[0, p] * heading[0, p]
-        stack[3, p] = stack[0, p] * heading[1, p]
+        push[FORCE_X, p] = push[FORCE, p] * heading[0, p]
+        push[FORCE_Y, p] = push[FORCE, p] * heading[1, p]
 
 
 @compiled
-def fly(body, row, stack, near, dt, mass_inv, moment_inv, n):
+def fly(body, push, near, dt, mass_inv, moment_inv, n):
     """Chipmunk's step of a body that touches nothing: move with the old velocity, then add force and torque.
 
     A lane that Chipmunk will step keeps its state.
@@ -76,9 +76,9 @@ def fly(body, row, stack, near, dt, mass_inv, moment_inv, n):
         body[0, p] = body[0, p] + body[3, p] * dt if free else body[0, p]
         body[1, p] = body[1, p] + body[4, p] * dt if free else body[1, p]
         body[2, p] = body[2, p] + body[5, p] * dt if free else body[2, p]
-        body[3, p] = body[3, p] + stack[2, p] * mass_inv * dt if free else body[3, p]
-        body[4, p] = body[4, p] + stack[3, p] * mass_inv * dt if free else body[4, p]
-        body[5, p] = body[5, p] + stack[1, p] * moment_inv * dt if free else body[5, p]
+        body[3, p] = body[3, p] + push[FORCE_X, p] * mass_inv * dt if free else body[3, p]
+        body[4, p] = body[4, p] + push[FORCE_Y, p] * mass_inv * dt if free else body[4, p]
+        body[5, p] = body[5, p] + push[TORQUE, p] * moment_inv * dt if free else body[5, p]
 
 
 @compiled
@@ -86,7 +86,7 @@ def find_near(t, s, n):
     """Count down `near`, and begin anew where the robot or what it holds could touch something after this tick."""
     world = t.world[0]
     reach = world.radius + MARGIN
-    gap = s.stack[4]
+    gap = s.gap
     clearance(s.body, world.half, world.dt, gap, n)
     for k in range(s.slot_most[0]):
         approach(s.boxes, s.slot_boxes[k], s.slot_count, k, s.body, world.dt, gap, n)

@@ -38,7 +38,7 @@ def wake(t, s, n, i):
     count = awake(s.influence[skill.index], s.active, n, skill.own)
     if count > 0:
         rows = t.inputs[skill.input : skill.input + skill.inputs]
-        gather(rows, s.readings, s.gathered, s.active, s.row[0], count, count == n)
+        gather(rows, s.readings, s.gathered, s.active, s.sound, count, count == n)
     return count
 
 
@@ -141,16 +141,16 @@ def send(t, s, i, out, n, lanes):
         if edge.output >= 0:
             values = s.hidden[out + edge.output]
         else:
-            values = s.row[1]
+            values = s.values
             evaluate(t.codes[edge.code : edge.code + edge.length], s.readings, s.measures, 0, s.stack, s.active, n)
             for k in range(n):
                 values[k] = F(s.stack[0, k])
-        check(values, s.row[0], s.row[2], s.active, s.faults, influence, n)
+        check(values, s.sound, s.sent, s.active, s.faults, influence, n)
         if edge.to_skill:
-            spread(s.row[2], influence, s.influence[edge.target], s.active, n, n == lanes)
+            spread(s.sent, influence, s.influence[edge.target], s.active, n, n == lanes)
         else:
-            spread(s.row[2], influence, s.sums[edge.target], s.active, n, n == lanes)
-            weigh(s.row[2], influence, s.sums[sinks + edge.target], s.active, n, n == lanes)
+            spread(s.sent, influence, s.sums[edge.target], s.active, n, n == lanes)
+            weigh(s.sent, influence, s.sums[sinks + edge.target], s.active, n, n == lanes)
 
 
 @compiled
