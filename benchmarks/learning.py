@@ -51,7 +51,7 @@ def prepared(graph: Graph, weights: dict[str, Any], skill: str, workers: int) ->
     """The skill's first lesson and its rollout, compiled."""
     lesson = next(lesson for lesson in graph.lessons if lesson.skill == skill)
     rollout = Rollout(graph, weights, lesson.task, lesson.master, skill, workers=workers)
-    rollout.score(np.zeros((1, rollout.genome_length), np.float32), [1])
+    rollout.compile()
     return lesson, rollout
 
 

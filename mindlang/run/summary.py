@@ -1,9 +1,9 @@
 """Outcomes for reading."""
 
+from collections.abc import Sequence
 from typing import Any
 
 from rich.console import Group, RenderableType
-from rich.table import Table
 from rich.text import Text
 
 from mindlang.figures import duration, rate, score
@@ -19,11 +19,9 @@ def run_summary(found: dict[str, Any]) -> RenderableType:
         ("ticks", f"{found['ticks']:,} of {found['of_ticks']:,}, {ended}"),
         ("faults", _faults(found)),
     )
-    sums = _grid()
-    for text, paid in found["by_line"].items():
-        sums.add_row(score(paid), Text(text))
-    sums.add_row(Text(score(found["score"]), "bold"), Text("score", "bold"))
-    return Group(_title(found), facts, "", sums)
+    sums = [(Text(score(paid)), text) for text, paid in found["by_line"].items()]
+    total = (Text(score(found["score"]), "bold"), "score")
+    return Group(_title(found), facts, "", _aligned([*sums, total]))
 
 
 def bench_summary(found: dict[str, Any]) -> RenderableType:
@@ -62,16 +60,11 @@ def _faults(found: dict[str, Any]) -> str:
     return f"{found['faults']:,} values were not finite numbers, and not sent" if found["faults"] else ""
 
 
-def _facts(*rows: tuple[str, str]) -> Table:
-    table = _grid()
-    for name, value in rows:
-        if value:
-            table.add_row(Text(name, "dim"), Text(value))
-    return table
+def _facts(*rows: tuple[str, str]) -> Text:
+    return _aligned([(Text(name, "dim"), value) for name, value in rows if value])
 
 
-def _grid() -> Table:
-    table = Table.grid(padding=(0, 2))
-    table.add_column(justify="right")
-    table.add_column()
-    return table
+def _aligned(rows: Sequence[tuple[Text, str]]) -> Text:
+    """A line per row, the first column to the right; nothing is padded at the ends of lines."""
+    width = max(len(first) for first, _ in rows)
+    return Text("\n").join(Text.assemble(" " * (width - len(first)), first, f"  {second}") for first, second in rows)

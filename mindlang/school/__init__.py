@@ -92,7 +92,7 @@ class School:
         self._say(opening(run))
         if not is_compiled():
             self._say(WAIT)
-        return Rollout(
+        rollout = Rollout(
             book.graph,
             run.weights,
             lesson.task,
@@ -101,6 +101,8 @@ class School:
             procedures=book.folder,
             workers=self.workers or cores(),
         )
+        rollout.compile()  # before the clock of the lesson starts
+        return rollout
 
     def _watched(self, run: Run, rollout: Rollout) -> State:
         lesson = run.manifest.lesson
