@@ -51,9 +51,10 @@ class School:
         book = open_book(file, compiled)
         chosen = lessons(book.graph, curriculum, skills)
         taught = 0
-        for place, lesson in enumerate(chosen):
+        for lesson in chosen:
             book = open_book(file, compiled)  # the lesson before has changed the lock
-            if skills or force or is_due(lesson, chosen[:place], book.statuses[lesson.skill]):
+            before = book.graph.lessons[: book.graph.lessons.index(lesson)]
+            if skills or force or is_due(lesson, before, book.statuses[lesson.skill]):
                 run = begin(book, wishes.applied(lesson), seed, runs, datetime.now(UTC))
                 taught += 1
                 if not self._teach(run, book):

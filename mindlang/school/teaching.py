@@ -59,7 +59,7 @@ def subskills(graph: Graph, lesson: Lesson) -> tuple[str, ...]:
 
 
 def is_due(lesson: Lesson, before: Sequence[Lesson], state: Status) -> bool:
-    """Whether a lesson has yet to be taught; `before` are the lessons that come before it.
+    """Whether a lesson has yet to be taught; `before` are the lessons that come before it in the source.
 
     A skill whose weights fit is left alone, except where they came from an earlier lesson of the same skill.
     """
