@@ -1,14 +1,13 @@
 """Whether the simulator must still be compiled, which takes a while and happens once."""
 
-from importlib import import_module
-from pathlib import Path
+from typing import Any
 
 WAIT = "compiling the simulator once (about half a minute)…"
 
 
 def is_compiled() -> bool:
-    """Whether the compiled simulator lies in numba's cache."""
-    import_module("mindrun.sim.lanes.arithmetic")  # it tells numba where its cache is
-    import numba
+    """Whether numba has a compiled simulator that it would take: one of these very files, where they lie now."""
+    from mindrun.sim.lanes.advance import advance
 
-    return any(Path(numba.config.CACHE_DIR).rglob("advance.advance-*.nbc"))
+    dispatcher: Any = advance
+    return bool(dispatcher._cache._cache_file._load_index())

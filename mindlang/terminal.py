@@ -5,6 +5,8 @@ from __future__ import annotations
 import json
 import os
 import sys
+from collections.abc import Iterator
+from contextlib import contextmanager, redirect_stdout
 from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NoReturn
@@ -57,6 +59,13 @@ def print_json(value: object) -> None:
     """One JSON document on stdout."""
     json.dump(value, sys.stdout, indent=2, ensure_ascii=False, allow_nan=False)
     sys.stdout.write("\n")
+
+
+@contextmanager
+def procedures_talk() -> Iterator[None]:
+    """Around whatever runs procedures, or above it as a decorator: what they print is talk, and goes to stderr."""
+    with redirect_stdout(sys.stderr):
+        yield
 
 
 def load_compiled(path: Path | str) -> Compiled:

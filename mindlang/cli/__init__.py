@@ -67,9 +67,13 @@ def main() -> None:
 
 
 def _unforeseen(error: Exception) -> int:
+    from mindrun.errors import MindError
+
     if os.environ.get("MIND_DEBUG"):
         raise error
     match error:
+        case MindError():  # a procedure that fails in the middle of a run, say
+            say(str(error), error.hint)
         case OSError():
             say(f"{error.strerror or error}: {error.filename}" if error.filename else str(error))
         case _:

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from math import isfinite
 from pathlib import Path
+from typing import Any
 
 import click
 
@@ -18,6 +20,15 @@ SEED = click.IntRange(0, 2**64 - 1)
 PATH = click.Path(path_type=Path)
 
 
+class Speed(click.FloatRange):
+    """A range in which "nan", of which no comparison holds, does not lie."""
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
+        """The number; as click does it, except for nan."""
+        number = super().convert(value, param, ctx)
+        return number if isfinite(number) else self.fail(f"{value} is not a number.", param, ctx)
+
+
 @click.command(epilog=EXAMPLES)
 @click.argument("file")
 @click.option("--task", metavar="TASK", help="Default: the task on which the master is taught, else the first.")
@@ -26,7 +37,7 @@ PATH = click.Path(path_type=Path)
 @click.option("--no-interruption", is_flag=True, help="Go on to the last tick, whatever would end the run.")
 @click.option("--picture", type=PATH, metavar="PATH.png", help="Draw the world and the path that the robot took.")
 @click.option("--video", type=PATH, metavar="PATH.mp4", help="Film the world and the influence in the hierarchy.")
-@click.option("--speed", type=click.FloatRange(0.01, 1000), help="Of the video. Default: a whole run takes a minute.")
+@click.option("--speed", type=Speed(0.01, 1000), help="Of the video. Default: a whole run takes a minute.")
 @click.option("--json", "as_json", is_flag=True, help="Print one JSON document instead.")
 @click.option("-q", "--quiet", is_flag=True, help="Print nothing but results and errors.")
 def command(
@@ -49,7 +60,7 @@ def command(
     import secrets
 
     from mindlang.run import outcome
-    from mindlang.run.stage import NOBODY, Stage
+    from mindlang.run.stage import Stage
     from mindlang.run.summary import run_summary
     from mindlang.terminal import console, print_json
 
@@ -58,7 +69,7 @@ def command(
     stage.refuse_unwritable(video, ".mp4")
     cast, rollout = stage.prepare(file, task, master, interrupt=not no_interruption)
     seed = secrets.randbits(31) if seed is None else seed
-    found = outcome.one(cast.task, rollout.score(NOBODY, [seed]))
+    found = outcome.one(cast.task, stage.score(rollout, [seed])[0])
     found = {"task": cast.task.name, "master": cast.master, "seed": seed} | found
     if as_json:
         print_json(found)

@@ -18,7 +18,7 @@ Examples:
 @click.option("--json", "as_json", is_flag=True, help="The compiled graph as JSON: mindc show collect.mind --json")
 def command(file: str, as_dot: bool, as_json: bool) -> None:
     """Show the hierarchy of a mind, from the master down."""
-    from dataclasses import asdict
+    from mindrun.encoding import encode
 
     from mindlang.drawing import dot, tree
     from mindlang.terminal import console, load_compiled, print_json
@@ -29,7 +29,7 @@ def command(file: str, as_dot: bool, as_json: bool) -> None:
     assert compiled.graph
     assert compiled.mind
     if as_json:
-        print_json(asdict(compiled.graph))
+        print_json(encode(compiled.graph))
     elif as_dot:
         sys.stdout.write(dot(compiled.mind) + "\n")
     else:

@@ -58,7 +58,9 @@ def command(
     from mindlang.school import School
     from mindlang.school.teaching import Wishes
 
-    if (file is None) == (resume is None) or file == "-":
+    if file == "-":
+        fail("Standard input cannot be taught: what is learnt is kept beside a file.", "Save it as a file.", MISUSE)
+    if (file is None) == (resume is None):
         fail("Say what to train: a file, or --resume and a run.", "mindc train --help has examples.", MISUSE)
     school = School(workers, as_json, quiet)
     wishes = Wishes(generations, population, attempts, from_scratch)

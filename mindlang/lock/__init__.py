@@ -106,8 +106,10 @@ def read_lock(path: Path) -> dict[str, Entry]:
             text = file.read(LARGEST + 1).decode()
     except FileNotFoundError:
         return {}
-    except (OSError, UnicodeDecodeError) as error:
-        raise LockError(f"{path} cannot be read ({error})") from error
+    except OSError as error:
+        raise LockError(f"{path} cannot be read: {error.strerror}") from error
+    except UnicodeDecodeError as error:
+        raise LockError(f"{path} is damaged: it is not text; get it back, or delete it and train") from error
     header, *lines = text.split("\n")
     if not header.startswith(VERSION) or lines[-1:] != [""] or len(text) > LARGEST:
         raise LockError(f"{path} is damaged: it is not a whole lock of this mindc; get it back, or delete it and train")

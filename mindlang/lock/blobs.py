@@ -21,15 +21,16 @@ FOLDER = "weights"
 def load_weights(entry: Entry, skill: Skill) -> Weights:
     """The weights of an entry, held against its hash and its skill; LockError where they are not those."""
     path = _blob(entry.folder, entry.weights)
+    remedy = f"get it back, or train {entry.skill} --from-scratch"
     try:
         if not path.resolve().is_relative_to(entry.folder.resolve()):
             raise LockError(f"{path} leads out of {entry.folder}")
         data = path.read_bytes()
         if sha256(data).hexdigest() != entry.weights:
-            raise LockError(f"{path}, the weights of {entry.skill}, is damaged: get it back, or train {entry.skill}")
+            raise LockError(f"{path}, the weights of {entry.skill}, is damaged: {remedy}")
         return weights_of(skill, {skill.name: from_npy(data)})
     except OSError as error:
-        raise LockError(f"{path}, the weights of {entry.skill}, cannot be read: {error.strerror}") from error
+        raise LockError(f"{path}, the weights of {entry.skill}, cannot be read: {error.strerror}; {remedy}") from error
     except WeightsError as error:
         raise LockError(f"{path}, the weights of {entry.skill}, do not fit: {error}") from error
 
@@ -53,7 +54,7 @@ def record(
             if skill in lock:
                 _forget(path.parent, lock[skill].weights)
     except OSError as error:
-        raise LockError(f"the weights of {skill} cannot be written: {error.strerror} ({error.filename})") from error
+        raise LockError(f"the weights of {skill} cannot be written: {error.strerror}") from error
     return entry
 
 

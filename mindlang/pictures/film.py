@@ -8,7 +8,7 @@ from typing import Any, ClassVar
 import cv2
 from mindrun.world import Arena
 
-from mindlang.pictures.canvas import Canvas, Image, View, blank, pasted
+from mindlang.pictures.canvas import Canvas, Image, View, blank, pasted, text_width
 from mindlang.pictures.panel import Panel
 from mindlang.pictures.path import Path, draw_cross
 from mindlang.pictures.story import Story
@@ -107,7 +107,7 @@ class Film:
         return View.around(middle - half, middle + half, HEIGHT, HEIGHT)
 
     def _title(self, canvas: Canvas, tick: int) -> None:
-        story, left = self.story, HEIGHT + 24.0
+        story, left, y = self.story, HEIGHT + 24.0, 66.0
         canvas.text(left, 38, story.task.name, 17, NIGHT.ink, bold=True)
         said: list[str] = [
             f"{tick * story.graph.tick:.1f} s",
@@ -117,7 +117,9 @@ class Film:
             f"seed {self.found['seed']}",
         ]
         for text in said:
-            left += canvas.text(left, 66, text, 11, NIGHT.faint) + 22
+            if left + text_width(text, 11) > WIDTH - 12:
+                left, y = HEIGHT + 24.0, y + 22
+            left += canvas.text(left, y, text, 11, NIGHT.faint) + 22
 
 
 def _frames_in(path: FilePath) -> int:

@@ -26,7 +26,7 @@ class Panel:
         self._flow = Flow(story)
         self._layout = Layout.of(self._flow.links, self._flow.skills, Place(left, top, width, height))
         boxes = self._layout.boxes.items()
-        self._size = min([LARGEST, *(_fitting(self._name(sink), place) for sink, place in boxes)])
+        self._size = min(fitting(self._widest(sink), place) for sink, place in boxes)
 
     def draw(self, canvas: Canvas, tick: int) -> None:
         """The hierarchy in a tick, the first of which is 1."""
@@ -83,11 +83,14 @@ class Panel:
     def _name(self, sink: Sink) -> str:
         return self._story.graph.named(*sink)
 
+    def _widest(self, sink: Sink) -> str:
+        """The longest line in a box: a skill's number stands below its name, any other's behind it."""
+        return self._name(sink) if sink[0] == "skill" else f"{self._name(sink)}  0.00"
 
-def _fitting(name: str, place: Place) -> float:
-    """The size at which a name, and a number behind it, fit into a box."""
-    room = 0.84 * place.width
-    return max(SMALLEST, LARGEST * room / text_width(f"{name} 0.00"[: max(len(name), 8)], LARGEST))
+
+def fitting(line: str, place: Place) -> float:
+    """The size at which a line fits into a box."""
+    return min(LARGEST, max(SMALLEST, LARGEST * 0.84 * place.width / text_width(line, LARGEST)))
 
 
 def _curve(stops: Sequence[Place]) -> NDArray[np.float64]:

@@ -40,8 +40,8 @@ def _wrong_unit(amount: Amount, quantity: Quantity, findings: Findings) -> None:
 
 
 def _bounds(quantity: Quantity) -> str:
-    low = "more than 0" if 0 < quantity.low < 1e-6 else f"at least {quantity.low:g}"
-    high = f" and at most {quantity.high:g}" if quantity.high != inf else ""
+    low = "more than 0" if 0 < quantity.low < 1e-6 else f"at least {quantity.low:.15g}"
+    high = f" and at most {quantity.high:.15g}" if quantity.high != inf else ""
     return f"Write {low}{high}."
 
 

@@ -15,7 +15,7 @@ from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, T
 
 from mindlang.run.casting import Cast, CastingError, cast
 from mindlang.simulator import WAIT, is_compiled
-from mindlang.terminal import FINDINGS, MISUSE, fail, load_compiled, say, talk
+from mindlang.terminal import FINDINGS, MISUSE, fail, load_compiled, procedures_talk, say, talk
 
 NOBODY = np.zeros((1, 0), np.float32)  # the genome where nobody learns
 
@@ -31,6 +31,7 @@ class Stage:
 
     quiet: bool
 
+    @procedures_talk()
     def prepare(
         self, file: str, task: str | None, master: str | None, interrupt: bool, workers: int = 1
     ) -> tuple[Cast, Rollout]:
@@ -52,6 +53,7 @@ class Stage:
             self.say(f"{skill} runs in Python, which is slow: {reason}")
         return found, rollout
 
+    @procedures_talk()
     def score(self, rollout: Rollout, seeds: list[int]) -> tuple[Scores, float]:
         """All runs, and the seconds that they took."""
         with self._progress() as progress:
@@ -60,6 +62,7 @@ class Stage:
             scores = rollout.score(NOBODY, seeds, lambda runs: progress.advance(bar, runs))
             return scores, perf_counter() - begin
 
+    @procedures_talk()
     def draw(self, cast: Cast, rollout: Rollout, found: dict[str, Any], path: Path) -> None:
         """The picture of a run, written to `path`."""
         from mindrun.durable import write
@@ -74,6 +77,7 @@ class Stage:
             fail(f"{path} cannot be written: {error.strerror}", code=MISUSE)
         self.say(f"{path}: the path of the robot")
 
+    @procedures_talk()
     def film(self, cast: Cast, rollout: Rollout, found: dict[str, Any], path: Path, speed: float | None) -> None:
         """The video of a run, written to `path`."""
         from mindlang.pictures.film import Film, FilmError

@@ -57,7 +57,9 @@ def _counted(found: dict[str, Any], count: str) -> str:
 
 
 def _faults(found: dict[str, Any]) -> str:
-    return f"{found['faults']:,} values were not finite numbers, and not sent" if found["faults"] else ""
+    faults = found["faults"]
+    values = "value was not a finite number" if faults == 1 else "values were not finite numbers"
+    return f"{faults:,} {values}: a division by zero?" if faults else ""
 
 
 def _facts(*rows: tuple[str, str]) -> Text:

@@ -44,7 +44,8 @@ def opening(run: Run) -> str:
 
 def closing(result: Result) -> str:
     """What was learnt, in a sentence."""
+    generations = "1 generation" if result["generations"] == 1 else f"{result['generations']} generations"
     return (
         f"{result['skill']} has learnt: {number(result['reevaluated'])} on fresh layouts after "
-        f"{result['generations']} generations, in {duration(result['seconds'])} at {rate(result['ticks_per_second'])}"
+        f"{generations}, in {duration(result['seconds'])} at {rate(result['ticks_per_second'])}"
     )

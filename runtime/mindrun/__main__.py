@@ -5,6 +5,8 @@ import json
 import os
 import sys
 from collections.abc import Iterator
+from contextlib import redirect_stdout
+from math import nan
 from pathlib import Path
 from typing import Any
 
@@ -39,7 +41,9 @@ def run(options: argparse.Namespace) -> int:
     try:
         bundle = read_bundle(options.bundle)
         if options.readings:
-            _run(Engine(bundle.graph, bundle.weights, bundle.procedures, options.master), options)
+            with redirect_stdout(sys.stderr):  # what a procedure prints is no command
+                engine = Engine(bundle.graph, bundle.weights, bundle.procedures, options.master)
+            _run(engine, options)
         else:
             print(json.dumps(contents(bundle), indent=2, ensure_ascii=False) if options.json else describe(bundle))
         sys.stdout.flush()
@@ -73,9 +77,12 @@ def _options() -> argparse.Namespace:
 
 
 def _share(text: str) -> float:
-    value = float(text)
+    try:
+        value = float(text)
+    except ValueError:
+        value = nan
     if not 0 <= value <= 1:
-        raise ValueError
+        raise argparse.ArgumentTypeError(f"{text} is not a number from 0 to 1")
     return value
 
 
@@ -86,7 +93,8 @@ def _run(engine: Engine, options: argparse.Namespace) -> None:
     skills = [skill.name for skill in engine.graph.skills]
     for number, given in _lines(options.readings):
         try:
-            commands = engine.tick(vector(engine.graph, given, options.fill))
+            with redirect_stdout(sys.stderr):
+                commands = engine.tick(vector(engine.graph, given, options.fill))
         except ReadingsError as error:
             raise ReadingsError(f"{source}, line {number}: {error}") from error
         line: dict[str, Any] = {"commands": dict(zip(names, commands.tolist(), strict=True))}

@@ -101,7 +101,8 @@ def test_wrong_usage(bundle: Path, tmp_path: Path) -> None:
         ((bundle, "--readings", tmp_path / "no.jsonl"), "No such file"),
         ((bundle, "--readings", tmp_path / "binary"), "is not UTF-8"),
         ((bundle, "--readings", "-", "--master", "Nobody"), "there is no skill Nobody"),
-        ((bundle, "--readings", "-", "--fill", "2"), "invalid"),
+        ((bundle, "--readings", "-", "--fill", "2"), "--fill: 2 is not a number from 0 to 1"),
+        ((bundle, "--readings", "-", "--fill", "half"), "--fill: half is not a number from 0 to 1"),
         ((), "required"),
     ]:
         said = mindrun(*words)
@@ -117,6 +118,15 @@ def test_a_procedure_that_fails_is_a_failed_run(tmp_path: Path) -> None:
     said = mindrun(path, "--readings", "-", text='{"r0": 0}')
     assert said.returncode == 1
     assert said.stderr == "mindrun: procedure claw.grip fails for [0.0]: ZeroDivisionError: float division by zero\n"
+
+
+def test_what_a_procedure_prints_is_no_command(tmp_path: Path) -> None:
+    path = tmp_path / "a.bundle"
+    go = skill("Go", Procedure("claw.grip"), (0,), ("actuator", 0))
+    write_bundle(path, mind(go), {}, {"claw": "print('begins')\ndef grip(r):\n    print('grips')\n    return r"})
+    said = mindrun(path, "--readings", "-", text='{"r0": 1}')
+    assert json.loads(said.stdout)["commands"]["left_wheel"] == 1.0
+    assert said.stderr == "begins\ngrips\n"
 
 
 def test_help_has_an_example_for_every_option() -> None:

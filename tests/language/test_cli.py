@@ -72,7 +72,9 @@ def test_show_as_graphviz_and_as_json(mindc: Call) -> None:
     assert dot.endswith("}\n")
     assert '  "skill Work" -> "skill Avoid" [label="1/2"]' in dot
     _, data, _ = mindc("show", TOUR, "--json")
-    assert json.loads(data)["master"] == "Live"
+    graph = json.loads(data)
+    assert graph["master"] == "Live"
+    assert [sensor["kind"]["is"] for sensor in graph["sensors"][:3]] == ["range_finder", "bearing", "derivative"]
 
 
 @pytest.mark.parametrize(("path", "code"), [(WRONG, 1), ("nowhere.mind", 2)])

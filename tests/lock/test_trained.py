@@ -173,7 +173,8 @@ def test_damaged_weights_are_refused(tmp_path: Path, damage: str) -> None:
         case "link":
             (tmp_path / "outside").write_bytes(data)
             blob.symlink_to(tmp_path / "outside")
-    message = {"gone": "cannot be read", "link": "leads out of"}.get(damage, "is damaged")
+    remedy = "get it back, or train Go --from-scratch"
+    message = {"gone": f"cannot be read: .*; {remedy}", "link": "leads out of"}.get(damage, f"is damaged: {remedy}")
     with pytest.raises(LockError, match=message):
         trained_weights(graph, lock, ["Go"])
 

@@ -7,9 +7,11 @@ import numpy as np
 import pytest
 
 from mindlang.compile import load
+from mindlang.pictures.canvas import text_width
 from mindlang.pictures.film import HEIGHT, WIDTH
 from mindlang.pictures.flow import Flow, Link
 from mindlang.pictures.layout import Layout, Place
+from mindlang.pictures.panel import LARGEST, fitting
 from mindlang.pictures.story import tell
 from mindlang.run.casting import cast
 from tests.calling import Call
@@ -28,6 +30,18 @@ def test_a_film_has_its_frames(mindc: Call, rules: Path) -> None:
     assert frames[0].shape == (HEIGHT, WIDTH, 3)
     assert np.abs(frames[0].astype(int) - frames[-1]).max() > 50
     assert sorted(file.suffix for file in rules.parent.iterdir()) == [".mind", ".mp4"]
+
+
+def test_a_speed_is_a_number(mindc: Call, rules: Path) -> None:
+    said = mindc("run", rules, "--video", rules.with_name("run.mp4"), "--speed", "nan")
+    assert (said.code, said.out) == (2, "")
+    assert "nan is not a number." in said.err
+
+
+def test_a_name_and_its_number_fit_into_a_box() -> None:
+    place = Place(0.0, 0.0, 100.0, 50.0)
+    assert text_width("left_wheel  0.00", fitting("left_wheel  0.00", place)) <= 0.84 * place.width + 1
+    assert fitting("left", place) == LARGEST
 
 
 def test_a_film_that_fails_leaves_the_old_one(mindc: Call, rules: Path, monkeypatch: pytest.MonkeyPatch) -> None:

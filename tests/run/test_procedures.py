@@ -33,6 +33,30 @@ def test_a_slow_procedure_gives_the_same_run_and_says_so(mindc: Call, calling: P
     assert "Turn runs in Python, which is slow: " in slow.err
 
 
+@pytest.mark.parametrize(
+    ("body", "message"),
+    [("raise ValueError('no')", "ValueError: no"), ("return 1, 2, 3", "returned 3 values instead of 2")],
+)
+@pytest.mark.parametrize("command", ["run", "bench"])
+def test_a_procedure_that_fails_is_not_mindcs_fault(
+    mindc: Call, calling: Path, tmp_path: Path, command: str, body: str, message: str
+) -> None:
+    (tmp_path / "turning.py").write_text(f"def turn(left, ahead, right):\n    {body}\n")
+    code, out, err = mindc(command, calling, "--quiet")
+    assert (code, out) == (1, "")
+    assert err.startswith("procedure turning.turn ")
+    assert err.endswith(f"{message}\n")
+
+
+@pytest.mark.parametrize("source", [FAST, SLOW])
+def test_what_a_procedure_prints_is_talk(mindc: Call, calling: Path, tmp_path: Path, source: str) -> None:
+    (tmp_path / "turning.py").write_text("print('begins')\n" + source.replace("    ", "    print('turns')\n    "))
+    said = mindc("run", calling, "--task", "Roam", "--json", "--picture", tmp_path / "path.png")
+    assert json.loads(said.out)["task"] == "Roam"
+    assert "begins\n" in said.err
+    assert "turns\n" in said.err
+
+
 def test_a_missing_procedure_is_unreadable_input(mindc: Call, calling: Path) -> None:
     said = mindc("run", calling)
     assert said.code == 2

@@ -10,8 +10,10 @@ import time
 from pathlib import Path
 
 import pytest
+from mindrun.sim.lanes.advance import advance
 
 from mindlang.run.stage import layouts
+from mindlang.simulator import is_compiled
 from tests.calling import RULES, Call
 
 RUN_KEYS = {"score", "by_line", "counts", "ticks", "ended_by", "seed", "task", "master"}
@@ -84,6 +86,15 @@ def test_a_first_run_says_why_it_takes_so_long(mindc: Call, rules: Path, monkeyp
     monkeypatch.setattr("mindlang.run.stage.is_compiled", lambda: False)
     assert mindc("run", rules, "--seed", 3).err == "compiling the simulator once (about half a minute)…\n"
     assert mindc("run", rules, "--seed", 3, "--quiet").err == ""
+
+
+def test_what_was_compiled_of_other_files_does_not_count(
+    mindc: Call, rules: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    assert mindc("run", rules, "--seed", 3, "--quiet").code == 0
+    assert is_compiled()
+    monkeypatch.setattr(advance._cache._cache_file, "_source_stamp", (0, 0))  # as after another installation
+    assert not is_compiled()
 
 
 def test_bench_for_people(mindc: Call, rules: Path) -> None:
