@@ -16,7 +16,7 @@ from mindrun.train.lesson import Record, State
 from mindrun.train.run_folder import Run, keep_result, open_run, read_result
 from mindrun.train.training import Watch, train
 
-from mindlang.lock import Entry, Taught
+from mindlang.lock import Entry, LockError, Taught
 from mindlang.lock.blobs import record
 from mindlang.school.book import Book, begin, keep_path, open_book, refuse_changed
 from mindlang.school.interruption import Interruption
@@ -24,7 +24,7 @@ from mindlang.school.results import Result, closing, opening, result_of
 from mindlang.school.teaching import Wishes, is_due, lessons
 from mindlang.school.watching import Bar, Lines, Pace, Silent, Watcher
 from mindlang.simulator import WAIT, is_compiled
-from mindlang.terminal import load_compiled, talk
+from mindlang.terminal import load_compiled, procedures_talk, talk
 
 
 @dataclass(frozen=True, slots=True)
@@ -80,7 +80,7 @@ class School:
             return True
         state = self._watched(run, self._rollout(run, book))
         if state.attempt < run.manifest.lesson.learner.attempts:
-            talk.print(f"saved; to go on: mindc train --resume {shlex.quote(str(run.folder))}", markup=False)
+            talk.print(f"saved; to go on: {_command(run)}", markup=False)
             return False
         result = result_of(run, state, _keep(run, book, state).weights)
         keep_result(run.folder, result)
@@ -88,6 +88,7 @@ class School:
         self._print(result)
         return True
 
+    @procedures_talk()
     def _rollout(self, run: Run, book: Book) -> Rollout:
         lesson = run.manifest.lesson
         self._say(opening(run))
@@ -105,13 +106,14 @@ class School:
         rollout.compile()  # before the clock of the lesson starts
         return rollout
 
+    @procedures_talk()
     def _watched(self, run: Run, rollout: Rollout) -> State:
         lesson = run.manifest.lesson
         watcher = self._watcher(run, run.course(rollout.genome_length).generations)
 
         def asked() -> None:
             watcher.close()
-            self._say("finishing this generation; Ctrl-C again stops at once")
+            self._say(f"finishing this generation; Ctrl-C again stops at once, to go on then: {_command(run)}")
 
         def report(state: State, record: Record) -> None:
             done = state.attempt * lesson.generations + state.population.generation
@@ -138,8 +140,13 @@ class School:
             print(json.dumps(result, allow_nan=False), flush=True)
 
 
+def _command(run: Run) -> str:
+    """What goes on with a run."""
+    return f"mindc train --resume {shlex.quote(str(run.folder))}"
+
+
 def _keep(run: Run, book: Book, state: State) -> Entry:
-    """Put what was learnt into the lock; RunError where nothing was."""
+    """Put what was learnt into the lock; RunError where nothing was, or it cannot be kept there."""
     lesson = run.manifest.lesson
     if not isfinite(state.reevaluated):
         raise RunError(
@@ -148,4 +155,7 @@ def _keep(run: Run, book: Book, state: State) -> Entry:
         )
     population, seed = lesson.learner.population, run.manifest.seed
     taught = Taught(lesson.task, lesson.master, lesson.generations, population, seed, state.reevaluated)
-    return record(keep_path(book), book.graph, lesson.skill, state.kept[0], taught, run.weights)
+    try:
+        return record(keep_path(book), book.graph, lesson.skill, state.kept[0], taught, run.weights)
+    except LockError as error:
+        raise RunError(str(error), f"what was learnt is safe; mend that, then: {_command(run)}") from error

@@ -3,6 +3,7 @@
 import json
 import os
 import re
+import shlex
 import signal
 import subprocess
 import sys
@@ -105,6 +106,29 @@ def test_what_cannot_be_done_is_said(project: Path, arguments: tuple[str, ...], 
     assert said in refused.stderr
     assert "Traceback" not in refused.stderr
     assert not (project / "drive.lock").exists()
+
+
+def test_what_was_learnt_is_safe_where_it_cannot_be_kept(project: Path) -> None:
+    (project / "weights").write_text("in the way")
+    options = ("drive.mind", "Go", "--seed", "1", "--generations", "1", "--runs", "the runs", "--json")
+    failed = mindc(project, *options)
+    assert (failed.returncode, failed.stdout) == (1, "")
+    assert failed.stderr.splitlines()[-2].startswith("the weights of Go cannot be written: ")
+    command = failed.stderr.splitlines()[-1].partition("then: mindc train ")[2]
+    (project / "weights").unlink()
+    kept = mindc(project, *shlex.split(command), "--json")
+    assert (project / "weights" / f"{json.loads(kept.stdout)['weights']}.npy").exists()
+    assert "after 1 generation, in" in kept.stderr
+
+
+def test_what_a_procedure_prints_is_talk(project: Path) -> None:
+    (project / "say.py").write_text("print('begins')\ndef both(x):\n    print('turns')\n    return [x, x]\n")
+    skill = "skill Say is procedure from say.both\n  reads bearing\n  drives left_wheel\n  drives right_wheel\n"
+    said = MIND.replace("skill Drive", f"{skill}skill Drive").replace("influences Go", "influences Say")
+    (project / "drive.mind").write_text(said)
+    taught = mindc(project, "drive.mind", "Drive", "--generations", "1", "--json")
+    assert json.loads(taught.stdout)["skill"] == "Drive"
+    assert {"begins", "turns"} <= set(taught.stderr.splitlines())
 
 
 def test_ctrl_c_finishes_the_generation_and_the_run_goes_on_as_if_nothing_had_been(project: Path) -> None:
