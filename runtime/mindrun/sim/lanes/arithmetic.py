@@ -1,6 +1,9 @@
 """Arithmetic that gives the same bits on every processor: + − × ÷ only, in a fixed order, no fused operations."""
 
+import atexit
 import os
+import shutil
+import tempfile
 from collections.abc import Callable
 from hashlib import sha256
 from pathlib import Path
@@ -21,8 +24,21 @@ def _own_cache() -> None:
         [*here.glob("*.py"), *here.parent.glob("*.py"), here.parents[1] / "sigmoid.py", here.parents[1] / "portable.py"]
     ):
         digest.update(path.read_bytes())
-    base = Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache")
-    numba.config.CACHE_DIR = str(base / "mind" / f"compiled-{digest.hexdigest()[:16]}")
+    numba.config.CACHE_DIR = str(_writable(f"compiled-{digest.hexdigest()[:16]}"))
+
+
+def _writable(name: str) -> Path:
+    """A folder of that name in the user's cache; where none can be written, one for this process alone."""
+    given = Path(os.environ.get("XDG_CACHE_HOME", ""))
+    try:
+        folder = (given if given.is_absolute() else Path.home() / ".cache") / "mind" / name
+        folder.mkdir(parents=True, exist_ok=True)
+        with tempfile.TemporaryFile(dir=folder):
+            return folder
+    except (OSError, RuntimeError):  # RuntimeError: there is no home
+        folder = Path(tempfile.mkdtemp(prefix="mind-"))  # never a known name: whoever can write it can run code here
+        atexit.register(shutil.rmtree, folder, ignore_errors=True)
+        return folder
 
 
 if "NUMBA_CACHE_DIR" not in os.environ:
