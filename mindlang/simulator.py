@@ -1,6 +1,13 @@
-"""Whether the simulator must still be compiled, which takes a while and happens once."""
+"""The simulator, compiled before it is needed: that takes a while, and happens once."""
 
+import os
+import signal
+from collections.abc import Callable
 from typing import Any
+
+from mindrun.sim.rollout import Rollout
+
+from mindlang.terminal import INTERRUPTED
 
 WAIT = "compiling the simulator once (about half a minute)…"
 
@@ -11,3 +18,14 @@ def is_compiled() -> bool:
 
     dispatcher: Any = advance
     return bool(dispatcher._cache._cache_file._load_index())
+
+
+def make_ready(rollout: Rollout, say: Callable[[str], None]) -> None:
+    """Compile the simulator if need be, and say so; Ctrl-C ends the program meanwhile, because numba may swallow it."""
+    if not is_compiled():
+        say(WAIT)
+    before = signal.signal(signal.SIGINT, lambda number, frame: os._exit(INTERRUPTED))
+    try:
+        rollout.compile()
+    finally:
+        signal.signal(signal.SIGINT, before)

@@ -14,7 +14,7 @@ from mindrun.sim.rollout import Rollout, Scores
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
 
 from mindlang.run.casting import Cast, CastingError, cast
-from mindlang.simulator import WAIT, is_compiled
+from mindlang.simulator import make_ready
 from mindlang.terminal import FINDINGS, MISUSE, fail, load_compiled, procedures_talk, say, talk
 
 NOBODY = np.zeros((1, 0), np.float32)  # the genome where nobody learns
@@ -40,8 +40,8 @@ class Stage:
         try:
             found = cast(file, compiled, task, master)
             self.say(*(f"note: {note}" for note in found.ready.notes))
-            self.say(*([] if is_compiled() else [WAIT]))
             rollout = found.rollout(interrupt, workers)
+            make_ready(rollout, self.say)
         except CastingError as error:
             *first, last = str(error).split("\n")
             for line in first:

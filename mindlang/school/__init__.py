@@ -23,7 +23,7 @@ from mindlang.school.interruption import Interruption
 from mindlang.school.results import Result, closing, opening, result_of
 from mindlang.school.teaching import Wishes, is_due, lessons
 from mindlang.school.watching import Bar, Lines, Pace, Silent, Watcher
-from mindlang.simulator import WAIT, is_compiled
+from mindlang.simulator import make_ready
 from mindlang.terminal import load_compiled, procedures_talk, talk
 
 
@@ -92,8 +92,6 @@ class School:
     def _rollout(self, run: Run, book: Book) -> Rollout:
         lesson = run.manifest.lesson
         self._say(opening(run))
-        if not is_compiled():
-            self._say(WAIT)
         rollout = Rollout(
             book.graph,
             run.weights,
@@ -103,7 +101,7 @@ class School:
             procedures=book.folder,
             workers=self.workers or cores(),
         )
-        rollout.compile()  # before the clock of the lesson starts
+        make_ready(rollout, self._say)  # before the clock of the lesson starts
         return rollout
 
     @procedures_talk()

@@ -83,7 +83,7 @@ def test_workers_change_nothing(mindc: Call, rules: Path) -> None:
 
 
 def test_a_first_run_says_why_it_takes_so_long(mindc: Call, rules: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("mindlang.run.stage.is_compiled", lambda: False)
+    monkeypatch.setattr("mindlang.simulator.is_compiled", lambda: False)
     assert mindc("run", rules, "--seed", 3).err == "compiling the simulator once (about half a minute)…\n"
     assert mindc("run", rules, "--seed", 3, "--quiet").err == ""
 
@@ -136,7 +136,8 @@ def test_a_score_that_is_not_a_number_is_null_and_a_fault(mindc: Call, rules: Pa
 
 
 @pytest.mark.parametrize("workers", [1, 2])
-def test_ctrl_c_ends_a_long_bench_at_once(rules: Path, workers: int) -> None:
+def test_ctrl_c_ends_a_long_bench_at_once(mindc: Call, rules: Path, workers: int) -> None:
+    mindc("bench", rules, "--task", "Roam", "--runs", 1)  # so that the simulator is compiled
     rules.write_text(RULES.replace("lasts 600 ticks", "lasts 1000000 ticks"))
     command = ["bench", str(rules), "--task", "Roam", "--runs", "512", "--no-interruption", "--workers", str(workers)]
     with subprocess.Popen(
@@ -146,7 +147,10 @@ def test_ctrl_c_ends_a_long_bench_at_once(rules: Path, workers: int) -> None:
         time.sleep(6)
         begin = time.monotonic()
         process.send_signal(signal.SIGINT)
-        out, err = process.communicate(timeout=30)
+        try:
+            out, err = process.communicate(timeout=30)
+        finally:
+            process.kill()
     assert (process.returncode, out) == (130, "")
     assert "Traceback" not in err
     assert time.monotonic() - begin < 10  # on a busy machine; a second on an idle one
