@@ -61,28 +61,6 @@ HUGE = F(3.4e38)
 
 
 @inlined
-def sigmoid(x):
-    """1 / (1 + e^−x), as a rational function of x/2."""
-    x = x * HALF
-    x = x if x > -TOP else -TOP
-    x = x if x < TOP else TOP
-    y = x * x
-    p = A13
-    p = p * y + A11
-    p = p * y + A9
-    p = p * y + A7
-    p = p * y + A5
-    p = p * y + A3
-    p = p * y + A1
-    p = p * x
-    q = B6
-    q = q * y + B4
-    q = q * y + B2
-    q = q * y + B0
-    return HALF + HALF * (p / q)
-
-
-@inlined
 def clamp(v):
     """`v` within 0..1; the caller has looked whether it is finite."""
     v = v if v > ZERO else ZERO

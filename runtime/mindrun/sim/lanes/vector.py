@@ -133,7 +133,7 @@ def _divide(left, right):
 
 @compiled
 def sigmoids(x):
-    """`arithmetic.sigmoid` in sixteen lanes."""
+    """1 / (1 + e^−x) in sixteen lanes, as a rational function of x/2: the arithmetic of `mindrun.sigmoid`."""
     half = splat(HALF)
     x = x * half
     x = HIGHEST(x, splat(-TOP))
