@@ -50,7 +50,7 @@ def learn(lesson: Lesson, rollout: Rollout, seed: int, seconds: float) -> dict[s
 def prepared(graph: Graph, weights: dict[str, Any], skill: str, workers: int) -> tuple[Lesson, Rollout]:
     """The skill's first lesson and its rollout, compiled."""
     lesson = next(lesson for lesson in graph.lessons if lesson.skill == skill)
-    rollout = Rollout(graph, weights, lesson.task, lesson.master, skill, workers=workers)
+    rollout = Rollout(graph, weights, lesson.task, lesson.master, [skill], workers=workers)
     rollout.compile()
     return lesson, rollout
 

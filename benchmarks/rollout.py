@@ -61,7 +61,9 @@ class Lanes:
     def __init__(
         self, graph: Graph, weights: Weights, learner: str | None = None, lanes: int = LANES, workers: int = 1
     ) -> None:
-        self.rollout = Rollout(_endless(graph), weights, "Collect", graph.master, learner, interrupt=False)
+        self.rollout = Rollout(
+            _endless(graph), weights, "Collect", graph.master, [learner] if learner else [], interrupt=False
+        )
         rng, genome = np.random.default_rng(1), weights.get(learner or "", np.zeros(0, np.float32))
         genomes = genome + rng.normal(0.0, 0.02, (lanes, len(genome)))  # nearly the same behaviour
         each = np.arange(lanes)

@@ -141,5 +141,6 @@ def _lesson(lesson: model.Lesson) -> graph.Lesson:
         lesson.master,
         lesson.generations,
         lesson.from_scratch,
+        lesson.with_subskills,
         lesson.learner,
     )

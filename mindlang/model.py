@@ -138,6 +138,7 @@ class Lesson:
     master: str
     generations: int
     from_scratch: bool
+    with_subskills: bool
     learner: Genetic
     fact: Teaches
 

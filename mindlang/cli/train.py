@@ -13,7 +13,7 @@ EXAMPLES = """\b
 Examples:
   mindc train collect.mind                      every lesson that has no weights or stale ones
   mindc train collect.mind GoToObject --generations 50 --seed 1
-  mindc train collect.mind --curriculum OnTheJob
+  mindc train on_the_job.mind --generations 100 --attempts 3
   mindc train --resume runs/GoToObject/20260714T120000Z-1
 """
 COUNT = click.IntRange(min=1)

@@ -12,6 +12,7 @@ from mindrun.errors import WeightsError
 from mindrun.graph import Graph, Skill
 from mindrun.weights import Weights, from_npy, reachable, to_npy, weights_of
 
+from mindlang.diagnostic import listed
 from mindlang.lock import Entry, LockError, Taught, read_lock, write_lock
 from mindlang.lock.signature import signature
 
@@ -36,26 +37,32 @@ def load_weights(entry: Entry, skill: Skill) -> Weights:
 
 
 def record(
-    path: Path, graph: Graph, skill: str, weights: Weights, taught: Taught, others: Mapping[str, Weights]
-) -> Entry:
-    """Keep what a lesson taught: the weights as a file, the skill's line in the lock at `path`; the other lines stay.
+    path: Path, graph: Graph, learnt: Mapping[str, Weights], taught: Taught, others: Mapping[str, Weights]
+) -> dict[str, Entry]:
+    """Keep what a lesson taught: weights as files, the skills' lines in the lock at `path`; the other lines stay.
 
-    `others` are the weights of the skills that it was taught with. A file of the skill's old weights goes when no lock
+    `others` are the weights of the skills that they were taught with. A file of a skill's old weights goes when no lock
     of the folder names it.
     """
-    below = reachable(graph, skill)
-    subskills = tuple(sorted((sub.name, digest(others[sub.name])) for sub in below[1:] if sub.name in others))
-    entry = Entry(skill, signature(graph, below[0]), digest(weights), taught, subskills, path.parent)
+    entries = {skill: _entry(path, graph, skill, {**others, **learnt}, taught) for skill in learnt}
     try:
         with _alone(path.parent / FOLDER):
             lock = read_lock(path)
-            write(_blob(path.parent, entry.weights), to_npy(weights))
-            write_lock(path, lock | {skill: entry})
-            if skill in lock:
+            for skill, entry in entries.items():
+                write(_blob(path.parent, entry.weights), to_npy(learnt[skill]))
+            write_lock(path, lock | entries)
+            for skill in entries.keys() & lock.keys():
                 _forget(path.parent, lock[skill].weights)
     except OSError as error:
-        raise LockError(f"the weights of {skill} cannot be written: {error.strerror}") from error
-    return entry
+        names = listed(entries, "and")
+        raise LockError(f"the weights of {names} cannot be written: {error.strerror}") from error
+    return entries
+
+
+def _entry(path: Path, graph: Graph, skill: str, weights: Mapping[str, Weights], taught: Taught) -> Entry:
+    below = reachable(graph, skill)
+    subskills = tuple(sorted((sub.name, digest(weights[sub.name])) for sub in below[1:] if sub.name in weights))
+    return Entry(skill, signature(graph, below[0]), digest(weights[skill]), taught, subskills, path.parent)
 
 
 def digest(weights: Weights) -> str:

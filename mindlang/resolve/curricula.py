@@ -16,6 +16,12 @@ from mindlang.resolve.parts import refuse_facts
 from mindlang.resolve.quantities import convert
 from mindlang.syntax import Argument, Name, Teaches
 
+# Words that a lesson says beside the arguments of its learner.
+SWITCHES = {
+    "from": ("scratch", "A lesson starts from scratch or, without this, from the weights that the skill has."),
+    "with": ("subskills", "A lesson teaches one skill or, with subskills, all that learn below it together with it."),
+}
+
 
 def lessons(names: Names, skills: tuple[model.Skill, ...], findings: Findings) -> Iterator[model.Lesson]:
     """Every lesson of every curriculum that is well said, in order."""
@@ -39,10 +45,12 @@ def _lesson(
     if fact.master:
         found.append(names.find(fact.master, ("skill",), findings))
     generations = convert(fact.generations, GENERATIONS, findings)
-    scratch, arguments = _from_scratch(fact.arguments, findings)
+    switches = {argument.key.text for argument in fact.arguments if argument.key.text in SWITCHES}
+    arguments = tuple(argument for argument in fact.arguments if argument.key.text not in SWITCHES)
+    _check_switches(fact.arguments, findings)
     said = overrides(type(learner), "teaches", arguments, findings) if learner else {}
     if found[0]:
-        _check_learns(fact, skills[fact.skill.text], findings)
+        _check_learns(fact, skills, "with" in switches, findings)
     if None not in found:
         _check_reached(fact, master, skills, findings)
     if learner is None or generations is None or len(findings.diagnostics) > before:
@@ -53,27 +61,32 @@ def _lesson(
         fact.task.text,
         master.text,
         int(generations),
-        scratch,
+        "from" in switches,
+        "with" in switches,
         replace(learner, **said),
         fact,
     )
 
 
-def _from_scratch(written: tuple[Argument, ...], findings: Findings) -> tuple[bool, tuple[Argument, ...]]:
-    """Whether the lesson says `from scratch`, and its other arguments."""
-    said = tuple(argument for argument in written if argument.key.text == "from")
-    for argument in said:
-        if not isinstance(argument.value, Name) or argument.value.text != "scratch":
-            message = "A lesson starts from scratch or, without this, from the weights that the skill has."
-            findings.error("from-scratch", argument.span, message, "Write from scratch.")
-    return bool(said), tuple(argument for argument in written if argument not in said)
+def _check_switches(written: tuple[Argument, ...], findings: Findings) -> None:
+    for argument in written:
+        word, message = SWITCHES.get(argument.key.text, ("", ""))
+        if word and (not isinstance(argument.value, Name) or argument.value.text != word):
+            said = f"{argument.key.text} {word}"
+            findings.error(said.replace(" ", "-"), argument.span, message, f"Write {said}.")
 
 
-def _check_learns(fact: Teaches, skill: model.Skill, findings: Findings) -> None:
-    if skill.function is not None and not isinstance(skill.function, Mlp):
-        kind = type(skill.function).__name__.lower()
-        hint = f"Leave the lesson out, or make {skill.name} an mlp."
-        findings.error("cannot-learn", fact.skill.span, f"{skill.name} is a {kind}, which does not learn.", hint)
+def _check_learns(fact: Teaches, skills: Mapping[str, model.Skill], with_subskills: bool, findings: Findings) -> None:
+    """Report a lesson in which nobody learns."""
+    taught = reached(skills, fact.skill.text) if with_subskills else {fact.skill.text}
+    functions = [skills[name].function for name in taught]
+    if None in functions or any(isinstance(function, Mlp) for function in functions):
+        return
+    skill = skills[fact.skill.text]
+    kind = type(skill.function).__name__.lower()
+    hint = f"Leave the lesson out, or make {skill.name} an mlp."
+    message = f"{skill.name} is a {kind}, which does not learn{', and nothing below it does' * with_subskills}."
+    findings.error("cannot-learn", fact.skill.span, message, hint)
 
 
 def _check_reached(fact: Teaches, master: Name, skills: Mapping[str, model.Skill], findings: Findings) -> None:

@@ -15,6 +15,7 @@ from mindrun.train.errors import RunError
 from mindrun.train.lesson import Record, State
 from mindrun.train.run_folder import Run, keep_result, open_run, read_result
 from mindrun.train.training import Watch, train
+from mindrun.weights import parts
 
 from mindlang.lock import Entry, LockError, Taught
 from mindlang.lock.blobs import record
@@ -54,7 +55,7 @@ class School:
         for lesson in chosen:
             book = open_book(file, compiled)  # the lesson before has changed the lock
             before = book.graph.lessons[: book.graph.lessons.index(lesson)]
-            if skills or force or is_due(lesson, before, book.statuses[lesson.skill]):
+            if skills or force or is_due(lesson, before, book.standing(lesson)):
                 run = begin(book, wishes.applied(lesson), seed, runs, datetime.now(UTC))
                 taught += 1
                 if not self._teach(run, book):
@@ -82,7 +83,7 @@ class School:
         if state.attempt < run.manifest.lesson.learner.attempts:
             talk.print(f"saved; to go on: {_command(run)}", markup=False)
             return False
-        result = result_of(run, state, _keep(run, book, state).weights)
+        result = result_of(run, state, _keep(run, book, state))
         keep_result(run.folder, result)
         self._say(f"{closing(result)}; weights in {keep_path(book).name}")
         self._print(result)
@@ -97,7 +98,7 @@ class School:
             run.weights,
             lesson.task,
             lesson.master,
-            lesson.skill,
+            run.manifest.learners,
             procedures=book.folder,
             workers=self.workers or cores(),
         )
@@ -143,8 +144,8 @@ def _command(run: Run) -> str:
     return f"mindc train --resume {shlex.quote(str(run.folder))}"
 
 
-def _keep(run: Run, book: Book, state: State) -> Entry:
-    """Put what was learnt into the lock; RunError where nothing was, or it cannot be kept there."""
+def _keep(run: Run, book: Book, state: State) -> dict[str, Entry]:
+    """Put what was learnt into the lock, entries by skill; RunError where nothing was, or it cannot be kept there."""
     lesson = run.manifest.lesson
     if not isfinite(state.reevaluated):
         raise RunError(
@@ -154,6 +155,7 @@ def _keep(run: Run, book: Book, state: State) -> Entry:
     population, seed = lesson.learner.population, run.manifest.seed
     taught = Taught(lesson.task, lesson.master, lesson.generations, population, seed, state.reevaluated)
     try:
-        return record(keep_path(book), book.graph, lesson.skill, state.kept[0], taught, run.weights)
+        learnt = parts(book.graph, run.manifest.learners, state.kept[0])
+        return record(keep_path(book), book.graph, learnt, taught, run.weights)
     except LockError as error:
         raise RunError(str(error), f"what was learnt is safe; mend that, then: {_command(run)}") from error

@@ -11,11 +11,11 @@ from mindrun.graph import Graph, Lesson
 from mindrun.train.errors import RunError
 from mindrun.train.manifest import Manifest, fingerprint, hashes, processor, versions
 from mindrun.train.run_folder import Run, create
-from mindrun.weights import Weights
+from mindrun.weights import Weights, learners
 
 from mindlang.compile import Compiled
 from mindlang.diagnostic import listed
-from mindlang.lock import Lock, lock_path, read_locks
+from mindlang.lock import Lock, lock_path, read_lock, read_locks
 from mindlang.lock.arrange import arrange
 from mindlang.lock.status import Status, status, trained_weights
 from mindlang.school.teaching import subskills
@@ -23,31 +23,39 @@ from mindlang.school.teaching import subskills
 
 @dataclass(frozen=True, slots=True)
 class Book:
-    """A mind in the order of its weights; `sources` has the text of its files, by path from the folder of `source`."""
+    """A mind in the order of its weights; `sources` has the text of its files, by path from the folder of `source`.
+
+    `lock` has what its file's lock and those of the files that it uses say; `own_lessons` stand in the file itself.
+    """
 
     source: Path
     sources: Mapping[str, str]
     graph: Graph
     lock: Lock
+    own_lessons: tuple[Lesson, ...]
 
     @property
     def folder(self) -> Path:
         """Where the source stands, and the procedures beside it."""
         return self.source.parent
 
-    @property
-    def statuses(self) -> dict[str, Status]:
-        """How each skill stands to the lock."""
-        return status(self.graph, self.lock)
+    def standing(self, lesson: Lesson) -> list[Status]:
+        """How the learners of a lesson stand to the locks; for a lesson of the file itself, to its own lock alone."""
+        lock = read_lock(keep_path(self)) if lesson in self.own_lessons else self.lock
+        return [status(self.graph, lock)[skill] for skill in learners(self.graph, lesson)]
 
 
 def open_book(path: Path, compiled: Compiled) -> Book:
     """The book of a file that compiled; LockError where its lock is damaged."""
     assert compiled.graph is not None
+    assert compiled.mind is not None
     source = path.resolve()
     lock = read_locks(file.path for file in compiled.sources)
     sources = {file.path.relative_to(source.parent).as_posix(): file.text for file in compiled.sources}
-    return Book(source, sources, arrange(compiled.graph, lock), lock)
+    graph = arrange(compiled.graph, lock)
+    said = zip(graph.lessons, compiled.mind.lessons, strict=True)
+    own = tuple(lesson for lesson, written in said if written.fact.span.source is compiled.sources[0])
+    return Book(source, sources, graph, lock, own)
 
 
 def begin(book: Book, lesson: Lesson, seed: int, runs: Path, now: datetime) -> Run:
@@ -55,6 +63,7 @@ def begin(book: Book, lesson: Lesson, seed: int, runs: Path, now: datetime) -> R
     weights = _needed(book, lesson) | (_known(book, lesson) if not lesson.from_scratch else {})
     manifest = Manifest(
         lesson=lesson,
+        learners=learners(book.graph, lesson),
         seed=seed,
         mind=fingerprint(book.graph, lesson, book.folder),
         weights=hashes(weights),
@@ -97,4 +106,4 @@ def _needed(book: Book, lesson: Lesson) -> dict[str, Weights]:
 
 
 def _known(book: Book, lesson: Lesson) -> dict[str, Weights]:
-    return trained_weights(book.graph, book.lock, {lesson.skill})[0]
+    return trained_weights(book.graph, book.lock, learners(book.graph, lesson))[0]

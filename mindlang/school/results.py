@@ -1,17 +1,20 @@
 """What came of a lesson, for its user and for other programs."""
 
+from collections.abc import Mapping
+from math import isfinite
 from typing import Any
 
 from mindrun.train.lesson import State
 from mindrun.train.run_folder import Run
 
 from mindlang.figures import duration, number, rate
+from mindlang.lock import Entry
 
 Result = dict[str, Any]
 
 
-def result_of(run: Run, state: State, weights: str) -> Result:
-    """A finished run as plain data; `weights` is the SHA-256 of what was learnt."""
+def result_of(run: Run, state: State, entries: Mapping[str, Entry]) -> Result:
+    """A finished run as plain data; `weights` has the SHA-256 of what each skill has learnt."""
     lesson = run.manifest.lesson
     return {
         "lesson": run.manifest.name,
@@ -29,17 +32,24 @@ def result_of(run: Run, state: State, weights: str) -> Result:
         "seconds": round(state.seconds, 3),
         "ticks_per_second": round(state.ticks / max(state.seconds, 1e-9)),
         "faults": state.faults,
-        "weights": weights,
+        "verdicts": [_finite(verdict) for verdict in state.verdicts[:, 1]],
+        "weights": {skill: entry.weights for skill, entry in entries.items()},
         "run": str(run.folder),
     }
+
+
+def _finite(score: float) -> float | None:
+    return float(score) if isfinite(score) else None
 
 
 def opening(run: Run) -> str:
     """What is about to be taught, in a sentence."""
     lesson = run.manifest.lesson
-    start = "from its weights" if lesson.skill in run.weights else "from scratch"
+    known = set(run.manifest.learners) <= set(run.weights)
+    start = "from scratch" if lesson.from_scratch or not known else "from its weights"
     where = f"on {lesson.task}" + (f" under {lesson.master}" if lesson.master != lesson.skill else "")
-    return f"{lesson.skill} {where} {start}, seed {run.manifest.seed}, in {run.folder}"
+    who = f"{lesson.skill} with its subskills" if lesson.with_subskills else lesson.skill
+    return f"{who} {where} {start}, seed {run.manifest.seed}, in {run.folder}"
 
 
 def closing(result: Result) -> str:

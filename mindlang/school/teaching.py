@@ -1,11 +1,11 @@
 """Which lessons to teach: those of a curriculum, those asked for, and what must be taught before them."""
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 
 from mindrun.graph import Graph, Lesson
 from mindrun.train.errors import NotFoundError, RunError
-from mindrun.weights import genes, reachable
+from mindrun.weights import genes, learners, reachable
 
 from mindlang.diagnostic import did_you_mean, listed
 from mindlang.lock.status import Status, Trained
@@ -54,19 +54,24 @@ def lessons(graph: Graph, curriculum: str | None, skills: Sequence[str]) -> tupl
 
 
 def subskills(graph: Graph, lesson: Lesson) -> tuple[str, ...]:
-    """The skills whose weights a lesson needs: all that learn under its master, but the learner."""
-    return tuple(skill.name for skill in reachable(graph, lesson.master) if genes(skill) and skill.name != lesson.skill)
+    """The skills whose weights a lesson needs: all that learn under its master, but the learners."""
+    taught = learners(graph, lesson)
+    return tuple(skill.name for skill in reachable(graph, lesson.master) if genes(skill) and skill.name not in taught)
 
 
-def is_due(lesson: Lesson, before: Sequence[Lesson], state: Status) -> bool:
+def is_due(lesson: Lesson, before: Sequence[Lesson], states: Iterable[Status]) -> bool:
     """Whether a lesson has yet to be taught; `before` are the lessons that come before it in the source.
 
-    A skill whose weights fit is left alone, except where they came from an earlier lesson of the same skill.
+    Skills whose weights fit are left alone, except where they came from an earlier lesson of the same skill.
     """
+    earlier = {(other.task, other.master) for other in before if other.skill == lesson.skill}
+    return any(_is_due(lesson, earlier, state) for state in states)
+
+
+def _is_due(lesson: Lesson, earlier: set[tuple[str, str]], state: Status) -> bool:
     if not isinstance(state, Trained):
         return True
     taught = (state.entry.taught.task, state.entry.taught.master)
-    earlier = {(other.task, other.master) for other in before if other.skill == lesson.skill}
     return taught in earlier and taught != (lesson.task, lesson.master)
 
 

@@ -136,7 +136,10 @@ class Task:
 
 @dataclass(frozen=True, slots=True)
 class Lesson:
-    """Who learns (`skill`), on which task, driven by which master, for how long, and how (`learner`)."""
+    """Who learns (`skill`), on which task, driven by which master, for how long, and how (`learner`).
+
+    With `with_subskills`, all that learn below the skill learn with it, as one genome.
+    """
 
     curriculum: str
     skill: str
@@ -144,6 +147,7 @@ class Lesson:
     master: str
     generations: int
     from_scratch: bool
+    with_subskills: bool
     learner: Genetic
 
 

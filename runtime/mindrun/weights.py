@@ -1,6 +1,6 @@
 """A skill's trained numbers: one flat float32 vector, the genome."""
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from io import BytesIO
 
 import numpy as np
@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from mindrun.errors import WeightsError
 from mindrun.functions import genome_length
-from mindrun.graph import Graph, Skill
+from mindrun.graph import Graph, Lesson, Skill
 
 Weights = NDArray[np.float32]  # of one skill: [genes]
 NONE = np.zeros(0, np.float32)
@@ -44,6 +44,19 @@ def reachable(graph: Graph, master: str) -> tuple[Skill, ...]:
             found.append(skill)
             reached |= {graph.skills[edge.target].name for edge in skill.edges if edge.to == "skill"}
     return tuple(found)
+
+
+def learners(graph: Graph, lesson: Lesson) -> tuple[str, ...]:
+    """The skills that a lesson teaches, in the order of its genome."""
+    taught = reachable(graph, lesson.skill) if lesson.with_subskills else reachable(graph, lesson.skill)[:1]
+    return tuple(skill.name for skill in taught if genes(skill))
+
+
+def parts(graph: Graph, names: Iterable[str], genome: Weights) -> dict[str, Weights]:
+    """A genome cut into the weights of the skills of those names, in that order."""
+    lengths = {skill.name: genes(skill) for skill in graph.skills}
+    ends = np.cumsum([lengths[name] for name in names])
+    return dict(zip(names, np.split(genome, ends[:-1]), strict=True))
 
 
 def to_npy(weights: Weights) -> bytes:

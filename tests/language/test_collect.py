@@ -128,8 +128,13 @@ def test_the_task_avoid(graph: Graph) -> None:
 def test_a_schedule_and_the_lessons(graph: Graph) -> None:
     assert graph.tasks[0].things[0].kind == Item(size=Span(3, 1, 0.1))
     assert [lesson.master for lesson in graph.lessons[:6]] == [lesson.skill for lesson in graph.lessons[:6]]
-    last = graph.lessons[-1]
-    assert (last.curriculum, last.skill, last.task, last.master) == ("OnTheJob", "Avoid", "Collect", "Collect")
-    assert last.from_scratch
-    assert last.generations == 1500
-    assert last.learner == Genetic(population=100)
+    assert [lesson.generations for lesson in graph.lessons[:6]] == [1000, 1000, 1000, 1500, 1500, 1500]
+
+
+def test_scenario_2_is_one_line() -> None:
+    graph = load(COLLECT.with_name("on_the_job.mind")).graph
+    assert graph is not None
+    lesson = graph.lessons[0]
+    assert (lesson.skill, lesson.task, lesson.master, lesson.generations) == ("Avoid", "Collect", "Collect", 1500)
+    assert lesson.from_scratch
+    assert lesson.learner == Genetic(population=100)

@@ -56,7 +56,7 @@ def source(tmp_path: Path) -> Path:
     for skill in graph.skills:
         if genes(skill):
             weights = rng.standard_normal(genes(skill)).astype(np.float32)
-            record(path.with_suffix(".lock"), graph, skill.name, weights, TAUGHT, {})
+            record(path.with_suffix(".lock"), graph, {skill.name: weights}, TAUGHT, {})
     return path
 
 

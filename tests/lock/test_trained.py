@@ -47,7 +47,7 @@ def teach(path: Path, graph: Graph, seed: int = 1) -> dict[str, np.ndarray]:
     for each in reversed(graph.skills):
         if genes(each):
             weights[each.name] = rng.standard_normal(genes(each)).astype(np.float32)
-            record(path, graph, each.name, weights[each.name], TAUGHT, weights)
+            record(path, graph, {each.name: weights[each.name]}, TAUGHT, weights)
     return weights
 
 
@@ -123,7 +123,7 @@ def test_a_retrained_subskill_only_marks_its_parents(tmp_path: Path) -> None:
     graph, path = example(), tmp_path / "a.lock"
     old = teach(path, graph)["Go"]
     new = old + np.float32(1)
-    record(path, graph, "Go", new, TAUGHT, {})
+    record(path, graph, {"Go": new}, TAUGHT, {})
     state = status(graph, read_lock(path))["Top"]
     assert isinstance(state, Trained)
     assert state.notes == (f"taught with another Go ({digest(old)[:4]}…, now {digest(new)[:4]}…)",)
@@ -135,7 +135,7 @@ def test_record_keeps_what_it_does_not_replace(tmp_path: Path) -> None:
     other = replace(graph, skills=tuple(replace(each, name=f"{each.name}2") for each in graph.skills))
     teach(path, other, seed=2)
     assert set(read_lock(path)) == {"Go", "Go2", "Top", "Top2"}
-    record(path, graph, "Go", old["Go"] * 2, TAUGHT, {})
+    record(path, graph, {"Go": old["Go"] * 2}, TAUGHT, {})
     blobs = {file.stem for file in (tmp_path / FOLDER).iterdir()}
     assert blobs == {entry.weights for entry in read_lock(path).values()}, "the old weights of Go are gone"
 
@@ -143,8 +143,8 @@ def test_record_keeps_what_it_does_not_replace(tmp_path: Path) -> None:
 def test_weights_that_another_lock_names_stay(tmp_path: Path) -> None:
     graph = example()
     old = teach(tmp_path / "a.lock", graph)["Go"]
-    record(tmp_path / "b.lock", graph, "Go", old, TAUGHT, {})
-    record(tmp_path / "b.lock", graph, "Go", old * 2, TAUGHT, {})
+    record(tmp_path / "b.lock", graph, {"Go": old}, TAUGHT, {})
+    record(tmp_path / "b.lock", graph, {"Go": old * 2}, TAUGHT, {})
     assert trained_weights(graph, read_lock(tmp_path / "a.lock"), ["Go"])[0]["Go"].tobytes() == old.tobytes()
 
 
@@ -152,7 +152,7 @@ def test_a_damaged_lock_is_not_overwritten(tmp_path: Path) -> None:
     path = tmp_path / "a.lock"
     path.write_text("damaged")
     with pytest.raises(LockError):
-        record(path, example(), "Go", np.ones(genes(example().skills[1]), np.float32), TAUGHT, {})
+        record(path, example(), {"Go": np.ones(genes(example().skills[1]), np.float32)}, TAUGHT, {})
     assert path.read_text() == "damaged"
 
 

@@ -45,7 +45,7 @@ def test_lanes_workers_and_order_change_nothing(collect: Graph, task: str, learn
     rng = np.random.default_rng(1)
 
     def rollout(**options: int) -> Rollout:
-        return Rollout(collect, weights, task, master, learner, **options)
+        return Rollout(collect, weights, task, master, [learner], **options)
 
     genomes = rng.normal(0.2, 1.0, (13, rollout().genome_length)).astype(np.float32)
     seeds = [3, 4, 5]
@@ -60,7 +60,7 @@ def test_lanes_workers_and_order_change_nothing(collect: Graph, task: str, learn
 
 
 def test_a_genome_that_is_not_finite_is_refused(collect: Graph) -> None:
-    rollout = Rollout(collect, {}, "GoToObject", "GoToObject", "GoToObject")
+    rollout = Rollout(collect, {}, "GoToObject", "GoToObject", ["GoToObject"])
     genomes = np.zeros((2, rollout.genome_length), np.float32)
     genomes[1, 3] = np.nan
     with pytest.raises(ValueError, match="finite"):

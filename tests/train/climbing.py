@@ -48,12 +48,15 @@ class Faulty(Sphere):
 
 
 def lesson(generations: int = 30, **learner: float) -> Lesson:
-    return Lesson("School", "Climb", "Climb", "Climb", generations, False, Genetic(**{"population": 20, **learner}))
+    return Lesson(
+        "School", "Climb", "Climb", "Climb", generations, False, False, Genetic(**{"population": 20, **learner})
+    )
 
 
 def manifest(lesson: Lesson, seed: int = 1, weights: dict[str, NDArray[np.float32]] | None = None) -> Manifest:
     return Manifest(
         lesson=lesson,
+        learners=(lesson.skill,),
         seed=seed,
         mind="0" * 64,
         weights=hashes(weights or {}),

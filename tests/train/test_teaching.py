@@ -1,15 +1,18 @@
 """Which lessons are due."""
 
 from pathlib import Path
+from shutil import copy
 
-from mindrun.graph import Lesson
+import numpy as np
+from mindrun.weights import learners, parts
 
 from mindlang.compile import load
 from mindlang.lock import Entry, Signature, Taught
 from mindlang.lock.status import Trained, Untaught
-from mindlang.school.teaching import is_due
+from mindlang.school.book import open_book
+from mindlang.school.teaching import is_due, subskills
 
-COLLECT = Path(__file__).parents[2] / "examples" / "collect" / "collect.mind"
+FOLDER = Path(__file__).parents[2] / "examples" / "collect"
 
 
 def taught_on(task: str, master: str) -> Trained:
@@ -19,15 +22,35 @@ def taught_on(task: str, master: str) -> Trained:
 
 def test_a_later_lesson_of_a_taught_skill_is_due_until_it_has_been_given() -> None:
     """Scenario 2: Avoid, taught alone, is due on the job; taught on the job, neither lesson is due."""
-    graph = load(COLLECT).graph
+    graph = load(FOLDER / "on_the_job.mind").graph
     assert graph
+    on_the_job, alone = (lesson for lesson in graph.lessons if lesson.skill == "Avoid")
+    assert is_due(alone, (), [Untaught()])
+    assert not is_due(alone, (), [taught_on("Avoid", "Avoid")])
+    assert is_due(on_the_job, [alone], [taught_on("Avoid", "Avoid")])
+    assert not is_due(alone, (), [taught_on("Collect", "Collect")])
+    assert not is_due(on_the_job, [alone], [taught_on("Collect", "Collect")])
 
-    def before(lesson: Lesson) -> tuple[Lesson, ...]:
-        return graph.lessons[: graph.lessons.index(lesson)]
 
-    alone, on_the_job = (lesson for lesson in graph.lessons if lesson.skill == "Avoid")
-    assert is_due(alone, before(alone), Untaught())
-    assert not is_due(alone, before(alone), taught_on("Avoid", "Avoid"))
-    assert is_due(on_the_job, before(on_the_job), taught_on("Avoid", "Avoid"))
-    assert not is_due(alone, before(alone), taught_on("Collect", "Collect"))
-    assert not is_due(on_the_job, before(on_the_job), taught_on("Collect", "Collect"))
+def test_a_lesson_of_a_file_is_due_until_the_files_own_lock_has_it(tmp_path: Path) -> None:
+    """The Avoid of avoid_longer.mind is to be taught, though collect.lock has one; collect's own lessons are not."""
+    for name in ("collect.mind", "collect.lock", "avoid_longer.mind"):
+        copy(FOLDER / name, tmp_path)
+    path = tmp_path / "avoid_longer.mind"
+    book = open_book(path, load(path))
+    own = [lesson for lesson in book.graph.lessons if lesson.curriculum == "AvoidLonger"]
+    used = [lesson for lesson in book.graph.lessons if lesson.curriculum == "Collect"]
+    assert list(book.own_lessons) == own
+    assert [type(state) for lesson in own for state in book.standing(lesson)] == [Untaught] * 4
+    assert [type(state) for lesson in used for state in book.standing(lesson)] == [Trained] * 6
+
+
+def test_with_subskills_all_below_learn_as_one_genome() -> None:
+    graph = load(FOLDER / "final_task.mind").graph
+    assert graph
+    lesson = graph.lessons[0]
+    whole = learners(graph, lesson)
+    assert set(whole) == {s.name for s in graph.skills} - {"Grab", "Monolith"}
+    genome = np.arange(1510, dtype=np.float32)
+    assert [part[0] for part in parts(graph, whole, genome).values()][:2] == [0, 162]
+    assert subskills(graph, lesson) == ()

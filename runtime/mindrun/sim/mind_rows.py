@@ -33,7 +33,7 @@ from mindrun.sim.codes import (
 )  # fmt: skip
 from mindrun.sim.programs import Programs
 from mindrun.sim.task_rows import things_of
-from mindrun.weights import weights_of
+from mindrun.weights import genes, weights_of
 
 Array = NDArray[Any]
 Floats = NDArray[np.float32]
@@ -43,28 +43,34 @@ def skill_rows(
     graph: Graph,
     reached: Sequence[Skill],
     weights: Mapping[str, Floats],
-    learner: str | None,
+    learners: Sequence[str],
     addresses: Mapping[str, int],
     codes: Programs,
 ) -> tuple[list[Any], list[int], list[Any], list[Floats]]:
-    """Rows of SKILL, the inputs one after the other, rows of EDGE, and the weights of the skills that do not learn."""
+    """Rows of SKILL, the inputs one after the other, rows of EDGE, and the weights of the skills that do not learn.
+
+    A learner's weights begin at a place in the genome, the others' at one in what is shared.
+    """
+    lengths = {skill.name: genes(skill) for skill in reached}
+    starts = dict(zip(learners, np.cumsum([0, *(lengths.get(name, 0) for name in learners)]), strict=False))
     rows: list[Any] = []
     inputs: list[int] = []
     edges: list[Any] = []
     shared: list[Floats] = []
     for skill in reached:
         kind, hidden, width = _function(skill)
-        place = sum(len(part) for part in shared)
+        own = skill.name in starts
+        place = int(starts[skill.name]) if own else sum(len(part) for part in shared)
         rows.append((
             kind, graph.skills.index(skill), len(inputs), len(skill.inputs), skill.outputs, hidden, width, place,
-            skill.name == learner, len(edges), len(skill.edges), addresses.get(skill.name, 0),
+            own, len(edges), len(skill.edges), addresses.get(skill.name, 0),
         ))  # fmt: skip
         inputs.extend(skill.inputs)
         for edge in skill.edges:
             target = edge.target + (len(graph.actuators) if edge.to == "memory" else 0)
             output = -1 if edge.output is None else edge.output
             edges.append((edge.to == "skill", target, output, *codes.add(edge.value)))
-        if kind == MLP and skill.name != learner:
+        if kind == MLP and not own:
             shared.append(weights_of(skill, weights))
     return rows, inputs, edges, shared
 

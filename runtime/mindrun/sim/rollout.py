@@ -50,7 +50,7 @@ class Tile:
 
 
 class Rollout:
-    """Runs a task under a master; where there is a `learner`, every genome is a set of its weights."""
+    """Runs a task under a master; a genome has the weights of the `learners`, one after the other."""
 
     def __init__(
         self,
@@ -58,7 +58,7 @@ class Rollout:
         weights: Mapping[str, NDArray[np.float32]],
         task: str,
         master: str,
-        learner: str | None = None,
+        learners: Sequence[str] = (),
         *,
         procedures: Path | None = None,
         interrupt: bool = True,
@@ -69,12 +69,12 @@ class Rollout:
         self.task = next(t for t in graph.tasks if t.name == task)
         self.procedures = Procedures(graph, master, procedures)
         self.interrupt, self.workers, self.lanes = interrupt, workers, lanes
-        self.genome_length = genome_length(graph, learner)
+        self.genome_length = genome_length(graph, learners)
         self.tables: Tables
         self.sizes: Sizes
         addresses = self.procedures.addresses
         library = chipmunk.library()
-        self.tables, self.sizes = build(graph, weights, self.task, master, learner, addresses, library)
+        self.tables, self.sizes = build(graph, weights, self.task, master, learners, addresses, library)
 
     def score(
         self,

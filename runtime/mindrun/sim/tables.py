@@ -1,6 +1,6 @@
 """A graph, a task and a master as plain tables: one row per sensor, skill, reward, so that no program compiles."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, NamedTuple
 
@@ -82,14 +82,14 @@ def build(
     weights: Mapping[str, Floats],
     task: Task,
     master: str,
-    learner: str | None,
+    learners: Sequence[str],
     addresses: Mapping[str, int],
     library: Array,
 ) -> tuple[Tables, Sizes]:
     """The tables of a task under a master; `addresses` are those of the compiled procedures, by skill."""
     codes = Programs()
     reached = reachable(graph, master)
-    skills, inputs, edges, shared = skill_rows(graph, reached, weights, learner, addresses, codes)
+    skills, inputs, edges, shared = skill_rows(graph, reached, weights, learners, addresses, codes)
     rewards = [reward_row(reward, codes) for reward in task.rewards]
     used = used_sensors(graph, reached, task)
     sensed, rays, ray_row, before = sensor_rows(graph, used, task)
@@ -121,7 +121,7 @@ def build(
         before=before,
         inputs=max([1, *(len(s.inputs) for s in reached)]),
         width=max([1, *(row[6] for row in skills), *(row[4] for row in skills)]),
-        genome=genome_length(graph, learner),
+        genome=genome_length(graph, learners),
         delays=delays,
         changes=changes,
         patches=patches,
@@ -131,6 +131,6 @@ def build(
     return tables, sizes
 
 
-def genome_length(graph: Graph, learner: str | None) -> int:
-    """How many weights the learner has."""
-    return next((genes(skill) for skill in graph.skills if skill.name == learner), 0)
+def genome_length(graph: Graph, learners: Sequence[str]) -> int:
+    """How many weights the learners have together."""
+    return sum(genes(skill) for skill in graph.skills if skill.name in learners)

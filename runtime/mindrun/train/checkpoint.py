@@ -19,7 +19,7 @@ from mindrun.train.genetic import Population
 from mindrun.train.lesson import State
 
 NAME, PREVIOUS = "checkpoint", "checkpoint.previous"
-MAGIC = b"mind checkpoint 1\n"
+MAGIC = b"mind checkpoint 2\n"
 DIGEST = 32
 
 
@@ -59,8 +59,9 @@ def pack(state: State, run: str) -> bytes:
         "genomes": state.population.genomes,
         "scores": state.population.scores,
         "champion": state.champion,
-        "kept": state.kept,
-        "floats": np.array([state.chosen, state.reevaluated, state.best, state.seconds]),
+        "champions": state.champions,
+        "verdicts": state.verdicts,
+        "floats": np.array([state.best, state.seconds]),
         "counts": np.array([state.attempt, state.population.generation, state.ticks, state.faults], np.int64),
     }
     shapes = {name: [array.dtype.str, list(array.shape)] for name, array in arrays.items()}
@@ -92,11 +93,10 @@ def _arrays(shapes: dict[str, tuple[str, list[int]]], data: bytes) -> dict[str, 
 
 def _state(arrays: dict[str, NDArray[Any]]) -> State:
     attempt, generation, ticks, faults = (int(count) for count in arrays["counts"])
-    chosen, reevaluated, best, seconds = (float(number) for number in arrays["floats"])
+    best, seconds = (float(number) for number in arrays["floats"])
     population = Population(arrays["genomes"], arrays["scores"], generation)
-    return State(
-        attempt, population, arrays["champion"], arrays["kept"], chosen, reevaluated, best, ticks, seconds, faults
-    )
+    ended = arrays["champions"], arrays["verdicts"]
+    return State(attempt, population, arrays["champion"], *ended, best, ticks, seconds, faults)
 
 
 def _read(path: Path, run: str) -> State | None:

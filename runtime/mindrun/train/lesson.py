@@ -65,31 +65,45 @@ class Course:
 class State:
     """Where a run stands, all that is needed to go on.
 
-    `champion` and `kept` are [0 or 1, weights]: the best of this attempt and of the attempts that have ended. Of the
-    kept one, `chosen` is the score that it was chosen for and `reevaluated` its score on yet other layouts.
+    `champion` [0 or 1, weights] is the best of this attempt. Of the attempts that have ended, `champions`
+    [ended, weights] are the best and `verdicts` [ended, 2] their scores on layouts that chose nothing before: the first
+    decides between the attempts, the second, on yet other layouts, is what is reported.
     """
 
     attempt: int
     population: Population
     champion: Genomes
-    kept: Genomes
-    chosen: float
-    reevaluated: float
+    champions: Genomes
+    verdicts: Scores
     best: float
     ticks: int
     seconds: float
     faults: int
 
+    @property
+    def kept(self) -> Genomes:
+        """The best of the champions [0 or 1, weights]; the first of equals."""
+        return self.champions[order(self.verdicts[:, 0])][:1]
+
+    @property
+    def reevaluated(self) -> float:
+        """The score of the kept one on layouts that chose nothing; -inf before an attempt has ended."""
+        return float(self.verdicts[order(self.verdicts[:, 0])][0, 1]) if len(self.verdicts) else -inf
+
 
 @dataclass(frozen=True, slots=True)
 class Record:
-    """One generation in the log; attempts and generations count from 1. `reevaluated` is the champion's, if it ran."""
+    """One generation in the log; attempts and generations count from 1.
+
+    `reevaluated` is the champion's score where it was tried on fresh layouts, `verdict` its score at the attempt's end.
+    """
 
     attempt: int
     generation: int
     best: float
     mean: float
     reevaluated: float | None
+    verdict: float | None
     ticks: int
     seconds: float
     faults: int
@@ -107,7 +121,7 @@ class Marks:
 def begin(course: Course) -> State:
     """The state before the first generation."""
     empty = course.start[:0]
-    return State(0, nobody(empty.shape[1]), course.start, empty, -inf, -inf, -inf, 0, 0.0, 0)
+    return State(0, nobody(empty.shape[1]), course.start, empty, np.empty((0, 2)), -inf, 0, 0.0, 0)
 
 
 def teach(course: Course, scorer: Scorer, state: State, clock: Clock) -> Iterator[tuple[State, Record]]:
@@ -137,10 +151,10 @@ def generation(course: Course, scorer: Scorer, state: State) -> tuple[State, Rec
     last = number == course.lesson.generations
     if last or number == 1 or number % EVERY == 0:
         now, reevaluated = try_again(now, scorer, layouts(*key, FRESH, Purpose.REEVALUATION))
+    now, verdict = judge(course, scorer, now) if last else (now, None)
     ticks, faults = now.ticks - state.ticks, now.faults - state.faults
     best, mean = float(marks.scores.max()), _mean(marks.scores)
-    record = Record(state.attempt + 1, number, best, mean, reevaluated, ticks, 0.0, faults)
-    return (judge(course, scorer, now) if last else now), record
+    return now, Record(state.attempt + 1, number, best, mean, reevaluated, verdict, ticks, 0.0, faults)
 
 
 def try_again(state: State, scorer: Scorer, fresh: Seeds) -> tuple[State, float]:
@@ -158,22 +172,22 @@ def try_again(state: State, scorer: Scorer, fresh: Seeds) -> tuple[State, float]
     return now, float(marks.scores[winner])
 
 
-def judge(course: Course, scorer: Scorer, state: State) -> State:
-    """The end of an attempt: its champion is kept if it beats the kept one, on layouts common to all attempts."""
+def judge(course: Course, scorer: Scorer, state: State) -> tuple[State, float]:
+    """The end of an attempt: its champion tried on layouts common to all attempts; its score on the second half."""
     seeds = layouts(course.seed, 0, course.lesson.generations, 2 * VERDICT, Purpose.VERDICT)
     results = scorer.score(state.champion, seeds)
     totals = worst_if_nan(results.total[0])
-    chosen, reevaluated = float(totals[:VERDICT].mean()), float(totals[VERDICT:].mean())
+    verdict = totals.reshape(2, VERDICT).mean(axis=1)
     ended = replace(
         state,
         attempt=state.attempt + 1,
         population=nobody(course.start.shape[1]),
         champion=course.start,
+        champions=np.concatenate([state.champions, state.champion]),
+        verdicts=np.concatenate([state.verdicts, verdict[None]]),
         ticks=state.ticks + int(results.ticks.sum()),
     )
-    if len(state.kept) and chosen <= state.chosen:
-        return ended
-    return replace(ended, kept=state.champion, chosen=chosen, reevaluated=reevaluated)
+    return ended, float(verdict[1])
 
 
 def mark(scorer: Scorer, genomes: Genomes, seeds: Seeds | Sequence[int]) -> Marks:

@@ -18,17 +18,19 @@ from mindrun.learners import Genetic
 from mindrun.train.errors import RunError
 from mindrun.weights import Weights, reachable
 
-FORMAT = 1
+FORMAT = 2
 
 
 @dataclass(frozen=True, slots=True)
 class Manifest:
     """A run on paper, with SHA-256 hashes: `mind` of all that the lesson depends on, `weights` by skill as it began.
 
+    The genome has the weights of the `learners`, one after the other.
     `source` is the path of the main file, `sources` has the hash of each file of the mind, by path from the main one.
     """
 
     lesson: Lesson
+    learners: tuple[str, ...]
     seed: int
     mind: str
     weights: Mapping[str, str]
@@ -104,8 +106,8 @@ def from_json(data: bytes) -> Manifest:
             raise RunError("the run was made by another version of mindc", "resume it with that version")
         lesson = plain.pop("lesson")
         learner = Genetic(**lesson.pop("learner"))
-        command = tuple(plain.pop("command"))
-        return Manifest(lesson=Lesson(learner=learner, **lesson), command=command, **plain)
+        learners, command = tuple(plain.pop("learners")), tuple(plain.pop("command"))
+        return Manifest(lesson=Lesson(learner=learner, **lesson), learners=learners, command=command, **plain)
     except (ValueError, TypeError, KeyError, AttributeError) as error:
         raise RunError("the run's manifest is damaged", "start the lesson again without --resume") from error
 

@@ -13,12 +13,13 @@ import numpy as np
 
 from mindrun import durable
 from mindrun.train.errors import NotFoundError, RunError
+from mindrun.train.genetic import Genomes
 from mindrun.train.lesson import Course
 from mindrun.train.manifest import Manifest, from_json, hashes, to_json
 from mindrun.weights import Weights, to_npy
 
 MANIFEST, SOURCES, START, WEIGHTS = "manifest.json", "source", "start.npz", "weights.npy"
-RESULT = "result.json"
+CHAMPIONS, RESULT = "champions.npy", "result.json"
 
 
 @dataclass(frozen=True, slots=True)
@@ -30,11 +31,12 @@ class Run:
     weights: Mapping[str, Weights]
 
     def course(self, genome_length: int) -> Course:
-        """What the run teaches, beginning from the skill's weights unless it has none or starts from scratch."""
+        """What the run teaches, beginning from the learners' weights unless they have none or start from scratch."""
         lesson = self.manifest.lesson
-        known = self.weights.get(lesson.skill)
-        start = np.empty((0, genome_length), np.float32) if known is None or lesson.from_scratch else known[None]
-        return Course(lesson, self.manifest.seed, start)
+        known = [self.weights[skill] for skill in self.manifest.learners if skill in self.weights]
+        if lesson.from_scratch or len(known) < len(self.manifest.learners):
+            return Course(lesson, self.manifest.seed, np.empty((0, genome_length), np.float32))
+        return Course(lesson, self.manifest.seed, np.concatenate(known)[None])
 
 
 def create(runs: Path, manifest: Manifest, sources: Mapping[str, str], weights: Mapping[str, Weights]) -> Run:
@@ -72,6 +74,13 @@ def open_run(folder: Path) -> Run:
 def keep_weights(folder: Path, genome: Weights) -> None:
     """Write the best weights so far to the run folder."""
     durable.write(folder / WEIGHTS, to_npy(genome))
+
+
+def keep_champions(folder: Path, champions: Genomes) -> None:
+    """Write the best weights of each attempt [attempts, weights] that has ended."""
+    file = BytesIO()
+    np.save(file, champions.astype("<f4"), allow_pickle=False)
+    durable.write(folder / CHAMPIONS, file.getvalue())
 
 
 def keep_result(folder: Path, result: Mapping[str, Any]) -> None:

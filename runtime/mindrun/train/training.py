@@ -11,7 +11,7 @@ from mindrun.train.errors import RunError
 from mindrun.train.genetic import Genomes
 from mindrun.train.lesson import Clock, Course, Record, Scorer, State, begin, teach
 from mindrun.train.progress import Progress
-from mindrun.train.run_folder import Run, keep_weights
+from mindrun.train.run_folder import Run, keep_champions, keep_weights
 
 EVERY = 2.0  # seconds between two checkpoints
 
@@ -48,6 +48,8 @@ def train(run: Run, scorer: Scorer, watch: Watch) -> State:
             _save(run, now, progress)
         if len(genomes := best(now)):
             keep_weights(run.folder, genomes[0])
+        if len(now.champions):
+            keep_champions(run.folder, now.champions)
     return now
 
 

@@ -77,7 +77,7 @@ def gather(rows, readings, gathered, active, sound, count, everywhere):
 def perceive(t, s, skill, n):
     """The perceptron's outputs; returns the row of `hidden` where they begin."""
     half = s.hidden.shape[0] // 2
-    source, inputs, place = s.gathered, skill.inputs, skill.weights if not skill.own else 0
+    source, inputs, place = s.gathered, skill.inputs, skill.weights
     base = half
     for layer in range(skill.hidden + 1):
         base = half - base
