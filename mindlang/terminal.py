@@ -68,6 +68,30 @@ def procedures_talk() -> Iterator[None]:
         yield
 
 
+def refuse_unwritable(path: Path | None, *suffixes: str) -> None:
+    """End the program where no picture could be written to `path`, before any work is done."""
+    if path is None:
+        return
+    if path.suffix.lower() not in suffixes:
+        fail(f"{path} must end in {' or '.join(suffixes)}", code=MISUSE)
+    if path.is_dir():
+        fail(f"{path} cannot be written: it is a folder", code=MISUSE)
+    if not path.parent.is_dir():
+        fail(f"{path} cannot be written: there is no folder {path.parent}", code=MISUSE)
+    if not os.access(path.parent, os.W_OK) or (path.exists() and not os.access(path, os.W_OK)):
+        fail(f"{path} cannot be written: permission denied", code=MISUSE)
+
+
+def write_picture(path: Path, data: bytes) -> None:
+    """Write a picture that is done; where that fails the program ends, and the old one is still there."""
+    from mindrun.durable import write
+
+    try:
+        write(path, data)
+    except OSError as error:
+        fail(f"{path} cannot be written: {error.strerror}", code=MISUSE)
+
+
 def load_compiled(path: Path | str) -> Compiled:
     """The compiled file; its report goes to stderr, and a file with errors ends the program (2 when unreadable)."""
     from mindlang.compile import load

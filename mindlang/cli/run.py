@@ -62,11 +62,11 @@ def command(
     from mindlang.run import outcome
     from mindlang.run.stage import Stage
     from mindlang.run.summary import run_summary
-    from mindlang.terminal import console, print_json
+    from mindlang.terminal import console, print_json, refuse_unwritable
 
     stage = Stage(quiet)
-    stage.refuse_unwritable(picture, ".png")
-    stage.refuse_unwritable(video, ".mp4")
+    refuse_unwritable(picture, ".png")
+    refuse_unwritable(video, ".mp4")
     cast, rollout = stage.prepare(file, task, master, interrupt=not no_interruption)
     seed = secrets.randbits(31) if seed is None else seed
     found = outcome.one(cast.task, stage.score(rollout, [seed])[0])

@@ -1,1 +1,1 @@
-"""Pictures and films of runs, drawn with OpenCV."""
+"""Pictures and films of runs, drawn with OpenCV; how they were learnt, with matplotlib."""

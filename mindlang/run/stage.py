@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 from dataclasses import dataclass
 from pathlib import Path
 from time import perf_counter
@@ -15,7 +14,7 @@ from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, T
 
 from mindlang.run.casting import Cast, CastingError, cast
 from mindlang.simulator import make_ready
-from mindlang.terminal import FINDINGS, MISUSE, fail, load_compiled, procedures_talk, say, talk
+from mindlang.terminal import FINDINGS, MISUSE, fail, load_compiled, procedures_talk, say, talk, write_picture
 
 NOBODY = np.zeros((1, 0), np.float32)  # the genome where nobody learns
 
@@ -65,16 +64,11 @@ class Stage:
     @procedures_talk()
     def draw(self, cast: Cast, rollout: Rollout, found: dict[str, Any], path: Path) -> None:
         """The picture of a run, written to `path`."""
-        from mindrun.durable import write
-
         from mindlang.pictures.picture import picture, png
         from mindlang.pictures.story import tell
 
         story = tell(cast, rollout, found["seed"])
-        try:
-            write(path, png(picture(story, found)))
-        except OSError as error:
-            fail(f"{path} cannot be written: {error.strerror}", code=MISUSE)
+        write_picture(path, png(picture(story, found)))
         self.say(f"{path}: the path of the robot")
 
     @procedures_talk()
@@ -93,19 +87,6 @@ class Stage:
         except OSError as error:
             fail(f"{path} cannot be written: {error.strerror}", code=MISUSE)
         self.say(f"{path}: {film.frames / film.FPS:.0f} s at {film.speed:g} times the robot's speed")
-
-    def refuse_unwritable(self, path: Path | None, suffix: str) -> None:
-        """End the program where nothing could be written to `path`, before any work is done."""
-        if path is None:
-            return
-        if path.suffix.lower() != suffix:
-            fail(f"{path} must end in {suffix}", code=MISUSE)
-        if path.is_dir():
-            fail(f"{path} cannot be written: it is a folder", code=MISUSE)
-        if not path.parent.is_dir():
-            fail(f"{path} cannot be written: there is no folder {path.parent}", code=MISUSE)
-        if not os.access(path.parent, os.W_OK) or (path.exists() and not os.access(path, os.W_OK)):
-            fail(f"{path} cannot be written: permission denied", code=MISUSE)
 
     def say(self, *lines: str) -> None:
         """Print lines on stderr."""

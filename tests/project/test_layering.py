@@ -65,15 +65,22 @@ def test_only_commands_know_the_command_line() -> None:
 
 
 def test_what_is_imported_is_declared() -> None:
-    declared = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]["dependencies"]
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]
+    declared = [*project["dependencies"], *project["optional-dependencies"]["plot"]]
     distributions = [requirement.split(">")[0] for requirement in declared]
     known = {MODULES.get(name, name) for name in distributions}
     assert {path: names - known for path, names in foreign(modules(COMPILER, RUNTIME)).items() if names - known} == {}
 
 
-@pytest.mark.parametrize("words", [("--help",), ("check", "--help"), ("train", "--help")])
+def test_only_curves_need_matplotlib() -> None:
+    assert [file for file, names in foreign(modules(COMPILER)).items() if "matplotlib" in names] == [
+        "mindlang/pictures/curves.py"
+    ]
+
+
+@pytest.mark.parametrize("words", [("--help",), ("check", "--help"), ("train", "--help"), ("plot", "--help")])
 def test_help_loads_nothing_heavy(words: tuple[str, ...]) -> None:
-    heavy = WORKSTATION | {"networkx", "numpy", "lark", "rich", "yaml"}
+    heavy = WORKSTATION | {"networkx", "numpy", "lark", "rich", "yaml", "matplotlib"}
     assert loaded_by(*words) & heavy == set()
 
 

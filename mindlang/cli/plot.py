@@ -1,0 +1,76 @@
+"""`mindc plot`: how skills were learnt, as curves."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import click
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from mindlang.pictures.log import Curve
+
+EXAMPLES = """\b
+Examples:
+  mindc plot runs/GoToObject/20260714T120000Z-1
+  mindc plot runs/GoToObject runs/Avoid -o curves.png
+  mindc plot runs                               every run beneath it, side by side
+  mindc plot GoToObject.csv.gz --json
+"""
+PATH = click.Path(path_type=Path)
+
+
+@click.command(epilog=EXAMPLES)
+@click.argument("runs", nargs=-1, required=True, metavar="RUN…", type=PATH)
+@click.option("-o", "--output", type=PATH, default="curves.svg", show_default=True, help="A .svg or a .png file.")
+@click.option("--json", "as_json", is_flag=True, help="Say what was drawn as one JSON document.")
+@click.option("-q", "--quiet", is_flag=True, help="Print nothing but results and errors.")
+def command(runs: tuple[Path, ...], output: Path, as_json: bool, quiet: bool) -> None:
+    """Draw how the skills of every RUN were learnt: the best of each generation, and the champion on fresh layouts.
+
+    A RUN is the folder of a run, which may still go on, a folder with runs beneath it, or a log as .csv or .csv.gz with
+    the columns of progress.csv: attempt, generation, best, and where there are any reevaluated and verdict.
+    """
+    from importlib.util import find_spec
+
+    from mindrun.errors import MindError
+    from mindrun.train.errors import NotFoundError
+
+    from mindlang.pictures.log import load_curves
+    from mindlang.terminal import MISUSE, fail, print_json, refuse_unwritable, write_picture
+
+    if find_spec("matplotlib") is None:
+        fail("Curves are drawn with matplotlib, which is not installed.", "pip install 'mindlang[plot]'", MISUSE)
+    refuse_unwritable(output, ".svg", ".png")
+    try:
+        curves = load_curves(runs)
+    except NotFoundError as error:
+        fail(str(error), error.hint, MISUSE)
+    except MindError as error:
+        fail(str(error), error.hint)
+
+    from mindlang.pictures.curves import figure, image
+
+    write_picture(output, image(figure(curves), output.suffix))
+    if as_json:
+        print_json(_drawn(output, curves))
+    if not quiet:
+        shown = curves[0].name if len(curves) == 1 else f"{len(curves)} runs"
+        click.echo(f"{output}: how {shown} {'was' if len(curves) == 1 else 'were'} learnt", err=True)
+
+
+def _drawn(output: Path, curves: Sequence[Curve]) -> dict[str, object]:
+    return {
+        "picture": str(output),
+        "curves": [
+            {
+                "name": curve.name,
+                "run": str(curve.path),
+                "attempts": len(curve.attempts),
+                "generations": len(curve.records),
+            }
+            for curve in curves
+        ],
+    }

@@ -1,0 +1,113 @@
+"""What a run's log has to show: its generations, from the run's folder or from a table that was kept of it."""
+
+import csv
+import gzip
+import os
+import zlib
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from math import isfinite
+from pathlib import Path
+
+from mindrun.train.errors import NotFoundError, RunError
+from mindrun.train.progress import LINES, TABLE, read
+from mindrun.train.run_folder import MANIFEST, open_run
+
+TABLES = (".csv", ".csv.gz")
+HINT = f"a run is a folder like runs/GoToObject/20260714T120000Z-1, a table ends in {' or '.join(TABLES)}"
+SCORES = ("best", "reevaluated", "verdict")
+NEEDED = ("attempt", "generation", "best")
+
+Records = Sequence[Mapping[str, float | None]]
+
+
+@dataclass(frozen=True, slots=True)
+class Curve:
+    """How a lesson was learnt: the records of its log. `note` tells it from others of its name."""
+
+    name: str
+    records: Records
+    path: Path
+    note: str = ""
+
+    @property
+    def attempts(self) -> list[int]:
+        """The numbers of the attempts that have begun."""
+        return sorted({int(record["attempt"] or 0) for record in self.records})
+
+    def points(self, attempt: int, column: str) -> list[tuple[int, float]]:
+        """The generations of an attempt that have a finite score in a column, each with it."""
+        scores = [
+            (int(record["generation"] or 0), record.get(column))
+            for record in self.records
+            if record["attempt"] == attempt
+        ]
+        return [(generation, score) for generation, score in scores if score is not None and isfinite(score)]
+
+
+def load_curves(paths: Iterable[Path]) -> list[Curve]:
+    """The curves of all runs and tables, each once; NotFoundError or RunError where there is nothing to show."""
+    logs = dict.fromkeys(log for path in paths for log in _logs(path))
+    return _told_apart([_from_table(log) if log.is_file() else _from_run(log) for log in logs])
+
+
+def _logs(path: Path) -> list[Path]:
+    """The path itself where it is a run or a table, else all runs beneath it that have learnt for a generation."""
+    if path.is_file() and path.name.endswith(TABLES):
+        return [path]
+    if not path.is_dir():
+        raise NotFoundError(f"{path} is not a run" if path.exists() else f"there is no run {path}", HINT)
+    if (path / MANIFEST).exists() or (path / LINES).exists():
+        return [path]
+    runs = [log.parent for log in sorted(path.rglob(LINES)) if read(log.parent)]
+    if not runs:
+        raise NotFoundError(f"there is no run in {path} that has learnt for a generation")
+    return runs
+
+
+def _from_run(folder: Path) -> Curve:
+    try:
+        name = open_run(folder).manifest.name
+    except NotFoundError:
+        raise
+    except RunError as error:
+        raise RunError(f"{folder}: {error}", f"its {TABLE} can be drawn all the same") from error
+    return _unless_empty(Curve(name, read(folder), folder))
+
+
+def _from_table(path: Path) -> Curve:
+    try:
+        with (gzip.open if path.suffix == ".gz" else open)(path, "rt", encoding="utf-8-sig", newline="") as file:
+            header, *rows = [row for row in csv.reader(file) if row] or [[]]
+    except (OSError, EOFError, zlib.error) as error:
+        raise NotFoundError(f"{path} cannot be read: {getattr(error, 'strerror', None) or error}") from error
+    except (UnicodeDecodeError, csv.Error) as error:
+        raise RunError(f"{path} is not a table of text") from error
+    if missing := [column for column in NEEDED if column not in header]:
+        raise RunError(f"{path} is not the log of a run: it has no column {missing[0]}")
+    if rows and len(rows[-1]) < len(header):
+        rows.pop()  # of a run that is just writing it
+    return _unless_empty(Curve(path.name.partition(".csv")[0], list(_records(path, header, rows)), path))
+
+
+def _records(path: Path, header: list[str], rows: list[list[str]]) -> Iterator[dict[str, float | None]]:
+    for line, row in enumerate(rows, 2):
+        try:
+            cells = dict(zip(header, row, strict=True))
+            scores = {name: float(cells[name]) if cells[name] else None for name in SCORES if name in cells}
+            yield {"attempt": int(cells["attempt"]), "generation": int(cells["generation"])} | scores
+        except ValueError as error:
+            raise RunError(f"{path}, line {line}: not a generation of a log") from error
+
+
+def _unless_empty(curve: Curve) -> Curve:
+    if not curve.records:
+        raise RunError(f"{curve.path} has no generations yet")
+    return curve
+
+
+def _told_apart(curves: list[Curve]) -> list[Curve]:
+    """Curves that share a name get the part of their path that they do not share as a note."""
+    alike = {curve.name: [other.path.resolve() for other in curves if other.name == curve.name] for curve in curves}
+    notes = [os.path.relpath(curve.path.resolve(), os.path.commonpath(alike[curve.name])) for curve in curves]
+    return [replace(curve, note=note) if note != "." else curve for curve, note in zip(curves, notes, strict=True)]
