@@ -3,11 +3,22 @@ PYTHON ?= python3
 BIN := .venv/bin
 READY := .venv/.ready
 
+# Of `make paper`: where the weights lie, where the report goes, runs for each row of a table.
+FOLDER ?= examples/collect
+OUT ?= build/paper
+RUNS ?= 1000
+# Of `make paper-train`: attempts of the lessons of collect.mind and of the others, times the paper's generations.
+ATTEMPTS ?= 10
+OTHERS ?= $(ATTEMPTS)
+SCALE ?= 1
+SEED ?= 1
+TO ?= runs/paper
+
 .DEFAULT_GOAL := help
-.PHONY: help demo test test-slow bench clean
+.PHONY: help demo test test-slow bench paper paper-train clean
 
 help:  ## what there is to make
-	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  make %-10s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
+	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  make %-11s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
 
 demo: $(READY)  ## check, show, train and run a skill, in a few minutes
 	@PATH="$(CURDIR)/$(BIN):$$PATH" sh examples/demo.sh build/demo
@@ -20,6 +31,12 @@ test-slow: $(READY)  ## the longer checks, too
 
 bench: $(READY)  ## how fast it is, beside plain pymunk
 	@for file in benchmarks/*.py; do echo "$$file"; $(BIN)/python $$file || exit; done
+
+paper: $(READY)  ## tables 1 to 3 and figures 11 to 15 of the paper, from the shipped weights: FOLDER= OUT= RUNS=
+	$(BIN)/python examples/collect/paper --folder $(FOLDER) --out $(OUT) --runs $(RUNS)
+
+paper-train: $(READY)  ## the paper's whole protocol from nothing, goes on where it was stopped: ATTEMPTS= SCALE= SEED= TO=
+	$(BIN)/python examples/collect/paper/teach.py --attempts $(ATTEMPTS) --others $(OTHERS) --scale $(SCALE) --seed $(SEED) --out $(TO)
 
 clean:  ## remove what was built, with the environment; runs and weights stay
 	rm -rf .venv build dist .pytest_cache .mypy_cache .ruff_cache .hypothesis

@@ -13,7 +13,7 @@ EXAMPLES = """\b
 Examples:
   mindc train collect.mind                      every lesson that has no weights or stale ones
   mindc train collect.mind GoToObject --generations 50 --seed 1
-  mindc train on_the_job.mind --generations 100 --attempts 3
+  mindc train on_the_job.mind --scale 0.1 --attempts 3       a tenth of the generations, the best of three
   mindc train --resume runs/GoToObject/20260714T120000Z-1
 """
 COUNT = click.IntRange(min=1)
@@ -24,6 +24,7 @@ COUNT = click.IntRange(min=1)
 @click.argument("skills", nargs=-1, metavar="[SKILL]...")
 @click.option("--curriculum", metavar="NAME", help="Whose lessons to teach (default: the first in the file).")
 @click.option("--generations", type=COUNT, help="Instead of what the lesson says.")
+@click.option("--scale", type=click.FloatRange(0, min_open=True), default=1.0, help="Times so many generations.")
 @click.option("--population", type=click.IntRange(min=4), help="Genomes in a generation.")
 @click.option("--attempts", type=COUNT, help="Independent attempts, of which the best is kept.")
 @click.option("--from-scratch", is_flag=True, help="Forget the weights that the skill has.")
@@ -39,6 +40,7 @@ def command(
     skills: tuple[str, ...],
     resume: Path | None,
     generations: int | None,
+    scale: float,
     population: int | None,
     attempts: int | None,
     from_scratch: bool,
@@ -50,7 +52,8 @@ def command(
     """Teach the skills of FILE, in the order of its curriculum: those named, or all without up-to-date weights.
 
     Runs the Python code of the file's procedures. Every lesson gets a folder under runs/, from which it can go on after
-    Ctrl-C, a crash or a power cut. The weights go to FILE's lock.
+    Ctrl-C, a crash or a power cut: with --resume, or by itself when the very same lesson is asked for with the same
+    --seed. The weights go to FILE's lock.
     """
     from mindrun.errors import MindError
     from mindrun.train.errors import NotFoundError
@@ -63,7 +66,7 @@ def command(
     if (file is None) == (resume is None):
         fail("Say what to train: a file, or --resume and a run.", "mindc train --help has examples.", MISUSE)
     school = School(workers, as_json, quiet)
-    wishes = Wishes(generations, population, attempts, from_scratch)
+    wishes = Wishes(generations, scale, population, attempts, from_scratch)
     try:
         if resume:
             finished = school.resume(resume)

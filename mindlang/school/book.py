@@ -10,7 +10,7 @@ from pathlib import Path
 from mindrun.graph import Graph, Lesson
 from mindrun.train.errors import RunError
 from mindrun.train.manifest import Manifest, fingerprint, hashes, processor, versions
-from mindrun.train.run_folder import Run, create
+from mindrun.train.run_folder import Run, create, unfinished
 from mindrun.weights import Weights, learners
 
 from mindlang.compile import Compiled
@@ -59,7 +59,10 @@ def open_book(path: Path, compiled: Compiled) -> Book:
 
 
 def begin(book: Book, lesson: Lesson, seed: int, runs: Path, now: datetime) -> Run:
-    """A new run of a lesson; RunError where it cannot begin, and what to train first where that is why."""
+    """A run of a lesson, new unless the very same was stopped; it would come to the same end, bit for bit.
+
+    RunError where it cannot begin, and what to train first where that is why.
+    """
     weights = _needed(book, lesson) | (_known(book, lesson) if not lesson.from_scratch else {})
     manifest = Manifest(
         lesson=lesson,
@@ -74,7 +77,7 @@ def begin(book: Book, lesson: Lesson, seed: int, runs: Path, now: datetime) -> R
         versions=versions(),
         processor=processor(),
     )
-    return create(runs, manifest, book.sources, weights)
+    return unfinished(runs, manifest) or create(runs, manifest, book.sources, weights)
 
 
 def refuse_changed(book: Book, run: Run) -> None:

@@ -13,9 +13,13 @@ from mindlang.lock.status import Status, Trained
 
 @dataclass(frozen=True, slots=True)
 class Wishes:
-    """What the command line says instead of the source; None leaves it as it stands there."""
+    """What the command line says instead of the source; None leaves it as it stands there.
+
+    `scale` multiplies the generations of a lesson.
+    """
 
     generations: int | None = None
+    scale: float = 1.0
     population: int | None = None
     attempts: int | None = None
     from_scratch: bool = False
@@ -29,7 +33,7 @@ class Wishes:
         )
         return replace(
             lesson,
-            generations=self.generations or lesson.generations,
+            generations=max(1, round(self.scale * (self.generations or lesson.generations))),
             from_scratch=self.from_scratch or lesson.from_scratch,
             learner=learner,
         )

@@ -150,6 +150,11 @@ class Lesson:
     with_subskills: bool
     learner: Genetic
 
+    @property
+    def name(self) -> str:
+        """The skill, and where it is taught elsewhere than on the task of its name, the task."""
+        return self.skill if self.skill == self.task else f"{self.skill}-on-{self.task}"
+
 
 @dataclass(frozen=True, slots=True)
 class Graph:

@@ -43,9 +43,8 @@ class Manifest:
 
     @property
     def name(self) -> str:
-        """The lesson's name: the skill, and where it is taught elsewhere than on the task of its name, the task."""
-        lesson = self.lesson
-        return lesson.skill if lesson.skill == lesson.task else f"{lesson.skill}-on-{lesson.task}"
+        """The lesson's name."""
+        return self.lesson.name
 
     @property
     def identity(self) -> str:

@@ -56,6 +56,18 @@ def create(runs: Path, manifest: Manifest, sources: Mapping[str, str], weights: 
     return Run(folder, manifest, dict(weights))
 
 
+def unfinished(runs: Path, manifest: Manifest) -> Run | None:
+    """The newest run under `runs` that was to come to the same end as this one would, and was stopped."""
+    for folder in sorted((runs / manifest.name).glob("*"), reverse=True):
+        try:
+            run = open_run(folder)
+        except RunError:
+            continue
+        if run.manifest.identity == manifest.identity and read_result(folder) is None:
+            return run
+    return None
+
+
 def open_run(folder: Path) -> Run:
     """The run in a folder; RunError where there is none or a part of it is damaged."""
     try:

@@ -1,0 +1,49 @@
+"""Tables 1 to 3 and Figures 11 to 15 of the paper from trained weights and logs: python examples/collect/paper.
+
+Writes RESULTS.md and figures/ into --out. The weights, locks and logs are those of --folder, where `teach.py` put them.
+"""
+
+import argparse
+import sys
+from pathlib import Path
+from string import Template
+
+from figures import draw
+from protocol import FOLDER, TABLES
+from tables import attempts, lessons, table
+
+
+def main() -> None:
+    """Measure, draw, write."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--folder", type=Path, default=FOLDER, help="where the weights and logs lie")
+    parser.add_argument("--out", type=Path, default=Path("build/paper"), help="where the report goes")
+    parser.add_argument("--runs", type=int, default=1000, help="layouts that each row of a table is measured on")
+    parser.add_argument("--seed", type=int, default=1, help="draws the layouts")
+    options = parser.parse_args()
+    options.out.mkdir(parents=True, exist_ok=True)
+    parts = {
+        name: table(options.folder, of, options.runs, options.seed, say)
+        for name, of in zip(("table_1", "table_1_uninterrupted", "table_2", "table_3"), TABLES, strict=True)
+    }
+    parts |= {
+        "attempts": attempts(options.folder, options.seed, say),
+        "lessons": lessons(options.folder),
+        "figures": draw(options.folder, options.out, say),
+        "runs": f"{options.runs:,}",
+        "seed": str(options.seed),
+    }
+    text = Template((Path(__file__).parent / "RESULTS.template.md").read_text(encoding="utf-8")).substitute(parts)
+    (options.out / "RESULTS.md").write_text(text, encoding="utf-8")
+    for title in ("table_1", "table_1_uninterrupted", "table_2", "table_3", "attempts"):
+        print(f"\n{title.replace('_', ' ')}\n{parts[title]}")
+    say(f"{options.out / 'RESULTS.md'}: all of it")
+
+
+def say(text: str) -> None:
+    """Tell who waits."""
+    print(text, file=sys.stderr, flush=True)
+
+
+if __name__ == "__main__":
+    main()
