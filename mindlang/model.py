@@ -6,7 +6,7 @@ from typing import Generic, TypeVar
 from mindrun.events import Event
 from mindrun.functions import Function
 from mindrun.graph import ActuatorKind, SensorKind
-from mindrun.learners import Genetic
+from mindrun.learners import Learner
 from mindrun.measures import Measure
 from mindrun.memory import Cell
 from mindrun.world import Content, Disc, Scene
@@ -139,7 +139,7 @@ class Lesson:
     generations: int
     from_scratch: bool
     with_subskills: bool
-    learner: Genetic
+    learner: Learner
     fact: Teaches
 
 

@@ -23,6 +23,7 @@ def result_of(run: Run, state: State, entries: Mapping[str, Entry]) -> Result:
         "task": lesson.task,
         "master": lesson.master,
         "generations": lesson.generations,
+        "bred": state.generations,
         "population": lesson.learner.population,
         "attempts": lesson.learner.attempts,
         "seed": run.manifest.seed,
@@ -54,7 +55,9 @@ def opening(run: Run) -> str:
 
 def closing(result: Result) -> str:
     """What was learnt, in a sentence."""
-    generations = "1 generation" if result["generations"] == 1 else f"{result['generations']} generations"
+    generations = "1 generation" if result["bred"] == 1 else f"{result['bred']} generations"
+    if result["attempts"] > 1:
+        generations += f" in {result['attempts']} attempts"
     return (
         f"{result['skill']} has learnt: {number(result['reevaluated'])} on fresh layouts after "
         f"{generations}, in {duration(result['seconds'])} at {rate(result['ticks_per_second'])}"

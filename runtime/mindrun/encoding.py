@@ -4,13 +4,15 @@ from collections.abc import Mapping
 from dataclasses import fields, is_dataclass
 from math import isfinite
 from types import NoneType, UnionType
-from typing import Annotated, Any, Union, get_args, get_origin, get_type_hints
+from typing import Annotated, Any, TypeVar, Union, get_args, get_origin, get_type_hints
 
 from mindrun.errors import BundleError
 from mindrun.graph import Graph
 from mindrun.quantity import Quantity, Reference
 from mindrun.registry import names
 from mindrun.sound import flaw
+
+T = TypeVar("T")
 
 
 def encode(value: object) -> Any:
@@ -26,11 +28,17 @@ def encode(value: object) -> Any:
 
 def decode(data: object) -> Graph:
     """The graph that `encode` made this data of; BundleError where anything is missing, unknown or out of range."""
-    graph: Graph = _decode(Graph, data, "graph")
+    graph = decode_part(Graph, data, "graph")
     found = flaw(graph)
     if found:
         raise BundleError(f"this graph is damaged: {found}")
     return graph
+
+
+def decode_part(hint: type[T], data: object, where: str) -> T:
+    """A part of a graph that `encode` made this data of; BundleError where it is not a `hint`."""
+    part: T = _decode(hint, data, where)
+    return part
 
 
 def _decode(hint: Any, data: Any, where: str) -> Any:

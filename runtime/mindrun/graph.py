@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from mindrun.actuators import Gripper, Servo, Wheel
 from mindrun.events import Event
 from mindrun.functions import Function
-from mindrun.learners import Genetic
+from mindrun.learners import Learner
 from mindrun.measures import Measure
 from mindrun.memory import Cell
 from mindrun.sensors import Battery, Bearing, Contact, Derivative, Held, Inertial, Inside, RangeFinder, Sine
@@ -148,7 +148,7 @@ class Lesson:
     generations: int
     from_scratch: bool
     with_subskills: bool
-    learner: Genetic
+    learner: Learner
 
     @property
     def name(self) -> str:

@@ -1,11 +1,13 @@
 """Kinds of curricula: how the lessons are learnt. `train/genetic.py` does it."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Annotated
 
-from mindrun.quantity import COUNT, POSITIVE, RATIO, Quantity
+from mindrun.quantity import COUNT, GENERATIONS, POSITIVE, RATIO, Quantity
 from mindrun.registry import kind
 
+OCTAVES = Quantity("a whole number up to 8", {"": 1.0}, low=0, high=8, whole=True)
+PATIENCE = replace(GENERATIONS, low=0)
 POPULATION = Quantity("a whole number of at least 4", {"": 1.0}, low=4, high=100_000, whole=True)
 
 
@@ -16,7 +18,9 @@ class Genetic:
 
     Every generation, `population` genomes are scored on the same `layouts` worlds; `attempts` independent runs
     are made and the best is kept. `mutation` is the spread of a mutated weight, `mutated` the share of weights it
-    hits. A lesson may say any of these for itself.
+    hits; with `octaves` each child has its own, up to so many times doubled or halved. With `patience` an attempt ends
+    early when its best has not become better beyond doubt for so many generations. A lesson may say any of these for
+    itself.
     """
 
     population: Annotated[int, POPULATION] = 100
@@ -25,3 +29,22 @@ class Genetic:
     elite: Annotated[float, RATIO] = 0.1
     mutation: Annotated[float, POSITIVE] = 0.5
     mutated: Annotated[float, RATIO] = 0.1
+    octaves: Annotated[int, OCTAVES] = 0
+    patience: Annotated[int, PATIENCE] = 0
+
+
+@kind("curriculum", "restarting")
+@dataclass(frozen=True, slots=True)
+class Restarting(Genetic):
+    """The genetic algorithm that gets there soonest: steps of all sizes, and where it is stuck it begins anew.
+
+    `attempts`, `octaves` and `patience` are what makes the difference: an attempt that no longer becomes better makes
+    room for the next. All arguments are those of `genetic`, with other defaults.
+    """
+
+    attempts: Annotated[int, COUNT] = 4
+    octaves: Annotated[int, OCTAVES] = 2
+    patience: Annotated[int, PATIENCE] = 20
+
+
+Learner = Genetic | Restarting

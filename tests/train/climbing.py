@@ -47,6 +47,15 @@ class Faulty(Sphere):
         return Results(total, results.ticks, results.faults + bad[:, None])
 
 
+@dataclass(frozen=True, slots=True)
+class Flat(Sphere):
+    """Every genome has the same score."""
+
+    def score(self, genomes: NDArray[np.float32], seeds: NDArray[np.uint64]) -> Results:
+        results = Sphere.score(self, genomes, seeds)
+        return Results(np.zeros_like(results.total), results.ticks, results.faults)
+
+
 def lesson(generations: int = 30, **learner: float) -> Lesson:
     return Lesson(
         "School", "Climb", "Climb", "Climb", generations, False, False, Genetic(**{"population": 20, **learner})

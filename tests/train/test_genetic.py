@@ -59,3 +59,15 @@ def test_a_population_of_only_bad_scores_breeds_on() -> None:
 def test_any_share_of_elite_leaves_room_for_one_survivor_and_one_child(elite: float) -> None:
     genomes = evolve(3, learner=Genetic(population=4, elite=elite)).genomes
     assert genomes.shape == (4, 10)
+
+
+def test_with_octaves_each_child_has_steps_of_its_own_size() -> None:
+    known = np.zeros((1, 400), np.float32)
+    learner = Genetic(population=200, octaves=3)
+    children = ask(nobody(400), learner, known, np.random.default_rng(1))[1:]
+    shares = (children != 0).mean(axis=1)
+    spreads = np.array([child[child != 0].std() for child in children])
+    assert shares.min() < learner.mutated / 4
+    assert shares.max() > learner.mutated * 6
+    assert spreads.min() < learner.mutation / 6
+    assert spreads.max() > learner.mutation * 6

@@ -3,9 +3,10 @@
 from dataclasses import replace
 
 import numpy as np
-from mindrun.train.lesson import Course, Record, State, begin, teach
+import pytest
+from mindrun.train.lesson import Course, Record, State, begin, is_better, teach
 
-from tests.train.climbing import LENGTH, Faulty, Sphere, lesson
+from tests.train.climbing import LENGTH, Faulty, Flat, Sphere, lesson
 
 UNKNOWN = np.empty((0, LENGTH), np.float32)
 
@@ -67,3 +68,44 @@ def test_ticks_and_seconds_add_up() -> None:
     state, records = taught(Course(lesson(30), 1, UNKNOWN), Sphere())
     assert state.seconds == sum(record.seconds for record in records) == 30.0
     assert state.ticks == sum(record.ticks for record in records)
+
+
+def test_an_attempt_without_patience_left_makes_room_for_the_next() -> None:
+    """On a flat world nothing becomes better: the first try after the patience is over is the last of its attempt."""
+    state, records = taught(Course(lesson(100, attempts=3, patience=20), 1, UNKNOWN), Flat())
+    assert [record.attempt for record in records] == [1] * 21 + [2] * 21 + [3] * 21
+    assert [record.generation for record in records if record.verdict is not None] == [21] * 3
+    assert len(state.champions) == len(state.verdicts) == 3
+    assert state.generations == 63
+
+
+def test_patience_outlasts_a_climb() -> None:
+    state, records = taught(Course(lesson(60, patience=20), 1, UNKNOWN), Sphere(noise=0.1))
+    climbed = taught(Course(lesson(60), 1, UNKNOWN), Sphere(noise=0.1))[0]
+    assert len(records) > 40
+    assert state.reevaluated > climbed.reevaluated - 1.0
+
+
+@pytest.mark.parametrize(
+    ("scores", "than", "better"),
+    [
+        ([2.0, 3.1, 4.0, 5.0], [1.0, 2.0, 3.0, 4.0], True),
+        ([9.0, 0.0, 9.0, 0.0], [1.0, 2.0, 3.0, 4.0], False),
+        ([1.0, 2.0, 3.0, 4.0], [1.0, 2.0, 3.0, 4.0], False),
+        ([1.0, 2.0, 3.0, 4.0], [-np.inf, 2.0, 3.0, 4.0], True),
+        ([-np.inf, 2.0, 3.0, 4.0], [-np.inf, 2.0, 3.0, 4.0], False),
+        ([-np.inf, 9.0, 9.0, 9.0], [1.0, 2.0, 3.0, 4.0], False),
+    ],
+)
+def test_better_means_beyond_doubt(scores: list[float], than: list[float], better: bool) -> None:
+    with np.errstate(invalid="ignore"):
+        assert is_better(np.array(scores), np.array(than)) is better
+
+
+def test_every_attempt_leaves_its_champion_and_its_verdict() -> None:
+    course = Course(lesson(5, attempts=3), 1, UNKNOWN)
+    state, records = taught(course, Sphere())
+    assert [record.verdict for record in records if record.verdict is not None] == state.verdicts[:, 1].tolist()
+    best = int(state.verdicts[:, 0].argmax())
+    assert state.kept.tobytes() == state.champions[best].tobytes()
+    assert state.reevaluated == state.verdicts[best, 1]

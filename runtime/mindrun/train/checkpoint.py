@@ -59,10 +59,14 @@ def pack(state: State, run: str) -> bytes:
         "genomes": state.population.genomes,
         "scores": state.population.scores,
         "champion": state.champion,
+        "rival": state.rival,
         "champions": state.champions,
         "verdicts": state.verdicts,
         "floats": np.array([state.best, state.seconds]),
-        "counts": np.array([state.attempt, state.population.generation, state.ticks, state.faults], np.int64),
+        "counts": np.array(
+            [state.attempt, state.population.generation, state.since, state.generations, state.ticks, state.faults],
+            np.int64,
+        ),
     }
     shapes = {name: [array.dtype.str, list(array.shape)] for name, array in arrays.items()}
     header = json.dumps({"run": run, "arrays": shapes}).encode() + b"\n"
@@ -92,11 +96,12 @@ def _arrays(shapes: dict[str, tuple[str, list[int]]], data: bytes) -> dict[str, 
 
 
 def _state(arrays: dict[str, NDArray[Any]]) -> State:
-    attempt, generation, ticks, faults = (int(count) for count in arrays["counts"])
+    attempt, generation, since, generations, ticks, faults = (int(count) for count in arrays["counts"])
     best, seconds = (float(number) for number in arrays["floats"])
     population = Population(arrays["genomes"], arrays["scores"], generation)
+    now = arrays["champion"], arrays["rival"], since
     ended = arrays["champions"], arrays["verdicts"]
-    return State(attempt, population, arrays["champion"], *ended, best, ticks, seconds, faults)
+    return State(attempt, population, *now, *ended, best, generations, ticks, seconds, faults)
 
 
 def _read(path: Path, run: str) -> State | None:

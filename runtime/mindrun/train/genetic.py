@@ -83,9 +83,16 @@ def cross(mothers: Genomes, fathers: Genomes, rng: np.random.Generator) -> Genom
 
 
 def mutate(genomes: Genomes, learner: Genetic, rng: np.random.Generator) -> Genomes:
-    """The genomes with a share `mutated` of their weights moved by a normal step of spread `mutation`."""
-    hit = rng.random(genomes.shape, np.float32) < learner.mutated
-    step = np.float32(learner.mutation) * rng.standard_normal(genomes.shape, np.float32)
+    """The genomes with a share `mutated` of their weights moved by a normal step of spread `mutation`.
+
+    With `octaves` each genome has a share and a spread of its own: these times a power of two.
+    """
+    share, spread = np.full((2, len(genomes), 1), [[[learner.mutated]], [[learner.mutation]]], np.float32)
+    if learner.octaves:
+        powers = rng.integers(-learner.octaves, learner.octaves, size=(2, len(genomes), 1), endpoint=True)
+        share, spread = np.ldexp((share, spread), powers)
+    hit = rng.random(genomes.shape, np.float32) < share
+    step = spread * rng.standard_normal(genomes.shape, np.float32)
     return genomes + np.where(hit, step, np.float32(0))
 
 

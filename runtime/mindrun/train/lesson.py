@@ -65,7 +65,8 @@ class Course:
 class State:
     """Where a run stands, all that is needed to go on.
 
-    `champion` [0 or 1, weights] is the best of this attempt. Of the attempts that have ended, `champions`
+    `champion` [0 or 1, weights] is the best of this attempt; `rival` [0 or 1, weights] the last one that was better
+    beyond doubt than the one before it, found in generation `since`. Of the attempts that have ended, `champions`
     [ended, weights] are the best and `verdicts` [ended, 2] their scores on layouts that chose nothing before: the first
     decides between the attempts, the second, on yet other layouts, is what is reported.
     """
@@ -73,9 +74,12 @@ class State:
     attempt: int
     population: Population
     champion: Genomes
+    rival: Genomes
+    since: int
     champions: Genomes
     verdicts: Scores
     best: float
+    generations: int
     ticks: int
     seconds: float
     faults: int
@@ -111,8 +115,9 @@ class Record:
 
 @dataclass(frozen=True, slots=True)
 class Marks:
-    """The mean score [genomes] over the layouts, and what it took."""
+    """The scores `each` [genomes, layouts] of genomes, their means `scores` [genomes], and what it took."""
 
+    each: Scores
     scores: Scores
     ticks: int
     faults: int
@@ -121,7 +126,7 @@ class Marks:
 def begin(course: Course) -> State:
     """The state before the first generation."""
     empty = course.start[:0]
-    return State(0, nobody(empty.shape[1]), course.start, empty, np.empty((0, 2)), -inf, 0, 0.0, 0)
+    return State(0, nobody(empty.shape[1]), course.start, empty, 0, empty, np.empty((0, 2)), -inf, 0, 0, 0.0, 0)
 
 
 def teach(course: Course, scorer: Scorer, state: State, clock: Clock) -> Iterator[tuple[State, Record]]:
@@ -144,14 +149,15 @@ def generation(course: Course, scorer: Scorer, state: State) -> tuple[State, Rec
         state,
         population=population,
         best=max(state.best, float(marks.scores.max())),
+        generations=state.generations + 1,
         ticks=state.ticks + marks.ticks,
         faults=state.faults + marks.faults,
     )
-    number, reevaluated = population.generation, None
-    last = number == course.lesson.generations
-    if last or number == 1 or number % EVERY == 0:
+    number, reevaluated, verdict = population.generation, None, None
+    if number == course.lesson.generations or number == 1 or number % EVERY == 0:
         now, reevaluated = try_again(now, scorer, layouts(*key, FRESH, Purpose.REEVALUATION))
-    now, verdict = judge(course, scorer, now) if last else (now, None)
+    if number == course.lesson.generations or 0 < learner.patience <= number - now.since:
+        now, verdict = judge(course, scorer, now)
     ticks, faults = now.ticks - state.ticks, now.faults - state.faults
     best, mean = float(marks.scores.max()), _mean(marks.scores)
     return now, Record(state.attempt + 1, number, best, mean, reevaluated, verdict, ticks, 0.0, faults)
@@ -160,16 +166,26 @@ def generation(course: Course, scorer: Scorer, state: State) -> tuple[State, Rec
 def try_again(state: State, scorer: Scorer, fresh: Seeds) -> tuple[State, float]:
     """The champion is who does best on fresh layouts, it or the best of the generation; and its score on them."""
     ranked = state.population.genomes[order(state.population.scores)]
-    candidates = np.concatenate([state.champion, ranked[:CANDIDATES]])
+    candidates = np.concatenate([state.champion, ranked[:CANDIDATES], state.rival])
     marks = mark(scorer, candidates, fresh)
-    winner = int(order(marks.scores)[0])
+    winner = int(order(marks.scores[: len(candidates) - len(state.rival)])[0])
     now = replace(
         state,
         champion=candidates[winner : winner + 1],
         ticks=state.ticks + marks.ticks,
         faults=state.faults + marks.faults,
     )
+    if not len(state.rival) or is_better(marks.each[winner], marks.each[-1]):
+        now = replace(now, rival=now.champion, since=state.population.generation)
     return now, float(marks.scores[winner])
+
+
+def is_better(scores: Scores, than: Scores) -> bool:
+    """Whether scores [layouts] are better than others on the same layouts by more than two standard errors."""
+    if not np.isfinite(than).all():
+        return bool(np.isfinite(scores).all())
+    gain = scores - than
+    return bool(gain.mean() > 2.0 * gain.std(ddof=1) / np.sqrt(len(gain)))
 
 
 def judge(course: Course, scorer: Scorer, state: State) -> tuple[State, float]:
@@ -183,6 +199,8 @@ def judge(course: Course, scorer: Scorer, state: State) -> tuple[State, float]:
         attempt=state.attempt + 1,
         population=nobody(course.start.shape[1]),
         champion=course.start,
+        rival=course.start[:0],
+        since=0,
         champions=np.concatenate([state.champions, state.champion]),
         verdicts=np.concatenate([state.verdicts, verdict[None]]),
         ticks=state.ticks + int(results.ticks.sum()),
@@ -194,8 +212,8 @@ def mark(scorer: Scorer, genomes: Genomes, seeds: Seeds | Sequence[int]) -> Mark
     """Score every genome on every seed; a genome with a fault anywhere has -inf."""
     results = scorer.score(genomes, seeds)
     faulty = (results.faults > 0) | ~np.isfinite(results.total)
-    scores = np.where(faulty, -inf, results.total).mean(axis=1)
-    return Marks(scores, int(results.ticks.sum()), int(faulty.sum()))
+    each = np.where(faulty, -inf, results.total)
+    return Marks(each, each.mean(axis=1), int(results.ticks.sum()), int(faulty.sum()))
 
 
 def _mean(scores: Scores) -> float:

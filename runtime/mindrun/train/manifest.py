@@ -11,10 +11,11 @@ from typing import Any
 
 import numpy as np
 
+from mindrun.encoding import decode_part, encode
+from mindrun.errors import BundleError
 from mindrun.functions import Procedure
 from mindrun.functions.procedure import module_source
 from mindrun.graph import Graph, Lesson
-from mindrun.learners import Genetic
 from mindrun.train.errors import RunError
 from mindrun.weights import Weights, reachable
 
@@ -49,7 +50,7 @@ class Manifest:
     @property
     def identity(self) -> str:
         """A hash of what decides the result; a checkpoint is of this run if it carries it."""
-        parts = (asdict(self.lesson), self.seed, self.mind, dict(self.weights))
+        parts = (encode(self.lesson), self.seed, self.mind, dict(self.weights))
         return _sha256(json.dumps(parts, sort_keys=True).encode())
 
 
@@ -94,7 +95,9 @@ def processor() -> str:
 
 def to_json(manifest: Manifest) -> bytes:
     """The manifest as it stands in the run folder."""
-    return json.dumps({"format": FORMAT, **asdict(manifest)}, indent=2).encode() + b"\n"
+    return (
+        json.dumps({"format": FORMAT, **asdict(manifest), "lesson": encode(manifest.lesson)}, indent=2).encode() + b"\n"
+    )
 
 
 def from_json(data: bytes) -> Manifest:
@@ -103,11 +106,10 @@ def from_json(data: bytes) -> Manifest:
         plain: dict[str, Any] = json.loads(data)
         if plain.pop("format") != FORMAT:
             raise RunError("the run was made by another version of mindc", "resume it with that version")
-        lesson = plain.pop("lesson")
-        learner = Genetic(**lesson.pop("learner"))
+        lesson = decode_part(Lesson, plain.pop("lesson"), "lesson")
         learners, command = tuple(plain.pop("learners")), tuple(plain.pop("command"))
-        return Manifest(lesson=Lesson(learner=learner, **lesson), learners=learners, command=command, **plain)
-    except (ValueError, TypeError, KeyError, AttributeError) as error:
+        return Manifest(lesson=lesson, learners=learners, command=command, **plain)
+    except (ValueError, TypeError, KeyError, AttributeError, BundleError) as error:
         raise RunError("the run's manifest is damaged", "start the lesson again without --resume") from error
 
 

@@ -1,0 +1,82 @@
+"""From nothing to Collect: python benchmarks/curriculum.py [--seeds 5] [--curriculum Quick] [--json].
+
+Every seed teaches the whole curriculum with `mindc train` in a folder of its own, on all cores, and what it has learnt
+runs on 200 layouts that the training has not seen. The first compilation is not counted; starting Python is.
+"""
+
+import argparse
+import json
+import subprocess
+import sys
+import time
+from collections.abc import Sequence
+from pathlib import Path
+from shutil import copy
+from tempfile import TemporaryDirectory
+from typing import Any
+
+from learning import prepared
+from workloads import COLLECT, collect
+
+MINDC = (sys.executable, "-c", "from mindlang.cli import main; main()")
+LINE = "seed {seed:>3}: {seconds:5.0f} s, {objects:5.2f} ± {error:.2f} objects, {runtime:.0%} of the run"
+
+
+def learn(curriculum: str, seed: int, runs: int) -> dict[str, Any]:
+    """One seed: how long it took, and what came of it."""
+    with TemporaryDirectory() as folder:
+        copy(COLLECT, folder)
+        begin = time.perf_counter()
+        lines = mindc(folder, "train", COLLECT.name, "--curriculum", curriculum, "--seed", str(seed))
+        seconds = time.perf_counter() - begin
+        (found,) = mindc(folder, "bench", COLLECT.name, "--task", "Collect", "--runs", str(runs), "--seed", "20211121")
+    return {
+        "seed": seed,
+        "seconds": seconds,
+        "objects": found["count_mean"],
+        "error": found["count_std"] / runs**0.5,
+        "runtime": found["runtime_mean"],
+        "lessons": {line["lesson"]: round(line["seconds"], 1) for line in lines},
+    }
+
+
+def mindc(folder: str, *arguments: str) -> Sequence[dict[str, Any]]:
+    """What a command says as JSON, a document a line."""
+    done = subprocess.run([*MINDC, *arguments, "--json", "--quiet"], cwd=Path(folder), capture_output=True, text=True)
+    if done.returncode:
+        sys.exit(done.stderr)
+    decoder, documents, rest = json.JSONDecoder(), [], done.stdout.strip()
+    while rest:
+        document, end = decoder.raw_decode(rest)
+        documents.append(document)
+        rest = rest[end:].strip()
+    return documents
+
+
+def main() -> None:
+    """Teach, try, print."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--curriculum", default="Quick")
+    parser.add_argument("--seeds", type=int, default=5)
+    parser.add_argument("--first-seed", type=int, default=1)
+    parser.add_argument("--runs", type=int, default=200)
+    parser.add_argument("--at-least", type=float, default=4.63, help="objects from which a seed has succeeded")
+    parser.add_argument("--json", action="store_true")
+    options = parser.parse_args()
+    graph, weights, _ = collect()
+    prepared(graph, weights, "Collect", 1)
+    runs = []
+    for seed in range(options.first_seed, options.first_seed + options.seeds):
+        runs.append(learn(options.curriculum, seed, options.runs))
+        if not options.json:
+            print(LINE.format(**runs[-1]), runs[-1]["lessons"], flush=True)
+    succeeded = sum(run["objects"] >= options.at_least for run in runs)
+    longest = max(run["seconds"] for run in runs)
+    if options.json:
+        print(json.dumps({"succeeded": succeeded, "longest": longest, "runs": runs}))
+    else:
+        print(f"{succeeded} of {len(runs)} seeds reach {options.at_least:g}; the longest took {longest:.0f} s")
+
+
+if __name__ == "__main__":
+    main()
