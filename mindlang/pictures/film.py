@@ -84,7 +84,7 @@ class Film:
 
     def _world(self, trail: Path, tick: int) -> Image:
         story, past = self.story, round(TRAIL * self.FPS * self.step)
-        canvas = Canvas(blank(HEIGHT, HEIGHT, self._ground), self._view(tick))
+        canvas = Canvas(blank(HEIGHT, HEIGHT, self._ground), self.view(tick))
         draw_floor(canvas, story, NIGHT)
         draw_zones(canvas, story, NIGHT, tick)
         trail.draw(canvas, max(0, tick - past), tick, 2.0)
@@ -95,16 +95,16 @@ class Film:
             draw_cross(canvas, x, y, 9 / canvas.view.scale, NIGHT)
         return canvas.image
 
-    @property
-    def _ground(self) -> tuple[int, int, int]:
-        return NIGHT.page if isinstance(self.story.task.scene, Arena) else NIGHT.floor
-
-    def _view(self, tick: int) -> View:
-        """The whole arena; of a plain scene what is around the robot."""
+    def view(self, tick: int) -> View:
+        """What is seen of the world in a tick: the whole arena; of a plain scene what is around the robot."""
         scene = self.story.task.scene
         half = scene.size / 2 + 2 * WALL if isinstance(scene, Arena) else WINDOW / 2
         middle = self.story.body[tick, :2] * (not isinstance(scene, Arena))
         return View.around(middle - half, middle + half, HEIGHT, HEIGHT)
+
+    @property
+    def _ground(self) -> tuple[int, int, int]:
+        return NIGHT.page if isinstance(self.story.task.scene, Arena) else NIGHT.floor
 
     def _title(self, canvas: Canvas, tick: int) -> None:
         story, left, y = self.story, HEIGHT + 24.0, 66.0

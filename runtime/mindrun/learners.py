@@ -44,7 +44,7 @@ class Restarting(Genetic):
 
     attempts: Annotated[int, COUNT] = 4
     octaves: Annotated[int, OCTAVES] = 2
-    patience: Annotated[int, PATIENCE] = 20
+    patience: Annotated[int, PATIENCE] = 40
 
 
 Learner = Genetic | Restarting

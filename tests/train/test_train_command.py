@@ -42,6 +42,8 @@ curriculum Rest is genetic population 8
   teaches Go on Broken for 2 generations
 """
 
+LONG = ("drive.mind", "Go", "--seed", "3", "--generations", "400", "--from-scratch", "--json")
+
 
 @pytest.fixture
 def project(tmp_path: Path) -> Path:
@@ -138,6 +140,19 @@ def test_ctrl_c_finishes_the_generation_and_the_run_goes_on_as_if_nothing_had_be
     assert (once_more.returncode, "has finished already" in once_more.stderr) == (0, True)
 
 
+def test_the_same_command_goes_on_where_it_was_stopped(project: Path) -> None:
+    run, weights = interrupted(project)
+    assert json.loads(mindc(project, *LONG).stdout)["weights"] == weights
+    assert [str(folder) for folder in (project / "runs" / "Go-on-Reach").iterdir()] == [run]
+    mindc(project, *LONG, "--generations", "1")
+    assert len(list((project / "runs" / "Go-on-Reach").iterdir())) == 2
+
+
+def test_a_scale_multiplies_the_generations(project: Path) -> None:
+    taught = mindc(project, "drive.mind", "--scale", "1.5", "--json", "--seed", "1")
+    assert [json.loads(line)["generations"] for line in taught.stdout.splitlines()] == [4, 3]
+
+
 def test_a_run_whose_source_has_changed_is_refused(project: Path) -> None:
     run, _ = interrupted(project)
     comments = MIND.replace("master", "# a comment changes nothing\nmaster")
@@ -151,9 +166,8 @@ def test_a_run_whose_source_has_changed_is_refused(project: Path) -> None:
 
 def interrupted(project: Path) -> tuple[str, str]:
     """A run stopped with Ctrl-C, and the weights with which it would have ended."""
-    arguments = ("drive.mind", "Go", "--seed", "3", "--generations", "400", "--from-scratch", "--json")
-    whole = json.loads(mindc(project, *arguments, "--runs", "undisturbed").stdout)
-    command = [sys.executable, "-c", "from mindlang.cli import main; main()", "train", *arguments]
+    whole = json.loads(mindc(project, *LONG, "--runs", "undisturbed").stdout)
+    command = [sys.executable, "-c", "from mindlang.cli import main; main()", "train", *LONG]
     with subprocess.Popen(command, cwd=project, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as process:
         logs = project.glob("runs/Go-on-Reach/*/progress.jsonl")
         while process.poll() is None and not any(

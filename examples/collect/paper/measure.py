@@ -12,7 +12,7 @@ from protocol import Case
 
 from mindlang.compile import Compiled, load
 from mindlang.lock.ready import make_ready
-from mindlang.run.casting import cast
+from mindlang.run.casting import CastingError, cast
 from mindlang.run.stage import NOBODY, layouts
 
 
@@ -30,9 +30,12 @@ class Measured:
         return f"{self.objects:.2f} ± {self.error:.2f}" + (f" ({self.runtime:.1%})" if interrupt else "")
 
 
-def measure(folder: Path, case: Case, runs: int, seed: int) -> Measured:
-    """A case on so many layouts, with the weights that lie in a folder; CastingError where some are missing."""
-    found = cast(str(folder / case.file), compiled(folder / case.file), case.task, case.master)
+def measure(folder: Path, case: Case, runs: int, seed: int) -> Measured | None:
+    """A case on so many layouts, with the weights that lie in a folder; None where some are missing."""
+    try:
+        found = cast(str(folder / case.file), compiled(folder / case.file), case.task, case.master)
+    except CastingError:
+        return None
     rollout = found.rollout(case.interrupt, cores())
     scores = rollout.score(NOBODY, layouts(seed, runs))
     counts = scores.counts[0]

@@ -21,7 +21,7 @@ def table(folder: Path, of: Table, runs: int, seed: int, say: Say) -> str:
     for case in of.cases:
         say(f"table {of.number}: {case.name}, {of.title}")
         ours = measure(folder, case, runs, seed)
-        rows.append((case.name, str(case.paper), ours.text(case.interrupt)))
+        rows.append((case.name, str(case.paper), ours.text(case.interrupt) if ours else "not taught"))
     return _markdown(("", "paper", f"ours, {runs} runs"), rows)
 
 

@@ -1,0 +1,80 @@
+"""Figure 15: an obstacle passed by influence, in five steps of a hierarchy on skills that never change."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+
+import cv2
+import numpy as np
+from measure import compiled
+
+from mindlang.pictures.canvas import Image, View
+from mindlang.pictures.film import HEIGHT, WIDTH, Film
+from mindlang.pictures.panel import Panel
+from mindlang.pictures.path import Path as Trail
+from mindlang.pictures.story import Story, tell
+from mindlang.pictures.theme import NIGHT
+from mindlang.run import outcome
+from mindlang.run.casting import CastingError, cast
+from mindlang.run.stage import NOBODY
+
+FILE, TASK, MASTER = "constant_skills.mind", "Collect", "Gather"
+SEEKER, DODGER = "SeekObject", "Dodge"
+STEPS = 5
+SHORTEST, LONGEST = 40, 200  # ticks that a passage may take
+MARGIN = 40  # ticks that are shown before the obstacle matters, and after it has mattered
+WINDOW = 30.0  # units of the world that are seen
+SEEDS = range(1, 41)
+SMALLER = 0.5  # than the frames of a film
+
+
+@dataclass(frozen=True, slots=True)
+class Close(Film):
+    """A film that looks at one place."""
+
+    x: float
+    y: float
+
+    def view(self, tick: int) -> View:
+        """What is around the place."""
+        middle = np.array([self.x, self.y])
+        return View.around(middle - WINDOW / 2, middle + WINDOW / 2, HEIGHT, HEIGHT)
+
+
+def passage(folder: Path) -> Image | None:
+    """Five steps one below the other: the world at the left, the hierarchy at the right; None where there is none."""
+    path = folder / FILE
+    try:
+        found = cast(str(path), compiled(path), TASK, MASTER)
+    except CastingError:
+        return None
+    rollout = found.rollout()
+    for seed in SEEDS:
+        story = tell(found, rollout, seed)
+        for first, last in passages(story):
+            about = {"seed": seed, **outcome.one(found.task, rollout.score(NOBODY, [seed]))}
+            x, y = story.body[first : last + 1, :2].mean(axis=0)
+            ticks = np.linspace(first - MARGIN, last + MARGIN, STEPS).astype(int)
+            return strip(Close(story, about, 1.0, float(x), float(y)), ticks.tolist())
+    return None
+
+
+def passages(story: Story) -> Iterator[tuple[int, int]]:
+    """The first and the last tick of each time in which the robot dodges on its way to the object, and hits nothing."""
+    names = [skill.name for skill in story.graph.skills]
+    dodging, seeking = (story.influence[:, names.index(name)] for name in (DODGER, SEEKER))
+    changes = np.diff(np.concatenate([[0], (dodging > seeking).astype(np.int8), [0]]))
+    for first, last in np.flatnonzero(changes).reshape(-1, 2).tolist():
+        around = slice(max(0, first - 2 * MARGIN), last + 2 * MARGIN)
+        whole = SHORTEST <= last - first <= LONGEST and first > 2 * MARGIN and last + 2 * MARGIN < story.ticks
+        calm = not story.touching[around].any() and (story.held[around] < 0).all()
+        if whole and calm and min(seeking[around.start : first].max(), seeking[last : around.stop].max()) > 0.5:
+            yield first, last
+
+
+def strip(film: Film, ticks: list[int]) -> Image:
+    """The frames of some ticks one below the other."""
+    panel = Panel(film.story, NIGHT, HEIGHT + 8, 86, WIDTH - HEIGHT - 16, HEIGHT - 96)
+    trail = Trail.of(film.story, NIGHT)
+    frames = [film.frame(panel, trail, tick) for tick in ticks]
+    return np.concatenate([cv2.resize(f, None, fx=SMALLER, fy=SMALLER, interpolation=cv2.INTER_AREA) for f in frames])

@@ -1,0 +1,107 @@
+"""The paper's protocol and its tables, on a tiny scale from nothing and with the weights that are shipped."""
+
+import os
+import re
+import subprocess
+import sys
+from dataclasses import dataclass
+from pathlib import Path
+
+import pytest
+
+from mindlang.lock import read_lock
+
+ROOT = Path(__file__).parents[2]
+COLLECT = ROOT / "examples" / "collect"
+PAPER = COLLECT / "paper"
+SKILLS = ("GoToObject", "GoToDropZone", "Avoid", "GoToObject+Avoid", "GoToDropZone+Avoid", "Collect")
+
+
+def python(*arguments: str) -> "subprocess.CompletedProcess[str]":
+    command = [sys.executable, *arguments]
+    return subprocess.run(command, capture_output=True, text=True, check=True, cwd=ROOT, env={**os.environ, "CI": "1"})
+
+
+def teach(out: Path, *files: str) -> str:
+    options = ("--attempts", "2", "--others", "1", "--scale", "1e-4", "--population", "4", "--seed", "1")
+    return python(str(PAPER / "teach.py"), *options, "--out", str(out), *files).stdout
+
+
+def contents(folder: Path) -> dict[str, bytes]:
+    """The locks and the weights of a folder."""
+    return {path.name: path.read_bytes() for path in [*folder.glob("*.lock"), *(folder / "weights").iterdir()]}
+
+
+@dataclass(frozen=True, slots=True)
+class Taught:
+    """A folder in which three files were taught; what lay in it after the first, and what was said before the rest."""
+
+    folder: Path
+    before: dict[str, bytes]
+    said: str
+
+
+@pytest.fixture(scope="module")
+def taught(tmp_path_factory: pytest.TempPathFactory) -> Taught:
+    folder = tmp_path_factory.mktemp("paper")
+    teach(folder, "collect.mind")
+    before = contents(folder)
+    return Taught(folder, before, teach(folder, "collect.mind", "on_the_job.mind", "power.mind"))
+
+
+def test_a_lesson_under_another_master_changes_only_the_learners_weights(taught: Taught) -> None:
+    assert list(read_lock(taught.folder / "on_the_job.lock")) == ["Avoid"]
+    new = read_lock(taught.folder / "on_the_job.lock")["Avoid"]
+    assert (new.taught.task, new.taught.master) == ("Collect", "Collect")
+    assert new.weights != read_lock(taught.folder / "collect.lock")["Avoid"].weights
+
+
+def test_power_leaves_collects_lock_and_weights_untouched(taught: Taught) -> None:
+    after = contents(taught.folder)
+    assert {name: after[name] for name in taught.before} == taught.before
+    power = read_lock(taught.folder / "power.lock")
+    assert set(power) == {"GoToPower", "GoToPower+Avoid", "CollectWithPower", "CollectAndPower"}
+    collect = read_lock(taught.folder / "collect.lock")
+    assert dict(power["CollectWithPower"].subskills)["Collect"] == collect["Collect"].weights
+
+
+def test_what_was_taught_is_not_taught_again(taught: Taught) -> None:
+    assert len(list((taught.folder / "runs" / "collect").glob("*/*"))) == len(SKILLS)
+    assert re.search(r"\d s +collect.mind", taught.said)
+
+
+def test_the_tables_of_a_tiny_scale(taught: Taught, tmp_path: Path) -> None:
+    said = python(str(PAPER), "--folder", str(taught.folder), "--out", str(tmp_path), "--runs", "2").stdout
+    report = (tmp_path / "RESULTS.md").read_text(encoding="utf-8")
+    assert re.search(r"\| hierarchical, curriculum \| 4.63 \(54%\) \| \d+\.\d\d ± \d+\.\d\d \(\d+\.\d%\) \|", report)
+    assert "| monolithic, curriculum | 5.19 (68%) | not taught |" in report
+    for skill in SKILLS:
+        assert re.search(rf"\| {re.escape(skill)} \| [\d.]+ \| \d of 2 \|", said)
+        assert f"| collect.mind | {skill} | 1 | 2 | 1 |" in report
+    assert "| power.mind | CollectAndPower-on-CollectWithPower | 1 | 1 | 1 |" in report
+    shown = re.findall(r"\((figures/\S+)\)", report)
+    assert shown
+    assert all((tmp_path / path).stat().st_size > 1000 for path in shown)
+
+
+@pytest.mark.parametrize(
+    ("file", "objects", "runtime"), [("collect.mind", 4.63, 0.54), ("on_the_job.mind", 6.03, 0.75)]
+)
+def test_the_shipped_weights_collect_more_than_the_papers(
+    file: str, objects: float, runtime: float, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.syspath_prepend(str(PAPER))
+    from measure import measure
+    from protocol import TABLES
+
+    case = next(case for case in TABLES[2].cases if case.file == file)
+    found = measure(COLLECT, case, 40, 7)
+    assert found is not None
+    assert found.objects > objects
+    assert found.runtime > runtime
+
+
+@pytest.mark.slow
+def test_the_report_is_what_the_shipped_weights_do(tmp_path: Path) -> None:
+    python(str(PAPER), "--out", str(tmp_path))
+    assert (tmp_path / "RESULTS.md").read_text(encoding="utf-8") == (COLLECT / "RESULTS.md").read_text(encoding="utf-8")
