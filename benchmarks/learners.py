@@ -3,8 +3,8 @@
     --genetic octaves=2,mutation=2,mutated=0.2     the genetic algorithm, other than its defaults; may be repeated
     --cmaes population_size=32,sigma=1             CMA-ES by the library cmaes (pip install cmaes); may be repeated
 
-Every seed teaches the skill from scratch, subskills as in the lock. The champion is chosen as in a lesson, and runs on 100
-layouts that the training has not seen.
+Every seed teaches the skill from scratch, subskills as in the lock. The champion is chosen as in a lesson, and runs on
+100 layouts that the training has not seen.
 """
 
 import argparse
