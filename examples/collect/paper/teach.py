@@ -101,11 +101,14 @@ def teach(school: School, out: Path, file: str, wishes: Wishes, seed: int) -> bo
 def foretell(plan: Plan) -> None:
     """Print how long each file will take here, by what the shipped runs took and how fast this machine is."""
     total = 0.0
+    unknown = 0
     for file in plan.files:
         seconds = seconds_for(plan, file)
         total += seconds or 0.0
-        print(f"{duration(seconds) if seconds else 'unknown':>14}  {file}", flush=True)
-    print(f"{duration(total):>14}  in all on {cores()} cores, less what has been taught already", flush=True)
+        unknown += seconds is None
+        print(f"{'unknown' if seconds is None else duration(seconds):>14}  {file}", flush=True)
+    more = f", and {unknown} files of which no run was shipped" if unknown else ""
+    print(f"{duration(total):>14}  in all on {cores()} cores, less what has been taught already{more}", flush=True)
 
 
 def seconds_for(plan: Plan, file: str) -> float | None:
