@@ -15,10 +15,10 @@ SEED ?= 1
 TO ?= runs/paper
 
 .DEFAULT_GOAL := help
-.PHONY: help demo test test-slow bench paper paper-train clean
+.PHONY: help demo test test-slow bench bench-learning paper paper-train clean
 
 help:  ## what there is to make
-	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  make %-11s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
+	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  make %-14s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
 
 demo: $(READY)  ## check, show, train and run a skill, in a few minutes
 	@PATH="$(CURDIR)/$(BIN):$$PATH" sh examples/demo.sh build/demo
@@ -30,7 +30,10 @@ test-slow: $(READY)  ## the longer checks, too
 	$(BIN)/pytest --numprocesses auto -m "slow or not slow"
 
 bench: $(READY)  ## how fast it is, beside plain pymunk
-	@for file in benchmarks/*.py; do echo "$$file"; $(BIN)/python $$file || exit; done
+	@for name in check engine rollout; do echo "$$name"; $(BIN)/python benchmarks/$$name.py || exit; done
+
+bench-learning: $(READY)  ## how soon skills and the whole of Collect are learnt, over several seeds: half an hour
+	@for name in learning curriculum; do echo "$$name"; $(BIN)/python benchmarks/$$name.py || exit; done
 
 paper: $(READY)  ## tables 1 to 3 and figures 11 to 15 of the paper, from the shipped weights: FOLDER= OUT= RUNS=
 	$(BIN)/python examples/collect/paper --folder $(FOLDER) --out $(OUT) --runs $(RUNS)

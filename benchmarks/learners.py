@@ -22,6 +22,7 @@ from mindrun.train.lesson import CANDIDATES, EVERY
 from mindrun.train.lesson import FRESH as TRIES
 from workloads import collect
 
+ELSEWHERE = {"layouts": "--layouts says it", "attempts": "--seeds does it", "patience": "all have the same ticks"}
 LINE = "{name:<44} {score:8.1f} ± {error:6.1f}   {count:6.1f} per run   {seconds:5.0f} s a seed"
 
 
@@ -110,7 +111,10 @@ def compare(name: str, make: Callable[[np.random.Generator], Learner], rollout: 
 def settings(text: str) -> dict[str, float | int]:
     """What `octaves=2,mutation=0.5` says."""
     pairs = (part.partition("=") for part in text.split(",") if part)
-    return {key: int(value) if value.isdecimal() else float(value) for key, _, value in pairs}
+    said: dict[str, float | int] = {key: int(value) if value.isdecimal() else float(value) for key, _, value in pairs}
+    for key in said.keys() & ELSEWHERE.keys():
+        raise argparse.ArgumentTypeError(f"{key} is not compared here: {ELSEWHERE[key]}")
+    return said
 
 
 def main() -> None:

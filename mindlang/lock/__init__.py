@@ -21,7 +21,8 @@ _NAMES = r"[^\s|]+(?: [^\s|]+)*"
 _LINE = re.compile(
     rf"(?P<skill>\S+) is (?P<function>{_NAMES}) \| reads (?P<reads>{_NAMES}) \| sends (?P<sends>{_NAMES})"
     r" \| weights (?P<weights>[0-9a-f]{64})"
-    r" \| task (?P<task>\S+) master (?P<master>\S+) generations (?P<generations>\d+) population (?P<population>\d+)"
+    r" \| task (?P<task>\S+) master (?P<master>\S+)(?P<jointly> with subskills)?"
+    r" generations (?P<generations>\d+) population (?P<population>\d+)"
     r" seed (?P<seed>\d+) score (?P<score>-?\d+(?:\.\d+)?(?:e[+-]?\d+)?)"
     r"(?: \| with (?P<subskills>\S+:[0-9a-f]{64}(?: \S+:[0-9a-f]{64})*))?"
 )
@@ -42,10 +43,11 @@ class Signature:
 
 @dataclass(frozen=True, slots=True)
 class Taught:
-    """How a genome came about."""
+    """How a genome came about: where, `jointly` with its subskills or theirs, and after how many generations."""
 
     task: str
     master: str
+    jointly: bool
     generations: int
     population: int
     seed: int
@@ -71,8 +73,9 @@ class Entry:
             f"reads {' '.join(signature.reads)}",
             f"sends {' '.join(signature.sends)}",
             f"weights {self.weights}",
-            f"task {taught.task} master {taught.master} generations {taught.generations} "
-            f"population {taught.population} seed {taught.seed} score {taught.score!r}",
+            f"task {taught.task} master {taught.master}{' with subskills' * taught.jointly} "
+            f"generations {taught.generations} population {taught.population} "
+            f"seed {taught.seed} score {taught.score!r}",
         ]
         if self.subskills:
             parts.append("with " + " ".join(f"{skill}:{weights}" for skill, weights in self.subskills))
@@ -86,7 +89,8 @@ class Entry:
             return None
         signature = Signature(found["function"], tuple(found["reads"].split()), tuple(found["sends"].split()))
         generations, population, seed = (int(found[key]) for key in ("generations", "population", "seed"))
-        taught = Taught(found["task"], found["master"], generations, population, seed, float(found["score"]))
+        where = found["task"], found["master"], found["jointly"] is not None
+        taught = Taught(*where, generations, population, seed, float(found["score"]))
         pairs = (part.rpartition(":") for part in (found["subskills"] or "").split())
         return cls(found["skill"], signature, found["weights"], taught, tuple((a, c) for a, _, c in pairs), folder)
 

@@ -19,7 +19,7 @@ from mindrun.weights import parts
 
 from mindlang.lock import Entry, LockError, Taught
 from mindlang.lock.blobs import record
-from mindlang.school.book import Book, begin, keep_path, open_book, refuse_changed
+from mindlang.school.book import Book, begin, open_book, refuse_changed
 from mindlang.school.interruption import Interruption
 from mindlang.school.results import Result, closing, opening, result_of
 from mindlang.school.teaching import Wishes, is_due, lessons
@@ -54,8 +54,7 @@ class School:
         taught = 0
         for lesson in chosen:
             book = open_book(file, compiled)  # the lesson before has changed the lock
-            before = book.graph.lessons[: book.graph.lessons.index(lesson)]
-            if skills or force or is_due(lesson, before, book.standing(lesson)):
+            if skills or force or is_due(book.graph, lesson, book.standing(lesson)):
                 run = begin(book, wishes.applied(lesson), seed, runs, datetime.now(UTC))
                 taught += 1
                 if not self._teach(run, book):
@@ -85,7 +84,7 @@ class School:
             return False
         result = result_of(run, state, _keep(run, book, state))
         keep_result(run.folder, result)
-        self._say(f"{closing(result)}; weights in {keep_path(book).name}")
+        self._say(f"{closing(result)}; weights in {book.keep_path(run.manifest.lesson).name}")
         self._print(result)
         return True
 
@@ -153,9 +152,11 @@ def _keep(run: Run, book: Book, state: State) -> dict[str, Entry]:
             f"look at the rewards of the task {lesson.task}",
         )
     population, seed = lesson.learner.population, run.manifest.seed
-    taught = Taught(lesson.task, lesson.master, lesson.generations, population, seed, state.reevaluated)
+    taught = Taught(
+        lesson.task, lesson.master, lesson.with_subskills, state.kept_after, population, seed, state.reevaluated
+    )
     try:
         learnt = parts(book.graph, run.manifest.learners, state.kept[0])
-        return record(keep_path(book), book.graph, learnt, taught, run.weights)
+        return record(book.keep_path(lesson), book.graph, learnt, taught, run.weights)
     except LockError as error:
         raise RunError(str(error), f"what was learnt is safe; mend that, then: {_command(run)}") from error

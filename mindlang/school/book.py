@@ -25,24 +25,28 @@ from mindlang.school.teaching import subskills
 class Book:
     """A mind in the order of its weights; `sources` has the text of its files, by path from the folder of `source`.
 
-    `lock` has what its file's lock and those of the files that it uses say; `own_lessons` stand in the file itself.
+    `lock` has what its file's lock and those of the files that it uses say; `homes` where each curriculum stands.
     """
 
     source: Path
     sources: Mapping[str, str]
     graph: Graph
     lock: Lock
-    own_lessons: tuple[Lesson, ...]
+    homes: Mapping[str, Path]
 
     @property
     def folder(self) -> Path:
         """Where the source stands, and the procedures beside it."""
         return self.source.parent
 
-    def standing(self, lesson: Lesson) -> list[Status]:
-        """How the learners of a lesson stand to the locks; for a lesson of the file itself, to its own lock alone."""
-        lock = read_lock(keep_path(self)) if lesson in self.own_lessons else self.lock
-        return [status(self.graph, lock)[skill] for skill in learners(self.graph, lesson)]
+    def keep_path(self, lesson: Lesson) -> Path:
+        """The lock to which goes what a lesson teaches: that of the file in which the lesson stands."""
+        return lock_path(self.homes.get(lesson.curriculum, self.source))
+
+    def standing(self, lesson: Lesson) -> dict[str, Status]:
+        """How the learners of a lesson stand to that lock."""
+        found = status(self.graph, read_lock(self.keep_path(lesson)))
+        return {skill: found[skill] for skill in learners(self.graph, lesson)}
 
 
 def open_book(path: Path, compiled: Compiled) -> Book:
@@ -53,9 +57,8 @@ def open_book(path: Path, compiled: Compiled) -> Book:
     lock = read_locks(file.path for file in compiled.sources)
     sources = {file.path.relative_to(source.parent).as_posix(): file.text for file in compiled.sources}
     graph = arrange(compiled.graph, lock)
-    said = zip(graph.lessons, compiled.mind.lessons, strict=True)
-    own = tuple(lesson for lesson, written in said if written.fact.span.source is compiled.sources[0])
-    return Book(source, sources, graph, lock, own)
+    homes = {lesson.curriculum: lesson.fact.span.source.path for lesson in compiled.mind.lessons}
+    return Book(source, sources, graph, lock, homes)
 
 
 def begin(book: Book, lesson: Lesson, seed: int, runs: Path, now: datetime) -> Run:
@@ -89,11 +92,6 @@ def refuse_changed(book: Book, run: Run) -> None:
             f"undo the change ({run.folder / 'source'} has it as it was), or begin anew: "
             f"mindc train {book.source} {lesson.skill}",
         )
-
-
-def keep_path(book: Book) -> Path:
-    """The lock to which what is learnt goes."""
-    return lock_path(book.source)
 
 
 def _needed(book: Book, lesson: Lesson) -> dict[str, Weights]:

@@ -1,6 +1,6 @@
 """Which lessons to teach: those of a curriculum, those asked for, and what must be taught before them."""
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 from mindrun.graph import Graph, Lesson
@@ -8,6 +8,7 @@ from mindrun.train.errors import NotFoundError, RunError
 from mindrun.weights import genes, learners, reachable
 
 from mindlang.diagnostic import did_you_mean, listed
+from mindlang.lock import Taught
 from mindlang.lock.status import Status, Trained
 
 
@@ -63,20 +64,27 @@ def subskills(graph: Graph, lesson: Lesson) -> tuple[str, ...]:
     return tuple(skill.name for skill in reachable(graph, lesson.master) if genes(skill) and skill.name not in taught)
 
 
-def is_due(lesson: Lesson, before: Sequence[Lesson], states: Iterable[Status]) -> bool:
-    """Whether a lesson has yet to be taught; `before` are the lessons that come before it in the source.
+def is_due(graph: Graph, lesson: Lesson, states: Mapping[str, Status]) -> bool:
+    """Whether a lesson has yet to be taught, by how its learners stand.
 
-    Skills whose weights fit are left alone, except where they came from an earlier lesson of the same skill.
+    Skills whose weights fit are left alone, except where they came from an earlier lesson that taught them.
     """
-    earlier = {(other.task, other.master) for other in before if other.skill == lesson.skill}
-    return any(_is_due(lesson, earlier, state) for state in states)
+    before = graph.lessons[: graph.lessons.index(lesson)]
+    return any(
+        _is_due(lesson, [other for other in before if skill in learners(graph, other)], state)
+        for skill, state in states.items()
+    )
 
 
-def _is_due(lesson: Lesson, earlier: set[tuple[str, str]], state: Status) -> bool:
+def _is_due(lesson: Lesson, earlier: Iterable[Lesson], state: Status) -> bool:
     if not isinstance(state, Trained):
         return True
-    taught = (state.entry.taught.task, state.entry.taught.master)
-    return taught in earlier and taught != (lesson.task, lesson.master)
+    taught = state.entry.taught
+    return not _gave(lesson, taught) and any(_gave(other, taught) for other in earlier)
+
+
+def _gave(lesson: Lesson, taught: Taught) -> bool:
+    return (lesson.task, lesson.master, lesson.with_subskills) == (taught.task, taught.master, taught.jointly)
 
 
 def _of(graph: Graph, curriculum: str) -> tuple[Lesson, ...]:

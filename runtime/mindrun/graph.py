@@ -152,8 +152,9 @@ class Lesson:
 
     @property
     def name(self) -> str:
-        """The skill, and where it is taught elsewhere than on the task of its name, the task."""
-        return self.skill if self.skill == self.task else f"{self.skill}-on-{self.task}"
+        """The skill, and what is not to be expected: the task where it has another name, that its subskills learn."""
+        where = "" if self.skill == self.task else f"-on-{self.task}"
+        return f"{self.skill}{where}{'-with-subskills' * self.with_subskills}"
 
 
 @dataclass(frozen=True, slots=True)

@@ -36,10 +36,10 @@ class Genetic:
 @kind("curriculum", "restarting")
 @dataclass(frozen=True, slots=True)
 class Restarting(Genetic):
-    """The genetic algorithm that gets there soonest: steps of all sizes, and where it is stuck it begins anew.
+    """The genetic algorithm that gets there soonest: steps of all sizes, and no time for what is stuck.
 
-    `attempts`, `octaves` and `patience` are what makes the difference: an attempt that no longer becomes better makes
-    room for the next. All arguments are those of `genetic`, with other defaults.
+    It is `genetic` with other defaults. An attempt that no longer becomes better ends at once, and of several attempts
+    the best is kept.
     """
 
     attempts: Annotated[int, COUNT] = 4

@@ -70,11 +70,39 @@ def test_what_was_taught_is_not_taught_again(taught: Taught) -> None:
     assert re.search(r"\S+  collect.mind", taught.said)
 
 
+def test_another_plan_in_the_same_folder_is_refused(taught: Taught) -> None:
+    options = ("--attempts", "3", "--scale", "1e-4", "--out", str(taught.folder))
+    refused = subprocess.run([sys.executable, str(PAPER / "teach.py"), *options], capture_output=True, text=True)
+    assert refused.returncode == 1
+    assert "was begun with ATTEMPTS=2 OTHERS=1 SCALE=0.0001 SEED=1" in refused.stderr
+
+
+@pytest.mark.parametrize(
+    ("program", "arguments", "message"),
+    [
+        ("teach.py", ("--attempts", "0"), "0 is not a number of at least 1"),
+        ("teach.py", ("--scale", "-1"), "-1 is not a number of at least 0.0"),
+        ("teach.py", ("other.mind",), "other.mind is none of collect.mind, "),
+        ("", ("--runs", "1"), "1 runs have no standard error"),
+        ("", ("--folder", "/nowhere"), "/nowhere/collect.mind cannot be read"),
+    ],
+)
+def test_bad_input_is_one_message(tmp_path: Path, program: str, arguments: tuple[str, ...], message: str) -> None:
+    command = [sys.executable, str(PAPER / program), "--out", str(tmp_path), *arguments]
+    refused = subprocess.run(command, capture_output=True, text=True, cwd=ROOT)
+    assert refused.returncode in {1, 2}
+    assert message in refused.stderr
+    assert "Traceback" not in refused.stderr
+
+
 def test_the_tables_of_a_tiny_scale(taught: Taught, tmp_path: Path) -> None:
     said = python(str(PAPER), "--folder", str(taught.folder), "--out", str(tmp_path), "--runs", "2").stdout
     report = (tmp_path / "RESULTS.md").read_text(encoding="utf-8")
     assert re.search(r"\| hierarchical, curriculum \| 4.63 \(54%\) \| \d+\.\d\d ± \d+\.\d\d \(\d+\.\d%\) \|", report)
-    assert "| monolithic, curriculum | 5.19 (68%) | not taught |" in report
+    for name in ("monolithic, curriculum", "hierarchical, final task only", "Avoid 2500 generations"):
+        assert re.search(rf"\| {name} \| [\d.]+ \(\d+%\) \| not taught \|", report)
+    assert "Figure12 is not drawn: avoid_longer.mind is not taught here." in report
+    assert "ATTEMPTS=2 OTHERS=1 SCALE=0.0001 SEED=1" in report
     for skill in SKILLS:
         assert re.search(rf"\| {re.escape(skill)} \| [\d.]+ \| \d of 2 \|", said)
         assert f"| collect.mind | {skill} | 1 | 2 | 1 |" in report
@@ -94,6 +122,5 @@ def test_the_shipped_weights_collect_more_than_the_papers(
 
     case = next(case for case in TABLES[2].cases if case.file == file)
     found = measure(COLLECT, case, 40, 7)
-    assert found is not None
     assert found.objects > objects
     assert found.runtime > runtime

@@ -40,7 +40,7 @@ skill Grip is procedure from claw.grip
   reads battery
   drives claw
 """
-TAUGHT = Taught("Go", "Go", 10, 20, 1, 1.5)
+TAUGHT = Taught("Go", "Go", False, 10, 20, 1, 1.5)
 
 
 @pytest.fixture

@@ -21,7 +21,9 @@ ENTRIES = st.builds(
         st.lists(NAMES | st.sampled_from(["sends", "reads", "with"]), min_size=1, max_size=4).map(tuple),
     ),
     HASHES,
-    st.builds(Taught, NAMES, NAMES, COUNTS, COUNTS, COUNTS, st.floats(allow_nan=False, allow_infinity=False)),
+    st.builds(
+        Taught, NAMES, NAMES, st.booleans(), COUNTS, COUNTS, COUNTS, st.floats(allow_nan=False, allow_infinity=False)
+    ),
     st.lists(st.tuples(NAMES, HASHES), max_size=3).map(tuple),
 )
 LINE = (
@@ -48,7 +50,7 @@ def test_a_line_reads_like_a_sentence() -> None:
     assert entry.signature == Signature(
         "mlp hidden 2 width 14", ("proximity:10", "moving", "pulse"), ("left_wheel", "right_wheel")
     )
-    assert entry.taught == Taught("Avoid", "Avoid", 1000, 100, 3, 812.4)
+    assert entry.taught == Taught("Avoid", "Avoid", False, 1000, 100, 3, 812.4)
     assert str(entry) == LINE
 
 

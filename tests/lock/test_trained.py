@@ -20,7 +20,7 @@ from mindlang.lock.status import NotLearning, Stale, Trained, Untaught, status, 
 from tests.hierarchies import random_graph
 from tests.minds import CLAW, WHEELS, always, mind, rule, skill
 
-TAUGHT = Taught("Task", "Top", 10, 20, 3, 1.5)
+TAUGHT = Taught("Task", "Top", False, 10, 20, 3, 1.5)
 
 
 def example() -> Graph:

@@ -42,7 +42,7 @@ def teach(path: Path, *skills: str) -> None:
     for skill in graph.skills:
         if skill.name in skills:
             weights = rng.standard_normal(genes(skill)).astype(np.float32)
-            record(lock_path(path), graph, {skill.name: weights}, Taught("Chase", "Chase", 5, 10, 1, 1.0), {})
+            record(lock_path(path), graph, {skill.name: weights}, Taught("Chase", "Chase", False, 5, 10, 1, 1.0), {})
 
 
 def test_what_has_not_been_taught_is_refused(mindc: Call, learnt: Path) -> None:

@@ -71,11 +71,13 @@ def test_ticks_and_seconds_add_up() -> None:
 
 
 def test_an_attempt_without_patience_left_makes_room_for_the_next() -> None:
-    """On a flat world nothing becomes better: the first try after the patience is over is the last of its attempt."""
+    """On a flat world nothing becomes better than the first: its generation and twenty more."""
     state, records = taught(Course(lesson(100, attempts=3, patience=20), 1, UNKNOWN), Flat())
     assert [record.attempt for record in records] == [1] * 21 + [2] * 21 + [3] * 21
     assert [record.generation for record in records if record.verdict is not None] == [21] * 3
     assert len(state.champions) == len(state.verdicts) == 3
+    assert state.lengths.tolist() == [21] * 3
+    assert state.kept_after == 21
     assert state.generations == 63
 
 
@@ -98,8 +100,7 @@ def test_patience_outlasts_a_climb() -> None:
     ],
 )
 def test_better_means_beyond_doubt(scores: list[float], than: list[float], better: bool) -> None:
-    with np.errstate(invalid="ignore"):
-        assert is_better(np.array(scores), np.array(than)) is better
+    assert is_better(np.array(scores), np.array(than)) is better
 
 
 def test_every_attempt_leaves_its_champion_and_its_verdict() -> None:

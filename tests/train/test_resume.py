@@ -7,6 +7,7 @@ import sys
 from pathlib import Path
 from time import sleep
 
+from mindrun.train.manifest import Manifest
 from mindrun.train.progress import read
 from mindrun.train.run_folder import Run, create
 from mindrun.train.training import train
@@ -21,9 +22,9 @@ def made(runs: Path) -> Run:
     return create(runs, manifest(lesson(500, attempts=3)), {}, {})
 
 
-def end(run: Run) -> tuple[bytes, list[dict[str, float | None]]]:
+def end(run: Run) -> tuple[bytes, bytes, list[dict[str, float | None]]]:
     records = [{key: value for key, value in record.items() if key != "seconds"} for record in read(run.folder)]
-    return (run.folder / "weights.npy").read_bytes(), records
+    return (run.folder / "weights.npy").read_bytes(), (run.folder / "champions.npy").read_bytes(), records
 
 
 def test_killed_at_twenty_random_moments_it_ends_in_the_same_bits(tmp_path: Path) -> None:
@@ -47,14 +48,24 @@ def live(run: Run, seconds: float) -> int:
 
 
 def test_stopped_and_resumed_after_any_generation_it_ends_in_the_same_bits(tmp_path: Path) -> None:
-    course = manifest(lesson(5, attempts=2))
+    stops_after_any_generation(tmp_path, manifest(lesson(5, attempts=2)))
+
+
+def test_what_an_attempt_has_been_waiting_for_is_not_forgotten(tmp_path: Path) -> None:
+    records = stops_after_any_generation(tmp_path, manifest(lesson(40, attempts=2, patience=3)))
+    assert len(records) < 80
+
+
+def stops_after_any_generation(tmp_path: Path, course: Manifest) -> list[dict[str, float | None]]:
     undisturbed = create(tmp_path, course, {}, {})
     train(undisturbed, Sphere(), unwatched())
-    for generations in range(1, 10):
+    records = end(undisturbed)[-1]
+    for generations in range(1, len(records)):
         stopped = create(tmp_path, course, {}, {})
         train(stopped, Sphere(), unwatched(stop_after=generations))
         train(stopped, Sphere(), unwatched())
         assert end(stopped) == end(undisturbed)
+    return records
 
 
 def test_a_finished_run_that_is_resumed_stays_as_it_is(tmp_path: Path) -> None:

@@ -15,21 +15,40 @@ from mindlang.school.teaching import is_due, subskills
 FOLDER = Path(__file__).parents[2] / "examples" / "collect"
 
 
-def taught_on(task: str, master: str) -> Trained:
-    entry = Entry("Avoid", Signature("mlp hidden 2 width 14", (), ()), "0" * 64, Taught(task, master, 10, 10, 1, 1.0))
-    return Trained(entry, ())
+JOINT = """
+curriculum Joint is genetic
+  teaches Collect on Collect for 100 generations with subskills
+  teaches Avoid on Collect under Collect for 100 generations
+"""
+
+
+def taught_on(task: str, master: str, jointly: bool = False) -> Trained:
+    taught = Taught(task, master, jointly, 10, 10, 1, 1.0)
+    return Trained(Entry("Avoid", Signature("mlp hidden 2 width 14", (), ()), "0" * 64, taught), ())
 
 
 def test_a_later_lesson_of_a_taught_skill_is_due_until_it_has_been_given() -> None:
     """Scenario 2: Avoid, taught alone, is due on the job; taught on the job, neither lesson is due."""
-    graph = load(FOLDER / "on_the_job.mind").graph
+    graph = load(FOLDER / "collect.mind").graph
     assert graph
-    on_the_job, alone = (lesson for lesson in graph.lessons if lesson.skill == "Avoid" and lesson.curriculum != "Quick")
-    assert is_due(alone, (), [Untaught()])
-    assert not is_due(alone, (), [taught_on("Avoid", "Avoid")])
-    assert is_due(on_the_job, [alone], [taught_on("Avoid", "Avoid")])
-    assert not is_due(alone, (), [taught_on("Collect", "Collect")])
-    assert not is_due(on_the_job, [alone], [taught_on("Collect", "Collect")])
+    alone, on_the_job = (lesson for lesson in graph.lessons if lesson.skill == "Avoid" and lesson.curriculum == "Quick")
+    assert is_due(graph, alone, {"Avoid": Untaught()})
+    assert not is_due(graph, alone, {"Avoid": taught_on("Avoid", "Avoid")})
+    assert is_due(graph, on_the_job, {"Avoid": taught_on("Avoid", "Avoid")})
+    assert not is_due(graph, alone, {"Avoid": taught_on("Collect", "Collect")})
+    assert not is_due(graph, on_the_job, {"Avoid": taught_on("Collect", "Collect")})
+
+
+def test_a_joint_lesson_is_due_after_the_lessons_of_its_learners_and_is_no_lesson_of_one_alone(tmp_path: Path) -> None:
+    (tmp_path / "collect.mind").write_text((FOLDER / "collect.mind").read_text() + JOINT)
+    graph = load(tmp_path / "collect.mind").graph
+    assert graph
+    joint, after = (lesson for lesson in graph.lessons if lesson.curriculum == "Joint")
+    assert (joint.name, after.name) == ("Collect-with-subskills", "Avoid-on-Collect")
+    assert is_due(graph, joint, {"Avoid": taught_on("Avoid", "Avoid")})
+    assert is_due(graph, joint, {"Avoid": taught_on("Collect", "Collect")})
+    assert not is_due(graph, joint, {"Avoid": taught_on("Collect", "Collect", jointly=True)})
+    assert is_due(graph, after, {"Avoid": taught_on("Collect", "Collect", jointly=True)})
 
 
 def test_a_lesson_of_a_file_is_due_until_the_files_own_lock_has_it(tmp_path: Path) -> None:
@@ -40,9 +59,10 @@ def test_a_lesson_of_a_file_is_due_until_the_files_own_lock_has_it(tmp_path: Pat
     book = open_book(path, load(path))
     own = [lesson for lesson in book.graph.lessons if lesson.curriculum == "AvoidLonger"]
     used = [lesson for lesson in book.graph.lessons if lesson.curriculum == "Collect"]
-    assert list(book.own_lessons) == own
-    assert [type(state) for lesson in own for state in book.standing(lesson)] == [Untaught] * 4
-    assert [type(state) for lesson in used for state in book.standing(lesson)] == [Trained] * 6
+    assert {book.keep_path(lesson) for lesson in own} == {tmp_path / "avoid_longer.lock"}
+    assert {book.keep_path(lesson) for lesson in used} == {tmp_path / "collect.lock"}
+    assert [type(state) for lesson in own for state in book.standing(lesson).values()] == [Untaught] * 4
+    assert [type(state) for lesson in used for state in book.standing(lesson).values()] == [Trained] * 6
 
 
 def test_with_subskills_all_below_learn_as_one_genome() -> None:

@@ -9,8 +9,12 @@ from pathlib import Path
 from string import Template
 
 from figures import draw
+from mindrun.errors import MindError
+from plan import read_plan
 from protocol import FOLDER, TABLES
 from tables import attempts, lessons, table
+
+TO = Path("runs/paper")  # where paper-train teaches
 
 
 def main() -> None:
@@ -18,9 +22,24 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--folder", type=Path, default=FOLDER, help="where the weights and logs lie")
     parser.add_argument("--out", type=Path, default=Path("build/paper"), help="where the report goes")
-    parser.add_argument("--runs", type=int, default=1000, help="layouts that each row of a table is measured on")
+    parser.add_argument("--runs", type=_several, default=1000, help="layouts that each row of a table is measured on")
     parser.add_argument("--seed", type=int, default=1, help="draws the layouts")
     options = parser.parse_args()
+    try:
+        report(options)
+    except MindError as error:
+        sys.exit(f"{error}. {error.hint}")
+
+
+def _several(text: str) -> int:
+    if (value := int(text)) < 2:
+        raise argparse.ArgumentTypeError(f"{text} runs have no standard error: take two or more")
+    return value
+
+
+def report(options: argparse.Namespace) -> None:
+    """Measure all tables, draw all figures, and write them into the report."""
+    plan = read_plan(options.folder)
     options.out.mkdir(parents=True, exist_ok=True)
     parts = {
         name: table(options.folder, of, options.runs, options.seed, say)
@@ -32,6 +51,8 @@ def main() -> None:
         "figures": draw(options.folder, options.out, say),
         "runs": f"{options.runs:,}",
         "seed": str(options.seed),
+        "command": f"make paper-train {plan} TO={TO}" if plan else f"make paper-train TO={TO}",
+        "plan": plan.text if plan else "How it was taught is not known here; the last table says what is.",
     }
     text = Template((Path(__file__).parent / "RESULTS.template.md").read_text(encoding="utf-8")).substitute(parts)
     (options.out / "RESULTS.md").write_text(text, encoding="utf-8")

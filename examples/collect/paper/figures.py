@@ -26,10 +26,12 @@ def draw(folder: Path, out: Path, say: Say) -> str:
     (out / "figures").mkdir(exist_ok=True)
     shown = [_curves(folder, out / "figures", name, say) for name in CURVES]
     say("figure15: an obstacle passed by influence")
-    if (passed := passage(folder)) is not None:
+    if (passed := passage(folder)) is None:
+        shown.append("Figure 15 is not drawn: constant_skills.mind is not taught here, or it passed no obstacle.")
+    else:
         cv2.imwrite(str(out / "figures" / "figure15.png"), passed)
         shown.append("![An obstacle passed by influence, in five steps](figures/figure15.png)")
-    return "\n\n".join(filter(None, shown))
+    return "\n\n".join(shown)
 
 
 def _curves(folder: Path, out: Path, name: str, say: Say) -> str:
@@ -37,7 +39,7 @@ def _curves(folder: Path, out: Path, name: str, say: Say) -> str:
     logs = logs_of(folder, file)
     paths = [logs[lesson].curve for lesson in lessons if lesson in logs]
     if not paths:
-        return ""
+        return f"{name.capitalize()} is not drawn: {file} is not taught here."
     say(f"{name}: {' and '.join(lessons)}")
     drawn = figure([replace(curve, name=curve.path.parent.name, note="") for curve in load_curves(paths)])
     for suffix in (".svg", ".png"):

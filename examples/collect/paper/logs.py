@@ -1,23 +1,26 @@
 """What is kept of a run: its curve, the champion of each attempt and its result, in `logs/FILE/LESSON/`."""
 
 import csv
-import json
 from dataclasses import dataclass
 from pathlib import Path
 from shutil import copyfile
 from typing import Any
 
+import numpy as np
 from mindrun.train.progress import read
+from mindrun.train.run_folder import CHAMPIONS, RESULT, read_result
+from mindrun.weights import Weights
 
 COLUMNS = ("attempt", "generation", "best", "reevaluated", "verdict")
-CURVE, CHAMPIONS, RESULT = "curve.csv", "champions.npy", "result.json"
+CURVE = "curve.csv"
 
 
 @dataclass(frozen=True, slots=True)
 class Log:
-    """The log of a lesson."""
+    """The log of a lesson; `result` is what `mindc train --json` said of it."""
 
     folder: Path
+    result: dict[str, Any]
 
     @property
     def lesson(self) -> str:
@@ -25,40 +28,36 @@ class Log:
         return self.folder.name
 
     @property
-    def result(self) -> dict[str, Any]:
-        """What came of it."""
-        result: dict[str, Any] = json.loads((self.folder / RESULT).read_text(encoding="utf-8"))
-        return result
-
-    @property
     def curve(self) -> Path:
         """Its scores, a line per generation."""
         return self.folder / CURVE
 
     @property
-    def champions(self) -> Path:
-        """The best weights of each attempt."""
-        return self.folder / CHAMPIONS
+    def champions(self) -> Weights:
+        """The best weights of each attempt [attempts, weights]."""
+        champions: Weights = np.load(self.folder / CHAMPIONS, allow_pickle=False)
+        return champions
 
 
 def logs_of(folder: Path, file: str) -> dict[str, Log]:
     """The logs of a file's lessons, by lesson, in the order in which they were taught."""
-    kept = [Log(path.parent) for path in (folder / "logs" / Path(file).stem).glob(f"*/{RESULT}")]
-    return {log.lesson: log for log in sorted(kept, key=lambda log: str(log.result["run"]).rpartition("/")[2])}
+    paths = sorted(path.parent for path in (folder / "logs" / Path(file).stem).glob(f"*/{RESULT}"))
+    logs = [Log(path, result) for path in paths if (result := read_result(path))]
+    return {log.lesson: log for log in sorted(logs, key=lambda log: Path(log.result["run"]).name)}
 
 
-def keep(run: Path, folder: Path, file: str) -> Log:
-    """Keep the log of a finished run beside the file in `folder`."""
-    result = json.loads((run / "result.json").read_text(encoding="utf-8"))
-    log = Log(folder / "logs" / Path(file).stem / result["lesson"])
-    log.folder.mkdir(parents=True, exist_ok=True)
-    with log.curve.open("w", encoding="utf-8", newline="") as out:
+def keep(run: Path, folder: Path, file: str) -> None:
+    """Keep the log of a run beside the file in `folder`, if it has finished."""
+    if (result := read_result(run)) is None:
+        return
+    kept = folder / "logs" / Path(file).stem / result["lesson"]
+    kept.mkdir(parents=True, exist_ok=True)
+    with (kept / CURVE).open("w", encoding="utf-8", newline="") as out:
         writer = csv.writer(out, lineterminator="\n")
         writer.writerow(COLUMNS)
         writer.writerows([_short(record[column]) for column in COLUMNS] for record in read(run))
-    copyfile(run / "champions.npy", log.champions)
-    (log.folder / RESULT).write_text(json.dumps(result, indent=2) + "\n", encoding="utf-8")
-    return log
+    for name in (CHAMPIONS, RESULT):
+        copyfile(run / name, kept / name)
 
 
 def _short(value: float | None) -> str:

@@ -1,18 +1,20 @@
-"""Measuring what minds do: many runs of a task, and how many attempts of a lesson have succeeded."""
+"""Measuring what minds do: what taught them, how well they do, and how many attempts of a lesson have succeeded."""
 
 from dataclasses import dataclass
 from functools import cache
 from math import sqrt
 from pathlib import Path
 
-import numpy as np
+from mindrun.errors import MindError
+from mindrun.graph import Lesson
 from mindrun.sim.rollout import Rollout, cores
-from mindrun.weights import Weights
+from mindrun.weights import Weights, learners, reachable
 from protocol import Case
 
 from mindlang.compile import Compiled, load
+from mindlang.lock import lock_path, read_lock
 from mindlang.lock.ready import make_ready
-from mindlang.run.casting import CastingError, cast
+from mindlang.run.casting import cast
 from mindlang.run.stage import NOBODY, layouts
 
 
@@ -23,24 +25,50 @@ class Measured:
     objects: float
     error: float
     runtime: float
-    runs: int
 
     def text(self, interrupt: bool) -> str:
         """As in a table; without interruption every run lasts its time."""
         return f"{self.objects:.2f} ± {self.error:.2f}" + (f" ({self.runtime:.1%})" if interrupt else "")
 
 
-def measure(folder: Path, case: Case, runs: int, seed: int) -> Measured | None:
-    """A case on so many layouts, with the weights that lie in a folder; None where some are missing."""
-    try:
-        found = cast(str(folder / case.file), compiled(folder / case.file), case.task, case.master)
-    except CastingError:
-        return None
+def teaching(folder: Path, case: Case) -> dict[Path, list[Lesson]]:
+    """The lessons that make a case what it is, by the file in which they stand, the case's own file first.
+
+    They are those of the first curriculum of each file that teach a skill at work under the case's master.
+    """
+    found = compiled(folder / case.file)
+    assert found.graph is not None
+    assert found.mind is not None
+    at_work = {skill.name for skill in reachable(found.graph, case.master)}
+    first: dict[Path, str] = {}
+    lessons: dict[Path, list[Lesson]] = {}
+    for lesson, written in zip(found.graph.lessons, found.mind.lessons, strict=True):
+        file = written.fact.span.source.path
+        is_first = first.setdefault(file, lesson.curriculum) == lesson.curriculum
+        if is_first and at_work & set(learners(found.graph, lesson)):
+            lessons.setdefault(file, []).append(lesson)
+    return lessons
+
+
+def is_taught(folder: Path, case: Case) -> bool:
+    """Whether every lesson that makes a case has been given: without its own it would be another case in disguise."""
+    graph = compiled(folder / case.file).graph
+    assert graph is not None
+    return all(
+        set(learners(graph, lesson)) <= set(read_lock(lock_path(file)))
+        for file, lessons in teaching(folder, case).items()
+        for lesson in lessons
+    )
+
+
+def measure(folder: Path, case: Case, runs: int, seed: int) -> Measured:
+    """A case on so many layouts, with the weights that lie in a folder; CastingError where some are missing."""
+    found = cast(str(folder / case.file), compiled(folder / case.file), case.task, case.master)
     rollout = found.rollout(case.interrupt, cores())
     scores = rollout.score(NOBODY, layouts(seed, runs))
     counts = scores.counts[0]
-    error = float(counts.std(ddof=1)) / sqrt(runs) if runs > 1 else 0.0
-    return Measured(float(counts.mean()), error, float(scores.ticks[0].mean()) / rollout.task.ticks, runs)
+    error = float(counts.std(ddof=1)) / sqrt(runs)
+    return Measured(float(counts.mean()), error, float(scores.ticks[0].mean()) / rollout.task.ticks)
 
 
 def champions_do(folder: Path, file: str, lesson: str, champions: Weights, runs: int, seed: int) -> list[float]:
@@ -57,11 +85,6 @@ def champions_do(folder: Path, file: str, lesson: str, champions: Weights, runs:
 def compiled(path: Path) -> Compiled:
     """A file, compiled once."""
     found = load(path)
-    assert found.graph is not None, [diagnostic.message for diagnostic in found.diagnostics]
+    if found.graph is None:
+        raise MindError("; ".join(diagnostic.message for diagnostic in found.diagnostics), "Is the folder right?")
     return found
-
-
-def read_champions(path: Path) -> Weights:
-    """The champions [attempts, weights] of a log."""
-    champions: Weights = np.load(path, allow_pickle=False)
-    return champions

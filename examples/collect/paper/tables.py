@@ -6,8 +6,8 @@ from pathlib import Path
 from statistics import fmean, stdev
 
 from logs import Log, logs_of
-from measure import champions_do, measure, read_champions
-from protocol import FILES, SUCCESS, Table
+from measure import champions_do, is_taught, measure, teaching
+from protocol import FILES, SUCCESS, Case, Table
 
 from mindlang.figures import duration
 
@@ -20,17 +20,38 @@ def table(folder: Path, of: Table, runs: int, seed: int, say: Say) -> str:
     rows = []
     for case in of.cases:
         say(f"table {of.number}: {case.name}, {of.title}")
-        ours = measure(folder, case, runs, seed)
-        rows.append((case.name, str(case.paper), ours.text(case.interrupt) if ours else "not taught"))
-    return _markdown(("", "paper", f"ours, {runs} runs"), rows)
+        rows.append((case.name, str(case.paper), *_ours(folder, case, runs, seed)))
+    return _markdown(("", "paper", f"ours, {runs} runs", "its own lessons: generations × attempts"), rows)
+
+
+def _ours(folder: Path, case: Case, runs: int, seed: int) -> tuple[str, str]:
+    if not is_taught(folder, case):
+        return "not taught", ""
+    return measure(folder, case, runs, seed).text(case.interrupt), _effort(folder, case)
+
+
+def _effort(folder: Path, case: Case) -> str:
+    """How much was taught for a case in its own file, beside what it has from others."""
+    logs = logs_of(folder, case.file)
+    results = [
+        logs[lesson.name].result
+        for file, lessons in teaching(folder, case).items()
+        for lesson in lessons
+        if file.name == case.file and lesson.name in logs
+    ]
+    attempts = max((result["attempts"] for result in results), default=0)
+    return f"{sum(result['generations'] for result in results)} × {attempts}"
 
 
 def attempts(folder: Path, seed: int, say: Say) -> str:
     """How many attempts of the lessons of Scenario 1 have succeeded, each champion tried on fresh layouts."""
     rows = []
-    for lesson, log in logs_of(folder, FILES[0]).items():
+    logs = logs_of(folder, FILES[0])
+    for lesson in SUCCESS:
+        if lesson not in logs:
+            continue
         say(f"attempts: {lesson}")
-        counts = champions_do(folder, FILES[0], lesson, read_champions(log.champions), FRESH, seed)
+        counts = champions_do(folder, FILES[0], lesson, logs[lesson].champions, FRESH, seed)
         succeeded = sum(count >= SUCCESS[lesson] for count in counts)
         rows.append((
             lesson, f"{SUCCESS[lesson]:g}", f"{succeeded} of {len(counts)}", _spread(counts), f"{max(counts):.1f}",
@@ -61,8 +82,8 @@ def _lesson(file: str, log: Log) -> tuple[str, ...]:
 
 
 def _spread(counts: Sequence[float]) -> str:
-    error = stdev(counts) / sqrt(len(counts)) if len(counts) > 1 else 0.0
-    return f"{fmean(counts):.1f} ± {error:.1f}"
+    error = f"{stdev(counts) / sqrt(len(counts)):.1f}" if len(counts) > 1 else "?"
+    return f"{fmean(counts):.1f} ± {error}"
 
 
 def _markdown(head: Sequence[str], rows: Iterable[Sequence[str]]) -> str:

@@ -1,78 +1,64 @@
 """The whole protocol from nothing, at any scale: python examples/collect/paper/teach.py --attempts 10 --scale 0.1.
 
-Copies the .mind files to --out, says how long it will take, and teaches every lesson that has not been taught there. It
-may be stopped at any time: the same command goes on where it stood. Then: python examples/collect/paper --folder OUT.
+Says how long it will take, copies the .mind files to --out, and teaches every lesson that has not been taught there. It
+may be stopped at any time: the same command goes on where it stood. Then: make paper FOLDER=OUT.
 """
 
 import argparse
 import sys
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Iterable
 from pathlib import Path
 from shutil import copyfile
 from time import perf_counter
+from typing import TypeVar
 
 from logs import Log, keep, logs_of
-from measure import compiled, read_champions
+from measure import compiled
 from mindrun.errors import MindError
 from mindrun.graph import Lesson
 from mindrun.sim.rollout import Rollout, cores
-from mindrun.train.run_folder import read_result
+from plan import Plan, keep_plan, read_plan
 from protocol import FILES, FOLDER
 
+from mindlang import simulator
 from mindlang.figures import duration
 from mindlang.lock.ready import make_ready
 from mindlang.run.stage import layouts
 from mindlang.school import School
-from mindlang.school.teaching import Wishes
 
 LAYOUTS = 16  # on which a shipped champion runs, to see how fast this machine is
 
-
-@dataclass(frozen=True, slots=True)
-class Plan:
-    """Which files are taught, in how many attempts each, by how much their generations are multiplied, by how many."""
-
-    files: tuple[str, ...]
-    attempts: int
-    others: int
-    scale: float
-    population: int | None
-
-    def wishes(self, file: str) -> Wishes:
-        """What is asked of a file's lessons."""
-        attempts = self.attempts if file == FILES[0] else self.others
-        return Wishes(scale=self.scale, population=self.population, attempts=attempts)
+N = TypeVar("N", int, float)
 
 
 def main() -> None:
     """Say how long it takes, and do it."""
     options = arguments().parse_args()
-    others = options.others or options.attempts
-    plan = Plan(tuple(options.files) or FILES, options.attempts, others, options.scale, options.population)
-    options.out.mkdir(parents=True, exist_ok=True)
-    for file in FILES:
-        if not (options.out / file).exists():
-            copyfile(FOLDER / file, options.out / file)
-    foretell(plan)
-    if options.dry_run:
-        return
-    school = School(options.workers, as_json=False, quiet=False)
-    for file in plan.files:
-        if not teach(school, options.out, file, plan.wishes(file), options.seed):
-            sys.exit(130)
+    files = tuple(options.files) or FILES
+    plan = Plan(options.attempts, options.others or options.attempts, options.scale, options.population, options.seed)
+    try:
+        refuse_other(plan, options.out)
+        foretell(plan, files, options.workers)
+        if not options.dry_run:
+            prepare(plan, options.out)
+            school = School(options.workers, as_json=False, quiet=False)
+            if not all(teach(school, options.out, file, plan) for file in files):
+                sys.exit(130)
+            print(f"the tables: make paper FOLDER={options.out}")
+    except MindError as error:
+        sys.exit(f"{error}. {error.hint}")
 
 
 def arguments() -> argparse.ArgumentParser:
     """The command line."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("files", nargs="*", type=_known, metavar="FILE", help="only these, in this order")
-    parser.add_argument("--attempts", type=int, default=10, help="attempts of the lessons of collect.mind")
-    parser.add_argument("--others", type=int, help="attempts of all other lessons (default: as many)")
-    parser.add_argument("--scale", type=float, default=1.0, help="times the paper's generations")
-    parser.add_argument("--population", type=int, help="instead of the 100 genomes that the files say")
-    parser.add_argument("--seed", type=int, default=1)
-    parser.add_argument("--workers", type=int, default=None, help="cores to use (default: all)")
+    parser.add_argument("--attempts", type=_at_least(1), default=10, help="attempts of the lessons of collect.mind")
+    parser.add_argument("--others", type=_at_least(1), help="attempts of all other lessons (default: as many)")
+    parser.add_argument("--scale", type=_at_least(0.0), default=1.0, help="times the paper's generations")
+    parser.add_argument("--population", type=_at_least(4), help="instead of the 100 genomes that the files say")
+    parser.add_argument("--seed", type=_at_least(0), default=1)
+    parser.add_argument("--workers", type=_at_least(1), default=cores(), help="cores to use (default: all)")
     parser.add_argument("--out", type=Path, default=Path("runs/paper"), help="where it is taught")
     parser.add_argument("--dry-run", action="store_true", help="only say how long it would take")
     return parser
@@ -84,70 +70,85 @@ def _known(file: str) -> str:
     return file
 
 
-def teach(school: School, out: Path, file: str, wishes: Wishes, seed: int) -> bool:
+def _at_least(least: N) -> Callable[[str], N]:
+    def number(text: str) -> N:
+        value = type(least)(text)
+        if not least <= value < float("inf"):
+            raise argparse.ArgumentTypeError(f"{text} is not a number of at least {least}")
+        return value
+
+    return number
+
+
+def refuse_other(plan: Plan, out: Path) -> None:
+    """MindError where a folder was begun with another plan: its tables would mix the two."""
+    if (begun := read_plan(out)) not in (None, plan):
+        raise MindError(f"{out} was begun with {begun}", "Go on with that, or choose another folder with --out")
+
+
+def prepare(plan: Plan, out: Path) -> None:
+    """Make the folder in which a plan is taught."""
+    out.mkdir(parents=True, exist_ok=True)
+    for file in FILES:
+        if not (out / file).exists():
+            copyfile(FOLDER / file, out / file)
+        elif (out / file).read_bytes() != (FOLDER / file).read_bytes():
+            print(f"note: {out / file} differs from {FOLDER / file}, and is taught as it stands", flush=True)
+    keep_plan(out, plan)
+
+
+def teach(school: School, out: Path, file: str, plan: Plan) -> bool:
     """Teach what is due in a file and keep the logs; False if it was interrupted."""
     runs = out / "runs" / Path(file).stem
     print(f"\n{file}", flush=True)
     try:
-        finished = school.teach_file(out / file, [], None, wishes, force=False, seed=seed, runs=runs)
-    except MindError as error:
-        sys.exit(f"{file}: {error}. {error.hint}")
-    for run in sorted(runs.glob("*/*")):
-        if read_result(run):
+        return school.teach_file(out / file, [], None, plan.wishes(file), force=False, seed=plan.seed, runs=runs)
+    finally:
+        for run in sorted(runs.glob("*/*")):
             keep(run, out, file)
-    return finished
 
 
-def foretell(plan: Plan) -> None:
+def foretell(plan: Plan, files: Iterable[str], workers: int) -> None:
     """Print how long each file will take here, by what the shipped runs took and how fast this machine is."""
-    total = 0.0
-    unknown = 0
-    for file in plan.files:
-        seconds = seconds_for(plan, file)
-        total += seconds or 0.0
-        unknown += seconds is None
+    told = {file: seconds_for(plan, file, workers) for file in files}
+    for file, seconds in told.items():
         print(f"{'unknown' if seconds is None else duration(seconds):>14}  {file}", flush=True)
-    more = f", and {unknown} files of which no run was shipped" if unknown else ""
-    print(f"{duration(total):>14}  in all on {cores()} cores, less what has been taught already{more}", flush=True)
+    known = [seconds for seconds in told.values() if seconds is not None]
+    less = "" if len(known) == len(told) else ", beside what is unknown because no log of it was shipped"
+    on = f"on {workers} core{'s' * (workers > 1)}"
+    print(f"{duration(sum(known)):>14}  in all {on}, less what has been taught already{less}\n", flush=True)
 
 
-def seconds_for(plan: Plan, file: str) -> float | None:
-    """The time that a file's own lessons take; None where no run of it was shipped."""
-    shipped, wishes = logs_of(FOLDER, file), plan.wishes(file)
-    if not shipped:
-        return None
+def seconds_for(plan: Plan, file: str, workers: int) -> float | None:
+    """The time that the lessons of a file's first curriculum take; None where no run of one was shipped."""
     graph = compiled(FOLDER / file).graph
     assert graph is not None
-    first = graph.lessons[0].curriculum
-    lessons = [lesson for lesson in graph.lessons if lesson.curriculum == first]
+    shipped = logs_of(FOLDER, file)
+    lessons = [lesson for lesson in graph.lessons if lesson.curriculum == graph.lessons[0].curriculum]
+    if not all(lesson.name in shipped for lesson in lessons):
+        return None
     return sum(
-        _seconds(file, lesson, log, wishes)
-        for lesson, log in ((lesson, shipped.get(lesson.name)) for lesson in lessons)
-        if log
+        ticks(plan.applied(file, lesson), shipped[lesson.name]) / speed(file, lesson, shipped[lesson.name], workers)
+        for lesson in lessons
     )
 
 
-def _seconds(file: str, lesson: Lesson, log: Log, wishes: Wishes) -> float:
-    taken, wished = log.result, wishes.applied(lesson)
-    per_genome = taken["ticks"] / (taken["generations"] * taken["attempts"] * taken["population"])
-    genomes = wished.generations * wished.learner.attempts * wished.learner.population
-    return float(per_genome * genomes) / speed(file, lesson, log)
+def ticks(lesson: Lesson, log: Log) -> float:
+    """How many ticks a lesson takes if each genome takes as many as those of a log did."""
+    genomes = lesson.generations * lesson.learner.attempts * lesson.learner.population
+    return float(genomes * log.result["ticks"] / (log.result["bred"] * log.result["population"]))
 
 
-def speed(file: str, lesson: Lesson, log: Log) -> float:
+def speed(file: str, lesson: Lesson, log: Log, workers: int) -> float:
     """Ticks a second of a lesson on this machine, with the champions that were shipped."""
     found = compiled(FOLDER / file)
     assert found.graph is not None
     ready = make_ready(found.graph, found.sources, lesson.master)
-    rollout = Rollout(ready.graph, ready.weights, lesson.task, lesson.master, learners_of(log), workers=cores())
+    rollout = Rollout(ready.graph, ready.weights, lesson.task, lesson.master, [*log.result["weights"]], workers=workers)
+    simulator.make_ready(rollout, print)  # before the clock starts
     begin = perf_counter()
-    scores = rollout.score(read_champions(log.champions), layouts(1, LAYOUTS))
+    scores = rollout.score(log.champions, layouts(1, LAYOUTS))
     return float(scores.ticks.sum()) / (perf_counter() - begin)
-
-
-def learners_of(log: Log) -> Sequence[str]:
-    """The skills whose weights a champion of a log has, in its order."""
-    return list(log.result["weights"])
 
 
 if __name__ == "__main__":

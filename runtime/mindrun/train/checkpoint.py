@@ -19,7 +19,7 @@ from mindrun.train.genetic import Population
 from mindrun.train.lesson import State
 
 NAME, PREVIOUS = "checkpoint", "checkpoint.previous"
-MAGIC = b"mind checkpoint 2\n"
+MAGIC = b"mind checkpoint 3\n"
 DIGEST = 32
 
 
@@ -61,6 +61,7 @@ def pack(state: State, run: str) -> bytes:
         "champion": state.champion,
         "rival": state.rival,
         "champions": state.champions,
+        "lengths": state.lengths,
         "verdicts": state.verdicts,
         "floats": np.array([state.best, state.seconds]),
         "counts": np.array(
@@ -100,7 +101,7 @@ def _state(arrays: dict[str, NDArray[Any]]) -> State:
     best, seconds = (float(number) for number in arrays["floats"])
     population = Population(arrays["genomes"], arrays["scores"], generation)
     now = arrays["champion"], arrays["rival"], since
-    ended = arrays["champions"], arrays["verdicts"]
+    ended = arrays["champions"], arrays["lengths"], arrays["verdicts"]
     return State(attempt, population, *now, *ended, best, generations, ticks, seconds, faults)
 
 

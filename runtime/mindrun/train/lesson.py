@@ -66,9 +66,11 @@ class State:
     """Where a run stands, all that is needed to go on.
 
     `champion` [0 or 1, weights] is the best of this attempt; `rival` [0 or 1, weights] the last one that was better
-    beyond doubt than the one before it, found in generation `since`. Of the attempts that have ended, `champions`
-    [ended, weights] are the best and `verdicts` [ended, 2] their scores on layouts that chose nothing before: the first
-    decides between the attempts, the second, on yet other layouts, is what is reported.
+    beyond doubt than the one before it, found in generation `since`.
+
+    Of the attempts that have ended, `champions` [ended, weights] are the best, `lengths` [ended] their generations, and
+    `verdicts` [ended, 2] their scores on layouts that chose nothing before: the first decides between the attempts, the
+    second, on yet others, is what is reported.
     """
 
     attempt: int
@@ -77,6 +79,7 @@ class State:
     rival: Genomes
     since: int
     champions: Genomes
+    lengths: NDArray[np.int64]
     verdicts: Scores
     best: float
     generations: int
@@ -88,6 +91,11 @@ class State:
     def kept(self) -> Genomes:
         """The best of the champions [0 or 1, weights]; the first of equals."""
         return self.champions[order(self.verdicts[:, 0])][:1]
+
+    @property
+    def kept_after(self) -> int:
+        """The generations of the attempt whose champion is kept; 0 before one has ended."""
+        return int(self.lengths[order(self.verdicts[:, 0])][0]) if len(self.lengths) else 0
 
     @property
     def reevaluated(self) -> float:
@@ -126,7 +134,8 @@ class Marks:
 def begin(course: Course) -> State:
     """The state before the first generation."""
     empty = course.start[:0]
-    return State(0, nobody(empty.shape[1]), course.start, empty, 0, empty, np.empty((0, 2)), -inf, 0, 0, 0.0, 0)
+    ended = empty, np.empty(0, np.int64), np.empty((0, 2))
+    return State(0, nobody(empty.shape[1]), course.start, empty, 0, *ended, -inf, 0, 0, 0.0, 0)
 
 
 def teach(course: Course, scorer: Scorer, state: State, clock: Clock) -> Iterator[tuple[State, Record]]:
@@ -154,13 +163,19 @@ def generation(course: Course, scorer: Scorer, state: State) -> tuple[State, Rec
         faults=state.faults + marks.faults,
     )
     number, reevaluated, verdict = population.generation, None, None
-    if number == course.lesson.generations or number == 1 or number % EVERY == 0:
+    if number == 1 or number % EVERY == 0 or has_ended(course.lesson, now):
         now, reevaluated = try_again(now, scorer, layouts(*key, FRESH, Purpose.REEVALUATION))
-    if number == course.lesson.generations or 0 < learner.patience <= number - now.since:
+    if has_ended(course.lesson, now):
         now, verdict = judge(course, scorer, now)
     ticks, faults = now.ticks - state.ticks, now.faults - state.faults
     best, mean = float(marks.scores.max()), _mean(marks.scores)
     return now, Record(state.attempt + 1, number, best, mean, reevaluated, verdict, ticks, 0.0, faults)
+
+
+def has_ended(lesson: Lesson, state: State) -> bool:
+    """Whether an attempt has had all its generations, or its best has not become better for too many of them."""
+    generation = state.population.generation
+    return generation == lesson.generations or 0 < lesson.learner.patience <= generation - state.since
 
 
 def try_again(state: State, scorer: Scorer, fresh: Seeds) -> tuple[State, float]:
@@ -182,7 +197,7 @@ def try_again(state: State, scorer: Scorer, fresh: Seeds) -> tuple[State, float]
 
 def is_better(scores: Scores, than: Scores) -> bool:
     """Whether scores [layouts] are better than others on the same layouts by more than two standard errors."""
-    if not np.isfinite(than).all():
+    if not np.isfinite(scores).all() or not np.isfinite(than).all():
         return bool(np.isfinite(scores).all())
     gain = scores - than
     return bool(gain.mean() > 2.0 * gain.std(ddof=1) / np.sqrt(len(gain)))
@@ -202,6 +217,7 @@ def judge(course: Course, scorer: Scorer, state: State) -> tuple[State, float]:
         rival=course.start[:0],
         since=0,
         champions=np.concatenate([state.champions, state.champion]),
+        lengths=np.append(state.lengths, state.population.generation),
         verdicts=np.concatenate([state.verdicts, verdict[None]]),
         ticks=state.ticks + int(results.ticks.sum()),
     )

@@ -7,7 +7,7 @@ from dataclasses import asdict, dataclass, replace
 from hashlib import sha256
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
-from typing import Any
+from typing import Any, Self
 
 import numpy as np
 
@@ -52,6 +52,10 @@ class Manifest:
         """A hash of what decides the result; a checkpoint is of this run if it carries it."""
         parts = (encode(self.lesson), self.seed, self.mind, dict(self.weights))
         return _sha256(json.dumps(parts, sort_keys=True).encode())
+
+    def ends_like(self, other: Self) -> bool:
+        """Whether another run comes to the same end, bit for bit."""
+        return (self.identity, self.versions) == (other.identity, other.versions)
 
 
 def fingerprint(graph: Graph, lesson: Lesson, procedures: Path | None) -> str:

@@ -12,6 +12,7 @@ from zipfile import BadZipFile
 import numpy as np
 
 from mindrun import durable
+from mindrun.train import checkpoint
 from mindrun.train.errors import NotFoundError, RunError
 from mindrun.train.genetic import Genomes
 from mindrun.train.lesson import Course
@@ -57,14 +58,15 @@ def create(runs: Path, manifest: Manifest, sources: Mapping[str, str], weights: 
 
 
 def unfinished(runs: Path, manifest: Manifest) -> Run | None:
-    """The newest run under `runs` that was to come to the same end as this one would, and was stopped."""
+    """The newest whole run under `runs` that was to come to the same end as this one would, and was stopped."""
     for folder in sorted((runs / manifest.name).glob("*"), reverse=True):
         try:
             run = open_run(folder)
-        except RunError:
+            if run.manifest.ends_like(manifest) and read_result(folder) is None:
+                checkpoint.load(folder, manifest.identity)
+                return run
+        except RunError:  # it is damaged: another is begun
             continue
-        if run.manifest.identity == manifest.identity and read_result(folder) is None:
-            return run
     return None
 
 
