@@ -1,6 +1,7 @@
 """The way through: text → File → Mind → Graph, for any input without an exception."""
 
 import sys
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -13,6 +14,9 @@ from mindlang.resolve import resolve
 from mindlang.source import LIMIT, Source, Span, decode
 from mindlang.syntax import File
 from mindlang.use import files, read
+
+
+NOTHING: Mapping[Path, str] = {}
 
 
 @dataclass(frozen=True, slots=True)
@@ -44,14 +48,14 @@ def load(path: Path | str) -> Compiled:
     return compile_source(source, Path(path).resolve())
 
 
-def compile_source(source: Source, path: Path = Path("-")) -> Compiled:
-    """A source that has been read, compiled together with the files that it uses."""
+def compile_source(source: Source, path: Path = Path("-"), texts: Mapping[Path, str] = NOTHING) -> Compiled:
+    """A source that has been read, compiled together with the files that it uses; those in `texts` are not read."""
     findings = Findings()
     if not any(line.strip() and not line.lstrip().startswith("#") for line in source.text.split("\n")):
         hint = "A file needs a tick, a master, a body, actuators, sensors and skills: mindc show one of the examples."
         diagnostic = Diagnostic("empty-file", "There is nothing in this file.", Span(source, 0, 0), hint)
         return Compiled(None, None, (diagnostic,), (source,))
-    parsed, complete = files(source, path, findings)
+    parsed, complete = files(source, path, findings, texts)
     mind = resolve(parsed, findings) if complete else None  # names of a missing file would all seem unknown
     graph = lower(mind) if mind else None
     return Compiled(graph, mind, _sorted(findings, parsed), tuple(file.source for file in parsed))

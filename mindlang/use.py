@@ -1,5 +1,6 @@
 """The files of a mind: the main one and those that it uses, all of them inside the project."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -15,6 +16,7 @@ DEEP = 64
 class _Project:
     root: Path
     findings: Findings
+    texts: Mapping[Path, str]
     files: dict[Path, File] = field(default_factory=dict)
     open: list[Path] = field(default_factory=list)
     complete: bool = True
@@ -33,9 +35,12 @@ def read(path: Path, name: str) -> Source:
         return Source(name, decode(file.read(LIMIT + 1)), path.resolve().parent)
 
 
-def files(source: Source, path: Path, findings: Findings) -> tuple[list[File], bool]:
-    """The main file and after it, once each, the files that it uses; and whether all of them could be read."""
-    project = _Project(source.folder, findings)
+def files(source: Source, path: Path, findings: Findings, texts: Mapping[Path, str]) -> tuple[list[File], bool]:
+    """The main file and after it, once each, the files that it uses; and whether all of them could be read.
+
+    A file that stands in `texts` is taken from there, as an edit or an editor has it.
+    """
+    project = _Project(source.folder, findings, texts)
     _add(path, source, project)
     return list(project.files.values()), project.complete
 
@@ -78,8 +83,10 @@ def _inside(use: Use, project: _Project) -> Path | None:
 
 
 def _read(target: Path, use: Use, project: _Project) -> None:
+    name = Path(use.span.source.name).parent.joinpath(use.path).as_posix()
     try:
-        source = read(target, Path(use.span.source.name).parent.joinpath(use.path).as_posix())
+        text = project.texts.get(target)
+        source = read(target, name) if text is None else Source(name, text, target.parent)
     except OSError as error:
         hint = "The path is relative to the file in which it stands."
         project.refuse("unreadable-use", use, f"{use.path} cannot be read: {error.strerror}.", hint)

@@ -135,10 +135,14 @@ def read_locks(sources: Iterable[Path]) -> dict[str, Entry]:
     return known
 
 
+def lock_text(entries: Lock) -> str:
+    """A lock as it is written: sorted, a line per skill."""
+    return "\n".join([HEADER, *(str(entries[skill]) for skill in sorted(entries)), ""])
+
+
 def write_lock(path: Path, entries: Lock) -> None:
     """Write a lock, sorted; the old one stays until the new one is whole. LockError where that fails."""
-    lines = [HEADER, *(str(entries[skill]) for skill in sorted(entries)), ""]
     try:
-        write(path, "\n".join(lines).encode())
+        write(path, lock_text(entries).encode())
     except OSError as error:
         raise LockError(f"{path} cannot be written: {error.strerror}") from error

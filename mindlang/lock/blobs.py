@@ -21,7 +21,7 @@ FOLDER = "weights"
 
 def load_weights(entry: Entry, skill: Skill) -> Weights:
     """The weights of an entry, held against its hash and its skill; LockError where they are not those."""
-    path = _blob(entry.folder, entry.weights)
+    path = blob(entry.folder, entry.weights)
     remedy = f"get it back, or train {entry.skill} --from-scratch"
     try:
         if not path.resolve().is_relative_to(entry.folder.resolve()):
@@ -49,7 +49,7 @@ def record(
         with _alone(path.parent / FOLDER):
             lock = read_lock(path)
             for skill, entry in entries.items():
-                write(_blob(path.parent, entry.weights), to_npy(learnt[skill]))
+                write(blob(path.parent, entry.weights), to_npy(learnt[skill]))
             write_lock(path, lock | entries)
             for skill in entries.keys() & lock.keys():
                 _forget(path.parent, lock[skill].weights)
@@ -82,11 +82,12 @@ def _alone(folder: Path) -> Iterator[None]:
         os.close(descriptor)
 
 
-def _blob(folder: Path, weights: str) -> Path:
+def blob(folder: Path, weights: str) -> Path:
+    """The file of weights of this SHA-256, for the locks of a folder."""
     return folder / FOLDER / f"{weights}.npy"
 
 
 def _forget(folder: Path, weights: str) -> None:
     """Remove old weights, unless a skill has them still: the locks of one folder share their weights."""
     if not any(f"| weights {weights}".encode() in lock.read_bytes() for lock in folder.glob("*.lock")):
-        _blob(folder, weights).unlink(missing_ok=True)
+        blob(folder, weights).unlink(missing_ok=True)

@@ -1,0 +1,68 @@
+"""`mindc edit`: every edit is a command, built from the signature of its function."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import click
+
+if TYPE_CHECKING:
+    from mindlang.editing.catalog import Edit, Option
+
+EXAMPLES = """\b
+Examples:
+  mindc edit rename Avoid Dodge --noun skill collect.mind
+  mindc edit encapsulate Collect CollectWithPower --with GoToPower+Avoid --reads battery collect.mind --write
+"""
+
+
+class Edits(click.Group):
+    """The edits that there are, each imported when it is asked for."""
+
+    def list_commands(self, ctx: click.Context) -> list[str]:
+        """Their names."""
+        from mindlang.editing.catalog import names
+
+        return names()
+
+    def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:
+        """The edit of that name as a command."""
+        from mindlang.editing.catalog import edit
+
+        return _command(edit(cmd_name)) if cmd_name in self.list_commands(ctx) else None
+
+
+@click.group(cls=Edits, epilog=EXAMPLES)
+def command() -> None:
+    """Edit a hierarchy in its source. Prints the diff, and with --write makes it: source, locks and weights together."""
+
+
+def _command(of: Edit) -> click.Command:
+    """A click command with the parameters of an edit, and those that all of them have."""
+
+    def run(file: str, write: bool, keep_weights: bool, verify: bool, as_json: bool, **said: Any) -> None:
+        from mindlang.editing.command import Wishes, perform
+
+        perform(of, said, file, Wishes(write, keep_weights, verify, as_json))
+
+    parameters = [
+        *(click.Argument([name], nargs=-1 if many else 1, required=True) for name, many in of.arguments),
+        click.Argument(["file"]),
+        *(_option(option) for option in of.options),
+        click.Option(["--write"], is_flag=True, help="Make the edit, and not only print it."),
+        click.Option(
+            ["--keep-weights"], is_flag=True,
+            help="A skill that reads or influences more goes on as it was taught, with weights of zero for what is new.",
+        ),
+        click.Option(
+            ["--verify"], is_flag=True,
+            help="Run every trained skill before and after on the same readings, and refuse what changes one of them.",
+        ),
+        click.Option(["--json", "as_json"], is_flag=True, help="One JSON document instead."),
+    ]  # fmt: skip
+    return click.Command(of.name, params=parameters, callback=run, help=of.text, epilog=of.example)
+
+
+def _option(option: Option) -> click.Option:
+    flags = [f"--{option.name.strip('_').replace('_', '-')}", option.name]
+    return click.Option(flags, multiple=option.many, default=None if option.many else option.default, help=option.help)

@@ -1,0 +1,117 @@
+"""What an edit works on: the files of a mind, main one first, and what their names mean."""
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import TypeVar
+
+from mindrun.errors import MindError
+from mindrun.graph import Graph
+
+from mindlang.compile import Compiled
+from mindlang.diagnostic import Diagnostic, Findings, Label, a, did_you_mean, listed
+from mindlang.editing.references import Mention, mentions
+from mindlang.model import Mind
+from mindlang.resolve.names import Names, gather
+from mindlang.parse import parse
+from mindlang.parse.explain import proper
+from mindlang.source import Source, Span
+from mindlang.splice import Splice
+from mindlang.syntax import Declaration, Fact, File
+
+F = TypeVar("F", bound=Fact)
+
+
+class EditError(MindError):
+    """An edit that is impossible; the diagnostic has the lines concerned."""
+
+    def __init__(self, message: str, hint: str = "", span: Span | None = None, *labels: Label) -> None:
+        super().__init__(message, hint)
+        self.diagnostic = Diagnostic("impossible-edit", message, span, hint, labels)
+
+
+@dataclass(frozen=True, slots=True)
+class Renamed:
+    """A name that the trained weights have to follow."""
+
+    noun: str
+    old: str
+    new: str
+
+
+@dataclass(frozen=True, slots=True)
+class Change:
+    """What an edit does: `splices` of the sources, `created` files, and under which names weights are found now."""
+
+    splices: tuple[Splice, ...]
+    renamed: tuple[Renamed, ...] = ()
+    created: Mapping[Path, str] = field(default_factory=dict)
+
+
+@dataclass(frozen=True, slots=True)
+class Project:
+    """A mind that compiles, and its files as they were written."""
+
+    mind: Mind
+    graph: Graph
+    names: Names
+
+    @property
+    def files(self) -> tuple[File, ...]:
+        """The main file, then those that it uses."""
+        return self.mind.files
+
+    @property
+    def main(self) -> File:
+        """The file that was named on the command line."""
+        return self.mind.files[0]
+
+    def find(self, name: str, *nouns: str) -> Declaration:
+        """The declaration of a name with one of the nouns; EditError where there is none."""
+        if noun := self.names.noun_of(name, nouns):
+            return self.names.table[noun][name]
+        hint = did_you_mean(name, self.names.of(*nouns)) or f"Declared are {listed(self.names.of(*nouns) or ['none'], 'and')}."
+        raise EditError(f"There is no {listed(nouns)} called {name}.", hint)
+
+    def refuse_taken(self, noun: str, name: str) -> None:
+        """EditError where a noun has the name already."""
+        shared = {"sensor": ("memory",), "actuator": ("memory",), "memory": ("sensor", "actuator")}
+        for taken in (noun, *shared.get(noun, ())):
+            if other := self.names.table.get(taken, {}).get(name):
+                label = other.header.name.span
+                raise EditError(f"There is already {a(taken)} called {name}.", "Choose another name.", label)
+
+    def file_of(self, declaration: Declaration) -> File:
+        """The file in which a declaration stands."""
+        source = declaration.header.span.source
+        return next(file for file in self.files if file.source is source)
+
+    def mentions(self, noun: str, name: str) -> Iterator[Mention]:
+        """Where a name stands, in all files."""
+        return (m for m in mentions(self.files, self.names) if m.noun == noun and m.name.text == name)
+
+    def parents(self, skill: str) -> list[Declaration]:
+        """The skills that influence a skill."""
+        return [parent.declaration for parent in self.mind.skills if skill in parent.subskills]
+
+
+def open_project(compiled: Compiled) -> Project:
+    """The project of a file that compiled."""
+    assert compiled.mind is not None
+    assert compiled.graph is not None
+    return Project(compiled.mind, compiled.graph, gather(compiled.mind.files, Findings()))
+
+
+def facts(declaration: Declaration, form: type[F]) -> list[F]:
+    """The facts of one verb."""
+    return [fact for fact in declaration.facts if isinstance(fact, form)]
+
+
+def refuse_misnamed(noun: str, name: str) -> None:
+    """EditError where the grammar takes a text for no name of a noun."""
+    findings = Findings()
+    line = f"contains {name} is item" if noun == "thing" else f"{noun} {name} {'in' if noun == 'task' else 'is'} kind"
+    head = "task Task in plain\n" * (noun == "thing")
+    parse(Source("name", head + line), findings)
+    if findings.diagnostics:
+        raise EditError(f"{name} cannot be the name of {a(noun)}.", f"Write {proper(noun, name)}." * (proper(noun, name) != name))

@@ -1,0 +1,138 @@
+"""Every name in the files of a mind, with what it names: where a rename has to write, and what a removal would break."""
+
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+from typing import Any
+
+from mindrun.quantity import Reference as Noun
+from mindrun.registry import arguments, kinds
+
+from mindlang.resolve.names import Names
+from mindlang.syntax import (
+    Argument,
+    Contains,
+    Counts,
+    Declaration,
+    Drives,
+    Ends,
+    Expression,
+    Fact,
+    File,
+    Influences,
+    Master,
+    Name,
+    Phrase,
+    Reads,
+    Rewards,
+    Teaches,
+)
+
+READ = ("sensor", "memory")
+DRIVEN = ("actuator", "memory")
+
+
+@dataclass(frozen=True, slots=True)
+class Mention:
+    """A name where it stands: in its own declaration, or elsewhere. `by` is the declaration in which that is."""
+
+    noun: str
+    name: Name
+    by: Declaration | None
+    declares: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class _Reader:
+    """What a name means depends on which names there are: a memory is read like a sensor, a sensor hides a measure."""
+
+    names: Names
+    by: Declaration | None
+
+    def one(self, name: Name, *nouns: str) -> Iterator[Mention]:
+        """A name with the first of the nouns that it is declared with."""
+        if noun := self.names.noun_of(name.text, nouns):
+            yield Mention(noun, name, self.by)
+
+    def fact(self, fact: Fact) -> Iterator[Mention]:
+        """The names in a fact."""
+        match fact:
+            case Reads(name):
+                yield from self.one(name, *READ)
+            case Drives(name, at):
+                yield from self.one(name, *DRIVEN)
+                yield from self.expression(at, "")
+            case Influences(name, at):
+                yield from self.one(name, "skill")
+                yield from self.expression(at, "")
+            case Contains(name, phrase):
+                yield Mention("thing", name, self.by, declares=True)
+                yield from self.phrase("content", phrase)
+            case Ends(event) | Counts(event):
+                yield from self.phrase("event", event)
+            case Rewards():
+                yield from self.reward(fact)
+            case Teaches():
+                yield from self.lesson(fact)
+
+    def reward(self, fact: Rewards) -> Iterator[Mention]:
+        """The names in a reward; that of `for each` is its own."""
+        own = fact.each.name.text if fact.each else ""
+        yield from self.expression(fact.amount, own)
+        if fact.on:
+            yield from self.phrase("event", fact.on)
+        if fact.each:
+            yield from self.one(fact.each.sensor, *READ)
+        if fact.when:
+            yield from self.expression(fact.when.left, own)
+            yield from self.expression(fact.when.right, own)
+
+    def lesson(self, fact: Teaches) -> Iterator[Mention]:
+        """The names in a lesson."""
+        yield from self.one(fact.skill, "skill")
+        yield from self.one(fact.task, "task")
+        if fact.master:
+            yield from self.one(fact.master, "skill")
+
+    def expression(self, expression: Expression | None, own: str) -> Iterator[Mention]:
+        """The readings in an expression, and the things that its measures are about."""
+        for term in expression.terms if expression else ():
+            if not isinstance(term, Phrase) or (term.kind.text == own and not term.arguments):
+                continue
+            if not term.arguments and self.names.noun_of(term.kind.text, READ):
+                yield from self.one(term.kind, *READ)
+            else:
+                yield from self.phrase("measure", term)
+
+    def phrase(self, noun: str, phrase: Phrase | None) -> Iterator[Mention]:
+        """The names among the arguments of a kind."""
+        cls = kinds(noun).get(phrase.kind.text) if phrase else None
+        if phrase is None or cls is None:
+            return
+        wanted = {parameter.key: parameter.type for parameter in arguments(cls)}
+        for argument in phrase.arguments:
+            yield from self._argument(argument, wanted.get(argument.key.text))
+
+    def _argument(self, argument: Argument, wanted: Any) -> Iterator[Mention]:
+        match argument.value, wanted:
+            case Name() as name, Noun(noun="thing"):
+                yield Mention("thing", name, self.by)
+            case Name() as name, Noun(noun="sensor"):
+                yield from self.one(name, *READ)
+
+
+def mentions(files: Iterable[File], names: Names) -> Iterator[Mention]:
+    """Every name in these files that is declared somewhere in them, in no particular order."""
+    for file in files:
+        for setting in file.settings:
+            if isinstance(setting, Master):
+                yield from _Reader(names, None).one(setting.name, "skill")
+        for declaration in file.declarations:
+            yield from _declaration(declaration, _Reader(names, declaration))
+
+
+def _declaration(declaration: Declaration, reader: _Reader) -> Iterator[Mention]:
+    header = declaration.header
+    yield Mention(header.noun.text, header.name, declaration, declares=True)
+    yield from reader.phrase(header.noun.text, header.phrase)
+    for fact in declaration.facts:
+        yield from reader.fact(fact)

@@ -1,0 +1,1 @@
+"""The edits of a hierarchy, one a file: a function of a project that says what to splice."""
