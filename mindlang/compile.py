@@ -15,7 +15,6 @@ from mindlang.source import LIMIT, Source, Span, decode
 from mindlang.syntax import File
 from mindlang.use import files, read
 
-
 NOTHING: Mapping[Path, str] = {}
 
 

@@ -20,17 +20,17 @@ class Splice:
 
 
 def spliced(source: Source, splices: Iterable[Splice]) -> str:
-    """The text of a source with its own of the splices made; ValueError where two overlap.
+    """The text of a source with its own of the splices made; ValueError where two overlap that are no mere removals.
 
     Those that insert at one place stand in their order.
     """
     own = [splice for splice in splices if splice.source is source]
     parts, end = [], 0
     for splice in sorted(own, key=lambda splice: (splice.start, splice.end)):
-        if splice.start < end:
+        if splice.start < end and splice.text:
             raise ValueError(f"two splices overlap at offset {splice.start} of {source.name}")
         parts += [source.text[end : splice.start], splice.text]
-        end = splice.end
+        end = max(end, splice.end)
     return "".join([*parts, source.text[end:]])
 
 

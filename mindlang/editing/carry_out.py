@@ -94,4 +94,3 @@ def _encoded(path: Path, text: str) -> bytes:
 
 def _name(project: Project, path: Path) -> str:
     return path.relative_to(project.main.source.folder).as_posix()
-

@@ -122,7 +122,9 @@ def widened(entry: Entry, old: Skill, graph: Graph, new: Skill) -> tuple[Entry, 
         return None
     before = layers(_width(was.reads), len(was.sends), old.function)
     after = layers(_width(tuple(reads)), len(sends), new.function)
-    if len(before) != len(after) or any(o > n for pair in zip(before, after, strict=True) for o, n in zip(*pair, strict=True)):
+    if len(before) != len(after) or any(
+        o > n for pair in zip(before, after, strict=True) for o, n in zip(*pair, strict=True)
+    ):
         return None
     weights = _embedded(load_weights(entry, old), before, after)
     made = replace(entry, signature=Signature(now.function, tuple(reads), tuple(sends)), weights=digest(weights))

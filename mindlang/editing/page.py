@@ -19,6 +19,7 @@ from mindlang.syntax import (
     Reads,
     Rewards,
     Teaches,
+    Use,
 )
 
 INDENT = "  "
@@ -85,6 +86,22 @@ def declare(file: File, noun: str, lines: Sequence[str]) -> Splice:
         return _insert(file.source, _line(file.source.text, file.settings[-1].span.end)[1], ["", *lines])
     end = len(file.source.text.rstrip())
     return _insert(file.source, end, ["", *lines] if end else lines)
+
+
+def declare_below(declaration: Declaration, lines: Sequence[str]) -> Splice:
+    """A declaration below another one."""
+    return _insert(declaration.header.span.source, _extent(declaration)[1], ["", *lines])
+
+
+def use_line(file: File, path: str) -> Splice:
+    """A line that uses a file, below the last such line, or above all that the file says."""
+    line = f'use "{path}"'
+    if used := [setting for setting in file.settings if isinstance(setting, Use)]:
+        return below(used[-1].span, [line])
+    said = [setting.span.start for setting in file.settings]
+    said += [declaration.header.span.start for declaration in file.declarations]
+    begin = _line(file.source.text, min(said))[0]
+    return Splice(file.source, begin, begin, line + newline(file.source))
 
 
 def without_declaration(declaration: Declaration) -> Splice:

@@ -12,12 +12,12 @@ from mindlang.compile import Compiled
 from mindlang.diagnostic import Diagnostic, Findings, Label, a, did_you_mean, listed
 from mindlang.editing.references import Mention, mentions
 from mindlang.model import Mind
-from mindlang.resolve.names import Names, gather
 from mindlang.parse import parse
 from mindlang.parse.explain import proper
+from mindlang.resolve.names import Names, gather
 from mindlang.source import Source, Span
 from mindlang.splice import Splice
-from mindlang.syntax import Declaration, Fact, File
+from mindlang.syntax import NOUNS, Declaration, Drives, Fact, File, Influences, Master, Reads
 
 F = TypeVar("F", bound=Fact)
 
@@ -70,7 +70,8 @@ class Project:
         """The declaration of a name with one of the nouns; EditError where there is none."""
         if noun := self.names.noun_of(name, nouns):
             return self.names.table[noun][name]
-        hint = did_you_mean(name, self.names.of(*nouns)) or f"Declared are {listed(self.names.of(*nouns) or ['none'], 'and')}."
+        known = self.names.of(*nouns)
+        hint = did_you_mean(name, known) or (f"Declared are {listed(known[:8], 'and')}." if known else "")
         raise EditError(f"There is no {listed(nouns)} called {name}.", hint)
 
     def refuse_taken(self, noun: str, name: str) -> None:
@@ -80,6 +81,30 @@ class Project:
             if other := self.names.table.get(taken, {}).get(name):
                 label = other.header.name.span
                 raise EditError(f"There is already {a(taken)} called {name}.", "Choose another name.", label)
+
+    def declared(self, name: str, noun: str) -> Declaration:
+        """The declaration of a name, of any noun where none is said; EditError where that is none, or two."""
+        if noun:
+            return self.find(name, noun)
+        found = [self.names.table[of][name] for of in NOUNS if name in self.names.table.get(of, {})]
+        if len(found) == 1:
+            return found[0]
+        if not found:
+            return self.find(name, *NOUNS)
+        labels = [Label(each.header.name.span, f"{a(each.header.noun.text)} of this name") for each in found]
+        hint = f"Say which: --noun {found[0].header.noun.text}."
+        raise EditError(f"There are {len(found)} declarations called {name}.", hint, labels[0].span, *labels[1:])
+
+    def masters(self) -> list[Master]:
+        """The setting of the main file that says who is master, if it stands there."""
+        return [setting for setting in self.main.settings if isinstance(setting, Master)]
+
+    def refuse_said(self, skill: Declaration, form: type[Reads | Drives | Influences], name: str) -> None:
+        """EditError where a skill reads, drives or influences something already."""
+        for fact in facts(skill, form):
+            if fact.name.text == name:
+                verb = form.__name__.lower()
+                raise EditError(f"{skill.header.name.text} already {verb} {name}.", "", fact.span)
 
     def file_of(self, declaration: Declaration) -> File:
         """The file in which a declaration stands."""
@@ -114,4 +139,6 @@ def refuse_misnamed(noun: str, name: str) -> None:
     head = "task Task in plain\n" * (noun == "thing")
     parse(Source("name", head + line), findings)
     if findings.diagnostics:
-        raise EditError(f"{name} cannot be the name of {a(noun)}.", f"Write {proper(noun, name)}." * (proper(noun, name) != name))
+        raise EditError(
+            f"{name} cannot be the name of {a(noun)}.", f"Write {proper(noun, name)}." * (proper(noun, name) != name)
+        )

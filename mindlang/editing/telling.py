@@ -17,7 +17,9 @@ def told(edited: Edited) -> list[str]:
     after = edited.statuses()
     lines = [line for skill, now in after.items() for line in _told(skill, renamed.get(skill, skill), before, now)]
     gone = before.keys() - {renamed.get(skill, skill) for skill in after}
-    lines += [f"{skill} is gone, its weights are forgotten" for skill in sorted(gone) if isinstance(before[skill], Trained)]
+    lines += [
+        f"{skill} is gone, its weights are forgotten" for skill in sorted(gone) if isinstance(before[skill], Trained)
+    ]
     kept = sum(isinstance(state, Trained) for state in after.values())
     return [*lines, f"{kept} trained skill{'s' * (kept != 1)} keep{'s' * (kept == 1)} what was learnt"]
 

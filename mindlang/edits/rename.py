@@ -5,8 +5,8 @@ from typing import Annotated
 from mindrun.registry import kinds
 
 from mindlang.diagnostic import Label, a, listed
-from mindlang.editing.project import Change, EditError, Project, Renamed, facts, refuse_misnamed
 from mindlang.editing.page import instead
+from mindlang.editing.project import Change, EditError, Project, Renamed, facts, refuse_misnamed
 from mindlang.syntax import Rewards
 
 NOUNS = ("skill", "task", "sensor", "actuator", "memory", "thing", "curriculum", "body")
@@ -39,10 +39,20 @@ def _noun(project: Project, name: str) -> str:
     if len(found) == 1:
         return found[0]
     if not found:
-        raise EditError(f"Nothing is called {name}.", "mindc show lists the skills; names of tasks and parts stand in the source.")
-    labels = [Label(mention.name.span, a(noun)) for noun in found for mention in project.mentions(noun, name) if mention.declares]
+        raise EditError(
+            f"Nothing is called {name}.", "mindc show lists the skills; names of tasks and parts stand in the source."
+        )
+    labels = [
+        Label(mention.name.span, a(noun))
+        for noun in found
+        for mention in project.mentions(noun, name)
+        if mention.declares
+    ]
     raise EditError(
-        f"{name} is {listed([a(noun) for noun in found], 'and')}.", f"Say which: --noun {found[0]}", labels[0].span, *labels[1:]
+        f"{name} is {listed([a(noun) for noun in found], 'and')}.",
+        f"Say which: --noun {found[0]}",
+        labels[0].span,
+        *labels[1:],
     )
 
 
@@ -55,8 +65,12 @@ def _refuse_taken_thing(project: Project, name: str) -> None:
 def _refuse_captured(project: Project, name: str) -> None:
     """A reading with the name of a measure, or of a `for each`, would be taken for that in rewards."""
     if name in kinds("measure"):
-        raise EditError(f"{name} is a measure: rewards that say it would mean the reading then.", "Choose another name.")
+        raise EditError(
+            f"{name} is a measure: rewards that say it would mean the reading then.", "Choose another name."
+        )
     for declaration in project.names.table.get("task", {}).values():
         for reward in facts(declaration, Rewards):
             if reward.each and reward.each.name.text == name:
-                raise EditError(f"A reward goes through readings by the name {name}.", "Choose another name.", reward.each.name.span)
+                raise EditError(
+                    f"A reward goes through readings by the name {name}.", "Choose another name.", reward.each.name.span
+                )

@@ -1,0 +1,31 @@
+"""`mindc edit connect`."""
+
+from typing import Annotated
+
+from mindlang.editing.page import below_siblings
+from mindlang.editing.project import Change, EditError, Project
+from mindlang.syntax import Drives, Influences, Reads
+
+VERBS = {"sensor": Reads, "memory": Reads, "actuator": Drives, "skill": Influences}
+
+
+def connect(
+    project: Project,
+    skill: str,
+    target: str,
+    *,
+    at: Annotated[str, "The value of the edge, instead of an output of the function: --at 1"] = "",
+    drives: Annotated[bool, "Drive a memory, instead of reading it"] = False,
+) -> Change:
+    """Let a skill read a sensor or memory, drive an actuator, or influence another skill.
+
+    Example: mindc edit connect Collect Grab --at 1 collect.mind
+    """
+    declaration = project.find(skill, "skill")
+    noun = project.find(target, *VERBS).header.noun.text
+    form = Drives if noun == "memory" and (drives or at) else VERBS[noun]
+    if form is Reads and (at or drives):
+        raise EditError(f"{target} is a {noun}, which is read.", "Leave --at and --drives out.")
+    project.refuse_said(declaration, form, target)
+    value = f" at {at}" if at else ""
+    return Change((below_siblings(declaration, form, [f"{form.__name__.lower()} {target}{value}"]),))

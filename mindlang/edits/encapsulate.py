@@ -1,0 +1,42 @@
+"""`mindc edit encapsulate`."""
+
+from typing import Annotated
+
+from mindlang.editing.page import declare, instead
+from mindlang.editing.project import Change, Project, Renamed, facts, refuse_misnamed
+from mindlang.syntax import Influences
+
+
+def encapsulate(
+    project: Project,
+    skill: str,
+    new: str,
+    *,
+    with_: Annotated[tuple[str, ...], "Another skill that the new one influences: --with GoToPower+Avoid"] = (),
+    reads: Annotated[tuple[str, ...], "A sensor or memory that the new one reads: --reads battery"] = (),
+    is_: Annotated[str, "Its function (default: mlp hidden 2)"] = "mlp hidden 2",
+) -> Change:
+    """Put a new skill over an old one and others: it takes the old one's place, and no line of the old one changes.
+
+    Where the old one was master the new one is, and where skills influenced the old one they influence the new one.
+
+    Example: mindc edit encapsulate Collect CollectWithPower --with GoToPower+Avoid --reads battery power.mind
+    """
+    project.find(skill, "skill")
+    for other in with_:
+        project.find(other, "skill")
+    for reading in reads:
+        project.find(reading, "sensor", "memory")
+    refuse_misnamed("skill", new)
+    project.refuse_taken("skill", new)
+    lines = [
+        f"skill {new} is {is_}",
+        *(f"  reads {reading}" for reading in reads),
+        *(f"  influences {below}" for below in (skill, *with_)),
+    ]
+    places = [
+        fact.name for parent in project.parents(skill) for fact in facts(parent, Influences) if fact.name.text == skill
+    ]
+    places += [master.name for master in project.masters() if master.name.text == skill]
+    moved = (instead(place.span, new) for place in places)
+    return Change((*moved, declare(project.main, "skill", lines)), (Renamed("influence", skill, new),))

@@ -1,0 +1,37 @@
+"""`mindc edit integrate`."""
+
+from typing import Annotated
+
+from mindlang.editing.page import below_siblings
+from mindlang.editing.project import Change, EditError, Project
+from mindlang.syntax import Influences, Reads
+
+
+def integrate(
+    project: Project,
+    skill: str,
+    *,
+    with_: Annotated[tuple[str, ...], "A skill that it is to influence as well: --with GoToPower+Avoid"] = (),
+    reads: Annotated[tuple[str, ...], "A sensor or memory that it is to read as well: --reads battery"] = (),
+) -> Change:
+    """Let a skill influence more skills and read more sensors: the paper's other way to extend a hierarchy.
+
+    The skill is stale then. With --keep-weights it goes on as before until it is taught again.
+
+    Example: mindc edit integrate Collect --with GoToPower+Avoid --reads battery --reads in_power power.mind
+    """
+    if not with_ and not reads:
+        raise EditError("Nothing is to be integrated.", "Say what: --with SKILL, --reads SENSOR.")
+    declaration = project.find(skill, "skill")
+    for other in with_:
+        project.find(other, "skill")
+        project.refuse_said(declaration, Influences, other)
+    for reading in reads:
+        project.find(reading, "sensor", "memory")
+        project.refuse_said(declaration, Reads, reading)
+    splices = []
+    if reads:
+        splices.append(below_siblings(declaration, Reads, [f"reads {reading}" for reading in reads]))
+    if with_:
+        splices.append(below_siblings(declaration, Influences, [f"influences {other}" for other in with_]))
+    return Change(tuple(splices))
