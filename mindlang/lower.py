@@ -59,6 +59,7 @@ def _skills(mind: model.Mind, places: Mapping[str, tuple[int, int]]) -> tuple[gr
             skill.function,
             tuple(start + i for start, width in (places[read] for read in skill.reads) for i in range(width)),
             _edges(skill, targets, places),
+            skill.frozen,
         )
         for skill in order
     )

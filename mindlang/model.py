@@ -80,12 +80,13 @@ class Edge:
 
 @dataclass(frozen=True, slots=True)
 class Skill:
-    """A skill; `reads` are names of sensors and memories."""
+    """A skill; `reads` are names of sensors and memories; one that is `frozen` is not taught."""
 
     name: str
     function: Function
     reads: tuple[str, ...]
     edges: tuple[Edge, ...]
+    frozen: bool
     declaration: Declaration
 
     @property

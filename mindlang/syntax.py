@@ -8,7 +8,7 @@ from mindlang.source import Source, Span
 PARTS = ("sensor", "actuator", "memory")
 WHOLES = ("body", "skill", "curriculum")
 NOUNS = (*PARTS, *WHOLES, "task")
-VERBS = ("reads", "drives", "influences", "contains", "lasts", "ends", "rewards", "counts", "teaches")
+VERBS = ("reads", "drives", "influences", "stays", "contains", "lasts", "ends", "rewards", "counts", "teaches")
 SETTINGS = ("use", "master", "tick")
 
 
@@ -114,6 +114,14 @@ class Influences:
 
 
 @dataclass(frozen=True, slots=True)
+class Stays:
+    """`stays frozen`"""
+
+    how: Name
+    span: Span
+
+
+@dataclass(frozen=True, slots=True)
 class Contains:
     """`contains NAME is PHRASE`"""
 
@@ -188,7 +196,7 @@ class Teaches:
     span: Span
 
 
-Fact = Reads | Drives | Influences | Contains | Lasts | Ends | Rewards | Counts | Teaches
+Fact = Reads | Drives | Influences | Stays | Contains | Lasts | Ends | Rewards | Counts | Teaches
 
 
 @dataclass(frozen=True, slots=True)

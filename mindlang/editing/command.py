@@ -31,18 +31,19 @@ def perform(of: Edit, said: Mapping[str, Any], file: str, wishes: Wishes) -> Non
         edited = carry_out(project, of.function(project, **said), wishes.keep_weights)
     except EditError as error:
         _refuse(error.diagnostic, wishes)
+    sentences = told(edited)  # before the locks are written, which they are about
     if wishes.write:
         write(edited)
-    _show(edited, wishes)
+    _show(edited, sentences, wishes)
 
 
-def _show(edited: Edited, wishes: Wishes) -> None:
+def _show(edited: Edited, sentences: list[str], wishes: Wishes) -> None:
     if wishes.as_json:
-        print_json({"diff": edited.diff, "written": wishes.write, "weights": told(edited)})
+        print_json({"diff": edited.diff, "written": wishes.write, "weights": sentences})
         return
     if not wishes.write:
         sys.stdout.write(edited.diff)
-    for line in told(edited):
+    for line in sentences:
         talk.print(line, markup=False)
     if not wishes.write:
         talk.print("nothing has been written: --write makes this edit", markup=False)

@@ -18,12 +18,13 @@ from mindlang.syntax import (
     Lasts,
     Reads,
     Rewards,
+    Stays,
     Teaches,
     Use,
 )
 
 INDENT = "  "
-ORDER: tuple[type[Fact], ...] = (Contains, Lasts, Ends, Reads, Drives, Influences, Rewards, Counts, Teaches)
+ORDER: tuple[type[Fact], ...] = (Contains, Lasts, Ends, Reads, Drives, Influences, Stays, Rewards, Counts, Teaches)
 
 
 def instead(span: Span, text: str) -> Splice:

@@ -59,6 +59,9 @@ class _Builder(Transformer_NonRecursive[Token, Any]):
         name, at = (*parts, None)[:2]
         return syntax.Influences(self._name(name), at, self._span(meta))
 
+    def stays(self, meta: Any, parts: list[Any]) -> syntax.Stays:
+        return syntax.Stays(self._name(parts[0]), self._span(meta))
+
     def contains(self, meta: Any, parts: list[Any]) -> syntax.Contains:
         return syntax.Contains(self._name(parts[0]), parts[1], self._span(meta))
 

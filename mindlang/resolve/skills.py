@@ -12,7 +12,7 @@ from mindlang.resolve.kinds import Scope, make
 from mindlang.resolve.names import Names
 from mindlang.resolve.parts import refuse_facts
 from mindlang.source import Span
-from mindlang.syntax import Declaration, Drives, Influences, Reads
+from mindlang.syntax import Declaration, Drives, Influences, Reads, Stays
 
 
 def skills(names: Names, widths: Mapping[str, int], findings: Findings) -> tuple[model.Skill, ...]:
@@ -25,7 +25,7 @@ def skills(names: Names, widths: Mapping[str, int], findings: Findings) -> tuple
 def _skill(
     name: str, declaration: Declaration, names: Names, widths: Mapping[str, int], findings: Findings
 ) -> model.Skill:
-    refuse_facts(declaration, (Reads, Drives, Influences), findings)
+    refuse_facts(declaration, (Reads, Drives, Influences, Stays), findings)
     phrase = declaration.header.phrase
     function: Any = make("skill", phrase, Scope(names, None), findings) if phrase else None
     reads = _reads(declaration, names, findings)
@@ -35,7 +35,7 @@ def _skill(
     edges = _edges(declaration, names, visible, findings)
     if function:
         _check(declaration, function, reads, edges, findings)
-    return model.Skill(name, function, reads, edges, declaration)
+    return model.Skill(name, function, reads, edges, _is_frozen(declaration, findings), declaration)
 
 
 def _reads(declaration: Declaration, names: Names, findings: Findings) -> tuple[str, ...]:
@@ -62,6 +62,17 @@ def _edges(declaration: Declaration, names: Names, visible: Visible, findings: F
         if to and _once(seen, fact.name.text, fact.span, verb, findings):
             edges.append(model.Edge(to, fact.name.text, at, fact))
     return tuple(edges)
+
+
+def _is_frozen(declaration: Declaration, findings: Findings) -> bool:
+    seen: dict[str, Span] = {}
+    for fact in declaration.facts:
+        if isinstance(fact, Stays) and fact.how.text != "frozen":
+            hint = "Write stays frozen, or leave the line out."
+            findings.error("unknown-state", fact.how.span, f"A skill cannot stay {fact.how.text}.", hint)
+        elif isinstance(fact, Stays):
+            _once(seen, "frozen", fact.span, "stays", findings)
+    return bool(seen)
 
 
 def _once(seen: dict[str, Span], name: str, span: Span, verb: str, findings: Findings) -> bool:

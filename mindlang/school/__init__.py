@@ -54,7 +54,11 @@ class School:
         taught = 0
         for lesson in chosen:
             book = open_book(file, compiled)  # the lesson before has changed the lock
-            if skills or force or is_due(book.graph, lesson, book.standing(lesson)):
+            if not (standing := book.standing(lesson)):
+                if skills or force:
+                    raise RunError(f"{lesson.skill} is frozen", f"mindc edit unfreeze {lesson.skill} {file} --write")
+                self._say(f"{lesson.skill} is frozen, and is not taught")
+            elif skills or force or is_due(book.graph, lesson, standing):
                 run = begin(book, wishes.applied(lesson), seed, runs, datetime.now(UTC))
                 taught += 1
                 if not self._teach(run, book):

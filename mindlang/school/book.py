@@ -86,7 +86,8 @@ def begin(book: Book, lesson: Lesson, seed: int, runs: Path, now: datetime) -> R
 def refuse_changed(book: Book, run: Run) -> None:
     """RunError where the run was begun with a mind that differs in something the lesson depends on."""
     lesson = run.manifest.lesson
-    if fingerprint(book.graph, lesson, book.folder) != run.manifest.mind:
+    same_learners = learners(book.graph, lesson) == run.manifest.learners  # one may have been frozen
+    if not same_learners or fingerprint(book.graph, lesson, book.folder) != run.manifest.mind:
         raise RunError(
             f"{book.source} has changed since this run of {lesson.skill} began, so it cannot go on",
             f"undo the change ({run.folder / 'source'} has it as it was), or begin anew: "

@@ -63,13 +63,14 @@ class Edge:
 class Skill:
     """A skill: `inputs` are indices into the readings, `edges` in the order of the source.
 
-    Among a function's outputs number i belongs to the i-th edge without `at`.
+    Among a function's outputs number i belongs to the i-th edge without `at`. One that is `frozen` is not taught.
     """
 
     name: str
     function: Function
     inputs: tuple[int, ...]
     edges: tuple[Edge, ...]
+    frozen: bool = False
 
     @property
     def outputs(self) -> int:
@@ -138,7 +139,7 @@ class Task:
 class Lesson:
     """Who learns (`skill`), on which task, driven by which master, for how long, and how (`learner`).
 
-    With `with_subskills`, all that learn below the skill learn with it, as one genome.
+    With `with_subskills`, all that learn below the skill and are not frozen learn with it, as one genome.
     """
 
     curriculum: str

@@ -47,9 +47,9 @@ def reachable(graph: Graph, master: str) -> tuple[Skill, ...]:
 
 
 def learners(graph: Graph, lesson: Lesson) -> tuple[str, ...]:
-    """The skills that a lesson teaches, in the order of its genome."""
+    """The skills that a lesson teaches, in the order of its genome; none where all of them are frozen."""
     taught = reachable(graph, lesson.skill) if lesson.with_subskills else reachable(graph, lesson.skill)[:1]
-    return tuple(skill.name for skill in taught if genes(skill))
+    return tuple(skill.name for skill in taught if genes(skill) and not skill.frozen)
 
 
 def parts(graph: Graph, names: Iterable[str], genome: Weights) -> dict[str, Weights]:

@@ -62,7 +62,8 @@ def fingerprint(graph: Graph, lesson: Lesson, procedures: Path | None) -> str:
     """The SHA-256 of what a lesson depends on: its task, the skills under its master, the body and its parts."""
     skills = reachable(graph, lesson.master)
     tasks = tuple(task for task in graph.tasks if task.name == lesson.task)
-    scope = replace(graph, master=lesson.master, tasks=tasks, lessons=())
+    thawed = tuple(replace(skill, frozen=False) for skill in graph.skills)  # to freeze a skill changes no other's lesson
+    scope = replace(graph, master=lesson.master, skills=thawed, tasks=tasks, lessons=())
     code = [
         module_source(skill.function, procedures)
         for skill in skills

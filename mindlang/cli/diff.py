@@ -1,0 +1,53 @@
+"""`mindc diff`: what changed in meaning between two minds, and which weights survive it."""
+
+import sys
+
+import click
+
+EXAMPLES = """\b
+Examples:
+  mindc diff old/collect.mind collect.mind
+  git show HEAD:collect.mind | mindc diff - collect.mind
+"""
+
+
+@click.command(epilog=EXAMPLES)
+@click.argument("old")
+@click.argument("new")
+@click.option("--json", "as_json", is_flag=True, help="One JSON document instead: mindc diff a.mind b.mind --json")
+def command(old: str, new: str, as_json: bool) -> None:
+    """Show what changed in meaning from OLD to NEW, and which weights of OLD's lock fit NEW.
+
+    Comments, spaces, the order of lines and other spellings of the same do not count. Ends with 0 where nothing
+    changed, with 1 where something did.
+    """
+    from mindlang.comparison import differences
+    from mindlang.lock.report import as_data, rows
+    from mindlang.terminal import FINDINGS, OK, console, load_compiled, print_json
+
+    before, after = load_compiled(old), load_compiled(new)
+    assert before.mind is not None
+    assert after.mind is not None
+    assert after.graph is not None
+    found = differences(before.mind, after.mind)
+    standing = rows(after.graph, [source.path for source in before.sources])
+    if as_json:
+        print_json(
+            {
+                "differences": [{"what": each.what, "gone": [*each.gone], "new": [*each.new]} for each in found],
+                "skills": [as_data(row) for row in standing],
+            }
+        )
+    else:
+        from mindlang.lock.report import survival
+        from rich.text import Text
+
+        for each in found:
+            console().print(Text(each.what, "bold"))
+            for line in each.gone:
+                console().print(Text(f"  - {line}", "red"))
+            for line in each.new:
+                console().print(Text(f"  + {line}", "green"))
+        for line in survival(standing):
+            console().print(Text(line))
+    sys.exit(FINDINGS if found else OK)

@@ -1,0 +1,16 @@
+"""`mindc edit freeze`."""
+
+from mindlang.editing.page import below_siblings
+from mindlang.editing.project import Change, EditError, Project, facts
+from mindlang.syntax import Stays
+
+
+def freeze(project: Project, skill: str) -> Change:
+    """Let a skill stay as it is: it refuses training, and lessons with subskills leave it out.
+
+    Example: mindc edit freeze Avoid collect.mind
+    """
+    declaration = project.find(skill, "skill")
+    if frozen := facts(declaration, Stays):
+        raise EditError(f"{skill} is frozen already.", "", frozen[0].span)
+    return Change((below_siblings(declaration, Stays, ["stays frozen"]),))

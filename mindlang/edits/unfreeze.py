@@ -1,0 +1,17 @@
+"""`mindc edit unfreeze`."""
+
+from mindlang.editing.page import without_line
+from mindlang.editing.project import Change, EditError, Project, facts
+from mindlang.syntax import Stays
+
+
+def unfreeze(project: Project, skill: str) -> Change:
+    """Let a frozen skill be taught again.
+
+    Example: mindc edit unfreeze Avoid collect.mind
+    """
+    declaration = project.find(skill, "skill")
+    frozen = facts(declaration, Stays)
+    if not frozen:
+        raise EditError(f"{skill} is not frozen.", "", declaration.header.span)
+    return Change(tuple(without_line(fact.span) for fact in frozen))
