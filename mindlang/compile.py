@@ -8,6 +8,7 @@ from pathlib import Path
 from mindrun.graph import Graph
 
 from mindlang.diagnostic import Diagnostic, Findings
+from mindlang.journal import JournalError, recover
 from mindlang.lower import lower
 from mindlang.model import Mind
 from mindlang.resolve import resolve
@@ -33,18 +34,27 @@ class Compiled:
         return bool(self.sources)
 
 
-def load(path: Path | str) -> Compiled:
-    """The file at `path`, or with "-" standard input, compiled; whatever is wrong is in the diagnostics."""
+def load(path: Path | str, texts: Mapping[Path, str] = NOTHING) -> Compiled:
+    """The file at `path`, or with "-" standard input, compiled; whatever is wrong is in the diagnostics.
+
+    Files that stand in `texts` are taken from there.
+    """
+    resolved = Path(path).resolve()
     try:
-        if str(path) == "-":
+        recover(resolved.parent)
+        if resolved in texts:
+            source = Source(str(path), texts[resolved], resolved.parent)
+        elif str(path) == "-":
             source = Source("<stdin>", decode(sys.stdin.buffer.read(LIMIT + 1)), Path.cwd().resolve())
         else:
             source = read(Path(path), str(path))
+    except JournalError as error:
+        return _unreadable(f"{error}.", error.hint)
     except OSError as error:
         return _unreadable(f"{path} cannot be read: {error.strerror or error}.", "Is the path right?")
     except ValueError as error:
         return _unreadable(f"{path} {error}.", "A .mind file is UTF-8 text of at most 1 MiB.")
-    return compile_source(source, Path(path).resolve())
+    return compile_source(source, resolved, texts)
 
 
 def compile_source(source: Source, path: Path = Path("-"), texts: Mapping[Path, str] = NOTHING) -> Compiled:

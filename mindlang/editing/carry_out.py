@@ -6,12 +6,13 @@ from pathlib import Path
 
 from mindrun.weights import to_npy
 
+from mindlang import journal
 from mindlang.compile import Compiled, compile_source
-from mindlang.editing import journal
 from mindlang.editing.follow import Followed, follow, locks_of, merged
 from mindlang.editing.project import Change, EditError, Project
 from mindlang.lock import lock_text
 from mindlang.lock.arrange import arrange
+from mindlang.lock.blobs import FOLDER, alone
 from mindlang.lock.status import Status, status
 from mindlang.splice import spliced, unified
 
@@ -68,7 +69,8 @@ def write(edited: Edited) -> None:
     for path, entries in edited.followed.locks.items():
         if path.exists() or entries:
             files[path] = lock_text(entries).encode()
-    journal.change(folder, files)
+    with alone(folder / FOLDER):  # a training may keep what it has taught just now
+        journal.change(folder, files)
 
 
 def _texts(project: Project, change: Change) -> dict[Path, str]:

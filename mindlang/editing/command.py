@@ -5,9 +5,10 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from mindlang.diagnostic import Diagnostic
+from mindlang.diagnostic import Diagnostic, listed
 from mindlang.editing.carry_out import Edited, carry_out, write
 from mindlang.editing.catalog import Edit
+from mindlang.editing.neighbours import broken
 from mindlang.editing.project import EditError, open_project
 from mindlang.editing.telling import told
 from mindlang.report import as_data, print_report
@@ -29,9 +30,13 @@ def perform(of: Edit, said: Mapping[str, Any], file: str, wishes: Wishes) -> Non
     project = open_project(load_compiled(file))
     try:
         edited = carry_out(project, of.function(project, **said), wishes.keep_weights)
+        sentences = [*told(edited), *broken(edited)]  # before the locks are written, which they are about
+        if wishes.verify:
+            from mindlang.editing.verify import verified
+
+            sentences.append(f"verified: {listed(verified(edited) or ['nothing'], 'and')} did the same to the bit")
     except EditError as error:
         _refuse(error.diagnostic, wishes)
-    sentences = told(edited)  # before the locks are written, which they are about
     if wishes.write:
         write(edited)
     _show(edited, sentences, wishes)

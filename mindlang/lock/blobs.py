@@ -46,7 +46,7 @@ def record(
     """
     entries = {skill: _entry(path, graph, skill, {**others, **learnt}, taught) for skill in learnt}
     try:
-        with _alone(path.parent / FOLDER):
+        with alone(path.parent / FOLDER):
             lock = read_lock(path)
             for skill, entry in entries.items():
                 write(blob(path.parent, entry.weights), to_npy(learnt[skill]))
@@ -71,7 +71,7 @@ def digest(weights: Weights) -> str:
 
 
 @contextmanager
-def _alone(folder: Path) -> Iterator[None]:
+def alone(folder: Path) -> Iterator[None]:
     """Let one process at a time change a folder of weights and the locks beside it."""
     folder.mkdir(exist_ok=True)
     descriptor = os.open(folder, os.O_RDONLY)

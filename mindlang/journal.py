@@ -1,7 +1,7 @@
 """Several files changed together or not at all, whatever happens meanwhile.
 
-Before anything is written, a journal beside them keeps what they were; it goes when all is done. A journal that is found
-later is of a change that was interrupted: the files are put back.
+Before anything is written, a journal beside them keeps what they were; it goes when all is done. A journal that is
+found later is of a change that was interrupted: the files are put back.
 """
 
 import fcntl
@@ -26,8 +26,8 @@ class JournalError(MindError):
 def change(folder: Path, files: Mapping[Path, bytes]) -> None:
     """Write files, all of them in `folder` or below; JournalError where that fails.
 
-    Whether this ends, fails or is killed: afterwards, at the latest when `recover` has been called, either all files are
-    changed or all are as they were.
+    Whether this ends, fails or is killed: afterwards, at the latest when `recover` has been called, either all files
+    are changed or all are as they were.
     """
     with _alone(folder):
         _put_back(folder)
@@ -43,9 +43,15 @@ def change(folder: Path, files: Mapping[Path, bytes]) -> None:
 
 
 def recover(folder: Path) -> bool:
-    """Put back what an interrupted change left behind; whether there was one. JournalError where that would lose work."""
-    if not (folder / NAME).exists():
-        return False
+    """Put back what an interrupted change left behind in a folder or above it; whether there was one.
+
+    JournalError where that would lose work that was done since.
+    """
+    left = [above for above in (folder, *folder.parents) if (above / NAME).exists()]
+    return any([_recovered(above) for above in left])
+
+
+def _recovered(folder: Path) -> bool:
     with _alone(folder):  # not while that change is still going on
         return _put_back(folder)
 

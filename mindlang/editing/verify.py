@@ -1,0 +1,166 @@
+"""An edit held against what was learnt: every trained skill that it does not touch does the same, to the bit."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from itertools import islice
+from pathlib import Path
+
+import numpy as np
+from mindrun.engine import Engine
+from mindrun.graph import Graph, Skill
+from mindrun.sim.rollout import Rollout
+from mindrun.sim.trace import trace
+from mindrun.weights import Weights, genes, reachable, weights_of
+from numpy.typing import NDArray
+
+from mindlang import simulator
+from mindlang.editing.carry_out import Edited
+from mindlang.editing.follow import locks_of, merged
+from mindlang.editing.project import EditError
+from mindlang.lock import Lock
+from mindlang.lock.arrange import arrange
+from mindlang.lock.blobs import blob, load_weights
+from mindlang.lock.status import Trained, status
+from mindlang.terminal import procedures_talk, say
+
+TICKS = 2000  # of a run that is recorded
+SEED = 1
+
+Names = Mapping[str, Mapping[str, str]]  # what is called otherwise now, by noun
+
+
+@dataclass(frozen=True, slots=True)
+class Side:
+    """A mind before or after an edit; `fresh` are weights that have not been written yet, by the path of their file."""
+
+    graph: Graph
+    lock: Lock
+    fresh: Mapping[Path, Weights]
+    folder: Path
+
+    def weights(self, master: str) -> dict[str, Weights] | None:
+        """The weights of all skills below a master; None where one is missing or stale."""
+        states = status(self.graph, self.lock)
+        found = {}
+        for skill in reachable(self.graph, master):
+            if genes(skill):
+                state = states[skill.name]
+                if not isinstance(state, Trained):
+                    return None
+                entry = state.entry
+                fresh = self.fresh.get(blob(entry.folder, entry.weights))
+                found[skill.name] = load_weights(entry, skill) if fresh is None else weights_of(skill, {skill.name: fresh})
+        return found
+
+    def engine(self, master: str, weights: Mapping[str, Weights]) -> Engine:
+        """The hierarchy below a master, as it runs on a robot."""
+        return Engine(self.graph, weights, self.folder, master)
+
+
+@procedures_talk()
+def verified(edited: Edited) -> list[str]:
+    """The trained skills that did the same before and after, each in charge of the task on which it was taught.
+
+    What they read is recorded from a run in the simulator, as the mind was. EditError where one did something else.
+    """
+    lock = merged(locks_of(file.source.path for file in edited.project.files))
+    folder = edited.project.main.source.folder
+    before = Side(arrange(edited.project.graph, lock), lock, {}, folder)
+    now = merged(edited.followed.locks)
+    assert edited.compiled.graph is not None
+    after = Side(arrange(edited.compiled.graph, now), now, edited.followed.weights, folder)
+    names = _names(edited)
+    done = []
+    for skill, state in status(before.graph, lock).items():
+        master = names["skill"].get(skill, skill)
+        if isinstance(state, Trained) and _is_untouched(before, after, skill, master, names):
+            _hold(before, after, skill, master, state, names)
+            done.append(master)
+    return done
+
+
+def _names(edited: Edited) -> dict[str, dict[str, str]]:
+    found: dict[str, dict[str, str]] = {"skill": {}}
+    for rename in edited.change.renamed:
+        found.setdefault(rename.noun, {})[rename.old] = rename.new
+    return found
+
+
+def _is_untouched(before: Side, after: Side, skill: str, master: str, names: Names) -> bool:
+    """Whether all that a skill reaches is declared as before, or has been widened to do as before; and can act."""
+    old, new = before.weights(skill), master in after.lock and after.weights(master)
+    if not old or not new:
+        return False
+    skills = {found.name: found for found in after.graph.skills}
+    for found in reachable(before.graph, skill):
+        name = names["skill"].get(found.name, found.name)
+        widened = name in new and found.name in old and len(new[name]) != len(old[found.name])
+        if name not in skills or not (widened or _shape(before, found, names) == _shape(after, skills[name], {})):
+            return False
+    return True
+
+
+def _shape(side: Side, skill: Skill, names: Names) -> object:
+    """What a skill reads and sends, by name."""
+    readings = _readings(side.graph)
+
+    def now(name: str, *nouns: str) -> str:
+        return next((names[noun][name] for noun in nouns if name in names.get(noun, {})), name)
+
+    def called(index: float) -> tuple[str, int]:
+        name, number = readings[int(index)]
+        return now(name, "sensor", "memory"), number
+
+    edges = [
+        (
+            edge.to,
+            now(side.graph.named(edge.to, edge.target), edge.to),
+            edge.output,
+            [(word, called(value) if word == "reading" else value) for word, value in edge.value],
+        )
+        for edge in skill.edges
+    ]
+    return skill.function, [called(index) for index in skill.inputs], edges
+
+
+def _readings(graph: Graph) -> list[tuple[str, int]]:
+    """The name of each reading, and its number among those of its sensor."""
+    wide = [(sensor.name, number) for sensor in graph.sensors for number in range(sensor.width)]
+    return wide + [(memory.name, 0) for memory in graph.memories]
+
+
+def _hold(before: Side, after: Side, skill: str, master: str, state: Trained, names: Names) -> None:
+    """Run a skill before and after on the same readings; EditError at the first tick that differs."""
+    recorded = _recorded(before, skill, state)
+    columns = {(_now(name, names), number): column for column, (name, number) in enumerate(_readings(before.graph))}
+    places = [columns.get(reading, -1) for reading in _readings(after.graph)]
+    with_zero = np.concatenate([recorded, np.zeros((len(recorded), 1), np.float32)], axis=1)  # for what is new
+    old, new = before.weights(skill), after.weights(master)
+    assert old is not None
+    assert new is not None
+    engines = before.engine(skill, old), after.engine(master, new)
+    actuators = [_now(actuator.name, names, "actuator") for actuator in before.graph.actuators]
+    order = [[actuator.name for actuator in after.graph.actuators].index(name) for name in actuators]
+    for tick, readings in enumerate(with_zero):
+        commands = engines[0].tick(readings[:-1]), engines[1].tick(readings[places])[order]
+        if commands[0].tobytes() != commands[1].tobytes():
+            raise EditError(
+                f"{master} would do something else: at tick {tick} of a recorded run it commands "
+                f"{commands[1].tolist()} instead of {commands[0].tolist()}.",
+                "Nothing has been changed.",
+            )
+
+
+def _now(name: str, names: Names, *nouns: str) -> str:
+    return next((names[noun][name] for noun in nouns or ("sensor", "memory") if name in names.get(noun, {})), name)
+
+
+def _recorded(side: Side, skill: str, state: Trained) -> NDArray[np.float32]:
+    """What a skill reads [ticks, graph.width] in a run of the task on which it was taught."""
+    tasks = [task.name for task in side.graph.tasks]
+    task = state.entry.taught.task if state.entry.taught.task in tasks else tasks[0]
+    weights = side.weights(skill)
+    assert weights is not None
+    rollout = Rollout(side.graph, weights, task, skill, procedures=side.folder)
+    simulator.make_ready(rollout, say)
+    return np.array([moment.readings for moment in islice(trace(rollout, SEED).moments, TICKS)])
