@@ -8,8 +8,9 @@ import fcntl
 import json
 import os
 from base64 import b64decode, b64encode
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
+from dataclasses import dataclass
 from hashlib import sha256
 from pathlib import Path
 
@@ -17,29 +18,40 @@ from mindrun.durable import sync_folder, write
 from mindrun.errors import MindError
 
 NAME = ".mind-edit"
+KINDS = (".mind", ".lock", ".npy")  # of files that mindc changes
 
 
 class JournalError(MindError):
     """Files that cannot be written, or put back."""
 
 
-def change(folder: Path, files: Mapping[Path, bytes]) -> None:
+@dataclass(frozen=True, slots=True)
+class _Noted:
+    """What a file was, and a hash of what it is going to be; None and "" where there is none."""
+
+    was: bytes | None
+    becomes: str
+
+
+def change(folder: Path, files: Mapping[Path, bytes], check: Callable[[], None] = lambda: None) -> None:
     """Write files, all of them in `folder` or below; JournalError where that fails.
 
     Whether this ends, fails or is killed: afterwards, at the latest when `recover` has been called, either all files
-    are changed or all are as they were.
+    are changed or all are as they were. `check` may still refuse, when no other process can change these files.
     """
     with _alone(folder):
         _put_back(folder)
+        check()
         try:
             write(folder / NAME, _journal(folder, files))
             for path, data in files.items():
-                path.parent.mkdir(parents=True, exist_ok=True)
                 _set(path, data)
-        except OSError as error:
-            _put_back(folder)
-            raise JournalError(f"{error.filename or folder} cannot be written: {error.strerror}") from error
-        _done(folder)
+            _done(folder)
+        except BaseException as error:
+            _undo(folder)
+            if isinstance(error, OSError):
+                raise JournalError(f"{error.filename or folder} cannot be written: {error.strerror}") from error
+            raise
 
 
 def recover(folder: Path) -> bool:
@@ -47,8 +59,15 @@ def recover(folder: Path) -> bool:
 
     JournalError where that would lose work that was done since.
     """
-    left = [above for above in (folder, *folder.parents) if (above / NAME).exists()]
-    return any([_recovered(above) for above in left])
+    return sum(_recovered(above) for above in (folder, *folder.parents) if _is_left(above)) > 0
+
+
+def _is_left(folder: Path) -> bool:
+    """Whether a journal lies in a folder; one of somebody else does not count."""
+    try:
+        return (folder / NAME).stat().st_uid == os.getuid()
+    except OSError:
+        return False
 
 
 def _recovered(folder: Path) -> bool:
@@ -56,8 +75,18 @@ def _recovered(folder: Path) -> bool:
         return _put_back(folder)
 
 
+def _undo(folder: Path) -> None:
+    """Put back at once what a failed change has written; where that fails too, the journal stays."""
+    try:
+        _put_back(folder)
+    except OSError as error:
+        raise JournalError(
+            f"{error.filename or folder} cannot be written: {error.strerror}",
+            f"the edit is half done; any mindc command takes it back as soon as {folder} can be written again",
+        ) from error
+
+
 def _journal(folder: Path, files: Mapping[Path, bytes]) -> bytes:
-    """What the files are, and a hash of what they are going to be."""
     plain = {
         path.relative_to(folder).as_posix(): {"was": _packed(_get(path)), "becomes": _hash(data)}
         for path, data in files.items()
@@ -66,22 +95,44 @@ def _journal(folder: Path, files: Mapping[Path, bytes]) -> bytes:
 
 
 def _put_back(folder: Path) -> bool:
-    try:
-        plain = json.loads((folder / NAME).read_bytes())
-    except FileNotFoundError:
+    if (noted := _read(folder)) is None:
         return False
-    old = {folder / path: (_unpacked(told["was"]), told["becomes"]) for path, told in plain.items()}
-    for path, (was, becomes) in old.items():
+    for path, note in noted.items():
         now = _get(path)
-        if now != was and _hash(now) != becomes:
+        if now != note.was and _hash(now) != note.becomes:
             raise JournalError(
                 f"{path} has been changed since an edit was interrupted",
                 f"keep the files as they are by deleting {folder / NAME}, or get {path.name} back",
             )
-    for path, (was, _) in old.items():
-        _set(path, was)
+    for path, note in noted.items():
+        path.with_name(f"{path.name}.tmp").unlink(missing_ok=True)
+        _set(path, note.was)
     _done(folder)
     return True
+
+
+def _read(folder: Path) -> dict[Path, _Noted] | None:
+    """The journal of a folder, if there is one; JournalError where it is none that mindc wrote."""
+    try:
+        plain = json.loads((folder / NAME).read_bytes())
+        return {
+            _inside(folder, path): _Noted(_unpacked(told["was"]), str(told["becomes"])) for path, told in plain.items()
+        }
+    except FileNotFoundError:
+        return None
+    except (ValueError, TypeError, KeyError, AttributeError) as error:
+        raise JournalError(f"{folder / NAME} is not what mindc wrote", "delete it") from error
+
+
+def _inside(folder: Path, name: str) -> Path:
+    """The path of a file in a folder; ValueError where that leads out of it, or to a file that mindc never changes.
+
+    A journal may have come from anywhere, with a project that somebody has fetched.
+    """
+    path = folder / name
+    if path.suffix not in KINDS or path.is_symlink() or not path.resolve().is_relative_to(folder.resolve()):
+        raise ValueError(name)
+    return path
 
 
 def _done(folder: Path) -> None:
@@ -111,6 +162,7 @@ def _set(path: Path, data: bytes | None) -> None:
     if data is None:
         path.unlink(missing_ok=True)
     elif _get(path) != data:
+        path.parent.mkdir(parents=True, exist_ok=True)
         write(path, data)
 
 

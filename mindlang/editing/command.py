@@ -12,7 +12,7 @@ from mindlang.editing.neighbours import broken
 from mindlang.editing.project import EditError, open_project
 from mindlang.editing.telling import told
 from mindlang.report import as_data, print_report
-from mindlang.terminal import FINDINGS, console, load_compiled, print_json, talk
+from mindlang.terminal import FINDINGS, MISUSE, console, fail, load_compiled, print_json, talk
 
 
 @dataclass(frozen=True, slots=True)
@@ -27,18 +27,20 @@ class Wishes:
 
 def perform(of: Edit, said: Mapping[str, Any], file: str, wishes: Wishes) -> None:
     """Make an edit of a file; an impossible one ends the program with its reason."""
+    if wishes.write and file == "-":
+        fail("Standard input cannot be written.", "Leave --write out: the diff is printed.", MISUSE)
     project = open_project(load_compiled(file))
     try:
         edited = carry_out(project, of.function(project, **said), wishes.keep_weights)
-        sentences = [*told(edited), *broken(edited)]  # before the locks are written, which they are about
+        sentences = [*told(edited), *broken(edited)]
         if wishes.verify:
             from mindlang.editing.verify import verified
 
             sentences.append(f"verified: {listed(verified(edited) or ['nothing'], 'and')} did the same to the bit")
+        if wishes.write:
+            write(edited)
     except EditError as error:
         _refuse(error.diagnostic, wishes)
-    if wishes.write:
-        write(edited)
     _show(edited, sentences, wishes)
 
 

@@ -1,7 +1,6 @@
 """Files beside those of an edit that use one of them, and would no longer compile."""
 
 from collections.abc import Iterator
-from pathlib import Path
 
 from mindlang.compile import load
 from mindlang.editing.carry_out import Edited

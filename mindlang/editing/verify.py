@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from mindlang import simulator
 from mindlang.editing.carry_out import Edited
-from mindlang.editing.follow import locks_of, merged
+from mindlang.editing.follow import merged
 from mindlang.editing.project import EditError
 from mindlang.lock import Lock
 from mindlang.lock.arrange import arrange
@@ -49,7 +49,9 @@ class Side:
                     return None
                 entry = state.entry
                 fresh = self.fresh.get(blob(entry.folder, entry.weights))
-                found[skill.name] = load_weights(entry, skill) if fresh is None else weights_of(skill, {skill.name: fresh})
+                found[skill.name] = (
+                    load_weights(entry, skill) if fresh is None else weights_of(skill, {skill.name: fresh})
+                )
         return found
 
     def engine(self, master: str, weights: Mapping[str, Weights]) -> Engine:
@@ -63,12 +65,11 @@ def verified(edited: Edited) -> list[str]:
 
     What they read is recorded from a run in the simulator, as the mind was. EditError where one did something else.
     """
-    lock = merged(locks_of(file.source.path for file in edited.project.files))
+    lock = merged(edited.locks)
     folder = edited.project.main.source.folder
     before = Side(arrange(edited.project.graph, lock), lock, {}, folder)
     now = merged(edited.followed.locks)
-    assert edited.compiled.graph is not None
-    after = Side(arrange(edited.compiled.graph, now), now, edited.followed.weights, folder)
+    after = Side(arrange(edited.graph, now), now, edited.followed.weights, folder)
     names = _names(edited)
     done = []
     for skill, state in status(before.graph, lock).items():

@@ -1,0 +1,179 @@
+"""Hypothesis strategies for the texts of whole hierarchies, as people write them."""
+
+from dataclasses import dataclass
+from itertools import count
+from pathlib import Path
+from random import Random
+
+from hypothesis import strategies as st
+
+from mindlang.compile import Compiled, compile_source
+from mindlang.editing.project import Project, open_project
+from mindlang.source import Source
+
+FOLDER = Path("/nowhere/minds")
+MAIN, PARTS = FOLDER / "main.mind", FOLDER / "parts.mind"
+SKILLS = ("Go", "Avoid", "Go+Avoid", "Collect", "Fetch", "Grab", "Wait")
+NARROW = ("charge", "beat", "ball_bearing", "drift", "mood")  # readings of width 1
+BODY = ["body Robot is disc size 2", "body Robot is disc density 2 size 2"]
+ACTUATORS = {
+    "left_wheel": ["actuator left_wheel is wheel side left thrust 80 neutral 0.5"],
+    "right_wheel": ["actuator right_wheel is wheel neutral 50% side right"],
+    "claw": ["actuator claw is gripper neutral 0"],
+}
+SENSORS = {
+    "eye": [
+        "sensor eye is range_finder at 0 30 330 deg",
+        "sensor eye is range_finder at -30 deg 0 deg 30 deg range 12",
+    ],
+    "charge": ["sensor charge is battery"],
+    "beat": ["sensor beat is sine period 2 s"],
+    "ball_bearing": ["sensor ball_bearing is bearing of ball"],
+    "drift": ["sensor drift is derivative of ball_bearing"],
+    "mood": ["memory mood is cell decay 0.9", "memory mood is cell decay 90%"],
+}
+REWARDS = [
+    ["rewards 10 on reach of ball"],
+    ["rewards 0.01 * forward per tick"],
+    ["rewards -0.03 * (1 - 4 * p) per tick for each p in eye when p < 1/4"],
+    ["rewards 0.001 * progress toward ball per tick when charge > 0.5", "rewards charge / 2 per tick"],
+]
+WORDS = ("note", "why?", "skill Go is rule", "  spaced  out", "é – “x”", "reads charge", "stays frozen", "#")
+
+
+@dataclass(frozen=True, slots=True)
+class Texts:
+    """The texts of a mind by path, the main one first; `airy` where blank lines set off all its declarations."""
+
+    files: dict[Path, str]
+    airy: bool
+
+    def compiled(self) -> Compiled:
+        """The mind compiled; nothing is on a disk."""
+        return compile_source(Source(MAIN.name, self.files[MAIN], FOLDER), MAIN, self.files)
+
+    def project(self) -> Project:
+        """The mind as an edit takes it."""
+        return open_project(self.compiled())
+
+    def changed(self, texts: dict[Path, str]) -> "Texts":
+        """The texts with others in their place."""
+        return Texts(self.files | texts, self.airy)
+
+
+@st.composite
+def minds(draw: st.DrawFn) -> Texts:
+    """A mind that compiles: one file or two, with LF or CRLF, with or without an end of its last line."""
+    rng = draw(st.randoms(use_true_random=False))
+    declared = _declarations(rng)
+    rng.shuffle(declared)
+    apart = [lines for lines in declared if rng.random() < 0.3] if rng.random() < 0.3 else []
+    settings = [
+        ["tick 1/60 s"],
+        [f"master {rng.choice([_name(lines) for lines in declared if _noun(lines) == 'skill'])}"],
+    ]
+    main = [*settings, *([['use "parts.mind"']] if apart else []), *(lines for lines in declared if lines not in apart)]
+    style, numbers = _Style(rng), count()
+    files = {MAIN: _written(main, style, numbers)}
+    if apart:
+        files[PARTS] = _written(apart, style, numbers)
+    return Texts(files, style.gaps == 1)
+
+
+class _Style:
+    """How somebody writes."""
+
+    def __init__(self, rng: Random) -> None:
+        self.rng = rng
+        self.end = rng.choice(["\n", "\n", "\r\n"])
+        self.final = rng.random() < 0.7
+        self.indent = rng.choice(["  ", "  ", "\t", "", "    "])
+        self.comments = rng.choice([0.0, 0.1, 0.4])
+        self.gaps = rng.choice([0.0, 0.5, 1.0])
+
+
+def _written(blocks: list[list[str]], style: _Style, numbers: "count[int]") -> str:
+    lines: list[str] = []
+    for header, *facts in blocks:
+        lines += [""] * (style.rng.random() < style.gaps)
+        lines += [_comment(style, numbers) for _ in range(2) if style.rng.random() < style.comments]
+        lines.append(_trailed(header, style, numbers))
+        for fact in facts:
+            if style.rng.random() < style.comments / 2:
+                lines.append(style.indent + _comment(style, numbers))
+            lines.append(_trailed(style.indent + fact, style, numbers))
+    lines += [_comment(style, numbers) for _ in range(2) if style.rng.random() < style.comments]
+    return style.end.join(lines) + style.end * style.final
+
+
+def _trailed(line: str, style: _Style, numbers: "count[int]") -> str:
+    spaced = line.replace(" is ", "  is ") if style.rng.random() < 0.1 else line
+    return f"{spaced}  {_comment(style, numbers)}" if style.rng.random() < style.comments else spaced
+
+
+def _comment(style: _Style, numbers: "count[int]") -> str:
+    return f"# {next(numbers)}: {style.rng.choice(WORDS)}"
+
+
+def _declarations(rng: Random) -> list[list[str]]:
+    skills = rng.sample(SKILLS, rng.randint(1, 6))
+    functions = {skill: rng.choice(["mlp hidden 2", "mlp hidden 1 width 4", "mlp", "rule"]) for skill in skills}
+    blocks = [[rng.choice(lines)] for part in (ACTUATORS, SENSORS) for lines in part.values()] + [[rng.choice(BODY)]]
+    blocks += [_skill(rng, skill, functions[skill], skills[place + 1 :]) for place, skill in enumerate(skills)]
+    tasks = rng.sample([*SKILLS[:3], "Roam"], rng.randint(1, 2))
+    blocks += [_task(rng, task) for task in tasks]
+    learners = [skill for skill in skills if functions[skill] != "rule"]
+    if learners:
+        lessons = [
+            f"teaches {skill} on {rng.choice(tasks)} for {rng.randint(1, 9)} generations"
+            + rng.choice(["", " from scratch"])
+            for skill in rng.sample(learners, rng.randint(0, len(learners)))
+        ]
+        blocks.append(["curriculum School is genetic population 8", *lessons])
+    return blocks
+
+
+def _skill(rng: Random, name: str, function: str, below: list[str]) -> list[str]:
+    reads = rng.sample(list(SENSORS), rng.randint(1, 3))
+    targets = [f"influences {skill}" for skill in rng.sample(below, rng.randint(0, min(3, len(below))))]
+    driven = rng.sample([*ACTUATORS, "mood"], rng.randint(0 if targets else 1, 2))
+    edges = [f"drives {part}" for part in driven] + targets
+    if rng.random() < 0.3:
+        rng.shuffle(edges)
+    said = [
+        f"{edge} at {_value(rng, reads)}" if function == "rule" or (i and rng.random() < 0.3) else edge
+        for i, edge in enumerate(edges)
+    ]
+    frozen = ["stays frozen"] * (rng.random() < 0.2)
+    return [f"skill {name} is {function}", *(f"reads {reading}" for reading in reads), *said, *frozen]
+
+
+def _value(rng: Random, reads: list[str]) -> str:
+    number = rng.choice(["0.5", "1", "20%", "1/4"])
+    narrow = [reading for reading in reads if reading in NARROW]
+    if not narrow or rng.random() < 0.3:
+        return number
+    reading = rng.choice(narrow)
+    return rng.choice([reading, f"1 - {reading}", f"({number} + {reading}) * {rng.choice(narrow)}", f"{reading}/2"])
+
+
+def _task(rng: Random, name: str) -> list[str]:
+    scene, *things = rng.choice([["plain"], ["arena size 40", "contains rock is obstacle grid 10 size 2 to 3"]])
+    rewards = [rng.choice(lines) for lines in rng.sample(REWARDS, rng.randint(1, 3))]
+    facts = [
+        *things,
+        "contains ball is item size 2",
+        "lasts 600 ticks",
+        "ends on collision",
+        *rewards,
+        "counts reach of ball",
+    ]
+    return [f"task {name} in {scene}", *facts]
+
+
+def _noun(lines: list[str]) -> str:
+    return lines[0].split()[0]
+
+
+def _name(lines: list[str]) -> str:
+    return lines[0].split()[1]
