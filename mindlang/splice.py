@@ -3,10 +3,12 @@
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from difflib import unified_diff
+from io import StringIO
 
 from mindlang.source import Source
 
 CONTEXT = 3  # lines around a change in a diff
+MARGIN = 100  # lines over which difflib may slide a change that begins or ends as what is beside it
 
 
 @dataclass(frozen=True, slots=True)
@@ -20,31 +22,31 @@ class Splice:
 
 
 def spliced(source: Source, splices: Iterable[Splice]) -> str:
-    """The text of a source with its own of the splices made; ValueError where two overlap that are no mere removals.
+    """The text of a source with its own of the splices made; ValueError where two overlap.
 
     Those that insert at one place stand in their order.
     """
     own = [splice for splice in splices if splice.source is source]
     parts, end = [], 0
     for splice in sorted(own, key=lambda splice: (splice.start, splice.end)):
-        if splice.start < end and splice.text:
+        if splice.start < end:
             raise ValueError(f"two splices overlap at offset {splice.start} of {source.name}")
         parts += [source.text[end : splice.start], splice.text]
-        end = max(end, splice.end)
+        end = splice.end
     return "".join([*parts, source.text[end:]])
 
 
 def unified(name: str, old: str, new: str) -> str:
-    """A unified diff that `patch -p1` and `git apply` take; empty where nothing differs."""
-    before, after = (text.splitlines(keepends=True) for text in (old, new))
+    """A unified diff that `patch -p1` and `git apply` take; empty where nothing differs, a new file where `old` is."""
+    before, after = (StringIO(text, newline="\n").readlines() for text in (old, new))  # other characters end no line
     # difflib takes long over equal lines, and most lines of an edited file are: it is given those between the first and
-    # the last difference alone, with their context.
+    # the last difference alone, with some around them.
     first = _common(before, after)
     last = _common(before[first:][::-1], after[first:][::-1])
-    start = max(0, first - CONTEXT)
-    keep = max(0, last - CONTEXT)
+    start = max(0, first - MARGIN)
+    keep = max(0, last - MARGIN)
     lines = unified_diff(before[start : len(before) - keep], after[start : len(after) - keep], n=CONTEXT)
-    return "".join(_named(name, lines, start))
+    return "".join(_named(f"a/{name}" if old else "/dev/null", f"b/{name}", lines, start))
 
 
 def _common(before: list[str], after: list[str]) -> int:
@@ -53,14 +55,14 @@ def _common(before: list[str], after: list[str]) -> int:
     return next((index for index, (a, b) in enumerate(pairs) if a != b), min(len(before), len(after)))
 
 
-def _named(name: str, lines: Iterable[str], start: int) -> Iterator[str]:
-    """The lines of a diff with the file's name, and line numbers that count from the file's first line."""
+def _named(old: str, new: str, lines: Iterable[str], start: int) -> Iterator[str]:
+    """The lines of a diff with the names of its files, and line numbers that count from the file's first line."""
     for number, line in enumerate(lines):
         match number, line:
             case 0, _:
-                yield f"--- a/{name}\n"
+                yield f"--- {old}\n"
             case 1, _:
-                yield f"+++ b/{name}\n"
+                yield f"+++ {new}\n"
             case _ if line.startswith("@@"):
                 yield _moved(line, start)
             case _:

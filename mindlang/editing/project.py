@@ -1,6 +1,6 @@
 """What an edit works on: the files of a mind, main one first, and what their names mean."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TypeVar
@@ -14,12 +14,13 @@ from mindlang.editing.references import Mention, mentions
 from mindlang.model import Mind
 from mindlang.parse import parse
 from mindlang.parse.explain import proper
-from mindlang.resolve.names import Names, gather
+from mindlang.resolve.names import SHARED, Names, gather
 from mindlang.source import Source, Span
 from mindlang.splice import Splice
-from mindlang.syntax import NOUNS, Declaration, Drives, Fact, File, Influences, Master, Reads
+from mindlang.syntax import NOUNS, Contains, Declaration, Drives, Fact, File, Influences, Master, Reads
 
 F = TypeVar("F", bound=Fact)
+MOST = 8  # names in a message
 
 
 class EditError(MindError):
@@ -70,21 +71,22 @@ class Project:
         """The declaration of a name with one of the nouns; EditError where there is none."""
         if noun := self.names.noun_of(name, nouns):
             return self.names.table[noun][name]
-        known = self.names.of(*nouns)
-        hint = did_you_mean(name, known) or (f"Declared are {listed(known[:8], 'and')}." if known else "")
-        raise EditError(f"There is no {listed(nouns)} called {name}.", hint)
+        raise EditError(f"There is no {listed(nouns)} called {name}.", suggestion(name, self.names.of(*nouns)))
 
     def refuse_taken(self, noun: str, name: str) -> None:
         """EditError where a noun has the name already."""
-        shared = {"sensor": ("memory",), "actuator": ("memory",), "memory": ("sensor", "actuator")}
-        for taken in (noun, *shared.get(noun, ())):
+        for taken in (noun, *SHARED.get(noun, ())):
             if other := self.names.table.get(taken, {}).get(name):
                 label = other.header.name.span
                 raise EditError(f"There is already {a(taken)} called {name}.", "Choose another name.", label)
 
-    def declared(self, name: str, noun: str) -> Declaration:
-        """The declaration of a name, of any noun where none is said; EditError where that is none, or two."""
+    def declared(self, name: str, noun: str, say: str = "--noun {}") -> Declaration:
+        """The declaration of a name, of any noun where none is said; EditError where that is none, or two.
+
+        `say` is how a noun is said on the command line.
+        """
         if noun:
+            refuse_no_noun(noun, NOUNS)
             return self.find(name, noun)
         found = [self.names.table[of][name] for of in NOUNS if name in self.names.table.get(of, {})]
         if len(found) == 1:
@@ -92,7 +94,7 @@ class Project:
         if not found:
             return self.find(name, *NOUNS)
         labels = [Label(each.header.name.span, f"{a(each.header.noun.text)} of this name") for each in found]
-        hint = f"Say which: --noun {found[0].header.noun.text}."
+        hint = f"Say which: {say.format(found[0].header.noun.text)}"
         raise EditError(f"There are {len(found)} declarations called {name}.", hint, labels[0].span, *labels[1:])
 
     def masters(self) -> list[Master]:
@@ -115,6 +117,10 @@ class Project:
         """Where a name stands, in all files."""
         return (m for m in mentions(self.files, self.names) if m.noun == noun and m.name.text == name)
 
+    def introductions(self) -> Iterator[Mention]:
+        """Where names are declared, those of things among them."""
+        return (m for m in mentions(self.files, self.names) if m.declares)
+
     def parents(self, skill: str) -> list[Declaration]:
         """The skills that influence a skill."""
         return [parent.declaration for parent in self.mind.skills if skill in parent.subskills]
@@ -132,13 +138,43 @@ def facts(declaration: Declaration, form: type[F]) -> list[F]:
     return [fact for fact in declaration.facts if isinstance(fact, form)]
 
 
+def kind_of(declaration: Declaration) -> str:
+    """The kind that a declaration says after `is` or `in`."""
+    return declaration.header.phrase.kind.text if declaration.header.phrase else ""
+
+
+def influence(kind: str, skill: str) -> str:
+    """The fact that lets a skill of a kind influence another: a rule has to say how much."""
+    return f"influences {skill} at 1" if kind == "rule" else f"influences {skill}"
+
+
+def suggestion(name: str, known: Sequence[str]) -> str:
+    """The known name that a name was meant to be, or else what is known."""
+    more = ", …" if len(known) > MOST else ""
+    declared = f"Declared are {', '.join(known[:MOST])}{more}." if known else ""
+    return did_you_mean(name, known) or declared
+
+
+def refuse_no_noun(word: str, nouns: Sequence[str]) -> None:
+    """EditError where a word is none of the nouns."""
+    if word not in nouns:
+        raise EditError(f"{word} is no noun.", did_you_mean(word, nouns) or f"The nouns are {listed(nouns, 'and')}.")
+
+
 def refuse_misnamed(noun: str, name: str) -> None:
     """EditError where the grammar takes a text for no name of a noun."""
-    findings = Findings()
     line = f"contains {name} is item" if noun == "thing" else f"{noun} {name} {'in' if noun == 'task' else 'is'} kind"
-    head = "task Task in plain\n" * (noun == "thing")
-    parse(Source("name", head + line), findings)
+    if _name_in(line) != name:
+        better = proper("sensor" if noun == "thing" else noun, name)
+        hint = f"Write {better}." if better != name and _name_in(line.replace(name, better, 1)) == better else ""
+        raise EditError(f"{name} cannot be the name of {a(noun)}.", hint)
+
+
+def _name_in(line: str) -> str | None:
+    """The name that a declaration or a `contains` gives; None where it cannot be read."""
+    findings = Findings()
+    declarations = parse(Source("name", f"task Task in plain\n{line}"), findings).declarations
     if findings.diagnostics:
-        raise EditError(
-            f"{name} cannot be the name of {a(noun)}.", f"Write {proper(noun, name)}." * (proper(noun, name) != name)
-        )
+        return None
+    named = [declaration.header for declaration in declarations[1:]] or facts(declarations[0], Contains)
+    return named[0].name.text

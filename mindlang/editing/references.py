@@ -1,4 +1,4 @@
-"""Every name in the files of a mind, with what it names: where a rename has to write, and what a removal would break."""
+"""Every name in the files of a mind, with what it names: where a rename writes, and what a removal would break."""
 
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass

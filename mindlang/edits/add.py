@@ -1,12 +1,14 @@
 """`mindc edit add`."""
 
+from collections.abc import Iterator
+from dataclasses import replace
 from typing import Annotated
 
-from mindlang.diagnostic import Diagnostic, Findings
-from mindlang.editing.page import below_siblings, declare
+from mindlang.diagnostic import Findings
+from mindlang.editing.page import FACTS, INDENT, NOUNS, below_siblings, declare, line_of, text_of
 from mindlang.editing.project import Change, EditError, Project
 from mindlang.parse import parse
-from mindlang.source import Source
+from mindlang.source import Source, Span
 from mindlang.splice import Splice
 from mindlang.syntax import Declaration, Fact, File
 
@@ -18,47 +20,63 @@ def add(
     to: Annotated[str, "The declaration to which facts are added: --to Collect"] = "",
     noun: Annotated[str, "What that is, where two have the name: --noun task"] = "",
 ) -> Change:
-    """Add a declaration with its facts, or with --to facts to a declaration, said as in a file.
+    """Add declarations with their facts, or with --to facts to a declaration, said as in a file.
 
     A declaration stands below the last of its noun, a fact below the last of its verb.
 
     Example: mindc edit add "skill Wait is rule" "drives left_wheel at 1/2" "drives right_wheel at 1/2" collect.mind
     """
+    said = [line.strip() for text in lines for line in text.splitlines()]
     if to:
         declaration = project.declared(to, noun)
-        header = declaration.header.span.text
-        return Change(_facts(declaration, _read([header, *lines]).declarations[0].facts))
-    read = _read(list(lines))
+        return Change(tuple(_facts(declaration, _read_facts(declaration, said))))
+    return Change(tuple(_declarations(project, _read(said))))
+
+
+def _declarations(project: Project, read: File) -> Iterator[Splice]:
+    """Each noun's declarations below those that there are."""
     if not read.declarations or read.settings:
         raise EditError("Only declarations and facts can be added.", "Begin with a noun: skill, sensor, task, ….")
-    return Change(tuple(_declaration(project, declaration) for declaration in read.declarations))
+    for declaration in read.declarations:
+        project.refuse_taken(declaration.header.noun.text, declaration.header.name.text)
+    for noun in NOUNS:
+        if texts := [_indented(known) for known in read.declarations if known.header.noun.text == noun]:
+            yield declare(project.main, noun, *texts)
 
 
-def _read(lines: list[str]) -> File:
-    """The lines as a file; EditError where one cannot be read."""
+def _indented(declaration: Declaration) -> list[str]:
+    """The lines of a declaration, those below its header indented; comments stay where they are."""
+    lines = text_of([declaration]).splitlines()
+    above = next(index for index, line in enumerate(lines, 1) if not line.startswith("#"))
+    return [*lines[:above], *(f"{INDENT}{line}" for line in lines[above:])]
+
+
+def _facts(declaration: Declaration, facts: tuple[Fact, ...]) -> Iterator[Splice]:
+    """Each verb's facts below those that there are."""
+    for form in FACTS:
+        if texts := [line_of(fact) for fact in facts if isinstance(fact, form)]:
+            yield below_siblings(declaration, form, texts)
+
+
+def _read_facts(declaration: Declaration, lines: list[str]) -> tuple[Fact, ...]:
+    """The lines as facts of a declaration; EditError where one is none."""
+    read = _read(lines, declaration.header.span.text)
+    of, *others = read.declarations
+    if read.settings or others or not of.facts:
+        raise EditError("With --to only facts can be added.", "Begin with a verb: reads, rewards, teaches, ….")
+    return of.facts
+
+
+def _read(lines: list[str], header: str = "") -> File:
+    """The lines as a file, below a header that is not theirs; EditError where one cannot be read."""
+    above = f"{header}\n" if header else ""
+    source = Source("the lines to add", "\n".join(lines))
     findings = Findings()
-    file = parse(Source("the lines to add", "\n".join(line.strip() for line in lines)), findings)
-    if findings.diagnostics:
-        raise _unreadable(findings.diagnostics[0])
+    file = parse(replace(source, text=above + source.text), findings)
+    for diagnostic in findings.diagnostics[:1]:
+        error = EditError(diagnostic.message, diagnostic.hint)
+        assert diagnostic.span is not None
+        place = Span(source, diagnostic.span.start - len(above), diagnostic.span.end - len(above))
+        error.diagnostic = replace(diagnostic, span=place)
+        raise error
     return file
-
-
-def _unreadable(diagnostic: Diagnostic) -> EditError:
-    error = EditError(diagnostic.message, diagnostic.hint)
-    error.diagnostic = diagnostic
-    return error
-
-
-def _declaration(project: Project, declaration: Declaration) -> Splice:
-    noun, name = declaration.header.noun.text, declaration.header.name.text
-    project.refuse_taken(noun, name)
-    text = declaration.header.span.text.strip()
-    return declare(project.main, noun, [text, *(f"  {fact.span.text.strip()}" for fact in declaration.facts)])
-
-
-def _facts(declaration: Declaration, facts: tuple[Fact, ...]) -> tuple[Splice, ...]:
-    forms = dict.fromkeys(type(fact) for fact in facts)
-    return tuple(
-        below_siblings(declaration, form, [fact.span.text.strip() for fact in facts if isinstance(fact, form)])
-        for form in forms
-    )

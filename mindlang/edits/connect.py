@@ -2,11 +2,12 @@
 
 from typing import Annotated
 
+from mindlang.diagnostic import a
 from mindlang.editing.page import below_siblings
 from mindlang.editing.project import Change, EditError, Project
 from mindlang.syntax import Drives, Influences, Reads
 
-VERBS = {"sensor": Reads, "memory": Reads, "actuator": Drives, "skill": Influences}
+VERBS = {"skill": Influences, "actuator": Drives, "memory": Drives, "sensor": Reads}
 
 
 def connect(
@@ -19,13 +20,16 @@ def connect(
 ) -> Change:
     """Let a skill read a sensor or memory, drive an actuator, or influence another skill.
 
+    A memory is read, unless there is a value to drive it with.
+
     Example: mindc edit connect Collect Grab --at 1 collect.mind
     """
     declaration = project.find(skill, "skill")
-    noun = project.find(target, *VERBS).header.noun.text
-    form = Drives if noun == "memory" and (drives or at) else VERBS[noun]
-    if form is Reads and (at or drives):
-        raise EditError(f"{target} is a {noun}, which is read.", "Leave --at and --drives out.")
+    is_sent = drives or bool(at)
+    noun = project.find(target, *(VERBS if is_sent else reversed(VERBS))).header.noun.text
+    form = Reads if noun == "memory" and not is_sent else VERBS[noun]
+    if form is Reads and is_sent:
+        raise EditError(f"{target} is {a(noun)}, which is read.", "Leave --at and --drives out.")
     project.refuse_said(declaration, form, target)
     value = f" at {at}" if at else ""
     return Change((below_siblings(declaration, form, [f"{form.__name__.lower()} {target}{value}"]),))

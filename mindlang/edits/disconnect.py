@@ -1,7 +1,7 @@
 """`mindc edit disconnect`."""
 
-from mindlang.diagnostic import Label
-from mindlang.editing.page import without_line
+from mindlang.diagnostic import Label, did_you_mean
+from mindlang.editing.page import without_fact
 from mindlang.editing.project import Change, EditError, Project
 from mindlang.syntax import Drives, Influences, Reads
 
@@ -12,14 +12,14 @@ def disconnect(project: Project, skill: str, target: str) -> Change:
     Example: mindc edit disconnect Collect Grab collect.mind
     """
     declaration = project.find(skill, "skill")
-    found = [
-        fact for fact in declaration.facts if isinstance(fact, Reads | Drives | Influences) and fact.name.text == target
-    ]
+    edges = [fact for fact in declaration.facts if isinstance(fact, Reads | Drives | Influences)]
+    found = [fact for fact in edges if fact.name.text == target]
     if not found:
         message = f"{skill} neither reads nor drives nor influences {target}."
-        raise EditError(message, "", declaration.header.span)
+        hint = did_you_mean(target, [fact.name.text for fact in edges])
+        raise EditError(message, hint, declaration.header.span)
     if len(found) > 1:
         labels = [Label(fact.span, "or this") for fact in found[1:]]
         hint = f'Say which: mindc edit remove "{found[0].span.text}" --from {skill}'
         raise EditError(f"{skill} reads {target} and drives it.", hint, found[0].span, *labels)
-    return Change((without_line(found[0].span),))
+    return Change((without_fact(found[0]),))

@@ -2,8 +2,8 @@
 
 from typing import Annotated
 
-from mindlang.editing.page import declare, instead
-from mindlang.editing.project import Change, Project, Renamed, facts, refuse_misnamed
+from mindlang.editing.page import INDENT, declare, instead
+from mindlang.editing.project import Change, Project, Renamed, facts, influence, refuse_misnamed
 from mindlang.syntax import Influences
 
 
@@ -31,8 +31,8 @@ def encapsulate(
     project.refuse_taken("skill", new)
     lines = [
         f"skill {new} is {is_}",
-        *(f"  reads {reading}" for reading in reads),
-        *(f"  influences {below}" for below in (skill, *with_)),
+        *(f"{INDENT}reads {reading}" for reading in reads),
+        *(f"{INDENT}{influence(is_.split()[0], below)}" for below in (skill, *with_)),
     ]
     places = [
         fact.name for parent in project.parents(skill) for fact in facts(parent, Influences) if fact.name.text == skill

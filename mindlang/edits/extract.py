@@ -2,9 +2,10 @@
 
 from typing import Annotated
 
-from mindlang.editing.page import declare_below, indentation, instead_of_line, line_of, without_line
-from mindlang.editing.project import Change, EditError, Project, facts, refuse_misnamed
-from mindlang.syntax import Influences, Reads
+from mindlang.diagnostic import did_you_mean
+from mindlang.editing.page import declare_below, indentation, instead_of_line, line_of, without_fact
+from mindlang.editing.project import Change, EditError, Project, facts, influence, kind_of, refuse_misnamed
+from mindlang.syntax import Declaration, Influences, Reads
 
 
 def extract(
@@ -25,20 +26,26 @@ def extract(
     project.refuse_taken("skill", new)
     for reading in reads:
         project.find(reading, "sensor", "memory")
-    edges = {fact.name.text: fact for fact in facts(declaration, Influences)}
-    for subskill in subskills:
-        if subskill not in edges:
-            raise EditError(f"{parent} does not influence {subskill}.", "", declaration.header.span)
-    first, *others = sorted((edges[name] for name in set(subskills)), key=lambda fact: fact.span.start)
+    first, *others = _edges(declaration, subskills)
     inputs = reads or [fact.name.text for fact in facts(declaration, Reads)]
     indent = indentation(declaration)
     lines = [
         f"skill {new} is {is_}",
         *(f"{indent}reads {reading}" for reading in inputs),
-        *(line_of(fact.span) for fact in (first, *others)),
+        *(f"{indent}{line_of(fact)}" for fact in (first, *others)),
     ]
     return Change((
-        instead_of_line(first.span, f"{indent}influences {new}"),
-        *(without_line(fact.span) for fact in others),
+        instead_of_line(first, [f"{indent}{influence(kind_of(declaration), new)}"]),
+        *(without_fact(fact) for fact in others),
         declare_below(declaration, lines),
     ))  # fmt: skip
+
+
+def _edges(parent: Declaration, subskills: tuple[str, ...]) -> list[Influences]:
+    """The lines with which a skill influences subskills, in their order; EditError where one is missing."""
+    edges = {fact.name.text: fact for fact in facts(parent, Influences)}
+    for subskill in subskills:
+        if subskill not in edges:
+            message = f"{parent.header.name.text} does not influence {subskill}."
+            raise EditError(message, did_you_mean(subskill, edges), parent.header.span)
+    return [fact for name, fact in edges.items() if name in subskills]

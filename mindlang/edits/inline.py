@@ -1,39 +1,64 @@
 """`mindc edit inline`."""
 
 from mindlang.diagnostic import Label
-from mindlang.editing.page import instead_of_line, line_of, newline, without_declaration
+from mindlang.editing.page import (
+    below_siblings,
+    indentation,
+    instead_of_line,
+    line_of,
+    without_declarations,
+    without_fact,
+)
 from mindlang.editing.project import Change, EditError, Project, facts
-from mindlang.syntax import Drives, Influences
+from mindlang.splice import Splice
+from mindlang.syntax import Declaration, Drives, Influences, Phrase, Reads
+
+Edge = Drives | Influences
 
 
 def inline(project: Project, skill: str) -> Change:
     """Let those that influence a complex skill influence its subskills instead, and take the skill out.
 
+    What these lines need after `at` is read there as well.
+
     Example: mindc edit inline Fetch collect.mind
     """
     declaration = project.find(skill, "skill")
-    edges = [fact for fact in declaration.facts if isinstance(fact, Drives | Influences)]
     if not facts(declaration, Influences):
-        raise EditError(
-            f"{skill} is a base skill: there is nothing below it to take its place.", "", declaration.header.span
-        )
-    parents = [
-        (parent, fact)
-        for parent in project.parents(skill)
-        for fact in facts(parent, Influences)
-        if fact.name.text == skill
-    ]
-    used = [
-        m.name.span for m in project.mentions("skill", skill) if m.by not in (declaration, *(p for p, _ in parents))
-    ]
+        message = f"{skill} is a base skill: there is nothing below it to take its place."
+        raise EditError(message, "", declaration.header.span)
+    parents = project.parents(skill)
+    _refuse_named_elsewhere(project, skill, [declaration, *parents])
+    if not parents:
+        message = f"No skill influences {skill}: nothing can take its place."
+        raise EditError(message, "", declaration.header.span)
+    splices = (splice for parent in parents for splice in _taken_over(parent, declaration))
+    return Change((*without_declarations([declaration]), *splices))
+
+
+def _refuse_named_elsewhere(project: Project, skill: str, declarations: list[Declaration]) -> None:
+    """EditError where a skill is named but in these declarations."""
+    used = [mention.name.span for mention in project.mentions("skill", skill) if mention.by not in declarations]
     if used:
         labels = [Label(span, "and here") for span in used[1:]]
         raise EditError(f"{skill} is still named elsewhere.", "Take these lines out first.", used[0], *labels)
-    if not parents:
-        raise EditError(f"No skill influences {skill}: nothing can take its place.", "", declaration.header.span)
-    splices = [without_declaration(declaration)]
-    for parent, place in parents:
-        said = {fact.name.text for fact in parent.facts if isinstance(fact, Drives | Influences)}
-        lines = [line_of(fact.span) for fact in edges if fact.name.text not in said]
-        splices.append(instead_of_line(place.span, newline(place.span.source).join(lines)))
-    return Change(tuple(splices))
+
+
+def _taken_over(parent: Declaration, child: Declaration) -> list[Splice]:
+    """The lines of a child in the place of that with which its parent influences it, but for what the parent says."""
+    said = {fact.name.text for fact in parent.facts if isinstance(fact, Edge)}
+    edges = [fact for fact in child.facts if isinstance(fact, Edge) and fact.name.text not in said]
+    place = next(fact for fact in facts(parent, Influences) if fact.name.text == child.header.name.text)
+    indent = indentation(parent)
+    lines = [f"{indent}{line_of(fact)}" for fact in edges]
+    splices = [instead_of_line(place, lines) if lines else without_fact(place)]
+    if reads := _needed(edges, parent):
+        splices.append(below_siblings(parent, Reads, [f"reads {name}" for name in reads]))
+    return splices
+
+
+def _needed(edges: list[Edge], parent: Declaration) -> list[str]:
+    """The readings after `at` that a parent does not read."""
+    said = {fact.name.text for fact in facts(parent, Reads)}
+    terms = (term for edge in edges if edge.at for term in edge.at.terms)
+    return list(dict.fromkeys(t.kind.text for t in terms if isinstance(t, Phrase) and t.kind.text not in said))

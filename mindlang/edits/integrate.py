@@ -3,7 +3,7 @@
 from typing import Annotated
 
 from mindlang.editing.page import below_siblings
-from mindlang.editing.project import Change, EditError, Project
+from mindlang.editing.project import Change, EditError, Project, influence, kind_of
 from mindlang.syntax import Influences, Reads
 
 
@@ -33,5 +33,7 @@ def integrate(
     if reads:
         splices.append(below_siblings(declaration, Reads, [f"reads {reading}" for reading in reads]))
     if with_:
-        splices.append(below_siblings(declaration, Influences, [f"influences {other}" for other in with_]))
+        splices.append(
+            below_siblings(declaration, Influences, [influence(kind_of(declaration), other) for other in with_])
+        )
     return Change(tuple(splices))

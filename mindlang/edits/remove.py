@@ -2,8 +2,8 @@
 
 from typing import Annotated
 
-from mindlang.diagnostic import Label, a, did_you_mean
-from mindlang.editing.page import without_declaration, without_line
+from mindlang.diagnostic import Label, did_you_mean
+from mindlang.editing.page import without_declarations, without_fact
 from mindlang.editing.project import Change, EditError, Project
 from mindlang.syntax import NOUNS, Declaration
 
@@ -19,31 +19,32 @@ def remove(
 
     Example: mindc edit remove sensor pulse collect.mind
     """
-    text = " ".join(what)
+    words = " ".join(what).split()
     if from_:
-        return _fact(project, text, project.declared(from_, noun))
-    head, _, name = text.partition(" ")
-    if head not in NOUNS or not name:
-        hint = did_you_mean(head, NOUNS) or 'Write for example sensor pulse, or "reads pulse" --from Avoid.'
-        raise EditError(f"{text} is not a noun and a name.", hint)
-    declaration = project.find(name, head)
-    refuse_used(project, head, name, declaration)
-    return Change((without_declaration(declaration),))
+        return _fact(words, project.declared(from_, noun))
+    if len(words) != 2 or words[0] not in NOUNS:
+        hint = did_you_mean(words[0], NOUNS) if len(words) == 2 else ""
+        example = 'Write for example sensor pulse, or "reads pulse" --from Avoid.'
+        raise EditError(f"{' '.join(words)} is not a noun and a name.", hint or example)
+    declaration = project.find(words[1], words[0])
+    _refuse_used(project, declaration)
+    return Change(without_declarations([declaration]))
 
 
-def refuse_used(project: Project, noun: str, name: str, declaration: Declaration) -> None:
+def _refuse_used(project: Project, declaration: Declaration) -> None:
     """EditError where a name stands anywhere but in its own declaration."""
+    noun, name = declaration.header.noun.text, declaration.header.name.text
     used = [mention.name.span for mention in project.mentions(noun, name) if mention.by is not declaration]
     if used:
         labels = [Label(span, "and here") for span in used[1:]]
         raise EditError(f"{name} is still used.", "Take these lines out first.", used[0], *labels)
 
 
-def _fact(project: Project, text: str, declaration: Declaration) -> Change:
-    found = [fact for fact in declaration.facts if fact.span.text.split() == text.split()]
-    if not found:
-        name, noun = declaration.header.name.text, declaration.header.noun.text
-        said = [" ".join(fact.span.text.split()) for fact in declaration.facts]
+def _fact(words: list[str], declaration: Declaration) -> Change:
+    """A declaration without the first of its facts that says these words; EditError where none does."""
+    said = {" ".join(fact.span.text.split()): fact for fact in reversed(declaration.facts)}
+    text = " ".join(words)
+    if text not in said:
         hint = did_you_mean(text, said) or "Say the line as it stands there, without its comment."
-        raise EditError(f"{a(noun).capitalize()} {name} does not say: {text}.", hint, declaration.header.span)
-    return Change((without_line(found[0].span),))
+        raise EditError(f"{declaration.header.name.text} does not say: {text}.", hint, declaration.header.span)
+    return Change((without_fact(said[text]),))

@@ -1,7 +1,10 @@
 """`mindc edit split`."""
 
-from mindlang.editing.page import newline, text_of, use_line, without_declaration
+from pathlib import Path
+
+from mindlang.editing.page import text_of, use_line, without_declarations
 from mindlang.editing.project import Change, EditError, Project
+from mindlang.syntax import Declaration
 
 
 def split(project: Project, to: str, names: tuple[str, ...]) -> Change:
@@ -11,20 +14,28 @@ def split(project: Project, to: str, names: tuple[str, ...]) -> Change:
 
     Example: mindc edit split wheels.mind left_wheel right_wheel collect.mind
     """
+    path = _new_file(project, to)
+    chosen = [_chosen(project, name) for name in dict.fromkeys(names)]
+    splices = (*without_declarations(chosen), use_line(project.main, to))
+    return Change(splices, created={path: text_of(chosen)})
+
+
+def _new_file(project: Project, to: str) -> Path:
+    """The path of a file that is to be; EditError where it is there, or cannot be used."""
     main = project.main.source
     path = (main.folder / to).resolve()
     if not path.is_relative_to(main.folder) or path.suffix != ".mind":
-        raise EditError(
-            f"{to} is no .mind file in the folder of {main.name} or below it.", "Write for example skills.mind."
-        )
+        message = f"{to} is no .mind file in the folder of {main.name} or below it."
+        raise EditError(message, "Write for example skills.mind.")
     if path.exists():
         raise EditError(f"{to} exists already.", "Choose another name.")
-    chosen = [project.declared(*reversed(name.rpartition(":")[::2])) for name in dict.fromkeys(names)]
-    for declaration in chosen:
-        if project.file_of(declaration) is not project.main:
-            raise EditError(f"{declaration.header.name.text} stands in another file.", "", declaration.header.name.span)
-    chosen.sort(key=lambda declaration: declaration.header.span.start)
-    end = newline(main)
-    created = (end * 2).join(text_of(declaration) for declaration in chosen) + end
-    splices = (*(without_declaration(declaration) for declaration in chosen), use_line(project.main, to))
-    return Change(splices, created={path: created})
+    return path
+
+
+def _chosen(project: Project, name: str) -> Declaration:
+    """A declaration of the main file by its name, or by noun:name."""
+    noun, _, own = name.rpartition(":")
+    declaration = project.declared(own, noun, f"{{}}:{own}")
+    if project.file_of(declaration) is not project.main:
+        raise EditError(f"{own} stands in another file.", "", declaration.header.name.span)
+    return declaration

@@ -1,6 +1,6 @@
 """`mindc edit unfreeze`."""
 
-from mindlang.editing.page import without_line
+from mindlang.editing.page import without_fact
 from mindlang.editing.project import Change, EditError, Project, facts
 from mindlang.syntax import Stays
 
@@ -14,4 +14,4 @@ def unfreeze(project: Project, skill: str) -> Change:
     frozen = facts(declaration, Stays)
     if not frozen:
         raise EditError(f"{skill} is not frozen.", "", declaration.header.span)
-    return Change(tuple(without_line(fact.span) for fact in frozen))
+    return Change(tuple(without_fact(fact) for fact in frozen))
