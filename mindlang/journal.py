@@ -9,7 +9,7 @@ import json
 import os
 from base64 import b64decode, b64encode
 from collections.abc import Callable, Iterator, Mapping
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from hashlib import sha256
 from pathlib import Path
@@ -40,9 +40,9 @@ def change(folder: Path, files: Mapping[Path, bytes], check: Callable[[], None] 
     are changed or all are as they were. `check` may still refuse, when no other process can change these files.
     """
     with _alone(folder):
-        _put_back(folder)
-        check()
         try:
+            _put_back(folder)
+            check()
             write(folder / NAME, _journal(folder, files))
             for path, data in files.items():
                 _set(path, data)
@@ -95,6 +95,7 @@ def _journal(folder: Path, files: Mapping[Path, bytes]) -> bytes:
 
 
 def _put_back(folder: Path) -> bool:
+    _spare(folder / NAME).unlink(missing_ok=True)
     if (noted := _read(folder)) is None:
         return False
     for path, note in noted.items():
@@ -105,10 +106,15 @@ def _put_back(folder: Path) -> bool:
                 f"keep the files as they are by deleting {folder / NAME}, or get {path.name} back",
             )
     for path, note in noted.items():
-        path.with_name(f"{path.name}.tmp").unlink(missing_ok=True)
+        _spare(path).unlink(missing_ok=True)
         _set(path, note.was)
     _done(folder)
     return True
+
+
+def _spare(path: Path) -> Path:
+    """What `write` may have left behind."""
+    return path.with_name(f"{path.name}.tmp")
 
 
 def _read(folder: Path) -> dict[Path, _Noted] | None:
@@ -137,7 +143,8 @@ def _inside(folder: Path, name: str) -> Path:
 
 def _done(folder: Path) -> None:
     (folder / NAME).unlink()
-    sync_folder(folder)
+    with suppress(OSError):  # at worst a power cut brings the journal back, and all is as it was
+        sync_folder(folder)
 
 
 @contextmanager
@@ -175,4 +182,4 @@ def _packed(data: bytes | None) -> str | None:
 
 
 def _unpacked(text: str | None) -> bytes | None:
-    return None if text is None else b64decode(text)
+    return None if text is None else b64decode(text, validate=True)
