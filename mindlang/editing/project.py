@@ -117,10 +117,6 @@ class Project:
         """Where a name stands, in all files."""
         return (m for m in mentions(self.files, self.names) if m.noun == noun and m.name.text == name)
 
-    def introductions(self) -> Iterator[Mention]:
-        """Where names are declared, those of things among them."""
-        return (m for m in mentions(self.files, self.names) if m.declares)
-
     def parents(self, skill: str) -> list[Declaration]:
         """The skills that influence a skill."""
         return [parent.declaration for parent in self.mind.skills if skill in parent.subskills]

@@ -33,12 +33,11 @@ DRIVEN = ("actuator", "memory")
 
 @dataclass(frozen=True, slots=True)
 class Mention:
-    """A name where it stands: in its own declaration, or elsewhere. `by` is the declaration in which that is."""
+    """A name where it stands; `by` is the declaration in which that is, its own one perhaps."""
 
     noun: str
     name: Name
     by: Declaration | None
-    declares: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -65,7 +64,7 @@ class _Reader:
                 yield from self.one(name, "skill")
                 yield from self.expression(at, "")
             case Contains(name, phrase):
-                yield Mention("thing", name, self.by, declares=True)
+                yield Mention("thing", name, self.by)
                 yield from self.phrase("content", phrase)
             case Ends(event) | Counts(event):
                 yield from self.phrase("event", event)
@@ -130,9 +129,17 @@ def mentions(files: Iterable[File], names: Names) -> Iterator[Mention]:
             yield from _declaration(declaration, _Reader(names, declaration))
 
 
+def introductions(files: Iterable[File]) -> Iterator[Mention]:
+    """Every name where it is declared, those of things where a task contains them."""
+    for declaration in (declaration for file in files for declaration in file.declarations):
+        yield Mention(declaration.header.noun.text, declaration.header.name, declaration)
+        contained = (fact.name for fact in declaration.facts if isinstance(fact, Contains))
+        yield from (Mention("thing", name, declaration) for name in contained)
+
+
 def _declaration(declaration: Declaration, reader: _Reader) -> Iterator[Mention]:
     header = declaration.header
-    yield Mention(header.noun.text, header.name, declaration, declares=True)
+    yield Mention(header.noun.text, header.name, declaration)
     yield from reader.phrase(header.noun.text, header.phrase)
     for fact in declaration.facts:
         yield from reader.fact(fact)

@@ -29,10 +29,11 @@ def encapsulate(
         project.find(reading, "sensor", "memory")
     refuse_misnamed("skill", new)
     project.refuse_taken("skill", new)
+    kind = is_.partition(" ")[0]
     lines = [
         f"skill {new} is {is_}",
         *(f"{INDENT}reads {reading}" for reading in reads),
-        *(f"{INDENT}{influence(is_.split()[0], below)}" for below in (skill, *with_)),
+        *(f"{INDENT}{influence(kind, below)}" for below in (skill, *with_)),
     ]
     places = [
         fact.name for parent in project.parents(skill) for fact in facts(parent, Influences) if fact.name.text == skill

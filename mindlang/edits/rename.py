@@ -16,7 +16,7 @@ from mindlang.editing.project import (
     refuse_no_noun,
     suggestion,
 )
-from mindlang.editing.references import Mention
+from mindlang.editing.references import Mention, introductions
 from mindlang.syntax import NOUNS, Rewards
 
 
@@ -47,7 +47,7 @@ def _declared(project: Project, name: str, noun: str) -> Mention:
     """Where a name is declared with a noun, or with the only one that has it."""
     if noun:
         refuse_no_noun(noun, (*NOUNS, "thing"))
-    known = [mention for mention in project.introductions() if noun in ("", mention.noun)]
+    known = [mention for mention in introductions(project.files) if noun in ("", mention.noun)]
     found = {mention.noun: mention for mention in known if mention.name.text == name}
     if not found:
         hint = suggestion(name, list(dict.fromkeys(mention.name.text for mention in known)))
@@ -62,9 +62,9 @@ def _declared(project: Project, name: str, noun: str) -> Mention:
 
 def _refuse_taken_thing(project: Project, name: str) -> None:
     """A thing may have the name of one in another task: then they are one for every sensor."""
-    taken = (mention for mention in project.introductions() if (mention.noun, mention.name.text) == ("thing", name))
-    if first := next(taken, None):
-        raise EditError(f"There is already a thing called {name}.", "Choose another name.", first.name.span)
+    for mention in introductions(project.files):
+        if (mention.noun, mention.name.text) == ("thing", name):
+            raise EditError(f"There is already a thing called {name}.", "Choose another name.", mention.name.span)
 
 
 def _refuse_captured(project: Project, name: str) -> None:
