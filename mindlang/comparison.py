@@ -1,14 +1,34 @@
 """What is different in meaning between two minds; how it is written is not."""
 
-from collections.abc import Iterator
-from dataclasses import dataclass, fields
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, fields, is_dataclass
+from difflib import SequenceMatcher
 from typing import Any
 
-from mindlang.model import Mind
-from mindlang.source import Span
-from mindlang.syntax import NOUNS, Amount, Declaration, Phrase
+from mindlang.diagnostic import Findings
+from mindlang.model import Lesson, Mind, Part, Skill, Task
+from mindlang.resolve.kinds import Scope, make
+from mindlang.resolve.names import Names
+from mindlang.syntax import (
+    NOUNS,
+    Contains,
+    Counts,
+    Declaration,
+    Drives,
+    Ends,
+    Header,
+    Influences,
+    Lasts,
+    Reads,
+    Rewards,
+    Stays,
+    Teaches,
+)
 
-SHARE = 0.01  # what % means
+PLACES = {"span", "fact", "declaration", "curriculum"}  # fields of the model that say where a thing stands
+ORDERED = {"curriculum"}  # nouns whose lines mean something by their order
+
+Forms = tuple[type, ...]
 
 
 @dataclass(frozen=True, slots=True)
@@ -23,13 +43,25 @@ class Difference:
     new: tuple[str, ...]
 
 
+@dataclass(frozen=True, slots=True)
+class _Line:
+    """A line as it is written, but for its spaces, and what it means."""
+
+    text: str
+    meaning: Any
+
+
 def differences(old: Mind, new: Mind) -> list[Difference]:
-    """What changes from one mind to another, noun by noun; nothing for the order of lines, comments and other spellings."""
+    """What changes from one mind to another, noun by noun.
+
+    Nothing for comments, spaces, other spellings and the order of lines, but for the lessons of a curriculum.
+    """
     found = [*_settings(old, new)]
+    before, after = _declared(old), _declared(new)
     for noun in NOUNS:
-        before, after = _declared(old, noun), _declared(new, noun)
-        for name in dict.fromkeys((*before, *after)):
-            found += _declaration(f"{noun} {name}", before.get(name), after.get(name), _same_kind(noun, name, old, new))
+        for name in dict.fromkeys((*before[noun], *after[noun])):
+            lines = before[noun].get(name, ()), after[noun].get(name, ())
+            found += _difference(f"{noun} {name}", *lines, noun in ORDERED)
     return found
 
 
@@ -40,64 +72,92 @@ def _settings(old: Mind, new: Mind) -> Iterator[Difference]:
         yield Difference("tick", (f"tick {old.tick:.6g} s",), (f"tick {new.tick:.6g} s",))
 
 
-def _declared(mind: Mind, noun: str) -> dict[str, Declaration]:
-    declarations = (declaration for file in mind.files for declaration in file.declarations)
-    return {each.header.name.text: each for each in declarations if each.header.noun.text == noun}
-
-
-def _same_kind(noun: str, name: str, old: Mind, new: Mind) -> bool:
-    """Whether two headers say the same though they are written otherwise: a default may be said or not."""
-    return noun not in ("curriculum",) and _kind(old, noun, name) == _kind(new, noun, name)
-
-
-def _kind(mind: Mind, noun: str, name: str) -> Any:
-    match noun:
-        case "skill":
-            return next((skill.function for skill in mind.skills if skill.name == name), None)
-        case "task":
-            return next((task.scene for task in mind.tasks if task.name == name), None)
-    parts = {"sensor": mind.sensors, "memory": mind.memories, "actuator": mind.actuators, "body": (mind.body,)}
-    return next((part.kind for part in parts[noun] if part.name == name), None)
-
-
-def _declaration(
-    what: str, before: Declaration | None, after: Declaration | None, same_kind: bool
-) -> Iterator[Difference]:
-    old, new = _lines(before), _lines(after)
-    gone = [text for meaning, text in old.items() if meaning not in new]
-    come = [text for meaning, text in new.items() if meaning not in old]
-    if before and after:
-        headers = _written(before.header.span), _written(after.header.span)
-        if same_kind:
-            gone, come = [line for line in gone if line != headers[0]], [line for line in come if line != headers[1]]
+def _difference(what: str, old: Sequence[_Line], new: Sequence[_Line], ordered: bool) -> Iterator[Difference]:
+    before, after = _numbered(old, new)
+    kept = _in_order(before, after) if ordered else set(before) & set(after)
+    gone = tuple(line.text for line, number in zip(old, before, strict=True) if number not in kept)
+    come = tuple(line.text for line, number in zip(new, after, strict=True) if number not in kept)
     if gone or come:
-        yield Difference(what, tuple(gone), tuple(come))
+        yield Difference(what, gone, come)
 
 
-def _lines(declaration: Declaration | None) -> dict[Any, str]:
-    """The header and the facts as they are written, by what they mean."""
-    if declaration is None:
-        return {}
-    lines = (declaration.header, *declaration.facts)
-    return {_meaning(line): _written(line.span) for line in lines}
+def _numbered(old: Sequence[_Line], new: Sequence[_Line]) -> tuple[list[int], list[int]]:
+    """A number for each line, the same for two that say the same; what is said twice has two."""
+    left = dict(enumerate(old))
+    after: dict[int, int] = {}
+    for sameness in ("text", "meaning"):
+        for place, line in enumerate(new):
+            said = getattr(line, sameness)
+            pairs = (number for number, other in left.items() if getattr(other, sameness) == said)
+            if place not in after and (pair := next(pairs, None)) is not None:
+                after[place] = pair
+                del left[pair]
+    return list(range(len(old))), [after.get(place, len(old) + place) for place in range(len(new))]
 
 
-def _written(span: Span) -> str:
-    return " ".join(span.text.split())
+def _in_order(before: Sequence[int], after: Sequence[int]) -> set[int]:
+    """Those that stand in the same order in both."""
+    blocks = SequenceMatcher(None, before, after, autojunk=False).get_matching_blocks()
+    return {number for block in blocks for number in before[block.a : block.a + block.size]}
+
+
+def _declared(mind: Mind) -> dict[str, dict[str, list[_Line]]]:
+    """The lines of every declaration, by noun and name."""
+    found: dict[str, dict[str, list[_Line]]] = {noun: {} for noun in NOUNS}
+    kinds = _kinds(mind)
+    for file in mind.files:
+        for declaration in file.declarations:
+            noun, name = declaration.header.noun.text, declaration.header.name.text
+            of = kinds[noun].get(name)
+            found[noun][name] = _lines(declaration, of)
+    return found
+
+
+def _kinds(mind: Mind) -> dict[str, dict[str, Any]]:
+    """What every declaration has become, by noun and name; a curriculum its lessons."""
+    lessons: dict[str, list[Lesson]] = {}
+    for lesson in mind.lessons:
+        lessons.setdefault(lesson.curriculum, []).append(lesson)
+    parts: Mapping[str, Iterable[Any]] = {
+        "body": (mind.body,), "actuator": mind.actuators, "sensor": mind.sensors, "memory": mind.memories,
+        "skill": mind.skills, "task": mind.tasks,
+    }  # fmt: skip
+    return {"curriculum": lessons} | {noun: {part.name: part for part in of} for noun, of in parts.items()}
+
+
+def _lines(declaration: Declaration, of: Any) -> list[_Line]:
+    """The header and the facts of a declaration, each with what has become of it."""
+    kind, facts = _parts(declaration.header, of)
+    found = [_Line(_written(declaration.header), _meaning(kind))]
+    for forms, meanings in facts.items():
+        written = [fact for fact in declaration.facts if isinstance(fact, forms)]
+        found += [_Line(_written(fact), (forms, _meaning(each))) for fact, each in zip(written, meanings, strict=True)]
+    return found
+
+
+def _parts(header: Header, of: Any) -> tuple[Any, dict[Forms, Sequence[Any]]]:
+    """What a header has become, and what the facts of each form have, in their order."""
+    match of:
+        case Skill():
+            return of.function, {(Reads,): of.reads, (Drives, Influences): of.edges, (Stays,): [True] * of.frozen}
+        case Task(ticks=ticks, ends=ends, counts=counts):
+            plain: dict[Forms, Sequence[Any]] = {(Lasts,): [ticks], (Ends,): ends, (Counts,): counts}
+            return of.scene, plain | {(Contains,): of.things, (Rewards,): of.rewards}
+        case Part():
+            return of.kind, {}
+    phrase = header.phrase
+    return phrase and make("curriculum", phrase, Scope(Names({}), None), Findings()), {(Teaches,): of or []}
+
+
+def _written(node: Any) -> str:
+    return " ".join(node.span.text.split())
 
 
 def _meaning(node: Any) -> Any:
-    """A tree without its places: arguments in any order, 20% as 0.2."""
-    match node:
-        case Amount(number, "%"):
-            return ("", number * SHARE)
-        case Amount(number, unit):
-            return (unit, number)
-        case Phrase(kind, arguments):
-            return (kind.text, tuple(sorted((argument.key.text, repr(_meaning(argument.value))) for argument in arguments)))
-        case tuple():
-            return tuple(map(_meaning, node))
-        case str() | None | bool():
-            return node
-    values = (_meaning(getattr(node, field.name)) for field in fields(node) if field.name != "span")
-    return (type(node).__name__, *values)
+    """A part of the model without its places."""
+    if isinstance(node, tuple):
+        return tuple(map(_meaning, node))
+    if is_dataclass(node):
+        values = (_meaning(getattr(node, field.name)) for field in fields(node) if field.name not in PLACES)
+        return (type(node).__name__, *values)
+    return node

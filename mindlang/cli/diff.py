@@ -18,10 +18,11 @@ Examples:
 def command(old: str, new: str, as_json: bool) -> None:
     """Show what changed in meaning from OLD to NEW, and which weights of OLD's lock fit NEW.
 
-    Comments, spaces, the order of lines and other spellings of the same do not count. Ends with 0 where nothing
-    changed, with 1 where something did.
+    Comments, spaces, the order of lines and other spellings of the same do not count. Where OLD has no lock, as on
+    standard input, it is NEW's. Ends with 0 where nothing changed, with 1 where something did.
     """
     from mindlang.comparison import differences
+    from mindlang.lock import lock_path
     from mindlang.lock.report import as_data, rows
     from mindlang.terminal import FINDINGS, OK, console, load_compiled, print_json
 
@@ -30,7 +31,10 @@ def command(old: str, new: str, as_json: bool) -> None:
     assert after.mind is not None
     assert after.graph is not None
     found = differences(before.mind, after.mind)
-    standing = rows(after.graph, [source.path for source in before.sources])
+    paths = [source.path for source in before.sources]
+    if not any(lock_path(path).exists() for path in paths):
+        paths = [source.path for source in after.sources]
+    standing = rows(after.graph, paths)
     if as_json:
         print_json(
             {
@@ -39,8 +43,9 @@ def command(old: str, new: str, as_json: bool) -> None:
             }
         )
     else:
-        from mindlang.lock.report import survival
         from rich.text import Text
+
+        from mindlang.lock.report import survival
 
         for each in found:
             console().print(Text(each.what, "bold"))

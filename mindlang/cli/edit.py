@@ -34,7 +34,7 @@ class Edits(click.Group):
 
 @click.group(cls=Edits, epilog=EXAMPLES)
 def command() -> None:
-    """Edit a hierarchy in its source. Prints the diff, and with --write makes it: source, locks and weights together."""
+    """Edit a hierarchy in its source: print the diff, and with --write make it, source, locks and weights together."""
 
 
 def _command(of: Edit) -> click.Command:
@@ -52,7 +52,7 @@ def _command(of: Edit) -> click.Command:
         click.Option(["--write"], is_flag=True, help="Make the edit, and not only print it."),
         click.Option(
             ["--keep-weights"], is_flag=True,
-            help="A skill that reads or influences more goes on as it was taught, with weights of zero for what is new.",
+            help="Let a skill that reads or influences more go on as it was taught: weights of zero for what is new.",
         ),
         click.Option(
             ["--verify"], is_flag=True,

@@ -71,8 +71,14 @@ def report(found: Sequence[Row]) -> Table:
     table = Table(box=None, pad_edge=False, padding=(0, 2, 0, 0), show_header=False)
     for row in found:
         word = f"{row.word}, frozen" if row.is_frozen else row.word
-        made = f"{row.status.entry.weights[:4]}…  {made_by(row.status.entry.taught)}" if isinstance(row.status, Trained) else ""
-        table.add_row(Text(row.skill), Text(word, COLOURS[row.word]), Text("\n".join(filter(None, (made, *row.remarks)))))
+        made = (
+            f"{row.status.entry.weights[:4]}…  {made_by(row.status.entry.taught)}"
+            if isinstance(row.status, Trained)
+            else ""
+        )
+        table.add_row(
+            Text(row.skill), Text(word, COLOURS[row.word]), Text("\n".join(filter(None, (made, *row.remarks))))
+        )
     return table
 
 
