@@ -46,6 +46,12 @@ def line_of(fact: Fact) -> str:
     return first_line(fact.span).text.strip()
 
 
+def commented(fact: Fact) -> list[str]:
+    """The line of a fact below the comments that lead it, none of them indented."""
+    line = first_line(fact.span)
+    return [above.text.strip() for above in reversed(_leading(line))] + [line_of(fact)]
+
+
 def without_fact(fact: Fact) -> Splice:
     """The line of a fact taken out, and its comment with it."""
     line = first_line(fact.span)

@@ -7,10 +7,11 @@ from typing import TypeVar
 
 from mindrun.errors import MindError
 from mindrun.graph import Graph
+from mindrun.registry import kinds
 
 from mindlang.compile import Compiled
 from mindlang.diagnostic import Diagnostic, Findings, Label, a, did_you_mean, listed
-from mindlang.editing.references import Mention, mentions
+from mindlang.editing.references import READ, Mention, mentions
 from mindlang.model import Mind
 from mindlang.parse import parse
 from mindlang.parse.explain import proper
@@ -21,6 +22,11 @@ from mindlang.syntax import NOUNS, Contains, Declaration, Drives, Fact, File, In
 
 F = TypeVar("F", bound=Fact)
 MOST = 8  # names in a message
+OWNERS = {
+    "skill": ("reads", "drives", "influences", "stays"),
+    "task": ("contains", "lasts", "ends", "rewards", "counts"),
+    "curriculum": ("teaches",),
+}
 
 
 class EditError(MindError):
@@ -74,7 +80,10 @@ class Project:
         raise EditError(f"There is no {listed(nouns)} called {name}.", suggestion(name, self.names.of(*nouns)))
 
     def refuse_taken(self, noun: str, name: str) -> None:
-        """EditError where a noun has the name already."""
+        """EditError where a noun has the name already, or a measure that a reading would hide."""
+        if noun in READ and name in kinds("measure"):
+            message = f"{name} is a measure: rewards that say it would mean the reading then."
+            raise EditError(message, "Choose another name.")
         for taken in (noun, *SHARED.get(noun, ())):
             if other := self.names.table.get(taken, {}).get(name):
                 label = other.header.name.span
@@ -132,6 +141,12 @@ def open_project(compiled: Compiled) -> Project:
 def facts(declaration: Declaration, form: type[F]) -> list[F]:
     """The facts of one verb."""
     return [fact for fact in declaration.facts if isinstance(fact, form)]
+
+
+def owner(fact: str) -> str:
+    """The noun below which a fact of this verb stands; nothing where it begins with no verb."""
+    verb = fact.partition(" ")[0]
+    return next((noun for noun, verbs in OWNERS.items() if verb in verbs), "")
 
 
 def kind_of(declaration: Declaration) -> str:

@@ -5,8 +5,8 @@ from dataclasses import replace
 from typing import Annotated
 
 from mindlang.diagnostic import Findings
-from mindlang.editing.page import FACTS, INDENT, NOUNS, below_siblings, declare, line_of, text_of
-from mindlang.editing.project import Change, EditError, Project
+from mindlang.editing.page import FACTS, INDENT, NOUNS, below_siblings, commented, declare, text_of
+from mindlang.editing.project import Change, EditError, Project, owner
 from mindlang.parse import parse
 from mindlang.source import Source, Span
 from mindlang.splice import Splice
@@ -28,7 +28,7 @@ def add(
     """
     said = [line.strip() for text in lines for line in text.splitlines()]
     if to:
-        declaration = project.declared(to, noun)
+        declaration = project.declared(to, noun or next(filter(None, map(owner, said)), ""))
         return Change(tuple(_facts(declaration, _read_facts(declaration, said))))
     return Change(tuple(_declarations(project, _read(said))))
 
@@ -54,7 +54,7 @@ def _indented(declaration: Declaration) -> list[str]:
 def _facts(declaration: Declaration, facts: tuple[Fact, ...]) -> Iterator[Splice]:
     """Each verb's facts below those that there are."""
     for form in FACTS:
-        if texts := [line_of(fact) for fact in facts if isinstance(fact, form)]:
+        if texts := [text for fact in facts if isinstance(fact, form) for text in commented(fact)]:
             yield below_siblings(declaration, form, texts)
 
 

@@ -4,7 +4,7 @@ from typing import Annotated
 
 from mindlang.diagnostic import Label, did_you_mean
 from mindlang.editing.page import without_declarations, without_fact
-from mindlang.editing.project import Change, EditError, Project
+from mindlang.editing.project import Change, EditError, Project, owner
 from mindlang.syntax import NOUNS, Declaration
 
 
@@ -21,7 +21,7 @@ def remove(
     """
     words = " ".join(what).split()
     if from_:
-        return _fact(words, project.declared(from_, noun))
+        return _fact(words, project.declared(from_, noun or owner(" ".join(words))))
     if len(words) != 2 or words[0] not in NOUNS:
         hint = did_you_mean(words[0], NOUNS) if len(words) == 2 else ""
         example = 'Write for example sensor pulse, or "reads pulse" --from Avoid.'

@@ -2,8 +2,6 @@
 
 from typing import Annotated
 
-from mindrun.registry import kinds
-
 from mindlang.diagnostic import Label, a, listed
 from mindlang.editing.page import instead
 from mindlang.editing.project import (
@@ -68,10 +66,7 @@ def _refuse_taken_thing(project: Project, name: str) -> None:
 
 
 def _refuse_captured(project: Project, name: str) -> None:
-    """A reading with the name of a measure, or of a `for each`, would be taken for that in rewards."""
-    if name in kinds("measure"):
-        message = f"{name} is a measure: rewards that say it would mean the reading then."
-        raise EditError(message, "Choose another name.")
+    """A reading with the name of a `for each` would be taken for that in the reward."""
     tasks = (declaration for _, declaration in project.names.declarations("task"))
     for reward in (reward for task in tasks for reward in facts(task, Rewards)):
         if reward.each and reward.each.name.text == name:

@@ -115,12 +115,10 @@ def hold(case: Case, after: str) -> None:
 @each([case for case in CASES if not case.refused and case.edit != "scenario3"])
 def test_a_case_in_sources_of_every_shape(case: Case, edited: Edited) -> None:
     plain = edited(case)
-    for shape in (windows, unfinished):
+    own = case.before or {SHARED}
+    for shape, new in ((windows, crlf), (unfinished, str)):  # a file that is new is like the main one, but ends
         reshaped = edited(case.with_texts(shape))
-        of_shape = (
-            case.before or {SHARED} if shape is unfinished else plain
-        )  # a new file is like the main one, but ends
-        assert reshaped == {name: shape(text) if name in of_shape else text for name, text in plain.items()}
+        assert reshaped == {name: (shape if name in own else new)(text) for name, text in plain.items()}
     numbered = case.with_texts(Numbered())
     after = edited(numbered)
     assert {name: re.sub(NUMBER, "", text) for name, text in after.items()} == plain
@@ -130,6 +128,11 @@ def test_a_case_in_sources_of_every_shape(case: Case, edited: Edited) -> None:
 
 
 def windows(text: str) -> str:
+    """A text as Windows has it, with its line ends and a byte order mark."""
+    return f"\ufeff{crlf(text)}"
+
+
+def crlf(text: str) -> str:
     """A text with the line ends of Windows."""
     return text.replace("\n", "\r\n")
 
