@@ -20,9 +20,10 @@ def add(
     to: Annotated[str, "The declaration to which facts are added: --to Collect"] = "",
     noun: Annotated[str, "What that is, where two have the name: --noun task"] = "",
 ) -> Change:
-    """Add declarations with their facts, or with --to facts to a declaration, said as in a file.
+    """Add declarations or, with --to, facts to a declaration.
 
-    A declaration stands below the last of its noun, a fact below the last of its verb.
+    They are said as in a file, a line each. A declaration stands below the last of its noun, a fact below the
+    last of its verb.
 
     Example: mindc edit add "skill Wait is rule" "drives left_wheel at 1/2" "drives right_wheel at 1/2" collect.mind
     """

@@ -18,9 +18,10 @@ def connect(
     at: Annotated[str, "The value of the edge, instead of an output of the function: --at 1"] = "",
     drives: Annotated[bool, "Drive a memory, instead of reading it"] = False,
 ) -> Change:
-    """Let a skill read a sensor or memory, drive an actuator, or influence another skill.
+    """Let a skill read, drive or influence something.
 
-    A memory is read, unless there is a value to drive it with.
+    It reads sensors, drives actuators and influences skills. A memory is read, unless there is a value to drive
+    it with.
 
     Example: mindc edit connect Collect Grab --at 1 collect.mind
     """

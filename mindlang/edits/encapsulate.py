@@ -16,9 +16,10 @@ def encapsulate(
     reads: Annotated[tuple[str, ...], "A sensor or memory that the new one reads: --reads battery"] = (),
     is_: Annotated[str, "Its function (default: mlp hidden 2)"] = "mlp hidden 2",
 ) -> Change:
-    """Put a new skill over an old one and others: it takes the old one's place, and no line of the old one changes.
+    """Put a new skill over an old one, in whose place it stands.
 
-    Where the old one was master the new one is, and where skills influenced the old one they influence the new one.
+    No line of the old one changes. Where it was master the new one is, and where skills influenced it they
+    influence the new one.
 
     Example: mindc edit encapsulate Collect CollectWithPower --with GoToPower+Avoid --reads battery power.mind
     """

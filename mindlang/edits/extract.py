@@ -17,7 +17,9 @@ def extract(
     reads: Annotated[tuple[str, ...], "What the new skill reads (default: what the parent does)"] = (),
     is_: Annotated[str, "Its function (default: mlp hidden 2)"] = "mlp hidden 2",
 ) -> Change:
-    """Put several subskills of a skill under a new one, which the skill influences in their place.
+    """Put subskills of a skill under a new one.
+
+    The skill influences the new one in their place.
 
     Example: mindc edit extract Collect Fetch GoToObject+Avoid Grab collect.mind
     """

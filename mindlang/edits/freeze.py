@@ -6,7 +6,9 @@ from mindlang.syntax import Stays
 
 
 def freeze(project: Project, skill: str) -> Change:
-    """Let a skill stay as it is: it refuses training, and lessons with subskills leave it out.
+    """Let a skill stay as it is: it refuses training.
+
+    Lessons with subskills leave it out.
 
     Example: mindc edit freeze Avoid collect.mind
     """

@@ -17,9 +17,10 @@ Edge = Drives | Influences
 
 
 def inline(project: Project, skill: str) -> Change:
-    """Let those that influence a complex skill influence its subskills instead, and take the skill out.
+    """Let the subskills of a skill take its place.
 
-    What these lines need after `at` is read there as well.
+    Whoever influenced it influences them, and the skill is taken out. What these lines need after `at` is read
+    there as well.
 
     Example: mindc edit inline Fetch collect.mind
     """

@@ -14,9 +14,10 @@ def integrate(
     with_: Annotated[tuple[str, ...], "A skill that it is to influence as well: --with GoToPower+Avoid"] = (),
     reads: Annotated[tuple[str, ...], "A sensor or memory that it is to read as well: --reads battery"] = (),
 ) -> Change:
-    """Let a skill influence more skills and read more sensors: the paper's other way to extend a hierarchy.
+    """Let a skill influence more skills and read more sensors.
 
-    The skill is stale then. With --keep-weights it goes on as before until it is taught again.
+    This is the paper's other way to extend a hierarchy. The skill is stale then. With --keep-weights it goes on
+    as before until it is taught again.
 
     Example: mindc edit integrate Collect --with GoToPower+Avoid --reads battery --reads in_power power.mind
     """

@@ -15,7 +15,9 @@ def remove(
     from_: Annotated[str, "The declaration whose fact it is: --from Collect"] = "",
     noun: Annotated[str, "What that is, where two have the name: --noun task"] = "",
 ) -> Change:
-    """Remove a declaration that nothing names any more, or with --from a fact, said as it stands.
+    """Remove a declaration or, with --from, a fact.
+
+    Nothing may name the declaration any more; the fact is said as it stands.
 
     Example: mindc edit remove sensor pulse collect.mind
     """

@@ -25,7 +25,7 @@ def rename(
     *,
     noun: Annotated[str, "What it is, where two have the name: --noun task"] = "",
 ) -> Change:
-    """Rename a skill, task, part, thing, curriculum or body: wherever it is named, and in the locks.
+    """Rename anything, wherever it is named and in the locks.
 
     Example: mindc edit rename Avoid Dodge --noun skill collect.mind
     """

@@ -8,9 +8,10 @@ from mindlang.syntax import Influences
 
 
 def replace(project: Project, skill: str, new: str) -> Change:
-    """Let another skill, or a hierarchy below another skill, take the place of a skill; both stay declared.
+    """Let another skill, or a hierarchy, take the place of a skill.
 
-    They must drive the same actuators. Skills that influenced the old one keep their weights and influence the new one.
+    Both stay declared. They must drive the same actuators. Skills that influenced the old one keep their
+    weights and influence the new one.
 
     Example: mindc edit replace Avoid CarefulAvoid collect.mind
     """
