@@ -1,0 +1,85 @@
+"""A small hierarchy with weights in its lock, as if it had been taught."""
+
+from pathlib import Path
+
+import numpy as np
+from mindrun.weights import genes
+
+from mindlang.compile import load
+from mindlang.lock import Taught, lock_path, read_locks
+from mindlang.lock.arrange import arrange
+from mindlang.lock.blobs import record
+from mindlang.lock.status import Status, status
+
+MIND = """\
+# Two skills and one above them.
+tick 1/60 s
+master Drive
+body Robot is disc
+actuator left_wheel is wheel side left neutral 0.5
+actuator right_wheel is wheel side right neutral 0.5
+actuator claw is gripper neutral 0
+sensor eye is range_finder at 0 30 330 deg
+sensor ball_bearing is bearing of ball
+sensor charge is battery
+memory mood is cell decay 0.9
+
+skill Go is mlp hidden 1  # to the ball
+  reads ball_bearing
+  drives left_wheel
+  drives right_wheel
+
+skill Avoid is mlp hidden 2
+  reads eye
+  drives left_wheel
+  drives right_wheel
+  drives mood
+
+skill Drive is mlp hidden 2
+  reads ball_bearing
+  reads eye
+  influences Go
+  influences Avoid
+  influences Grab at 1
+
+skill Grab is rule
+  drives claw at 1
+
+task Roam in plain
+  contains ball is item size 2
+  lasts 60 ticks
+  rewards 10 on reach of ball
+
+curriculum School is genetic population 8
+  teaches Go on Roam for 3 generations
+  teaches Avoid on Roam for 3 generations
+  teaches Drive on Roam for 3 generations
+"""
+
+
+def write_mind(folder: Path, text: str = MIND) -> Path:
+    """The mind as a file."""
+    path = folder / "drive.mind"
+    path.write_bytes(text.encode())
+    return path
+
+
+def teach(path: Path, *skills: str, seed: int = 1, lock: Path | None = None) -> None:
+    """Random weights for these skills, or all that learn, base skills first, recorded with those below them."""
+    graph = load(path).graph
+    assert graph
+    graph = arrange(graph, {})
+    rng, weights = np.random.default_rng(seed), {}
+    for skill in reversed(graph.skills):
+        if genes(skill) and (skill.name in skills or not skills):
+            weights[skill.name] = rng.uniform(-0.7, 1, genes(skill)).astype(np.float32)
+            taught = Taught("Roam", skill.name, False, 3, 8, seed, 1.5)
+            record(lock or lock_path(path), graph, {skill.name: weights[skill.name]}, taught, weights)
+
+
+def statuses(path: Path) -> dict[str, Status]:
+    """How the skills of a file stand."""
+    compiled = load(path)
+    assert compiled.graph
+    lock = read_locks(source.path for source in compiled.sources)
+    return status(arrange(compiled.graph, lock), lock)

@@ -1,0 +1,345 @@
+"""What becomes of trained weights when a source is edited: they follow, or it is said why not."""
+
+import re
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+from mindrun.engine import Engine
+from mindrun.functions import Mlp
+from mindrun.graph import Edge, Graph, Sensor
+from mindrun.sensors import Battery
+from mindrun.weights import genes
+
+from mindlang.compile import load
+from mindlang.editing.carry_out import carry_out, write
+from mindlang.editing.catalog import edit
+from mindlang.editing.follow import follow
+from mindlang.editing.project import Change, EditError, open_project
+from mindlang.editing.telling import told
+from mindlang.lock import lock_path, read_lock
+from mindlang.lock.arrange import arrange
+from mindlang.lock.blobs import FOLDER, blob
+from mindlang.lock.ready import make_ready
+from mindlang.lock.status import NotLearning, Stale, Trained, Untaught
+from tests.calling import Call
+from tests.edits.taught import MIND, statuses, teach, write_mind
+from tests.hierarchies import random_graph
+from tests.lock.test_trained import teach as teach_graph
+from tests.lock.test_trained import whole_sensors
+
+TICKS = 12
+
+
+@pytest.fixture
+def drive(tmp_path: Path) -> Path:
+    path = write_mind(tmp_path)
+    teach(path)
+    return path
+
+
+def made(path: Path, name: str, keep_weights: bool = False, **said: Any) -> list[str]:
+    """Make an edit of a file; what is said of the weights."""
+    project = open_project(load(path))
+    edited = carry_out(project, edit(name).function(project, **said), keep_weights)
+    sentences = told(edited)
+    write(edited)
+    return sentences
+
+
+def commands(path: Path, readings: np.ndarray) -> bytes:
+    """What the master of a file commands for these readings."""
+    compiled = load(path)
+    assert compiled.graph
+    ready = make_ready(compiled.graph, compiled.sources)
+    assert ready.refusals == ()
+    engine = Engine(ready.graph, ready.weights)
+    return b"".join(engine.tick(row).tobytes() for row in readings)
+
+
+def some_readings(path: Path) -> np.ndarray:
+    graph = load(path).graph
+    assert graph
+    return np.random.default_rng(5).random((TICKS, graph.width), np.float32)
+
+
+RENAMES = [
+    ("skill", "Avoid", "Dodge"), ("skill", "Drive", "Top"), ("sensor", "eye", "view"), ("sensor", "charge", "full"),
+    ("actuator", "left_wheel", "port"), ("memory", "mood", "temper"), ("task", "Roam", "Wander"),
+    ("thing", "ball", "cup"), ("curriculum", "School", "Course"), ("body", "Robot", "Rover"),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("noun", "old", "new"), RENAMES)
+def test_a_rename_relabels(drive: Path, noun: str, old: str, new: str) -> None:
+    before, lock = commands(drive, some_readings(drive)), read_lock(lock_path(drive))
+    sentences = made(drive, "rename", old=old, new=new, noun=noun)
+    renamed = [f"{new} has the weights of {old}"] if noun == "skill" else []
+    assert sentences == [*renamed, "3 trained skills keep what was learnt"]
+    assert commands(drive, some_readings(drive)) == before
+    now = read_lock(lock_path(drive))
+    assert {entry.weights for entry in now.values()} == {entry.weights for entry in lock.values()}
+    text = lock_path(drive).read_text()
+    named = noun in ("skill", "sensor", "actuator", "memory", "task") and old != "charge"
+    assert (_stands(new, text), _stands(old, text)) == (named, False)
+
+
+def _stands(name: str, text: str) -> bool:
+    return re.search(rf"\b{name}\b", text) is not None
+
+
+def test_a_rename_relabels_the_lock_of_a_used_file_and_nothing_else(tmp_path: Path) -> None:
+    parts, main = tmp_path / "parts.mind", tmp_path / "main.mind"
+    parts.write_text(MIND)
+    lessons = "curriculum More is genetic population 8\n  teaches Drive on Roam for 3 generations\n"
+    main.write_text(f'use "parts.mind"\nmaster Drive\n{lessons}')
+    teach(parts)
+    teach(main, "Drive", seed=2)
+    readings = some_readings(main)
+    before, old = commands(main, readings), read_lock(lock_path(parts))
+    made(main, "rename", old="Avoid", new="Dodge", noun="skill")
+    assert commands(main, readings) == before
+    now = read_lock(lock_path(parts))
+    assert now["Dodge"] == replace(old["Avoid"], skill="Dodge", taught=replace(old["Avoid"].taught, master="Dodge"))
+    assert now["Go"] == old["Go"]
+    assert now["Drive"].subskills == (("Dodge", old["Avoid"].weights), ("Go", old["Go"].weights))
+    assert read_lock(lock_path(main))["Drive"].signature.sends == ("Go", "Dodge")
+
+
+def test_a_name_that_comes_back_takes_no_weights_of_before(drive: Path) -> None:
+    """A line of a skill that was there once, whose name another skill now takes."""
+    text = drive.read_text()
+    drive.write_text(text.replace("skill Go ", "skill Went ").replace(" Go\n", " Went\n").replace(" Go on", " Went on"))
+    teach(drive, "Went", seed=3)
+    weights = read_lock(lock_path(drive))["Went"].weights
+    made(drive, "rename", old="Went", new="Go", noun="skill")
+    assert read_lock(lock_path(drive))["Go"].weights == weights
+
+
+def test_encapsulating_keeps_all_weights(drive: Path) -> None:
+    lock = read_lock(lock_path(drive))
+    sentences = made(drive, "encapsulate", skill="Drive", new="Top", with_=("Go",), reads=("charge",))
+    assert sentences == ["Top has not been taught", "3 trained skills keep what was learnt"]
+    assert read_lock(lock_path(drive)) == lock
+    assert isinstance(statuses(drive)["Top"], Untaught)
+
+
+def test_parents_keep_their_weights_over_what_encapsulates_their_subskill(drive: Path) -> None:
+    sentences = made(drive, "encapsulate", skill="Avoid", new="AvoidWell", reads=("charge",))
+    states = statuses(drive)
+    drives = states["Drive"]
+    assert isinstance(drives, Trained)
+    assert drives.entry.signature.sends == ("Go", "AvoidWell")
+    assert sentences[-1] == "3 trained skills keep what was learnt"
+    assert any(line.startswith("Drive was taught with a AvoidWell") for line in sentences)
+
+
+def test_a_skill_may_take_the_place_of_one_that_it_influences(drive: Path) -> None:
+    """What is above the old skill itself goes on influencing it, and keeps its weights."""
+    careful = "skill Careful is mlp\n  reads eye\n  influences Avoid\n\n"
+    drive.write_text(MIND.replace("task Roam", f"{careful}task Roam"))
+    teach(drive, "Careful")
+    made(drive, "replace", skill="Avoid", new="Careful")
+    states = statuses(drive)
+    assert {name: type(state) for name, state in states.items()} == {
+        "Drive": Trained, "Careful": Trained, "Avoid": Trained, "Go": Trained, "Grab": NotLearning,
+    }  # fmt: skip
+
+
+def test_what_is_extracted_keeps_its_weights(drive: Path) -> None:
+    sentences = made(drive, "extract", parent="Drive", new="Both", subskills=("Go", "Avoid"))
+    assert sentences == [
+        "Drive is stale: sends Both is new; sends Avoid is gone; sends Go is gone",
+        "Both has not been taught",
+        "2 trained skills keep what was learnt",
+    ]
+
+
+def test_what_is_removed_is_forgotten(drive: Path) -> None:
+    made(drive, "disconnect", skill="Drive", target="Avoid")
+    made(drive, "remove", what=("teaches", "Avoid", "on", "Roam", "for", "3", "generations"), from_="School")
+    sentences = made(drive, "remove", what=("skill", "Avoid"))
+    assert "Avoid is gone, its weights are forgotten" in sentences
+    assert set(read_lock(lock_path(drive))) == {"Go", "Drive"}
+
+
+STALE = [
+    ("skill Go is mlp hidden 1", "skill Go is mlp hidden 1 width 9", "Go", "width was 4, now 9"),
+    ("skill Go is mlp hidden 1", "skill Go is mlp hidden 3", "Go", "hidden was 1, now 3"),
+    (
+        "  reads ball_bearing\n  drives",
+        "  reads charge\n  drives",
+        "Go",
+        "reads charge is new; reads ball_bearing is gone",
+    ),
+    ("at 0 30 330 deg", "at 0 30 deg", "Avoid", "eye had 3 readings, now 2"),
+    ("  drives mood\n", "", "Avoid", "sends mood is gone"),
+    ("  drives mood\n", "  drives mood\n  drives claw\n", "Avoid", "sends claw is new"),
+    ("  influences Avoid\n", "  influences Avoid at 1\n", "Drive", "sends Avoid is gone"),
+]
+
+
+@pytest.mark.parametrize(("before", "after", "skill", "why"), STALE)
+def test_each_change_makes_its_skill_stale_and_says_why(
+    drive: Path, before: str, after: str, skill: str, why: str
+) -> None:
+    assert drive.read_text().count(before) == 1
+    drive.write_text(drive.read_text().replace(before, after))
+    assert statuses(drive)[skill] == Stale(tuple(why.split("; ")))
+    others = {name for name, state in statuses(drive).items() if isinstance(state, Stale)} - {skill}
+    assert others == ({"Drive"} if "deg" in before else set()), "only who reads it"
+
+
+def test_nothing_else_makes_stale(drive: Path) -> None:
+    comments = MIND.replace("\n\n", "\n\n# words\n").replace("  ", "\t ").replace("\n", "  # 1\r\n")
+    paragraphs = MIND.split("\n\n")
+    for text in (
+        comments,
+        "\n\n".join([paragraphs[0], *reversed(paragraphs[1:])]),
+        MIND.replace("  reads ball_bearing\n  reads eye\n", "  reads eye\n  reads ball_bearing\n"),
+        MIND.replace("  influences Go\n  influences Avoid\n", "  influences Avoid\n  influences Go\n"),
+        MIND.replace("mlp hidden 2", "mlp"),
+        MIND.replace("at 1", "at 20%").replace("size 2", "size 3"),
+        MIND.replace("reads eye\n  drives left_wheel", "reads eye\n  stays frozen\n  drives left_wheel"),
+    ):
+        drive.write_bytes(text.encode())
+        found = {name: type(state) for name, state in statuses(drive).items()}
+        assert found == {"Drive": Trained, "Avoid": Trained, "Go": Trained, "Grab": NotLearning}
+
+
+def test_a_retrained_subskill_only_marks_its_parents(drive: Path) -> None:
+    old = read_lock(lock_path(drive))["Avoid"].weights
+    teach(drive, "Avoid", seed=2)
+    new = read_lock(lock_path(drive))["Avoid"].weights
+    state = statuses(drive)["Drive"]
+    assert isinstance(state, Trained)
+    assert state.notes == (f"taught with another Avoid ({old[:4]}…, now {new[:4]}…)",)
+    graph, sources = load(drive).graph, load(drive).sources
+    assert graph
+    assert make_ready(graph, sources).refusals == ()
+
+
+@pytest.mark.parametrize("skill", ["Drive", "Go"])
+def test_a_new_input_may_start_from_zeros(drive: Path, skill: str) -> None:
+    readings = some_readings(drive)
+    before, old = commands(drive, readings), read_lock(lock_path(drive))
+    sentences = made(drive, "connect", keep_weights=True, skill=skill, target="charge")
+    zeros = f"{skill} keeps its weights, with zeros for what is new"
+    assert sentences == [zeros, "3 trained skills keep what was learnt"]
+    assert commands(drive, readings) == before
+    lock = read_lock(lock_path(drive))
+    assert lock[skill].weights != old[skill].weights
+    assert (drive.parent / FOLDER / f"{lock[skill].weights}.npy").exists()
+    assert dict(lock["Drive"].subskills)["Go"] == lock["Go"].weights, "nobody is told of another Go"
+    assert statuses(drive)["Drive"].notes == ()  # type: ignore[union-attr]
+
+
+def test_a_new_subskill_starts_without_influence(drive: Path) -> None:
+    spin = "skill Spin is rule\n  drives left_wheel at 1\n  drives right_wheel at 0\n\n"
+    drive.write_text(MIND.replace("task Roam", f"{spin}task Roam"))
+    readings = some_readings(drive)
+    before = commands(drive, readings)
+    made(drive, "integrate", keep_weights=True, skill="Drive", with_=("Spin",), reads=("charge", "mood"))
+    assert commands(drive, readings) == before
+
+
+@pytest.mark.parametrize(
+    ("name", "said", "why"),
+    [
+        ("connect", {"skill": "Drive", "target": "claw"}, "Drive cannot keep its weights: sends claw is new."),
+        (
+            "connect",
+            {"skill": "Go", "target": "mood", "drives": True},
+            "Go cannot keep its weights: sends mood is new.",
+        ),
+        ("disconnect", {"skill": "Drive", "target": "eye"}, "Drive cannot keep its weights: reads eye is gone."),
+    ],
+)
+def test_what_cannot_start_from_zeros_is_refused(drive: Path, name: str, said: dict[str, Any], why: str) -> None:
+    old = {path: path.read_bytes() for path in drive.parent.rglob("*") if path.is_file()}
+    with pytest.raises(EditError) as refused:
+        made(drive, name, keep_weights=True, **said)
+    assert str(refused.value) == why
+    assert refused.value.hint == "Leave --keep-weights out, and teach it again after the edit."
+    assert {path: path.read_bytes() for path in drive.parent.rglob("*") if path.is_file()} == old
+
+
+def test_weights_that_were_stale_before_are_not_widened(drive: Path) -> None:
+    drive.write_text(drive.read_text().replace("skill Go is mlp hidden 1", "skill Go is mlp hidden 2"))
+    sentences = made(drive, "connect", keep_weights=True, skill="Go", target="charge")
+    assert sentences[0] == "Go is stale already, and more so: reads charge is new"
+
+
+@given(random_graph(), st.data())
+@settings(max_examples=60, suppress_health_check=[HealthCheck.too_slow])
+def test_widened_skills_do_the_same_to_the_bit(
+    tmp_path_factory: pytest.TempPathFactory, graph: Graph, data: st.DataObject
+) -> None:
+    """Any skill of any hierarchy reads more and influences more, whatever is read, NaN too."""
+    path = tmp_path_factory.mktemp("wide") / "a.lock"
+    graph = arrange(whole_sensors(graph), {})
+    weights = teach_graph(path, graph, seed=data.draw(st.integers(0, 99)))
+    lock = read_lock(path)
+    graph = arrange(graph, lock)
+    wide = _wider(graph, data.draw)
+    followed = follow({path: lock}, graph, wide, Change(()), keep_weights=True)
+    after = arrange(wide, followed.locks[path])
+    new = {
+        name: followed.weights.get(blob(path.parent, entry.weights), weights[name])
+        for name, entry in followed.locks[path].items()
+    }
+    engines = Engine(graph, weights), Engine(after, new)
+    order = [[skill.name for skill in after.skills].index(skill.name) for skill in graph.skills]
+    for readings in _readings(graph, data.draw):
+        more = np.append(readings, np.float32(data.draw(st.sampled_from([0.0, 0.5, 1.0]))))
+        memories = len(graph.memories)  # a new sensor stands before the memories
+        place = len(readings) - memories
+        moved = np.concatenate([readings[:place], more[-1:], readings[place:]])
+        assert engines[0].tick(readings).tobytes() == engines[1].tick(moved).tobytes()
+        assert engines[0].influence.tobytes() == engines[1].influence[order].tobytes()
+
+
+def _wider(graph: Graph, draw: Any) -> Graph:
+    """The graph with one more sensor, which some skills read, and with more influences from parents to children."""
+    place = graph.width - len(graph.memories)
+    fresh = Sensor("fresh", Battery(), place, 1)
+    memories = tuple(replace(memory, start=memory.start + 1) for memory in graph.memories)
+
+    def moved(index: int) -> int:
+        return index + (index >= place)
+
+    skills = []
+    for number, skill in enumerate(graph.skills):
+        inputs = tuple(map(moved, skill.inputs))
+        edges = [
+            replace(edge, value=tuple((w, moved(int(v))) if w == "reading" else (w, v) for w, v in edge.value))
+            for edge in skill.edges
+        ]
+        if genes(skill) and isinstance(skill.function, Mlp):
+            inputs += (place,) * draw(st.booleans())
+            known = {edge.target for edge in edges if edge.to == "skill"}
+            below = [n for n in range(number + 1, len(graph.skills)) if n not in known]
+            for target in draw(st.lists(st.sampled_from(below), unique=True, max_size=2)) if below else []:
+                outputs = sum(edge.output is not None for edge in edges)
+                edges.append(Edge("skill", target, outputs))
+        skills.append(replace(skill, inputs=inputs, edges=tuple(edges)))
+    return replace(graph, sensors=(*graph.sensors, fresh), memories=memories, skills=tuple(skills))
+
+
+def _readings(graph: Graph, draw: Any) -> np.ndarray:
+    rng = np.random.default_rng(draw(st.integers(0, 2**32 - 1)))
+    readings = rng.random((6, graph.width), np.float32)
+    for _ in range(draw(st.integers(0, 4))):
+        place = draw(st.tuples(st.integers(0, 5), st.integers(0, graph.width - 1)))
+        readings[place] = draw(st.sampled_from([np.nan, np.inf, -np.inf, -0.0, 0.0, 3e38, 1e-42]))
+    return readings
+
+
+def test_verify_runs_what_is_untouched(mindc: Call, drive: Path) -> None:
+    said = mindc("edit", "connect", "Drive", "charge", drive, "--keep-weights", "--verify", "--write")
+    assert said.code == 0, said.err
+    assert "verified: Drive, Avoid and Go did the same to the bit" in said.err
