@@ -46,7 +46,8 @@ def unified(name: str, old: str, new: str) -> str:
     start = max(0, first - MARGIN)
     keep = max(0, last - MARGIN)
     lines = unified_diff(before[start : len(before) - keep], after[start : len(after) - keep], n=CONTEXT)
-    return "".join(_named(f"a/{name}" if old else "/dev/null", f"b/{name}", lines, start))
+    ended = f"{name}\t" if " " in name else name  # patch takes a blank for the end of a name, unless a tab follows
+    return "".join(_named(f"a/{ended}" if old else "/dev/null", f"b/{ended}", lines, start))
 
 
 def _common(before: list[str], after: list[str]) -> int:

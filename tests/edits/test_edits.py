@@ -178,6 +178,13 @@ def test_the_cases_of_an_edit_are_about_it(path: Path) -> None:
 
 
 @pytest.mark.parametrize("name", names())
+def test_the_first_sentence_about_an_edit_fits_the_list_of_commands(name: str) -> None:
+    sentence, *_ = edit(name).text.splitlines()
+    assert sentence.endswith(".")
+    assert len(sentence) <= 62
+
+
+@pytest.mark.parametrize("name", names())
 def test_the_example_of_an_edit_is_a_command_line_of_it(name: str) -> None:
     example = edit(name).example.removeprefix("Example: ")
     assert example.split()[:3] == ["mindc", "edit", name]

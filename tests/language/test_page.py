@@ -109,6 +109,10 @@ def test_a_line_ends_only_where_the_compiler_says() -> None:
     )
 
 
+def test_a_name_with_blanks_ends_with_a_tab() -> None:
+    assert unified("my own.mind", "x\n", "y\n").startswith("--- a/my own.mind\t\n+++ b/my own.mind\t\n@@")
+
+
 def test_a_new_file_is_one() -> None:
     assert unified("new.mind", "", "x\n") == "--- /dev/null\n+++ b/new.mind\n@@ -0,0 +1 @@\n+x\n"
 
