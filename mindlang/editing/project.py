@@ -13,12 +13,10 @@ from mindlang.compile import Compiled
 from mindlang.diagnostic import Diagnostic, Findings, Label, a, did_you_mean, listed
 from mindlang.editing.references import READ, Mention, mentions
 from mindlang.model import Mind
-from mindlang.parse import parse
-from mindlang.parse.explain import proper
 from mindlang.resolve.names import SHARED, Names, gather
-from mindlang.source import Source, Span
+from mindlang.source import Span
 from mindlang.splice import Splice
-from mindlang.syntax import NOUNS, Contains, Declaration, Drives, Fact, File, Influences, Master, Reads
+from mindlang.syntax import NOUNS, Declaration, Drives, Fact, File, Influences, Master, Reads
 
 F = TypeVar("F", bound=Fact)
 MOST = 8  # names in a message
@@ -106,10 +104,6 @@ class Project:
         hint = f"Say which: {say.format(found[0].header.noun.text)}"
         raise EditError(f"There are {len(found)} declarations called {name}.", hint, labels[0].span, *labels[1:])
 
-    def masters(self) -> list[Master]:
-        """The setting of the main file that says who is master, if it stands there."""
-        return [setting for setting in self.main.settings if isinstance(setting, Master)]
-
     def refuse_said(self, skill: Declaration, form: type[Reads | Drives | Influences], name: str) -> None:
         """EditError where a skill reads, drives or influences something already."""
         for fact in facts(skill, form):
@@ -129,6 +123,13 @@ class Project:
     def parents(self, skill: str) -> list[Declaration]:
         """The skills that influence a skill."""
         return [parent.declaration for parent in self.mind.skills if skill in parent.subskills]
+
+    def places(self, skill: str) -> Iterator[Mention]:
+        """Where a skill has its place in the hierarchy: where skills influence it, and where it is the master."""
+        for parent in self.parents(skill):
+            yield from (Mention("skill", f.name, parent) for f in facts(parent, Influences) if f.name.text == skill)
+        masters = (setting.name for setting in self.main.settings if isinstance(setting, Master))
+        yield from (Mention("skill", name, None) for name in masters if name.text == skill)
 
 
 def open_project(compiled: Compiled) -> Project:
@@ -170,22 +171,3 @@ def refuse_no_noun(word: str, nouns: Sequence[str]) -> None:
     """EditError where a word is none of the nouns."""
     if word not in nouns:
         raise EditError(f"{word} is no noun.", did_you_mean(word, nouns) or f"The nouns are {listed(nouns, 'and')}.")
-
-
-def refuse_misnamed(noun: str, name: str) -> None:
-    """EditError where the grammar takes a text for no name of a noun."""
-    line = f"contains {name} is item" if noun == "thing" else f"{noun} {name} {'in' if noun == 'task' else 'is'} kind"
-    if _name_in(line) != name:
-        better = proper("sensor" if noun == "thing" else noun, name)
-        hint = f"Write {better}." if better != name and _name_in(line.replace(name, better, 1)) == better else ""
-        raise EditError(f"{name} cannot be the name of {a(noun)}.", hint)
-
-
-def _name_in(line: str) -> str | None:
-    """The name that a declaration or a `contains` gives; None where it cannot be read."""
-    findings = Findings()
-    declarations = parse(Source("name", f"task Task in plain\n{line}"), findings).declarations
-    if findings.diagnostics:
-        return None
-    named = [declaration.header for declaration in declarations[1:]] or facts(declarations[0], Contains)
-    return named[0].name.text

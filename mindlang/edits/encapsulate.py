@@ -2,9 +2,9 @@
 
 from typing import Annotated
 
+from mindlang.editing.naming import refuse_misnamed
 from mindlang.editing.page import INDENT, declare, instead
-from mindlang.editing.project import Change, Project, Renamed, facts, influence, refuse_misnamed
-from mindlang.syntax import Influences
+from mindlang.editing.project import Change, Project, Renamed, influence
 
 
 def encapsulate(
@@ -36,9 +36,5 @@ def encapsulate(
         *(f"{INDENT}reads {reading}" for reading in reads),
         *(f"{INDENT}{influence(kind, below)}" for below in (skill, *with_)),
     ]
-    places = [
-        fact.name for parent in project.parents(skill) for fact in facts(parent, Influences) if fact.name.text == skill
-    ]
-    places += [master.name for master in project.masters() if master.name.text == skill]
-    moved = (instead(place.span, new) for place in places)
+    moved = (instead(place.name.span, new) for place in project.places(skill))
     return Change((*moved, declare(project.main, "skill", lines)), (Renamed("influence", skill, new),))

@@ -3,6 +3,7 @@
 from typing import Annotated
 
 from mindlang.diagnostic import Label, a, listed
+from mindlang.editing.naming import refuse_misnamed
 from mindlang.editing.page import instead
 from mindlang.editing.project import (
     Change,
@@ -10,7 +11,6 @@ from mindlang.editing.project import (
     Project,
     Renamed,
     facts,
-    refuse_misnamed,
     refuse_no_noun,
     suggestion,
 )

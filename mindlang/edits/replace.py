@@ -2,7 +2,7 @@
 
 from mindlang.diagnostic import listed
 from mindlang.editing.page import instead
-from mindlang.editing.project import Change, EditError, Project, Renamed, facts
+from mindlang.editing.project import Change, EditError, Project, Renamed
 from mindlang.hierarchy import reached
 from mindlang.syntax import Influences
 
@@ -20,18 +20,14 @@ def replace(project: Project, skill: str, new: str) -> Change:
     if skill == new:
         raise EditError(f"{skill} takes its own place already.", "", declaration.header.name.span)
     _refuse_other_drives(project, skill, new)
-    parents = [parent for parent in project.parents(skill) if parent is not declaration]
-    for parent in parents:
-        project.refuse_said(parent, Influences, new)
-    places = [fact.name for parent in parents for fact in facts(parent, Influences) if fact.name.text == skill]
-    places += [master.name for master in project.masters() if master.name.text == skill]
+    places = [place for place in project.places(skill) if place.by is not declaration]
+    for place in places:
+        if place.by:
+            project.refuse_said(place.by, Influences, new)
     if not places:
-        raise EditError(
-            f"{skill} has no place: it is not the master, and no skill but {new} influences it.",
-            "",
-            declaration.header.name.span,
-        )
-    return Change(tuple(instead(place.span, new) for place in places), (Renamed("influence", skill, new),))
+        message = f"{skill} has no place: it is not the master, and no skill but {new} influences it."
+        raise EditError(message, "", declaration.header.name.span)
+    return Change(tuple(instead(place.name.span, new) for place in places), (Renamed("influence", skill, new),))
 
 
 def _refuse_other_drives(project: Project, skill: str, new: str) -> None:
@@ -39,12 +35,9 @@ def _refuse_other_drives(project: Project, skill: str, new: str) -> None:
     old_drives, new_drives = _drives(project, skill), _drives(project, new)
     if old_drives != new_drives:
         differ = listed(sorted(old_drives ^ new_drives), "and")
+        message = f"{skill} and {new} differ in what they drive: {differ}."
         span = project.find(new, "skill").header.name.span
-        raise EditError(
-            f"{skill} and {new} differ in what they drive: {differ}.",
-            "Replace it by a skill with the same interface.",
-            span,
-        )
+        raise EditError(message, "Replace it by a skill with the same interface.", span)
 
 
 def _drives(project: Project, skill: str) -> set[str]:

@@ -8,8 +8,9 @@ from hypothesis import strategies as st
 
 from mindlang.diagnostic import Findings
 from mindlang.editing.lines import first_line, insert_below, remove_lines
+from mindlang.editing.naming import refuse_misnamed
 from mindlang.editing.page import declare, text_of, without_declarations
-from mindlang.editing.project import EditError, refuse_misnamed
+from mindlang.editing.project import EditError
 from mindlang.parse import parse
 from mindlang.source import Source, Span
 from mindlang.splice import Splice, spliced, unified

@@ -1,0 +1,25 @@
+"""What can be a name: what the grammar takes for one."""
+
+from mindlang.diagnostic import Findings, a
+from mindlang.editing.project import EditError, facts
+from mindlang.parse import parse
+from mindlang.parse.explain import proper
+from mindlang.source import Source
+from mindlang.syntax import Contains
+
+
+def refuse_misnamed(noun: str, name: str) -> None:
+    """EditError where the grammar takes a text for no name of a noun."""
+    if not _is_name(noun, name):
+        better = proper("sensor" if noun == "thing" else noun, name)
+        hint = f"Write {better}." if _is_name(noun, better) else ""
+        raise EditError(f"{name} cannot be the name of {a(noun)}.", hint)
+
+
+def _is_name(noun: str, name: str) -> bool:
+    """Whether a line that gives this name can be read, and gives this and no other."""
+    line = f"contains {name} is item" if noun == "thing" else f"{noun} {name} {'in' if noun == 'task' else 'is'} kind"
+    findings = Findings()
+    task, *others = parse(Source("name", f"task Task in plain\n{line}"), findings).declarations
+    names = [other.header.name for other in others] or [fact.name for fact in facts(task, Contains)]
+    return not findings.diagnostics and [known.text for known in names] == [name]
