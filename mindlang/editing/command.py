@@ -52,12 +52,18 @@ def perform(of: Edit, said: Mapping[str, Any], file: str, wishes: Wishes) -> Non
         if wishes.verify:
             from mindlang.editing.verify import verified
 
-            sentences.append(f"verified: {listed(verified(edited) or ['nothing'], 'and')} did the same to the bit")
+            sentences.append(_verified(verified(edited)))
         if wishes.write:
             write(edited)
     except EditError as error:
         _refuse(error.diagnostic, wishes)
     _show(edited, sentences, wishes)
+
+
+def _verified(skills: list[str]) -> str:
+    if not skills:
+        return "verified: there is no trained skill that this edit leaves as it was"
+    return f"verified: {listed(skills, 'and')} did the same to the bit"
 
 
 def _show(edited: Edited, sentences: list[str], wishes: Wishes) -> None:

@@ -25,6 +25,10 @@ from mindlang.terminal import procedures_talk, say
 
 TICKS = 2000  # of a run that is recorded
 SEED = 1
+ROUNDING = (
+    "Nothing has been changed. Only the rounding differs: what skills send adds up in the order of their names, "
+    "and this edit changes that order."
+)
 
 Names = Mapping[str, Mapping[str, str]]  # what is called otherwise now, by noun
 
@@ -148,7 +152,7 @@ def _hold(before: Side, after: Side, skill: str, master: str, state: Trained, na
             raise EditError(
                 f"{master} would do something else: at tick {tick} of a recorded run it commands "
                 f"{commands[1].tolist()} instead of {commands[0].tolist()}.",
-                "Nothing has been changed.",
+                ROUNDING if np.allclose(*commands, rtol=0, atol=1e-6) else "Nothing has been changed.",
             )
 
 

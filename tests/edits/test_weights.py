@@ -26,7 +26,6 @@ from mindlang.lock.arrange import arrange
 from mindlang.lock.blobs import FOLDER, blob
 from mindlang.lock.ready import make_ready
 from mindlang.lock.status import NotLearning, Stale, Trained, Untaught
-from tests.calling import Call
 from tests.edits.taught import MIND, statuses, teach, write_mind
 from tests.hierarchies import random_graph
 from tests.lock.test_trained import teach as teach_graph
@@ -337,9 +336,3 @@ def _readings(graph: Graph, draw: Any) -> np.ndarray:
         place = draw(st.tuples(st.integers(0, 5), st.integers(0, graph.width - 1)))
         readings[place] = draw(st.sampled_from([np.nan, np.inf, -np.inf, -0.0, 0.0, 3e38, 1e-42]))
     return readings
-
-
-def test_verify_runs_what_is_untouched(mindc: Call, drive: Path) -> None:
-    said = mindc("edit", "connect", "Drive", "charge", drive, "--keep-weights", "--verify", "--write")
-    assert said.code == 0, said.err
-    assert "verified: Drive, Avoid and Go did the same to the bit" in said.err
