@@ -215,7 +215,7 @@ def _freeze(draw: st.DrawFn, project: Project) -> tuple[Asked, list[Asked]]:
 
 def _integrate(draw: st.DrawFn, project: Project) -> tuple[Asked, list[Asked]]:
     skill, other = _skill(draw, project), _skill(draw, project)
-    reading = draw(st.sampled_from(project.names.of("sensor", "memory")))
+    reading = draw(st.sampled_from(project.names.of("sensor")))
     back = [Asked("disconnect", {"skill": skill, "target": target}) for target in (other, reading)]
     return Asked("integrate", {"skill": skill, "with_": (other,), "reads": (reading,)}), back
 
