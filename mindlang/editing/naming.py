@@ -5,16 +5,14 @@ from mindlang.editing.project import EditError, facts
 from mindlang.parse import parse
 from mindlang.parse.explain import proper
 from mindlang.source import Source
-from mindlang.syntax import PARTS, Contains
-
-EXAMPLES = dict.fromkeys((*PARTS, "thing"), "left_wheel")  # of the other nouns it is GoThere
+from mindlang.syntax import Contains
 
 
 def refuse_misnamed(noun: str, name: str) -> None:
     """EditError where the grammar takes a text for no name of a noun."""
     if not _is_name(noun, name):
         better = proper("sensor" if noun == "thing" else noun, name)
-        hint = f"Write {better}." if _is_name(noun, better) else f"Write for example {EXAMPLES.get(noun, 'GoThere')}."
+        hint = f"Write {better}." if _is_name(noun, better) else ""
         raise EditError(f"{name} cannot be the name of {a(noun)}.", hint)
 
 

@@ -28,8 +28,8 @@ from mindlang.lock.ready import make_ready
 from mindlang.lock.status import NotLearning, Stale, Trained, Untaught
 from tests.edits.taught import MIND, statuses, teach, write_mind
 from tests.hierarchies import random_graph
+from tests.lock.test_trained import _whole_sensors as whole_sensors
 from tests.lock.test_trained import teach as teach_graph
-from tests.lock.test_trained import whole_sensors
 
 TICKS = 12
 

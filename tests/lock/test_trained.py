@@ -186,7 +186,7 @@ def test_reordering_the_source_changes_no_bit(
 ) -> None:
     """Whole sensors read in another order, edges sent in another order, skills declared in another order."""
     path = tmp_path_factory.mktemp("lock") / "a.lock"
-    graph = arrange(whole_sensors(graph), {})
+    graph = arrange(_whole_sensors(graph), {})
     weights = teach(path, graph)
     lock = read_lock(path)
     shuffled = arrange(_shuffled(graph, data.draw), lock)
@@ -199,7 +199,7 @@ def test_reordering_the_source_changes_no_bit(
         assert first.influence.tobytes() == second.influence.tobytes()
 
 
-def whole_sensors(graph: Graph) -> Graph:
+def _whole_sensors(graph: Graph) -> Graph:
     """The graph with skills that read whole sensors, as the language has it, and at least one."""
     spans = [tuple(range(s.start, s.start + s.width)) for s in graph.sensors] + [(m.start,) for m in graph.memories]
     skills = []

@@ -55,7 +55,7 @@ class Manifest:
 
     def ends_like(self, other: Self) -> bool:
         """Whether another run comes to the same end, bit for bit."""
-        return (self.identity, self.learners, self.versions) == (other.identity, other.learners, other.versions)
+        return (self.identity, self.versions) == (other.identity, other.versions)
 
 
 def fingerprint(graph: Graph, lesson: Lesson, procedures: Path | None) -> str:
