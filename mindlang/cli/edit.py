@@ -65,4 +65,6 @@ def _command(of: Edit) -> click.Command:
 
 def _option(option: Option) -> click.Option:
     flags = [f"--{option.name.strip('_').replace('_', '-')}", option.name]
+    if isinstance(option.default, bool):
+        return click.Option(flags, is_flag=True, help=option.help)
     return click.Option(flags, multiple=option.many, default=None if option.many else option.default, help=option.help)
