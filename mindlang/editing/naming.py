@@ -5,14 +5,16 @@ from mindlang.editing.project import EditError, facts
 from mindlang.parse import parse
 from mindlang.parse.explain import proper
 from mindlang.source import Source
-from mindlang.syntax import Contains
+from mindlang.syntax import PARTS, Contains
+
+EXAMPLES = dict.fromkeys((*PARTS, "thing"), "left_wheel")  # of the other nouns it is GoThere
 
 
 def refuse_misnamed(noun: str, name: str) -> None:
     """EditError where the grammar takes a text for no name of a noun."""
     if not _is_name(noun, name):
         better = proper("sensor" if noun == "thing" else noun, name)
-        hint = f"Write {better}." if _is_name(noun, better) else ""
+        hint = f"Write {better}." if _is_name(noun, better) else f"Write for example {EXAMPLES.get(noun, 'GoThere')}."
         raise EditError(f"{name} cannot be the name of {a(noun)}.", hint)
 
 

@@ -45,11 +45,20 @@ class Renamed:
 
 
 @dataclass(frozen=True, slots=True)
+class Replaced:
+    """A skill whose place another has taken: whoever influenced it, but for the other itself, influences that now."""
+
+    old: str
+    new: str
+
+
+@dataclass(frozen=True, slots=True)
 class Change:
-    """What an edit does: `splices` of the sources, `created` files, and under which names weights are found now."""
+    """What an edit does: `splices` of the sources, `created` files, and which names the weights have to follow."""
 
     splices: tuple[Splice, ...]
     renamed: tuple[Renamed, ...] = ()
+    replaced: Replaced | None = None
     created: Mapping[Path, str] = field(default_factory=dict)
 
 

@@ -15,8 +15,9 @@ from numpy.typing import NDArray
 
 from mindlang import simulator
 from mindlang.editing.carry_out import Edited
-from mindlang.editing.follow import merged
+from mindlang.editing.follow import Names, merged, new_names, now_called
 from mindlang.editing.project import EditError
+from mindlang.editing.references import READ
 from mindlang.lock import Lock
 from mindlang.lock.arrange import arrange
 from mindlang.lock.blobs import blob, load_weights
@@ -29,8 +30,6 @@ ROUNDING = (
     "Nothing has been changed. Only the rounding differs: what skills send adds up in the order of their names, "
     "and this edit changes that order."
 )
-
-Names = Mapping[str, Mapping[str, str]]  # what is called otherwise now, by noun
 
 
 @dataclass(frozen=True, slots=True)
@@ -74,7 +73,7 @@ def verified(edited: Edited) -> list[str]:
     before = Side(arrange(edited.project.graph, lock), lock, {}, folder)
     now = merged(edited.followed.locks)
     after = Side(arrange(edited.graph, now), now, edited.followed.weights, folder)
-    names = _names(edited)
+    names = new_names(edited.change)
     done = []
     for skill, state in status(before.graph, lock).items():
         master = names["skill"].get(skill, skill)
@@ -82,13 +81,6 @@ def verified(edited: Edited) -> list[str]:
             _hold(before, after, skill, master, state, names)
             done.append(master)
     return done
-
-
-def _names(edited: Edited) -> dict[str, dict[str, str]]:
-    found: dict[str, dict[str, str]] = {"skill": {}}
-    for rename in edited.change.renamed:
-        found.setdefault(rename.noun, {})[rename.old] = rename.new
-    return found
 
 
 def _is_untouched(before: Side, after: Side, skill: str, master: str, names: Names) -> bool:
@@ -109,17 +101,14 @@ def _shape(side: Side, skill: Skill, names: Names) -> object:
     """What a skill reads and sends, by name."""
     readings = _readings(side.graph)
 
-    def now(name: str, *nouns: str) -> str:
-        return next((names[noun][name] for noun in nouns if name in names.get(noun, {})), name)
-
     def called(index: float) -> tuple[str, int]:
         name, number = readings[int(index)]
-        return now(name, "sensor", "memory"), number
+        return now_called(name, names, *READ), number
 
     edges = [
         (
             edge.to,
-            now(side.graph.named(edge.to, edge.target), edge.to),
+            now_called(side.graph.named(edge.to, edge.target), names, edge.to),
             edge.output,
             [(word, called(value) if word == "reading" else value) for word, value in edge.value],
         )
@@ -137,14 +126,17 @@ def _readings(graph: Graph) -> list[tuple[str, int]]:
 def _hold(before: Side, after: Side, skill: str, master: str, state: Trained, names: Names) -> None:
     """Run a skill before and after on the same readings; EditError at the first tick that differs."""
     recorded = _recorded(before, skill, state)
-    columns = {(_now(name, names), number): column for column, (name, number) in enumerate(_readings(before.graph))}
+    columns = {
+        (now_called(name, names, *READ), number): column
+        for column, (name, number) in enumerate(_readings(before.graph))
+    }
     places = [columns.get(reading, -1) for reading in _readings(after.graph)]
     with_zero = np.concatenate([recorded, np.zeros((len(recorded), 1), np.float32)], axis=1)  # for what is new
     old, new = before.weights(skill), after.weights(master)
     assert old is not None
     assert new is not None
     engines = before.engine(skill, old), after.engine(master, new)
-    actuators = [_now(actuator.name, names, "actuator") for actuator in before.graph.actuators]
+    actuators = [now_called(actuator.name, names, "actuator") for actuator in before.graph.actuators]
     order = [[actuator.name for actuator in after.graph.actuators].index(name) for name in actuators]
     for tick, readings in enumerate(with_zero):
         commands = engines[0].tick(readings[:-1]), engines[1].tick(readings[places])[order]
@@ -154,10 +146,6 @@ def _hold(before: Side, after: Side, skill: str, master: str, state: Trained, na
                 f"{commands[1].tolist()} instead of {commands[0].tolist()}.",
                 ROUNDING if np.allclose(*commands, rtol=0, atol=1e-6) else "Nothing has been changed.",
             )
-
-
-def _now(name: str, names: Names, *nouns: str) -> str:
-    return next((names[noun][name] for noun in nouns or ("sensor", "memory") if name in names.get(noun, {})), name)
 
 
 def _recorded(side: Side, skill: str, state: Trained) -> NDArray[np.float32]:

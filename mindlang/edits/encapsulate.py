@@ -4,7 +4,7 @@ from typing import Annotated
 
 from mindlang.editing.naming import refuse_misnamed
 from mindlang.editing.page import INDENT, declare, instead
-from mindlang.editing.project import Change, Project, Renamed, influence
+from mindlang.editing.project import Change, Project, Replaced, influence
 
 
 def encapsulate(
@@ -37,4 +37,4 @@ def encapsulate(
         *(f"{INDENT}{influence(kind, below)}" for below in (skill, *with_)),
     ]
     moved = (instead(place.name.span, new) for place in project.places(skill))
-    return Change((*moved, declare(project.main, "skill", lines)), (Renamed("influence", skill, new),))
+    return Change((*moved, declare(project.main, "skill", lines)), replaced=Replaced(skill, new))

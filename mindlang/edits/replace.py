@@ -2,7 +2,7 @@
 
 from mindlang.diagnostic import listed
 from mindlang.editing.page import instead
-from mindlang.editing.project import Change, EditError, Project, Renamed
+from mindlang.editing.project import Change, EditError, Project, Replaced
 from mindlang.hierarchy import reached
 from mindlang.syntax import Influences
 
@@ -27,7 +27,7 @@ def replace(project: Project, skill: str, new: str) -> Change:
     if not places:
         message = f"{skill} has no place: it is not the master, and no skill but {new} influences it."
         raise EditError(message, "", declaration.header.name.span)
-    return Change(tuple(instead(place.name.span, new) for place in places), (Renamed("influence", skill, new),))
+    return Change(tuple(instead(place.name.span, new) for place in places), replaced=Replaced(skill, new))
 
 
 def _refuse_other_drives(project: Project, skill: str, new: str) -> None:

@@ -39,7 +39,7 @@ def grammar() -> "Lark":
     )
 
 
-@lru_cache(maxsize=4096)
+@lru_cache(maxsize=1 << 15)
 def _tree(code: str) -> "Tree[Token]":
     """Lark's tree of a line; an editor reads the same lines again and again."""
     return grammar().parse(code, start="line")

@@ -95,7 +95,6 @@ def test_a_run_of_what_is_frozen_now_does_not_go_on(mindc: Call, drive: Path) ->
     assert mindc("train", "--resume", run, "-q").code == 0
 
 
-@pytest.mark.xfail(strict=True, reason="Manifest.ends_like does not look at the learners: the old run teaches Go again")
 def test_the_same_lesson_with_fewer_learners_is_another_run(mindc: Call, drive: Path) -> None:
     """A run that was stopped before its subskill was frozen is not taken up again by the same command."""
     command = ("train", drive, "Drive", "--curriculum", "Joint", *QUICK, "--json")

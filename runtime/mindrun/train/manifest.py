@@ -50,7 +50,7 @@ class Manifest:
     @property
     def identity(self) -> str:
         """A hash of what decides the result; a checkpoint is of this run if it carries it."""
-        parts = (encode(self.lesson), self.seed, self.mind, dict(self.weights))
+        parts = (encode(self.lesson), self.learners, self.seed, self.mind, dict(self.weights))
         return _sha256(json.dumps(parts, sort_keys=True).encode())
 
     def ends_like(self, other: Self) -> bool:
@@ -62,7 +62,8 @@ def fingerprint(graph: Graph, lesson: Lesson, procedures: Path | None) -> str:
     """The SHA-256 of what a lesson depends on: its task, the skills under its master, the body and its parts."""
     skills = reachable(graph, lesson.master)
     tasks = tuple(task for task in graph.tasks if task.name == lesson.task)
-    thawed = tuple(replace(skill, frozen=False) for skill in graph.skills)  # to freeze a skill changes no other's lesson
+    # To freeze a skill changes the lesson of no other.
+    thawed = tuple(replace(skill, frozen=False) for skill in graph.skills)
     scope = replace(graph, master=lesson.master, skills=thawed, tasks=tasks, lessons=())
     code = [
         module_source(skill.function, procedures)
