@@ -26,7 +26,7 @@ from mindlang.lock.ready import make_ready
 from mindlang.run.stage import layouts
 from mindlang.school import School
 
-LAYOUTS = 16  # on which a shipped champion runs, to see how fast this machine is
+RUNS = 128  # of shipped champions, to see how fast this machine is; fewer would leave lanes empty
 
 N = TypeVar("N", int, float)
 
@@ -147,7 +147,7 @@ def speed(file: str, lesson: Lesson, log: Log, workers: int) -> float:
     rollout = Rollout(ready.graph, ready.weights, lesson.task, lesson.master, [*log.result["weights"]], workers=workers)
     simulator.make_ready(rollout, print)  # before the clock starts
     begin = perf_counter()
-    scores = rollout.score(log.champions, layouts(1, LAYOUTS))
+    scores = rollout.score(log.champions, layouts(1, -(-RUNS // len(log.champions))))
     return float(scores.ticks.sum()) / (perf_counter() - begin)
 
 
