@@ -13,16 +13,15 @@ from time import perf_counter
 from typing import TypeVar
 
 from logs import Log, keep, logs_of
-from measure import compiled
+from measure import compiled, rollout_of
 from mindrun.errors import MindError
 from mindrun.graph import Lesson
-from mindrun.sim.rollout import Rollout, cores
+from mindrun.sim.rollout import cores
 from plan import Plan, keep_plan, read_plan
 from protocol import FILES, FOLDER
 
 from mindlang import simulator
 from mindlang.figures import duration
-from mindlang.lock.ready import make_ready
 from mindlang.run.stage import layouts
 from mindlang.school import School
 
@@ -141,10 +140,7 @@ def ticks(lesson: Lesson, log: Log) -> float:
 
 def speed(file: str, lesson: Lesson, log: Log, workers: int) -> float:
     """Ticks a second of a lesson on this machine, with the champions that were shipped."""
-    found = compiled(FOLDER / file)
-    assert found.graph is not None
-    ready = make_ready(found.graph, found.sources, lesson.master)
-    rollout = Rollout(ready.graph, ready.weights, lesson.task, lesson.master, [*log.result["weights"]], workers=workers)
+    rollout = rollout_of(FOLDER, file, lesson, [*log.result["weights"]], workers)
     simulator.make_ready(rollout, print)  # before the clock starts
     begin = perf_counter()
     scores = rollout.score(log.champions, layouts(1, -(-RUNS // len(log.champions))))
