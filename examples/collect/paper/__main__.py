@@ -10,7 +10,7 @@ from string import Template
 
 from figures import draw
 from mindrun.errors import MindError
-from plan import read_plan
+from plan import PLAN, read_plan
 from protocol import FOLDER, TABLES
 from tables import attempts, lessons, table
 
@@ -51,6 +51,7 @@ def report(options: argparse.Namespace) -> None:
         "figures": draw(options.folder, options.out, say),
         "runs": f"{options.runs:,}",
         "seed": str(options.seed),
+        "remarks": remarks(options.folder),
         "command": f"make paper-train {plan} TO={TO}" if plan else f"make paper-train TO={TO}",
         "plan": plan.text if plan else "How it was taught is not known here; the last table says what is.",
     }
@@ -59,6 +60,14 @@ def report(options: argparse.Namespace) -> None:
     for title in ("table_1", "table_1_uninterrupted", "table_2", "table_3", "attempts"):
         print(f"\n{title.replace('_', ' ')}\n{parts[title]}")
     say(f"{options.out / 'RESULTS.md'}: all of it")
+
+
+def remarks(folder: Path) -> str:
+    """What people have written about these weights and logs, beside the plan."""
+    try:
+        return (folder / PLAN).with_name("REMARKS.md").read_text(encoding="utf-8").rstrip()
+    except FileNotFoundError:
+        return "Nobody has written it down: `logs/REMARKS.md` is the place."
 
 
 def say(text: str) -> None:

@@ -1,5 +1,6 @@
 """Measuring what minds do: what taught them, how well they do, and how many attempts of a lesson have succeeded."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cache
 from math import sqrt
@@ -75,10 +76,17 @@ def champions_do(folder: Path, file: str, lesson: str, champions: Weights, runs:
     """What each champion [attempts, weights] of a lesson counts in a run, on the mean over so many layouts."""
     graph = compiled(folder / file).graph
     assert graph is not None
-    task = next(written.task for written in graph.lessons if written.skill == lesson)
-    ready = make_ready(graph, compiled(folder / file).sources, lesson)
-    rollout = Rollout(ready.graph, ready.weights, task, lesson, [lesson], procedures=folder, workers=cores())
+    taught = next(written for written in graph.lessons if written.name == lesson)
+    rollout = rollout_of(folder, file, taught, [taught.skill], cores())
     return [float(mean) for mean in rollout.score(champions, layouts(seed, runs)).counts.mean(axis=1)]
+
+
+def rollout_of(folder: Path, file: str, lesson: Lesson, skills: Sequence[str], workers: int) -> Rollout:
+    """The world of a lesson for genomes of these skills, all others with the weights that lie in a folder."""
+    found = compiled(folder / file)
+    assert found.graph is not None
+    ready = make_ready(found.graph, found.sources, lesson.master)
+    return Rollout(ready.graph, ready.weights, lesson.task, lesson.master, skills, procedures=folder, workers=workers)
 
 
 @cache

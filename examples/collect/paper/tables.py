@@ -40,7 +40,7 @@ def _effort(folder: Path, case: Case) -> str:
         if file.name == case.file and lesson.name in logs
     ]
     attempts = max((result["attempts"] for result in results), default=0)
-    return f"{sum(result['generations'] for result in results)} × {attempts}"
+    return f"{sum(result['generations'] for result in results)} × {attempts}" if results else ""
 
 
 def attempts(folder: Path, seed: int, say: Say) -> str:

@@ -13,20 +13,19 @@ from time import perf_counter
 from typing import TypeVar
 
 from logs import Log, keep, logs_of
-from measure import compiled
+from measure import compiled, rollout_of
 from mindrun.errors import MindError
 from mindrun.graph import Lesson
-from mindrun.sim.rollout import Rollout, cores
+from mindrun.sim.rollout import cores
 from plan import Plan, keep_plan, read_plan
 from protocol import FILES, FOLDER
 
 from mindlang import simulator
 from mindlang.figures import duration
-from mindlang.lock.ready import make_ready
 from mindlang.run.stage import layouts
 from mindlang.school import School
 
-LAYOUTS = 16  # on which a shipped champion runs, to see how fast this machine is
+RUNS = 128  # of shipped champions, to see how fast this machine is; fewer would leave lanes empty
 
 N = TypeVar("N", int, float)
 
@@ -141,13 +140,10 @@ def ticks(lesson: Lesson, log: Log) -> float:
 
 def speed(file: str, lesson: Lesson, log: Log, workers: int) -> float:
     """Ticks a second of a lesson on this machine, with the champions that were shipped."""
-    found = compiled(FOLDER / file)
-    assert found.graph is not None
-    ready = make_ready(found.graph, found.sources, lesson.master)
-    rollout = Rollout(ready.graph, ready.weights, lesson.task, lesson.master, [*log.result["weights"]], workers=workers)
+    rollout = rollout_of(FOLDER, file, lesson, [*log.result["weights"]], workers)
     simulator.make_ready(rollout, print)  # before the clock starts
     begin = perf_counter()
-    scores = rollout.score(log.champions, layouts(1, LAYOUTS))
+    scores = rollout.score(log.champions, layouts(1, -(-RUNS // len(log.champions))))
     return float(scores.ticks.sum()) / (perf_counter() - begin)
 
 

@@ -88,19 +88,24 @@ class State:
     faults: int
 
     @property
+    def _best(self) -> NDArray[np.intp]:
+        """Which attempt is kept [0 or 1]: the one that did best, the first of equals."""
+        return order(self.verdicts[:, 0])[:1]
+
+    @property
     def kept(self) -> Genomes:
-        """The best of the champions [0 or 1, weights]; the first of equals."""
-        return self.champions[order(self.verdicts[:, 0])][:1]
+        """The champion that is kept [0 or 1, weights]."""
+        return self.champions[self._best]
 
     @property
     def kept_after(self) -> int:
         """The generations of the attempt whose champion is kept; 0 before one has ended."""
-        return int(self.lengths[order(self.verdicts[:, 0])][0]) if len(self.lengths) else 0
+        return int(self.lengths[self._best[0]]) if len(self.lengths) else 0
 
     @property
     def reevaluated(self) -> float:
         """The score of the kept one on layouts that chose nothing; -inf before an attempt has ended."""
-        return float(self.verdicts[order(self.verdicts[:, 0])][0, 1]) if len(self.verdicts) else -inf
+        return float(self.verdicts[self._best[0], 1]) if len(self.verdicts) else -inf
 
 
 @dataclass(frozen=True, slots=True)
