@@ -39,8 +39,8 @@ def load(path: Path | str, texts: Mapping[Path, str] = NOTHING) -> Compiled:
 
     Files that stand in `texts` are taken from there.
     """
-    resolved = Path(path).resolve()
     try:
+        resolved = Path(path).resolve()
         recover(resolved.parent)
         if resolved in texts:
             source = Source(str(path), texts[resolved], resolved.parent)

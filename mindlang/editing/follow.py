@@ -5,7 +5,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from mindrun.graph import Graph
-from mindrun.weights import Weights, reachable
+from mindrun.weights import Weights
 
 from mindlang.editing.project import Change, Replaced
 from mindlang.editing.widen import widened
@@ -46,7 +46,7 @@ def follow(locks: Locks, before: Graph, after: Graph, change: Change, keep_weigh
     gone -= {skill.name for skill in after.skills}
     kept = {path: _relabelled(lock, names, gone) for path, lock in locks.items()}
     if change.replaced:
-        kept = {path: _moved(lock, change.replaced, after) for path, lock in kept.items()}
+        kept = {path: _moved(lock, change.replaced) for path, lock in kept.items()}
     return Followed(*widened(locks, kept, names["skill"], before, after)) if keep_weights else Followed(kept, {})
 
 
@@ -89,18 +89,11 @@ def _entry(entry: Entry, names: Names) -> Entry:
     )
 
 
-def _moved(lock: Lock, replaced: Replaced, after: Graph) -> dict[str, Entry]:
+def _moved(lock: Lock, replaced: Replaced) -> dict[str, Entry]:
     """A lock in which whoever influenced a skill influences the one that has taken its place."""
-    return {
-        name: entry if name == replaced.new else _moved_entry(entry, replaced, after) for name, entry in lock.items()
-    }
+    return {name: entry if name == replaced.new else _moved_entry(entry, replaced) for name, entry in lock.items()}
 
 
-def _moved_entry(entry: Entry, replaced: Replaced, after: Graph) -> Entry:
-    def now(name: str) -> str:
-        return replaced.new if name == replaced.old else name
-
-    below = {skill.name for skill in reachable(after, entry.skill)}
-    subskills = entry.subskills if replaced.old in below else tuple((now(name), sha) for name, sha in entry.subskills)
-    signature = replace(entry.signature, sends=tuple(map(now, entry.signature.sends)))
-    return replace(entry, signature=signature, subskills=tuple(sorted(subskills)))
+def _moved_entry(entry: Entry, replaced: Replaced) -> Entry:
+    sends = (replaced.new if name == replaced.old else name for name in entry.signature.sends)
+    return replace(entry, signature=replace(entry.signature, sends=tuple(sends)))

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 from mindrun.functions import Mlp
 from mindrun.graph import Graph, Skill
-from mindrun.weights import Weights, genes
+from mindrun.weights import Weights, below, genes
 
 from mindlang.lock import Entry, Lock
 from mindlang.lock.blobs import load_weights
@@ -42,30 +42,36 @@ Status = Trained | Stale | Untaught | NotLearning
 
 def status(graph: Graph, lock: Lock) -> dict[str, Status]:
     """How each skill of a mind stands to its lock; reads no weights."""
-    return {skill.name: _status(graph, skill, lock) for skill in graph.skills}
+    return {skill.name: _status(graph, index, lock) for index, skill in enumerate(graph.skills)}
 
 
-def _status(graph: Graph, skill: Skill, lock: Lock) -> Status:
+def _status(graph: Graph, index: int, lock: Lock) -> Status:
+    skill = graph.skills[index]
     if genes(skill) == 0:
         return NotLearning()
     entry = lock.get(skill.name)
     if entry is None:
         return Untaught()
     found = differences(entry.signature, signature(graph, skill), _width_is_derived(skill))
-    return Stale(found) if found else Trained(entry, tuple(_notes(entry, lock)))
+    return Stale(found) if found else Trained(entry, tuple(_notes(below(graph, index)[1:], entry, lock)))
 
 
 def _width_is_derived(skill: Skill) -> bool:
     return isinstance(skill.function, Mlp) and skill.function.width == 0
 
 
-def _notes(entry: Entry, lock: Lock) -> Iterator[str]:
+def _notes(subskills: Collection[Skill], entry: Entry, lock: Lock) -> Iterator[str]:
+    names = {skill.name for skill in subskills}
     for skill, weights in entry.subskills:
         now = lock.get(skill)
-        if now is None:
-            yield f"taught with a {skill} ({weights[:4]}…) that has no weights now"
+        if skill not in names:
+            yield f"taught with {skill} ({weights[:4]}…), which is not below it now"
+        elif now is None:
+            yield f"taught with {skill} ({weights[:4]}…), which has no weights now"
         elif now.weights != weights:
             yield f"taught with another {skill} ({weights[:4]}…, now {now.weights[:4]}…)"
+    known = {skill for skill, _ in entry.subskills}
+    yield from (f"taught without {skill.name}" for skill in subskills if genes(skill) and skill.name not in known)
 
 
 def trained_weights(graph: Graph, lock: Lock, skills: Collection[str]) -> tuple[dict[str, Weights], list[str]]:

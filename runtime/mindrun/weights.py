@@ -37,13 +37,17 @@ def weights_of(skill: Skill, weights: Mapping[str, Weights]) -> Weights:
 
 def reachable(graph: Graph, master: str) -> tuple[Skill, ...]:
     """The skills that can have influence when `master` is in charge, parents first."""
-    reached = {master}
-    found = []
-    for skill in graph.skills:
-        if skill.name in reached:
-            found.append(skill)
-            reached |= {graph.skills[edge.target].name for edge in skill.edges if edge.to == "skill"}
-    return tuple(found)
+    return below(graph, next(index for index, skill in enumerate(graph.skills) if skill.name == master))
+
+
+def below(graph: Graph, index: int) -> tuple[Skill, ...]:
+    """The skill of an index and all that it can influence, parents first."""
+    found, waiting = {index}, [index]
+    while waiting:
+        targets = {edge.target for edge in graph.skills[waiting.pop()].edges if edge.to == "skill"} - found
+        found |= targets
+        waiting += targets
+    return tuple(graph.skills[index] for index in sorted(found))
 
 
 def learners(graph: Graph, lesson: Lesson) -> tuple[str, ...]:

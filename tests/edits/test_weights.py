@@ -133,8 +133,26 @@ def test_parents_keep_their_weights_over_what_encapsulates_their_subskill(drive:
     drives = states["Drive"]
     assert isinstance(drives, Trained)
     assert drives.entry.signature.sends == ("Go", "AvoidWell")
-    assert sentences[-1] == "3 trained skills keep what was learnt"
-    assert any(line.startswith("Drive was taught with a AvoidWell") for line in sentences)
+    assert sentences == [
+        "Drive was taught without AvoidWell",
+        "AvoidWell has not been taught",
+        "3 trained skills keep what was learnt",
+    ]
+
+
+def test_what_takes_the_place_of_a_subskill_is_told_of_those_above(drive: Path) -> None:
+    drives = "drives left_wheel\n  drives right_wheel\n  drives mood\n"
+    drive.write_text(MIND.replace("task Roam", f"skill Dodge is mlp\n  reads charge\n  {drives}\ntask Roam"))
+    teach(drive, "Dodge")
+    old = read_lock(lock_path(drive))
+    made(drive, "replace", skill="Avoid", new="Dodge")
+    state = statuses(drive)["Drive"]
+    assert isinstance(state, Trained)
+    assert state.entry.weights == old["Drive"].weights
+    assert state.notes == (
+        f"taught with Avoid ({old['Avoid'].weights[:4]}…), which is not below it now",
+        "taught without Dodge",
+    )
 
 
 def test_a_skill_may_take_the_place_of_one_that_it_influences(drive: Path) -> None:
