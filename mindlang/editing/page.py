@@ -81,12 +81,14 @@ def declare(file: File, noun: str, *declarations: Sequence[str]) -> Splice:
     texts = [*first, *(text for other in others for text in (*gap, *other))]
     siblings = [known for known in file.declarations if known.header.noun.text == noun]
     if siblings:
-        return insert_below(_extent(siblings[-1])[1], [*gap, *texts])
+        last = _extent(siblings[-1])[1]
+        set_off = gap or [""] * last.is_comment  # a comment right above would lead what is new
+        return insert_below(last, [*set_off, *texts])
     earlier = NOUNS[: NOUNS.index(noun)]
     above = [known for known in file.declarations if known.header.noun.text in earlier]
     if above:
-        last = max(above, key=lambda known: (earlier.index(known.header.noun.text), _start(known)))
-        return declare_below(last, texts)
+        nearest = max(above, key=lambda known: (earlier.index(known.header.noun.text), _start(known)))
+        return declare_below(nearest, texts)
     return insert_below(first_line(file.settings[-1].span), ["", *texts])
 
 

@@ -172,7 +172,7 @@ def influence(kind: str, skill: str) -> str:
 def suggestion(name: str, known: Sequence[str]) -> str:
     """The known name that a name was meant to be, or else what is known."""
     more = ", …" if len(known) > MOST else ""
-    declared = f"Declared are {', '.join(known[:MOST])}{more}." if known else ""
+    declared = f"Declared are {', '.join(known[:MOST])}{more}." if known else "None is declared."
     return did_you_mean(name, known) or declared
 
 
