@@ -1,5 +1,6 @@
 """The command line `mindc`: one command a file, found by looking, imported only when asked for."""
 
+import gc
 import os
 import sys
 from importlib import import_module
@@ -8,6 +9,8 @@ from pkgutil import iter_modules
 import click
 
 from mindlang.terminal import FINDINGS, INTERRUPTED, MISUSE, OK, say
+
+SELDOM = 200_000  # objects made before Python looks for garbage: a large mind is millions, and none of them garbage
 
 
 class Commands(click.Group):
@@ -48,6 +51,7 @@ def commands() -> None:
 
 def main() -> None:
     """Run one command; whatever happens ends in one message and an exit code, never in a traceback."""
+    gc.set_threshold(SELDOM)
     try:
         code = commands.main(standalone_mode=False)
         sys.stdout.flush()

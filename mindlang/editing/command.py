@@ -1,9 +1,7 @@
 """An edit from the command line: performed, shown, verified and written."""
 
-import gc
 import sys
-from collections.abc import Iterator, Mapping
-from contextlib import contextmanager
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -16,8 +14,6 @@ from mindlang.editing.telling import told
 from mindlang.report import as_data, print_report
 from mindlang.terminal import FINDINGS, MISUSE, console, fail, load_compiled, print_json, talk
 
-SELDOM = 200_000  # objects made before Python looks for garbage
-
 
 @dataclass(frozen=True, slots=True)
 class Wishes:
@@ -29,18 +25,6 @@ class Wishes:
     as_json: bool
 
 
-@contextmanager
-def _seldom_collected() -> Iterator[None]:
-    """A large mind is millions of objects and none of them garbage: looking for it takes as long as the edit."""
-    before = gc.get_threshold()
-    gc.set_threshold(SELDOM, *before[1:])
-    try:
-        yield
-    finally:
-        gc.set_threshold(*before)
-
-
-@_seldom_collected()
 def perform(of: Edit, said: Mapping[str, Any], file: str, wishes: Wishes) -> None:
     """Make an edit of a file; an impossible one ends the program with its reason."""
     if wishes.write and file == "-":

@@ -3,46 +3,19 @@
 import re
 from collections.abc import Iterator
 from dataclasses import dataclass, field
-from functools import cache, lru_cache
-from pathlib import Path
-from typing import TYPE_CHECKING
 
 from mindlang import syntax
 from mindlang.diagnostic import Findings, nearest
 from mindlang.parse.explain import explain, proper
+from mindlang.parse.shape import said
 from mindlang.source import Source, Span
 from mindlang.syntax import NOUNS, SETTINGS, VERBS
-
-if TYPE_CHECKING:
-    from lark import Lark, Token, Tree
 
 NESTING = 64
 MOST = 1000  # unreadable lines, after which this is no mind
 
 _CODE = re.compile(r'(?:"[^"]*"|[^#])*')
 _HEADER = re.compile(r"\s*(\w+)\s+(\w[\w.+]*)")
-
-
-@cache
-def grammar() -> "Lark":
-    """The grammar, with `start` for a whole file and `line` for one line."""
-    from lark import Lark
-
-    here = Path(__file__).parents[1]
-    folder = next(folder for folder in (here / "grammar", here.parent / "grammar") if folder.is_dir())
-    return Lark(
-        (folder / "mind.lark").read_text(encoding="utf-8"),
-        parser="lalr",
-        start=["start", "line"],
-        propagate_positions=True,
-        maybe_placeholders=False,
-    )
-
-
-@lru_cache(maxsize=1 << 15)
-def _tree(code: str) -> "Tree[Token]":
-    """Lark's tree of a line; an editor reads the same lines again and again."""
-    return grammar().parse(code, start="line")
 
 
 @dataclass(slots=True)
@@ -102,15 +75,13 @@ def _line(span: Span, code: str, findings: Findings) -> Iterator[syntax.Line | _
     """What the line says, or after reporting it what can be saved of it."""
     from lark import UnexpectedInput
 
-    from mindlang.parse.build import build
-
-    if _depth(code) > NESTING:
+    if code.count("(") + code.count("-") > NESTING and _depth(code) > NESTING:
         hint = f"At most {NESTING} parentheses and signs may stand inside one another."
         findings.error("nested-too-deep", span, "This expression is nested too deep.", hint)
         yield _Unread()
         return
     try:
-        yield build(_tree(code), span.source, span.start)
+        yield said(code, span.source, span.start)
     except UnexpectedInput as error:
         findings.diagnostics.append(explain(error, code, span))
         yield _saved(code, span)

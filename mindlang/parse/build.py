@@ -1,5 +1,6 @@
 """Lark's tree of one line → the dataclasses of `syntax`."""
 
+import re
 from typing import Any, cast
 
 from lark import Token, Tree, v_args
@@ -10,6 +11,8 @@ from mindlang.source import Source, Span
 from mindlang.syntax import Amount, Expression, Name, Operator, Phrase, Term
 
 Terms = list[Term]
+
+_NUMBER = re.compile(r"([+-]?)[ \t]*([0-9./]+)")
 
 
 def build(tree: Tree[Token], source: Source, offset: int) -> syntax.Line:
@@ -113,9 +116,8 @@ class _Builder(Transformer_NonRecursive[Token, Any]):
         return self._name(parts[0])
 
     def quantity(self, meta: Any, parts: list[Any]) -> Amount:
-        sign = str(parts.pop(0)) if parts[0].type == "SIGN" else "+"
-        number, unit = (*map(str, parts), "")[:2]
-        return Amount(-_number(number) if sign == "-" else _number(number), unit, self._span(meta))
+        unit = str(parts.pop()) if parts[-1].type == "UNIT" else ""
+        return Amount(number("".join(parts)), unit, self._span(meta))
 
     under, call, setting, amounts, amount = name, phrase, argument, numbers, quantity
 
@@ -138,8 +140,10 @@ def _terms(part: Any) -> Terms:
     return part if isinstance(part, list) else [part]
 
 
-def _number(text: str) -> float:
-    above, _, below = text.partition("/")
+def number(text: str) -> float:
+    """The number at the beginning of an amount, as in `- 1/2 deg`."""
+    sign, digits = _NUMBER.findall(text)[0]
+    above, _, below = f"{sign}{digits}".partition("/")
     try:
         return float(above) / float(below or 1)
     except ZeroDivisionError:

@@ -15,7 +15,9 @@ from lark import UnexpectedInput
 
 from mindlang.compile import Compiled, compile_source, load
 from mindlang.diagnostic import Findings
-from mindlang.parse import grammar, parse
+from mindlang.parse import parse
+from mindlang.parse.build import build
+from mindlang.parse.shape import grammar, said
 from mindlang.report import as_data, plain
 from mindlang.source import Source
 from tests.language.examples import EXAMPLES, RIGHT, TOUR
@@ -163,3 +165,36 @@ def test_mutants_are_the_same_language_too(seed: int) -> None:
     text, findings = data.decode(), Findings()
     parse(Source("fuzz.mind", text), findings)
     assert read_whole(text) == (not findings.diagnostics)
+
+
+ODD = ' \t .+-*/%()<>=_09azAZ"é٣ǅ,'
+WORDS = "s deg 10s 5_ a.b sensor.x s.x 1.5.2 1/2/3 2e3 Go+ +Go on at to"
+
+
+def same_as_lark(code: str) -> None:
+    """What the shape of a line makes of it is what Lark makes of the line itself."""
+    source = Source("line", f"?? {code}")
+    try:
+        expected = repr(build(grammar().parse(code, start="line"), source, 3))
+    except UnexpectedInput:
+        with pytest.raises(UnexpectedInput):
+            said(code, source, 3)
+    else:
+        assert repr(said(code, source, 3)) == expected
+
+
+@settings(relaxed, max_examples=300)
+@given(from_grammar("line"))
+def test_lines_of_one_shape_have_one_tree(code: str) -> None:
+    same_as_lark(code)
+
+
+@pytest.mark.parametrize("chunk", range(10))
+def test_mutants_of_one_shape_have_one_tree(chunk: int) -> None:
+    lines = [line.partition("#")[0] for seed in SEEDS for line in seed.read_text(encoding="utf-8").split("\n")]
+    rng = Random(chunk)
+    for code in rng.choices([line for line in lines if line.strip()], k=2000):
+        for _ in range(rng.randrange(4)):
+            at = rng.randrange(len(code) + 1)
+            code = code[:at] + rng.choice([*ODD, *WORDS.split()]) + code[at + rng.randrange(3) :]
+        same_as_lark(code)

@@ -1,0 +1,140 @@
+"""What a line says, at the speed of a table: lines that differ in names and numbers alone are parsed by Lark once.
+
+The shape of a line is its text with `a` for every name, `A` for every title and `1` for every number. Where words begin
+and end, and of what sort they are, is all that the grammar asks of them: lines of one shape have the same tree.
+"""
+
+import re
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, fields, is_dataclass
+from functools import cache, lru_cache
+from itertools import accumulate
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, cast
+
+from mindlang import syntax
+from mindlang.source import Source, Span
+
+if TYPE_CHECKING:
+    from lark import Lark
+
+_PIECE = re.compile(r"(?<!\w)[0-9]+|\w+|[ \t]+|\W")
+SHAPES = 4096  # of a line that are remembered; a file has some dozens
+
+
+@dataclass(frozen=True, slots=True)
+class _Line:
+    """A line in its source, and where each of its pieces begins; the last number is where it ends."""
+
+    source: Source
+    at: Sequence[int]
+
+
+Maker = Callable[[_Line], Any]
+
+
+@cache
+def grammar() -> "Lark":
+    """The grammar, with `start` for a whole file and `line` for one line."""
+    from lark import Lark
+
+    here = Path(__file__).parents[1]
+    folder = next(folder for folder in (here / "grammar", here.parent / "grammar") if folder.is_dir())
+    return Lark(
+        (folder / "mind.lark").read_text(encoding="utf-8"),
+        parser="lalr",
+        start=["start", "line"],
+        propagate_positions=True,
+        maybe_placeholders=False,
+    )
+
+
+def said(code: str, source: Source, offset: int) -> syntax.Line:
+    """What a line without comment says that stands at `offset` of a source; lark.UnexpectedInput where it says nothing.
+
+    The error is about `code`.
+    """
+    pieces = _PIECE.findall(code)
+    shape = "".join(map(_stands_for, pieces))
+    maker = None if '"' in code else _maker(shape)
+    if maker is None:
+        return _parsed(code, source, offset)
+    return cast(syntax.Line, maker(_Line(source, tuple(accumulate(map(len, pieces), initial=offset)))))
+
+
+def _stands_for(piece: str) -> str:
+    """What stands for a piece of a line in its shape."""
+    first = piece[0]
+    if "a" <= first <= "z":
+        return piece if piece in _words() else "a"
+    if "A" <= first <= "Z":
+        return "A"
+    if "0" <= first <= "9":
+        return "1"
+    return " " if first in " \t" else piece
+
+
+@cache
+def _words() -> frozenset[str]:
+    """Every word that the grammar knows."""
+    return frozenset(word for terminal in grammar().terminals for word in re.findall(r"\w+", terminal.pattern.value))
+
+
+def _parsed(code: str, source: Source, offset: int) -> syntax.Line:
+    from mindlang.parse.build import build
+
+    return build(grammar().parse(code, start="line"), source, offset)
+
+
+@lru_cache(SHAPES)
+def _maker(shape: str) -> Maker | None:
+    """What makes the lines of a shape; None where Lark cannot read it."""
+    from lark import UnexpectedInput
+
+    try:
+        line = _parsed(shape, Source("shape", shape), 0)
+    except UnexpectedInput:
+        return None
+    at = accumulate(map(len, _PIECE.findall(shape)), initial=0)
+    return _making(line, {start: place for place, start in enumerate(at)})
+
+
+def _making(node: Any, places: dict[int, int]) -> Maker:
+    """What makes a node of other lines like this one; `places` are the numbers of the pieces by where they begin."""
+    match node:
+        case Span(_, start, end):
+            return _spanning(places[start], places[end])
+        case syntax.Name(_, span):
+            return _naming(places[span.start], places[span.end])
+        case syntax.Amount(_, unit, span):
+            return _measuring(unit, places[span.start], places[span.end])
+        case tuple():
+            makers = [_making(part, places) for part in node]
+            return lambda line: tuple([make(line) for make in makers])
+        case _ if is_dataclass(node):
+            cls: type[Any] = type(node)
+            parts = [_making(getattr(node, field.name), places) for field in fields(node)]
+            return lambda line: cls(*[make(line) for make in parts])
+    return lambda line: node
+
+
+def _spanning(first: int, end: int) -> Maker:
+    return lambda line: Span(line.source, line.at[first], line.at[end])
+
+
+def _naming(first: int, end: int) -> Maker:
+    def name(line: _Line) -> syntax.Name:
+        start, stop = line.at[first], line.at[end]
+        return syntax.Name(line.source.text[start:stop], Span(line.source, start, stop))
+
+    return name
+
+
+def _measuring(unit: str, first: int, end: int) -> Maker:
+    from mindlang.parse.build import number
+
+    def amount(line: _Line) -> syntax.Amount:
+        span = Span(line.source, line.at[first], line.at[end])
+        return syntax.Amount(number(span.text), unit, span)
+
+    return amount
