@@ -8,7 +8,6 @@ from pathlib import Path
 from mindrun.graph import Graph
 
 from mindlang.diagnostic import Diagnostic, Findings
-from mindlang.journal import JournalError, recover
 from mindlang.lower import lower
 from mindlang.model import Mind
 from mindlang.resolve import resolve
@@ -41,17 +40,15 @@ def load(path: Path | str, texts: Mapping[Path, str] = NOTHING) -> Compiled:
     """
     try:
         resolved = Path(path).resolve()
-        recover(resolved.parent)
         if resolved in texts:
             source = Source(str(path), texts[resolved], resolved.parent)
         elif str(path) == "-":
             source = Source("<stdin>", decode(sys.stdin.buffer.read(LIMIT + 1)), Path.cwd().resolve())
         else:
             source = read(Path(path), str(path))
-    except JournalError as error:
-        return _unreadable(f"{error}.", error.hint)
-    except OSError as error:
-        return _unreadable(f"{path} cannot be read: {error.strerror or error}.", "Is the path right?")
+    except (OSError, RuntimeError) as error:
+        why = getattr(error, "strerror", None) or error  # a loop of links is a RuntimeError
+        return _unreadable(f"{path} cannot be read: {why}.", "Is the path right?")
     except ValueError as error:
         return _unreadable(f"{path} {error}.", "A .mind file is UTF-8 text of at most 1 MiB.")
     return compile_source(source, resolved, texts)

@@ -92,11 +92,24 @@ def write_picture(path: Path, data: bytes) -> None:
         fail(f"{path} cannot be written: {error.strerror}", code=MISUSE)
 
 
+def take_back(path: Path | str) -> None:
+    """Take back an edit of a file that was interrupted; end the program where that would lose work."""
+    from mindlang.journal import JournalError, recover
+
+    folder = Path(path).absolute().parent
+    try:
+        if recover(folder):
+            say("An edit was interrupted, and has been taken back.", "Make it again.")
+    except JournalError as error:
+        fail(f"{error}.", error.hint, MISUSE)
+
+
 def load_compiled(path: Path | str) -> Compiled:
     """The compiled file; its report goes to stderr, and a file with errors ends the program (2 when unreadable)."""
     from mindlang.compile import load
     from mindlang.report import print_report
 
+    take_back(path)
     compiled = load(path)
     print_report(compiled.diagnostics, console(stderr=True))
     if compiled.graph is None:

@@ -22,8 +22,10 @@ def command(files: tuple[str, ...], as_json: bool) -> None:
     """
     from mindlang.compile import load
     from mindlang.report import as_data, print_report
-    from mindlang.terminal import FINDINGS, MISUSE, OK, console, print_json
+    from mindlang.terminal import FINDINGS, MISUSE, OK, console, print_json, take_back
 
+    for file in files:
+        take_back(file)
     compiled = {file: load(file) for file in files}
     found = [diagnostic for result in compiled.values() for diagnostic in result.diagnostics]
     if as_json:

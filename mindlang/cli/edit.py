@@ -40,16 +40,19 @@ def command() -> None:
 def _command(of: Edit) -> click.Command:
     """A click command with the parameters of an edit, and those that all of them have."""
 
-    def run(file: str, write: bool, keep_weights: bool, verify: bool, as_json: bool, **said: Any) -> None:
+    def run(file: str, write: bool, anyway: bool, keep_weights: bool, verify: bool, as_json: bool, **said: Any) -> None:
         from mindlang.editing.command import Wishes, perform
 
-        perform(of, said, file, Wishes(write, keep_weights, verify, as_json))
+        perform(of, said, file, Wishes(write, anyway, keep_weights, verify, as_json))
 
     parameters = [
         *(click.Argument([name], nargs=-1 if many else 1, required=True) for name, many in of.arguments),
         click.Argument(["file"]),
         *(_option(option) for option in of.options),
         click.Option(["--write"], is_flag=True, help="Make the edit, and not only print it."),
+        click.Option(
+            ["--anyway"], is_flag=True, help="Make it even where a mind that uses this one no longer compiles.",
+        ),
         click.Option(
             ["--keep-weights"], is_flag=True,
             help="Let a skill that reads or influences more go on as it was taught: weights of zero for what is new.",

@@ -6,11 +6,11 @@ from dataclasses import dataclass
 from typing import Any
 
 from mindlang.diagnostic import Diagnostic, listed
-from mindlang.editing.carry_out import Edited, carry_out, write
+from mindlang.editing.carry_out import Edited, carry_out
 from mindlang.editing.catalog import Edit
-from mindlang.editing.neighbours import broken
 from mindlang.editing.project import EditError, open_project
-from mindlang.editing.telling import told
+from mindlang.editing.telling import broken, diff, told
+from mindlang.editing.writing import changed_locks, write
 from mindlang.report import as_data, print_report
 from mindlang.terminal import FINDINGS, MISUSE, console, fail, load_compiled, print_json, talk
 
@@ -20,6 +20,7 @@ class Wishes:
     """What the command line says beside the edit itself."""
 
     write: bool
+    anyway: bool
     keep_weights: bool
     verify: bool
     as_json: bool
@@ -32,7 +33,7 @@ def perform(of: Edit, said: Mapping[str, Any], file: str, wishes: Wishes) -> Non
     project = open_project(load_compiled(file))
     try:
         edited = carry_out(project, of.function(project, **said), wishes.keep_weights)
-        sentences = [*told(edited), *broken(edited)]
+        sentences = [*told(edited), *_broken(edited, wishes)]
         if wishes.verify:
             from mindlang.editing.verify import verified
 
@@ -44,6 +45,14 @@ def perform(of: Edit, said: Mapping[str, Any], file: str, wishes: Wishes) -> Non
     _show(edited, sentences, wishes)
 
 
+def _broken(edited: Edited, wishes: Wishes) -> list[str]:
+    """A sentence for each mind that would no longer compile; EditError where that is not wished for."""
+    lines = [f"{name} no longer compiles by itself: {why}" for name, why in broken(edited).items()]
+    if lines and wishes.write and not wishes.anyway:
+        raise EditError(f"After this edit {lines[0]}", "--anyway makes it nevertheless.")
+    return lines
+
+
 def _verified(skills: list[str]) -> str:
     if not skills:
         return "verified: there is no trained skill that this edit leaves as it was"
@@ -52,14 +61,16 @@ def _verified(skills: list[str]) -> str:
 
 def _show(edited: Edited, sentences: list[str], wishes: Wishes) -> None:
     if wishes.as_json:
-        print_json({"diff": edited.diff, "written": wishes.write, "weights": sentences})
+        print_json({"diff": diff(edited), "written": wishes.write, "weights": sentences})
         return
     if not wishes.write:
-        sys.stdout.write(edited.diff)
+        sys.stdout.write(diff(edited))
     for line in sentences:
         talk.print(line, markup=False)
     if not wishes.write:
-        talk.print("nothing has been written: --write makes this edit", markup=False)
+        locks = [path.name for path in changed_locks(edited)]
+        also = f", and changes {listed(locks, 'and')} as well" if locks else ""
+        talk.print(f"nothing has been written: --write makes this edit{also}", markup=False)
 
 
 def _refuse(diagnostic: Diagnostic, wishes: Wishes) -> None:

@@ -1,6 +1,6 @@
 """What becomes of trained weights when their source is edited: a line of the lock says the same with other names."""
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Set
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -28,11 +28,11 @@ def locks_of(sources: Iterable[Path]) -> dict[Path, dict[str, Entry]]:
     return {path: read_lock(path) for path in map(lock_path, sources)}
 
 
-def merged(locks: Locks) -> Lock:
-    """What all locks say, the first that knows a skill."""
+def merged(locks: Locks, sources: Iterable[Path]) -> Lock:
+    """What the locks of these files say, the first that knows a skill; main file first."""
     known: dict[str, Entry] = {}
-    for lock in locks.values():
-        known = {**lock, **known}
+    for path in map(lock_path, sources):
+        known = {**locks.get(path, {}), **known}
     return known
 
 
@@ -46,7 +46,8 @@ def follow(locks: Locks, before: Graph, after: Graph, change: Change, keep_weigh
     gone -= {skill.name for skill in after.skills}
     kept = {path: _relabelled(lock, names, gone) for path, lock in locks.items()}
     if change.replaced:
-        kept = {path: _moved(lock, change.replaced) for path, lock in kept.items()}
+        own = {skill.name for skill in before.skills} - {change.replaced.new}
+        kept = {path: _moved(lock, change.replaced, own) for path, lock in kept.items()}
     return Followed(*widened(locks, kept, names["skill"], before, after)) if keep_weights else Followed(kept, {})
 
 
@@ -89,9 +90,9 @@ def _entry(entry: Entry, names: Names) -> Entry:
     )
 
 
-def _moved(lock: Lock, replaced: Replaced) -> dict[str, Entry]:
-    """A lock in which whoever influenced a skill influences the one that has taken its place."""
-    return {name: entry if name == replaced.new else _moved_entry(entry, replaced) for name, entry in lock.items()}
+def _moved(lock: Lock, replaced: Replaced, parents: Set[str]) -> dict[str, Entry]:
+    """A lock in which those of `parents` that influenced a skill influence the one that has taken its place."""
+    return {name: _moved_entry(entry, replaced) if name in parents else entry for name, entry in lock.items()}
 
 
 def _moved_entry(entry: Entry, replaced: Replaced) -> Entry:

@@ -1,7 +1,7 @@
 """What an edit works on: the files of a mind, main one first, and what their names mean."""
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import TypeVar
 
@@ -11,6 +11,7 @@ from mindrun.registry import kinds
 
 from mindlang.compile import Compiled
 from mindlang.diagnostic import Diagnostic, Findings, Label, a, did_you_mean, listed
+from mindlang.editing.neighbours import neighbours
 from mindlang.editing.references import READ, Mention, mentions
 from mindlang.model import Mind
 from mindlang.resolve.names import SHARED, Names, gather
@@ -64,11 +65,12 @@ class Change:
 
 @dataclass(frozen=True, slots=True)
 class Project:
-    """A mind that compiles, and its files as they were written."""
+    """A mind that compiles, and its files as they were written; `neighbours` are the minds that share some of them."""
 
     mind: Mind
     graph: Graph
     names: Names
+    neighbours: tuple["Project", ...] = ()
 
     @property
     def files(self) -> tuple[File, ...]:
@@ -125,9 +127,31 @@ class Project:
         source = declaration.header.span.source
         return next(file for file in self.files if file.source is source)
 
+    @property
+    def paths(self) -> dict[Path, File]:
+        """The files by their paths."""
+        return {file.source.path: file for file in self.files}
+
     def mentions(self, noun: str, name: str) -> Iterator[Mention]:
         """Where a name stands, in all files."""
         return (m for m in mentions(self.files, self.names) if m.noun == noun and m.name.text == name)
+
+    def sharing(self, noun: str, name: str) -> list["Project"]:
+        """The neighbours in which a name means the same: it stands in a file that they share."""
+        paths = self.paths
+        return [
+            other
+            for other in self.neighbours
+            if any(mention.name.span.source.path in paths for mention in other.mentions(noun, name))
+        ]
+
+    def everywhere(self, noun: str, name: str) -> Iterator[Mention]:
+        """Where a name stands, in all files and in those of the neighbours that share it."""
+        yield from self.mentions(noun, name)
+        seen = set(self.paths)
+        for other in self.sharing(noun, name):
+            yield from (m for m in other.mentions(noun, name) if m.name.span.source.path not in seen)
+            seen |= set(other.paths)
 
     def parents(self, skill: str) -> list[Declaration]:
         """The skills that influence a skill."""
@@ -142,7 +166,12 @@ class Project:
 
 
 def open_project(compiled: Compiled) -> Project:
-    """The project of a file that compiled."""
+    """The project of a file that compiled, with its neighbours."""
+    alone = _project(compiled)
+    return replace(alone, neighbours=tuple(map(_project, neighbours(tuple(alone.paths)))))
+
+
+def _project(compiled: Compiled) -> Project:
     assert compiled.mind is not None
     assert compiled.graph is not None
     return Project(compiled.mind, compiled.graph, gather(compiled.mind.files, Findings()))

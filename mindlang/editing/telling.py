@@ -1,28 +1,107 @@
-"""What an edit does to the trained weights, in sentences."""
+"""What an edit does to sources and to trained weights, for people."""
 
-from collections.abc import Iterator
+import os
+from collections.abc import Iterator, Mapping
+from pathlib import Path
 
-from mindlang.editing.carry_out import Edited
-from mindlang.lock.status import Stale, Status, Trained, Untaught
+from mindrun.graph import Graph
+
+from mindlang.diagnostic import listed
+from mindlang.editing.carry_out import Beside, Edited
+from mindlang.editing.follow import Locks, merged
+from mindlang.lock.arrange import arrange
+from mindlang.lock.status import Stale, Status, Trained, Untaught, status
+from mindlang.splice import unified
+
+Statuses = Mapping[str, Status]
+
+
+def diff(edited: Edited) -> str:
+    """The unified diff of all sources, for `patch -p1` in the working directory where they lie below that."""
+    old = edited.old_texts
+    base = Path.cwd().resolve()
+    if not all(path.is_relative_to(base) for path in edited.texts):
+        base = Path(os.path.commonpath([path.parent for path in edited.texts]))
+    names = {path: path.relative_to(base).as_posix() for path in edited.texts}
+    return "".join(unified(names[path], old.get(path, ""), text) for path, text in edited.texts.items())
 
 
 def told(edited: Edited) -> list[str]:
-    """A sentence for each skill whose weights do not simply stay as they are."""
-    before, after = edited.statuses_before(), edited.statuses()
-    renamed = {rename.new: rename.old for rename in edited.change.renamed if rename.noun == "skill"}
-    old_names = {skill: renamed.get(skill, skill) for skill in after}
+    """A sentence for each skill whose weights do not simply stay as they are, and for what happens to neighbours."""
+    before = _statuses(edited.project.graph, edited.locks, list(edited.project.paths))
+    after = _statuses(edited.graph, edited.followed.locks, edited.sources)
+    old_names = _old_names(edited, after)
+    frozen = {skill.name for skill in edited.graph.skills if skill.frozen}
     lines = [line for skill, now in after.items() for line in _told(skill, old_names[skill], before, now)]
+    lines += [
+        f"{skill} is frozen: unfreeze it to teach it again"
+        for skill, now in after.items()
+        if skill in frozen and isinstance(now, Stale) and isinstance(before.get(old_names[skill]), Trained)
+    ]
     gone = before.keys() - set(old_names.values())
     lines += [
         f"{skill} is gone, its weights are forgotten" for skill in sorted(gone) if isinstance(before[skill], Trained)
     ]
     if any(isinstance(state, Trained) for state in before.values()):
-        kept = sum(isinstance(state, Trained) for state in after.values())
-        lines.append(f"{kept} trained skill{'s' * (kept != 1)} keep{'s' * (kept == 1)} what was learnt")
-    return lines
+        lines.append(_kept(sum(isinstance(state, Trained) for state in after.values())))
+    return lines + _told_beside(edited)
 
 
-def _told(skill: str, old: str, before: dict[str, Status], now: Status) -> Iterator[str]:
+def broken(edited: Edited) -> dict[str, str]:
+    """The neighbours that would no longer compile by themselves, and why."""
+    return {
+        other.before.main.source.path.name: other.after.diagnostics[0].message
+        for other in edited.beside
+        if other.after.graph is None
+    }
+
+
+def _kept(number: int) -> str:
+    match number:
+        case 0:
+            return "no trained skill keeps what was learnt"
+        case 1:
+            return "1 trained skill keeps what was learnt"
+    return f"{number} trained skills keep what was learnt"
+
+
+def _told_beside(edited: Edited) -> list[str]:
+    """What becomes stale in neighbours, whose locks may say something else of a skill than the mind's own."""
+    found: dict[str, list[str]] = {}
+    for other in edited.beside:
+        name = other.before.main.source.path.name
+        if other.damage:
+            found.setdefault(f"{other.damage}; it stays as it is", []).append("")
+        for line in _stale_beside(edited, other) if other.after.graph else ():
+            found.setdefault(line, []).append(name)
+    return [f"{listed(sorted(names), 'and')}: {line}" if any(names) else line for line, names in found.items()]
+
+
+def _stale_beside(edited: Edited, other: Beside) -> Iterator[str]:
+    assert other.after.graph
+    own = merged(edited.locks, edited.project.paths)
+    theirs = merged(edited.locks, other.before.paths)
+    before = _statuses(other.before.graph, edited.locks, list(other.before.paths))
+    after = _statuses(other.after.graph, edited.followed.locks, [source.path for source in other.after.sources])
+    old_names = _old_names(edited, after)
+    for skill, now in after.items():
+        old = old_names[skill]
+        if isinstance(now, Stale) and isinstance(before.get(old), Trained) and own.get(old) != theirs.get(old):
+            yield f"{skill} is stale: {'; '.join(now.differences)}"
+
+
+def _old_names(edited: Edited, after: Statuses) -> dict[str, str]:
+    """What skills were called before the edit."""
+    renamed = {rename.new: rename.old for rename in edited.change.renamed if rename.noun == "skill"}
+    return {skill: renamed.get(skill, skill) for skill in after}
+
+
+def _statuses(graph: Graph, locks: Locks, sources: list[Path]) -> Statuses:
+    lock = merged(locks, sources)
+    return status(arrange(graph, lock), lock)
+
+
+def _told(skill: str, old: str, before: Statuses, now: Status) -> Iterator[str]:
     match before.get(old), now:
         case Trained() as was, Trained():
             if skill != old:

@@ -68,10 +68,10 @@ def verified(edited: Edited) -> list[str]:
 
     What they read is recorded from a run in the simulator, as the mind was. EditError where one did something else.
     """
-    lock = merged(edited.locks)
+    lock = merged(edited.locks, edited.project.paths)
     folder = edited.project.main.source.folder
     before = Side(arrange(edited.project.graph, lock), lock, {}, folder)
-    now = merged(edited.followed.locks)
+    now = merged(edited.followed.locks, edited.sources)
     after = Side(arrange(edited.graph, now), now, edited.followed.weights, folder)
     names = new_names(edited.change)
     done = []

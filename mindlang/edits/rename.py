@@ -27,17 +27,15 @@ def rename(
 ) -> Change:
     """Rename anything, wherever it is named and in the locks.
 
+    Other minds that use the same files follow, those beside them and in the folders above.
+
     Example: mindc edit rename Avoid Dodge --noun skill collect.mind
     """
     of = _declared(project, old, noun).noun
     refuse_misnamed(of, new)
-    if of == "thing":
-        _refuse_taken_thing(project, new)
-    else:
-        project.refuse_taken(of, new)
-    if of in ("sensor", "memory"):
-        _refuse_captured(project, new)
-    places = (mention.name.span for mention in project.mentions(of, old))
+    for each in (project, *project.sharing(of, old)):
+        _refuse_taken(each, of, new)
+    places = (mention.name.span for mention in project.everywhere(of, old))
     return Change(tuple(instead(place, new) for place in places), (Renamed(of, old, new),))
 
 
@@ -56,6 +54,16 @@ def _declared(project: Project, name: str, noun: str) -> Mention:
         message = f"{name} is {listed(map(a, found), 'and')}."
         raise EditError(message, f"Say which: --noun {first.noun}", first.name.span, *labels)
     return first
+
+
+def _refuse_taken(project: Project, noun: str, name: str) -> None:
+    """EditError where a name would mean something else in a mind."""
+    if noun == "thing":
+        _refuse_taken_thing(project, name)
+    else:
+        project.refuse_taken(noun, name)
+    if noun in ("sensor", "memory"):
+        _refuse_captured(project, name)
 
 
 def _refuse_taken_thing(project: Project, name: str) -> None:

@@ -50,17 +50,6 @@ def test_verify_of_nothing(mindc: Call, tmp_path: Path) -> None:
     assert "verified: there is no trained skill that this edit leaves as it was" in said.err
 
 
-def test_files_beside_that_would_be_left_behind_are_told(mindc: Call, drive: Path) -> None:
-    beside = drive.with_name("beside.mind")
-    beside.write_text('use "drive.mind"\nmaster Drive\ncurriculum Own is genetic population 8\n')
-    teach(beside, "Avoid", seed=4)
-    said = mindc("edit", "rename", "Avoid", "Dodge", drive, "--noun", "skill")
-    assert "beside.lock goes on saying Avoid: make this edit of beside.mind, and it follows" in said.err
-    beside.write_text('use "drive.mind"\nmaster Avoid\n')
-    said = mindc("edit", "rename", "Avoid", "Dodge", drive, "--noun", "skill", "--write")
-    assert "beside.mind would no longer compile by itself: There is no skill called Avoid." in said.err
-
-
 def test_standard_input_is_edited_and_not_written(mindc: Call, drive: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("sys.stdin", TextIOWrapper(BytesIO(MIND.encode())))
     said = mindc("edit", "freeze", "Go", "-")

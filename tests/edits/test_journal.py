@@ -16,8 +16,9 @@ from typing import Any
 import pytest
 
 from mindlang.compile import load
-from mindlang.editing.carry_out import carry_out, write
+from mindlang.editing.carry_out import carry_out
 from mindlang.editing.project import EditError, open_project
+from mindlang.editing.writing import write
 from mindlang.edits.rename import rename
 from mindlang.journal import NAME, JournalError, change, recover
 from tests.calling import Call

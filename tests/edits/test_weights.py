@@ -16,11 +16,12 @@ from mindrun.sensors import Battery
 from mindrun.weights import genes
 
 from mindlang.compile import load
-from mindlang.editing.carry_out import carry_out, write
+from mindlang.editing.carry_out import carry_out
 from mindlang.editing.catalog import edit
 from mindlang.editing.follow import follow
 from mindlang.editing.project import Change, EditError, open_project
 from mindlang.editing.telling import told
+from mindlang.editing.writing import write
 from mindlang.lock import lock_path, read_lock
 from mindlang.lock.arrange import arrange
 from mindlang.lock.blobs import FOLDER, blob

@@ -1,0 +1,66 @@
+"""An edit written: sources, locks and weights together or not at all, and not over what somebody else has written."""
+
+import os
+from contextlib import ExitStack
+from pathlib import Path
+
+from mindrun.weights import to_npy
+
+from mindlang import journal
+from mindlang.editing.carry_out import Edited
+from mindlang.editing.follow import locks_of
+from mindlang.editing.project import EditError
+from mindlang.lock import lock_text
+from mindlang.lock.blobs import FOLDER, alone
+from mindlang.source import decode
+
+BOM = b"\xef\xbb\xbf"
+
+
+def write(edited: Edited) -> None:
+    """Write what an edit changes; MindError where that fails."""
+    locks = {path: edited.followed.locks[path] for path in changed_locks(edited)}
+    files = {path: to_npy(weights) for path, weights in edited.followed.weights.items()}
+    files |= {path: lock_text(lock).encode() for path, lock in locks.items()}
+    files |= {path: _encoded(path, text) for path, text in edited.texts.items()}
+    with ExitStack() as stack:
+        for weights in sorted({path.parent / FOLDER for path in locks}):
+            stack.enter_context(alone(weights))  # a training may keep what it has taught just now
+        journal.change(_folder(files), files, lambda: _refuse_changed(edited))
+
+
+def changed_locks(edited: Edited) -> list[Path]:
+    """The locks that an edit changes."""
+    return [path for path, lock in edited.followed.locks.items() if lock != edited.locks[path]]
+
+
+def _folder(files: dict[Path, bytes]) -> Path:
+    """The folder in which all files lie, or below."""
+    return Path(os.path.commonpath([path.parent for path in files]))
+
+
+def _refuse_changed(edited: Edited) -> None:
+    """EditError where something is not as it was read: another edit, a training or an editor has written it since."""
+    old = edited.old_texts
+    for path in old.keys() & edited.texts.keys():
+        if path.is_symlink() or not path.is_file():
+            raise EditError(f"There is no file {path} that could be written.", "Edit the file to which a link leads.")
+    for path in (*old, *edited.texts):
+        if _read(path) != old.get(path):
+            raise EditError(f"{path.name} has been changed meanwhile.", "Try again: nothing has been written.")
+    for path, lock in edited.locks.items():
+        if locks_of([path])[path] != lock:
+            raise EditError(f"{path.name} has been changed meanwhile.", "Try again: nothing has been written.")
+
+
+def _read(path: Path) -> str | None:
+    try:
+        return decode(path.read_bytes())
+    except (FileNotFoundError, ValueError):
+        return None
+
+
+def _encoded(path: Path, text: str) -> bytes:
+    """The bytes of a source, which begins with a byte order mark if it did before."""
+    marked = path.exists() and path.read_bytes()[: len(BOM)] == BOM
+    return (BOM if marked else b"") + text.encode()
