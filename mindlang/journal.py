@@ -14,7 +14,7 @@ from dataclasses import dataclass
 from hashlib import sha256
 from pathlib import Path
 
-from mindrun.durable import sync_folder, write
+from mindrun.durable import spare, sync_folder, write
 from mindrun.errors import MindError
 
 NAME = ".mind-edit"
@@ -39,6 +39,10 @@ def change(folder: Path, files: Mapping[Path, bytes], check: Callable[[], None] 
     Whether this ends, fails or is killed: afterwards, at the latest when `recover` has been called, either all files
     are changed or all are as they were. `check` may still refuse, when no other process can change these files.
     """
+    for path in files:
+        if not _is_ours(folder, path):
+            kinds = ", ".join(KINDS[:-1]) + f" and {KINDS[-1]}"
+            raise JournalError(f"{path} cannot be changed together with others: it is a link, or none of {kinds}")
     with _alone(folder):
         try:
             _put_back(folder)
@@ -95,26 +99,22 @@ def _journal(folder: Path, files: Mapping[Path, bytes]) -> bytes:
 
 
 def _put_back(folder: Path) -> bool:
-    _spare(folder / NAME).unlink(missing_ok=True)
+    spare(folder / NAME).unlink(missing_ok=True)
     if (noted := _read(folder)) is None:
         return False
+    names = ", ".join(path.name for path in noted if path.suffix != ".npy")
     for path, note in noted.items():
         now = _get(path)
         if now != note.was and _hash(now) != note.becomes:
             raise JournalError(
-                f"{path} has been changed since an edit was interrupted",
-                f"keep the files as they are by deleting {folder / NAME}, or get {path.name} back",
+                f"{path} has been changed since an edit of {names} was interrupted",
+                f"keep them as they are by deleting {folder / NAME}, or get {path.name} back",
             )
     for path, note in noted.items():
-        _spare(path).unlink(missing_ok=True)
+        spare(path).unlink(missing_ok=True)
         _set(path, note.was)
     _done(folder)
     return True
-
-
-def _spare(path: Path) -> Path:
-    """What `write` may have left behind."""
-    return path.with_name(f"{path.name}.tmp")
 
 
 def _read(folder: Path) -> dict[Path, _Noted] | None:
@@ -136,9 +136,13 @@ def _inside(folder: Path, name: str) -> Path:
     A journal may have come from anywhere, with a project that somebody has fetched.
     """
     path = folder / name
-    if path.suffix not in KINDS or path.is_symlink() or not path.resolve().is_relative_to(folder.resolve()):
+    if not _is_ours(folder, path):
         raise ValueError(name)
     return path
+
+
+def _is_ours(folder: Path, path: Path) -> bool:
+    return path.suffix in KINDS and not path.is_symlink() and path.resolve().is_relative_to(folder.resolve())
 
 
 def _done(folder: Path) -> None:

@@ -13,7 +13,23 @@ from mindlang.terminal import FINDINGS, INTERRUPTED, MISUSE, OK, say
 SELDOM = 200_000  # objects made before Python looks for garbage: a large mind is millions, and none of them garbage
 
 
-class Commands(click.Group):
+class Suggesting(click.Group):
+    """Commands of which one that is nearly right is suggested."""
+
+    def resolve_command(
+        self, ctx: click.Context, args: list[str]
+    ) -> tuple[str | None, click.Command | None, list[str]]:
+        """As click does it, with a suggestion for a name that is nearly right."""
+        if args and not args[0].startswith("-") and args[0] not in self.list_commands(ctx):
+            from mindlang.diagnostic import did_you_mean
+
+            hint = did_you_mean(args[0], self.list_commands(ctx)) or f"`{ctx.command_path} --help` lists them."
+            noun = "edit" if ctx.parent else "command"
+            raise click.UsageError(f"There is no {noun} called {args[0]!r}. {hint}", ctx)
+        return super().resolve_command(ctx, args)
+
+
+class Commands(Suggesting):
     """The modules of this package as commands; each defines a click command called `command`."""
 
     def list_commands(self, ctx: click.Context) -> list[str]:
@@ -26,17 +42,6 @@ class Commands(click.Group):
             return None
         command: click.Command = import_module(f"{__name__}.{cmd_name}").command
         return command
-
-    def resolve_command(
-        self, ctx: click.Context, args: list[str]
-    ) -> tuple[str | None, click.Command | None, list[str]]:
-        """As click does it, with a suggestion for a name that is nearly right."""
-        if args and not args[0].startswith("-") and args[0] not in self.list_commands(ctx):
-            from mindlang.diagnostic import did_you_mean
-
-            hint = did_you_mean(args[0], self.list_commands(ctx)) or "`mindc --help` lists the commands."
-            raise click.UsageError(f"There is no command called {args[0]!r}. {hint}", ctx)
-        return super().resolve_command(ctx, args)
 
 
 @click.group(

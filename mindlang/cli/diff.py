@@ -16,10 +16,10 @@ Examples:
 @click.argument("new")
 @click.option("--json", "as_json", is_flag=True, help="One JSON document instead: mindc diff a.mind b.mind --json")
 def command(old: str, new: str, as_json: bool) -> None:
-    """Show what changed in meaning from OLD to NEW, and which weights of OLD's lock fit NEW.
+    """Show what changed in meaning from OLD to NEW, and which weights fit NEW: those of its lock, or else of OLD's.
 
-    Comments, spaces, the order of lines and other spellings of the same do not count. Where OLD has no lock, as on
-    standard input, it is NEW's. Ends with 0 where nothing changed, with 1 where something did.
+    Comments, spaces, the order of lines and other spellings of the same do not count. Standard input uses the files of
+    the working directory. Ends with 0 where nothing changed, with 1 where something did.
     """
     from mindlang.comparison import differences
     from mindlang.lock import lock_path
@@ -31,9 +31,8 @@ def command(old: str, new: str, as_json: bool) -> None:
     assert after.mind is not None
     assert after.graph is not None
     found = differences(before.mind, after.mind)
-    paths = [source.path for source in before.sources]
-    if not any(lock_path(path).exists() for path in paths):
-        paths = [source.path for source in after.sources]
+    has_lock = lock_path(after.sources[0].path).exists()
+    paths = [source.path for source in (after if has_lock else before).sources]
     standing = rows(after.graph, paths)
     if as_json:
         print_json(

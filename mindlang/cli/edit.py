@@ -6,17 +6,19 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from mindlang.cli import Suggesting
+
 if TYPE_CHECKING:
     from mindlang.editing.catalog import Edit, Option
 
 EXAMPLES = """\b
 Examples:
   mindc edit rename Avoid Dodge --noun skill collect.mind
-  mindc edit encapsulate Collect CollectWithPower --with GoToPower+Avoid --reads battery collect.mind --write
+  mindc edit encapsulate Collect CarefulCollect --with Avoid --reads proximity collect.mind --write
 """
 
 
-class Edits(click.Group):
+class Edits(Suggesting):
     """The edits that there are, each imported when it is asked for."""
 
     def list_commands(self, ctx: click.Context) -> list[str]:
@@ -63,7 +65,7 @@ def _command(of: Edit) -> click.Command:
         ),
         click.Option(["--json", "as_json"], is_flag=True, help="One JSON document instead."),
     ]  # fmt: skip
-    return click.Command(of.name, params=parameters, callback=run, help=of.text, epilog=of.example)
+    return click.Command(of.name, params=parameters, callback=run, help=of.text, epilog=f"\b\n{of.example}")
 
 
 def _option(option: Option) -> click.Option:

@@ -1,4 +1,4 @@
-"""What can be a name: what the grammar takes for one."""
+"""What can stand in a line: a name is what the grammar takes for one."""
 
 from mindlang.diagnostic import Findings, a
 from mindlang.editing.project import EditError, facts
@@ -16,6 +16,12 @@ def refuse_misnamed(noun: str, name: str) -> None:
         better = proper("sensor" if noun == "thing" else noun, name)
         hint = f"Write {better}." if _is_name(noun, better) else f"Write for example {EXAMPLES.get(noun, 'GoThere')}."
         raise EditError(f"{name} cannot be the name of {a(noun)}.", hint)
+
+
+def refuse_lines(text: str) -> None:
+    """EditError where a text would be more than a part of a line."""
+    if "\n" in text or "#" in text:
+        raise EditError("This is more than a part of a line.", "Add lines and comments with: mindc edit add")
 
 
 def _is_name(noun: str, name: str) -> bool:

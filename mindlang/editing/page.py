@@ -62,9 +62,9 @@ def below_siblings(declaration: Declaration, form: type[Fact], texts: Iterable[s
     """Facts of one verb below the last of that verb, or where it would stand; indented as the others are."""
     earlier = FACTS[: FACTS.index(form) + 1]
     above = [fact for fact in declaration.facts if isinstance(fact, earlier)]
-    nearest = max(above, key=lambda fact: (FACTS.index(type(fact)), fact.span.start), default=declaration.header)
-    indent = indentation(declaration)
-    return insert_below(first_line(nearest.span), [f"{indent}{text}" for text in texts])
+    nearest = max(above, key=lambda fact: (FACTS.index(type(fact)), fact.span.start), default=None)
+    indent = first_line(nearest.span).indent if nearest else indentation(declaration)
+    return insert_below(first_line((nearest or declaration.header).span), [f"{indent}{text}" for text in texts])
 
 
 def indentation(declaration: Declaration) -> str:
@@ -98,7 +98,7 @@ def declare_below(declaration: Declaration, texts: Sequence[str]) -> Splice:
 
 
 def use_line(file: File, path: str) -> Splice:
-    """A line that uses a file, below the last such line, or above the first setting."""
+    """A line that uses a file, below the last such line, or above the first setting: what leads that leads the file."""
     line = f'use "{path}"'
     if used := [setting for setting in file.settings if isinstance(setting, Use)]:
         return insert_below(first_line(used[-1].span), [line])

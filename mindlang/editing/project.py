@@ -122,6 +122,17 @@ class Project:
                 verb = form.__name__.lower()
                 raise EditError(f"{skill.header.name.text} already {verb} {name}.", "", fact.span)
 
+    def refuse_used(self, noun: str, name: str, but: Sequence[Declaration]) -> None:
+        """EditError where a name stands anywhere `but` in these declarations."""
+        used = [mention for mention in self.mentions(noun, name) if mention.by not in but]
+        if not used:
+            return
+        first, *others = (mention.name.span for mention in used)
+        hint = "Take these lines out first."
+        if any(mention.by is None for mention in used):
+            hint = f"Let another skill be the master first: mindc edit replace {name} OTHER {self.main.source.name}"
+        raise EditError(f"{name} is still used.", hint, first, *(Label(span, "and here") for span in others))
+
     def file_of(self, declaration: Declaration) -> File:
         """The file in which a declaration stands."""
         source = declaration.header.span.source

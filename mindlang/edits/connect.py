@@ -3,6 +3,7 @@
 from typing import Annotated
 
 from mindlang.diagnostic import a
+from mindlang.editing.naming import refuse_lines
 from mindlang.editing.page import below_siblings
 from mindlang.editing.project import Change, EditError, Project
 from mindlang.syntax import Drives, Influences, Reads
@@ -23,14 +24,17 @@ def connect(
     It reads sensors, drives actuators and influences skills. A memory is read, unless there is a value to drive
     it with.
 
-    Example: mindc edit connect Collect Grab --at 1 collect.mind
+    Example: mindc edit connect Collect proximity collect.mind
     """
     declaration = project.find(skill, "skill")
+    refuse_lines(at)
     is_sent = drives or bool(at)
     noun = project.find(target, *(VERBS if is_sent else reversed(VERBS))).header.noun.text
     form = Reads if noun == "memory" and not is_sent else VERBS[noun]
     if form is Reads and is_sent:
         raise EditError(f"{target} is {a(noun)}, which is read.", "Leave --at and --drives out.")
+    if drives and form is Influences:
+        raise EditError(f"{target} is a skill, which is influenced.", "Leave --drives out.")
     project.refuse_said(declaration, form, target)
     value = f" at {at}" if at else ""
     return Change((below_siblings(declaration, form, [f"{form.__name__.lower()} {target}{value}"]),))

@@ -2,7 +2,7 @@
 
 from typing import Annotated
 
-from mindlang.editing.naming import refuse_misnamed
+from mindlang.editing.naming import refuse_lines, refuse_misnamed
 from mindlang.editing.page import INDENT, declare, instead
 from mindlang.editing.project import Change, Project, Replaced, influence
 
@@ -16,12 +16,12 @@ def encapsulate(
     reads: Annotated[tuple[str, ...], "A sensor or memory that the new one reads: --reads battery"] = (),
     is_: Annotated[str, "Its function (default: mlp hidden 2)"] = "mlp hidden 2",
 ) -> Change:
-    """Put a new skill over an old one, in whose place it stands.
+    """Put a new skill over an old one, whose place it takes.
 
-    No line of the old one changes. Where it was master the new one is, and where skills influenced it they
-    influence the new one.
+    No line of the old one changes. Where it was master the new one is, and skills that influenced it influence
+    the new one.
 
-    Example: mindc edit encapsulate Collect CollectWithPower --with GoToPower+Avoid --reads battery power.mind
+    Example: mindc edit encapsulate Collect CarefulCollect --with Avoid --reads proximity collect.mind
     """
     project.find(skill, "skill")
     for other in with_:
@@ -29,6 +29,7 @@ def encapsulate(
     for reading in reads:
         project.find(reading, "sensor", "memory")
     refuse_misnamed("skill", new)
+    refuse_lines(is_)
     project.refuse_taken("skill", new)
     kind = is_.partition(" ")[0]
     lines = [

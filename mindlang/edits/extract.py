@@ -3,7 +3,7 @@
 from typing import Annotated
 
 from mindlang.diagnostic import did_you_mean
-from mindlang.editing.naming import refuse_misnamed
+from mindlang.editing.naming import refuse_lines, refuse_misnamed
 from mindlang.editing.page import declare_below, indentation, instead_of_line, line_of, without_fact
 from mindlang.editing.project import Change, EditError, Project, facts, influence, kind_of
 from mindlang.syntax import Declaration, Influences, Reads
@@ -26,6 +26,7 @@ def extract(
     """
     declaration = project.find(parent, "skill")
     refuse_misnamed("skill", new)
+    refuse_lines(is_)
     project.refuse_taken("skill", new)
     for reading in reads:
         project.find(reading, "sensor", "memory")

@@ -1,6 +1,5 @@
 """`mindc edit inline`."""
 
-from mindlang.diagnostic import Label
 from mindlang.editing.page import (
     below_siblings,
     indentation,
@@ -22,6 +21,8 @@ def inline(project: Project, skill: str) -> Change:
     Whoever influenced it influences them, and the skill is taken out. What these lines need after `at` is read
     there as well.
 
+    It is the reverse of extract.
+
     Example: mindc edit inline Fetch collect.mind
     """
     declaration = project.find(skill, "skill")
@@ -29,20 +30,12 @@ def inline(project: Project, skill: str) -> Change:
         message = f"{skill} is a base skill: there is nothing below it to take its place."
         raise EditError(message, "", declaration.header.span)
     parents = project.parents(skill)
-    _refuse_named_elsewhere(project, skill, [declaration, *parents])
+    project.refuse_used("skill", skill, [declaration, *parents])
     if not parents:
         message = f"No skill influences {skill}: nothing can take its place."
         raise EditError(message, "", declaration.header.span)
     splices = (splice for parent in parents for splice in _taken_over(parent, declaration))
     return Change((*without_declarations([declaration]), *splices))
-
-
-def _refuse_named_elsewhere(project: Project, skill: str, declarations: list[Declaration]) -> None:
-    """EditError where a skill is named but in these declarations."""
-    used = [mention.name.span for mention in project.mentions("skill", skill) if mention.by not in declarations]
-    if used:
-        labels = [Label(span, "and here") for span in used[1:]]
-        raise EditError(f"{skill} is still named elsewhere.", "Take these lines out first.", used[0], *labels)
 
 
 def _taken_over(parent: Declaration, child: Declaration) -> list[Splice]:

@@ -2,7 +2,7 @@
 
 from typing import Annotated
 
-from mindlang.diagnostic import Label, did_you_mean
+from mindlang.diagnostic import did_you_mean
 from mindlang.editing.page import without_declarations, without_fact
 from mindlang.editing.project import Change, EditError, Project, owner
 from mindlang.syntax import NOUNS, Declaration
@@ -19,7 +19,7 @@ def remove(
 
     Nothing may name the declaration any more; the fact is said as it stands.
 
-    Example: mindc edit remove sensor pulse collect.mind
+    Example: mindc edit remove "rewards 0.01 * forward per tick" --from GoToObject --noun task collect.mind
     """
     words = " ".join(what).split()
     if from_:
@@ -29,17 +29,8 @@ def remove(
         example = 'Write for example sensor pulse, or "reads pulse" --from Avoid.'
         raise EditError(f"{' '.join(words)} is not a noun and a name.", hint or example)
     declaration = project.find(words[1], words[0])
-    _refuse_used(project, declaration)
+    project.refuse_used(declaration.header.noun.text, words[1], [declaration])
     return Change(without_declarations([declaration]))
-
-
-def _refuse_used(project: Project, declaration: Declaration) -> None:
-    """EditError where a name stands anywhere but in its own declaration."""
-    noun, name = declaration.header.noun.text, declaration.header.name.text
-    used = [mention.name.span for mention in project.mentions(noun, name) if mention.by is not declaration]
-    if used:
-        labels = [Label(span, "and here") for span in used[1:]]
-        raise EditError(f"{name} is still used.", "Take these lines out first.", used[0], *labels)
 
 
 def _fact(words: list[str], declaration: Declaration) -> Change:

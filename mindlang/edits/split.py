@@ -16,7 +16,7 @@ def split(project: Project, to: str, names: tuple[str, ...]) -> Change:
     """
     path = _new_file(project, to)
     chosen = [_chosen(project, name) for name in dict.fromkeys(names)]
-    splices = (*without_declarations(chosen), use_line(project.main, to))
+    splices = (*without_declarations(chosen), use_line(project.main, Path(to).as_posix()))
     return Change(splices, created={path: text_of(chosen)})
 
 
@@ -24,7 +24,7 @@ def _new_file(project: Project, to: str) -> Path:
     """The path of a file that is to be; EditError where it is there, or cannot be used."""
     main = project.main.source
     path = (main.folder / to).resolve()
-    if not path.is_relative_to(main.folder) or path.suffix != ".mind":
+    if not path.is_relative_to(main.folder) or path.suffix != ".mind" or '"' in to or Path(to).is_absolute():
         message = f"{to} is no .mind file in the folder of {main.name} or below it."
         raise EditError(message, "Write for example skills.mind.")
     if path.exists():

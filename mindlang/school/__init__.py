@@ -10,12 +10,13 @@ from math import isfinite
 from pathlib import Path
 from time import perf_counter
 
+from mindrun.graph import Lesson
 from mindrun.sim.rollout import Rollout, cores
 from mindrun.train.errors import RunError
 from mindrun.train.lesson import Record, State
 from mindrun.train.run_folder import Run, keep_result, open_run, read_result
 from mindrun.train.training import Watch, train
-from mindrun.weights import parts
+from mindrun.weights import learners, parts
 
 from mindlang.lock import Entry, LockError, Taught
 from mindlang.lock.blobs import record
@@ -51,12 +52,13 @@ class School:
         compiled = load_compiled(file)
         book = open_book(file, compiled)
         chosen = lessons(book.graph, curriculum, skills)
-        taught = 0
+        if skills or force:
+            _refuse_frozen(book, chosen)
+        taught = frozen = 0
         for lesson in chosen:
             book = open_book(file, compiled)  # the lesson before has changed the lock
             if not (standing := book.standing(lesson)):
-                if skills or force:
-                    raise RunError(f"{lesson.skill} is frozen", f"mindc edit unfreeze {lesson.skill} {file} --write")
+                frozen += 1
                 self._say(f"{lesson.skill} is frozen, and is not taught")
             elif skills or force or is_due(book.graph, lesson, standing):
                 run = begin(book, wishes.applied(lesson), seed, runs, datetime.now(UTC))
@@ -64,7 +66,8 @@ class School:
                 if not self._teach(run, book):
                     return False
         if not taught:
-            self._say(f"nothing to do: all {len(chosen)} lessons have been taught (--force teaches them again)")
+            others = "all other lessons" if frozen else f"all {len(chosen)} lessons"
+            self._say(f"nothing to do: {others} have been taught (--force teaches them again)")
         return True
 
     def resume(self, folder: Path) -> bool:
@@ -140,6 +143,14 @@ class School:
     def _print(self, result: Result) -> None:
         if self.as_json:
             print(json.dumps(result, allow_nan=False), flush=True)
+
+
+def _refuse_frozen(book: Book, chosen: Sequence[Lesson]) -> None:
+    """RunError where a lesson has nobody to teach."""
+    for lesson in chosen:
+        if not learners(book.graph, lesson):
+            hint = f"mindc edit unfreeze {lesson.skill} {book.source} --write"
+            raise RunError(f"{lesson.skill} is frozen", hint)
 
 
 def _command(run: Run) -> str:

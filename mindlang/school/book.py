@@ -40,8 +40,14 @@ class Book:
         return self.source.parent
 
     def keep_path(self, lesson: Lesson) -> Path:
-        """The lock to which goes what a lesson teaches: that of the file in which the lesson stands."""
-        return lock_path(self.homes.get(lesson.curriculum, self.source))
+        """The lock to which goes what a lesson teaches: that of the file in which the lesson stands.
+
+        Where a lock that counts before it has a line of a learner it is that one, or nothing would come of the lesson.
+        """
+        home = self.homes.get(lesson.curriculum, self.source)
+        paths = [lock_path(self.source.parent / name) for name in self.sources]
+        known = (path for path in paths if not read_lock(path).keys().isdisjoint(learners(self.graph, lesson)))
+        return min([lock_path(home), *known], key=paths.index)
 
     def standing(self, lesson: Lesson) -> dict[str, Status]:
         """How the learners of a lesson stand to that lock."""

@@ -6,23 +6,33 @@ from pathlib import Path
 
 def write(path: Path, data: bytes) -> None:
     """Replace `path` by `data`, on the disk before this returns; an OSError leaves the old file as it was."""
-    spare = write_beside(path, data)
-    spare.replace(path)
+    write_beside(path, data).replace(path)
     sync_folder(path.parent)
 
 
 def write_beside(path: Path, data: bytes) -> Path:
-    """Write `data` to a temporary file beside `path`, on the disk; its path. One process at a time may do that."""
-    spare = path.with_name(f"{path.name}.tmp")
+    """Write `data` to a temporary file beside `path`, on the disk; its path. One process at a time may do that.
+
+    It may be read and written by the same people as `path`.
+    """
+    beside = spare(path)
     try:
-        with spare.open("wb") as file:
+        beside.unlink(missing_ok=True)
+        with beside.open("xb") as file:
+            if path.exists():
+                os.fchmod(file.fileno(), path.stat().st_mode & 0o7777)
             file.write(data)
             file.flush()
             os.fsync(file.fileno())
     except OSError:
-        spare.unlink(missing_ok=True)
+        beside.unlink(missing_ok=True)
         raise
-    return spare
+    return beside
+
+
+def spare(path: Path) -> Path:
+    """Where `path` is written first; what a crash leaves there nobody reads."""
+    return path.with_name(f".{path.name}.mind-tmp")
 
 
 def sync_folder(folder: Path) -> None:

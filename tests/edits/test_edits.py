@@ -14,10 +14,10 @@ from pathlib import Path
 
 import pytest
 
-from mindlang.cli.edit import command as group
 from mindlang.editing.catalog import edit, names
 from tests.calling import Call
 from tests.edits.cases import HERE, SHARED, Case, Files, archived, cases
+from tests.language.examples import COLLECT
 
 FILES = sorted(HERE.glob("*.txt"))
 CASES = [case for path in FILES for case in cases(path)]
@@ -184,10 +184,20 @@ def test_the_first_sentence_about_an_edit_fits_the_list_of_commands(name: str) -
     assert len(sentence) <= 62
 
 
+BEFORE = {"inline": "extract", "unfreeze": "freeze"}  # what undoes an edit needs one
+
+
 @pytest.mark.parametrize("name", names())
-def test_the_example_of_an_edit_is_a_command_line_of_it(name: str) -> None:
-    example = edit(name).example.removeprefix("Example: ")
-    assert example.split()[:3] == ["mindc", "edit", name]
-    with group.make_context("edit", shlex.split(example)[2:]) as context:
-        assert (of := group.get_command(context, name))
-        assert of.make_context(name, shlex.split(example)[3:]).params["file"].endswith(".mind")
+def test_the_example_of_an_edit_works_on_the_shipped_files(
+    name: str, mindc: Call, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    for path in (COLLECT, COLLECT.with_name("power.mind")):
+        shutil.copy(path, tmp_path)
+    monkeypatch.chdir(tmp_path)
+    for each in filter(None, (BEFORE.get(name), name)):
+        command, *words = shlex.split(edit(each).example.removeprefix("Example: "))
+        assert (command, *words[:2]) == ("mindc", "edit", each)
+        said = mindc(*words)
+        assert said.code == 0, said.err
+        assert said.out.startswith("--- a/")
+        assert mindc(*words, "--write").code == 0

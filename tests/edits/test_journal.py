@@ -78,7 +78,7 @@ def test_a_crash_between_any_two_operations_leaves_all_files_as_they_were_or_cha
         interrupted = (folder / NAME).exists()
         assert recover(folder) == interrupted
         now = found(folder)
-        now.pop(f"{NAME}.tmp", None)  # nobody reads it, and it goes with the next edit
+        now.pop(f".{NAME}.mind-tmp", None)  # nobody reads it, and it goes with the next edit
         assert now in (ONE, OTHER), f"after {last} operations"
         ends.append(now == OTHER)
         change(folder, files(folder, ONE))
@@ -135,7 +135,7 @@ def test_whatever_moment_a_process_is_killed_at(folder: Path) -> None:
             process.send_signal(signal.SIGKILL)
         interrupted += recover(folder)
         now = found(folder)
-        now.pop(f"{NAME}.tmp", None)
+        now.pop(f".{NAME}.mind-tmp", None)
         assert now in (ONE, OTHER, ONE | {"new.mind": OTHER["new.mind"]})
     assert interrupted
 
@@ -149,7 +149,7 @@ def test_what_was_changed_by_hand_since_is_not_overwritten(folder: Path) -> None
             change(folder, files(folder, OTHER))
     (folder / "a.lock").write_text("by hand")
     before = found(folder)
-    with pytest.raises(JournalError, match=r"a\.lock has been changed since an edit was interrupted") as refused:
+    with pytest.raises(JournalError, match=r"a\.lock has been changed since an edit of a\.mind") as refused:
         recover(folder)
     assert str(folder / NAME) in refused.value.hint
     with pytest.raises(JournalError):
