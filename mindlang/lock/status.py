@@ -81,15 +81,16 @@ def trained_weights(graph: Graph, lock: Lock, skills: Collection[str]) -> tuple[
     """
     weights: dict[str, Weights] = {}
     refusals = []
-    for name, state in status(graph, lock).items():
-        if name not in skills:
+    states = status(graph, lock)
+    for skill in graph.skills:
+        if skill.name not in skills:
             continue
-        match state:
+        frozen = " (and is frozen: unfreeze it first)" * skill.frozen
+        match states[skill.name]:
             case Trained(entry):
-                skill = next(skill for skill in graph.skills if skill.name == name)
-                weights[name] = load_weights(entry, skill)
+                weights[skill.name] = load_weights(entry, skill)
             case Stale(found):
-                refusals.append(f"the weights of {name} are stale: {'; '.join(found)}")
+                refusals.append(f"the weights of {skill.name} are stale: {'; '.join(found)}{frozen}")
             case Untaught():
-                refusals.append(f"{name} has not been taught")
+                refusals.append(f"{skill.name} has not been taught{frozen}")
     return weights, refusals

@@ -50,6 +50,27 @@ def test_a_frozen_skill_refuses_training(mindc: Call, drive: Path) -> None:
     assert not (drive.parent / "runs").exists()
 
 
+def test_force_begins_nothing_where_a_later_lesson_would_be_refused(mindc: Call, drive: Path) -> None:
+    freeze(mindc, drive, "Drive")
+    before = weights(drive)
+    said = mindc("train", drive, "--force", *QUICK)
+    assert (said.code, weights(drive)) == (1, before)
+    assert "Drive is frozen" in said.err
+
+
+def test_nothing_to_do_says_what_is_left_out(mindc: Call, drive: Path) -> None:
+    freeze(mindc, drive, "Go")
+    said = mindc("train", drive)
+    assert said.code == 0
+    assert "nothing to do: all other lessons have been taught" in said.err
+
+
+def test_what_an_edit_makes_stale_and_is_frozen_is_told(mindc: Call, drive: Path) -> None:
+    freeze(mindc, drive, "Go")
+    said = mindc("edit", "disconnect", "Go", "right_wheel", drive)
+    assert "Go is frozen: unfreeze it to teach it again" in said.err
+
+
 def test_a_frozen_skill_is_left_out_with_a_sentence(mindc: Call, drive: Path) -> None:
     lock_path(drive).unlink()
     teach(drive, "Go")
@@ -67,7 +88,7 @@ def test_a_frozen_skill_that_has_no_weights_is_said_to_be_missing(mindc: Call, d
     freeze(mindc, drive, "Go")
     said = mindc("train", drive, "Drive", *QUICK)
     assert said.code == 1
-    assert "Go has not been taught" in said.err
+    assert "Go has not been taught (and is frozen: unfreeze it first)" in said.err
 
 
 def test_lessons_with_subskills_leave_it_out(mindc: Call, drive: Path) -> None:

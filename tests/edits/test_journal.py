@@ -214,6 +214,40 @@ def test_what_was_written_since_the_file_was_read_is_not_lost(rules: Path) -> No
         write(second)
 
 
+@pytest.mark.parametrize("name", ["b.txt", "link.mind"])
+def test_what_could_not_be_put_back_is_not_changed(folder: Path, name: str) -> None:
+    (folder / "link.mind").symlink_to(folder / "a.mind")
+    before = found(folder)
+    with pytest.raises(JournalError, match=rf"{name} cannot be changed together with others"):
+        change(folder, {folder / "a.mind": b"other", folder / name: b"other"})
+    assert found(folder) == before
+
+
+def test_who_may_read_a_file_still_may(rules: Path) -> None:
+    rules.chmod(0o640)
+    rules.with_name("rules.mind.tmp").write_text("mine")
+    project = open_project(load(rules))
+    write(carry_out(project, rename(project, "Turn", "Spin"), keep_weights=False))
+    assert "Spin" in rules.read_text()
+    assert rules.stat().st_mode & 0o777 == 0o640
+    assert rules.with_name("rules.mind.tmp").read_text() == "mine"
+
+
+def test_what_is_taken_back_is_said(mindc: Call, rules: Path) -> None:
+    text = rules.read_text()
+    project = open_project(load(rules))
+    edited = carry_out(project, rename(project, "Turn", "Spin"), keep_weights=False)
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr("mindlang.journal._done", lambda folder: (_ for _ in ()).throw(Crash()))
+        patch.setattr("mindlang.journal._undo", lambda folder: None)
+        with pytest.raises(Crash):
+            write(edited)
+    assert rules.read_text() != text
+    said = mindc("show", rules)
+    assert (said.code, rules.read_text()) == (0, text)
+    assert "An edit was interrupted, and has been taken back." in said.err
+
+
 def test_edits_of_several_processes_lose_nothing(rules: Path) -> None:
     names = [("Turn", "Spin"), ("Chase", "Hunt"), ("left_wheel", "port"), ("feeler", "whisker")]
     commands = [

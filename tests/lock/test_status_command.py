@@ -130,6 +130,15 @@ def test_diff_from_standard_input_uses_the_lock_beside_the_new_file(drive: Path)
     ]
 
 
+def test_diff_goes_by_the_lock_of_the_new_file_where_it_has_one(mindc: Call, drive: Path, tmp_path: Path) -> None:
+    (tmp_path / "old").mkdir()
+    old = write_mind(tmp_path / "old")
+    teach(old)
+    assert mindc("edit", "rename", "Avoid", "Dodge", "--noun", "skill", drive, "--write").code == 0
+    said = mindc("diff", old, drive)
+    assert said.out.splitlines()[-1] == "weights of Drive, Dodge and Go fit"
+
+
 def test_what_cannot_be_read(mindc: Call, drive: Path, tmp_path: Path) -> None:
     assert mindc("diff", drive, tmp_path / "none.mind").code == 2
     assert mindc("status", tmp_path / "none.mind").code == 2

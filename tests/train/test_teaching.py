@@ -65,6 +65,22 @@ def test_a_lesson_of_a_file_is_due_until_the_files_own_lock_has_it(tmp_path: Pat
     assert [type(state) for lesson in used for state in book.standing(lesson).values()] == [Trained] * 6
 
 
+def test_what_is_learnt_goes_where_it_counts(tmp_path: Path) -> None:
+    """A curriculum of a used file teaches a skill of which the main file's lock has a line: that would hide another."""
+    for name in ("collect.mind", "collect.lock"):
+        copy(FOLDER / name, tmp_path)
+    text = (tmp_path / "collect.mind").read_text()
+    at = text.index("curriculum Collect ")
+    (tmp_path / "lessons.mind").write_text(text[at:])
+    (tmp_path / "collect.mind").write_text('use "lessons.mind"\n' + text[:at])
+    path = tmp_path / "collect.mind"
+    book = open_book(path, load(path))
+    assert {book.keep_path(lesson) for lesson in book.graph.lessons} == {tmp_path / "collect.lock"}
+    (tmp_path / "collect.lock").unlink()
+    book = open_book(path, load(path))
+    assert {book.keep_path(lesson) for lesson in book.graph.lessons} == {tmp_path / "lessons.lock"}
+
+
 def test_with_subskills_all_below_learn_as_one_genome() -> None:
     graph = load(FOLDER / "final_task.mind").graph
     assert graph
