@@ -4,17 +4,16 @@ Before anything is written, a journal beside them keeps what they were; it goes 
 found later is of a change that was interrupted: the files are put back.
 """
 
-import fcntl
 import json
 import os
 from base64 import b64decode, b64encode
-from collections.abc import Callable, Iterator, Mapping
-from contextlib import contextmanager, suppress
+from collections.abc import Callable, Mapping
+from contextlib import suppress
 from dataclasses import dataclass
 from hashlib import sha256
 from pathlib import Path
 
-from mindrun.durable import spare, sync_folder, write
+from mindrun.durable import alone, spare, sync_folder, write
 from mindrun.errors import MindError
 
 NAME = ".mind-edit"
@@ -43,7 +42,7 @@ def change(folder: Path, files: Mapping[Path, bytes], check: Callable[[], None] 
         if not _is_ours(folder, path):
             kinds = ", ".join(KINDS[:-1]) + f" and {KINDS[-1]}"
             raise JournalError(f"{path} cannot be changed together with others: it is a link, or none of {kinds}")
-    with _alone(folder):
+    with alone(folder):
         try:
             _put_back(folder)
             check()
@@ -75,7 +74,7 @@ def _is_left(folder: Path) -> bool:
 
 
 def _recovered(folder: Path) -> bool:
-    with _alone(folder):  # not while that change is still going on
+    with alone(folder):  # not while that change is still going on
         return _put_back(folder)
 
 
@@ -149,17 +148,6 @@ def _done(folder: Path) -> None:
     (folder / NAME).unlink()
     with suppress(OSError):  # at worst a power cut brings the journal back, and all is as it was
         sync_folder(folder)
-
-
-@contextmanager
-def _alone(folder: Path) -> Iterator[None]:
-    """Let one process at a time change files of a folder."""
-    descriptor = os.open(folder, os.O_RDONLY)
-    try:
-        fcntl.flock(descriptor, fcntl.LOCK_EX)
-        yield
-    finally:
-        os.close(descriptor)
 
 
 def _get(path: Path) -> bytes | None:

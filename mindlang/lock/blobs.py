@@ -1,12 +1,11 @@
 """Files of weights beside a lock: read and held against it, and new ones kept."""
 
-import fcntl
-import os
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from hashlib import sha256
 from pathlib import Path
 
+from mindrun import durable
 from mindrun.durable import write
 from mindrun.errors import WeightsError
 from mindrun.graph import Graph, Skill
@@ -74,12 +73,8 @@ def digest(weights: Weights) -> str:
 def alone(folder: Path) -> Iterator[None]:
     """Let one process at a time change a folder of weights and the locks beside it."""
     folder.mkdir(exist_ok=True)
-    descriptor = os.open(folder, os.O_RDONLY)
-    try:
-        fcntl.flock(descriptor, fcntl.LOCK_EX)
+    with durable.alone(folder):
         yield
-    finally:
-        os.close(descriptor)
 
 
 def blob(folder: Path, weights: str) -> Path:

@@ -1,6 +1,9 @@
 """Writing a file so that a crash at any moment leaves either the old one or the new one."""
 
+import fcntl
 import os
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 
 
@@ -33,6 +36,17 @@ def write_beside(path: Path, data: bytes) -> Path:
 def spare(path: Path) -> Path:
     """Where `path` is written first; what a crash leaves there nobody reads."""
     return path.with_name(f".{path.name}.mind-tmp")
+
+
+@contextmanager
+def alone(folder: Path) -> Iterator[None]:
+    """Let one process at a time change files of a folder."""
+    descriptor = os.open(folder, os.O_RDONLY)
+    try:
+        fcntl.flock(descriptor, fcntl.LOCK_EX)
+        yield
+    finally:
+        os.close(descriptor)
 
 
 def sync_folder(folder: Path) -> None:
