@@ -5,6 +5,7 @@ from dataclasses import dataclass, field
 from difflib import get_close_matches
 
 from mindlang.source import Span
+from mindlang.splice import Splice
 
 
 @dataclass(frozen=True, slots=True)
@@ -13,6 +14,15 @@ class Label:
 
     span: Span
     message: str
+
+
+@dataclass(frozen=True, slots=True)
+class Fix:
+    """What would mend a diagnostic, as a command: "Remove eye". A safe one never changes what the robot does."""
+
+    title: str
+    splices: tuple[Splice, ...]
+    is_safe: bool = True
 
 
 @dataclass(frozen=True, slots=True)
@@ -28,6 +38,7 @@ class Diagnostic:
     hint: str = ""
     labels: tuple[Label, ...] = ()
     severity: str = "error"
+    fix: Fix | None = None
 
 
 @dataclass(slots=True)

@@ -39,6 +39,11 @@ class Mention:
     name: Name
     by: Declaration | None
 
+    @property
+    def is_own(self) -> bool:
+        """Whether this is where the name is declared."""
+        return self.by is not None and self.name is self.by.header.name
+
 
 @dataclass(frozen=True, slots=True)
 class _Reader:

@@ -1,0 +1,96 @@
+"""`mindc lint`: what is wrong in these files, and what is hardly meant."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+import click
+
+if TYPE_CHECKING:
+    from mindlang.diagnostic import Diagnostic
+
+EXAMPLES = """\b
+Examples:
+  mindc lint collect.mind
+  mindc lint *.mind --ignore untaught-skill,unread-sensor
+  mindc lint collect.mind --fix
+  mindc lint examples/collect/*.mind --format sarif > lint.sarif
+"""
+FORMATS = ("text", "json", "github", "sarif")
+
+
+@click.command(epilog=EXAMPLES)
+@click.argument("files", nargs=-1, required=True, metavar="FILE…")
+@click.option("--fix", is_flag=True, help="Make the fixes that never change what the robot does.")
+@click.option("--select", multiple=True, metavar="CODES", help="Only these rules: --select unread-sensor,idle-edge")
+@click.option("--ignore", multiple=True, metavar="CODES", help="Not these rules: --ignore untaught-skill")
+@click.option("--format", "as_", type=click.Choice(FORMATS), default="text", show_default=True, help="Of the findings.")
+def command(files: tuple[str, ...], fix: bool, select: tuple[str, ...], ignore: tuple[str, ...], as_: str) -> None:
+    """Report everything that is wrong in files, and what compiles and is yet hardly meant.
+
+    `mindc explain CODE` says why. `# noqa: CODE` at the end of a line silences it there. Ends with 0 when nothing was
+    found, with 1 when something was, with 2 when a file cannot be read.
+    """
+    from mindrun.errors import MindError
+
+    from mindlang.linting.command import Linted, linted
+    from mindlang.terminal import FINDINGS, MISUSE, OK, fail, take_back
+
+    for file in files:
+        take_back(file)
+    try:
+        done: list[Linted] = [linted(file, _codes(select), _codes(ignore), fix) for file in files]
+    except MindError as error:
+        fail(str(error), error.hint)
+    found = [diagnostic for each in done for diagnostic in each.diagnostics]
+    _print(found, as_)
+    if as_ == "text":
+        made = sum(each.fixed for each in done)
+        click.echo(_summary(found, made), err=True)
+    sys.exit(MISUSE if not all(each.readable for each in done) else FINDINGS if found else OK)
+
+
+def _codes(said: Sequence[str]) -> list[str]:
+    """The codes of an option; one that is none ends the program."""
+    from mindlang.diagnostic import did_you_mean
+    from mindlang.linting.rule import all_rules
+    from mindlang.terminal import MISUSE, fail
+
+    codes = [code for text in said for code in text.replace(",", " ").split()]
+    for code in codes:
+        if code not in all_rules():
+            fail(
+                f"There is no rule called {code}.",
+                did_you_mean(code, all_rules()) or "mindc explain lists them.",
+                MISUSE,
+            )
+    return codes
+
+
+def _print(found: Sequence[Diagnostic], as_: str) -> None:
+    from mindlang.report import as_data, print_report
+    from mindlang.terminal import console, print_json
+
+    match as_:
+        case "text":
+            print_report(found, console())
+        case "json":
+            print_json({"diagnostics": [as_data(each) for each in found]})
+        case "github":
+            from mindlang.linting.github import annotations
+
+            click.echo("".join(annotations(found)), nl=False)
+        case "sarif":
+            from mindlang.linting.sarif import sarif
+
+            print_json(sarif(found))
+
+
+def _summary(found: Sequence[Diagnostic], made: int) -> str:
+    fixable = sum(1 for each in found if each.fix and each.fix.is_safe)
+    parts = [f"{len(found)} finding{'s' * (len(found) != 1)}" if found else "nothing found"]
+    parts += [f"{made} fixed"] if made else []
+    parts += [f"{fixable} can be mended with --fix"] if fixable else []
+    return ", ".join(parts)

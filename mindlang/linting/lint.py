@@ -1,0 +1,43 @@
+"""What is wrong with a file: the compiler's errors or, where there are none, what the rules find."""
+
+import re
+from collections.abc import Collection, Iterator
+
+from mindlang.compile import Compiled
+from mindlang.diagnostic import Diagnostic
+from mindlang.linting.rule import Rule, all_rules
+from mindlang.linting.study import Finding, study
+
+_NOQA = re.compile(r"#.*?\bnoqa\b(?::(?P<codes>[\w ,-]*))?")
+
+
+def lint(compiled: Compiled, codes: Collection[str] | None = None) -> list[Diagnostic]:
+    """The diagnostics of a file in the order of its lines; `codes` are those of the rules to be held (all where None).
+
+    Rules speak of the main file only: what a used file declares may be of use to others. LockError where a lock is
+    damaged.
+    """
+    if compiled.graph is None:
+        return list(compiled.diagnostics)
+    about = study(compiled)
+    held = [rule for code, rule in all_rules().items() if codes is None or code in codes]
+    found = [_diagnostic(rule, finding) for rule in held for finding in rule.check(about)]
+    main = compiled.sources[0]
+    own = [each for each in found if each.span and each.span.source is main and not _is_silenced(each)]
+    return [*compiled.diagnostics, *sorted(own, key=lambda each: (each.span.start if each.span else 0, each.code))]
+
+
+def _diagnostic(rule: Rule, of: Finding) -> Diagnostic:
+    return Diagnostic(rule.code, of.message, of.span, of.hint, of.labels, "warning", of.fix)
+
+
+def _is_silenced(diagnostic: Diagnostic) -> bool:
+    """Whether `# noqa` or `# noqa: CODE` stands on the line."""
+    assert diagnostic.span
+    line = diagnostic.span.source.line(diagnostic.span.line)
+    found = _NOQA.search(line)
+    return found is not None and (found["codes"] is None or diagnostic.code in _codes(found["codes"]))
+
+
+def _codes(text: str) -> Iterator[str]:
+    return (code.strip() for code in text.replace(",", " ").split())

@@ -1,0 +1,33 @@
+"""The rules that there are, found in `rules/`."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cache
+from importlib import import_module
+from pkgutil import iter_modules
+
+from mindlang import rules
+from mindlang.linting.study import Found, Study
+
+
+@dataclass(frozen=True, slots=True)
+class Rule:
+    """A rule: its code, its explanation, minds that it has nothing to say of and minds that it does, and its check."""
+
+    code: str
+    text: str
+    good: tuple[str, ...]
+    bad: tuple[str, ...]
+    check: Callable[[Study], Found]
+
+
+@cache
+def all_rules() -> dict[str, Rule]:
+    """Every rule by its code: the name of its module with dashes."""
+    found = (_rule(module.name) for module in iter_modules(rules.__path__))
+    return {rule.code: rule for rule in found}
+
+
+def _rule(name: str) -> Rule:
+    module = import_module(f"{rules.__name__}.{name}")
+    return Rule(name.replace("_", "-"), (module.__doc__ or "").strip(), module.GOOD, module.BAD, module.check)

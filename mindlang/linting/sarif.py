@@ -1,0 +1,56 @@
+"""Diagnostics as SARIF 2.1.0, which code hosts and editors read."""
+
+from collections.abc import Iterable
+from hashlib import sha256
+from importlib.metadata import version
+from pathlib import PurePath
+from typing import Any
+from urllib.parse import quote
+
+from mindlang.diagnostic import Diagnostic
+from mindlang.linting.rule import all_rules
+from mindlang.source import Span
+
+SCHEMA = "https://json.schemastore.org/sarif-2.1.0.json"
+
+
+def sarif(found: Iterable[Diagnostic]) -> dict[str, Any]:
+    """One run of mindc; paths are as they were said on the command line."""
+    results = [_result(each) for each in found]
+    rules = all_rules()
+    codes = sorted({result["ruleId"] for result in results})
+    titles = {code: _title(rules[code].text if code in rules else code) for code in codes}
+    described = [{"id": code, "shortDescription": {"text": title}} for code, title in titles.items()]
+    driver = {"name": "mindc", "version": version("mindlang"), "rules": described}
+    run = {"tool": {"driver": driver}, "columnKind": "unicodeCodePoints", "results": results}
+    return {"$schema": SCHEMA, "version": "2.1.0", "runs": [run]}
+
+
+def _title(text: str) -> str:
+    return text.splitlines()[0]
+
+
+def _result(diagnostic: Diagnostic) -> dict[str, Any]:
+    text = f"{diagnostic.message} {diagnostic.hint}".strip()
+    result: dict[str, Any] = {
+        "ruleId": diagnostic.code,
+        "level": diagnostic.severity,
+        "message": {"text": text},
+    }
+    if diagnostic.span:
+        line = diagnostic.span.source.line(diagnostic.span.line).strip()
+        result["locations"] = [_location(diagnostic.span)]
+        result["partialFingerprints"] = {"line/v1": sha256(f"{diagnostic.code} {line}".encode()).hexdigest()}
+    if diagnostic.labels:
+        result["relatedLocations"] = [
+            {"id": number, **_location(label.span), "message": {"text": label.message}}
+            for number, label in enumerate(diagnostic.labels)
+        ]
+    return result
+
+
+def _location(span: Span) -> dict[str, Any]:
+    end = Span(span.source, span.end, span.end)
+    region = {"startLine": span.line, "startColumn": span.column, "endLine": end.line, "endColumn": end.column}
+    uri = quote(PurePath(span.source.name).as_posix())
+    return {"physicalLocation": {"artifactLocation": {"uri": uri}, "region": region}}

@@ -1,0 +1,1 @@
+"""Lint rules, one a file: docstring = explanation, GOOD and BAD = examples and tests, `check` = the rule."""

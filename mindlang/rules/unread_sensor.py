@@ -1,0 +1,40 @@
+"""A sensor that nobody reads.
+
+It is computed in every tick and comes to nothing; and whoever reads the file will think that it matters. A sensor is
+read by skills, by other sensors (`derivative of`) and by rewards.
+"""
+
+from mindlang.diagnostic import Fix
+from mindlang.editing.page import without_declarations
+from mindlang.linting.study import Finding, Found, Study
+
+GOOD = (
+    """
+sensor eye is range_finder at 0 deg
+skill Go is rule
+  reads eye
+  drives left_wheel at eye
+""",
+    """
+sensor charge is battery
+task Rest in plain
+  lasts 9 s
+  rewards charge per tick
+""",
+)
+BAD = (
+    """
+sensor eye is range_finder at 0 deg
+skill Go is rule
+  drives left_wheel at 1
+""",
+)
+
+
+def check(study: Study) -> Found:
+    """Sensors that stand in no line but their own."""
+    for name, declaration in study.names.declarations("sensor"):
+        if name not in study.used.get("sensor", set()):
+            fix = Fix(f"Remove {name}", without_declarations([declaration]))
+            hint = f"Add reads {name} to a skill, or take the sensor out."
+            yield Finding(declaration.header.name.span, f"Nobody reads {name}.", hint, fix=fix)

@@ -1,0 +1,42 @@
+"""Every rule holds its own examples: nothing to say of GOOD, something of BAD."""
+
+from pathlib import Path
+
+import pytest
+
+from mindlang.compile import compile_source
+from mindlang.linting.lint import lint
+from mindlang.linting.rule import Rule, all_rules
+from mindlang.source import Source
+from tests.lint.examples import whole
+
+GOOD = [(rule, text) for rule in all_rules().values() for text in rule.good]
+BAD = [(rule, text) for rule in all_rules().values() for text in rule.bad]
+
+
+def codes(rule: Rule, text: str, folder: Path) -> list[str]:
+    """What a rule finds in an example."""
+    main = whole(text, folder)
+    compiled = compile_source(Source(str(main), main.read_text(), folder), main)
+    assert compiled.graph, [diagnostic.message for diagnostic in compiled.diagnostics]
+    return [diagnostic.code for diagnostic in lint(compiled, [rule.code])]
+
+
+@pytest.mark.parametrize(("rule", "text"), GOOD, ids=lambda each: getattr(each, "code", ""))
+def test_good_examples(rule: Rule, text: str, tmp_path: Path) -> None:
+    assert codes(rule, text, tmp_path) == []
+
+
+@pytest.mark.parametrize(("rule", "text"), BAD, ids=lambda each: getattr(each, "code", ""))
+def test_bad_examples(rule: Rule, text: str, tmp_path: Path) -> None:
+    assert rule.code in codes(rule, text, tmp_path)
+
+
+@pytest.mark.parametrize("rule", all_rules().values(), ids=lambda rule: rule.code)
+def test_a_rule_explains_itself(rule: Rule) -> None:
+    assert rule.good
+    assert rule.bad
+    title, empty, *_ = [*rule.text.splitlines(), "", ""]
+    assert title.endswith(".")
+    assert len(title) <= 80
+    assert empty == ""
