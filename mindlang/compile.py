@@ -38,20 +38,27 @@ def load(path: Path | str, texts: Mapping[Path, str] = NOTHING) -> Compiled:
 
     Files that stand in `texts` are taken from there.
     """
+    source = read_main(path, texts)
+    if isinstance(source, Diagnostic):
+        return Compiled(None, None, (source,), ())
+    return compile_source(source, Path(path).resolve(), texts)
+
+
+def read_main(path: Path | str, texts: Mapping[Path, str] = NOTHING) -> Source | Diagnostic:
+    """The source at `path`, or with "-" standard input, or why it cannot be read."""
     try:
         resolved = Path(path).resolve()
         if resolved in texts:
-            source = Source(str(path), texts[resolved], resolved.parent)
-        elif str(path) == "-":
-            source = Source("<stdin>", decode(sys.stdin.buffer.read(LIMIT + 1)), Path.cwd().resolve())
-        else:
-            source = read(Path(path), str(path))
+            return Source(str(path), texts[resolved], resolved.parent)
+        if str(path) == "-":
+            return Source("<stdin>", decode(sys.stdin.buffer.read(LIMIT + 1)), Path.cwd().resolve())
+        return read(Path(path), str(path))
     except (OSError, RuntimeError) as error:
         why = getattr(error, "strerror", None) or error  # a loop of links is a RuntimeError
-        return _unreadable(f"{path} cannot be read: {why}.", "Is the path right?")
+        return Diagnostic("unreadable", f"{path} cannot be read: {why}.", None, "Is the path right?")
     except ValueError as error:
-        return _unreadable(f"{path} {error}.", "A .mind file is UTF-8 text of at most 1 MiB.")
-    return compile_source(source, resolved, texts)
+        hint = f"A .mind file is UTF-8 text of at most {LIMIT >> 20} MiB."
+        return Diagnostic("unreadable", f"{path} {error}.", None, hint)
 
 
 def compile_source(source: Source, path: Path = Path("-"), texts: Mapping[Path, str] = NOTHING) -> Compiled:
@@ -73,7 +80,3 @@ def _sorted(findings: Findings, parsed: list[File]) -> tuple[Diagnostic, ...]:
     return tuple(
         sorted(findings.diagnostics, key=lambda d: (order[id(d.span.source)], d.span.start) if d.span else (-1, 0))
     )
-
-
-def _unreadable(message: str, hint: str) -> Compiled:
-    return Compiled(None, None, (Diagnostic("unreadable", message, None, hint),), ())

@@ -4,6 +4,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 LIMIT = 1 << 20  # bytes
+BOM = b"\xef\xbb\xbf"
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -46,6 +47,12 @@ class Span:
     def column(self) -> int:
         """The column at which it starts, counted from 1."""
         return self.start - self.source.text.rfind("\n", 0, self.start)
+
+
+def encoded(path: Path, text: str) -> bytes:
+    """The bytes of a text that is to be written to `path`; with a byte order mark if the file begins with one now."""
+    marked = path.exists() and path.read_bytes()[: len(BOM)] == BOM
+    return (BOM if marked else b"") + text.encode()
 
 
 def decode(data: bytes) -> str:

@@ -12,9 +12,7 @@ from mindlang.editing.follow import locks_of
 from mindlang.editing.project import EditError
 from mindlang.lock import lock_text
 from mindlang.lock.blobs import FOLDER, alone
-from mindlang.source import decode
-
-BOM = b"\xef\xbb\xbf"
+from mindlang.source import decode, encoded
 
 
 def write(edited: Edited) -> None:
@@ -22,7 +20,7 @@ def write(edited: Edited) -> None:
     locks = {path: edited.followed.locks[path] for path in changed_locks(edited)}
     files = {path: to_npy(weights) for path, weights in edited.followed.weights.items()}
     files |= {path: lock_text(lock).encode() for path, lock in locks.items()}
-    files |= {path: _encoded(path, text) for path, text in edited.texts.items()}
+    files |= {path: encoded(path, text) for path, text in edited.texts.items()}
     with ExitStack() as stack:
         for weights in sorted({path.parent / FOLDER for path in locks}):
             stack.enter_context(alone(weights))  # a training may keep what it has taught just now
@@ -58,9 +56,3 @@ def _read(path: Path) -> str | None:
         return decode(path.read_bytes())
     except (FileNotFoundError, ValueError):
         return None
-
-
-def _encoded(path: Path, text: str) -> bytes:
-    """The bytes of a source, which begins with a byte order mark if it did before."""
-    marked = path.exists() and path.read_bytes()[: len(BOM)] == BOM
-    return (BOM if marked else b"") + text.encode()

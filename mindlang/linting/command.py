@@ -1,7 +1,7 @@
 """A file linted, and mended where that is wished for."""
 
 from collections.abc import Collection
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 
 from mindlang import journal
@@ -10,7 +10,7 @@ from mindlang.diagnostic import Diagnostic
 from mindlang.linting.fixing import fixed
 from mindlang.linting.lint import lint
 from mindlang.linting.rule import all_rules
-from mindlang.source import Source
+from mindlang.source import Source, encoded
 
 
 @dataclass(frozen=True, slots=True)
@@ -35,6 +35,5 @@ def linted(file: str, select: Collection[str], ignore: Collection[str], fix: boo
 
     source, made = fixed(compiled.sources[0], lambda source: lint(again(source), codes))
     if made:
-        journal.change(path.parent, {path: source.text.encode()})
-        source = replace(source)
+        journal.change(path.parent, {path: encoded(path, source.text)})
     return Linted(tuple(lint(again(source), codes)), True, made)

@@ -56,11 +56,16 @@ def parse(source: Source, findings: Findings) -> syntax.File:
     return syntax.File(source, tuple(settings), tuple(declarations))
 
 
+def code_of(line: str) -> str:
+    """A line up to its comment."""
+    found = _CODE.match(line)
+    return found[0] if found else ""
+
+
 def _lines(source: Source, findings: Findings) -> Iterator[syntax.Line | _Unread]:
     offset = 0
     for text in source.text.split("\n"):
-        found = _CODE.match(text.removesuffix("\r"))
-        code = found[0].rstrip(" \t") if found else ""
+        code = code_of(text.removesuffix("\r")).rstrip(" \t")
         if code:
             span = Span(source, offset, offset + len(code))
             if len(findings.diagnostics) > MOST:

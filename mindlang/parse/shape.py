@@ -54,12 +54,20 @@ def said(code: str, source: Source, offset: int) -> syntax.Line:
 
     The error is about `code`.
     """
-    pieces = _PIECE.findall(code)
-    shape = "".join(map(_stands_for, pieces))
-    maker = None if '"' in code else _maker(shape)
+    maker = None if '"' in code else _maker(shape_of(code))
     if maker is None:
         return _parsed(code, source, offset)
-    return cast(syntax.Line, maker(_Line(source, tuple(accumulate(map(len, pieces), initial=offset)))))
+    return cast(syntax.Line, maker(_Line(source, tuple(accumulate(map(len, pieces(code)), initial=offset)))))
+
+
+def pieces(code: str) -> list[str]:
+    """A line cut where words, numbers, blanks and signs begin."""
+    return _PIECE.findall(code)
+
+
+def shape_of(code: str) -> str:
+    """The shape of a line, piece by piece; of lines without quotes."""
+    return "".join(map(_stands_for, pieces(code)))
 
 
 def _stands_for(piece: str) -> str:
@@ -95,7 +103,7 @@ def _maker(shape: str) -> Maker | None:
         line = _parsed(shape, Source("shape", shape), 0)
     except UnexpectedInput:
         return None
-    at = accumulate(map(len, _PIECE.findall(shape)), initial=0)
+    at = accumulate(map(len, pieces(shape)), initial=0)
     return _making(line, {start: place for place, start in enumerate(at)})
 
 

@@ -1,0 +1,157 @@
+"""The one way in which a `.mind` file is written: spaces and blank lines are set, nothing else is touched.
+
+Facts stand two spaces in, words one space apart, comments two spaces after what they follow. What owns facts is set off
+by a blank line. Nothing is reordered or aligned, and no comment changes.
+"""
+
+from collections.abc import Iterator
+from dataclasses import dataclass, fields, is_dataclass
+from functools import lru_cache
+from typing import Any
+
+from mindlang import syntax
+from mindlang.parse import code_of
+from mindlang.parse.shape import SHAPES, grammar, pieces, said, shape_of
+from mindlang.source import Source
+from mindlang.syntax import NOUNS, SETTINGS
+
+INDENT = "  "
+OPEN = ("skill", "task", "curriculum")  # nouns that own facts
+
+
+@dataclass(frozen=True, slots=True)
+class _Line:
+    """A line without the blanks around it: what it says, its comment, and whether it begins with blanks."""
+
+    code: str
+    comment: str
+    is_indented: bool
+
+    @property
+    def is_blank(self) -> bool:
+        return not self.code and not self.comment
+
+    @property
+    def first(self) -> str:
+        return self.code.partition(" ")[0]
+
+    @property
+    def is_fact(self) -> bool:
+        return bool(self.code) and self.first not in (*NOUNS, *SETTINGS)
+
+    @property
+    def opens(self) -> bool:
+        """Whether facts may stand below it."""
+        return self.first in OPEN
+
+    def __str__(self) -> str:
+        return "  ".join(filter(None, (self.code, self.comment)))
+
+
+def formatted(text: str) -> str:
+    """The text as it should be written; one that cannot be read keeps the words of its bad lines as they are."""
+    lines = [_line(line.removesuffix("\r")) for line in text.split("\n")]
+    end = "\r\n" if "\r\n" in text else "\n"
+    return "".join(f"{line}{end}" for line in _set_off(list(_indented(lines))))
+
+
+def _line(text: str) -> _Line:
+    code = code_of(text)
+    return _Line(_spaced(code.strip(" \t")), text[len(code) :].strip(), text[:1] in (" ", "\t"))
+
+
+def _indented(lines: list[_Line]) -> Iterator[tuple[_Line, str]]:
+    """Each line with what stands before it: a comment goes with what it leads, or else keeps to what it closes."""
+    in_declaration = False
+    leads_fact = _leads_fact(lines)
+    for line, leads in zip(lines, leads_fact, strict=True):
+        if line.code:
+            in_declaration = line.is_fact or line.first in NOUNS
+        is_in = line.is_fact if line.code else leads or (line.is_indented and in_declaration)
+        yield line, INDENT if is_in and not line.is_blank else ""
+
+
+def _leads_fact(lines: list[_Line]) -> list[bool]:
+    """Whether the next line that says something is a fact."""
+    found, leads = [], False
+    for line in reversed(lines):
+        leads = line.is_fact if line.code else leads
+        found.append(leads)
+    return found[::-1]
+
+
+def _set_off(lines: list[tuple[_Line, str]]) -> Iterator[str]:
+    """The lines with single blank ones: none at the ends or below a header, one around what owns facts."""
+    above: tuple[_Line, str] | None = None
+    blank = False
+    for number, (line, indent) in enumerate(lines):
+        if line.is_blank:
+            blank = True
+            continue
+        is_first = above and above[0].opens and indent
+        if above and not is_first and (blank or _is_set_off(above, lines[number:])):
+            yield ""
+        yield f"{indent}{line}"
+        above, blank = (line, indent), False
+
+
+def _is_set_off(above: tuple[_Line, str], rest: list[tuple[_Line, str]]) -> bool:
+    """Whether a declaration begins right here, with the comments that lead it, and owns facts or follows some."""
+    if rest[0][1] or (above[0].comment and not above[0].code and not above[1]):
+        return False
+    said_next = next((line for line, _ in rest if line.code), None)
+    return said_next is not None and (said_next.opens or bool(above[1]))
+
+
+def _spaced(code: str) -> str:
+    """A line with its words one space apart; as it is where it cannot be read."""
+    if not code:
+        return ""
+    plan = _plan(code if '"' in code else shape_of(code))
+    if plan is None:
+        return code
+    parts = pieces(code)
+    return "".join("".join(parts[first:end]) + after for first, end, after in plan)
+
+
+Plan = tuple[tuple[int, int, str], ...]  # which pieces of a line are a word, and what stands after it
+
+
+@lru_cache(SHAPES)
+def _plan(shape: str) -> Plan | None:
+    """How the words of the lines of a shape are set apart; None where Lark cannot read it."""
+    from lark import UnexpectedInput
+
+    try:
+        line = said(shape, Source("shape", shape), 0)
+    except UnexpectedInput:
+        return None
+    tokens = list(grammar().parse_interactive(shape, start="line").iter_parse())
+    places: dict[int, int] = {}
+    at = 0
+    for number, piece in enumerate(pieces(shape)):
+        places[at] = number
+        at += len(piece)
+    places[at] = len(places)
+    signs = set(_signs(line))
+    plan = []
+    for token, following in zip(tokens, [*tokens[1:], None], strict=True):
+        glued = following is None or token == "(" or following in (")", "%") or token.start_pos in signs
+        first, end = (places[at or 0] for at in (token.start_pos, token.end_pos))
+        plan.append((first, end, "" if glued else " "))
+    return tuple(plan)
+
+
+def _signs(node: Any) -> Iterator[int]:
+    """Where the signs of numbers and values stand, which belong to what follows them."""
+    match node:
+        case syntax.Amount(_, _, span) if span.text[0] in "+-":
+            yield span.start
+        case syntax.Operator("negate", span):
+            yield span.start
+        case tuple():
+            for part in node:
+                yield from _signs(part)
+        case _ if is_dataclass(node):
+            for field in fields(node):
+                yield from _signs(getattr(node, field.name))

@@ -1,0 +1,112 @@
+"""The formatter sets spaces and blank lines, and nothing else: idempotent, with the same meaning and comments."""
+
+import re
+from dataclasses import fields, is_dataclass
+from pathlib import Path
+from random import Random
+from typing import Any
+
+import pytest
+
+from mindlang.diagnostic import Findings
+from mindlang.format import formatted
+from mindlang.parse import parse
+from mindlang.source import Source, Span
+from tests.language.examples import EXAMPLES, RIGHT
+
+TEXTS = [path.read_text(encoding="utf-8") for path in (RIGHT, *EXAMPLES)]
+CASES = Path(__file__).with_name("cases.txt")
+
+
+def meaning(text: str) -> Any:
+    """What a text says, without its places; None where a line of it cannot be read."""
+    findings = Findings()
+    file = parse(Source("text", text), findings)
+    return None if findings.diagnostics else plain((file.settings, file.declarations))
+
+
+def plain(node: Any) -> Any:
+    if isinstance(node, tuple):
+        return tuple(map(plain, node))
+    if is_dataclass(node):
+        values = (getattr(node, field.name) for field in fields(node))
+        return (type(node).__name__, *(plain(value) for value in values if not isinstance(value, Span)))
+    return repr(node)
+
+
+def comments(text: str) -> list[str]:
+    return [found.strip() for found in re.findall(r"^(?:\"[^\"]*\"|[^#\n])*(#.*)$", text, flags=re.M)]
+
+
+def holds(text: str) -> None:
+    """What must hold of any text."""
+    tidy = formatted(text)
+    assert formatted(tidy) == tidy
+    assert meaning(tidy) == meaning(text)
+    assert comments(tidy) == comments(text)
+    assert not re.search(r"[ \t]\r?$", tidy, flags=re.M)
+    assert "\n\n\n" not in tidy.replace("\r", "")
+
+
+@pytest.mark.parametrize("text", TEXTS, ids=[path.name for path in (RIGHT, *EXAMPLES)])
+def test_the_examples_are_tidy(text: str) -> None:
+    assert formatted(text) == text
+
+
+@pytest.mark.parametrize("seed", range(200))
+def test_spaces_are_restored(seed: int) -> None:
+    rng = Random(seed)
+    text = rng.choice(TEXTS)
+
+    def untidy(line: str) -> str:
+        code, mark, comment = line.partition("#")
+        words = [rng.choice((" ", "  ", "\t ")).join(code.split())]
+        indent = " \t"[: rng.randrange(3)] if code.strip() or line[:1].isspace() else ""
+        indent = indent or " " * (not code.strip() and line[:1].isspace())
+        return f"{indent}{words[0]}{rng.choice(('', ' ', chr(9))) if code.strip() else ''}{mark}{comment}"
+
+    end = rng.choice(("\n", "\r\n"))
+    lines = [untidy(line) + rng.choice(("", " ", "\t")) for line in text.removesuffix("\n").split("\n")]
+    assert formatted(end.join(lines)) == text.replace("\n", end)
+
+
+@pytest.mark.parametrize("seed", range(300))
+def test_whatever_it_is_given(seed: int) -> None:
+    rng = Random(seed)
+    lines = rng.choice(TEXTS).split("\n")
+    for _ in range(rng.randrange(1, 9)):
+        at = rng.randrange(len(lines))
+        match rng.randrange(6):
+            case 0:
+                lines.insert(at, rng.choice(("", "  ", "# a comment", "   # in", "\t#", "#")))
+            case 1:
+                del lines[at]
+            case 2:
+                lines[at] = f"\t{lines[at]}  # end"
+            case 3:
+                lines[at] = lines[at].replace(" ", "", 1)
+            case 4:
+                lines[at] = re.sub(r" ([-+*/<>]) ", r"\1", lines[at])
+            case 5:
+                lines[at], lines[0] = lines[0], lines[at]
+        lines = lines or [""]
+    holds("\n".join(lines))
+
+
+def cases() -> list[tuple[str, str, str]]:
+    """Title, before and after."""
+    _, *blocks = re.split(r"^==== (.*)\n", CASES.read_text(encoding="utf-8"), flags=re.M)
+    pairs = (block.partition("---->\n") for block in blocks[1::2])
+    return [
+        (title, before, after.rstrip("\n") + "\n") for title, (before, _, after) in zip(blocks[::2], pairs, strict=True)
+    ]
+
+
+@pytest.mark.parametrize(("title", "before", "after"), cases(), ids=lambda text: text[:40] if " " in text else "")
+def test_cases(title: str, before: str, after: str) -> None:
+    assert formatted(before) == after
+    holds(before)
+
+
+def test_nothing_is_nothing() -> None:
+    assert formatted("") == formatted("\n\n") == formatted(" \r\n") == ""
