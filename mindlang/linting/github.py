@@ -3,6 +3,7 @@
 from collections.abc import Iterable, Iterator
 
 from mindlang.diagnostic import Diagnostic
+from mindlang.report import visible
 from mindlang.source import Span
 
 
@@ -23,7 +24,7 @@ def _place(span: Span) -> str:
 
 
 def _data(text: str) -> str:
-    return text.replace("%", "%25").replace("\r", "%0D").replace("\n", "%0A")
+    return visible(text).replace("%", "%25")
 
 
 def _property(text: str) -> str:

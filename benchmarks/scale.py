@@ -1,0 +1,79 @@
+"""Seconds and memory of parse, check, lint and fmt, up to 10,000 skills: python benchmarks/scale.py [--json].
+
+Each is a process of its own, from its start to its end; parse is timed inside one, by itself, in MB of source a second.
+"""
+
+import argparse
+import json
+import os
+import subprocess
+import sys
+import time
+from pathlib import Path
+from tempfile import TemporaryDirectory
+
+from edits import tree
+
+PROGRAM = "from mindlang.cli import main; main()"
+PARSE = """
+import gc, sys, time
+from pathlib import Path
+from mindlang.cli import SELDOM
+from mindlang.diagnostic import Findings
+from mindlang.parse import parse
+from mindlang.source import Source
+gc.set_threshold(SELDOM)
+text = Path(sys.argv[1]).read_text()
+parse(Source("warm", text[:2000]), Findings())
+begin = time.perf_counter()
+parse(Source("big", text), Findings())
+print(time.perf_counter() - begin)
+"""
+
+
+def run(arguments: list[str]) -> tuple[float, float, str]:
+    """Seconds, MiB and what is printed by a Python process."""
+    begin = time.perf_counter()
+    process = subprocess.Popen([sys.executable, "-c", *arguments], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL)
+    assert process.stdout
+    said = process.stdout.read().decode()
+    _, status, usage = os.wait4(process.pid, 0)
+    assert os.waitstatus_to_exitcode(status) in (0, 1), arguments
+    return time.perf_counter() - begin, usage.ru_maxrss / 1024, said
+
+
+def measured(skills: int, folder: Path) -> dict[str, float]:
+    """All figures of one size."""
+    path = folder / "big.mind"
+    path.write_text(tree(skills), encoding="utf-8")
+    _, memory, seconds = run([PARSE, str(path)])
+    found = {
+        "skills": skills,
+        "kB": path.stat().st_size / 1e3,
+        "parse s": float(seconds),
+        "parse MB/s": path.stat().st_size / 1e6 / float(seconds),
+        "parse MiB": memory,
+    }
+    for name in ("check", "lint", "fmt"):
+        found[f"{name} s"], found[f"{name} MiB"], _ = run([PROGRAM, name, str(path), *["--check"] * (name == "fmt")])
+    return found
+
+
+def main() -> None:
+    """Measure and print."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--skills", type=int, nargs="+", default=[1250, 2500, 5000, 10_000])
+    parser.add_argument("--json", action="store_true")
+    options = parser.parse_args()
+    with TemporaryDirectory() as folder:
+        rows = [measured(skills, Path(folder)) for skills in options.skills]
+    if options.json:
+        print(json.dumps(rows))
+        return
+    print("  ".join(f"{name:>10}" for name in rows[0]))
+    for row in rows:
+        print("  ".join(f"{value:>10.2f}" if value < 100 else f"{value:>10,.0f}" for value in row.values()))
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,85 @@
+"""Sources that nobody meant, through lint and fmt: findings or none, soon, and never anything else."""
+
+import os
+from pathlib import Path
+from random import Random
+from time import process_time
+from typing import NamedTuple
+
+import pytest
+
+from mindlang.compile import compile_source
+from mindlang.format import formatted
+from mindlang.linting.lint import lint
+from mindlang.report import plain
+from mindlang.source import Source, decode
+from tests.fmt.test_format import comments, meaning
+from tests.language.test_fuzz import SEEDS, delete, duplicate, flip, insert, splice, swap_lines
+
+OFTEN, SELDOM = 100_000, 2_000  # in the slow suite, and in the other
+SOON = 1.0  # seconds of the processor
+HERE = Path(__file__).parent
+
+
+class Tally(NamedTuple):
+    """How many sources compiled, and how many could be read."""
+
+    compiled: int
+    read: int
+
+
+def mutants(seeds: range) -> Tally:
+    """Hold so many mutants of the examples; what may be among them is in `tests.language.test_fuzz`."""
+    compiled = read = 0
+    for seed in seeds:
+        rng = Random(seed)
+        data = rng.choice(SEEDS).read_bytes()
+        for _ in range(rng.randint(1, 4)):
+            data = rng.choice((flip, delete, duplicate, swap_lines, splice, insert))(data, rng) or b" "
+        try:
+            text = decode(data)
+        except ValueError:
+            continue
+        begin = process_time()
+        compiled += linted(text)
+        read += tidied(text)
+        assert process_time() - begin < SOON, text
+    return Tally(compiled, read)
+
+
+def linted(text: str) -> bool:
+    """Whether a text compiles; it does or has errors, and every finding can be printed and stands in the text."""
+    found = compile_source(Source("mutant.mind", text, HERE))
+    said = lint(found)
+    assert (found.graph is None) == any(each.severity == "error" for each in said)
+    for each in said[:20]:
+        assert each.message
+        assert each.span is None or 0 <= each.span.start <= each.span.end <= len(each.span.source.text)
+        assert all(line.isprintable() for line in plain(each).split("\n"))
+    return found.graph is not None
+
+
+def tidied(text: str) -> bool:
+    """Whether a text can be read; then it is the same when it is tidy, and tidy when it is tidied."""
+    tidy = formatted(text)
+    if (means := meaning(text)) is None:
+        return False
+    assert formatted(tidy) == tidy, text
+    assert meaning(tidy) == means, text
+    assert comments(tidy) == comments(text)
+    return True
+
+
+@pytest.mark.parametrize("chunk", range(4))
+def test_mutants(chunk: int) -> None:
+    size = SELDOM // 4
+    tally = mutants(range(chunk * size, (chunk + 1) * size))
+    assert tally.read > size / 20, "hardly any could be read"
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("chunk", range(20))
+def test_many_mutants(chunk: int) -> None:
+    size = int(os.environ.get("MUTANTS", OFTEN)) // 20
+    tally = mutants(range(10**6 + chunk * size, 10**6 + (chunk + 1) * size))
+    assert tally.compiled
