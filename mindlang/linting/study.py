@@ -1,19 +1,22 @@
 """What a lint rule looks at, and what it finds."""
 
-from collections.abc import Iterator
+from collections.abc import Container, Iterable, Iterator
 from dataclasses import dataclass
 from functools import cached_property
 
-from mindrun.graph import Graph, Lesson
+from mindrun.actuators import Gripper
+from mindrun.functions import Mlp
+from mindrun.graph import Graph, Lesson, SensorKind
+from mindrun.sensors import Derivative
 
 from mindlang.compile import Compiled
 from mindlang.diagnostic import Findings, Fix, Label
 from mindlang.editing.references import mentions
-from mindlang.hierarchy import reached
+from mindlang.hierarchy import in_order
 from mindlang.lock import Lock, read_locks
 from mindlang.model import Mind, Skill, Task
 from mindlang.resolve.names import Names, gather
-from mindlang.source import Span
+from mindlang.source import Source, Span
 
 
 @dataclass(frozen=True)
@@ -36,6 +39,16 @@ class Study:
         return {task.name: task for task in self.mind.tasks}
 
     @cached_property
+    def sensors(self) -> dict[str, SensorKind]:
+        """The kinds of the sensors by name."""
+        return {sensor.name: sensor.kind for sensor in self.mind.sensors}
+
+    @cached_property
+    def children_first(self) -> tuple[Skill, ...]:
+        """The skills in an order in which a table that a skill has from its subskills can be filled."""
+        return in_order(self.mind.skills)[::-1]
+
+    @cached_property
     def masters(self) -> set[str]:
         """The skills that are ever in charge: the mind's master, and those of its lessons."""
         return {self.mind.master, *(lesson.master for lesson in self.mind.lessons)}
@@ -43,7 +56,31 @@ class Study:
     @cached_property
     def active(self) -> set[str]:
         """The skills that a master reaches."""
-        return {name for master in self.masters for name in reached(self.skills, master)}
+        return self.below(self.masters)
+
+    @cached_property
+    def learning(self) -> set[str]:
+        """The skills that lessons can teach: those with weights that are not frozen."""
+        return {skill.name for skill in self.mind.skills if isinstance(skill.function, Mlp) and not skill.frozen}
+
+    @cached_property
+    def can_hold(self) -> bool:
+        """Whether a claw may ever close: a skill that a master reaches drives it, or it is closed where none does."""
+        driven = {edge.target for name in self.active for edge in self.skills[name].edges if edge.to == "actuator"}
+        claws = (part for part in self.mind.actuators if isinstance(part.kind, Gripper))
+        return any(claw.name in driven or claw.kind.neutral > 0.5 for claw in claws)
+
+    @cached_property
+    def roots(self) -> dict[str, str]:
+        """What each sensor comes from in the end: itself, or what stands at the end of its derivatives."""
+        found: dict[str, str] = {}
+        for name in self.sensors:
+            path, end = [], name
+            while end not in found and isinstance(kind := self.sensors.get(end), Derivative):
+                path.append(end)
+                end = kind.of
+            found.update(dict.fromkeys([*path, end], found.get(end, end)))
+        return found
 
     @cached_property
     def used(self) -> dict[str, set[str]]:
@@ -52,6 +89,21 @@ class Study:
         for mention in mentions(self.mind.files, self.names):
             if not mention.is_own:
                 found.setdefault(mention.noun, set()).add(mention.name.text)
+        return found
+
+    @property
+    def main(self) -> Source:
+        """The file that is linted."""
+        return self.mind.files[0].source
+
+    def below(self, names: Iterable[str], known: Container[str] = ()) -> set[str]:
+        """These skills and all that they influence; what is `known`, and what only stands below that, is left out."""
+        found = {name for name in names if name not in known}
+        waiting = [*found]
+        while waiting:
+            new = {name for name in self.skills[waiting.pop()].subskills if name not in found and name not in known}
+            found |= new
+            waiting += new
         return found
 
     def learners(self, lesson: Lesson) -> tuple[str, ...]:

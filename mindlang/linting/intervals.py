@@ -1,0 +1,86 @@
+"""The range in which the value of an expression must lie, by interval arithmetic."""
+
+from collections.abc import Callable
+from itertools import product
+from math import inf, isnan
+
+from mindrun.measures import Forward, Measure, Progress
+
+from mindlang.model import EachReading, Expression, Measured, Number, Reading
+from mindlang.syntax import Operator
+
+Interval = tuple[float, float]
+ANY: Interval = (-inf, inf)
+SHARE: Interval = (0.0, 1.0)
+
+
+def share(name: str) -> Interval:
+    """The range of a reading of which nothing is known."""
+    return SHARE
+
+
+def interval(of: Expression, reading: Callable[[str], Interval] = share, each: Interval = SHARE) -> Interval:
+    """The range of an expression whose readings have these ranges, that of `for each` the range `each`."""
+    stack: list[Interval] = []
+    for term in of.terms:
+        match term:
+            case Number(value):
+                stack.append((value, value))
+            case Reading(name):
+                stack.append(reading(name))
+            case EachReading():
+                stack.append(each)
+            case Measured(measure):
+                stack.append(_measured(measure))
+            case Operator("negate"):
+                low, high = stack.pop()
+                stack.append((-high, -low))
+            case Operator(symbol):
+                right = stack.pop()
+                stack.append(_combined(symbol, stack.pop(), right))
+    return stack[0]
+
+
+def is_constant(of: Expression) -> bool:
+    """Whether an expression is made of numbers alone."""
+    return all(isinstance(term, Number | Operator) for term in of.terms)
+
+
+def said(of: Interval) -> str:
+    """A range in words."""
+    low, high = of
+    if low == high:
+        return f"always {low:g}"
+    if low == -inf:
+        return "anything" if high == inf else f"at most {high:g}"
+    return f"at least {low:g}" if high == inf else f"{low:g} to {high:g}"
+
+
+def _measured(measure: Measure) -> Interval:
+    match measure:
+        case Progress():
+            return ANY
+        case Forward():
+            return SHARE
+    return 0.0, inf
+
+
+def _combined(symbol: str, left: Interval, right: Interval) -> Interval:
+    match symbol:
+        case "+":
+            return _around([left[0] + right[0]], [left[1] + right[1]])
+        case "-":
+            return _around([left[0] - right[1]], [left[1] - right[0]])
+        case "*":
+            values = [a * b if a and b else 0.0 for a, b in product(left, right)]
+            return _around(values, values)
+    if right[0] <= 0 <= right[1]:
+        return ANY
+    values = [a / b for a, b in product(left, right)]
+    return _around(values, values)
+
+
+def _around(lows: list[float], highs: list[float]) -> Interval:
+    if any(map(isnan, [*lows, *highs])):
+        return ANY
+    return min(lows), max(highs)

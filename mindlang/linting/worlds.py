@@ -1,0 +1,100 @@
+"""What can be read and what can happen in the world of a task."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from math import isclose
+
+from mindrun.events import Collision, Delivery, Event, Exhaustion
+from mindrun.sensors import Battery, Bearing, Contact, Derivative, Held, Inside, RangeFinder, Sine
+from mindrun.world import Arena, Obstacle, Power
+
+from mindlang.linting.intervals import SHARE, Interval, interval
+from mindlang.linting.study import Study
+from mindlang.model import Condition, Expression, Reward, Task
+
+
+@dataclass(frozen=True, slots=True)
+class World:
+    """The things in a world that sensors can be about, whether anything is solid, and whether the battery charges."""
+
+    study: Study
+    things: frozenset[str]
+    is_solid: bool
+    charges: bool
+
+    def constant(self, name: str) -> float | None:
+        """What a sensor always reads in this world; None where that varies, or nobody knows."""
+        match self.study.sensors.get(name):
+            case Bearing(of, dead_zone=dead_zone) if of not in self.things or dead_zone > 0.5:
+                return 0.5
+            case Contact(of) | Held(of) | Inside(of) if of not in self.things:
+                return 0.0
+            case Held() if not self.study.can_hold:
+                return 0.0
+            case RangeFinder() if not self.is_solid:
+                return 1.0
+            case Battery(start, drain=0, charge=charge) if start == 1 or not (charge and self.charges):
+                return start
+            case Sine(period) if _is_whole(2 * self.study.mind.tick / period):
+                return 0.5
+            case Derivative(dead_zone=dead_zone):
+                root = self.study.roots[name]
+                return 0.5 if dead_zone > 0.5 or self.constant(root) is not None else None
+        return None
+
+    def reading(self, name: str) -> Interval:
+        """The range of a reading in this world."""
+        constant = self.constant(name)
+        return SHARE if constant is None else (constant, constant)
+
+    def value(self, of: Expression, reward: Reward) -> Interval:
+        """The range of an expression of a reward."""
+        return interval(of, self.reading, self.reading(reward.each) if reward.each else SHARE)
+
+    def holds(self, when: Condition, reward: Reward) -> bool:
+        """Whether the condition of a reward can ever hold."""
+        left, right = self.value(when.left, reward), self.value(when.right, reward)
+        match when.compare:
+            case "<":
+                return left[0] < right[1]
+            case "<=":
+                return left[0] <= right[1]
+            case ">":
+                return left[1] > right[0]
+        return left[1] >= right[0]
+
+    def prevents(self, event: Event) -> tuple[str, str] | None:
+        """Why an event can never happen in this world, and what to do about it; None where it can."""
+        sensors = self.study.sensors.values()
+        match event:
+            case Collision() if not self.is_solid:
+                hint = "Write in arena size 100, or add contains rock is obstacle count 10."
+                return "there is nothing to collide with", hint
+            case Delivery() if not self.study.can_hold:
+                return "no skill that a master reaches drives a gripper", "Let a skill drive one."
+            case Exhaustion() if not any(isinstance(kind, Battery) and kind.drain for kind in sensors):
+                return "the battery does not drain", "Give it a drain above 0."
+        return None
+
+
+def world(study: Study, task: Task) -> World:
+    """The world of a task."""
+    return _world(study, [task])
+
+
+def any_world(study: Study) -> World:
+    """A world in which there is everything that any task has."""
+    return _world(study, study.mind.tasks)
+
+
+def _world(study: Study, tasks: Sequence[Task]) -> World:
+    things = [thing for task in tasks for thing in task.things]
+    named = frozenset(thing.name for thing in things if not isinstance(thing.kind, Obstacle))
+    obstacles = any(isinstance(thing.kind, Obstacle) for thing in things)
+    is_solid = obstacles or any(isinstance(task.scene, Arena) for task in tasks)
+    charges = any(isinstance(thing.kind, Power) for thing in things)
+    return World(study, named, is_solid or not tasks, charges or not tasks)
+
+
+def _is_whole(value: float) -> bool:
+    return value > 0.5 and isclose(value, round(value))

@@ -1,0 +1,78 @@
+"""A lesson that comes before those of skills that it needs.
+
+A lesson runs the whole hierarchy below its master, and a skill that has not been taught yet has no weights: training
+stops there. Teach subskills first; lessons are taught in the order in which they stand.
+"""
+
+from collections.abc import Sequence
+
+from mindlang.diagnostic import Label
+from mindlang.linting.study import Finding, Found, Study
+from mindlang.model import Lesson
+
+HIERARCHY = """
+master Live
+sensor eye is range_finder at 0 deg
+skill Live is mlp
+  reads eye
+  influences Go
+  drives left_wheel
+skill Go is mlp
+  reads eye
+  drives left_wheel
+task Course in arena
+  lasts 9 s
+  rewards forward per tick
+curriculum School is genetic
+"""
+FIRST = "  teaches Go on Course for 10 generations\n"
+THEN = "  teaches Live on Course for 10 generations\n"
+GOOD = (HIERARCHY + FIRST + THEN, f"{HIERARCHY}  teaches Live on Course for 10 generations with subskills\n{FIRST}")
+BAD = (HIERARCHY + THEN + FIRST,)
+
+Latest = dict[str, tuple[int, str]]
+
+
+def check(study: Study) -> Found:
+    """Lessons below whose master a skill is taught for the first time later on."""
+    courses: dict[str, list[Lesson]] = {}
+    for lesson in study.mind.lessons:
+        courses.setdefault(lesson.curriculum, []).append(lesson)
+    firsts = {curriculum: _firsts(study, lessons) for curriculum, lessons in courses.items()}
+    taught_in: dict[str, int] = {}
+    for skill in (skill for first in firsts.values() for skill in first):
+        taught_in[skill] = taught_in.get(skill, 0) + 1
+    for curriculum, lessons in courses.items():
+        if len(lessons) > 1:
+            first = {skill: place for skill, place in firsts[curriculum].items() if taught_in[skill] == 1}
+            yield from _early(lessons, _latest(study, first))
+
+
+def _firsts(study: Study, lessons: Sequence[Lesson]) -> dict[str, int]:
+    """The place of the first lesson that teaches each skill."""
+    found: dict[str, int] = {}
+    seen: set[str] = set()
+    for place, lesson in enumerate(lessons):
+        below = study.below([lesson.skill], seen) if lesson.with_subskills else {lesson.skill}
+        seen |= below if lesson.with_subskills else set()
+        for skill in below & study.learning:
+            found.setdefault(skill, place)
+    return found
+
+
+def _latest(study: Study, first: dict[str, int]) -> Latest:
+    """For each skill the last of those first lessons that it and the skills below it have, and whose that is."""
+    found: Latest = {}
+    for skill in study.children_first:
+        below = [found[name] for name in skill.subskills]
+        found[skill.name] = max([(first.get(skill.name, -1), skill.name), *below])
+    return found
+
+
+def _early(lessons: Sequence[Lesson], latest: Latest) -> Found:
+    for place, lesson in enumerate(lessons):
+        needed, skill = latest[lesson.master]
+        if needed > place:
+            message = f"{lesson.skill} is taught before {skill}, which acts in this lesson and has no weights yet."
+            label = Label(lessons[needed].fact.span, f"{skill} is taught here")
+            yield Finding(lesson.fact.span, message, f"Move this line below the lesson of {skill}.", (label,))
