@@ -7,11 +7,11 @@ from functools import cached_property
 from mindrun.actuators import Gripper
 from mindrun.functions import Mlp
 from mindrun.graph import Graph, Lesson, SensorKind
-from mindrun.sensors import Derivative
+from mindrun.sensors import Bearing, Contact, Derivative, Held, Inside
 
 from mindlang.compile import Compiled
 from mindlang.diagnostic import Findings, Fix, Label
-from mindlang.editing.references import mentions
+from mindlang.editing.references import Mention, mentions
 from mindlang.hierarchy import in_order
 from mindlang.lock import Lock, read_locks
 from mindlang.model import Mind, Skill, Task
@@ -83,10 +83,25 @@ class Study:
         return found
 
     @cached_property
+    def senses(self) -> dict[str, str]:
+        """The thing that each sensor is about, those left out that are about none."""
+        found = {}
+        for name, root in self.roots.items():
+            match self.sensors.get(root):
+                case Bearing(thing) | Contact(thing) | Held(thing) | Inside(thing):
+                    found[name] = thing
+        return found
+
+    @cached_property
+    def mentions(self) -> tuple[Mention, ...]:
+        """Every name in the files."""
+        return tuple(mentions(self.mind.files, self.names))
+
+    @cached_property
     def used(self) -> dict[str, set[str]]:
         """The names that stand anywhere but in their own declaration, by noun."""
         found: dict[str, set[str]] = {}
-        for mention in mentions(self.mind.files, self.names):
+        for mention in self.mentions:
             if not mention.is_own:
                 found.setdefault(mention.noun, set()).add(mention.name.text)
         return found

@@ -1,0 +1,38 @@
+"""A name that ends with the name of another kind than its own.
+
+The last word of a name is what people take the thing for. `ball_bearing is derivative of ...` reads like a bearing
+wherever it is used: call it `ball_drift`.
+"""
+
+from mindrun.registry import kinds
+
+from mindlang.linting.study import Finding, Found, Study
+from mindlang.linting.words import words
+
+GOOD = (
+    """
+sensor charge is battery
+sensor battery_drift is derivative of charge
+skill Go is rule
+  reads battery_drift
+  drives left_wheel at battery_drift
+""",
+)
+BAD = (
+    GOOD[0].replace("battery_drift", "old_battery"),
+    "skill Go is rule\n  drives left_wheel at 1\ntask BigArena in plain\n  lasts 9 s\n",
+)
+
+
+def check(study: Study) -> Found:
+    """Declarations whose last words are those of another kind of their noun."""
+    for noun, declarations in study.names.table.items():
+        known = {name: name.split("_") for name in kinds(noun)}
+        for name, declaration in declarations.items():
+            said, phrase = words(name), declaration.header.phrase
+            own = phrase.kind.text if phrase else ""
+            other = next((kind for kind, parts in known.items() if said[-len(parts) :] == parts), own)
+            if other != own and not {*known.get(own, ())} & {*said}:
+                hint = f"Rename it: mindc edit rename {name} NAME --noun {noun}."
+                span = declaration.header.name.span
+                yield Finding(span, f"{name} sounds like {other}, but its kind is {own}.", hint)

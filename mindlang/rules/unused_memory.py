@@ -1,0 +1,76 @@
+"""A memory that is never read, or never driven.
+
+What nobody reads is remembered in vain, and what nobody drives stays what it was at the start: 0, or what `start` says.
+One that starts above 0 and decays is a clock, and needs no driver.
+"""
+
+from collections.abc import Iterator
+
+from mindrun.sensors import Derivative
+
+from mindlang.diagnostic import Fix
+from mindlang.editing.page import without_declarations
+from mindlang.linting.study import Finding, Found, Study
+from mindlang.model import Expression, Reading
+
+GOOD = (
+    """
+memory mood is cell decay 0.9
+skill Go is rule
+  reads mood
+  drives left_wheel at 1 - mood
+  drives mood at 1
+""",
+    """
+memory youth is cell decay 0.9 start 1
+skill Go is rule
+  reads youth
+  drives left_wheel at youth
+""",
+)
+BAD = (
+    """
+memory mood is cell decay 0.9
+skill Go is rule
+  drives left_wheel at 1
+  drives mood at 1
+""",
+    """
+memory mood is cell decay 0.9
+skill Go is rule
+  reads mood
+  drives left_wheel at mood
+""",
+)
+
+
+def check(study: Study) -> Found:
+    """Memories that nobody reads or nobody drives; one that neither happens to is taken out safely."""
+    read = {*_read(study)}
+    driven = {edge.target for skill in study.mind.skills for edge in skill.edges if edge.to == "memory"}
+    for part in study.mind.memories:
+        name, cell = part.name, part.kind
+        if name not in read:
+            removal = Fix(f"Remove {name}", without_declarations([study.names.table["memory"][name]]))
+            hint = f"Add reads {name} to a skill, or take the memory out."
+            yield Finding(part.span, f"Nobody reads {name}.", hint, fix=None if name in driven else removal)
+        elif name not in driven and (cell.start == 0 or cell.decay == 1):
+            hint = f"Add drives {name} to a skill, or take the memory out."
+            yield Finding(part.span, f"Nobody drives {name}, so it is always {cell.start:g}.", hint)
+
+
+def _read(study: Study) -> Iterator[str]:
+    """The readings that skills, sensors and rewards look at."""
+    for skill in study.mind.skills:
+        yield from skill.reads
+    for kind in study.sensors.values():
+        yield from [kind.of] if isinstance(kind, Derivative) else []
+    for reward in (reward for task in study.mind.tasks for reward in task.rewards):
+        yield from [reward.each] if reward.each else []
+        yield from _readings(reward.amount)
+        for side in (reward.when.left, reward.when.right) if reward.when else ():
+            yield from _readings(side)
+
+
+def _readings(of: Expression) -> Iterator[str]:
+    return (term.name for term in of.terms if isinstance(term, Reading))

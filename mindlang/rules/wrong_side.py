@@ -1,0 +1,51 @@
+"""A part whose name says left, and which is on the right, or the other way round.
+
+A wheel is on the `side` that it says, and angles turn counterclockwise: a range finder at 40 deg looks to the left, one
+at -40 deg to the right. A robot with two such parts exchanged turns toward what it should avoid.
+"""
+
+from collections.abc import Iterator
+from math import sin
+
+from mindrun.actuators import Wheel
+from mindrun.sensors import RangeFinder
+
+from mindlang.linting.study import Finding, Found, Study
+from mindlang.linting.words import words
+from mindlang.source import Span
+
+OTHER = {"left": "right", "right": "left"}
+GOOD = ("sensor left_eye is range_finder at 30 60 deg\n", "sensor left_eye is range_finder at 0 deg\n")
+BAD = (
+    "sensor left_eye is range_finder at -40 deg\n",
+    """
+actuator left_wheel is wheel side right neutral 0.5
+actuator right_wheel is wheel side left neutral 0.5
+""",
+)
+
+
+def check(study: Study) -> Found:
+    """Wheels and range finders named after the side on which they are not."""
+    for name, side, span in _sided(study):
+        said = {*words(name)}
+        if OTHER[side] in said and side not in said:
+            hint = f"Put it on the {OTHER[side]}, or rename it: mindc edit rename {name} NAME."
+            yield Finding(span, f"{name} is on the {side}.", hint)
+
+
+def _sided(study: Study) -> Iterator[tuple[str, str, Span]]:
+    """The parts that are on a side, on which, and where they are declared."""
+    for actuator in study.mind.actuators:
+        if isinstance(actuator.kind, Wheel):
+            yield actuator.name, actuator.kind.side, actuator.span
+    for sensor in study.mind.sensors:
+        if isinstance(sensor.kind, RangeFinder):
+            sides = {_side(angle) for angle in sensor.kind.at}
+            if len(sides) == 1 and (side := sides.pop()):
+                yield sensor.name, side, sensor.span
+
+
+def _side(angle: float) -> str:
+    aside = sin(angle)
+    return "" if abs(aside) < 1e-9 else "left" if aside > 0 else "right"
