@@ -24,7 +24,10 @@ class World:
 
     def constant(self, name: str) -> float | None:
         """What a sensor always reads in this world; None where that varies, or nobody knows."""
-        match self.study.sensors.get(name):
+        kind = self.study.sensors.get(name)
+        if getattr(kind, "noise", 0.0):  # of those that measure something
+            return None
+        match kind:
             case Bearing(of, dead_zone=dead_zone) if of not in self.things or dead_zone > 0.5:
                 return 0.5
             case Contact(of) | Held(of) | Inside(of) if of not in self.things:

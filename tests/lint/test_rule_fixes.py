@@ -1,0 +1,38 @@
+"""What a rule offers to do: the mind compiles afterwards, and the rule has one finding less."""
+
+from pathlib import Path
+
+import pytest
+
+from mindlang.compile import load
+from mindlang.diagnostic import Diagnostic
+from mindlang.linting.lint import lint
+from mindlang.linting.rule import Rule, all_rules
+from mindlang.splice import spliced
+from tests.lint.examples import whole
+
+BAD = [(rule, text) for rule in all_rules().values() for text in rule.bad]
+
+
+def found(rule: Rule, main: Path) -> list[Diagnostic]:
+    compiled = load(main)
+    assert compiled.graph, [diagnostic.message for diagnostic in compiled.diagnostics]
+    return lint(compiled, [rule.code])
+
+
+@pytest.mark.parametrize(("rule", "text"), BAD, ids=lambda each: getattr(each, "code", ""))
+def test_a_fix_mends_its_finding(rule: Rule, text: str, tmp_path: Path) -> None:
+    main = whole(text, tmp_path)
+    before = main.read_text()
+    diagnostics = found(rule, main)
+    for fix in (each.fix for each in diagnostics if each.fix):
+        main.write_text(spliced(fix.splices[0].source, fix.splices))
+        assert len(found(rule, main)) < len(diagnostics)
+        main.write_text(before)
+
+
+@pytest.mark.parametrize(("rule", "text"), BAD, ids=lambda each: getattr(each, "code", ""))
+def test_findings_are_sentences(rule: Rule, text: str, tmp_path: Path) -> None:
+    for each in found(rule, whole(text, tmp_path)):
+        assert each.message.endswith(".")
+        assert each.hint.endswith(".")
