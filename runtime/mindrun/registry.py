@@ -48,10 +48,11 @@ def names() -> dict[type[Any], str]:
 
 
 def arguments(cls: type[Any]) -> tuple[Argument, ...]:
-    """The arguments that a kind takes, in the order of its fields."""
+    """The arguments that a kind takes, in the order of its fields, its own before those that others have too."""
     hints = get_type_hints(cls, include_extras=True)
     return tuple(
-        Argument(f.name.removesuffix("_"), f.name, *_type(hints[f.name]), default=f.default) for f in fields(cls)
+        Argument(f.name.removesuffix("_"), f.name, *_type(hints[f.name]), default=f.default)
+        for f in sorted(fields(cls), key=lambda field: field.kw_only)
     )
 
 

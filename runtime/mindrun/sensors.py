@@ -6,13 +6,28 @@ Every reading is a real number in 0..1. `range` and `dead_zone` are as for a ran
 from dataclasses import dataclass
 from typing import Annotated
 
-from mindrun.quantity import ANGLE, LENGTH, POSITIVE, RATIO, SECONDS, SENSOR, THING
+from mindrun.quantity import ANGLE, LENGTH, POSITIVE, RATIO, SECONDS, SENSOR, THING, TICKS
 from mindrun.registry import kind
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Physical:
+    """What is not perfect about a sensor that measures something, and is so in training.
+
+    It is read `every` so many ticks and says the same in between. `noise` is how far off a reading may be, `lost` the
+    share of readings that fail: they read as if there were nothing (of a battery: as before). What a skill sees is
+    `delay` ticks old.
+    """
+
+    noise: Annotated[float, RATIO] = 0.0
+    lost: Annotated[float, RATIO] = 0.0
+    every: Annotated[int, TICKS] = 1
+    delay: Annotated[int, TICKS] = 0
 
 
 @kind("sensor", "range_finder")
 @dataclass(frozen=True, slots=True)
-class RangeFinder:
+class RangeFinder(Physical):
     """Distance from the body's rim to the nearest obstacle, one reading per angle: 0 touching, 1 clear within `range`.
 
     Angles turn counterclockwise from straight ahead. A reading below `dead_zone` is 0.
@@ -25,7 +40,7 @@ class RangeFinder:
 
 @kind("sensor", "bearing")
 @dataclass(frozen=True, slots=True)
-class Bearing:
+class Bearing(Physical):
     """Direction of a thing: 0.5 straight ahead, less on the left, more on the right, the seam behind; 0.5 without it.
 
     0.5 − atan2(y, x)/2π in the body's frame. Within `dead_zone` of straight ahead it reads 0.5; with a `range`,
@@ -39,7 +54,7 @@ class Bearing:
 
 @kind("sensor", "contact")
 @dataclass(frozen=True, slots=True)
-class Contact:
+class Contact(Physical):
     """1 while the thing is in the claw's reach, else 0."""
 
     of: Annotated[str, THING]
@@ -47,7 +62,7 @@ class Contact:
 
 @kind("sensor", "held")
 @dataclass(frozen=True, slots=True)
-class Held:
+class Held(Physical):
     """1 while the claw holds the thing, else 0."""
 
     of: Annotated[str, THING]
@@ -55,7 +70,7 @@ class Held:
 
 @kind("sensor", "inside")
 @dataclass(frozen=True, slots=True)
-class Inside:
+class Inside(Physical):
     """1 while the robot's centre is inside the thing, else 0."""
 
     of: Annotated[str, THING]
@@ -63,7 +78,7 @@ class Inside:
 
 @kind("sensor", "inertial")
 @dataclass(frozen=True, slots=True)
-class Inertial:
+class Inertial(Physical):
     """Whether the robot moves: its displacement over the last 20 ticks as a mean speed, 1 from `range` units/s on."""
 
     range: Annotated[float, POSITIVE] = 1.0
@@ -72,7 +87,7 @@ class Inertial:
 
 @kind("sensor", "battery")
 @dataclass(frozen=True, slots=True)
-class Battery:
+class Battery(Physical):
     """Charge of the battery: `start`s there, loses `drain` every tick, gains `charge` every tick inside a `power`."""
 
     start: Annotated[float, RATIO] = 0.4

@@ -1,6 +1,7 @@
 """The mind's rows of the tables: skills and their edges, sensors, actuators, memories."""
 
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from math import inf
 from typing import Any
 
@@ -105,27 +106,65 @@ def used_sensors(graph: Graph, reached: Sequence[Skill], task: Task) -> list[Sen
     return list(ordered.values())
 
 
-def sensor_rows(graph: Graph, used: Sequence[Sensor], task: Task) -> tuple[list[Any], Array, Array, int]:
-    """Rows of SENSOR, directions [2, rays] of all rays, the reading that each writes, and how many are derived."""
+@dataclass(frozen=True, slots=True)
+class Sensed:
+    """Rows of SENSOR, the directions [2, rays] of all rays and the reading that each writes, and how many readings.
+
+    Those are: derived ones, rough ones, and what waits in their rings.
+    """
+
+    rows: list[Any]
+    rays: Array
+    ray_row: Array
+    derived: int
+    rough: int
+    rings: int
+
+
+def sensor_rows(graph: Graph, used: Sequence[Sensor], task: Task) -> Sensed:
+    """What the table of sensors says of those that are used."""
     things = {thing.name: i for i, thing in enumerate(things_of(task))}
     starts = {m.name: m.start for m in graph.memories} | {s.name: s.start for s in graph.sensors}
     circular = {s.name for s in graph.sensors if isinstance(s.kind, sensors.Bearing)}
     rows: list[Any] = []
     angles: list[float] = []
     ray_row: list[int] = []
-    before = 0
+    before = held = ring = 0
     for sensor in used:
         code, thing, source, reach, dead_zone, gain, period = _sensor(sensor, graph, things, starts)
         turns = isinstance(sensor.kind, sensors.Derivative) and sensor.kind.of in circular
         rows.append((
-            code, sensor.start, sensor.width, thing, source, len(angles), before, turns, reach, dead_zone, gain, period
+            code, sensor.start, sensor.width, thing, source, len(angles), before, turns, reach, dead_zone, gain, period,
+            *_roughness(sensor), held, ring,
         ))  # fmt: skip
+        if isinstance(sensor.kind, sensors.Physical):
+            held += sensor.width
+            ring += sensor.width * sensor.kind.delay
         if isinstance(sensor.kind, sensors.RangeFinder):
             angles.extend(sensor.kind.at)
             ray_row.extend(range(sensor.start, sensor.start + sensor.width))
         before += sensor.width if code == DERIVATIVE else 0
     turn = np.array(angles, np.float64)
-    return rows, np.array([np.cos(turn), np.sin(turn)], np.float32), np.array(ray_row, np.int64), before
+    directions = np.array([np.cos(turn), np.sin(turn)], np.float32)
+    return Sensed(rows, directions, np.array(ray_row, np.int64), before, held, ring)
+
+
+def _roughness(sensor: Sensor) -> tuple[bool, float, float, float, int, int]:
+    """(whether there is any, noise, lost, what is read then or −1 for the same as before, every, delay)."""
+    kind = sensor.kind
+    if not isinstance(kind, sensors.Physical):
+        return False, 0.0, 0.0, 0.0, 1, 0
+    match kind:
+        case sensors.RangeFinder():
+            blank = 1.0
+        case sensors.Bearing():
+            blank = 0.5
+        case sensors.Battery():
+            blank = -1.0
+        case _:
+            blank = 0.0
+    is_rough = kind.noise > 0 or kind.lost > 0 or kind.every > 1 or kind.delay > 0
+    return is_rough, kind.noise, kind.lost, blank, max(1, kind.every), kind.delay
 
 
 def _sensor(

@@ -31,6 +31,7 @@ def draw(t, s, p):
     world, obstacles = t.world[0], t.obstacles
     s.boxes[:, p] = 1e9
     s.boxes[2::3, p] = 0.0
+    s.things[:, p] = 1e9
     box = 0
     for i in range(len(obstacles)):
         box = draw_grid(s, obstacles[i], box, p)
@@ -41,7 +42,6 @@ def draw(t, s, p):
             x, y = find(s, world.half, world.radius, obstacles[i].low, obstacles[i].high, size / 2, -1, p)
             s.boxes[3 * box, p], s.boxes[3 * box + 1, p], s.boxes[3 * box + 2, p] = x, y, size / 2
             box += 1
-    s.things[:, p] = 1e9
     for i in range(len(t.things)):
         thing = t.things[i]
         s.things[4 * i + 2, p] = uniform(s.random, p, thing.first, thing.last) if thing.drawn else thing.first

@@ -26,6 +26,8 @@ class State(NamedTuple):
     # the mind
     readings: Array  # [readings] float32
     before: Array  # [derivatives] float32: what they read in the tick before
+    measured: Array  # [rough readings] float32: what was measured last
+    rings: Array  # [rough readings · delay] float32: what was measured and is not seen yet
     genome: Array  # [weights] float32, of the learner
     influence: Array  # [skills] float32
     sums: Array  # [2·(actuators + memories)] float32: command sums, then influence sums
@@ -104,7 +106,8 @@ def empty_state(tables: Tables, sizes: Sizes, lanes: int) -> State:
         "lines": len(tables.rewards), "stack": sizes.depth, "push": 4, "was": 2, "anchor": 2,
     }  # fmt: skip
     singles = {
-        "readings": sizes.readings, "before": sizes.before, "genome": sizes.genome, "influence": sizes.skills,
+        "readings": sizes.readings, "before": sizes.before, "measured": sizes.rough, "rings": sizes.rings,
+        "genome": sizes.genome, "influence": sizes.skills,
         "sums": 2 * (actuators + len(tables.memories)), "commands": actuators, "late": sizes.delays,
         "last": actuators, "gathered": sizes.inputs, "hidden": 2 * sizes.width, "sight": 4 + rays,
         "slots": 4 * boxes,

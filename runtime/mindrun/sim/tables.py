@@ -67,6 +67,8 @@ class Sizes:
     readings: int
     skills: int
     before: int
+    rough: int
+    rings: int
     inputs: int
     width: int
     genome: int
@@ -92,15 +94,15 @@ def build(
     skills, inputs, edges, shared = skill_rows(graph, reached, weights, learners, addresses, codes)
     rewards = [reward_row(reward, codes) for reward in task.rewards]
     used = used_sensors(graph, reached, task)
-    sensed, rays, ray_row, before = sensor_rows(graph, used, task)
+    sensed = sensor_rows(graph, used, task)
     measured, changes = measure_rows(task)
     noticed, patches = event_rows(task)
     driven, delays = actuator_rows(graph)
     tables = Tables(
-        world=world_row(graph, task, len(ray_row), used, [s.name for s in graph.skills].index(master)),
-        sensors=np.array(sensed, SENSOR),
-        rays=rays,
-        ray_row=ray_row,
+        world=world_row(graph, task, len(sensed.ray_row), used, [s.name for s in graph.skills].index(master)),
+        sensors=np.array(sensed.rows, SENSOR),
+        rays=sensed.rays,
+        ray_row=sensed.ray_row,
         skills=np.array(skills, SKILL),
         inputs=np.array(inputs, np.int64),
         edges=np.array(edges, EDGE),
@@ -118,7 +120,9 @@ def build(
     sizes = Sizes(
         readings=max(1, graph.width),
         skills=len(graph.skills),
-        before=before,
+        before=sensed.derived,
+        rough=sensed.rough,
+        rings=sensed.rings,
         inputs=max([1, *(len(s.inputs) for s in reached)]),
         width=max([1, *(row[6] for row in skills), *(row[4] for row in skills)]),
         genome=genome_length(graph, learners),

@@ -124,7 +124,7 @@ def move(s, a, b):
     for rows in (s.body, s.heading, s.boxes, s.things, s.trail, s.changes, s.lines, s.anchor):
         for i in range(rows.shape[0]):
             rows[i, b] = rows[i, a]
-    for rows in (s.readings, s.before, s.genome, s.late, s.last, s.commands):
+    for rows in (s.readings, s.before, s.measured, s.rings, s.genome, s.late, s.last, s.commands):
         for i in range(rows.shape[0]):
             rows[i, b] = rows[i, a]
     for row in (s.held, s.counts, s.tick, s.ended, s.faults, s.job, s.near, s.touching, s.slot_count):

@@ -16,6 +16,7 @@ from mindrun.sim.codes import (
 )
 from mindrun.sim.lanes.arithmetic import HALF, HUGE, ONE, ZERO, F, bearing, clamp, compiled, sine_cosine
 from mindrun.sim.lanes.vector import HIGHEST, LOWEST, WIDE, load, splat, store, where_ordered
+from mindrun.sim.place import uniform
 
 SLACK = 2.0  # how far a robot may move before the boxes near it are chosen anew
 
@@ -64,6 +65,35 @@ def sense(t, s, n, clock):
         elif kind == INSIDE:
             for p in range(n):
                 s.readings[row, p] = ONE if inside(s.things, sensor.thing, s.body[0, p], s.body[1, p], p) else ZERO
+        if sensor.is_rough:
+            for k in range(sensor.width):
+                roughen(s, sensor, k, n)
+
+
+@compiled
+def roughen(s, sensor, k, n):
+    """Reading k of a sensor as it is measured: now and then, with noise, sometimes not at all, and seen later."""
+    out, measured = s.readings[sensor.start + k], s.measured[sensor.held + k]
+    for p in range(n):
+        if s.tick[p] % sensor.every == 0:
+            measured[p] = measure(s.random, sensor, out[p], measured[p] if s.tick[p] > 0 else out[p], p)
+        out[p] = measured[p]
+    first = sensor.ring + k * sensor.delay
+    for p in range(n if sensor.delay > 0 else 0):
+        slot = first + s.tick[p] % sensor.delay
+        seen = s.rings[slot, p] if s.tick[p] >= sensor.delay else s.rings[first, p] if s.tick[p] > 0 else out[p]
+        s.rings[slot, p] = out[p]
+        out[p] = seen
+
+
+@compiled
+def measure(random, sensor, true, before, p):
+    """What is measured of a true value."""
+    if sensor.lost > ZERO and uniform(random, p, 0.0, 1.0) < sensor.lost:
+        return before if sensor.blank < ZERO else sensor.blank
+    if sensor.noise > ZERO:
+        return clamp(true + sensor.noise * F(uniform(random, p, -1.0, 1.0)))
+    return true
 
 
 @compiled
