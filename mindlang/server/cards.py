@@ -1,0 +1,152 @@
+"""What there is to know of something declared, as Markdown: what an editor shows when the mouse rests on its name."""
+
+from collections.abc import Iterator
+
+from mindrun.errors import MindError
+from mindrun.registry import kinds
+
+from mindlang.lock.report import Row, made_by, rows
+from mindlang.lock.status import Trained
+from mindlang.server.comments import leading
+from mindlang.server.describing import kind_card
+from mindlang.server.view import View
+from mindlang.syntax import Contains, Declaration, Drives, Influences, Reads, Teaches
+
+
+def card(view: View, noun: str, name: str) -> str:
+    """Everything about a name."""
+    if noun == "thing":
+        return _thing(view, name)
+    declaration = view.names.table[noun][name]
+    parts = [f"```mind\n{declaration.header.span.text.strip()}\n```", leading(declaration)]
+    match noun:
+        case "skill":
+            parts += _skill(view, name, declaration)
+        case "task":
+            parts += _task(view, name, declaration)
+        case "sensor" | "memory" | "actuator":
+            parts += _part(view, noun, name)
+    parts.append(_of_kind(noun, declaration))
+    return "\n\n".join(filter(None, parts))
+
+
+def paths_to(view: View, skill: str) -> list[str]:
+    """The ways on which influence comes down to a skill, the shortest one from each top."""
+    parents: dict[str, list[str]] = {}
+    for name, declaration in view.names.declarations("skill"):
+        for fact in declaration.facts:
+            if isinstance(fact, Influences):
+                parents.setdefault(fact.name.text, []).append(name)
+    found, waiting, seen = [], [[skill]], {skill}
+    while waiting:
+        path = waiting.pop(0)
+        above = [parent for parent in parents.get(path[0], []) if parent not in seen]
+        seen.update(above)
+        waiting += [[parent, *path] for parent in above]
+        if path[0] not in parents and len(path) > 1:
+            found.append(" → ".join(path))
+    return found
+
+
+def _skill(view: View, name: str, declaration: Declaration) -> Iterator[str]:
+    lines = []
+    for verb, form in (("reads", Reads), ("drives", Drives), ("influences", Influences)):
+        if said := [_edge(view, fact) for fact in declaration.facts if isinstance(fact, form)]:
+            lines.append(f"- {verb} {', '.join(said)}")
+    if by := _users(view, name, "skill", (Influences,)):
+        lines.append(f"- influenced by {', '.join(by)}")
+    if view.compiled.mind and view.compiled.mind.master == name:
+        lines.append("- the master")
+    lines += [f"- place: {path}" for path in paths_to(view, name)]
+    yield "\n".join(lines)
+    yield "\n".join(f"- `{lesson}`" for lesson in _lessons(view, "skill", name))
+    yield _weights(view, name)
+
+
+def _edge(view: View, fact: Reads | Drives | Influences) -> str:
+    width = _width(view, fact.name.text) if isinstance(fact, Reads) else 1
+    at = f" at {fact.at.span.text}" if not isinstance(fact, Reads) and fact.at else ""
+    return f"{fact.name.text} ({width})" if width > 1 else f"{fact.name.text}{at}"
+
+
+def _width(view: View, sensor: str) -> int:
+    graph = view.compiled.graph
+    return next((known.width for known in graph.sensors if known.name == sensor), 1) if graph else 1
+
+
+def _weights(view: View, skill: str) -> str:
+    """How a skill stands to its weights, as `mindc status` says it."""
+    if view.compiled.graph is None:
+        return ""
+    try:
+        row = next((row for row in rows(view.compiled.graph, view.paths) if row.skill == skill), None)
+    except MindError as error:
+        return f"Weights: {error}"
+    return _row(row) if row else ""
+
+
+def _row(row: Row) -> str:
+    words = [row.word] + ["frozen"] * row.is_frozen
+    made = []
+    if isinstance(row.status, Trained):
+        made.append(f"{row.status.entry.weights[:8]}…, {made_by(row.status.entry.taught)}")
+    return "\n".join([f"Weights: **{', '.join(words)}**", *(f"- {line}" for line in [*made, *row.remarks])])
+
+
+def _task(view: View, name: str, declaration: Declaration) -> Iterator[str]:
+    yield "\n".join(f"- {fact.span.text.strip()}" for fact in declaration.facts)
+    yield "\n".join(f"- `{lesson}`" for lesson in _lessons(view, "task", name))
+
+
+def _part(view: View, noun: str, name: str) -> Iterator[str]:
+    lines = []
+    if noun == "sensor" and (width := _width(view, name)) > 1:
+        lines.append(f"- {width} readings")
+    if noun != "actuator" and (by := _users(view, name, noun, (Reads,))):
+        lines.append(f"- read by {', '.join(by)}")
+    if noun != "sensor" and (by := _users(view, name, noun, (Drives,))):
+        lines.append(f"- driven by {', '.join(by)}")
+    if others := _others(view, noun, name):
+        lines.append(f"- stands in {', '.join(others)}")
+    yield "\n".join(lines)
+
+
+def _others(view: View, noun: str, name: str) -> list[str]:
+    """What else names a part: other sensors, and tasks in their rewards."""
+    found = (m for m in view.mentions if (m.noun, m.name.text) == (noun, name) and m.by and not m.is_own)
+    headers = (m.by.header for m in found if m.by)
+    others = (f"{h.noun.text} {h.name.text}" for h in headers if h.noun.text != "skill")
+    return list(dict.fromkeys(others))
+
+
+def _users(view: View, name: str, noun: str, forms: tuple[type[Reads | Drives | Influences], ...]) -> list[str]:
+    """The skills that have a fact of one of these verbs about a name."""
+    return [
+        skill
+        for skill, declaration in view.names.declarations("skill")
+        if any(isinstance(fact, forms) and fact.name.text == name for fact in declaration.facts)
+    ]
+
+
+def _lessons(view: View, part: str, name: str) -> Iterator[str]:
+    """The lessons that teach a skill, or are on a task."""
+    for curriculum, declaration in view.names.declarations("curriculum"):
+        for fact in declaration.facts:
+            if isinstance(fact, Teaches) and getattr(fact, part).text == name:
+                yield f"{curriculum}: {fact.span.text.strip()}"
+
+
+def _thing(view: View, name: str) -> str:
+    """Where a thing is."""
+    lines = []
+    for task, declaration in view.names.declarations("task"):
+        for fact in declaration.facts:
+            if isinstance(fact, Contains) and fact.name.text == name:
+                lines.append(f"- in {task}: `{fact.phrase.span.text}`")
+    return "\n".join([f"**{name}**, a thing", "", *lines])
+
+
+def _of_kind(noun: str, declaration: Declaration) -> str:
+    phrase = declaration.header.phrase
+    cls = kinds(noun).get(phrase.kind.text) if phrase else None
+    return f"---\n{kind_card(noun, phrase.kind.text, cls)}" if phrase and cls else ""

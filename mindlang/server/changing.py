@@ -1,0 +1,98 @@
+"""An edit of `mindc edit` made in an editor's texts: held against the compiler, and told; nothing is written."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any
+
+from mindlang.diagnostic import Findings, did_you_mean, listed
+from mindlang.editing.carry_out import carry_out
+from mindlang.editing.catalog import Edit, edit, names
+from mindlang.editing.project import Change, EditError, Project
+from mindlang.editing.telling import broken, told
+from mindlang.editing.writing import changed_locks
+from mindlang.resolve.names import gather
+from mindlang.server.desk import Desk
+from mindlang.server.following import Following
+from mindlang.server.navigating import sharing
+from mindlang.server.view import View
+from mindlang.splice import Splice
+
+
+@dataclass(frozen=True, slots=True)
+class Outcome:
+    """What an edit does to texts, which files it makes, what there is to say, and which names locks have to follow."""
+
+    change: Change
+    sentences: tuple[str, ...]
+    following: Following | None
+
+
+def project(desk: Desk, view: View) -> Project:
+    """The mind as edits know it, with the minds that share its files; EditError where it does not compile."""
+    if view.compiled.graph is None:
+        first = next(each for each in view.compiled.diagnostics if each.severity == "error")
+        raise EditError(f"{view.main.name} has to compile first. {first.message}", first.hint, first.span)
+    shared = (_project(other) for other in sharing(desk, view) if other.compiled.graph)
+    return replace(_project(view), neighbours=tuple(shared))
+
+
+def proposed(project: Project, name: str, arguments: Mapping[str, Any]) -> Change:
+    """What an edit would splice; EditError where it is impossible."""
+    if name not in names():
+        raise EditError(f"There is no edit called {name}.", did_you_mean(name, names()))
+    of = edit(name)
+    change: Change = of.function(project, **_said(of, arguments))
+    return change
+
+
+def perform(desk: Desk, path: Path, name: str, arguments: Mapping[str, Any]) -> Outcome:
+    """An edit of the mind to which a file belongs; MindError where it is impossible or would break a mind."""
+    on = project(desk, desk.view(path))
+    change = proposed(on, name, arguments)
+    edited = carry_out(on, _as_open(on, change, desk), keep_weights=False)
+    for other, why in broken(edited).items():
+        raise EditError(f"After this edit {other} no longer compiles: {why}", "mindc edit --anyway makes it.")
+    sentences = told(edited)
+    locks = [lock.name for lock in changed_locks(edited)]
+    if not locks or not (change.renamed or change.replaced):
+        return Outcome(change, tuple(sentences), None)
+    sentences.append(f"{listed(locks, 'and')} will follow when the files are saved")
+    minds = (on, *on.neighbours)
+    files = dict.fromkeys(path for mind in minds for path in mind.paths)
+    mains = tuple(mind.main.source.path for mind in minds)
+    return Outcome(change, tuple(sentences), Following(mains, tuple(files), change.renamed, change.replaced))
+
+
+def _project(view: View) -> Project:
+    assert view.compiled.mind is not None
+    assert view.compiled.graph is not None
+    return Project(view.compiled.mind, view.compiled.graph, gather(view.files, Findings()))
+
+
+def _said(of: Edit, arguments: Mapping[str, Any]) -> dict[str, Any]:
+    """The arguments of an edit as its function takes them."""
+    many = dict(of.arguments) | {option.name: option.many for option in of.options}
+    for key in arguments:
+        if key not in many:
+            raise EditError(f"{of.name} has no argument called {key}.", did_you_mean(key, many))
+    if missing := [key for key, _ in of.arguments if not arguments.get(key)]:
+        raise EditError(f"{of.name} needs {listed(missing, 'and')}.", of.example)
+    flags = {option.name for option in of.options if isinstance(option.default, bool)}
+    return {key: _value(value, many[key], key in flags) for key, value in arguments.items()}
+
+
+def _value(value: Any, is_many: bool, is_flag: bool) -> Any:
+    if is_flag:
+        return bool(value)
+    texts = [str(each) for each in value] if isinstance(value, list | tuple) else [str(value)]
+    return tuple(texts) if is_many else " ".join(texts)
+
+
+def _as_open(project: Project, change: Change, desk: Desk) -> Change:
+    """The change with an empty splice for each open file that it leaves alone, so that this is held against, too."""
+    touched = {splice.source.path for splice in change.splices}
+    minds = (*project.neighbours, project)
+    open_ = {path: file.source for mind in minds for path, file in mind.paths.items() if path in desk.texts}
+    idle = (Splice(source, 0, 0, "") for path, source in open_.items() if path not in touched)
+    return replace(change, splices=(*change.splices, *idle))

@@ -1,0 +1,102 @@
+"""The files that an editor has open, as it has them, and the minds of which they are part."""
+
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from mindlang.compile import Compiled, load
+from mindlang.server.view import View, view
+
+_MASTER = re.compile(r"^[ \t]*master\b", re.MULTILINE)
+_USE = re.compile(r'^[ \t]*use[ \t]+"', re.MULTILINE)
+
+Stamp = tuple[int, int] | None  # when a file was written, and how long it is
+
+
+@dataclass
+class Desk:
+    """The open texts by path. What has been made of them is kept until one of its files changes."""
+
+    texts: dict[Path, str] = field(default_factory=dict)
+    _views: dict[Path, tuple[View, dict[Path, Stamp]]] = field(default_factory=dict)
+    _mains: dict[Path, Path] = field(default_factory=dict)
+
+    def forget(self) -> None:
+        """Forget everything that was made of files: some may be there now that were not."""
+        self._views.clear()
+        self._mains.clear()
+
+    def close(self, path: Path) -> None:
+        """A file is no longer open: it is what lies on the disk."""
+        self.texts.pop(path, None)
+        self.forget()
+
+    def view(self, path: Path) -> View:
+        """The mind to which a file belongs."""
+        return self.mind(self.main_of(path))
+
+    def mind(self, main: Path) -> View:
+        """The mind whose main file this is."""
+        known = self._views.get(main)
+        if known is None or not self._is_now(*known):
+            made = view(main, self.texts)
+            known = made, {path: _stamp(path) for path in made.paths if path not in self.texts}
+            self._views[main] = known
+        return known[0]
+
+    def mains(self) -> list[Path]:
+        """The main files of all minds of which a file is open."""
+        return list(dict.fromkeys(self.main_of(path) for path in self.texts))
+
+    def main_of(self, path: Path) -> Path:
+        """The main file of the mind to which a file belongs: of one without a master, a mind that uses it."""
+        if _MASTER.search(self.text(path)):
+            return path
+        known = self._mains.get(path)
+        if known is None or path not in self.mind(known).paths:
+            users = (main for main in self._users(path) if _is_part(path, load(main, self.texts)))
+            known = self._mains[path] = next(users, path)
+        return known
+
+    def text(self, path: Path) -> str:
+        """The text of a file as it is now; nothing where it cannot be read."""
+        if path in self.texts:
+            return self.texts[path]
+        try:
+            return path.read_text(encoding="utf-8-sig", errors="replace") if path.is_file() else ""
+        except OSError:
+            return ""
+
+    def around(self, path: Path) -> Iterator[Path]:
+        """The `.mind` files that may use a file: the open ones, those beside it, and those in the folders above."""
+        above = [folder for folder in path.parents if folder != folder.parent]
+        open_ = [other for other in self.texts if other.parent in above]
+        beside = [other for folder in above for other in sorted(folder.glob("*.mind"))]
+        yield from (other for other in dict.fromkeys([*open_, *beside]) if other != path)
+
+    def _users(self, path: Path) -> list[Path]:
+        """Those around that may be minds and may use a file."""
+        texts = ((other, self.text(other)) for other in self.around(path))
+        return [other for other, text in texts if _USE.search(text) and _MASTER.search(text)]
+
+    def _is_now(self, known: View, stamps: dict[Path, Stamp]) -> bool:
+        """Whether a view is of the files as they are."""
+        if not known.files:
+            return False
+        return all(
+            file.source.text == self.texts[path] if path in self.texts else stamps.get(path, ()) == _stamp(path)
+            for path, file in zip(known.paths, known.files, strict=True)
+        )
+
+
+def _is_part(path: Path, of: Compiled) -> bool:
+    return any(source.path == path for source in of.sources)
+
+
+def _stamp(path: Path) -> Stamp:
+    try:
+        found = path.stat()
+    except OSError:
+        return None
+    return found.st_mtime_ns, found.st_size

@@ -1,0 +1,90 @@
+"""What stands under the mouse, explained."""
+
+import re
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from mindrun.registry import arguments, kinds
+
+from mindlang.server.cards import card
+from mindlang.server.describing import argument_card, kind_card
+from mindlang.server.tree import path_to
+from mindlang.server.view import View, declaration_at
+from mindlang.server.words import WORDS
+from mindlang.source import Span
+from mindlang.syntax import NOUNS, Argument, Contains, Expression, File, Header, Name, Phrase, Teaches
+
+_WORD = re.compile(r"[A-Za-z_][\w.]*(?:\+[A-Z]\w*)*|%")
+
+
+@dataclass(frozen=True, slots=True)
+class Hover:
+    """An explanation in Markdown, and what it is about."""
+
+    text: str
+    span: Span
+
+
+def hover(view: View, path: Path, offset: int) -> Hover | None:
+    """The explanation of what stands at an offset."""
+    file = view.file(path)
+    if file is None:
+        return None
+    if mention := view.mention_at(path, offset):
+        return Hover(card(view, mention.noun, mention.name.text), mention.name.span)
+    return _kind(view, file, offset) or _word(view, file, offset)
+
+
+def noun_of(above: object) -> str:
+    """The noun of the kind that a phrase names, told by what is around it."""
+    match above:
+        case Header(noun=noun):
+            return noun.text
+        case Contains():
+            return "content"
+        case Expression():
+            return "measure"
+    return "event"
+
+
+def _kind(view: View, file: File, offset: int) -> Hover | None:
+    """A kind, or an argument of one; those of a lesson are of its curriculum's kind."""
+    match _owned(path_to(file, offset)):
+        case above, Phrase(kind=kind), Name() as name if name is kind:
+            cls = kinds(noun_of(above)).get(kind.text)
+            return Hover(kind_card(noun_of(above), kind.text, cls), kind.span) if cls else None
+        case above, Phrase() as phrase, Argument() as argument:
+            return _argument(noun_of(above), phrase.kind.text, argument)
+        case _, Teaches(), Argument() as argument if declaration := declaration_at(file, offset):
+            of = declaration.header.phrase
+            return _argument("curriculum", of.kind.text, argument) if of else None
+    return None
+
+
+def _owned(path: list[Any]) -> tuple[Any, ...]:
+    """The last phrase or lesson on the way to an offset, between what is around it and what is in it."""
+    places = [place for place, node in enumerate(path) if isinstance(node, Phrase | Teaches)]
+    return tuple(path[places[-1] - 1 : places[-1] + 2]) if places else ()
+
+
+def _argument(noun: str, kind: str, argument: Argument) -> Hover | None:
+    cls = kinds(noun).get(kind)
+    parameters = {parameter.key: parameter for parameter in arguments(cls)} if cls else {}
+    if cls is None or argument.key.text not in parameters:
+        return None
+    return Hover(argument_card(kind, parameters[argument.key.text], cls), argument.span)
+
+
+def _word(view: View, file: File, offset: int) -> Hover | None:
+    """A word of the language or, in a line that cannot be read, a name that is declared."""
+    source = file.source
+    start = source.text.rfind("\n", 0, offset) + 1
+    line = source.text[start:].partition("\n")[0].partition("#")[0]
+    found = next((word for word in _WORD.finditer(line) if word.start() <= offset - start <= word.end()), None)
+    if found is None:
+        return None
+    span = Span(source, start + found.start(), start + found.end())
+    if noun := view.names.noun_of(found[0], NOUNS):
+        return Hover(card(view, noun, found[0]), span)
+    return Hover(WORDS[found[0]], span) if found[0] in WORDS else None

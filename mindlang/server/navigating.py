@@ -1,0 +1,111 @@
+"""From a name to where it is declared, to where else it stands, and what a file declares."""
+
+import re
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+from pathlib import Path
+
+from mindlang.editing.references import Mention, introductions
+from mindlang.server.desk import Desk
+from mindlang.server.tree import path_to
+from mindlang.server.view import View
+from mindlang.source import Source, Span
+from mindlang.syntax import Argument, Contains, File, Name, Phrase, Use
+
+
+@dataclass(frozen=True, slots=True)
+class Symbol:
+    """Something declared: its noun, its kind or scene, the lines about it, the name in them, and what it contains."""
+
+    noun: str
+    name: str
+    kind: str
+    whole: Span
+    place: Span
+    inner: tuple["Symbol", ...] = ()
+
+
+def definitions(view: View, path: Path, offset: int) -> list[Span]:
+    """Where that is declared which stands at an offset; of a used file or a procedure, where it stands."""
+    file = view.file(path)
+    if file is None:
+        return []
+    if mention := view.mention_at(path, offset):
+        return [found.name.span for found in _introduced(view, mention)]
+    used = (setting for setting in file.settings if isinstance(setting, Use))
+    for use in used:
+        if use.span.start <= offset <= use.span.end:
+            return _start_of((use.span.source.folder / use.path).resolve())
+    return _procedure(file, offset)
+
+
+def references(desk: Desk, view: View, path: Path, offset: int, with_declaration: bool) -> list[Span]:
+    """Where a name stands, in the files of the mind and in those of the minds that share them."""
+    mention = view.mention_at(path, offset)
+    if mention is None:
+        return []
+    declared = {found.name.span for found in _introduced(view, mention)}
+    places = dict.fromkeys(span for each in (view, *sharing(desk, view)) for span in _places(each, mention))
+    unique = {(span.source.path, span.start): span for span in reversed(places)}
+    spans = sorted(unique.values(), key=lambda span: (span.source.path != path, span.source.path, span.start))
+    if with_declaration:
+        return spans
+    own = {(span.source.path, span.start) for span in declared}
+    return [span for span in spans if (span.source.path, span.start) not in own]
+
+
+def highlights(view: View, path: Path, offset: int) -> list[Span]:
+    """Where a name stands in its own file."""
+    mention = view.mention_at(path, offset)
+    return [span for span in _places(view, mention) if span.source.path == path] if mention else []
+
+
+def sharing(desk: Desk, view: View) -> Iterator[View]:
+    """Other minds that have one of a mind's files among their own."""
+    own = set(view.paths)
+    for path in dict.fromkeys(other for file in view.paths for other in desk.around(file)):
+        if path != view.main and (path in own or 'use "' in desk.text(path)):
+            other = desk.mind(path)
+            if not own.isdisjoint(other.paths):
+                yield other
+
+
+def symbols(file: File) -> list[Symbol]:
+    """What a file declares, in its order."""
+    found = []
+    for declaration in file.declarations:
+        header = declaration.header
+        end = max([header.span, *(fact.span for fact in declaration.facts)], key=lambda span: span.end).end
+        things = (fact for fact in declaration.facts if isinstance(fact, Contains))
+        inner = (Symbol("thing", f.name.text, f.phrase.kind.text, f.span, f.name.span) for f in things)
+        whole = Span(file.source, header.span.start, end)
+        kind = header.phrase.kind.text if header.phrase else ""
+        found.append(Symbol(header.noun.text, header.name.text, kind, whole, header.name.span, tuple(inner)))
+    return found
+
+
+def _introduced(view: View, mention: Mention) -> Iterable[Mention]:
+    """Where a name is declared; a thing in the task that names it, if that contains it."""
+    same = [m for m in introductions(view.files) if (m.noun, m.name.text) == (mention.noun, mention.name.text)]
+    return [m for m in same if m.noun == "thing" and m.by is mention.by] or same
+
+
+def _places(view: View, mention: Mention) -> Iterator[Span]:
+    return (m.name.span for m in view.mentions if (m.noun, m.name.text) == (mention.noun, mention.name.text))
+
+
+def _start_of(path: Path) -> list[Span]:
+    return [Span(Source(str(path), "", path.parent), 0, 0)] if path.is_file() else []
+
+
+def _procedure(file: File, offset: int) -> list[Span]:
+    """The function of a procedure in the text of its module, which is not run."""
+    match path_to(file, offset):
+        case [*_, Phrase(kind=Name(text="procedure")), Argument(value=Name(text=name)), Name()]:
+            module, _, function = name.rpartition(".")
+            path = file.source.folder.joinpath(*module.split(".")).with_suffix(".py")
+            text = path.read_text(encoding="utf-8", errors="replace") if module and path.is_file() else ""
+            found = re.search(rf"^(?:async )?def (?P<name>{re.escape(function)})\b", text, re.MULTILINE)
+            source = Source(str(path), text, path.parent)
+            return [Span(source, *found.span("name"))] if found else _start_of(path)
+    return []

@@ -1,0 +1,149 @@
+"""What an editor may offer to be written at a place, and the names from which it is chosen."""
+
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+from typing import Any
+
+from mindrun.quantity import Quantity, Reference
+from mindrun.registry import Argument, arguments, kinds
+
+from mindlang.resolve.kinds import ABOUT, PLACES
+from mindlang.resolve.names import things_of
+from mindlang.server.describing import argument_line, kind_card, meaning
+from mindlang.server.view import View
+from mindlang.server.words import WORDS
+from mindlang.syntax import Declaration
+
+NUMBER = "0123456789"
+
+
+@dataclass(frozen=True, slots=True)
+class Offer:
+    """Something that may be written: of a sort (a noun, "word", "kind", "key", "unit"), with what there is to say."""
+
+    label: str
+    sort: str
+    detail: str = ""
+    text: str = ""
+
+
+def words(*labels: str) -> list[Offer]:
+    """Words of the language."""
+    return [Offer(label, "word", text=WORDS.get(label, "")) for label in labels]
+
+
+def names(view: View, *nouns: str, but: Iterable[str] = ()) -> list[Offer]:
+    """What is declared with one of these nouns, but for some."""
+    left = set(but)
+    return [
+        Offer(name, noun, declaration.header.span.text.strip())
+        for noun in nouns
+        for name, declaration in view.names.declarations(noun)
+        if name not in left
+    ]
+
+
+def kinds_of(noun: str) -> list[Offer]:
+    """The kinds of a noun with their documentation."""
+    return [Offer(name, "kind", noun, kind_card(noun, name, cls)) for name, cls in sorted(kinds(noun).items())]
+
+
+def things(view: View, task: Declaration | None, about: Iterable[str]) -> list[Offer]:
+    """The things of a task, or of all, of which a kind can be."""
+    fit = set(about)
+    tasks = [task] if task else [declaration for _, declaration in view.names.declarations("task")]
+    found: dict[str, set[str]] = {}
+    for declaration in tasks:
+        for name, kinds_ in things_of(declaration).items():
+            found.setdefault(name, set()).update(kinds_)
+    return [Offer(name, "thing", " ".join(sorted(is_))) for name, is_ in found.items() if is_ & fit]
+
+
+@dataclass(frozen=True, slots=True)
+class Said:
+    """What has been said after a kind: the argument that was begun last, its values, and which others there are."""
+
+    current: Argument | None
+    values: tuple[str, ...]
+    left: tuple[Argument, ...]
+
+    @property
+    def awaits_name(self) -> bool:
+        """Whether a name must come next."""
+        return self.current is not None and self.current.shape == "name" and not self.values
+
+    @property
+    def awaits_number(self) -> bool:
+        """Whether a number must come next."""
+        return self.current is not None and self.current.shape != "name" and self._is_open
+
+    @property
+    def _is_open(self) -> bool:
+        return not self.values or self.values[-1] in ("to", "by", "-", "+")
+
+
+def said(cls: type[Any], rest: Iterable[str]) -> Said:
+    """What the words after a kind say."""
+    parameters = {parameter.key: parameter for parameter in arguments(cls)}
+    current: Argument | None = None
+    values: list[str] = []
+    left = dict(parameters)
+    for word in rest:
+        if current and current.shape == "name" and not values:
+            values.append(word)
+        elif word in parameters:
+            current, values = parameters[word], []
+            left.pop(word, None)
+        else:
+            values.append(word)
+    return Said(current, tuple(values), tuple(left.values()))
+
+
+def arguments_of(view: View, noun: str, kind: str, rest: Iterable[str], task: Declaration | None) -> list[Offer]:
+    """What can come after a kind and some of its arguments."""
+    cls = kinds(noun).get(kind)
+    if cls is None:
+        return []
+    state = said(cls, rest)
+    if state.awaits_name and state.current:
+        return _named(view, noun, kind, state.current, task)
+    if state.awaits_number:
+        return []
+    return [*_after_number(state), *keys(state.left)]
+
+
+def keys(parameters: Iterable[Argument]) -> list[Offer]:
+    """Arguments that may be said, those first that must be."""
+    first = sorted(parameters, key=lambda parameter: not parameter.required)
+    return [Offer(parameter.key, "key", meaning(parameter), argument_line(parameter)) for parameter in first]
+
+
+def _after_number(state: Said) -> Iterator[Offer]:
+    """The units of a number, and the words of a range."""
+    if state.current and state.values and state.values[-1][0] in NUMBER:
+        if isinstance(state.current.type, Quantity):
+            yield from units(*state.current.type.units)
+        if state.current.shape == "span":
+            yield from (Offer(word, "word") for word in ("to", "by") if _fits(word, state.values))
+
+
+def units(*units_: str) -> list[Offer]:
+    """Units of a number."""
+    return [Offer(unit, "unit", WORDS.get(unit, "")) for unit in units_ if unit]
+
+
+def _fits(word: str, values: tuple[str, ...]) -> bool:
+    return "to" not in values if word == "to" else "to" in values and "by" not in values
+
+
+def _named(view: View, noun: str, kind: str, parameter: Argument, task: Declaration | None) -> list[Offer]:
+    assert isinstance(parameter.type, Reference)
+    match parameter.type:
+        case Reference(noun="thing"):
+            return things(view, task, ABOUT.get((noun, kind), PLACES))
+        case Reference(noun="sensor"):
+            return names(view, "sensor", "memory")
+        case Reference(noun="Python function"):
+            return []
+        case Reference(words=allowed):
+            return [Offer(word, "word") for word in allowed]

@@ -1,0 +1,140 @@
+"""What the editor asks about a place in a file."""
+
+from lsprotocol import types
+
+from mindlang.server.completing import complete
+from mindlang.server.hovering import hover
+from mindlang.server.navigating import Symbol, definitions, highlights, references, symbols
+from mindlang.server.offers import Offer
+from mindlang.server.overview import everything
+from mindlang.server.server import MindServer
+from mindlang.server.tidying import tidied
+from mindlang.server.wire import Wire
+from mindlang.source import Source
+from mindlang.splice import Splice
+
+SYMBOLS = {
+    "body": types.SymbolKind.Object,
+    "actuator": types.SymbolKind.Interface,
+    "sensor": types.SymbolKind.Field,
+    "memory": types.SymbolKind.Variable,
+    "skill": types.SymbolKind.Function,
+    "task": types.SymbolKind.Event,
+    "curriculum": types.SymbolKind.Module,
+    "thing": types.SymbolKind.Constant,
+}
+OFFERS = {
+    "actuator": types.CompletionItemKind.Interface,
+    "sensor": types.CompletionItemKind.Field,
+    "memory": types.CompletionItemKind.Variable,
+    "skill": types.CompletionItemKind.Function,
+    "task": types.CompletionItemKind.Event,
+    "thing": types.CompletionItemKind.Constant,
+    "kind": types.CompletionItemKind.Class,
+    "key": types.CompletionItemKind.Property,
+    "unit": types.CompletionItemKind.Unit,
+    "file": types.CompletionItemKind.File,
+    "function": types.CompletionItemKind.Function,
+    "word": types.CompletionItemKind.Keyword,
+}
+
+
+def register(server: MindServer) -> None:
+    """Answer these requests."""
+    server.feature(types.TEXT_DOCUMENT_HOVER)(hovered)
+    server.feature(types.TEXT_DOCUMENT_COMPLETION, types.CompletionOptions(trigger_characters=[" ", '"']))(completed)
+    server.feature(types.TEXT_DOCUMENT_DEFINITION)(defined)
+    server.feature(types.TEXT_DOCUMENT_REFERENCES)(referred)
+    server.feature(types.TEXT_DOCUMENT_DOCUMENT_HIGHLIGHT)(highlighted)
+    server.feature(types.TEXT_DOCUMENT_DOCUMENT_SYMBOL)(outlined)
+    server.feature(types.WORKSPACE_SYMBOL)(searched)
+    server.feature(types.TEXT_DOCUMENT_FORMATTING)(formatted)
+
+
+def hovered(ls: MindServer, params: types.HoverParams) -> types.Hover | None:
+    """What stands under the mouse."""
+    found = hover(*ls.session.place(params.text_document.uri, params.position))
+    if found is None:
+        return None
+    content = types.MarkupContent(types.MarkupKind.Markdown, found.text)
+    return types.Hover(content, ls.session.wire.range(found.span))
+
+
+def completed(ls: MindServer, params: types.CompletionParams) -> types.CompletionList:
+    """What may be written."""
+    view, path, offset = ls.session.place(params.text_document.uri, params.position)
+    text = ls.session.desk.text(path)
+    found = complete(view, path, text, offset)
+    source = Source(str(path), text, path.parent)
+    edits = (ls.session.wire.text_edit(Splice(source, found.start, offset, offer.label)) for offer in found.offers)
+    items = [_item(*each) for each in enumerate(zip(found.offers, edits, strict=True))]
+    return types.CompletionList(is_incomplete=False, items=items)
+
+
+def _item(place: int, of: tuple[Offer, types.TextEdit]) -> types.CompletionItem:
+    offer, edit = of
+    return types.CompletionItem(
+        offer.label,
+        kind=OFFERS.get(offer.sort, types.CompletionItemKind.Text),
+        detail=offer.detail or None,
+        documentation=types.MarkupContent(types.MarkupKind.Markdown, offer.text) if offer.text else None,
+        sort_text=f"{place:05}",
+        text_edit=edit,
+    )
+
+
+def defined(ls: MindServer, params: types.DefinitionParams) -> list[types.Location]:
+    """Where it is declared."""
+    spans = definitions(*ls.session.place(params.text_document.uri, params.position))
+    return [ls.session.wire.location(span) for span in spans]
+
+
+def referred(ls: MindServer, params: types.ReferenceParams) -> list[types.Location]:
+    """Where else it stands."""
+    place = ls.session.place(params.text_document.uri, params.position)
+    spans = references(ls.session.desk, *place, with_declaration=params.context.include_declaration)
+    return [ls.session.wire.location(span) for span in spans]
+
+
+def highlighted(ls: MindServer, params: types.DocumentHighlightParams) -> list[types.DocumentHighlight]:
+    """Where else it stands in this file."""
+    spans = highlights(*ls.session.place(params.text_document.uri, params.position))
+    return [types.DocumentHighlight(ls.session.wire.range(span)) for span in spans]
+
+
+def outlined(ls: MindServer, params: types.DocumentSymbolParams) -> list[types.DocumentSymbol]:
+    """What the file declares."""
+    path = ls.session.wire.path(params.text_document.uri)
+    file = ls.session.desk.view(path).file(path)
+    return [_symbol(ls.session.wire, symbol) for symbol in symbols(file)] if file else []
+
+
+def _symbol(wire: Wire, symbol: Symbol) -> types.DocumentSymbol:
+    return types.DocumentSymbol(
+        symbol.name,
+        SYMBOLS[symbol.noun],
+        wire.range(symbol.whole),
+        wire.range(symbol.place),
+        detail=f"{symbol.noun} {symbol.kind}".strip(),
+        children=[_symbol(wire, inner) for inner in symbol.inner],
+    )
+
+
+def searched(ls: MindServer, params: types.WorkspaceSymbolParams) -> list[types.WorkspaceSymbol]:
+    """What the files of the workspace declare."""
+    folders = [ls.session.wire.path(uri) for uri in ls.workspace.folders]
+    if not folders and ls.workspace.root_uri:
+        folders = [ls.session.wire.path(ls.workspace.root_uri)]
+    return [
+        types.WorkspaceSymbol(
+            ls.session.wire.location(symbol.place), symbol.name, SYMBOLS[symbol.noun], container_name=symbol.noun
+        )
+        for symbol in everything(ls.session.desk, folders, params.query)
+    ]
+
+
+def formatted(ls: MindServer, params: types.DocumentFormattingParams) -> list[types.TextEdit]:
+    """The file as it should be written."""
+    path = ls.session.wire.path(params.text_document.uri)
+    source = Source(str(path), ls.session.desk.text(path), path.parent)
+    return [ls.session.wire.text_edit(splice) for splice in tidied(source)]

@@ -1,0 +1,71 @@
+"""The server of one editor: what it remembers, what it may ask for, and how it talks."""
+
+import asyncio
+from importlib.metadata import version
+from pathlib import Path
+from typing import Any
+
+from lsprotocol import types
+from mindrun.errors import MindError
+from pygls.exceptions import JsonRpcException
+from pygls.lsp.server import LanguageServer
+
+from mindlang.server.changing import Outcome, perform
+from mindlang.server.session import Session
+
+PAUSE = 0.15  # seconds without typing, after which a text is checked
+FAILED = -32803  # RequestFailed
+
+
+class MindServer(LanguageServer):
+    """The server of one editor."""
+
+    def __init__(self) -> None:
+        super().__init__("mindc", version("mindlang"), text_document_sync_kind=types.TextDocumentSyncKind.Full)
+        self.session = Session()
+        self._due: asyncio.TimerHandle | None = None
+
+    def check_soon(self) -> None:
+        """Check what is open when the user pauses."""
+        if self._due:
+            self._due.cancel()
+        self._due = asyncio.get_running_loop().call_later(PAUSE, self.check)
+
+    def check(self) -> None:
+        """Say what is new about the open files."""
+        if self._due:
+            self._due.cancel()
+        for news in self.session.news():
+            self.text_document_publish_diagnostics(news)
+
+    def say(self, message: str, type_: types.MessageType = types.MessageType.Info) -> None:
+        """Show the user a message."""
+        self.window_show_message(types.ShowMessageParams(type_, message))
+
+    @property
+    def knows_documents(self) -> bool:
+        """Whether the editor takes edits that make files and name versions of texts."""
+        workspace = self.client_capabilities.workspace
+        edits = workspace.workspace_edit if workspace else None
+        made = types.ResourceOperationKind.Create in (edits.resource_operations or ()) if edits else False
+        return bool(edits and edits.document_changes and made)
+
+    def outcome(self, path: Path, name: str, arguments: dict[str, Any]) -> tuple[Outcome, types.WorkspaceEdit]:
+        """An edit made in memory, and as the editor takes it; MindError where it is impossible."""
+        outcome = perform(self.session.desk, path, name, arguments)
+        plain = not self.knows_documents
+        if outcome.change.created and plain:
+            raise MindError("This editor cannot make files.", f"On the command line: mindc edit {name}")
+        edit = self.session.wire.workspace_edit(outcome.change.splices, outcome.change.created, plain)
+        return outcome, edit
+
+    def done(self, outcome: Outcome) -> None:
+        """Say what an edit does to weights, and let the locks follow it."""
+        self.session.follow(outcome.following)
+        if outcome.sentences:
+            self.say(". ".join(outcome.sentences) + ".")
+
+
+def failed(error: MindError) -> JsonRpcException:
+    """A request that cannot be answered, with the reason in the user's words."""
+    return JsonRpcException(f"{error} {error.hint}".strip(), FAILED)

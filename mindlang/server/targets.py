@@ -1,0 +1,53 @@
+"""What a skill could be connected to, replaced by, or taught on."""
+
+from collections.abc import Iterator
+from typing import Any
+
+from mindrun.weights import genes
+
+from mindlang.editing.project import Project
+from mindlang.hierarchy import reached
+from mindlang.syntax import Declaration, Drives, Influences, Reads
+
+MOST = 6  # of each sort; the command line and the editor's own dialogue know them all
+
+
+def connectable(project: Project, declaration: Declaration) -> Iterator[tuple[str, str]]:
+    """What a skill could read, drive or influence besides, with the verb."""
+    said = {fact.name.text for fact in declaration.facts if isinstance(fact, Reads | Drives | Influences)}
+    names = project.names
+    free = [name for name in names.of("sensor", "memory") if name not in said][:MOST]
+    yield from (("read", name) for name in free)
+    free = [name for name in names.of("actuator", "memory") if name not in said][:MOST]
+    yield from (("drive", name) for name in free)
+    yield from (("influence", name) for name in _below(project, declaration.header.name.text)[:MOST])
+
+
+def not_yet_below(project: Project, skill: str) -> Iterator[tuple[str, list[str]]]:
+    """Skills that another could influence besides, with what they read and it does not."""
+    reads = {known.name: known.reads for known in project.mind.skills}
+    for other in _below(project, skill)[:MOST]:
+        yield other, [reading for reading in reads[other] if reading not in reads[skill]]
+
+
+def replacements(project: Project, skill: str) -> list[str]:
+    """Other skills; those that drive other actuators are refused by the edit itself."""
+    return [known.name for known in project.mind.skills if known.name != skill][: 8 * MOST]
+
+
+def lesson(project: Project, skill: str) -> dict[str, Any]:
+    """The arguments with which `add` gives a skill that learns its first lesson; none where it has one, or cannot."""
+    learns = any(known.name == skill and genes(known) for known in project.graph.skills)
+    taught = any(known.skill == skill for known in project.mind.lessons)
+    curricula, tasks = project.names.of("curriculum"), project.names.of("task")
+    if not learns or taught or not curricula or not tasks:
+        return {}
+    task = skill if skill in tasks else tasks[-1]
+    return {"lines": [f"teaches {skill} on {task} for 100 generations"], "to": curricula[0], "noun": "curriculum"}
+
+
+def _below(project: Project, skill: str) -> list[str]:
+    """The skills that a skill could influence without a circle, and does not."""
+    skills = {known.name: known for known in project.mind.skills}
+    own = skills[skill].subskills
+    return [name for name in skills if name not in own and skill not in reached(skills, name)]

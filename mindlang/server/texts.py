@@ -1,0 +1,69 @@
+"""What the editor tells about its files: opened, changed, saved, closed; each ends in what is found in them."""
+
+from lsprotocol import types
+
+from mindlang.server.server import MindServer
+
+WATCHED = ("**/*.mind", "**/*.lock")
+
+
+def register(server: MindServer) -> None:
+    """Listen to these notifications."""
+    server.feature(types.INITIALIZE)(begin)
+    server.feature(types.INITIALIZED)(watch)
+    server.feature(types.TEXT_DOCUMENT_DID_OPEN)(opened)
+    server.feature(types.TEXT_DOCUMENT_DID_CHANGE)(changed)
+    server.feature(types.TEXT_DOCUMENT_DID_SAVE)(saved)
+    server.feature(types.TEXT_DOCUMENT_DID_CLOSE)(closed)
+    server.feature(types.WORKSPACE_DID_CHANGE_WATCHED_FILES)(changed_outside)
+
+
+def begin(ls: MindServer, params: types.InitializeParams) -> None:
+    """Count columns as the editor does."""
+    encoding = ls.workspace.position_encoding
+    ls.session.wire.encoding = str(getattr(encoding, "value", encoding))
+
+
+async def watch(ls: MindServer, params: types.InitializedParams) -> None:
+    """Ask to be told of files that change outside of the editor, where it can."""
+    workspace = ls.client_capabilities.workspace
+    watching = workspace.did_change_watched_files if workspace else None
+    if watching and watching.dynamic_registration:
+        watchers = [types.FileSystemWatcher(glob_pattern=pattern) for pattern in WATCHED]
+        options = types.DidChangeWatchedFilesRegistrationOptions(watchers)
+        registration = types.Registration("mind-files", types.WORKSPACE_DID_CHANGE_WATCHED_FILES, options)
+        await ls.client_register_capability_async(types.RegistrationParams([registration]))
+
+
+def opened(ls: MindServer, params: types.DidOpenTextDocumentParams) -> None:
+    """A file is open now: look at it at once."""
+    document = params.text_document
+    ls.session.set(document.uri, document.version, document.text)
+    ls.session.desk.forget()
+    ls.check()
+
+
+def changed(ls: MindServer, params: types.DidChangeTextDocumentParams) -> None:
+    """A file has another text: look at it when the user pauses."""
+    document = ls.workspace.get_text_document(params.text_document.uri)
+    ls.session.set(params.text_document.uri, params.text_document.version, document.source)
+    ls.check_soon()
+
+
+def saved(ls: MindServer, params: types.DidSaveTextDocumentParams) -> None:
+    """A file has been saved: the locks of an edit may follow now."""
+    for message in ls.session.saved(ls.session.wire.path(params.text_document.uri)):
+        ls.say(message)
+    ls.check_soon()
+
+
+def closed(ls: MindServer, params: types.DidCloseTextDocumentParams) -> None:
+    """A file is no longer open: its findings go, unless an open mind has it."""
+    ls.session.close(params.text_document.uri)
+    ls.check()
+
+
+def changed_outside(ls: MindServer, params: types.DidChangeWatchedFilesParams) -> None:
+    """Files have changed on the disk: by git, by a training."""
+    ls.session.desk.forget()
+    ls.check_soon()

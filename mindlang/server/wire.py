@@ -1,0 +1,95 @@
+"""Plain values as the protocol's types: spans as ranges of a URI, splices as edits of a workspace."""
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+from urllib.parse import quote
+
+from lsprotocol import types
+from pygls.uris import from_fs_path, to_fs_path
+
+from mindlang.diagnostic import Diagnostic
+from mindlang.server.positions import Ruler
+from mindlang.source import Source, Span
+from mindlang.splice import Splice
+
+SEVERITIES = {"error": types.DiagnosticSeverity.Error, "warning": types.DiagnosticSeverity.Warning}
+
+
+@dataclass
+class Wire:
+    """How paths and offsets are said to one editor: its URIs, and the units that its columns count."""
+
+    encoding: str = "utf-16"
+    uris: dict[Path, str] = field(default_factory=dict)  # of the open files, as the editor says them
+    versions: dict[Path, int] = field(default_factory=dict)
+
+    def path(self, uri: str) -> Path:
+        """The path that a URI stands for; one that is no file has a path where no file is."""
+        name = to_fs_path(uri)
+        return Path(name).resolve() if name else Path("/", ".untitled", quote(uri, safe=""))
+
+    def uri(self, path: Path) -> str:
+        """The URI of a file."""
+        return self.uris.get(path) or from_fs_path(str(path)) or ""
+
+    def offset(self, text: str, position: types.Position) -> int:
+        """The offset of a position."""
+        return Ruler(text, self.encoding).offset(position.line, position.character)
+
+    def range(self, span: Span) -> types.Range:
+        """A span as a range."""
+        ruler = Ruler(span.source.text, self.encoding)
+        start, end = ruler.place(span.start), ruler.place(span.end)
+        return types.Range(types.Position(*start), types.Position(*end))
+
+    def whole(self, text: str) -> types.Range:
+        """The range of a whole text."""
+        source = Source("text", text)
+        return self.range(Span(source, 0, len(text)))
+
+    def location(self, span: Span) -> types.Location:
+        """A span with its file."""
+        return types.Location(self.uri(span.source.path), self.range(span))
+
+    def diagnostic(self, found: Diagnostic) -> types.Diagnostic:
+        """A finding; one whose fix takes it out is of something unnecessary."""
+        empty = types.Range(types.Position(0, 0), types.Position(0, 0))
+        is_removed = found.fix is not None and found.fix.title.startswith("Remove")
+        return types.Diagnostic(
+            self.range(found.span) if found.span else empty,
+            f"{found.message}\n{found.hint}".strip(),
+            SEVERITIES.get(found.severity, types.DiagnosticSeverity.Information),
+            code=found.code,
+            source="mindc",
+            tags=[types.DiagnosticTag.Unnecessary] if is_removed else None,
+            related_information=[
+                types.DiagnosticRelatedInformation(self.location(label.span), label.message) for label in found.labels
+            ]
+            or None,
+        )
+
+    def text_edit(self, splice: Splice) -> types.TextEdit:
+        """A splice of one file."""
+        return types.TextEdit(self.range(Span(splice.source, splice.start, splice.end)), splice.text)
+
+    def workspace_edit(
+        self, splices: Iterable[Splice], created: Mapping[Path, str], plain: bool
+    ) -> types.WorkspaceEdit:
+        """Splices of several files, and new files; `plain` where the editor knows no more than texts that change."""
+        by_path: dict[Path, list[types.TextEdit]] = {}
+        for splice in splices:
+            by_path.setdefault(splice.source.path, []).append(self.text_edit(splice))
+        if plain:
+            return types.WorkspaceEdit(changes={self.uri(path): edits for path, edits in by_path.items()})
+        changes: list[types.TextDocumentEdit | types.CreateFile | types.RenameFile | types.DeleteFile] = []
+        for path, text in created.items():
+            changes.append(types.CreateFile(self.uri(path)))
+            start = types.Range(types.Position(0, 0), types.Position(0, 0))
+            changes.append(self._document_edit(path, [types.TextEdit(start, text)]))
+        changes += [self._document_edit(path, edits) for path, edits in by_path.items()]
+        return types.WorkspaceEdit(document_changes=changes)
+
+    def _document_edit(self, path: Path, edits: list[types.TextEdit]) -> types.TextDocumentEdit:
+        document = types.OptionalVersionedTextDocumentIdentifier(self.uri(path), self.versions.get(path))
+        return types.TextDocumentEdit(document, list(edits))

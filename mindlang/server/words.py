@@ -1,0 +1,50 @@
+"""What the words of the language are for, in a line each."""
+
+NOUNS = {
+    "body": "The robot's body; a mind has one.",
+    "actuator": "What the robot acts with; `neutral` is sent when nothing influences it.",
+    "sensor": "What the robot senses: one or more readings in 0..1.",
+    "memory": "A number that is driven like an actuator, and read like a sensor on the next tick.",
+    "skill": "A behaviour: it reads sensors, drives actuators and influences other skills.",
+    "task": "A world to learn in, with its end and its rewards: `task NAME in SCENE`.",
+    "curriculum": "Lessons in their order, and the way in which they are learnt.",
+}
+SETTINGS = {
+    "tick": "How long a tick is: `tick 1/60 s`.",
+    "master": "The skill that is in charge: it receives the influence 1.",
+    "use": 'The declarations of another file: `use "collect.mind"`.',
+}
+VERBS = {
+    "reads": "An input: a sensor, with all of its readings, or a memory.",
+    "drives": "An output that commands an actuator or a memory; with `at`, the value of an expression.",
+    "influences": "An output that says how much another skill acts; with `at`, the value of an expression.",
+    "stays": "`stays frozen`: the skill refuses training.",
+    "contains": "A thing in the world of the task, placed at random: `contains object is item size 1`.",
+    "lasts": "After how long the task ends: `lasts 10000 ticks`, `lasts 60 s`.",
+    "ends": "An event that ends the task early: `ends on collision`.",
+    "rewards": "What a tick, or an event, is worth: `rewards EXPRESSION per tick`, `rewards EXPRESSION on EVENT`.",
+    "counts": "An event that `mindc bench` counts.",
+    "teaches": "A lesson: `teaches SKILL on TASK for 100 generations`.",
+}
+JOINTS = {
+    "is": "After it comes the kind.",
+    "in": "After it comes the scene of a task, or the sensor that `for each` goes through.",
+    "at": "The value of the edge, instead of an output of the skill's function; clamped to 0..1.",
+    "on": "After it comes an event or, in a lesson, the task.",
+    "under": "The skill that is in charge while another learns; by default the learner itself.",
+    "for": "For how long a lesson goes on; `for each p in SENSOR` goes through the readings of a sensor.",
+    "per tick": "The reward is added in every tick.",
+    "for each": "The reward is added for each reading of a sensor: `for each p in proximity`.",
+    "when": "The reward is added only where this holds: `when holding < 0.5`.",
+    "from scratch": "The lesson starts from random weights, not from those that the skill has.",
+    "with subskills": "All skills below that learn are taught along, as one genome.",
+    "frozen": "The skill refuses training; lessons with subskills leave it out.",
+}
+UNITS = {
+    "s": "seconds",
+    "ticks": "ticks of the mind",
+    "generations": "generations of a genetic algorithm",
+    "deg": "degrees",
+    "%": "hundredths",
+}
+WORDS = NOUNS | SETTINGS | VERBS | JOINTS | UNITS
