@@ -48,7 +48,7 @@ def is_constant(of: Expression) -> bool:
 
 def said(of: Interval) -> str:
     """A range in words."""
-    low, high = of
+    low, high = (bound + 0.0 for bound in of)  # -0.0 is 0
     if low == high:
         return f"always {low:g}"
     if low == -inf:

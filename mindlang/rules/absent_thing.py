@@ -60,7 +60,7 @@ def _readers(study: Study) -> dict[str, Readers]:
 
 def _finding(study: Study, lesson: Lesson, thing: str, skill: str, sensor: str) -> Finding:
     having = [task.name for task in study.mind.tasks if thing in {part.name for part in task.things}]
-    hint = f"Teach {lesson.skill} on {listed(having[:3])}, where there is one, or add a line contains {thing}."
+    hint = f"Teach it on {listed(having[:3])}, or let {lesson.task} contain {thing}, too."
     label = Label(study.tasks[lesson.task].declaration.header.name.span, "this world")
     message = f"{skill} reads {sensor}, but {lesson.task} contains no {thing}."
     return Finding(lesson.fact.task.span, message, hint, (label,))

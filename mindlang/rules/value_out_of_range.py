@@ -43,5 +43,6 @@ def _finding(edge: Edge, found: Interval) -> Finding:
     clamped = 1 if found[0] >= 1 else 0
     fix = Fix(f"Write {clamped}", (instead(edge.at.span, str(clamped)),))
     message = f"This value is {said(found)}, which is clamped to {clamped}."
-    hint = f"Write at {clamped}, or a value between 0 and 1."
+    share = f", or {found[0]:g}% if that is meant" if found[0] == found[1] and 1 < found[0] <= 100 else ""
+    hint = f"Write at {clamped}{share or ', or a value that gets between 0 and 1'}."
     return Finding(edge.at.span, message, hint, fix=fix)
