@@ -1,10 +1,15 @@
 """Why a line cannot be read: a common mistake, or else what the grammar expected."""
 
 import re
+from collections.abc import Mapping, Sequence
+from functools import cache
 from typing import TYPE_CHECKING
+from unicodedata import normalize
+
+from mindrun.registry import arguments, kinds
 
 from mindlang.diagnostic import Diagnostic, a, did_you_mean, listed
-from mindlang.parse.mistakes import MISTAKES
+from mindlang.parse.mistakes import MISTAKES, OPENINGS, Mistake
 from mindlang.source import Span
 from mindlang.syntax import NOUNS, PARTS, SETTINGS, VERBS
 
@@ -18,6 +23,55 @@ _WORDS = {
     "NUMBER": "a number", "UNIT": "a unit", "SIGN": "+ or -", "MINUS": "-", "SCALE": "* or /", "LPAR": "(",
     "RPAR": ")", "COMPARE": "< <= > or >=", "TEXT": 'a path in "quotes"',
 }  # fmt: skip
+
+# A line as it should be, for each word with which one begins.
+LINES = {
+    "sensor": "sensor eyes is range_finder at 0 90 deg",
+    "actuator": "actuator left_wheel is wheel side left neutral 0.5",
+    "memory": "memory mood is cell decay 0.95",
+    "body": "body Robot is disc size 2",
+    "skill": "skill Avoid is mlp hidden 2",
+    "curriculum": "curriculum Lessons is genetic population 100",
+    "task": "task Avoid in arena size 100",
+    "reads": "reads eyes",
+    "drives": "drives left_wheel",
+    "influences": "influences Avoid, or influences Avoid at 0.5",
+    "stays": "stays frozen",
+    "contains": "contains rock is obstacle count 10",
+    "lasts": "lasts 10000 ticks",
+    "ends": "ends on collision",
+    "rewards": "rewards 10 on reach of ball, or rewards forward per tick",
+    "counts": "counts collision",
+    "teaches": "teaches Avoid on Avoid for 1000 generations",
+    "use": 'use "parts.mind"',
+    "master": "master Avoid",
+    "tick": "tick 1/60 s",
+}
+
+# What people write for a word of the language.
+INSTEAD = {
+    "skill": "behaviour behavior node network policy agent module function def class fn brain controller neuron layer",
+    "actuator": "motor wheel output_device effector servo gripper joint",
+    "sensor": "camera lidar range_finder input_device detector",
+    "memory": "state variable var let const",
+    "body": "robot chassis vehicle",
+    "task": "environment env world scene level arena game episode",
+    "curriculum": "lesson lessons school training learner trainer teacher optimizer optimiser",
+    "reads": "uses senses sees input inputs perceives observes gets takes subscribes",
+    "drives": "controls output outputs moves sets actuates commands writes publishes",
+    "influences": "activates calls runs triggers invokes excites inhibits subskill subskills child children",
+    "stays frozen": "frozen freeze freezes fixed",
+    "contains": "has includes holds object thing spawn",
+    "lasts": "duration time length timeout max_steps steps limit",
+    "ends on": "stops stop terminates terminate finishes done",
+    "rewards": "reward scores score points gives fitness",
+    "rewards with a negative number": "penalises penalizes penalty punishes costs cost loss",
+    "counts": "measures metric metrics logs records",
+    "teaches": "trains train learns learn optimises optimizes",
+    "tick": "dt timestep time_step step framerate fps rate frequency hz",
+    "master": "root main top start entry",
+    'use "file.mind"': "import include from require load using",
+}
 
 
 def proper(noun: str, name: str) -> str:
@@ -35,7 +89,7 @@ def _title(name: str) -> str:
 
 def explain(error: "UnexpectedInput", code: str, line: Span) -> Diagnostic:
     """Why the grammar refuses the line `code`, in the user's words."""
-    return _opening(code, line) or _common(code, line) or _unexpected(error, code, line)
+    return _opening(code, line) or _common(MISTAKES, code, line) or _unexpected(error, code, line)
 
 
 def _at(line: Span, start: int, end: int) -> Span:
@@ -49,35 +103,86 @@ def _opening(code: str, line: Span) -> Diagnostic | None:
     word = first[1] if first else ""
     if not first or word in known or re.match(rf"({'|'.join(known)})\W", word):
         return None
+    here = _at(line, *first.span(1))
+    message = f"A line cannot begin with {word[:40]}."
+    if word.lower() in known:
+        return Diagnostic("no-verb", message, here, f"Write {word.lower()}.")
+    if word in _instead():
+        known_word = _instead()[word]
+        example = f", as in {LINES[known_word]}" if known_word in LINES else ""
+        return Diagnostic("no-verb", message, here, f"Write {known_word}{example}.")
+    if word in _keys() and re.match(r"\s*\w+(\s+[-+\d.]|\s*$)", code):
+        hint = "Write it on the line of its declaration, after the kind, as in skill Avoid is mlp hidden 2."
+        return Diagnostic("argument-below", f"{word} is an argument, and no fact of its own.", here, hint)
+    if told := _common(OPENINGS, code, line):
+        return told
+    hint = did_you_mean(word, known) or f"A fact begins with its verb: {listed(VERBS)}."
     if not word[0].isalpha():
         hint = "A line begins with a noun such as skill, a verb such as reads, or a setting such as tick."
-    elif word.lower() in known:
-        hint = f"Write {word.lower()}."
-    else:
-        hint = did_you_mean(word, known) or f"A fact begins with its verb: {listed(VERBS)}."
-    return Diagnostic("no-verb", f"A line cannot begin with {word[:40]}.", _at(line, *first.span(1)), hint)
+    return Diagnostic("no-verb", message, here, hint)
 
 
-def _common(code: str, line: Span) -> Diagnostic | None:
+@cache
+def _instead() -> dict[str, str]:
+    """What to write for each word of `INSTEAD`."""
+    return {word: known for known, words in INSTEAD.items() for word in words.split()}
+
+
+@cache
+def _keys() -> frozenset[str]:
+    """The arguments of what is declared."""
+    nouns = (*NOUNS, "content")
+    return frozenset(argument.key for noun in nouns for cls in kinds(noun).values() for argument in arguments(cls))
+
+
+def _common(mistakes: Sequence[Mistake], code: str, line: Span) -> Diagnostic | None:
     if len(code) > LONG:
         return None
-    for mistake in MISTAKES:
+    for mistake in mistakes:
         if found := re.search(mistake.pattern, code):
             groups = {name: text or "" for name, text in found.groupdict().items()}
-            noun = groups.get("noun", "")
-            words = {
-                **groups,
-                "a_noun": a(noun),
-                "snake": _snake(groups["here"]),
-                "title": _title(groups["here"]),
-            }
+            words = {**groups, **_made_of(groups, code)}
+            start, end = found.span("noun" if found["here"] is None else "here")
             return Diagnostic(
                 mistake.code,
                 mistake.message.format(**words),
-                _at(line, *found.span("here")),
+                _at(line, start, end),
                 mistake.hint.format(**words),
             )
     return None
+
+
+def _made_of(groups: Mapping[str, str], code: str) -> dict[str, str]:
+    """The words of a message that are made of what a pattern found."""
+    here, noun, first = groups["here"], groups.get("noun", ""), code.split()[0]
+    registered = kinds("content" if noun == "contains" else noun)
+    kind = registered.get(groups.get("kind", ""))
+    digits = "".join(str(int(c)) for c in here if c.isdecimal())
+    return {
+        "a_noun": a(noun),
+        "snake": _snake(here),
+        "title": _title(here),
+        "lower": here.lower(),
+        "plain": normalize("NFKC", here).replace("⁄", "/"),
+        "digits": digits,
+        "written": f"{float(here):.10f}".rstrip("0").rstrip(".")
+        if re.fullmatch(r"[0-9.]+[eE][-+]?[0-9]", here)
+        else digits,
+        "tight": "".join(here.split()),
+        "bare": here.strip("\"'`“”„‘’«» "),
+        "joined": re.sub(r"\W+", "_", here) if here[:1].islower() else _title(re.sub(r"\W+", "_", here)),
+        "kinds": listed(sorted(registered)) if registered else "",
+        "takes": _taken(kind),
+        "line": LINES.get(re.split(r"\W", first)[0], LINES["skill"]),
+        "noun_line": LINES.get(noun, LINES["skill"]),
+    }
+
+
+def _taken(kind: type | None) -> str:
+    """The arguments that a kind takes, in words."""
+    if kind is None:
+        return "arguments by name"
+    return listed(argument.key for argument in arguments(kind)) if arguments(kind) else "no arguments"
 
 
 def _unexpected(error: "UnexpectedInput", code: str, line: Span) -> Diagnostic:
@@ -90,12 +195,16 @@ def _unexpected(error: "UnexpectedInput", code: str, line: Span) -> Diagnostic:
         expected, start = set(getattr(error, "allowed", ())), error.pos_in_stream or 0
         word = re.compile(r"\w+|.").match(code, start)
         end = word.end() if word else start
+    key = re.search(r"(?<=\s)([a-z]\w*)\s*$", code[:start])
+    if key and not code[start:end] and {"NAME", "NUMBER"} <= expected:
+        hint = f"Write its value after {key[1]}, or leave {key[1]} out."
+        return Diagnostic("missing-value", f"After {key[1]} a value is missing.", _at(line, *key.span(1)), hint)
     if "NUMBER" in expected:
         expected -= {"SIGN", "MINUS"}
     words = [_WORDS[name] for name in _WORDS if name in expected]
     words += sorted(name.lower() for name in expected - set(_WORDS) if name.isalpha() and name.isupper())
     here = code[start:end]
     message = f"{here[:40]} cannot stand here." if here else "The line ends too early."
-    return Diagnostic(
-        "malformed-line", message, _at(line, start, end), f"Here comes {listed(words or ['the end of the line'])}."
-    )
+    comes = f"Here comes {listed(words or ['the end of the line'])}. " if len(words) < 4 else ""
+    hint = f"{comes}Such a line is for example {LINES.get(code.split()[0], LINES['skill'])}."
+    return Diagnostic("malformed-line", message, _at(line, start, end), hint)

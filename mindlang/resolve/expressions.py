@@ -1,6 +1,6 @@
 """Expressions: their readings and measures found, their numbers converted."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Set
 from dataclasses import dataclass
 
 from mindrun.quantity import Quantity
@@ -12,6 +12,7 @@ from mindlang.resolve.kinds import Scope, make
 from mindlang.resolve.quantities import convert
 from mindlang.syntax import Amount, Operator, Phrase
 
+TRUTH = {"true": 1, "yes": 1, "false": 0, "no": 0}
 PLAIN = Quantity("a plain number", {"": 1.0, "%": 0.01})
 
 
@@ -19,13 +20,15 @@ PLAIN = Quantity("a plain number", {"": 1.0, "%": 0.01})
 class Visible:
     """What an expression can see: readings with their widths, the name of `for each`, in a task measures.
 
-    `elsewhere` are the readings that exist but are no inputs of the skill.
+    `elsewhere` are the readings that exist but are no inputs of the skill, `unread` the words of lines that could not
+    be read.
     """
 
     readings: Mapping[str, int]
     measures: Scope | None = None
     each: str | None = None
     elsewhere: Mapping[str, int] | None = None
+    unread: Set[str] = frozenset()
 
 
 def resolve(expression: syntax.Expression, visible: Visible, findings: Findings) -> model.Expression:
@@ -76,16 +79,25 @@ def _reading(term: Phrase, visible: Visible, findings: Findings) -> model.Readin
 
 def _unknown(term: Phrase, visible: Visible, findings: Findings) -> None:
     name = term.kind.text
-    if name in visible.readings:
+    if name in visible.unread:
+        return  # it may have been declared in a line that could not be read
+    if name in TRUTH:
+        message = f"{name} is no reading: every value is a number."
+        findings.error("truth", term.kind.span, message, f"Write {TRUTH[name]}.")
+    elif name in visible.readings:
         findings.error("reading-argument", term.span, f"{name} is a reading and takes no arguments.", f"Write {name}.")
     elif visible.elsewhere and name in visible.elsewhere:
         hint = f"Add the line reads {name}; an expression after at sees the inputs of its own skill."
         findings.error("not-an-input", term.span, f"The skill does not read {name}.", hint)
     elif visible.measures:
         hint = findings.suggest(name, [*visible.readings, *kinds("measure")])
+        if name in kinds("event"):
+            hint = f"{name} is an event, which is rewarded when it happens: rewards 1 on {term.span.text}."
         hint = hint or "A reward is made of sensors, memories and measures such as forward or progress toward X."
         findings.error("unknown-measure", term.kind.span, f"There is no reading or measure called {name}.", hint)
     else:
         hint = findings.suggest(name, [*visible.readings, *(visible.elsewhere or ())])
+        if name in kinds("measure"):
+            hint = f"{name} is a measure, which only rewards have; after at stand the inputs of the skill."
         hint = hint or "An expression after at is made of numbers and the inputs of its skill."
         findings.error("unknown-reading", term.kind.span, f"There is no reading called {name}.", hint)

@@ -20,6 +20,7 @@ ABOUT: Mapping[tuple[str, str], Set[str]] = {
     ("sensor", "inside"): {"zone", "power"},
     ("event", "delivery"): {"item"},
 }
+SAID = {"content": "thing", "task": "scene"}  # nouns of the registry in the user's words
 PLACES: Set[str] = {"item", "zone", "power"}
 WHY = {
     "neutral": "It is what the actuator is sent when nothing influences it and whenever something fails: "
@@ -29,19 +30,23 @@ WHY = {
 
 @dataclass(frozen=True, slots=True)
 class Scope:
-    """What the arguments of a phrase can name. `things` are None where no task says which there are."""
+    """What the arguments of a phrase can name. `things` are None where no task says which there are.
+
+    A declaration is `whole` when all lines below it could be read: one that could not be may have had an argument.
+    """
 
     names: Names
     things: Mapping[str, Set[str]] | None
     place: str = "any task"
+    whole: bool = True
 
 
 def make(noun: str, phrase: Phrase, scope: Scope, findings: Findings) -> Any:
     """The kind that a phrase names, with its arguments, or None after reporting what is wrong with it."""
     cls = kinds(noun).get(phrase.kind.text)
     if cls is None:
-        hint = did_you_mean(phrase.kind.text, kinds(noun)) or f"Known are {listed(sorted(kinds(noun)), 'and')}."
-        findings.error("unknown-kind", phrase.kind.span, f"There is no kind of {noun} called {phrase.kind.text}.", hint)
+        message = f"There is no kind of {SAID.get(noun, noun)} called {phrase.kind.text}."
+        findings.error("unknown-kind", phrase.kind.span, message, _known_kinds(noun, phrase.kind.text, scope))
         return None
     before = len(findings.diagnostics)
     parameters = {parameter.key: parameter for parameter in arguments(cls)}
@@ -49,10 +54,21 @@ def make(noun: str, phrase: Phrase, scope: Scope, findings: Findings) -> Any:
         parameters[key].field: _value(noun, phrase, parameters[key], argument, scope, findings)
         for key, argument in _by_key(phrase.kind.text, phrase.arguments, parameters, findings).items()
     }
-    for key, parameter in parameters.items():
-        if parameter.required and parameter.field not in values:
+    missing = [key for key, parameter in parameters.items() if parameter.required and parameter.field not in values]
+    if scope.whole and all(argument.key.text in parameters for argument in phrase.arguments):
+        for key in missing:
             _missing(phrase, key, findings)
-    return cls(**values) if len(findings.diagnostics) == before else None
+    return cls(**values) if not missing and len(findings.diagnostics) == before else None
+
+
+def _known_kinds(noun: str, name: str, scope: Scope) -> str:
+    """What to write instead of a kind that a noun does not have."""
+    if hint := did_you_mean(name, kinds(noun)):
+        return hint
+    known = f"Known are {listed(sorted(kinds(noun)), 'and')}."
+    if noun == "event" and (name in kinds("measure") or scope.names.noun_of(name, ("sensor", "memory"))):
+        return f"{name} has a value in every tick: write per tick instead of on. {known}"
+    return known
 
 
 def overrides(cls: type[Any], kind: str, written: Iterable[Argument], findings: Findings) -> dict[str, Any]:
@@ -89,7 +105,7 @@ def _unknown(kind: str, key: Name, parameters: Mapping[str, Parameter], findings
 
 def _missing(phrase: Phrase, key: str, findings: Findings) -> None:
     kind = phrase.kind.text
-    hint = WHY.get(key, f"Write {kind} {key} …")
+    hint = WHY.get(key, f"Add it and its value: {kind} {key} ….")
     findings.error("missing-argument", phrase.span, f"{kind} needs {key}.", hint)
 
 

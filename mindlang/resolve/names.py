@@ -1,13 +1,17 @@
 """The names of a mind: every noun has its own, and each is declared once."""
 
-from collections.abc import Iterable, Iterator, Sequence
+import re
+import unicodedata
+from collections.abc import Iterable, Iterator, Sequence, Set
 from dataclasses import dataclass
 
 from mindlang.diagnostic import Findings, Label, a, listed
+from mindlang.source import Span
 from mindlang.syntax import Contains, Declaration, File, Name
 
 # A memory is read like a sensor and driven like an actuator, so its name must be neither's.
 SHARED = {"sensor": ("memory",), "actuator": ("memory",), "memory": ("sensor", "actuator")}
+_WORD = re.compile(r"\w[\w.+-]*")
 DOES = {
     "sensor": "a skill reads sensors",
     "memory": "a skill reads and drives memories",
@@ -18,9 +22,13 @@ DOES = {
 
 @dataclass(frozen=True, slots=True)
 class Names:
-    """Declarations by noun and name, in the order of the sources."""
+    """Declarations by noun and name, in the order of the sources.
+
+    `unread` are the words of the lines that could not be read: any of them may have been declared there.
+    """
 
     table: dict[str, dict[str, Declaration]]
+    unread: Set[str] = frozenset()
 
     def of(self, *nouns: str) -> list[str]:
         """The names declared with one of these nouns."""
@@ -38,14 +46,22 @@ class Names:
         """The noun with which the name is declared; a name that is not is reported."""
         if noun := self.noun_of(name.text, nouns):
             return noun
+        if name.text in self.unread:
+            return None
         wanted = listed(nouns)
         other = self.noun_of(name.text, [noun for noun in DOES if noun not in nouns])
         if other:
             hint = f"There is {a(other)} of that name, but {DOES[other]}."
         else:
-            hint = findings.suggest(name.text, self.of(*nouns)) or self._offer(nouns)
+            hint = self._thing(name.text, nouns) or findings.suggest(name.text, self.of(*nouns)) or self._offer(nouns)
+            hint += _foreign_letter(name.text)
         findings.error(f"unknown-{nouns[0]}", name.span, f"There is no {wanted} called {name.text}.", hint)
         return None
+
+    def _thing(self, name: str, nouns: Sequence[str]) -> str:
+        if "sensor" in nouns and any(name in things_of(task) for _, task in self.declarations("task")):
+            return f"{name} is a thing of a task; what the robot knows of it is a sensor, such as bearing of {name}."
+        return ""
 
     def _offer(self, nouns: Sequence[str]) -> str:
         known = self.of(*nouns)
@@ -74,9 +90,23 @@ def things_of(task: Declaration) -> dict[str, set[str]]:
     return found
 
 
+def _foreign_letter(name: str) -> str:
+    """A sentence about the first letter of a name that no keyboard of the language's words has, if there is one."""
+    odd = next((letter for letter in name if not letter.isascii()), None)
+    return f" Its letter {odd} is {unicodedata.name(odd, 'an odd one').lower()}." if odd else ""
+
+
+def _words(span: Span) -> list[str]:
+    """The words of the line on which a span starts."""
+    text = span.source.text
+    end = text.find("\n", span.start)
+    words = _WORD.findall(text, text.rfind("\n", 0, span.start) + 1, end if end >= 0 else len(text))
+    return [*words, *(word.replace("-", "_") for word in words)]
+
+
 def gather(files: Iterable[File], findings: Findings) -> Names:
     """All declarations by name; of two with one name the second is reported."""
-    names = Names({})
+    names = Names({}, frozenset(word for found in findings.diagnostics if found.span for word in _words(found.span)))
     for declaration in (declaration for file in files for declaration in file.declarations):
         noun, name = declaration.header.noun.text, declaration.header.name
         if other := names.noun_of(name.text, (noun, *SHARED.get(noun, ()))):

@@ -10,7 +10,7 @@ from mindlang.resolve.kinds import Scope, make
 from mindlang.resolve.names import Names
 from mindlang.syntax import Declaration, Fact
 
-ONE_LINE = "All that there is to say of it stands in its one line."
+ONE_LINE = "All that there is to say of it stands in its one line; set the fact below the skill or task it belongs to."
 
 
 def parts(noun: str, names: Names, findings: Findings) -> tuple[Part[Any], ...]:
@@ -20,14 +20,19 @@ def parts(noun: str, names: Names, findings: Findings) -> tuple[Part[Any], ...]:
     for name, declaration in names.declarations(noun):
         refuse_facts(declaration, (), findings)
         header = declaration.header
-        kind = header.phrase and make(noun, header.phrase, Scope(names, things), findings)
+        kind = header.phrase and make(noun, header.phrase, Scope(names, things, whole=declaration.whole), findings)
         if kind:
             found.append(Part(name, kind, header.name.span))
     return tuple(found)
 
 
 def refuse_facts(declaration: Declaration, allowed: tuple[type[Fact], ...], findings: Findings) -> None:
-    """Report the facts that a declaration of this noun cannot have."""
+    """Report the facts that a declaration of this noun cannot have.
+
+    A line above them that could not be read may have been the header to which they belong.
+    """
+    if not declaration.whole:
+        return
     noun = declaration.header.noun.text
     for fact in declaration.facts:
         if not isinstance(fact, allowed):

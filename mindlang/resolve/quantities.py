@@ -1,6 +1,6 @@
 """Amounts as written → numbers: units converted, ranges and whole numbers checked."""
 
-from math import inf, isfinite
+from math import ceil, floor, inf, isfinite
 
 from mindrun.quantity import Quantity, Span
 
@@ -21,22 +21,26 @@ def convert(amount: Amount, quantity: Quantity, findings: Findings, unit: str = 
     # 7 / 100 is the number nearest to 7%; 7 * 0.01 is not.
     value = amount.number / 100 if written == "%" else amount.number * quantity.units[written]
     if quantity.whole and not value.is_integer():
-        findings.error(
-            "not-whole", amount.span, f"{amount.span.text} is not a whole number.", f"Here stands {quantity.name}."
-        )
+        near = (bound for bound in (floor(value), ceil(value)) if quantity.low <= bound <= quantity.high)
+        hint = f"Here stands {quantity.name}: write {listed(f'{bound} {amount.unit}'.strip() for bound in near)}."
+        findings.error("not-whole", amount.span, f"{amount.span.text} is not a whole number.", hint)
         return None
     if not quantity.low <= value <= quantity.high:
         message = f"{amount.span.text[:40]} is too {'small' if value < quantity.low else 'large'}."
-        findings.error("out-of-range", amount.span, message, _bounds(quantity))
+        percent = f" {amount.span.text} percent are {amount.span.text}%."
+        is_percent = not written and "%" in quantity.units and quantity.high < value <= 100 * quantity.high
+        findings.error("out-of-range", amount.span, message, _bounds(quantity) + percent * is_percent)
         return None
     return int(value) if quantity.whole else value
 
 
 def _wrong_unit(amount: Amount, quantity: Quantity, findings: Findings) -> None:
     bare = amount.span.text.removesuffix(amount.unit).strip()
-    units = [f"{bare} {unit}".replace(" %", "%").strip() for unit in quantity.units]
+    fit = [unit for unit, factor in quantity.units.items() if quantity.low <= amount.number * factor <= quantity.high]
+    units = [f"{bare} {unit}".replace(" %", "%").strip() for unit in fit]
     message = f"The unit {amount.unit} does not fit here." if amount.unit else "This number needs a unit."
-    findings.error("wrong-unit", amount.span, message, f"Here stands {quantity.name}: write {listed(units)}.")
+    hint = f"Here stands {quantity.name}: write {listed(units)}." if units else f"Here stands {quantity.name}."
+    findings.error("wrong-unit", amount.span, message, f"{hint}" if units else f"{hint} {_bounds(quantity)}")
 
 
 def _bounds(quantity: Quantity) -> str:

@@ -31,7 +31,9 @@ def _skill(
     reads = _reads(declaration, names, findings)
     # A line that could not be read may have been an input.
     all_read = declaration.whole and len(reads) == sum(isinstance(fact, Reads) for fact in declaration.facts)
-    visible = Visible({read: widths[read] for read in reads} if all_read else widths, elsewhere=widths)
+    visible = Visible(
+        {read: widths[read] for read in reads} if all_read else widths, elsewhere=widths, unread=names.unread
+    )
     edges = _edges(declaration, names, visible, findings)
     if function:
         _check(declaration, function, reads, edges, findings)

@@ -130,7 +130,7 @@ def _event(written: Phrase, world: _World, findings: Findings) -> Any:
 
 
 def _reward(fact: Rewards, world: _World, robot: Robot, findings: Findings) -> model.Reward:
-    visible = Visible(robot.widths, world.scope)
+    visible = Visible(robot.widths, world.scope, unread=robot.names.unread)
     each = None
     if fact.each:
         visible = replace(visible, each=fact.each.name.text)

@@ -8,10 +8,11 @@ from pathlib import Path
 
 import pytest
 
-from mindlang.compile import load
+from mindlang.compile import compile_source, load
 from mindlang.diagnostic import Findings
 from mindlang.parse import parse
-from mindlang.parse.mistakes import MISTAKES, Mistake
+from mindlang.parse.explain import INSTEAD, LINES
+from mindlang.parse.mistakes import MISTAKES, OPENINGS, Mistake
 from mindlang.report import plain
 from mindlang.source import Source
 
@@ -30,18 +31,40 @@ def test_one_message_for_one_mistake(path: Path, monkeypatch: pytest.MonkeyPatch
     assert said == expected.read_text(encoding="utf-8")
     assert compiled.graph is None
     assert len(compiled.diagnostics) == 1
+    assert compiled.diagnostics[0].hint
 
 
 def test_the_program_that_the_cases_change_is_right() -> None:
     assert load(HERE / "right.mind").diagnostics == ()
 
 
-@pytest.mark.parametrize("mistake", MISTAKES, ids=lambda mistake: mistake.code)
+@pytest.mark.parametrize("mistake", [*OPENINGS, *MISTAKES], ids=lambda mistake: mistake.code)
 def test_the_example_of_a_mistake_is_explained_by_it(mistake: Mistake) -> None:
     findings = Findings()
     parse(Source("example", mistake.example), findings)
     assert [diagnostic.code for diagnostic in findings.diagnostics] == [mistake.code]
-    assert "{" not in findings.diagnostics[0].message + findings.diagnostics[0].hint.replace("{{", "")
+    assert findings.diagnostics[0].hint
+    assert "{" not in findings.diagnostics[0].message + findings.diagnostics[0].hint
+
+
+@pytest.mark.parametrize("line", [each for line in LINES.values() for each in line.split(", or ")])
+def test_the_lines_that_hints_show_can_be_read(line: str) -> None:
+    findings = Findings()
+    parse(Source("example", f"skill Above is rule\n{line}"), findings)
+    assert [diagnostic for diagnostic in findings.diagnostics if diagnostic.code != "homeless-fact"] == []
+
+
+@pytest.mark.parametrize(
+    ("word", "known"), [(word, known) for known, words in INSTEAD.items() for word in words.split()]
+)
+def test_what_people_write_for_a_word_is_answered_by_it(word: str, known: str) -> None:
+    findings = Findings()
+    parse(Source("example", f"{word} something"), findings)
+    assert [(found.code, known in found.hint) for found in findings.diagnostics] == [("no-verb", True)]
+
+
+def test_no_word_of_the_language_is_one_that_people_write_for_another() -> None:
+    assert {word for words in INSTEAD.values() for word in words.split()} & set(LINES) == set()
 
 
 def test_all_bad_lines_are_reported_in_one_go_and_without_echoes() -> None:
@@ -57,4 +80,14 @@ def test_all_bad_lines_are_reported_in_one_go_and_without_echoes() -> None:
         ("missing-is", 8),
         ("no-verb", 14),
         ("no-verb", 24),
+    ]
+
+
+def test_what_stands_in_an_unread_line_is_not_said_to_be_missing() -> None:
+    text = (HERE / "right.mind").read_text(encoding="utf-8")
+    text = text.replace("skill Seek is", "behaviour Seek is").replace("actuator left", "motor left")
+    compiled = compile_source(Source("right.mind", text))
+    assert [(found.code, found.span and found.span.line) for found in compiled.diagnostics] == [
+        ("no-verb", 5),
+        ("no-verb", 12),
     ]
