@@ -1,0 +1,71 @@
+"""What `mindc prove` does: a mind with its weights, what is proved of it, a run where one is wished for; printed."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
+
+from mindrun.errors import MindError
+
+from mindlang.compile import Compiled
+from mindlang.diagnostic import did_you_mean
+from mindlang.lock import read_locks
+from mindlang.lock.ready import make_ready
+from mindlang.proofs.data import as_data
+from mindlang.proofs.proof import prove
+from mindlang.proofs.report import report
+from mindlang.terminal import FINDINGS, MISUSE, console, fail, load_compiled, print_json
+
+if TYPE_CHECKING:
+    from mindlang.proofs.recorded import Recorded
+
+
+@dataclass(frozen=True, slots=True)
+class Wishes:
+    """What the command line says."""
+
+    leak: float
+    master: str | None
+    run: bool
+    task: str | None
+    seed: int
+    as_json: bool
+
+
+def perform(file: str, wishes: Wishes) -> None:
+    """Prove and print."""
+    compiled = _under(load_compiled(file), wishes.master)
+    assert compiled.graph
+    ready = make_ready(compiled.graph, compiled.sources)
+    lock = read_locks(source.path for source in compiled.sources)
+    hashes = {skill: lock[skill].weights for skill in ready.weights if skill in lock}
+    run = _run(file, compiled, wishes) if wishes.run else None
+    proof = prove(ready.graph, ready.weights, wishes.leak)
+    if wishes.as_json:
+        print_json(as_data(proof, hashes, run))
+    else:
+        console().print(report(proof, hashes, run))
+
+
+def _under(compiled: Compiled, master: str | None) -> Compiled:
+    """The mind with another skill in charge."""
+    assert compiled.graph
+    if master is None:
+        return compiled
+    names = [skill.name for skill in compiled.graph.skills]
+    if master not in names:
+        fail(f"there is no skill called {master}", did_you_mean(master, names), MISUSE)
+    return replace(compiled, graph=replace(compiled.graph, master=master))
+
+
+def _run(file: str, compiled: Compiled, wishes: Wishes) -> Recorded:
+    from mindlang.proofs.recorded import record
+    from mindlang.run.casting import CastingError, cast
+
+    assert compiled.graph
+    try:
+        return record(cast(file, compiled, wishes.task, compiled.graph.master), wishes.seed)
+    except CastingError as error:
+        fail(f"--run: {error}", error.hint, MISUSE if error.misuse else FINDINGS)
+    except MindError as error:
+        fail(f"--run: {error}", error.hint, MISUSE)

@@ -1,0 +1,124 @@
+"""Intervals through what a skill computes (Eq. 1), over many boxes of readings at once.
+
+Rounding to nearest is monotone: where a ≤ b, the rounded a + x is at most the rounded b + x, and so with − × ÷. A bound
+that is computed by the engine's operations, in its precision and its order, is therefore a bound of what the engine
+computes, rounding included. Only the sigmoid, a quotient, needs a margin: `DIP`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from mindrun.expression import OPERATORS
+from mindrun.functions import Mlp
+from mindrun.functions.mlp import layers, matrices
+from mindrun.graph import Program, Skill
+from mindrun.sigmoid import sigmoid
+from mindrun.weights import Weights, genes
+from numpy.typing import NDArray
+
+Singles = NDArray[np.float32]
+Doubles = NDArray[np.float64]
+
+# More than the rounded sigmoid falls while its argument rises: 3.58e-7, measured over all float32 (docs/proofs.md).
+DIP = np.float32(5e-7)
+
+
+@dataclass(frozen=True, slots=True)
+class Boxes:
+    """Boxes of readings: `low` and `high` [boxes, graph.width]."""
+
+    low: Singles
+    high: Singles
+
+
+@dataclass(frozen=True, slots=True)
+class Sent:
+    """What a skill sends [boxes, edges], clamped to 0..1; where it is not `sure`, it may be no number and not sent."""
+
+    low: Singles
+    high: Singles
+    sure: NDArray[np.bool_]
+
+
+def is_known(skill: Skill, weights: Weights | None) -> bool:
+    """Whether its function can be looked into: not where it is untaught, and not where it is Python code."""
+    return skill.outputs == 0 or (isinstance(skill.function, Mlp) and (weights is not None or genes(skill) == 0))
+
+
+def sent(skill: Skill, weights: Weights | None, boxes: Boxes) -> Sent:
+    """What a skill can send over each of its edges; anything in 0..1 where its function is not known."""
+    count, edges = len(boxes.low), len(skill.edges)
+    low, high = np.full((2, count, edges), [[[-np.inf]], [[np.inf]]], np.float32)
+    with np.errstate(all="ignore"):
+        outputs = _outputs(skill, weights, boxes)
+        for number, edge in enumerate(skill.edges):
+            if edge.output is None:
+                low[:, number], high[:, number] = evaluate(edge.value, boxes)
+            elif outputs is not None:
+                low[:, number], high[:, number] = outputs[0][:, edge.output], outputs[1][:, edge.output]
+    return Sent(np.clip(low, 0, 1), np.clip(high, 0, 1), np.isfinite(low) & np.isfinite(high))
+
+
+def _outputs(skill: Skill, weights: Weights | None, boxes: Boxes) -> tuple[Singles, Singles] | None:
+    """The outputs of its function; None where nothing is known of them."""
+    if not is_known(skill, weights):
+        return None
+    shape = layers(len(skill.inputs), skill.outputs, skill.function) if isinstance(skill.function, Mlp) else ()
+    if not shape or weights is None:
+        nothing = np.zeros((len(boxes.low), skill.outputs), np.float32)
+        return nothing, nothing
+    inputs = list(skill.inputs)
+    return perceive(matrices(weights, shape), boxes.low[:, inputs], boxes.high[:, inputs])
+
+
+def perceive(layer_matrices: Sequence[Singles], low: Singles, high: Singles) -> tuple[Singles, Singles]:
+    """The bounds of a perceptron's outputs, before the clamp; infinite where a sum may overflow."""
+    *hidden, last = layer_matrices
+    for matrix in hidden:
+        low, high = _dense(matrix, low, high)
+        low, high = np.maximum(sigmoid(low) - DIP, 0), np.minimum(sigmoid(high) + DIP, 1)
+    return _dense(last, low, high)
+
+
+def _dense(matrix: Singles, low: Singles, high: Singles) -> tuple[Singles, Singles]:
+    """Σ weight · value in the order of the values, as the engine adds: a weight below 0 turns an interval round."""
+    rising, falling = np.maximum(matrix, 0), np.minimum(matrix, 0)
+    least, most = np.zeros((2, len(low), len(matrix)), np.float32)
+    for j in range(matrix.shape[1]):
+        first, last = low[:, j, None], high[:, j, None]
+        least += rising[:, j] * first + falling[:, j] * last  # one of the two is 0, so this rounds once
+        most += rising[:, j] * last + falling[:, j] * first
+    return np.where(np.isnan(least), np.float32(-np.inf), least), np.where(np.isnan(most), np.float32(np.inf), most)
+
+
+def evaluate(program: Program, boxes: Boxes) -> tuple[Singles, Singles]:
+    """The bounds of an `at` expression, which the engine computes in float64; infinite where it may be no number."""
+    stack: list[tuple[Doubles, Doubles]] = []
+    for operator, operand in program:
+        match operator:
+            case "number":
+                stack.append((np.full(len(boxes.low), operand, np.float64),) * 2)
+            case "reading":
+                place = int(operand)
+                stack.append((boxes.low[:, place].astype(np.float64), boxes.high[:, place].astype(np.float64)))
+            case "negate":
+                low, high = stack.pop()
+                stack.append((-high, -low))
+            case _:
+                right, left = stack.pop(), stack.pop()
+                stack.append(_combined(operator, left, right))
+    low, high = stack.pop()
+    return low.astype(np.float32), high.astype(np.float32)
+
+
+def _combined(operator: str, left: tuple[Doubles, Doubles], right: tuple[Doubles, Doubles]) -> tuple[Doubles, Doubles]:
+    """All four operators have their least and greatest value in corners, unless the divisor can be 0."""
+    corners = [OPERATORS[operator](a, b) for a in left for b in right]
+    low, high = np.minimum.reduce(corners), np.maximum.reduce(corners)
+    wild = ~(np.isfinite(low) & np.isfinite(high))
+    if operator == "/":
+        wild |= (right[0] <= 0) & (right[1] >= 0)
+    return np.where(wild, -np.inf, low), np.where(wild, np.inf, high)

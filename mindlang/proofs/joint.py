@@ -1,0 +1,78 @@
+"""Whether something always influences an actuator though no single skill sees to it: all skills in the same box.
+
+`reach` lets every skill read something else, and so finds nothing where one skill sends p and another 1 − p. Here the
+box of all readings is cut, as in `sharpen`, until in every part some influence is above 0, or too many parts are left.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Mapping, Sequence
+from dataclasses import replace
+
+import numpy as np
+from mindrun.graph import Graph, Skill
+from mindrun.weights import Weights, reachable
+from numpy.typing import NDArray
+
+from mindlang.proofs.interval import Boxes, Sent, Singles, sent
+from mindlang.proofs.reach import Bound, Flow, Reach, as_sent, flow
+from mindlang.proofs.sharpen import by_itself, halves, sway_of
+
+BOXES, WORK = 8192, 200_000  # boxes, and boxes times skills
+AT_ONCE = 256
+
+
+def together(graph: Graph, weights: Mapping[str, Weights], found: Reach, can_be_zero: Sequence[bool]) -> Reach:
+    """The bounds with a better least Σ influence, for those actuators whose Σ is neither above 0 nor was seen at 0."""
+    most = min(BOXES, WORK // len(found.edges))
+    actuators = list(found.actuators)
+    for place, driven in enumerate(actuators):
+        if not can_be_zero[place] and driven.total.low <= 0 < driven.total.high and most > 1:
+            low = _least(graph, weights, found, place, most)
+            actuators[place] = replace(driven, total=Bound(low, driven.total.high))
+    return replace(found, actuators=tuple(actuators))
+
+
+def _least(graph: Graph, weights: Mapping[str, Weights], found: Reach, actuator: int, most: int) -> float:
+    """The least Σ influence of an actuator over boxes that cover all readings; 0 where that would take too many."""
+    skills = {skill.name: skill for skill in reachable(graph, graph.master)}
+    sway = _sway(graph, weights, skills.values())
+    waiting = Boxes(np.zeros((1, graph.width), np.float32), np.ones((1, graph.width), np.float32))
+    least, made = np.inf, 1
+    while len(waiting.low):
+        now, waiting = _part(waiting, slice(AT_ONCE)), _part(waiting, slice(AT_ONCE, None))
+        low = _flow(graph, weights, skills, found, now).total_low[:, actuator]
+        is_open = low <= 0
+        made += 2 * int(is_open.sum())
+        if is_open.any() and (made > most or not sway.any()):
+            return 0.0
+        least = min(least, float(low[~is_open].min(initial=np.inf)))
+        if is_open.any():
+            cut = halves(_part(now, is_open), sway)
+            waiting = Boxes(np.concatenate([cut.low, waiting.low]), np.concatenate([cut.high, waiting.high]))
+    return least
+
+
+def _flow(
+    graph: Graph, weights: Mapping[str, Weights], skills: Mapping[str, Skill], found: Reach, boxes: Boxes
+) -> Flow:
+    """Influence in each box, from what every skill sends there, or what it sends anywhere, whichever says more."""
+
+    def sends(name: str) -> Sent:
+        here, anywhere = sent(skills[name], weights.get(name), boxes), as_sent(found.edges[name])
+        low, high = np.maximum(here.low, anywhere.low), np.minimum(here.high, anywhere.high)
+        return Sent(low, high, here.sure | anywhere.sure)
+
+    return flow(graph, len(boxes.low), sends)
+
+
+def _sway(graph: Graph, weights: Mapping[str, Weights], skills: Collection[Skill]) -> Singles:
+    """How much each reading moves what all skills send, roughly."""
+    sway = np.zeros(graph.width, np.float32)
+    for skill in skills:
+        sway[list(skill.inputs)] += sway_of(by_itself(skill), weights.get(skill.name))
+    return sway
+
+
+def _part(boxes: Boxes, rows: slice | NDArray[np.bool_]) -> Boxes:
+    return Boxes(boxes.low[rows], boxes.high[rows])

@@ -1,0 +1,90 @@
+"""Thinking over many readings at once: the engine's operations in its order, row by row the same bits."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+from mindrun.expression import OPERATORS
+from mindrun.functions import Mlp
+from mindrun.functions.mlp import layers, matrices
+from mindrun.graph import Graph, Program, Skill
+from mindrun.sigmoid import sigmoid
+from mindrun.weights import NONE, Weights, reachable
+
+from mindlang.proofs.interval import Doubles, Singles
+
+
+@dataclass(frozen=True, slots=True)
+class Thoughts:
+    """Influence [rows, skills], Σ influence [rows, actuators] of each actuator and its command where that is not 0."""
+
+    influence: Singles
+    total: Singles
+    command: Singles
+
+
+def think(graph: Graph, weights: Mapping[str, Weights], readings: Singles) -> Thoughts:
+    """Equations 2 and 3 for readings [rows, graph.width], as `mindrun.think` has them; no procedures."""
+    places = {skill.name: number for number, skill in enumerate(graph.skills)}
+    influence = np.zeros((len(readings), len(graph.skills)), np.float32)
+    influence[:, places[graph.master]] = 1
+    sums, totals = np.zeros((2, len(readings), len(graph.actuators)), np.float32)
+    with np.errstate(all="ignore"):
+        for skill in reachable(graph, graph.master):
+            own = influence[:, places[skill.name]].copy()
+            for edge, value in zip(skill.edges, values(skill, weights.get(skill.name, NONE), readings).T, strict=True):
+                sound = np.isfinite(value)
+                share = np.where(sound, np.clip(value, 0, 1), 0) * own
+                if edge.to == "skill":
+                    influence[:, edge.target] += share
+                elif edge.to == "actuator":
+                    sums[:, edge.target] += share
+                    totals[:, edge.target] += np.where(sound, own, 0)
+        return Thoughts(influence, totals, np.clip(sums / totals, 0, 1))
+
+
+def values(skill: Skill, weights: Weights, readings: Singles) -> Singles:
+    """What a skill sends [rows, edges] before the clamp."""
+    outputs = _outputs(skill, weights, readings)
+    found = np.empty((len(readings), len(skill.edges)), np.float32)
+    with np.errstate(all="ignore"):
+        for number, edge in enumerate(skill.edges):
+            found[:, number] = _evaluate(edge.value, readings) if edge.output is None else outputs[:, edge.output]
+    return found
+
+
+def _outputs(skill: Skill, weights: Weights, readings: Singles) -> Singles:
+    shape = layers(len(skill.inputs), skill.outputs, skill.function) if isinstance(skill.function, Mlp) else ()
+    if not shape:
+        return np.zeros((len(readings), skill.outputs), np.float32)
+    *hidden, last = matrices(weights, shape)
+    found = readings[:, list(skill.inputs)]
+    with np.errstate(all="ignore"):
+        for matrix in hidden:
+            found = sigmoid(_dense(matrix, found))
+        return _dense(last, found)
+
+
+def _dense(matrix: Singles, found: Singles) -> Singles:
+    total = matrix[:, 0] * found[:, 0, None]
+    for j in range(1, matrix.shape[1]):
+        total += matrix[:, j] * found[:, j, None]
+    return total
+
+
+def _evaluate(program: Program, readings: Singles) -> Singles:
+    stack: list[Doubles] = []
+    for operator, operand in program:
+        match operator:
+            case "number":
+                stack.append(np.full(len(readings), operand, np.float64))
+            case "reading":
+                stack.append(readings[:, int(operand)].astype(np.float64))
+            case "negate":
+                stack.append(-stack.pop())
+            case _:
+                right, left = stack.pop(), stack.pop()
+                stack.append(OPERATORS[operator](left, right))
+    return stack.pop().astype(np.float32)

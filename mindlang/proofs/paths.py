@@ -1,0 +1,99 @@
+"""The paths of influence from the master to an actuator, from the declaration alone: counted, and some of them listed.
+
+A path leads over lines that can send more than 0 whatever the weights are: `influences X at 0` is no path.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+from mindrun.functions import Mlp
+from mindrun.graph import Edge, Graph, Skill
+from mindrun.weights import reachable
+
+from mindlang.proofs.interval import Boxes, evaluate
+
+MANY = 10**15  # stands for itself and for more
+
+
+@dataclass(frozen=True, slots=True)
+class Paths:
+    """How many paths lead to an actuator, up to MANY, and the first of them: names of skills, the driver last."""
+
+    count: int
+    first: tuple[tuple[str, ...], ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Way:
+    """An edge that can carry influence to another skill, by its index: how much at most, and whether it is learnt."""
+
+    target: int
+    most: float
+    is_learnt: bool
+
+
+@dataclass(frozen=True, slots=True)
+class Ways:
+    """By index, of the skills below the master, parents first: where influence can go, what they drive."""
+
+    names: tuple[str, ...]
+    skills: tuple[int, ...]
+    onward: tuple[tuple[Way, ...], ...]
+    drives: tuple[tuple[int, ...], ...]
+
+
+def ways(graph: Graph) -> Ways:
+    """Where influence can go, without any weights."""
+    place = {skill.name: number for number, skill in enumerate(graph.skills)}
+    whole = Boxes(np.zeros((1, graph.width), np.float32), np.ones((1, graph.width), np.float32))
+    onward = [
+        tuple(way for edge in skill.edges if edge.to == "skill" for way in [_way(skill, edge, whole)] if way.most > 0)
+        for skill in graph.skills
+    ]
+    drives = [tuple(edge.target for edge in skill.edges if edge.to == "actuator") for skill in graph.skills]
+    below = tuple(place[skill.name] for skill in reachable(graph, graph.master))
+    return Ways(tuple(place), below, tuple(onward), tuple(drives))
+
+
+def _way(skill: Skill, edge: Edge, whole: Boxes) -> Way:
+    if edge.output is not None:
+        return Way(edge.target, 1.0, isinstance(skill.function, Mlp))  # Python code is as exact as it is written
+    with np.errstate(all="ignore"):
+        most = evaluate(edge.value, whole)[1][0]
+    return Way(edge.target, float(np.clip(most, 0, 1)), False)
+
+
+def paths(found: Ways, actuators: int, listed: int) -> list[Paths]:
+    """The paths to each actuator."""
+    counts = _counts(found, actuators)
+    master = found.skills[0]
+    return [
+        Paths(int(counts[master][actuator]), tuple(_first(found, counts, actuator, listed)))
+        for actuator in range(actuators)
+    ]
+
+
+def _counts(found: Ways, actuators: int) -> dict[int, list[int]]:
+    """By skill, how many paths lead from it to each actuator, up to MANY."""
+    counts: dict[int, list[int]] = {}
+    for skill in reversed(found.skills):
+        own = [int(actuator in found.drives[skill]) for actuator in range(actuators)]
+        for way in found.onward[skill]:
+            own = [min(MANY, a + b) for a, b in zip(own, counts[way.target], strict=True)]
+        counts[skill] = own
+    return counts
+
+
+def _first(found: Ways, counts: dict[int, list[int]], actuator: int, listed: int) -> Iterator[tuple[str, ...]]:
+    """Paths in the order of the lines, no step of which leads astray."""
+    waiting: list[tuple[int, ...]] = [found.skills[:1]] if counts[found.skills[0]][actuator] else []
+    while waiting and listed:
+        path = waiting.pop()
+        if actuator in found.drives[path[-1]]:
+            yield tuple(found.names[skill] for skill in path)
+            listed -= 1
+        onward = (way.target for way in found.onward[path[-1]] if counts[way.target][actuator])
+        waiting += reversed([(*path, target) for target in onward])

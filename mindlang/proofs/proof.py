@@ -1,0 +1,175 @@
+"""All claims about a mind, each with what it rests on."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+
+from mindrun.functions import Procedure
+from mindrun.graph import Actuator, Edge, Graph, Skill
+from mindrun.weights import Weights, reachable
+
+from mindlang.proofs.interval import is_known
+from mindlang.proofs.joint import together
+from mindlang.proofs.leak import Leak, leaks
+from mindlang.proofs.paths import Paths, paths, ways
+from mindlang.proofs.reach import TINY, Driven, Reach, reach
+from mindlang.proofs.sharpen import Range
+from mindlang.proofs.silence import Tried, try_out
+
+LISTED = 10  # paths
+DECLARATION = "the declaration alone"
+
+
+@dataclass(frozen=True, slots=True)
+class OfActuator:
+    """What is known of an actuator. `weights` names the skills on whose weights its bounds rest."""
+
+    actuator: Actuator
+    paths: Paths
+    leak: Leak | None
+    driven: Driven
+    tried: Tried | None
+    weights: tuple[str, ...]
+
+    @property
+    def neutral(self) -> str:
+        """Whether Σ influence can be 0, and `neutral` is sent: "always", "never", "can be", or "not excluded"."""
+        if self.driven.command is None:
+            return "always"
+        if self.driven.is_always_driven:
+            return "never"
+        return "can be" if self.tried and self.tried.readings is not None else "not excluded"
+
+    @property
+    def command(self) -> tuple[float, float]:
+        """What it can be sent, `neutral` included where that is not ruled out."""
+        neutral, bound = float(self.actuator.kind.neutral), self.driven.command
+        if bound is None:
+            return neutral, neutral
+        if self.neutral == "never":
+            return bound.low, bound.high
+        return min(bound.low, neutral), max(bound.high, neutral)
+
+    @property
+    def is_rough(self) -> bool:
+        """Whether the bounds of the command leave out influence so small that rounding decides."""
+        bound = self.driven.command
+        return bound is not None and self.driven.total.low < TINY and not {bound.low, bound.high} <= {0.0, 1.0}
+
+
+@dataclass(frozen=True, slots=True)
+class OfEdge:
+    """What an edge to another skill can send."""
+
+    skill: str
+    target: str
+    range: Range
+    weights: tuple[str, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Proof:
+    """All that is known. `unknown` says of skills why nothing is known of their function."""
+
+    graph: Graph
+    delta: float
+    unknown: Mapping[str, str]
+    outside: tuple[str, ...]
+    actuators: tuple[OfActuator, ...]
+    edges: tuple[OfEdge, ...]
+    dead: Mapping[str, tuple[str, ...]]  # the skills on whose weights it rests
+
+
+def prove(graph: Graph, weights: Mapping[str, Weights], delta: float) -> Proof:
+    """What can be said of a mind under its master, without running it."""
+    count = len(graph.actuators)
+    found, bounds = ways(graph), reach(graph, weights)
+    tried: Sequence[Tried | None] = try_out(graph, weights) or [None] * count
+    alone, bounds = (
+        bounds,
+        together(graph, weights, bounds, [bool(seen and seen.readings is not None) for seen in tried]),
+    )
+    listed, leaking = paths(found, count, LISTED), leaks(found, count, delta)
+    rests = _Rests(graph, weights, bounds)
+    below = reachable(graph, graph.master)
+    names = {skill.name for skill in below}
+    return Proof(
+        graph,
+        delta,
+        {skill.name: _why(skill) for skill in below if not is_known(skill, weights.get(skill.name))},
+        tuple(skill.name for skill in graph.skills if skill.name not in names),
+        tuple(
+            OfActuator(
+                actuator,
+                listed[i],
+                leaking[i],
+                bounds.actuators[i],
+                tried[i],
+                rests.of_actuator(i, is_joint=bounds.actuators[i] != alone.actuators[i]),
+            )
+            for i, actuator in enumerate(graph.actuators)
+        ),
+        tuple(_edges(graph, below, bounds, rests)),
+        {name: rests.of_dead(name) for name, bound in bounds.influence.items() if bound.high <= 0},
+    )
+
+
+def _why(skill: Skill) -> str:
+    return "is Python code" if isinstance(skill.function, Procedure) else "has no weights that fit"
+
+
+def _edges(graph: Graph, below: Sequence[Skill], bounds: Reach, rests: _Rests) -> Iterator[OfEdge]:
+    for skill in below:
+        for edge, sends in zip(skill.edges, bounds.edges[skill.name], strict=True):
+            if edge.to == "skill":
+                weights = (skill.name,) if rests.says(skill, edge, sends) else ()
+                yield OfEdge(skill.name, graph.named("skill", edge.target), sends, weights)
+
+
+class _Rests:
+    """On whose weights a claim rests: of the skills on the way, those whose weights say more than "0 to 1"."""
+
+    def __init__(self, graph: Graph, weights: Mapping[str, Weights], bounds: Reach) -> None:
+        self._graph, self._weights, self._bounds = graph, weights, bounds
+        self._parents: dict[int, list[tuple[Skill, Edge, Range]]] = {}
+        self._drivers: dict[int, list[tuple[Skill, Edge, Range]]] = {}
+        for skill in reachable(graph, graph.master):
+            for edge, sends in zip(skill.edges, bounds.edges[skill.name], strict=True):
+                into = {"skill": self._parents, "actuator": self._drivers}.get(edge.to)
+                if into is not None:
+                    into.setdefault(edge.target, []).append((skill, edge, sends))
+        self._place = {skill.name: number for number, skill in enumerate(graph.skills)}
+
+    def says(self, skill: Skill, edge: Edge, sends: Range) -> bool:
+        """Whether an edge is learnt, and its weights narrow what it sends, or see to it that a command is a number."""
+        narrows = sends.low > 0 or sends.high < 1 or (edge.to == "actuator" and sends.sure)
+        return edge.output is not None and skill.name in self._weights and narrows
+
+    def of_actuator(self, actuator: int, is_joint: bool) -> tuple[str, ...]:
+        """Of all ways to an actuator; for a `joint` claim all weights count, since it looks at every box by itself."""
+        found, known, waiting = set(), set(), list(self._drivers.get(actuator, ()))
+        while waiting:
+            skill, edge, sends = waiting.pop()
+            if self.says(skill, edge, sends) or (is_joint and skill.name in self._weights):
+                found.add(skill.name)
+            if skill.name not in known:
+                known.add(skill.name)
+                waiting += self._parents.get(self._place[skill.name], ())
+        return self._in_order(found)
+
+    def of_dead(self, name: str) -> tuple[str, ...]:
+        """Of the edges that send nothing to a dead skill or to those above it that are dead as well."""
+        found, known, waiting = set(), {name}, [name]
+        while waiting:
+            for skill, edge, sends in self._parents.get(self._place[waiting.pop()], ()):
+                if sends.is_dead:
+                    if self.says(skill, edge, sends):
+                        found.add(skill.name)
+                elif skill.name not in known:
+                    known.add(skill.name)
+                    waiting.append(skill.name)
+        return self._in_order(found)
+
+    def _in_order(self, names: set[str]) -> tuple[str, ...]:
+        return tuple(sorted(names, key=self._place.__getitem__))

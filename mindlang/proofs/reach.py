@@ -1,0 +1,120 @@
+"""Bounds through the whole hierarchy: influence from the master down (Eq. 2), then the commands (Eq. 3).
+
+As in `interval`, rounding is monotone: influence is added and multiplied in float32 in the engine's order, so that its
+bounds need no margin. A command, Σ command·influence / Σ influence, is a mean of what the drivers send but for
+its rounding: with n drivers a share of at most (2n + 1)·2^−24, for which MARGIN·(n + 2) is put on.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from mindrun.graph import Graph
+from mindrun.weights import Weights, reachable
+
+from mindlang.proofs.interval import Sent, Singles
+from mindlang.proofs.sharpen import Range, ranges
+
+BOXES, ALL_BOXES = 20_000, 2_000_000  # for one skill, for all of them
+MARGIN = 2.0**-22
+TINY = 1e-30  # below this, influence is so small that rounding alone may decide a command
+
+
+@dataclass(frozen=True, slots=True)
+class Bound:
+    """A quantity that lies between `low` and `high`."""
+
+    low: float
+    high: float
+
+
+@dataclass(frozen=True, slots=True)
+class Driven:
+    """What is proved of an actuator: Σ influence, and its command wherever that is not 0, None where it always is."""
+
+    total: Bound
+    command: Bound | None
+
+    @property
+    def is_always_driven(self) -> bool:
+        """Whether Σ influence is never 0 (nor too large to be a number)."""
+        return self.total.low > 0 and np.isfinite(self.total.high)
+
+
+@dataclass(frozen=True, slots=True)
+class Reach:
+    """What is proved of a hierarchy: by skill below the master what its edges send and its influence; by actuator."""
+
+    edges: Mapping[str, tuple[Range, ...]]
+    influence: Mapping[str, Bound]
+    actuators: tuple[Driven, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Flow:
+    """Bounds of the influence of every skill [boxes, skills] and of Σ influence of every actuator [boxes, actuators]."""
+
+    low: Singles
+    high: Singles
+    total_low: Singles
+    total_high: Singles
+
+
+def reach(graph: Graph, weights: Mapping[str, Weights]) -> Reach:
+    """Bounds for any readings in 0..1; of skills without weights, and of procedures, only that they send 0..1."""
+    skills = reachable(graph, graph.master)
+    boxes = max(1, min(BOXES, ALL_BOXES // len(skills)))
+    edges = {skill.name: ranges(skill, weights.get(skill.name), boxes) for skill in skills}
+    found = flow(graph, 1, {name: as_sent(sends) for name, sends in edges.items()}.__getitem__)
+    drivers: list[list[Range]] = [[] for _ in graph.actuators]
+    for place, skill in enumerate(graph.skills):
+        if found.high[0, place] > 0:
+            for edge, sends in zip(skill.edges, edges[skill.name], strict=True):
+                if edge.to == "actuator":
+                    drivers[edge.target].append(sends)
+    influence = [Bound(*bounds) for bounds in zip(found.low[0].tolist(), found.high[0].tolist(), strict=True)]
+    totals = [Bound(*bounds) for bounds in zip(found.total_low[0].tolist(), found.total_high[0].tolist(), strict=True)]
+    return Reach(
+        edges,
+        {skill.name: bound for skill, bound in zip(graph.skills, influence, strict=True) if skill.name in edges},
+        tuple(Driven(total, _mean(sends)) for total, sends in zip(totals, drivers, strict=True)),
+    )
+
+
+def as_sent(sends: Sequence[Range]) -> Sent:
+    """The ranges of a skill's edges as what it sends in a single box."""
+    low, high = np.array([[s.low for s in sends]], np.float32), np.array([[s.high for s in sends]], np.float32)
+    return Sent(low, high, np.array([[s.sure for s in sends]], np.bool_))
+
+
+def flow(graph: Graph, boxes: int, sends: Callable[[str], Sent]) -> Flow:
+    """Influence from the master down to the actuators, in so many boxes, from what each skill sends in them."""
+    low, high = np.zeros((2, boxes, len(graph.skills)), np.float32)
+    total_low, total_high = np.zeros((2, boxes, len(graph.actuators)), np.float32)
+    places = {skill.name: place for place, skill in enumerate(graph.skills)}
+    low[:, places[graph.master]] = high[:, places[graph.master]] = 1
+    with np.errstate(all="ignore"):
+        for skill in reachable(graph, graph.master):
+            found, place = sends(skill.name), places[skill.name]
+            for number, edge in enumerate(skill.edges):
+                drives = edge.to == "actuator"
+                if edge.to == "memory":
+                    continue
+                least = low[:, place] * (1 if drives else found.low[:, number])
+                most = high[:, place] * (1 if drives else found.high[:, number])
+                arrives = found.sure[:, number] & np.isfinite(high[:, place])  # else maybe no number, and not sent
+                into_low, into_high = (total_low, total_high) if drives else (low, high)
+                into_low[:, edge.target] += np.where(arrives, least, np.float32(0))
+                into_high[:, edge.target] += np.where(np.isnan(most), np.float32(np.inf), most)
+    return Flow(low, high, total_low, total_high)
+
+
+def _mean(drivers: Sequence[Range]) -> Bound | None:
+    """The bounds of a weighted mean. All 0 and all 1 stay what they are: 0/Σ and Σ/Σ round to 0 and 1."""
+    if not drivers:
+        return None
+    margin = MARGIN * (len(drivers) + 2)
+    low, high = min(sends.low for sends in drivers), max(sends.high for sends in drivers)
+    return Bound(low if low == 1 else low * (1 - margin), min(1.0, high * (1 + margin)))

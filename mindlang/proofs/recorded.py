@@ -1,0 +1,68 @@
+"""How often nothing influenced an actuator in a run of the simulator."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from mindrun.sim.rollout import Rollout
+from mindrun.sim.trace import trace
+
+from mindlang import simulator
+from mindlang.run.casting import Cast
+from mindlang.terminal import procedures_talk, say
+
+
+@dataclass(frozen=True, slots=True)
+class Undriven:
+    """The ticks in which nothing influenced an actuator, the first of them (from 1), and the commands it was sent."""
+
+    ticks: int
+    first: int | None
+    commands: tuple[float, float]
+
+
+@dataclass(frozen=True, slots=True)
+class Recorded:
+    """A run: what it was, and what became of each actuator. `faults` counts values that were not sent."""
+
+    task: str
+    seed: int
+    ticks: int
+    faults: int
+    actuators: tuple[Undriven, ...]
+
+
+@procedures_talk()
+def record(cast: Cast, seed: int) -> Recorded:
+    """One run of a cast to its end. Runs the Python code of the mind's procedures."""
+    rollout = cast.rollout()
+    simulator.make_ready(rollout, say)
+    run = trace(rollout, seed)
+    influence, commands = [], []
+    for moment in run.moments:
+        influence.append(moment.influence)
+        commands.append(moment.commands)
+    total = np.array(influence) @ _drivers(rollout)
+    actuators = (_undriven(total[:, place], np.array(commands)[:, place]) for place in range(total.shape[1]))
+    return Recorded(cast.task.name, seed, len(influence), int(run.jobs.faults[0]), tuple(actuators))
+
+
+def _drivers(rollout: Rollout) -> np.ndarray[tuple[int, int], np.dtype[np.float32]]:
+    """1 where a skill drives an actuator [skills, actuators]."""
+    graph = rollout.graph
+    drives = np.zeros((len(graph.skills), len(graph.actuators)), np.float32)
+    for place, skill in enumerate(graph.skills):
+        for edge in skill.edges:
+            if edge.to == "actuator":
+                drives[place, edge.target] = 1
+    return drives
+
+
+def _undriven(
+    total: np.ndarray[tuple[int], np.dtype[np.float32]], commands: np.ndarray[tuple[int], np.dtype[np.float32]]
+) -> Undriven:
+    still = np.flatnonzero(total == 0)
+    return Undriven(
+        len(still), int(still[0]) + 1 if len(still) else None, (float(commands.min()), float(commands.max()))
+    )

@@ -1,0 +1,160 @@
+"""What a skill can send over each edge, for any readings: bounds, made sharper by cutting the box (branch and bound).
+
+A box whose bounds reach no further than what the skill was seen to send cannot be improved on, and is left alone.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from mindrun.functions import Mlp
+from mindrun.functions.mlp import layers, matrices
+from mindrun.graph import Edge, Skill
+from mindrun.weights import NONE, Weights
+from numpy.typing import NDArray
+
+from mindlang.proofs.interval import Boxes, Sent, Singles, is_known, sent
+from mindlang.proofs.many import values
+
+CLOSE = 1e-3  # a bound this near to a value that was seen is sharp enough, but for 0 and 1
+AT_ONCE = 256  # boxes that are cut in one round
+TRIED = 2048  # readings, half of them corners of the box
+
+
+@dataclass(frozen=True, slots=True)
+class Range:
+    """What an edge can send: proved, and as far as it was seen; `sure` where it always sends a number."""
+
+    low: float
+    high: float
+    sure: bool
+    seen: tuple[float, float] | None = None
+
+    @property
+    def is_dead(self) -> bool:
+        """Whether it never sends more than 0."""
+        return self.high <= 0
+
+
+@dataclass(frozen=True, slots=True)
+class Pool:
+    """Boxes and what is sent in them."""
+
+    boxes: Boxes
+    sent: Sent
+
+    def __getitem__(self, rows: NDArray[np.intp] | NDArray[np.bool_]) -> Pool:
+        boxes, found = self.boxes, self.sent
+        return Pool(Boxes(boxes.low[rows], boxes.high[rows]), Sent(found.low[rows], found.high[rows], found.sure[rows]))
+
+
+def ranges(skill: Skill, weights: Weights | None, most: int) -> tuple[Range, ...]:
+    """The range of each edge of a skill when its readings may be anything in 0..1, from at most so many boxes."""
+    skill = by_itself(skill)
+    low, high = _seen(skill, weights)
+    pools = _cut(skill, weights, low, high, most)
+    bounds = (
+        np.min([pool.sent.low.min(axis=0) for pool in pools], axis=0).tolist(),
+        np.max([pool.sent.high.max(axis=0) for pool in pools], axis=0).tolist(),
+        np.all([pool.sent.sure.all(axis=0) for pool in pools], axis=0).tolist(),
+    )
+    known = is_known(skill, weights)
+    seen = [
+        (least, most_) if least <= most_ and (known or edge.output is None) else None
+        for edge, least, most_ in zip(skill.edges, low.tolist(), high.tolist(), strict=True)
+    ]
+    return tuple(Range(*found) for found in zip(*bounds, seen, strict=True))
+
+
+def by_itself(skill: Skill) -> Skill:
+    """A skill whose readings are numbered among its own, so that a box has no side that it does not read."""
+    place = {reading: number for number, reading in enumerate(skill.inputs)}
+
+    def moved(edge: Edge) -> Edge:
+        value = tuple((word, place[int(x)] if word == "reading" else x) for word, x in edge.value)
+        return replace(edge, value=value)
+
+    return replace(skill, inputs=tuple(range(len(place))), edges=tuple(moved(edge) for edge in skill.edges))
+
+
+def _seen(skill: Skill, weights: Weights | None) -> tuple[Singles, Singles]:
+    """The least and the most that each edge sends for readings that are tried; 0 and 1 where it cannot be known."""
+    tried = readings_to_try(len(skill.inputs), TRIED)
+    known = is_known(skill, weights)
+    found = values(skill if known else _without_function(skill), NONE if weights is None else weights, tried)
+    sound = np.isfinite(found)
+    found = np.clip(found, 0, 1)
+    low, high = found.min(axis=0, initial=1, where=sound), found.max(axis=0, initial=0, where=sound)
+    hidden = [not known and edge.output is not None for edge in skill.edges]
+    return np.where(hidden, np.float32(0), low), np.where(hidden, np.float32(1), high)
+
+
+def _without_function(skill: Skill) -> Skill:
+    return replace(skill, function=Mlp(), inputs=())
+
+
+def readings_to_try(width: int, rows: int) -> Singles:
+    """Readings [rows, width]: first corners of the box, then points inside, the same ones every time."""
+    rng = np.random.default_rng(1)
+    corners = rng.integers(0, 2, (rows // 2, width)).astype(np.float32)
+    return np.concatenate([corners, rng.random((rows - rows // 2, width), np.float32)])
+
+
+def _cut(skill: Skill, weights: Weights | None, low: Singles, high: Singles, most: int) -> list[Pool]:
+    """Pools that cover the box together; the boxes that say least are cut first."""
+    sides = len(skill.inputs)
+    whole = Boxes(np.zeros((1, sides), np.float32), np.ones((1, sides), np.float32))
+    open_, done, made = Pool(whole, sent(skill, weights, whole)), [], 1
+    sway = sway_of(skill, weights)
+    while True:
+        excess = _excess(open_.sent, low, high)
+        done.append(open_[excess <= 0])
+        open_, excess = open_[excess > 0], excess[excess > 0]
+        if not len(excess) or made >= most or sides == 0:
+            return [pool for pool in (*done, open_) if len(pool.sent.low)]
+        order = np.argsort(-excess, kind="stable")
+        cut = halves(open_[order[:AT_ONCE]].boxes, sway)
+        made += len(cut.low)
+        open_ = _joined(open_[order[AT_ONCE:]], Pool(cut, sent(skill, weights, cut)))
+
+
+def _excess(found: Sent, low: Singles, high: Singles) -> Singles:
+    """How much farther than what was seen the bounds of each box reach, over all edges; 0 where that is close."""
+    below, above = np.maximum(low - found.low, 0), np.maximum(found.high - high, 0)
+    below[(below <= CLOSE) & (low < 1)] = 0  # "always 1" and "always 0" are to be proved exactly
+    above[(above <= CLOSE) & (high > 0)] = 0
+    farthest: Singles = np.maximum(below, above).max(axis=1)
+    return farthest
+
+
+def sway_of(skill: Skill, weights: Weights | None) -> Singles:
+    """How much each reading moves what is sent, roughly: which side to cut is a guess, and never wrong."""
+    sway = np.full(len(skill.inputs), 1e-6, np.float32)
+    for edge in skill.edges:
+        for word, reading in edge.value:
+            if word == "reading":
+                sway[int(reading)] += 1
+    shape = layers(len(skill.inputs), skill.outputs, skill.function) if isinstance(skill.function, Mlp) else ()
+    if shape and weights is not None:
+        sway += np.minimum(np.abs(matrices(weights, shape)[0]), 1e6).sum(axis=0)
+    return sway
+
+
+def halves(boxes: Boxes, sway: Singles) -> Boxes:
+    """Every box cut in two across the side that matters most."""
+    low, high = boxes.low, boxes.high
+    rows, side = np.arange(len(low)), ((high - low) * sway).argmax(axis=1)
+    middle = (low[rows, side] + high[rows, side]) / 2
+    upper, lower = low.copy(), high.copy()
+    upper[rows, side], lower[rows, side] = middle, middle
+    return Boxes(np.concatenate([low, upper]), np.concatenate([lower, high]))
+
+
+def _joined(a: Pool, b: Pool) -> Pool:
+    def both(x: Singles, y: Singles) -> Singles:
+        return np.concatenate([x, y])
+
+    boxes = Boxes(both(a.boxes.low, b.boxes.low), both(a.boxes.high, b.boxes.high))
+    sure = np.concatenate([a.sent.sure, b.sent.sure])
+    return Pool(boxes, Sent(both(a.sent.low, b.sent.low), both(a.sent.high, b.sent.high), sure))
