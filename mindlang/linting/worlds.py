@@ -1,6 +1,6 @@
 """What can be read and what can happen in the world of a task."""
 
-from collections.abc import Sequence
+from collections.abc import Iterable
 from dataclasses import dataclass
 from math import isclose
 
@@ -75,28 +75,31 @@ class World:
                 return "there is nothing to collide with", hint
             case Delivery() if not self.study.can_hold:
                 return "no skill that a master reaches drives a gripper", "Let a skill drive one."
-            case Exhaustion() if not any(isinstance(kind, Battery) and kind.drain for kind in sensors):
+            case Exhaustion() if all(kind.start and not kind.drain for kind in sensors if isinstance(kind, Battery)):
                 return "the battery does not drain", "Give it a drain above 0."
         return None
 
 
 def world(study: Study, task: Task) -> World:
     """The world of a task."""
-    return _world(study, [task])
+    is_solid = isinstance(task.scene, Arena) or any(isinstance(thing.kind, Obstacle) for thing in task.things)
+    return World(study, _named([task]), is_solid, _charges([task]))
 
 
 def any_world(study: Study) -> World:
     """A world in which there is everything that any task has."""
-    return _world(study, study.mind.tasks)
+    tasks = study.mind.tasks
+    return World(study, _named(tasks), is_solid=True, charges=not tasks or _charges(tasks))
 
 
-def _world(study: Study, tasks: Sequence[Task]) -> World:
-    things = [thing for task in tasks for thing in task.things]
-    named = frozenset(thing.name for thing in things if not isinstance(thing.kind, Obstacle))
-    obstacles = any(isinstance(thing.kind, Obstacle) for thing in things)
-    is_solid = obstacles or any(isinstance(task.scene, Arena) for task in tasks)
-    charges = any(isinstance(thing.kind, Power) for thing in things)
-    return World(study, named, is_solid or not tasks, charges or not tasks)
+def _named(tasks: Iterable[Task]) -> frozenset[str]:
+    """The things that sensors can be about."""
+    things = (thing for task in tasks for thing in task.things)
+    return frozenset(thing.name for thing in things if not isinstance(thing.kind, Obstacle))
+
+
+def _charges(tasks: Iterable[Task]) -> bool:
+    return any(isinstance(thing.kind, Power) for task in tasks for thing in task.things)
 
 
 def _is_whole(value: float) -> bool:

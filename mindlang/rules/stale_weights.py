@@ -5,9 +5,12 @@ What it reads or sends, or its function, has changed since it was taught, so the
 a skill that only reads or influences more go on as before.
 """
 
+from mindrun.functions import Mlp
+from mindrun.graph import Graph, Skill
+
 from mindlang.linting.study import Finding, Found, Study
-from mindlang.lock.arrange import arrange
-from mindlang.lock.status import Stale, status
+from mindlang.lock import Entry
+from mindlang.lock.signature import differences, signature
 
 HEADER = "# mind lock 1: what has been taught.\n"
 LEARNS = """
@@ -26,12 +29,18 @@ BAD = (
 
 def check(study: Study) -> Found:
     """Skills that the lock knows with another signature."""
-    if not study.lock:
-        return
-    for name, found in status(arrange(study.graph, study.lock), study.lock).items():
-        if isinstance(found, Stale):
-            skill = study.skills[name]
-            first = f"Unfreeze {name} first: then " if skill.frozen else ""
+    for skill in study.graph.skills:
+        entry = study.lock.get(skill.name)
+        found = _differences(study.graph, skill, entry) if entry else ()
+        if found:
+            first = f"Unfreeze {skill.name} first: then " if skill.frozen else ""
             hint = f"{first}mindc train teaches it again."
-            message = f"The weights of {name} are stale: {'; '.join(found.differences)}."
-            yield Finding(skill.declaration.header.name.span, message, hint)
+            span = study.names.table["skill"][skill.name].header.name.span
+            yield Finding(span, f"The weights of {skill.name} are stale: {'; '.join(found)}.", hint)
+
+
+def _differences(graph: Graph, skill: Skill, entry: Entry) -> tuple[str, ...]:
+    """As `mindc status` finds them, without its notes on subskills, for which it goes down from every skill."""
+    if not isinstance(skill.function, Mlp):
+        return ()
+    return differences(entry.signature, signature(graph, skill), skill.function.width == 0)

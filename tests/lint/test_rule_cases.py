@@ -196,6 +196,17 @@ def test_a_claw_must_close_to_deliver(found: Lint) -> None:
         assert found(code, closed + CARRY) == []
 
 
+def test_a_range_finder_is_not_constant_because_tasks_are_empty(found: Lint) -> None:
+    assert found("constant-sensor", EYE + rewards("plain", "rewards forward per tick")) == []
+
+
+def test_a_used_file_with_a_lock_is_of_use(found: Lint, tmp_path: Path) -> None:
+    text = 'use "parts.mind"\n-- parts.mind --\n' + EYE
+    assert found("unused-use", text) == ["Nothing of parts.mind is used."]
+    (tmp_path / "parts.lock").write_text("# mind lock 1:\n")
+    assert found("unused-use", text) == []
+
+
 def test_the_names_of_others_are_told_from_their_own(found: Lint) -> None:
     assert found("misleading-name", "sensor battery_again is battery\nsensor bearing_of_old is inertial\n") == []
     assert found("similar-names", "".join(f"sensor eye_{n} is inertial\n" for n in ("1_1", "11", "2"))) == []
