@@ -18,7 +18,7 @@ from mindlang.proofs.interval import Boxes, Sent, Singles, sent
 from mindlang.proofs.reach import Bound, Flow, Reach, as_sent, flow
 from mindlang.proofs.sharpen import by_itself, halves, sway_of
 
-BOXES, WORK = 8192, 200_000  # boxes, and boxes times skills
+BOXES, FEWEST, WORK = 8192, 16, 100_000  # boxes, and boxes times skills
 AT_ONCE = 256
 
 
@@ -27,7 +27,7 @@ def together(graph: Graph, weights: Mapping[str, Weights], found: Reach, can_be_
     most = min(BOXES, WORK // len(found.edges))
     actuators = list(found.actuators)
     for place, driven in enumerate(actuators):
-        if not can_be_zero[place] and driven.total.low <= 0 < driven.total.high and most > 1:
+        if not can_be_zero[place] and driven.total.low <= 0 < driven.total.high and most >= FEWEST:
             low = _least(graph, weights, found, place, most)
             actuators[place] = replace(driven, total=Bound(low, driven.total.high))
     return replace(found, actuators=tuple(actuators))

@@ -147,7 +147,7 @@ class _Rests:
         return edge.output is not None and skill.name in self._weights and narrows
 
     def of_actuator(self, actuator: int, is_joint: bool) -> tuple[str, ...]:
-        """Of all ways to an actuator; for a `joint` claim all weights count, since it looks at every box by itself."""
+        """Of all ways to an actuator; a joint claim looks at all of them."""
         found, known, waiting = set(), set(), list(self._drivers.get(actuator, ()))
         while waiting:
             skill, edge, sends = waiting.pop()

@@ -17,7 +17,7 @@ from mindrun.weights import Weights, reachable
 from mindlang.proofs.interval import Sent, Singles
 from mindlang.proofs.sharpen import Range, ranges
 
-BOXES, ALL_BOXES = 20_000, 2_000_000  # for one skill, for all of them
+BOXES, ALL_BOXES = 20_000, 500_000  # for one skill, for all of them
 MARGIN = 2.0**-22
 TINY = 1e-30  # below this, influence is so small that rounding alone may decide a command
 
@@ -54,7 +54,7 @@ class Reach:
 
 @dataclass(frozen=True, slots=True)
 class Flow:
-    """Bounds of the influence of every skill [boxes, skills] and of Σ influence of every actuator [boxes, actuators]."""
+    """Bounds of the influence of each skill [boxes, skills], and of Σ influence of each actuator [boxes, actuators]."""
 
     low: Singles
     high: Singles

@@ -51,6 +51,8 @@ class Pool:
 
 def ranges(skill: Skill, weights: Weights | None, most: int) -> tuple[Range, ...]:
     """The range of each edge of a skill when its readings may be anything in 0..1, from at most so many boxes."""
+    if not is_known(skill, weights) and skill.outputs == len(skill.edges):
+        return tuple(Range(0.0, 1.0, sure=False) for _ in skill.edges)
     skill = by_itself(skill)
     low, high = _seen(skill, weights)
     pools = _cut(skill, weights, low, high, most)
