@@ -1,0 +1,155 @@
+"""The editor's grammar says of every character of every example what the real grammar says."""
+
+import re
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+from lark import Token, Tree, UnexpectedInput
+
+from mindlang.parse.shape import grammar
+from mindlang.server.words import NOUNS, SETTINGS, VERBS
+from tests.language.examples import EXAMPLES
+from tests.server.textmate import Grammar
+
+FOLDER = Path(__file__).parents[2] / "editors" / "vscode"
+OTHERS = sorted(Path(__file__).parents[1].rglob("*.mind"))
+COLOURS = Grammar(FOLDER / "syntaxes" / "mind.tmLanguage.json")
+
+NOUN, VERB, WORD = "storage.type", "keyword.control", "keyword.other"
+DECLARED, TITLE, PART = "entity.name.function", "entity.name.type", "variable.other"
+KIND, KEY, VALUE, FUNCTION = "support.type", "variable.parameter", "variable.other.constant", "support.function"
+TOKENS = {
+    **dict.fromkeys(("PART", "WHOLE", "TASK"), NOUN),
+    "NUMBER": "constant.numeric",
+    "UNIT": "keyword.other.unit",
+    "TEXT": "string.quoted.double",
+    **dict.fromkeys(("SIGN", "MINUS", "SCALE", "COMPARE", "PLUS"), "keyword.operator"),
+}
+NAMES = {  # by the rule in which they stand, and there by their place among the names
+    "header": [DECLARED],
+    "phrase": [KIND],
+    "argument": [KEY],
+    "setting": [KEY],
+    "name": [VALUE],
+    "stays": [VALUE],
+    "contains": [DECLARED],
+    "each": [DECLARED, PART],
+}
+
+
+def code_of(line: str) -> str:
+    found = re.match(r'(?:"[^"]*"|[^#])*', line)
+    return found[0].rstrip() if found else ""
+
+
+def expected(code: str) -> dict[int, str]:
+    """The scope of each character that the grammar makes a token of, by offset; words that it filters out as well."""
+    tree = grammar().parse(code, start="line")
+    found = {at: scope for token, scope in _tokens(tree, "") for at in range(token.start_pos, token.end_pos)}
+    kept = set(found)
+    for word in _words(code):
+        if word.start() not in kept and re.match(r"\w", word[0]):
+            first = not code[: word.start()].strip()
+            found |= dict.fromkeys(range(*word.span()), VERB if first else WORD)
+    return found
+
+
+def _words(code: str) -> Iterator[re.Match[str]]:
+    return re.finditer(r'"[^"]*"|[\w.]+', code)
+
+
+def _tokens(tree: Tree[Token], event: str) -> Iterator[tuple[Token, str]]:
+    """The tokens with their scopes; in an event even a bare name is a function."""
+    names = 0
+    is_about_event = tree.data in ("ends", "counts", "rewards")
+    for number, child in enumerate(tree.children):
+        if isinstance(child, Tree):
+            is_event = is_about_event and child.data == "call" and number >= (tree.data == "rewards")
+            yield from _tokens(child, "event" if is_event else "")
+        elif child.type in ("NAME", "TITLE"):
+            yield child, _of_name(tree, child, names, event)
+            names += 1
+        else:
+            yield child, TOKENS[child.type]
+
+
+def _of_name(tree: Tree[Token], token: Token, number: int, event: str) -> str:
+    rule = str(tree.data)
+    if rule == "call":
+        return FUNCTION if event or len(tree.children) > 1 else PART
+    if rule in NAMES:
+        return NAMES[rule][number]
+    return TITLE if token.type == "TITLE" else PART
+
+
+ODD = """\
+rewards -1/2 * -(p - 0.5) + change of thrust beyond 20 % over 10 ticks - 1 per tick for each p in eyes when p<=3 # for
+  rewards (holding) on visit of patch size 4 when a.b >= progress toward on_top
+use "a#b.mind"  # "quoted"
+task   A+B_2+C in arena size 100\t#in
+drives left_wheel at 1
+influences A+B at 2*(1-front_feeler)
+skill X is procedure from module.function
+contains in_box is item size 3 to 1 by 0.1 away -4 to 40
+teaches A on B under C+D for 1500 generations mutated 20% from scratch patience 3 generations with subskills
+sensor when_near is range_finder at -90 +45 90 deg range 12 dead_zone 1%
+memory on is cell decay 1/3
+lasts 100 s
+tick 1/60 s
+stays frozen
+counts collision"""
+
+
+def check(line: str) -> int:
+    """Hold a line against the grammar; how many of its characters are of a token. UnexpectedInput where it is none."""
+    code = code_of(line)
+    scopes = COLOURS.scopes(line)
+    wanted = expected(code) if code else {}
+    for at, scope in wanted.items():
+        assert f"{scopes[at]}.".startswith(f"{scope}."), (line, line[at:], scopes[at], scope)
+    for at in range(len(code), len(line)):
+        assert line[at].isspace() or scopes[at].startswith("comment"), line
+    return len(wanted)
+
+
+@pytest.mark.parametrize("path", EXAMPLES, ids=lambda path: path.stem)
+def test_every_token_of_every_example(path: Path) -> None:
+    lines = path.read_text(encoding="utf-8").splitlines()
+    assert sum(map(check, lines)) > sum(len(code_of(line).replace(" ", "")) for line in lines) * 0.9
+
+
+@pytest.mark.parametrize("line", ODD.split("\n"))
+def test_odd_lines(line: str) -> None:
+    assert check(line)
+
+
+def test_every_readable_line_of_the_tests() -> None:
+    read = 0
+    for line in dict.fromkeys(line for path in OTHERS for line in path.read_text(encoding="utf-8").split("\n")):
+        try:
+            read += bool(check(line.rstrip("\r")))
+        except UnexpectedInput:
+            continue
+    assert read > 150
+
+
+def test_a_wrong_colour_is_found() -> None:
+    data = {**COLOURS.data, "patterns": COLOURS.data["patterns"][1:]}
+    colourless = Grammar.__new__(Grammar)
+    colourless.data = data
+    assert colourless.scopes("tick 1/60 s  # slow")[-1] != COLOURS.scopes("tick 1/60 s  # slow")[-1]
+
+
+def test_a_line_that_is_being_written_has_its_colours() -> None:
+    for word in (*NOUNS, *SETTINGS, *VERBS):
+        assert COLOURS.scopes(f"  {word}")[2].split(".")[0] in ("storage", "keyword"), word
+        assert COLOURS.scopes(f"  {word} ")[2]
+
+
+def test_the_words_of_the_language_are_explained() -> None:
+    from mindlang import syntax
+
+    assert set(NOUNS) == set(syntax.NOUNS)
+    assert set(VERBS) == set(syntax.VERBS)
+    assert set(SETTINGS) == set(syntax.SETTINGS)
