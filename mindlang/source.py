@@ -1,10 +1,14 @@
 """Text with places in it: a source, and spans that know their line and column."""
 
+import re
+from bisect import bisect_right
 from dataclasses import dataclass, field
+from functools import lru_cache
 from pathlib import Path
 
 LIMIT = 1 << 20  # bytes
 BOM = b"\xef\xbb\xbf"
+SOURCES = 64  # whose line starts are remembered
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -22,7 +26,9 @@ class Source:
 
     def line(self, number: int) -> str:
         """The text of a line, counted from 1, without its end."""
-        return self.text.split("\n", number)[number - 1].rstrip("\r")
+        start = _line_starts(self)[number - 1]
+        end = self.text.find("\n", start)
+        return self.text[start : end if end >= 0 else len(self.text)].rstrip("\r")
 
 
 @dataclass(frozen=True, slots=True)
@@ -41,12 +47,18 @@ class Span:
     @property
     def line(self) -> int:
         """The line on which it starts, counted from 1."""
-        return self.source.text.count("\n", 0, self.start) + 1
+        return bisect_right(_line_starts(self.source), self.start)
 
     @property
     def column(self) -> int:
         """The column at which it starts, counted from 1."""
         return self.start - self.source.text.rfind("\n", 0, self.start)
+
+
+@lru_cache(SOURCES)
+def _line_starts(source: Source) -> list[int]:
+    """Where the lines of a source begin."""
+    return [0, *(found.end() for found in re.finditer("\n", source.text))]
 
 
 def encoded(path: Path, text: str) -> bytes:

@@ -2,6 +2,7 @@
 
 from collections.abc import Callable
 from dataclasses import MISSING, dataclass, fields
+from functools import cache
 from typing import Annotated, Any, TypeVar, get_args, get_origin, get_type_hints
 
 from mindrun.quantity import Quantity, Reference, Span
@@ -47,12 +48,13 @@ def names() -> dict[type[Any], str]:
     return {cls: name for known in _kinds.values() for name, cls in known.items()}
 
 
+@cache
 def arguments(cls: type[Any]) -> tuple[Argument, ...]:
     """The arguments that a kind takes, in the order of its fields, its own before those that others have too."""
     hints = get_type_hints(cls, include_extras=True)
     return tuple(
         Argument(f.name.removesuffix("_"), f.name, *_type(hints[f.name]), default=f.default)
-        for f in sorted(fields(cls), key=lambda field: field.kw_only)
+        for f in sorted(fields(cls), key=lambda field: field.kw_only is True)
     )
 
 
