@@ -50,7 +50,7 @@ def _table(*columns: str) -> Table:
 
 
 def _leaks(proof: Proof) -> Table:
-    table = _table("actuator", "paths", "not what is meant", "worst path", "most of it leaks from")
+    table = _table("actuator", "paths", "leaks take", "worst path", "most of it leaks from")
     for found in proof.actuators:
         count = f"{found.paths.count:,}" if found.paths.count < MANY else "10^15 or more"
         table.add_row(Text(found.actuator.name), count, *map(Text, _leak(found.leak)))
@@ -130,8 +130,10 @@ def _unknown(proof: Proof) -> Iterator[Text]:
 
 
 def _line_of(names: Sequence[str], why: str) -> Text:
-    many = {"is Python code": "are Python code", "has no weights that fit": "have no weights that fit"}
-    return Text(f"  {some(names)} {why if len(names) == 1 else many[why]}: what they send is taken to be from 0 to 1")
+    if len(names) == 1:
+        return Text(f"  {names[0]} {why}: what it sends is taken to be from 0 to 1")
+    plural = why.replace("is ", "are ", 1).replace("has ", "have ", 1)
+    return Text(f"  {some(names)} {plural}: what they send is taken to be from 0 to 1")
 
 
 def some(names: Iterable[str]) -> str:
