@@ -1,0 +1,40 @@
+"""`mindc explain`: what does this code mean, and what is to be done?"""
+
+import click
+
+EXAMPLES = """\b
+Examples:
+  mindc explain
+  mindc explain influence-cycle
+  mindc explain unread-sensor --json
+"""
+
+
+@click.command(epilog=EXAMPLES)
+@click.argument("code", required=False)
+@click.option("--json", "as_json", is_flag=True, help="One JSON document instead: mindc explain comma --json")
+def command(code: str | None, as_json: bool) -> None:
+    """Say what a code of a diagnostic means, with a wrong example and a right one; without CODE list all codes.
+
+    The code stands in brackets at the end of a message. Ends with 0, or with 2 where there is no such code.
+    """
+    from rich.text import Text
+
+    from mindlang.diagnostic import did_you_mean
+    from mindlang.explaining.explanation import explanations
+    from mindlang.explaining.show import as_data, contents, page
+    from mindlang.report import visible
+    from mindlang.terminal import MISUSE, console, fail, print_json
+
+    known = explanations()
+    word = None if code is None else code.strip("[]")
+    if word is not None and word not in known:
+        fail(
+            f"There is no code called {visible(word)}.",
+            did_you_mean(word, known) or "mindc explain lists them.",
+            MISUSE,
+        )
+    if as_json:
+        print_json(as_data(known[word]) if word else {"codes": [as_data(each) for each in known.values()]})
+        return
+    console().print(Text.assemble(*(page(known[word]) if word else contents(known.values()))), end="")

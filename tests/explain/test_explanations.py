@@ -1,0 +1,81 @@
+"""Every code has an explanation, every explanation a code, and every example is what it is said to be."""
+
+import ast
+from pathlib import Path
+
+import pytest
+
+from mindlang.compile import load
+from mindlang.explaining.explanation import ERRORS, Explanation, errors, explanations
+from mindlang.resolve.curricula import SWITCHES
+from tests.explain.examples import write
+from tests.project.sources import COMPILER, modules, tree
+
+ALL = list(errors())
+EMITTERS = {"error", "refuse", "Diagnostic", "Mistake"}
+# Codes that are made of words as they are emitted: how, and which these are.
+MADE = {
+    "f'unknown-{nouns[0]}'": {f"unknown-{noun}" for noun in ("sensor", "actuator", "skill", "task")},
+    "f'unknown-{type_.noun}'": {"unknown-side"},
+    "said.replace(' ', '-')": {f"{key}-{word}" for key, (word, _) in SWITCHES.items()},
+}
+PASSED_ON = {"code", "mistake.code", "rule.code"}  # codes that are made elsewhere
+NEEDED = {"no-tick", "no-master", "no-body"}  # in a table of what every mind needs
+# What no small mind shows: files that are not there or too many, locks and edits.
+WITHOUT_EXAMPLES = {"unreadable", "use-too-deep", "too-many-mistakes", "impossible-edit", "damaged-lock"}
+
+
+def emitted() -> set[str]:
+    """The codes of all diagnostics in the sources of the compiler."""
+    found: set[str] = set()
+    for node in (node for path in modules(COMPILER) for node in ast.walk(tree(path))):
+        if isinstance(node, ast.Call) and _name(node.func) in EMITTERS and node.args:
+            match node.args[0]:
+                case ast.Constant(value=str(code)):
+                    found.add(code)
+                case made if ast.unparse(made) in MADE:
+                    found |= MADE[ast.unparse(made)]
+                case other if isinstance(other, ast.JoinedStr):
+                    pytest.fail(f"{ast.unparse(other)} makes codes that this test does not know")
+    return found | NEEDED
+
+
+def _name(function: ast.expr) -> str:
+    return function.attr if isinstance(function, ast.Attribute) else getattr(function, "id", "")
+
+
+def test_every_code_has_an_explanation_and_no_other_is_explained() -> None:
+    codes = [explanation.code for explanation in ALL]
+    assert sorted(set(codes)) == sorted(codes)
+    assert set(codes) == emitted()
+
+
+@pytest.mark.parametrize("explanation", explanations().values(), ids=lambda each: each.code)
+def test_an_explanation_begins_with_a_short_sentence_and_says_what_to_do(explanation: Explanation) -> None:
+    assert explanation.title.endswith(".")
+    assert len(explanation.title) <= 80
+    assert explanation.text
+    assert explanation.chapter
+    assert bool(explanation.bad and explanation.good) == (explanation.code not in WITHOUT_EXAMPLES)
+
+
+BAD = [(each, text) for each in ALL for text in each.bad]
+GOOD = [(each, text) for each in ALL for text in each.good]
+
+
+@pytest.mark.parametrize(("explanation", "text"), BAD, ids=lambda each: getattr(each, "code", ""))
+def test_a_wrong_example_gives_just_its_code(explanation: Explanation, text: str, tmp_path: Path) -> None:
+    found = load(write(explanation, text, tmp_path)).diagnostics
+    assert [diagnostic.code for diagnostic in found] == [explanation.code], [each.message for each in found]
+
+
+@pytest.mark.parametrize(("explanation", "text"), GOOD, ids=lambda each: getattr(each, "code", ""))
+def test_a_right_example_is_right(explanation: Explanation, text: str, tmp_path: Path) -> None:
+    found = load(write(explanation, text, tmp_path)).diagnostics
+    assert [(each.code, each.message) for each in found] == []
+
+
+def test_errors_come_before_lint_rules() -> None:
+    sorts = [each.sort for each in explanations().values()]
+    assert sorts[: len(ALL)] == [ERRORS] * len(ALL)
+    assert ERRORS not in sorts[len(ALL) :]
