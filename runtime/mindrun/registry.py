@@ -48,9 +48,13 @@ def names() -> dict[type[Any], str]:
     return {cls: name for known in _kinds.values() for name, cls in known.items()}
 
 
-@cache
 def arguments(cls: type[Any]) -> tuple[Argument, ...]:
     """The arguments that a kind takes, in the order of its fields, its own before those that others have too."""
+    return _arguments(cls)
+
+
+@cache
+def _arguments(cls: Any) -> tuple[Argument, ...]:
     hints = get_type_hints(cls, include_extras=True)
     return tuple(
         Argument(f.name.removesuffix("_"), f.name, *_type(hints[f.name]), default=f.default)
