@@ -2,7 +2,6 @@
 
 from collections.abc import Callable
 from dataclasses import MISSING, dataclass, fields
-from functools import cache
 from typing import Annotated, Any, TypeVar, get_args, get_origin, get_type_hints
 
 from mindrun.quantity import Quantity, Reference, Span
@@ -10,6 +9,7 @@ from mindrun.quantity import Quantity, Reference, Span
 T = TypeVar("T")
 
 _kinds: dict[str, dict[str, type[Any]]] = {}
+_arguments: dict[Any, tuple["Argument", ...]] = {}  # of each kind that was asked for
 
 
 @dataclass(frozen=True, slots=True)
@@ -50,11 +50,12 @@ def names() -> dict[type[Any], str]:
 
 def arguments(cls: type[Any]) -> tuple[Argument, ...]:
     """The arguments that a kind takes, in the order of its fields, its own before those that others have too."""
-    return _arguments(cls)
+    if cls not in _arguments:
+        _arguments[cls] = _read(cls)
+    return _arguments[cls]
 
 
-@cache
-def _arguments(cls: Any) -> tuple[Argument, ...]:
+def _read(cls: type[Any]) -> tuple[Argument, ...]:
     hints = get_type_hints(cls, include_extras=True)
     return tuple(
         Argument(f.name.removesuffix("_"), f.name, *_type(hints[f.name]), default=f.default)
