@@ -16,7 +16,7 @@ from mindlang.syntax import NOUNS, PARTS, SETTINGS, VERBS
 if TYPE_CHECKING:
     from lark import UnexpectedInput
 
-LONG = 1000  # a longer line is no common mistake, and patterns would take their time over it
+LONG = 400  # a longer line is no common mistake, and patterns would take their time over it
 
 _WORDS = {
     "$END": "the end of the line", "NAME": "a name in small letters", "TITLE": "a Capitalised name",

@@ -3,11 +3,11 @@
 import re
 import unicodedata
 from collections.abc import Iterable, Iterator, Sequence, Set
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from mindlang.diagnostic import Findings, Label, a, listed
 from mindlang.source import Span
-from mindlang.syntax import Contains, Declaration, File, Name
+from mindlang.syntax import Contains, Declaration, Fact, File, Name
 
 # A memory is read like a sensor and driven like an actuator, so its name must be neither's.
 SHARED = {"sensor": ("memory",), "actuator": ("memory",), "memory": ("sensor", "actuator")}
@@ -107,12 +107,22 @@ def _words(span: Span) -> list[str]:
 def gather(files: Iterable[File], findings: Findings) -> Names:
     """All declarations by name; of two with one name the second is reported."""
     names = Names({}, frozenset(word for found in findings.diagnostics if found.span for word in _words(found.span)))
+    above: Declaration | None = None
     for declaration in (declaration for file in files for declaration in file.declarations):
         noun, name = declaration.header.noun.text, declaration.header.name
-        if other := names.noun_of(name.text, (noun, *SHARED.get(noun, ()))):
+        other = names.noun_of(name.text, (noun, *SHARED.get(noun, ())))
+        if other and above and not declaration.header.phrase:
+            declaration = _with_facts(above, declaration.facts)  # `senses eyes` was meant as a fact, not as a sensor
+            noun, name = above.header.noun.text, above.header.name
+        elif other:
             first = Label(names.table[other][name.text].header.name.span, "first declared here")
             message = f"There is already {a(other)} called {name.text}."
             findings.error("duplicate-name", name.span, message, "Give one of the two another name.", first)
-        else:
-            names.table.setdefault(noun, {})[name.text] = declaration
+            continue
+        names.table.setdefault(noun, {})[name.text] = above = declaration
     return names
+
+
+def _with_facts(declaration: Declaration, facts: Sequence[Fact]) -> Declaration:
+    """A declaration of which a line could not be read, with the facts below that line."""
+    return replace(declaration, facts=(*declaration.facts, *facts), whole=False)
