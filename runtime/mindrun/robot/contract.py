@@ -1,0 +1,66 @@
+"""What a driver is: a frozen dataclass whose fields are its options in `robot.yaml`, and which opens a device.
+
+A driver imports the library of its hardware inside `open`, so that a robot needs only what is wired to it. Devices
+speak in natural units (metres, degrees, volts); `Wiring` says which of these are the readings 0 and 1.
+"""
+
+from collections.abc import Sequence
+from typing import Protocol
+
+from mindrun.errors import MindError
+
+
+class DeviceError(MindError):
+    """A device that cannot be opened, does not answer, or answers nonsense; `hint` may say what to install or wire."""
+
+
+class SensorDevice(Protocol):
+    """A sensor that is open."""
+
+    def read(self) -> Sequence[float | None]:
+        """One value for each reading, in natural units, measured now; None where there is nothing to measure.
+
+        DeviceError where the device fails. May take long: it is called outside of the control loop.
+        """
+        ...
+
+    def close(self) -> None:
+        """Let go of the hardware; never raises."""
+        ...
+
+
+class ActuatorDevice(Protocol):
+    """An actuator that is open."""
+
+    def write(self, value: float) -> None:
+        """Command a share of the travel in 0..1; returns when it is acknowledged, DeviceError where it is not."""
+        ...
+
+    def close(self) -> None:
+        """Let go of the hardware; never raises."""
+        ...
+
+
+class SensorDriver(Protocol):
+    """How a sensor is wired: `unit` and number of its values; those that are `usual`ly the readings 0 and 1."""
+
+    @property
+    def unit(self) -> str: ...
+
+    @property
+    def readings(self) -> int: ...
+
+    @property
+    def usual(self) -> tuple[float, float]: ...
+
+    def open(self) -> SensorDevice:
+        """The device; DeviceError where it cannot be opened, with the line that installs what is missing."""
+        ...
+
+
+class ActuatorDriver(Protocol):
+    """How an actuator is wired."""
+
+    def open(self) -> ActuatorDevice:
+        """The device; DeviceError where it cannot be opened, with the line that installs what is missing."""
+        ...

@@ -1,0 +1,66 @@
+"""Devices that are not there: sensors that read what they are told, actuators that write nowhere."""
+
+from dataclasses import dataclass
+from typing import Annotated
+
+from mindrun.quantity import COUNT, NUMBER
+from mindrun.registry import kind
+
+
+@dataclass(frozen=True, slots=True)
+class MockSensorDevice:
+    """Reads the same all the time."""
+
+    values: tuple[float, ...]
+
+    def read(self) -> tuple[float, ...]:
+        """What it was told."""
+        return self.values
+
+    def close(self) -> None:
+        """Nothing to let go."""
+
+
+@dataclass(slots=True)
+class MockActuatorDevice:
+    """Takes every command, and remembers the last."""
+
+    value: float | None = None
+
+    def write(self, value: float) -> None:
+        """Nothing moves."""
+        self.value = value
+
+    def close(self) -> None:
+        """Nothing to let go."""
+
+
+@kind("sensor driver", "mock")
+@dataclass(frozen=True, slots=True)
+class MockSensor:
+    """A sensor that always reads `value`, `count` times: to try a mind without hardware."""
+
+    value: Annotated[float, NUMBER] = 0.5
+    count: Annotated[int, COUNT] = 1
+
+    unit = ""
+    usual = (0.0, 1.0)
+
+    @property
+    def readings(self) -> int:
+        """How many values it reads."""
+        return self.count
+
+    def open(self) -> MockSensorDevice:
+        """The device."""
+        return MockSensorDevice((self.value,) * self.count)
+
+
+@kind("actuator driver", "mock")
+@dataclass(frozen=True, slots=True)
+class MockActuator:
+    """An actuator that moves nothing."""
+
+    def open(self) -> MockActuatorDevice:
+        """The device."""
+        return MockActuatorDevice()
