@@ -83,7 +83,7 @@ def _wants(only: Any, kind: str) -> bool:
 def _mending(ls: MindServer, mending: Mending) -> types.CodeAction:
     return types.CodeAction(
         mending.title,
-        kind=types.CodeActionKind.QuickFix,
+        kind="quickfix",
         diagnostics=[ls.session.wire.diagnostic(mending.of)],
         is_preferred=mending.is_safe,
         edit=ls.session.wire.workspace_edit(mending.splices, {}, not ls.knows_documents),

@@ -35,7 +35,7 @@ def meaning(parameter: Argument) -> str:
         case Reference(noun, words):
             return listed(words) if words else f"the name of {a(noun)}"
         case Quantity() as quantity:
-            units = [unit for unit in quantity.units if unit]
+            units = [unit for unit in quantity.units if unit and unit not in quantity.name]
             with_unit = f" in {listed(units)}" if units and "" not in quantity.units else ""
             also = f", also in {listed(units)}" if units and "" in quantity.units else ""
             many = {"list": ", several of them", "span": ", or a range of them"}.get(parameter.shape, "")

@@ -87,7 +87,8 @@ def _of_header(selection: Selection) -> Iterator[Proposal]:
     if declaration is None or not on_line(declaration.header.span, selection.start):
         return
     noun, name = declaration.header.noun.text, declaration.header.name.text
-    yield Proposal(f"Remove {noun} {name}", "remove", {"what": [noun, name]})
+    if noun != "body":
+        yield Proposal(f"Remove {noun} {name}", "remove", {"what": [noun, name]})
     if noun != "skill":
         return
     project = selection.project
@@ -136,10 +137,11 @@ def _of_lines(selection: Selection) -> Iterator[Proposal]:
     declaration = selection.declaration
     if declaration is None or declaration.header.noun.text != "skill":
         return
-    chosen = [fact.name.text for fact in declaration.facts if isinstance(fact, Influences) and _is_in(fact, selection)]
-    if chosen:
+    edges = [fact for fact in facts(declaration, Influences) if _is_in(fact, selection)]
+    if chosen := [fact.name.text for fact in edges]:
         new = fresh_title(selection.project, "New" + "+".join(chosen))
-        is_ = {key: value for key, value in _function(declaration).items() if key == "is_"}
+        is_rule = all(fact.at for fact in edges) or "is_" in _function(declaration)
+        is_ = {"is_": "rule"} if is_rule else {}
         arguments = {"parent": declaration.header.name.text, "new": new, "subskills": chosen, **is_}
         yield Proposal(f"Put {listed(chosen, 'and')} under a new skill", "extract", arguments, new, "refactor.extract")
 

@@ -31,8 +31,11 @@ def not_yet_below(project: Project, skill: str) -> Iterator[tuple[str, list[str]
 
 
 def replacements(project: Project, skill: str) -> list[str]:
-    """Other skills; those that drive other actuators are refused by the edit itself."""
-    return [known.name for known in project.mind.skills if known.name != skill][: 8 * MOST]
+    """Skills that are not above it; those that drive other actuators are refused by the edit itself."""
+    skills = {known.name: known for known in project.mind.skills}
+    parents = {name for name, known in skills.items() if skill in known.subskills}
+    others = (name for name in skills if name != skill and not (parents - {name}) & reached(skills, name))
+    return list(others)[: 8 * MOST]
 
 
 def lesson(project: Project, skill: str) -> dict[str, Any]:

@@ -1,0 +1,95 @@
+"""What is offered where, without a client."""
+
+from pathlib import Path
+
+import pytest
+
+from mindlang.server.completing import complete
+from mindlang.server.desk import Desk
+from tests.language.examples import TOUR
+
+TEXT = TOUR.read_text(encoding="utf-8")
+BELOW_AVOID = "skill Fetch"
+BELOW_WORK = "curriculum Tour"
+BELOW_QUICK = "\n\n\n\n"
+CASES = [  # where the line is put, the line with | for the cursor, what must be offered, what must not
+    (BELOW_AVOID, "|", "reads drives influences stays skill sensor tick", "contains teaches"),
+    (BELOW_AVOID, "  re|", "reads", "rewards"),
+    (BELOW_AVOID, "  reads |", "parcel_bearing mood", "moving left_wheel"),
+    (BELOW_AVOID, "  drives |", "claw neck mood", "left_wheel eyes"),
+    (BELOW_AVOID, "  drives claw |", "at", "reads"),
+    (BELOW_AVOID, "  drives claw at |", "moving pulse", "parcel_bearing"),
+    (BELOW_AVOID, "  drives claw at 1 - (|", "moving pulse", "parcel_bearing"),
+    (BELOW_AVOID, "  influences |", "Fetch Live", "Avoid eyes"),
+    (BELOW_AVOID, "  stays |", "frozen", "moving"),
+    (BELOW_AVOID, "skill X |", "is", "in"),
+    (BELOW_AVOID, "task X |", "in", "is"),
+    (BELOW_AVOID, "skill X is |", "mlp rule procedure", "wheel"),
+    (BELOW_AVOID, "skill X is mlp |", "hidden width", "mlp"),
+    (BELOW_AVOID, "skill X is mlp hidden 2 |", "width", "hidden"),
+    (BELOW_AVOID, "skill X is procedure from |", "tour.toward", "width"),
+    (BELOW_AVOID, "sensor x is range_finder at 0 90 |", "deg range dead_zone", "at"),
+    (BELOW_AVOID, "sensor x is bearing of |", "parcel depot charger", "rock eyes"),
+    (BELOW_AVOID, "sensor x is contact of |", "parcel", "depot"),
+    (BELOW_AVOID, "sensor x is derivative of |", "eyes mood", "parcel"),
+    (BELOW_AVOID, "actuator x is wheel side |", "left right", "neutral"),
+    (BELOW_AVOID, 'use "|', "parts.mind", "tour.mind"),
+    (BELOW_AVOID, "master |", "Live", "eyes"),
+    (BELOW_AVOID, "tick 1/50 |", "s", "deg"),
+    (BELOW_AVOID, "  reads eyes # see |", "", "moving"),
+    (BELOW_WORK, "  |", "contains lasts ends rewards counts", "reads"),
+    (BELOW_WORK, "  contains x is |", "item zone obstacle power", "mlp"),
+    (BELOW_WORK, "  contains x is item size 3 |", "to away", "by"),
+    (BELOW_WORK, "  contains x is item size 3 to 1 |", "by", "to"),
+    (BELOW_WORK, "  lasts 5 |", "ticks s", "deg"),
+    (BELOW_WORK, "  ends |", "on", ""),
+    (BELOW_WORK, "  ends on |", "collision exhaustion", "progress"),
+    (BELOW_WORK, "  counts reach of |", "parcel depot", "wall"),
+    (BELOW_WORK, "  rewards 2 * |", "progress forward holding", "reach"),
+    (BELOW_WORK, "  rewards 2 * progress |", "toward", "beyond"),
+    (BELOW_WORK, "  rewards 2 * progress toward |", "parcel", "on"),
+    (BELOW_WORK, "  rewards 2 * progress toward parcel |", "on", "toward"),
+    (BELOW_WORK, "  rewards 2 * progress toward parcel per |", "tick", "on"),
+    (BELOW_WORK, "  rewards 2 * p per tick for |", "each", "tick"),
+    (BELOW_WORK, "  rewards 2 * p per tick for each p in |", "eyes", "parcel"),
+    (BELOW_WORK, "  rewards 2 per tick when |", "holding forward", "tick"),
+    (BELOW_WORK, "  rewards 2 on |", "delivery", "forward"),
+    (BELOW_WORK, "  rewards 2 on delivery of |", "parcel", "depot"),
+    (BELOW_QUICK, "  teaches |", "Avoid Live", "Tour"),
+    (BELOW_QUICK, "  teaches Avoid on |", "Work", "Live"),
+    (BELOW_QUICK, "  teaches Avoid on Work |", "under for", "on"),
+    (BELOW_QUICK, "  teaches Avoid on Work under |", "Live", "eyes"),
+    (BELOW_QUICK, "  teaches Avoid on Work for 9 |", "generations", "s"),
+    (BELOW_QUICK, "  teaches Avoid on Work for 9 generations |", "population octaves", "is"),
+    (BELOW_QUICK, "  teaches Avoid on Work for 9 generations from |", "scratch", "population"),
+]
+
+
+def offered(place: str, line: str) -> dict[str, str]:
+    at = TEXT.index(place) if place in TEXT else len(TEXT)
+    text = f"{TEXT[:at]}{line.replace('|', '')}\n{TEXT[at:]}"
+    desk = Desk({TOUR: text})
+    offset = at + line.index("|")
+    found = complete(desk.view(TOUR), TOUR, text, offset)
+    assert text[found.start : offset] == line[line.index("|") - (offset - found.start) : line.index("|")]
+    return {offer.label: offer.text for offer in found.offers}
+
+
+@pytest.mark.parametrize(("place", "line", "wanted", "unwanted"), CASES, ids=[case[1] for case in CASES])
+def test_offers(place, line, wanted, unwanted):
+    found = offered(place, line)
+    assert set(wanted.split()) <= set(found)
+    if wanted != "on":
+        assert not set(unwanted.split()) & set(found)
+    assert wanted or not found
+
+
+def test_kinds_and_arguments_are_explained():
+    assert "perceptron" in offered(BELOW_AVOID, "skill X is |")["mlp"]
+    assert "default 12" in offered(BELOW_AVOID, "sensor x is range_finder |")["range"]
+
+
+def test_a_title_with_a_plus_is_replaced_as_a_whole(tmp_path: Path):
+    path = tmp_path / "a.mind"
+    text = "skill Go+Avoid is rule\nskill X is rule\n  influences Go+Av"
+    assert complete(Desk({path: text}).view(path), path, text, len(text)).start == text.index("Go+Av", 20)

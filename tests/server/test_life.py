@@ -1,0 +1,117 @@
+"""The server as a program: how it begins and ends, and that no text and no place bring it down."""
+
+import random
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+
+from tests.calling import Call
+from tests.language.examples import EXAMPLES
+from tests.server.client import WAIT, Editor, ServerError, editing, uri
+
+PIECES = (
+    " ", "\n", "\r\n", "#", '"', "(", ")", "é", "😀", "\u2028", "skill ", "reads ", "influences ", "use ", " at ",
+    " is ", "A+", "1/0", "%", "task ", "teaches ", "rewards ", "when ", " on ", "master ", "for each p in ", "\t",
+)  # fmt: skip
+QUESTIONS = ("hover", "completion", "definition", "references", "documentHighlight", "prepareRename", "codeAction")
+
+
+def test_it_ends_as_it_is_told(tmp_path: Path) -> None:
+    editor = Editor(tmp_path)
+    assert editor.end() == 0
+    rude = Editor(tmp_path)
+    rude.tell("exit", None)
+    assert rude.process.wait(timeout=WAIT) == 1
+
+
+def test_it_ends_when_the_editor_is_gone(tmp_path: Path) -> None:
+    editor = Editor(tmp_path)
+    assert editor.process.stdin
+    editor.process.stdin.close()
+    assert editor.process.wait(timeout=WAIT) == 1
+
+
+def test_without_pygls_it_says_what_to_do(mindc: Call, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("importlib.util.find_spec", lambda name: None)
+    said = mindc("lsp")
+    assert said.code == 2
+    assert "pip install 'mindlang[lsp]'" in said.err
+    assert "Traceback" not in said.err
+
+
+def test_help_does_not_wait_for_it() -> None:
+    code = "import sys, mindlang.cli.lsp; sys.exit('pygls' in sys.modules or 'mindlang.server' in sys.modules)"
+    subprocess.run([sys.executable, "-c", code], check=True)
+
+
+def test_no_procedure_is_run(tmp_path: Path) -> None:
+    tour = next(path for path in EXAMPLES if path.stem == "tour")
+    for path in tour.parent.glob("*.mind"):
+        (tmp_path / path.name).write_bytes(path.read_bytes())
+    ran = tmp_path / "ran"
+    (tmp_path / "tour.py").write_text(f"open({str(ran)!r}, 'w')\ndef toward(x): return x, x\n")
+    path = tmp_path.resolve() / "tour.mind"
+    with editing(tmp_path) as editor:
+        editor.open(path)
+        editor.settle(path)
+        editor.ask("textDocument/hover", editor.at(path, "skill Deliver", 7))
+        editor.act(editor.actions(path, "skill Deliver"), "Freeze Deliver")
+    assert not ran.exists()
+
+
+def test_it_checks_while_one_types_fast(tmp_path: Path) -> None:
+    path = tmp_path.resolve() / "collect.mind"
+    text = next(each for each in EXAMPLES if each.stem == "collect").read_text(encoding="utf-8")
+    with editing(tmp_path) as editor:
+        editor.open(path, text)
+        begun = time.monotonic()
+        for length in range(1, 41):
+            editor.change(path, text + "# " + "x" * length)
+        editor.settle(path)
+        assert time.monotonic() - begun < 5
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_no_text_and_no_place_bring_it_down(tmp_path: Path, seed: int) -> None:
+    random_ = random.Random(seed)
+    for path in EXAMPLES:
+        (tmp_path / path.name).write_bytes(path.read_bytes())
+    paths = sorted(tmp_path.resolve().glob("*.mind"))
+    with editing(tmp_path) as editor:
+        for path in random_.sample(paths, 3):
+            text = editor.open(path)
+            for _ in range(8):
+                text = mangled(random_, text)
+                editor.change(path, text)
+                for question in random_.sample(QUESTIONS, 3):
+                    ask(editor, path, question, random_)
+                editor.ask("textDocument/documentSymbol", {"textDocument": {"uri": uri(path)}})
+            editor.settle(path)
+            shape = {"textDocument": {"uri": uri(path)}, "options": {"tabSize": 2, "insertSpaces": True}}
+            editor.apply({"changes": {uri(path): editor.ask("textDocument/formatting", shape)}})
+
+
+def mangled(random_: random.Random, text: str) -> str:
+    """A text with a piece taken out, put in, or said twice."""
+    start = random_.randrange(len(text) + 1)
+    end = min(len(text), start + random_.choice((0, 1, 5, 40)))
+    return text[:start] + random_.choice((*PIECES, "", text[start:end] * 2)) + text[end:]
+
+
+def ask(editor: Editor, path: Path, question: str, random_: random.Random) -> None:
+    """A request at a place that may not be there; only a refusal in words is an error."""
+    place = {"line": random_.randrange(200), "character": random_.randrange(60)}
+    params = {"textDocument": {"uri": uri(path)}, "position": place, "context": {"includeDeclaration": True}}
+    if question == "codeAction":
+        end = {"line": place["line"] + random_.randrange(3), "character": random_.randrange(60)}
+        params = {**params, "range": {"start": place, "end": end}, "context": {"diagnostics": []}}
+    if question == "completion":
+        params["context"] = {"triggerKind": 1}
+    try:
+        editor.ask(f"textDocument/{question}", params)
+    except ServerError as error:
+        if "has to compile first" not in str(error):
+            raise
