@@ -93,7 +93,8 @@ def explain(error: "UnexpectedInput", code: str, line: Span) -> Diagnostic:
 
 
 def _at(line: Span, start: int, end: int) -> Span:
-    return Span(line.source, line.start + start, line.start + max(end, start + 1))
+    past = min(line.start + max(end, start + 1), len(line.source.text))
+    return Span(line.source, line.start + start, past)
 
 
 def _opening(code: str, line: Span) -> Diagnostic | None:
