@@ -3,15 +3,24 @@
 It comes from `robot.yaml` and travels in the bundle, checked against the mind by the compiler.
 """
 
+from collections.abc import Iterator, Set
 from dataclasses import dataclass
+from math import isfinite, nan
 from typing import Annotated
 
-from mindrun.quantity import NUMBER, RATIO, SECONDS, Quantity, Reference
+from mindrun.graph import Graph
+from mindrun.quantity import NUMBER, RATIO, Quantity, Reference
+from mindrun.readings import physical
 from mindrun.robot.contract import ActuatorDriver, SensorDriver
+from mindrun.sensors import Derivative
+from mindrun.weights import reachable
 
 ODD = Quantity("an odd number of values", {"": 1.0}, low=1, high=15, whole=True)
 HERTZ = Quantity("a rate", {"Hz": 1.0}, low=0.01, high=1000)
-A_SECOND = Quantity("a share of the travel in a second", {"": 1.0}, low=0.0)
+TIME = Quantity("a time", {"s": 1.0, "ms": 0.001}, low=1e-9, high=3600)
+TRIM = Quantity("a share of the travel", {"": 1.0, "%": 0.01}, low=-0.5, high=0.5)
+A_SECOND = Quantity("how much of the travel in a second", {"/s": 1.0}, low=0.0)
+SWITCH = Reference("switch", ("true", "false"))
 ON_FAULT = Reference("reaction", ("neutral", "hold", "blank"))
 
 
@@ -19,10 +28,10 @@ ON_FAULT = Reference("reaction", ("neutral", "hold", "blank"))
 class SensorWire:
     """How a sensor is measured.
 
-    Its reading is 0 at the value `low` and 1 at `high`, which may be the smaller one; `median` of so many values is
-    taken, `rate` times a second. What was measured more than `max_age` ago, or failed, is a fault: then every actuator
-    goes to neutral (`on_fault` "neutral"), the reading before is held for `hold` seconds more ("hold"), or it reads
-    `blank`, as where there is nothing to measure ("blank").
+    Its reading is 0 at the value `low` and 1 at `high`, which may be the smaller one; closer to `rest` than `dead_zone`
+    it is `rest`, as in training. `median` of so many values is taken, `rate` times a second. Where there is nothing to
+    measure it reads `blank`. What was measured more than `max_age` ago, or failed, is a fault: then every actuator goes
+    to neutral (`on_fault` "neutral"), the reading before is held for `hold` seconds more ("hold"), or it reads `blank`.
     """
 
     sensor: str
@@ -31,10 +40,12 @@ class SensorWire:
     high: Annotated[float, NUMBER]
     median: Annotated[int, ODD] = 1
     rate: Annotated[float, HERTZ] = 20.0
-    max_age: Annotated[float, SECONDS] = 0.25
+    max_age: Annotated[float, TIME] = 0.25
     on_fault: Annotated[str, ON_FAULT] = "neutral"
-    hold: Annotated[float, SECONDS] = 0.5
+    hold: Annotated[float, TIME] = 0.5
     blank: Annotated[float, RATIO] = 1.0
+    dead_zone: Annotated[float, RATIO] = 0.0
+    rest: Annotated[float, RATIO] = 0.0
 
 
 @dataclass(frozen=True, slots=True)
@@ -47,17 +58,60 @@ class ActuatorWire:
 
     actuator: str
     driver: ActuatorDriver
-    trim: Annotated[float, NUMBER] = 0.0
+    trim: Annotated[float, TRIM] = 0.0
     low: Annotated[float, RATIO] = 0.0
     high: Annotated[float, RATIO] = 1.0
     slew: Annotated[float, A_SECOND] = 0.0
-    reversed: bool = False
+    reversed: Annotated[bool, SWITCH] = False
 
 
 @dataclass(frozen=True, slots=True)
 class Wiring:
-    """A robot: every physical sensor and every actuator of one mind, in the order of its graph."""
+    """A robot: every actuator of one mind, and every physical sensor that its active skills read (or more of them).
+
+    Both are in the order of its graph.
+    """
 
     robot: str
     sensors: tuple[SensorWire, ...]
     actuators: tuple[ActuatorWire, ...]
+
+
+def reading(wire: SensorWire, raw: float | None) -> float:
+    """The reading of a raw value: `blank` for None; NaN, which is a fault, for what is not finite."""
+    if raw is None:
+        return wire.blank
+    share = (raw - wire.low) / (wire.high - wire.low) if isfinite(raw) else nan
+    if not isfinite(share):  # asked before it is clamped: max(0, min(1, NaN)) is 1
+        return nan
+    share = max(0.0, min(1.0, share))
+    return wire.rest if abs(share - wire.rest) < wire.dead_zone else share
+
+
+def read_by(graph: Graph, master: str) -> Set[str]:
+    """The physical sensors that `master`, or a skill that it can influence, reads, even as a derivative."""
+    sensors = {sensor.name: sensor for sensor in graph.sensors}
+    inputs = {index for skill in reachable(graph, master) for index in skill.inputs}
+    found = {s.name for s in graph.sensors if inputs & set(range(s.start, s.start + s.width))}
+    for _ in graph.sensors:  # a derivative can be of a derivative, at most so many times
+        kinds = [sensors[name].kind for name in found]
+        found |= {kind.of for kind in kinds if isinstance(kind, Derivative) and kind.of in sensors}
+    return found & physical(graph).keys()
+
+
+def flaws(wiring: Wiring, graph: Graph) -> Iterator[str]:
+    """Why a robot that is wired so cannot have this mind."""
+    sensors, actuators = physical(graph), {actuator.name: actuator.kind for actuator in graph.actuators}
+    wired = [wire.sensor for wire in wiring.sensors]
+    if wired != [name for name in sensors if name in wired] or not read_by(graph, graph.master) <= set(wired):
+        yield "its sensors are not those of the mind"
+    if [wire.actuator for wire in wiring.actuators] != list(actuators):
+        yield "its actuators are not those of the mind"
+    for wire in wiring.sensors:
+        if wire.low == wire.high:
+            yield f"sensor {wire.sensor} has no range"
+        if wire.sensor in sensors and wire.driver.readings != sensors[wire.sensor].width:
+            yield f"sensor {wire.sensor} has {sensors[wire.sensor].width} readings, its driver {wire.driver.readings}"
+    for end in wiring.actuators:
+        if end.actuator in actuators and not end.low <= actuators[end.actuator].neutral <= end.high:
+            yield f"neutral of actuator {end.actuator} is outside of its limits"
