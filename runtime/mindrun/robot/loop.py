@@ -1,0 +1,94 @@
+"""The control loop: sense, think, send, at a fixed rate. Whatever goes wrong in it, the guardian stops the robot."""
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from typing import Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mindrun.engine import Engine
+from mindrun.robot.pace import Pace
+from mindrun.robot.recording import Recorder
+from mindrun.robot.senses import Sensed, Senses
+
+BEHIND = 3  # ticks in a row that were missed, after which every actuator is neutral until one is not
+
+
+class Sends(Protocol):
+    """Takes the commands of a tick; MindError where nobody is there to obey them."""
+
+    def send(self, commands: NDArray[np.float32], armed: bool) -> None: ...
+
+
+@dataclass(frozen=True, slots=True)
+class Tick:
+    """What came of one tick; `sent` is neutral where `stopped`."""
+
+    number: int
+    time: float
+    sensed: Sensed
+    commands: NDArray[np.float32]
+    sent: NDArray[np.float32]
+    stopped: bool
+
+
+@dataclass(slots=True)
+class Loop:
+    """A mind in charge of a robot. `armed` lets the guardian move it; `tell` gets sentences as they become true."""
+
+    engine: Engine
+    senses: Senses
+    guardian: Sends
+    pace: Pace
+    armed: bool = False
+    recorder: Recorder | None = None
+    tell: Callable[[str], None] = lambda sentence: None
+    faulty: dict[str, str] = field(default_factory=dict)
+    ticks: int = 0
+    stopped: int = 0
+
+    def run(self, goes_on: Callable[[Tick], bool]) -> None:
+        """Tick until `goes_on` says no; MindError where the mind or the guardian fails."""
+        self.pace.begin()
+        while goes_on(self.tick()):
+            pass
+
+    def tick(self) -> Tick:
+        """One tick, when it is due."""
+        missed = self.pace.missed
+        time = self.pace.wait()
+        behind = self.pace.missed - missed >= BEHIND
+        sensed = self.senses.now(time)
+        self._tell(sensed)
+        commands = self.engine.tick(sensed.readings)
+        stopped = sensed.must_stop or behind
+        sent = self.neutral if stopped else commands
+        self.guardian.send(sent, self.armed)
+        done = Tick(self.ticks, time, sensed, commands, sent, stopped)
+        self._record(done)
+        self.ticks += 1
+        self.stopped += stopped
+        return done
+
+    @property
+    def neutral(self) -> NDArray[np.float32]:
+        """The neutral command of each actuator."""
+        return np.array([actuator.kind.neutral for actuator in self.engine.graph.actuators], np.float32)
+
+    def _tell(self, sensed: Sensed) -> None:
+        """Sentences for sensors that begin to be faulty, or no longer are."""
+        for name, why in sensed.why.items():
+            if name not in self.faulty:
+                self.tell(f"{name} {why}")
+        for name in self.faulty.keys() - sensed.why.keys():
+            self.tell(f"{name} is fine again")
+        self.faulty = dict(sensed.why)
+
+    def _record(self, done: Tick) -> None:
+        if self.recorder:
+            self.recorder.write(
+                tick=done.number, time=done.time, stopped=done.stopped, armed=self.armed, faults=done.sensed.faults,
+                ages=done.sensed.ages, readings=done.sensed.readings, influence=self.engine.influence,
+                commands=done.commands, sent=done.sent,
+            )  # fmt: skip

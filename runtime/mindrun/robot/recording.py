@@ -1,0 +1,138 @@
+"""What happened, tick by tick: everything that is needed to compute it again, in a file that survives a power cut.
+
+A line of JSON says what the columns are; then rows of fixed size follow, each with a checksum. A row that was cut off
+at the end is no row.
+"""
+
+import json
+import os
+import zlib
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+from types import TracebackType
+from typing import Any, Self
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mindrun.errors import MindError
+from mindrun.graph import Graph
+
+FORMAT = "mind recording 1"
+LARGEST = 1 << 20  # bytes of the line
+ROWS = 4096  # read at once
+
+
+class RecordingError(MindError):
+    """A recording that cannot be read, or was made of something else."""
+
+
+@dataclass(frozen=True, slots=True)
+class About:
+    """What a recording is of: the SHA-256 of its bundle, the master, and the names of its columns."""
+
+    bundle: str
+    master: str
+    tick: float
+    sensors: tuple[str, ...]
+    actuators: tuple[str, ...]
+    skills: tuple[str, ...]
+    readings: int
+
+    @classmethod
+    def of(cls, graph: Graph, bundle: str, sensors: tuple[str, ...]) -> Self:
+        """A recording of these wired sensors under a graph."""
+        actuators = tuple(actuator.name for actuator in graph.actuators)
+        skills = tuple(skill.name for skill in graph.skills)
+        return cls(bundle, graph.master, graph.tick, sensors, actuators, skills, graph.width)
+
+    @property
+    def row(self) -> np.dtype[Any]:
+        """A tick: its number and time, whether all had to be neutral and was armed; what was read, thought and sent."""
+        sensors, skills, actuators = (len(names) for names in (self.sensors, self.skills, self.actuators))
+        return np.dtype([
+            ("tick", "<u8"), ("time", "<f8"), ("stopped", "u1"), ("armed", "u1"),
+            ("faults", "u1", (sensors,)), ("ages", "<f4", (sensors,)), ("readings", "<f4", (self.readings,)),
+            ("influence", "<f4", (skills,)), ("commands", "<f4", (actuators,)), ("sent", "<f4", (actuators,)),
+            ("check", "<u4"),
+        ])  # fmt: skip
+
+
+class Recorder:
+    """Writes a recording; a context manager. OSError where the file cannot be written."""
+
+    def __init__(self, path: Path, about: About, every: float = 1.0) -> None:
+        self._row = np.zeros(1, about.row)
+        self._file = path.open("wb")
+        self._file.write(json.dumps({"format": FORMAT, **_plain(about)}).encode() + b"\n")
+        self._every, self._flushed = every, 0.0
+
+    def write(self, **columns: Any) -> None:
+        """A row; brought to the disk once a second."""
+        for name, value in columns.items():
+            self._row[name][0] = value
+        self._row["check"] = 0
+        self._row["check"] = zlib.crc32(self._row.tobytes())
+        self._file.write(self._row.tobytes())
+        time = float(self._row["time"][0])
+        if time - self._flushed >= self._every:
+            self._file.flush()
+            self._flushed = time
+
+    def close(self) -> None:
+        """Bring the rest to the disk."""
+        self._file.flush()
+        os.fsync(self._file.fileno())
+        self._file.close()
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, at: TracebackType | None) -> None:
+        self.close()
+
+
+def read(path: Path) -> tuple[About, Iterator[NDArray[Any]]]:
+    """What a recording is of, and its rows in parts; RecordingError where it is none, or a row is damaged."""
+    try:
+        with path.open("rb") as file:
+            about = _about(file.readline(LARGEST), path)
+            return about, _rows(path, file.tell(), about)
+    except OSError as error:
+        raise RecordingError(f"cannot read {path}: {error.strerror}") from error
+
+
+def _rows(path: Path, offset: int, about: About) -> Iterator[NDArray[Any]]:
+    size, number = about.row.itemsize, 0
+    with path.open("rb") as file:
+        file.seek(offset)
+        while data := file.read(size * ROWS):
+            rows = np.frombuffer(data[: len(data) // size * size], about.row)
+            for row in rows:
+                _check(row, path, number)
+                number += 1
+            yield rows
+
+
+def _check(row: Any, path: Path, number: int) -> None:
+    bare = row.copy()
+    bare["check"] = 0
+    if zlib.crc32(bare.tobytes()) != row["check"]:
+        raise RecordingError(f"{path} is damaged at row {number}")
+
+
+def _about(line: bytes, path: Path) -> About:
+    try:
+        plain = json.loads(line)
+        if plain.pop("format") != FORMAT:
+            raise ValueError
+        sensors, actuators, skills = (tuple(map(str, plain[name])) for name in ("sensors", "actuators", "skills"))
+        tick, readings = float(plain["tick"]), int(plain["readings"])
+        return About(str(plain["bundle"]), str(plain["master"]), tick, sensors, actuators, skills, readings)
+    except (ValueError, TypeError, KeyError, AttributeError, RecursionError) as error:
+        raise RecordingError(f"{path} is no recording of this mindrun") from error
+
+
+def _plain(about: About) -> dict[str, Any]:
+    return {name: getattr(about, name) for name in About.__slots__}

@@ -1,0 +1,54 @@
+"""A recording computed again: the same bits on any machine, or the first tick that differs."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+
+from mindrun.engine import Engine
+from mindrun.robot.recording import About, RecordingError, read
+
+
+@dataclass(frozen=True, slots=True)
+class Replayed:
+    """How many ticks were computed again, and what differs first: its tick and a sentence."""
+
+    ticks: int
+    differs: tuple[int, str] | None
+
+
+def replay(path: Path, bundle: str, engine: Engine, told: Callable[[int], None] = lambda ticks: None) -> Replayed:
+    """Compute the ticks of a recording with the mind of a bundle of that SHA-256.
+
+    RecordingError where it was made with another. A recording that says its first tick again was begun anew there.
+    """
+    about, parts = read(path)
+    _refuse_another(about, bundle, engine)
+    ticks = 0
+    for rows in parts:
+        for row in rows:
+            if row["tick"] == 0:
+                engine.reset()
+            commands = engine.tick(row["readings"])
+            if commands.tobytes() != row["commands"].tobytes():
+                return Replayed(ticks, (int(row["tick"]), _different(about.actuators, commands, row["commands"])))
+            if engine.influence.tobytes() != row["influence"].tobytes():
+                return Replayed(ticks, (int(row["tick"]), _different(about.skills, engine.influence, row["influence"])))
+            ticks += 1
+        told(ticks)
+    return Replayed(ticks, None)
+
+
+def _refuse_another(about: About, bundle: str, engine: Engine) -> None:
+    if about.bundle != bundle:
+        raise RecordingError(
+            f"this was recorded with another bundle ({about.bundle[:8]}…, not {bundle[:8]}…)",
+            "replay it with the bundle that was running",
+        )
+    if about.readings != engine.graph.width:
+        raise RecordingError(f"this has {about.readings} readings a tick, the mind {engine.graph.width}")
+
+
+def _different(names: tuple[str, ...], now: object, then: object) -> str:
+    pairs = zip(names, now, then, strict=True)  # type: ignore[call-overload]
+    name, a, b = next((name, a, b) for name, a, b in pairs if a.tobytes() != b.tobytes())
+    return f"{name} is {a:.9g} and was {b:.9g}"

@@ -1,0 +1,65 @@
+"""The contract of time: what the source declares of each sensor, beside what a recording really had."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mindrun.graph import Graph, Sensor
+from mindrun.robot.recording import read
+from mindrun.robot.senses import FINE
+from mindrun.sensors import Physical
+
+
+@dataclass(frozen=True, slots=True)
+class Line:
+    """A promise of the source, what the robot had, and whether it keeps it; times in seconds, shares of 1."""
+
+    what: str
+    declared: str
+    had: str
+    kept: bool
+
+
+def report(path: Path, graph: Graph) -> list[Line]:
+    """The lines for the tick and for every wired sensor; RecordingError where the recording cannot be read."""
+    about, parts = read(path)
+    rows = np.concatenate(list(parts) or [np.zeros(0, about.row)])
+    sensors = {sensor.name: sensor for sensor in graph.sensors}
+    lines = [*_tick(rows, graph.tick)]
+    for number, name in enumerate(about.sensors):
+        lines += _sensor(rows, number, sensors[name], graph.tick)
+    return lines
+
+
+def _tick(rows: NDArray[Any], tick: float) -> Iterator[Line]:
+    if len(rows) < 2:
+        return
+    apart = np.diff(rows["time"])
+    late = float(np.quantile(np.abs(apart - tick), 0.99))
+    missed = float((apart > 1.5 * tick).mean())
+    yield Line(
+        "tick",
+        f"{tick * 1e3:.1f} ms",
+        f"{np.median(apart) * 1e3:.1f} ms, 99 % within {late * 1e3:.1f} ms",
+        late < tick / 2,
+    )
+    yield Line("ticks missed", "0 %", f"{missed:.2%}", missed < 0.01)
+    yield Line("ticks at neutral", "0 %", f"{rows['stopped'].mean():.2%}", not rows["stopped"].any())
+
+
+def _sensor(rows: NDArray[Any], number: int, sensor: Sensor, tick: float) -> Iterator[Line]:
+    if not isinstance(sensor.kind, Physical) or not len(rows):
+        return
+    fine = rows["faults"][:, number] == FINE
+    ages = rows["ages"][fine, number]
+    lost = 1 - float(fine.mean())
+    declared = (sensor.kind.delay + sensor.kind.every - 1) * tick  # the oldest that a skill saw in training
+    yield Line(f"{sensor.name} lost", f"{sensor.kind.lost:.1%}", f"{lost:.1%}", lost <= sensor.kind.lost + 0.01)
+    if len(ages):
+        old = float(np.quantile(ages, 0.95))
+        had = f"{np.median(ages) * 1e3:.0f} ms, 95 % within {old * 1e3:.0f} ms"
+        yield Line(f"{sensor.name} delay", f"{declared * 1e3:.0f} ms", had, old <= declared + 1.1 * tick)

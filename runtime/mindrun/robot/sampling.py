@@ -1,0 +1,94 @@
+"""Sensors read outside of the control loop: a thread each, so that a slow or hung one never delays a tick."""
+
+import threading
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from math import inf, isfinite
+from time import monotonic
+
+from mindrun.robot.contract import DeviceError, SensorDevice
+from mindrun.robot.wiring import SensorWire
+
+
+@dataclass(frozen=True, slots=True)
+class Sample:
+    """What was measured: a value for each reading in natural units, None where there was nothing, and when it began.
+
+    `fault` says why there are no values; times are seconds of a monotonic clock.
+    """
+
+    values: tuple[float | None, ...]
+    at: float
+    fault: str = ""
+
+
+class Sampler:
+    """Measures one sensor again and again, in a thread of its own; `latest` is what came of it last.
+
+    A device that fails is closed and opened anew, so that one that was unplugged comes back.
+    """
+
+    def __init__(self, wire: SensorWire, clock: Callable[[], float] = monotonic) -> None:
+        self.wire = wire
+        self.latest: Sample | None = None
+        self._clock = clock
+        self._stop = threading.Event()
+        self._thread = threading.Thread(target=self._run, name=f"sensor {wire.sensor}", daemon=True)
+
+    def start(self) -> None:
+        """Begin to measure."""
+        self._thread.start()
+
+    def stop(self, wait: float = 1.0) -> None:
+        """Measure no more; a thread that hangs is left behind, it goes with the process."""
+        self._stop.set()
+        self._thread.join(wait)
+
+    def _run(self) -> None:
+        device: SensorDevice | None = None
+        due = self._clock()
+        while not self._stop.is_set():
+            device, self.latest = self._measured(device)
+            due = max(due + 1 / self.wire.rate, self._clock())
+            self._stop.wait(due - self._clock())
+        _close(device)
+
+    def _measured(self, device: SensorDevice | None) -> tuple[SensorDevice | None, Sample]:
+        """The device, open if it works, and a sample of it."""
+        began = self._clock()
+        try:
+            device = device or self.wire.driver.open()
+            began = self._clock()
+            return device, checked(device.read(), began, self.wire)
+        except DeviceError as error:
+            why = f"{error}; {error.hint}" if error.hint else str(error)
+        except Exception as error:  # a driver may fail in any way, and the robot has to know
+            why = f"{type(error).__name__}: {error}"
+        _close(device)
+        return None, Sample((), began, why)
+
+
+def checked(values: Sequence[float | None], at: float, wire: SensorWire) -> Sample:
+    """A sample of these values, or of the fault that they are."""
+    low, high = getattr(wire.driver, "possible", (-inf, inf))
+    expected = wire.driver.readings
+    if not isinstance(values, Sequence) or isinstance(values, str) or len(values) != expected:
+        return Sample((), at, f"gave {values!r:.60}, not {expected} values")
+    for value in values:
+        if value is None:
+            continue
+        if isinstance(value, bool) or not isinstance(value, int | float):
+            return Sample((), at, f"gave {value!r:.60}, which is no number")
+        if not isfinite(value):
+            return Sample((), at, f"gave {value}")
+        if not low <= value <= high:
+            return Sample((), at, f"gave {value:g}, which is not between {low:g} and {high:g}")
+    return Sample(tuple(None if value is None else float(value) for value in values), at)
+
+
+def _close(device: SensorDevice | None) -> None:
+    if device is not None:
+        try:
+            device.close()
+        except Exception:  # it is of no use any more
+            return

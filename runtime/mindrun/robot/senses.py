@@ -1,0 +1,116 @@
+"""Readings for a tick from what was measured last: filtered, and answered as declared where something is wrong."""
+
+from collections import deque
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from math import inf, nan
+from statistics import median
+from typing import Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mindrun.graph import Graph, Sensor
+from mindrun.robot.sampling import Sample
+from mindrun.robot.wiring import SensorWire, reading
+
+FINE, UNMEASURED, FAILED, STALE = range(4)  # what is wrong with a sensor in a tick
+WORDS = ("fine", "not measured yet", "failed", "too old")
+
+
+class Source(Protocol):
+    """Where samples come from."""
+
+    wire: SensorWire
+    latest: Sample | None
+
+
+@dataclass(frozen=True, slots=True)
+class Sensed:
+    """What the mind gets in a tick: `readings` [graph.width], NaN where one is missing; the rest is per wired sensor.
+
+    `must_stop` says that every actuator has to be neutral; `faults` are FINE, …; `ages` in seconds, infinite where
+    there is no sample; `why` the sentences.
+    """
+
+    readings: NDArray[np.float32]
+    must_stop: bool
+    faults: tuple[int, ...]
+    ages: tuple[float, ...]
+    why: Mapping[str, str]
+
+
+@dataclass(slots=True)
+class _State:
+    """A sensor: its last samples for the median, and its last good readings with their time."""
+
+    source: Source
+    sensor: Sensor
+    window: deque[Sample]
+    good: tuple[float, ...] = ()
+    good_at: float = -inf
+    held: list[float] = field(default_factory=list)
+
+
+class Senses:
+    """The wired sensors of a mind."""
+
+    def __init__(self, graph: Graph, sources: Sequence[Source]) -> None:
+        sensors = {sensor.name: sensor for sensor in graph.sensors}
+        self._width = graph.width
+        self._states = [
+            _State(source, sensors[source.wire.sensor], deque(maxlen=source.wire.median)) for source in sources
+        ]
+
+    def now(self, time: float) -> Sensed:
+        """The readings of a tick that begins at `time`."""
+        readings = np.zeros(self._width, np.float32)
+        faults, ages, why, must_stop = [], [], {}, False
+        for state in self._states:
+            fault, age, reason = _look(state, time)
+            values, stops = _answer(state, fault, time)
+            place = slice(state.sensor.start, state.sensor.start + state.sensor.width)
+            readings[place] = values
+            faults.append(fault)
+            ages.append(age)
+            must_stop |= stops
+            if fault != FINE:
+                why[state.source.wire.sensor] = reason
+        return Sensed(readings, must_stop, tuple(faults), tuple(ages), why)
+
+
+def _look(state: _State, time: float) -> tuple[int, float, str]:
+    """What is wrong with a sensor now, the age of its sample, and why."""
+    sample = state.source.latest
+    if sample is None:
+        return UNMEASURED, inf, "has not been measured yet"
+    age = time - sample.at
+    if age > state.source.wire.max_age:
+        return STALE, age, f"was measured {age:.2f} s ago; {sample.fault}".rstrip("; ")
+    if sample.fault:
+        return FAILED, age, sample.fault
+    if not state.window or state.window[-1] is not sample:
+        state.window.append(sample)
+        state.good, state.good_at = _filtered(state), sample.at
+    return FINE, age, ""
+
+
+def _filtered(state: _State) -> tuple[float, ...]:
+    """The readings of the median of each value over the window; nothing there counts as `blank`."""
+    wire = state.source.wire
+    columns = zip(*([reading(wire, value) for value in sample.values] for sample in state.window), strict=True)
+    return tuple(float(median(column)) for column in columns)
+
+
+def _answer(state: _State, fault: int, time: float) -> tuple[tuple[float, ...], bool]:
+    """The readings, and whether every actuator has to be neutral."""
+    wire, width = state.source.wire, state.sensor.width
+    if fault == FINE:
+        return state.good, False
+    state.window.clear()
+    match wire.on_fault:
+        case "blank":
+            return (wire.blank,) * width, False
+        case "hold" if time - state.good_at <= wire.max_age + wire.hold:
+            return state.good, False
+    return (nan,) * width, True

@@ -1,0 +1,118 @@
+"""What is recorded is computed again, bit for bit; what is damaged or foreign is refused."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from mindrun.engine import Engine
+from mindrun.robot.loop import Loop
+from mindrun.robot.pace import Pace
+from mindrun.robot.recording import About, Recorder, RecordingError, read
+from mindrun.robot.replay import replay
+from mindrun.robot.report import report
+from mindrun.robot.sampling import Sampler
+from mindrun.robot.senses import Senses
+from mindrun.robot.wiring import SensorWire
+
+from tests.robot.faults import TICK, Clock, Scripted, Sent, bus_error, graph
+
+BUNDLE = "ab" * 32
+TICKS = 300
+
+
+@pytest.fixture
+def day(tmp_path: Path) -> Path:
+    """A day of noise, of nothing there and of failures."""
+    path, of, clock = tmp_path / "day.rec", graph("range_finder"), Clock()
+    rng = np.random.default_rng(1)
+    script = [
+        bus_error if n % 40 == 39 else [None if value > 0.9 else float(value) for value in rng.random(3)]
+        for n in range(TICKS)
+    ]
+    sampler = Sampler(SensorWire("sense", Scripted(3, script), 0.0, 1.0, max_age=2 * TICK), clock)
+    with Recorder(path, About.of(of, BUNDLE, ("sense",))) as recorder:
+        loop = Loop(Engine(of, {}), Senses(of, [sampler]), Sent(), Pace(TICK, clock, clock.sleep), True, recorder)
+        loop.pace.begin()
+        device = None
+        for _ in range(TICKS):
+            device, sampler.latest = sampler._measured(device)
+            loop.tick()
+    return path
+
+
+def test_a_recording_says_what_happened(day: Path) -> None:
+    about, parts = read(day)
+    rows = np.concatenate(list(parts))
+    assert (about.sensors, about.actuators) == (("sense",), ("left_wheel", "right_wheel", "claw"))
+    np.testing.assert_array_equal(rows["tick"], np.arange(TICKS))
+    assert rows["stopped"].sum() == (rows["faults"] > 0).sum() == TICKS // 40
+    assert (rows["sent"][rows["stopped"] == 1] == [0.5, 0.5, 0]).all()
+    np.testing.assert_allclose(np.diff(rows["time"]), TICK)
+
+
+def test_it_is_computed_again_bit_for_bit(day: Path) -> None:
+    found = replay(day, BUNDLE, Engine(graph("range_finder"), {}))
+    assert (found.ticks, found.differs) == (TICKS, None)
+
+
+def test_the_first_tick_that_differs_is_said(day: Path) -> None:
+    about, _ = read(day)
+    data = bytearray(day.read_bytes())
+    offset = data.index(b"\n") + 1 + 120 * about.row.itemsize
+    row = np.frombuffer(bytes(data[offset : offset + about.row.itemsize]), about.row).copy()
+    row["commands"][0, 1] = np.nextafter(row["commands"][0, 1], np.float32(2))
+    data[offset : offset + about.row.itemsize] = resealed(row)
+    day.write_bytes(data)
+    found = replay(day, BUNDLE, Engine(graph("range_finder"), {}))
+    assert found.ticks == 120
+    assert found.differs
+    assert found.differs[0] == 120
+    assert found.differs[1] == "right_wheel is 0.899999976 and was 0.900000036"
+
+
+def resealed(row: np.ndarray) -> bytes:
+    """The row with a checksum that fits."""
+    import zlib
+
+    row["check"] = 0
+    row["check"] = zlib.crc32(row.tobytes())
+    return row.tobytes()
+
+
+def test_another_bundle_is_refused(day: Path) -> None:
+    with pytest.raises(RecordingError, match="another bundle"):
+        replay(day, "cd" * 32, Engine(graph("range_finder"), {}))
+
+
+@pytest.mark.parametrize("share", [0.01, 0.5, 0.99])
+def test_a_row_that_was_cut_off_is_no_row(day: Path, share: float) -> None:
+    day.write_bytes(day.read_bytes()[: -max(1, int(share * read(day)[0].row.itemsize))])
+    assert replay(day, BUNDLE, Engine(graph("range_finder"), {})).ticks == TICKS - 1
+
+
+def test_a_damaged_row_is_said(day: Path) -> None:
+    data = bytearray(day.read_bytes())
+    data[-read(day)[0].row.itemsize - 9] ^= 1
+    day.write_bytes(data)
+    with pytest.raises(RecordingError, match=f"is damaged at row {TICKS - 2}"):
+        replay(day, BUNDLE, Engine(graph("range_finder"), {}))
+
+
+@pytest.mark.parametrize(
+    "data", [b"", b"\n", b"{}\n", b'{"format": "mind recording 9"}\n', b"\xff\xfe", b"[" * 5000 + b"\n"]
+)
+def test_what_is_no_recording(tmp_path: Path, data: bytes) -> None:
+    (tmp_path / "x.rec").write_bytes(data)
+    with pytest.raises(RecordingError, match="is no recording"):
+        read(tmp_path / "x.rec")
+    with pytest.raises(RecordingError, match="cannot read"):
+        read(tmp_path / "none.rec")
+
+
+def test_the_report_holds_it_against_the_contract(day: Path) -> None:
+    lines = {line.what: line for line in report(day, graph("range_finder"))}
+    assert lines["tick"].kept
+    assert lines["tick"].declared == "50.0 ms"
+    assert not lines["ticks at neutral"].kept
+    assert (lines["sense lost"].declared, lines["sense lost"].kept) == ("0.0%", False)
+    assert lines["sense delay"].kept
