@@ -13,28 +13,43 @@ from pathlib import Path
 from typing import Any, NoReturn
 
 from mindrun.durable import write
-from mindrun.encoding import decode, encode
+from mindrun.encoding import decode, decode_wiring, encode
 from mindrun.errors import BundleError, WeightsError
 from mindrun.graph import Graph
+from mindrun.robot.wiring import Wiring
 from mindrun.weights import Weights, from_npy, to_npy, weights_of
 
-FORMAT = "mind bundle 1"
+# A mindrun that knows nothing of wirings refuses a bundle that has one.
+FORMAT, WIRED = "mind bundle 1", "mind bundle 2"
+WIRING = "wiring.json"
 LARGEST = 64 << 20  # bytes; nothing is compressed, so this also limits what is read
 DIGEST = 64
 
 
 @dataclass(frozen=True, slots=True)
 class Bundle:
-    """What is in a bundle: `procedures` has the text of each module by dotted name."""
+    """What is in a bundle: `procedures` has the text of each module by dotted name; not every mind has a robot."""
 
     graph: Graph
     weights: dict[str, Weights]
     procedures: dict[str, str]
+    wiring: Wiring | None = None
 
 
-def write_bundle(path: Path, graph: Graph, weights: Mapping[str, Weights], procedures: Mapping[str, str]) -> None:
+def fingerprint(wiring: Wiring) -> str:
+    """The SHA-256 by which a robot knows its wiring; it stands in the manifest, too."""
+    return sha256(_json(encode(wiring))).hexdigest()
+
+
+def write_bundle(
+    path: Path,
+    graph: Graph,
+    weights: Mapping[str, Weights],
+    procedures: Mapping[str, str],
+    wiring: Wiring | None = None,
+) -> None:
     """Write a mind to one file, which replaces an older one only when it is whole; the same mind, the same bytes."""
-    data = pack(Bundle(graph, dict(weights), dict(procedures)))
+    data = pack(Bundle(graph, dict(weights), dict(procedures), wiring))
     unpack(data)  # nothing is written that cannot be read
     write(path, data)
 
@@ -57,13 +72,15 @@ def pack(bundle: Bundle) -> bytes:
     members = {"graph.json": _json(encode(bundle.graph))}
     members |= {f"weights/{skill}.npy": to_npy(weights) for skill, weights in bundle.weights.items()}
     members |= {_module_member(module): text.encode() for module, text in bundle.procedures.items()}
+    if bundle.wiring:
+        members[WIRING] = _json(encode(bundle.wiring))
     manifest = {
-        "format": FORMAT,
+        "format": WIRED if bundle.wiring else FORMAT,
         "master": bundle.graph.master,
         "members": {name: sha256(content).hexdigest() for name, content in members.items()},
         "skills": sorted(bundle.weights),
         "procedures": sorted(bundle.procedures),
-    }
+    } | ({"wiring": fingerprint(bundle.wiring)} if bundle.wiring else {})
     file = BytesIO()
     with zipfile.ZipFile(file, "w", zipfile.ZIP_STORED) as archive:
         for name, content in [("manifest.json", _json(manifest)), *sorted(members.items())]:
@@ -103,8 +120,11 @@ def _members(data: bytes) -> dict[str, bytes]:
 
 def _bundle(members: dict[str, bytes]) -> Bundle:
     manifest = _parsed(members.pop("manifest.json"))
-    if manifest["format"] != FORMAT:
-        raise BundleError(f"this is a {manifest['format']!r}, this mindrun reads a {FORMAT!r}: build it again")
+    if manifest["format"] not in (FORMAT, WIRED):
+        raise BundleError(
+            f"this is a {manifest['format']!r}, this mindrun reads {FORMAT!r} and {WIRED!r}: "
+            "build it again, or install the mindrun of the mindc that built it"
+        )
     if manifest["members"] != {name: sha256(content).hexdigest() for name, content in members.items()}:
         raise BundleError("this bundle's files are not those of its manifest")
     graph = decode(_parsed(members["graph.json"]))
@@ -113,7 +133,17 @@ def _bundle(members: dict[str, bytes]) -> Bundle:
         if skill.name in weights:
             weights_of(skill, weights)
     procedures = {module: members[_module_member(module)].decode() for module in manifest["procedures"]}
-    return Bundle(graph, weights, procedures)
+    return Bundle(graph, weights, procedures, _wiring(manifest, members, graph))
+
+
+def _wiring(manifest: Any, members: dict[str, bytes], graph: Graph) -> Wiring | None:
+    """What is wired to what, where the bundle is for a robot."""
+    if manifest["format"] == FORMAT:
+        return None
+    wiring = decode_wiring(_parsed(members[WIRING]), graph)
+    if manifest["wiring"] != fingerprint(wiring):
+        raise BundleError("this bundle's wiring is not that of its manifest")
+    return wiring
 
 
 def _entry(name: str) -> zipfile.ZipInfo:

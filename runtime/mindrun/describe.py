@@ -3,9 +3,11 @@
 from collections.abc import Iterator
 from typing import Any
 
-from mindrun.bundle import Bundle
+from mindrun.bundle import Bundle, fingerprint
+from mindrun.encoding import encode
 from mindrun.readings import physical
 from mindrun.registry import names
+from mindrun.robot.wiring import Wiring
 
 
 def describe(bundle: Bundle) -> str:
@@ -30,6 +32,17 @@ def contents(bundle: Bundle) -> dict[str, Any]:
             for s in graph.skills
         ],
         "procedures": sorted(bundle.procedures),
+        **({"robot": _robot(bundle.wiring)} if bundle.wiring else {}),
+    }
+
+
+def _robot(wiring: Wiring) -> dict[str, Any]:
+    """The wiring as it stands in the bundle; of each sensor the unit of its values, too."""
+    return {
+        "name": wiring.robot,
+        "wiring": fingerprint(wiring),
+        "sensors": [{**encode(wire), "unit": wire.driver.unit} for wire in wiring.sensors],
+        "actuators": [encode(wire) for wire in wiring.actuators],
     }
 
 
@@ -49,6 +62,24 @@ def _lines(found: dict[str, Any]) -> Iterator[str]:
     for part in found["skills"]:
         weights = f", {_many(part['weights'], 'weight')}" if part["weights"] else ""
         yield f"skill {part['name']} is {part['kind']}: {_many(part['inputs'], 'input')}{weights}"
+    if "robot" in found:
+        yield from _wires(found["robot"])
+
+
+def _wires(robot: dict[str, Any]) -> Iterator[str]:
+    yield f"robot {robot['name']}, wiring {robot['wiring'][:12]}"
+    for wire in robot["sensors"]:
+        median = f", the median of {wire['median']}" if wire["median"] > 1 else ""
+        values = f"{wire['low']:g} to {wire['high']:g} {wire['unit']}".rstrip()
+        yield (
+            f"sensor {wire['sensor']} is wired to {wire['driver']['is']}: {values}, {wire['rate']:g} Hz{median}, "
+            f"{wire['on_fault']} when older than {wire['max_age']:g} s"
+        )
+    for wire in robot["actuators"]:
+        slew = f", at most {wire['slew']:g} a second" if wire["slew"] else ""
+        turned = ", reversed" if wire["reversed"] else ""
+        limits = f"{wire['low']:g} to {wire['high']:g}"
+        yield f"actuator {wire['actuator']} is wired to {wire['driver']['is']}: {limits}{slew}{turned}"
 
 
 def _many(count: int, noun: str) -> str:

@@ -1,18 +1,23 @@
-"""A graph as plain data for JSON, and back: the dataclasses say what must stand there, and nothing else may."""
+"""A graph or a wiring as plain data for JSON, and back: the dataclasses say what must stand there, nothing else may."""
 
 from collections.abc import Mapping
 from dataclasses import fields, is_dataclass
+from importlib import import_module
 from math import isfinite
 from types import NoneType, UnionType
 from typing import Annotated, Any, TypeVar, Union, get_args, get_origin, get_type_hints
 
-from mindrun.errors import BundleError
+from mindrun.errors import BundleError, MindError
 from mindrun.graph import Graph
 from mindrun.quantity import Quantity, Reference
-from mindrun.registry import names
+from mindrun.registry import kinds, names
+from mindrun.robot.contract import ActuatorDriver, SensorDriver
+from mindrun.robot.wiring import Wiring, flaws
 from mindrun.sound import flaw
 
 T = TypeVar("T")
+
+DRIVERS: Mapping[Any, str] = {SensorDriver: "sensor driver", ActuatorDriver: "actuator driver"}  # nouns of the registry
 
 
 def encode(value: object) -> Any:
@@ -35,6 +40,16 @@ def decode(data: object) -> Graph:
     return graph
 
 
+def decode_wiring(data: object, graph: Graph) -> Wiring:
+    """The wiring that `encode` made this data of; BundleError where it is damaged, or one for another mind."""
+    import_module("mindrun.robot.drivers")  # registers them all; a mind without a robot needs none
+
+    wiring = decode_part(Wiring, data, "wiring")
+    for found in flaws(wiring, graph):
+        raise BundleError(f"this wiring does not fit its mind: {found}")
+    return wiring
+
+
 def decode_part(hint: type[T], data: object, where: str) -> T:
     """A part of a graph that `encode` made this data of; BundleError where it is not a `hint`."""
     part: T = _decode(hint, data, where)
@@ -50,6 +65,8 @@ def _decode(hint: Any, data: Any, where: str) -> Any:
         return _decode_union(parts, data, where)
     if origin is tuple:
         return _decode_tuple(parts, data, where)
+    if hint in DRIVERS:
+        return _decode_driver(DRIVERS[hint], data, where)
     if isinstance(hint, type) and is_dataclass(hint):
         return _decode_fields(hint, data, where)
     return _decode_plain(hint, data, where)
@@ -74,6 +91,17 @@ def _decode_union(hints: tuple[Any, ...], data: Any, where: str) -> Any:
     if len(hints) != 1:
         raise BundleError(f"this graph is damaged: {where} is of an unknown kind")
     return _decode(hints[0], data, where)
+
+
+def _decode_driver(noun: str, data: Any, where: str) -> Any:
+    """A driver: the same name can stand for a sensor's and for an actuator's."""
+    name = data.get("is") if isinstance(data, Mapping) else None
+    if not isinstance(name, str) or name not in kinds(noun):
+        raise BundleError(f"{where} is {name!r:.60}, which is no {noun} of this mindrun")
+    try:
+        return _decode_fields(kinds(noun)[name], data, where)
+    except (MindError, ValueError) as error:
+        raise error if isinstance(error, BundleError) else BundleError(f"{where} cannot be so: {error}") from error
 
 
 def _decode_tuple(hints: tuple[Any, ...], data: Any, where: str) -> tuple[Any, ...]:

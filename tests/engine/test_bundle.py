@@ -5,6 +5,7 @@ import zipfile
 from contextlib import suppress
 from dataclasses import replace
 from hashlib import sha256
+from io import BytesIO
 from pathlib import Path
 
 import numpy as np
@@ -12,12 +13,15 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from mindrun.actuators import Wheel
-from mindrun.bundle import Bundle, pack, read_bundle, unpack, write_bundle
-from mindrun.encoding import decode, encode
+from mindrun.bundle import Bundle, fingerprint, pack, read_bundle, unpack, write_bundle
+from mindrun.describe import contents, describe
+from mindrun.encoding import decode, decode_wiring, encode
 from mindrun.engine import Engine
 from mindrun.errors import BundleError
 from mindrun.functions import Mlp, Procedure
 from mindrun.graph import Graph
+from mindrun.robot.drivers.mock import MockActuator, MockSensor
+from mindrun.robot.wiring import ActuatorWire, SensorWire, Wiring
 from mindrun.weights import genes
 
 from tests.hierarchies import random_graph
@@ -31,6 +35,15 @@ def example() -> Bundle:
     grip = skill("Grip", Procedure("parts.claw.grip"), (0,), ("actuator", 1))
     weights = {"Go+On": np.arange(genes(go), dtype=np.float32)}
     return Bundle(mind(top, go, grip), weights, {"parts.claw": "def grip(r): return r"})
+
+
+def wired() -> Bundle:
+    """The same for a robot."""
+    sensor = SensorWire("r0", MockSensor(0.25), 0.0, 2.0, median=3, on_fault="hold", blank=0.5)
+    ends = (ActuatorWire("left_wheel", MockActuator(), trim=0.01), ActuatorWire("right_wheel", MockActuator()))
+    bundle = example()
+    ends += (ActuatorWire("claw", MockActuator(), low=0.25, slew=2.0, reversed=True),)
+    return replace(bundle, wiring=Wiring("test", (sensor,), ends[: len(bundle.graph.actuators)]))
 
 
 @given(random_graph(fewest_hidden=1), st.integers(0, 2**32 - 1))
@@ -134,3 +147,94 @@ def _places(tree: object) -> list[tuple[dict | list, str | int]]:
     """Every place of a JSON tree."""
     keys = tree.keys() if isinstance(tree, dict) else range(len(tree)) if isinstance(tree, list) else ()
     return [(tree, key) for key in keys] + [place for key in keys for place in _places(tree[key])]
+
+
+def test_a_wiring_travels_with_its_mind(tmp_path: Path) -> None:
+    bundle = wired()
+    assert bundle.wiring
+    write_bundle(tmp_path / "a.bundle", bundle.graph, bundle.weights, bundle.procedures, bundle.wiring)
+    back = read_bundle(tmp_path / "a.bundle")
+    assert back.wiring == bundle.wiring
+    assert pack(back) == pack(bundle)
+    with zipfile.ZipFile(tmp_path / "a.bundle") as archive:
+        manifest = json.loads(archive.read("manifest.json"))
+        assert manifest["wiring"] == sha256(archive.read("wiring.json")).hexdigest() == fingerprint(bundle.wiring)
+
+
+def test_a_mind_without_a_robot_is_the_bundle_that_it_always_was() -> None:
+    with zipfile.ZipFile(BytesIO(pack(example()))) as archive:
+        manifest = json.loads(archive.read("manifest.json"))
+        assert manifest["format"] == "mind bundle 1"
+        assert "wiring" not in manifest
+        assert "wiring.json" not in archive.namelist()
+
+
+def test_a_wiring_is_described() -> None:
+    bundle = wired()
+    assert bundle.wiring
+    lines = describe(bundle).splitlines()
+    assert f"robot test, wiring {fingerprint(bundle.wiring)[:12]}" in lines
+    assert "sensor r0 is wired to mock: 0 to 2, 20 Hz, the median of 3, hold when older than 0.25 s" in lines
+    assert "actuator left_wheel is wired to mock: 0 to 1" in lines
+    assert contents(bundle)["robot"]["sensors"][0]["driver"]["value"] == 0.25
+    assert "robot" not in contents(example())
+
+
+WRONG_WIRES = {
+    "sensors": lambda wiring: replace(wiring, sensors=()),
+    "actuators": lambda wiring: replace(wiring, actuators=wiring.actuators[::-1]),
+    "readings": lambda wiring: with_sensor(wiring, driver=MockSensor(count=2)),
+    "no range": lambda wiring: with_sensor(wiring, high=0.0),
+    "median cannot be 99": lambda wiring: with_sensor(wiring, median=99),
+    "on_fault cannot be panic": lambda wiring: with_sensor(wiring, on_fault="panic"),
+    "neutral": lambda wiring: replace(wiring, actuators=(replace(wiring.actuators[0], low=0.6), *wiring.actuators[1:])),
+}
+
+
+def with_sensor(wiring: Wiring, **changes: object) -> Wiring:
+    return replace(wiring, sensors=(replace(wiring.sensors[0], **changes),))
+
+
+@pytest.mark.parametrize("why", WRONG_WIRES)
+def test_a_wiring_of_another_mind_is_refused(why: str) -> None:
+    bundle = wired()
+    with pytest.raises(BundleError, match=why):
+        unpack(pack(replace(bundle, wiring=WRONG_WIRES[why](bundle.wiring))))
+
+
+def test_a_driver_that_this_mindrun_does_not_have_is_named() -> None:
+    tree = json.loads(json.dumps(encode(wired().wiring)))
+    tree["sensors"][0]["driver"]["is"] = "sonar"
+    with pytest.raises(BundleError, match=r"driver is 'sonar', which is no sensor driver of this mindrun"):
+        decode_wiring(tree, wired().graph)
+
+
+@given(st.data())
+@settings(max_examples=300)
+def test_a_changed_wiring_is_read_or_refused(data: st.DataObject) -> None:
+    tree = json.loads(json.dumps(encode(wired().wiring)))
+    node, key = data.draw(st.sampled_from(_places(tree)))
+    node[key] = data.draw(
+        st.one_of(st.none(), st.booleans(), st.integers(-3, 10**30), st.floats(), st.text(max_size=3), st.just([]))
+    )
+    with suppress(BundleError):
+        decode_wiring(tree, wired().graph)
+
+
+def test_a_newer_bundle_is_refused_in_words() -> None:
+    with pytest.raises(BundleError, match=r"'mind bundle 3'.*install the mindrun of the mindc that built it"):
+        unpack(forged(pack(wired()), b"mind bundle 2", b"mind bundle 3"))
+
+
+def forged(data: bytes, old: bytes, new: bytes) -> bytes:
+    """A bundle in which a text of the manifest is another one, with the sums of the zip and the hash made right."""
+    with zipfile.ZipFile(BytesIO(data)) as archive:
+        members = {name: archive.read(name) for name in archive.namelist()}
+    members["manifest.json"] = members["manifest.json"].replace(old, new)
+    file = BytesIO()
+    with zipfile.ZipFile(file, "w") as archive:
+        for name, content in members.items():
+            archive.writestr(name, content)
+        archive.comment = bytes(64)
+    body = file.getvalue()[:-64]
+    return body + sha256(body).hexdigest().encode()
