@@ -14,7 +14,7 @@ from mindlang.server.view import View
 from mindlang.server.wire import Wire
 
 Report = tuple[int | None, list[types.Diagnostic]]
-MOST = 20  # edits whose locks are looked after
+MOST = 8  # edits whose locks are looked after
 
 
 @dataclass

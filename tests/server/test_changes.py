@@ -177,6 +177,31 @@ def test_an_editor_that_knows_no_more_than_texts(tmp_path: Path) -> None:
         assert "cannot make files" in editor.messages[-1]
 
 
+def test_neighbours_count_as_they_are_in_the_editor(tmp_path: Path) -> None:
+    path, other = write_mind(tmp_path.resolve()), tmp_path.resolve() / "other.mind"
+    other.write_text(OTHER, encoding="utf-8")
+    desk = Desk({path: MIND, other: "# above\n" + OTHER.replace("influences Go", "influences Avoid")})
+    outcome = perform(desk, path, "rename", {"old": "Go", "new": "Come", "noun": "skill"})
+    assert {splice.source.path for splice in outcome.change.splices} == {path}
+    outcome = perform(desk, path, "rename", {"old": "Avoid", "new": "Dodge", "noun": "skill"})
+    (splice,) = (splice for splice in outcome.change.splices if splice.source.path == other)
+    assert desk.texts[other][splice.start : splice.end] == "Avoid"
+    desk.texts[other] += "\nskill Come is rule\n  drives claw at 1\n"
+    with pytest.raises(EditError, match="already a skill called Come"):
+        perform(desk, path, "rename", {"old": "Go", "new": "Come", "noun": "skill"})
+
+
+def test_what_would_break_a_neighbour_is_refused(tmp_path: Path) -> None:
+    path, other = write_mind(tmp_path.resolve()), tmp_path.resolve() / "other.mind"
+    other.write_text(OTHER, encoding="utf-8")
+    text = MIND.replace("  influences Go\n", "").replace("  teaches Go on Roam for 3 generations\n", "")
+    desk = Desk({path: text})
+    with pytest.raises(EditError, match=r"other\.mind no longer compiles"):
+        perform(desk, path, "remove", {"what": ["skill", "Go"]})
+    desk.texts[other] = OTHER.replace("influences Go", "influences Avoid")
+    assert perform(desk, path, "remove", {"what": ["skill", "Go"]}).change.splices
+
+
 def everywhere(path: Path, text: str) -> tuple[Desk, list[Proposal]]:
     """The proposals on every line, and for every declaration as a whole, each once."""
     desk = Desk({path: text})

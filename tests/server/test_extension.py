@@ -1,0 +1,63 @@
+"""The VS Code extension: all of its parts are there, and it packages."""
+
+import json
+import re
+import shutil
+import subprocess
+import tomllib
+from pathlib import Path
+
+import pytest
+
+from mindlang.server import commands
+from tests.language.examples import ROOT
+
+FOLDER = ROOT / "editors" / "vscode"
+PACKAGE = json.loads((FOLDER / "package.json").read_text(encoding="utf-8"))
+SCRIPT = (FOLDER / "extension.js").read_text(encoding="utf-8")
+
+
+def test_what_it_names_is_there() -> None:
+    contributes = PACKAGE["contributes"]
+    named = [PACKAGE["icon"], *(each["path"] for each in contributes["grammars"])]
+    named += [each["configuration"] for each in contributes["languages"]]
+    shipped = re.findall(r"^!(.*)$", (FOLDER / ".vscodeignore").read_text(), re.MULTILINE)
+    for path in map(Path, named):
+        assert (FOLDER / path).is_file()
+        assert path.as_posix() in shipped
+    assert json.loads((FOLDER / "language-configuration.json").read_text())["comments"] == {"lineComment": "#"}
+
+
+def test_it_is_of_this_version_and_licence() -> None:
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]
+    assert (PACKAGE["version"], PACKAGE["license"]) == (project["version"], project["license"])
+    assert (FOLDER / "LICENSE").read_text() == (ROOT / "LICENSE").read_text()
+    assert json.loads((FOLDER / "package-lock.json").read_text())["version"] == PACKAGE["version"]
+
+
+def test_its_commands_are_its_own_and_the_server_s() -> None:
+    own = {each["command"] for each in PACKAGE["contributes"]["commands"]}
+    assert set(re.findall(r'registerCommand\("([\w.]+)"', SCRIPT)) == own
+    assert own.isdisjoint({commands.EDIT, commands.EDITS})  # the client makes those of the server itself
+    assert {commands.EDIT, commands.EDITS} <= set(re.findall(r'"(mind\.\w+)"', SCRIPT))
+
+
+def test_a_folder_that_is_not_trusted_does_not_say_what_is_run() -> None:
+    trust = PACKAGE["capabilities"]["untrustedWorkspaces"]
+    assert (trust["supported"], trust["restrictedConfigurations"]) == ("limited", ["mind.path"])
+
+
+@pytest.mark.skipif(not shutil.which("node"), reason="there is no node")
+def test_its_script_can_be_read() -> None:
+    subprocess.run(["node", "--check", FOLDER / "extension.js"], check=True)
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(not shutil.which("npm"), reason="there is no npm")
+def test_it_packages(tmp_path: Path) -> None:
+    folder = tmp_path / "vscode"
+    shutil.copytree(FOLDER, folder, ignore=shutil.ignore_patterns("node_modules", "dist", "*.vsix"))
+    subprocess.run(["npm", "ci", "--no-audit", "--no-fund"], cwd=folder, check=True)
+    subprocess.run(["npm", "run", "package"], cwd=folder, check=True)
+    (made,) = folder.glob("*.vsix")
+    assert made.stat().st_size < 200_000
