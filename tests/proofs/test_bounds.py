@@ -70,6 +70,7 @@ def commanded(claim: OfActuator, total: np.ndarray, command: np.ndarray) -> None
     assert (total[driven] <= claim.driven.total.high).all()
     meant = driven & (total >= TINY) if claim.is_rough else driven
     low, high = claim.command
+    assert driven.all() or low <= claim.actuator.kind.neutral <= high
     assert ((low <= command[meant]) & (command[meant] <= high)).all()
 
 
@@ -186,6 +187,14 @@ def test_a_number_that_may_be_none_may_not_be_sent() -> None:
     assert claim.tried.readings is not None
     with np.errstate(all="ignore"):
         assert Engine(graph, {}).tick(claim.tried.readings)[0] == 0.5
+
+
+def test_a_divisor_that_passes_through_zero() -> None:
+    """0.1 / (r − 1/2) is −0.2 and 0.2 in the corners, and anything at all between."""
+    value = (("number", 0.1), ("reading", 0), ("number", 0.5), ("-", 0), ("/", 0))
+    graph = mind(rule("Top", Edge("actuator", 0, None, value), reads=(0,)))
+    sends = reach(graph, {}).edges["Top"][0]
+    assert (sends.low, sends.high, sends.sure) == (0, 1, False)
 
 
 def test_the_sigmoid_falls_less_than_the_margin() -> None:

@@ -50,7 +50,7 @@ def squeezed(text: str) -> str:
     lines = [line.rstrip() for line in text.splitlines()]
     return "\n".join(
         line
-        if line.startswith("  ") or "  rests on the " in line and not line.startswith("actuator")
+        if line.startswith("  ") or ("  rests on the " in line and not line.startswith("actuator"))
         else " ".join(line.split())
         for line in lines
     )
