@@ -1,0 +1,114 @@
+"""One world whose robot is commanded from outside: what training simulates, for an engine that runs elsewhere."""
+
+from collections import Counter
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from mindrun.errors import MindError
+from mindrun.events import Event
+from mindrun.functions import Rule
+from mindrun.graph import Graph
+from mindrun.registry import names
+from mindrun.sim.lanes.stages import after, before
+from mindrun.sim.rollout import Rollout
+from mindrun.sim.state import Jobs
+
+TIME = "time"  # what ends a run that nothing else has ended
+
+
+class World:
+    """A task's world in one lane, for a mind with `master` (default: its own) in charge.
+
+    Under the commands that this mind computes from `readings`, it is bit for bit the run that `Rollout` makes of the
+    seed. As there, a sensor that nobody reads is not measured and reads 0: its noise would draw random numbers.
+    """
+
+    def __init__(self, graph: Graph, task: str, seed: int, master: str | None = None) -> None:
+        master = master or graph.master
+        _check("task", task, [known.name for known in graph.tasks])
+        _check("skill", master, [skill.name for skill in graph.skills])
+        # No skill runs in here, so none needs its weights or its procedure: what they read is all that counts.
+        silent = replace(graph, skills=tuple(replace(skill, function=Rule()) for skill in graph.skills))
+        self.graph = graph
+        self._rollout = Rollout(silent, {}, task, master)
+        self._tables = self._rollout.tables
+        self._tile = self._rollout.tile(1)
+        self._state = self._tile.state
+        self._jobs = self._begun([])
+        before(self._tables, self._state, self._jobs)  # both compile now, not in the first ticks
+        after(self._tables, self._state, self._jobs, True)
+        self.begin(seed)
+
+    def begin(self, seed: int) -> None:
+        """Begin the run of a seed; only where none has begun or the last one has ended."""
+        assert self._jobs.lanes[0] == 0
+        self.seed = seed
+        self._happened = np.zeros(len(self._rollout.task.events), np.int64)
+        self._jobs = self._begun([seed])
+        before(self._tables, self._state, self._jobs)
+
+    def readings(self) -> NDArray[np.float32]:
+        """What every sensor reads now [graph.width]; memories and what derives from them are the engine's to fill in.
+
+        When the run has ended: what they read last.
+        """
+        return self._state.readings[: self.graph.width, 0].copy()
+
+    def step(self, commands: ArrayLike) -> None:
+        """One tick under these commands [actuators]; one that is not finite is neutral. Nothing once it has ended."""
+        if self.ended is not None:
+            return
+        s, sinks = self._state, len(self._state.sums) // 2
+        given = np.asarray(commands, np.float32)
+        s.sums[: len(given), 0] = given  # Eq. 3 with the influence 1 gives back the command itself
+        s.sums[sinks : sinks + len(given), 0] = 1.0
+        after(self._tables, s, self._jobs, True)
+        self._happened += s.events[: len(self._happened), 0].astype(np.int64)
+        if self.ended is None:
+            before(self._tables, s, self._jobs)
+
+    @property
+    def tick(self) -> int:
+        """How many ticks the run has lasted."""
+        return int(self._state.tick[0])
+
+    @property
+    def pose(self) -> tuple[float, float, float]:
+        """The robot's x, y and angle."""
+        x, y, angle = self._state.body[:3, 0].tolist()
+        return x, y, angle
+
+    @property
+    def events(self) -> dict[str, int]:
+        """How often each event of the task has happened in this run."""
+        counts: Counter[str] = Counter()
+        for event, happened in zip(self._rollout.task.events, self._happened.tolist(), strict=True):
+            counts[_written(event)] += happened
+        return dict(counts)
+
+    @property
+    def ended(self) -> str | None:
+        """The event that has ended the run, or "time"; None while it goes on."""
+        if self._jobs.lanes[0] > 0:
+            return None
+        event = int(self._state.ended[0])
+        return _written(self._rollout.task.events[event]) if event >= 0 else TIME
+
+    def _begun(self, seeds: Sequence[int]) -> Jobs:
+        jobs = self._rollout.jobs(np.zeros((len(seeds), 0), np.float32), np.array(seeds, np.uint64))
+        self._rollout.fill(self._tile, jobs)
+        return jobs
+
+
+def _written(event: Event) -> str:
+    """An event as a mind writes it, without its numbers: "reach of ball"."""
+    of = getattr(event, "of", "")
+    return f"{names()[type(event)]} of {of}" if of else names()[type(event)]
+
+
+def _check(noun: str, name: str, known: Sequence[str]) -> None:
+    if name not in known:
+        raise MindError(f"there is no {noun} {name}", f"There is {', '.join(known)}." if known else "")
