@@ -11,7 +11,8 @@ from mindlang.editing.catalog import edit, names
 from mindlang.editing.project import EditError
 from mindlang.server.changing import Outcome, project
 from mindlang.server.mending import Mending, all_mended, mendings
-from mindlang.server.proposals import Proposal, Selection, proposals
+from mindlang.server.proposals import Proposal, proposals
+from mindlang.server.selection import Selection
 from mindlang.server.server import MindServer, failed
 from mindlang.source import Source, Span
 from mindlang.splice import Splice, spliced

@@ -2,16 +2,16 @@
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
-from pathlib import Path
 from typing import Any
 
 from mindlang.diagnostic import listed
 from mindlang.editing.project import EditError, Project, facts, kind_of
 from mindlang.server.changing import proposed
 from mindlang.server.fresh import fresh_file, fresh_title, new_skill
+from mindlang.server.selection import Selection
 from mindlang.server.targets import connectable, lesson, not_yet_below, replacements
 from mindlang.server.view import fact_at, on_line
-from mindlang.syntax import Declaration, Drives, Fact, Influences, Reads, Stays
+from mindlang.syntax import Declaration, Drives, Influences, Reads, Stays
 
 
 @dataclass(frozen=True, slots=True)
@@ -23,32 +23,6 @@ class Proposal:
     arguments: dict[str, Any] = field(default_factory=dict)
     fresh: str = ""
     kind: str = "refactor.rewrite"
-
-
-@dataclass(frozen=True, slots=True)
-class Selection:
-    """What is selected of a file: from offset `start` up to `end`, which is the same where the cursor just stands."""
-
-    project: Project
-    path: Path
-    start: int
-    end: int
-
-    @property
-    def declarations(self) -> list[Declaration]:
-        """The declarations of the file whose headers are selected."""
-        return [each for each in self._own if self.start <= each.header.span.start and each.header.span.end <= self.end]
-
-    @property
-    def declaration(self) -> Declaration | None:
-        """The declaration on one of whose lines the selection begins."""
-        lines = ((each, span) for each in self._own for span in [each.header.span, *(f.span for f in each.facts)])
-        return next((each for each, span in lines if on_line(span, self.start)), None)
-
-    @property
-    def _own(self) -> tuple[Declaration, ...]:
-        file = self.project.paths.get(self.path)
-        return file.declarations if file else ()
 
 
 def proposals(selection: Selection) -> list[Proposal]:
@@ -137,17 +111,13 @@ def _of_lines(selection: Selection) -> Iterator[Proposal]:
     declaration = selection.declaration
     if declaration is None or declaration.header.noun.text != "skill":
         return
-    edges = [fact for fact in facts(declaration, Influences) if _is_in(fact, selection)]
+    edges = [fact for fact in facts(declaration, Influences) if selection.touches(fact)]
     if chosen := [fact.name.text for fact in edges]:
         new = fresh_title(selection.project, "New" + "+".join(chosen))
         is_rule = all(fact.at for fact in edges) or "is_" in _function(declaration)
         is_ = {"is_": "rule"} if is_rule else {}
         arguments = {"parent": declaration.header.name.text, "new": new, "subskills": chosen, **is_}
         yield Proposal(f"Put {listed(chosen, 'and')} under a new skill", "extract", arguments, new, "refactor.extract")
-
-
-def _is_in(fact: Fact, selection: Selection) -> bool:
-    return on_line(fact.span, selection.start) or (selection.start <= fact.span.end and fact.span.start < selection.end)
 
 
 def _of_file(selection: Selection) -> Iterator[Proposal]:

@@ -274,3 +274,12 @@ def test_an_empty_file(shared) -> None:
     assert "skill" in labels(editor, path, "", 0)
     assert editor.ask("textDocument/documentSymbol", {"textDocument": {"uri": uri(path)}}) == []
     editor.close(path)
+
+
+def test_an_editor_may_count_in_bytes(tmp_path: Path) -> None:
+    path = tmp_path.resolve() / "a.mind"
+    with editing(tmp_path, capabilities={"general": {"positionEncodings": ["utf-8"]}}) as editor:
+        assert editor.capabilities["positionEncoding"] == "utf-8"
+        editor.open(path, 'use "é😀.mind" é\n')
+        (found,) = editor.settle(path)
+        assert found["range"]["start"]["character"] == len('use "é😀.mind" '.encode())

@@ -1,0 +1,119 @@
+"""What may be written in a fact, by its verb and the words that stand behind it."""
+
+from collections.abc import Callable, Mapping, Sequence
+
+from mindrun.registry import kinds
+
+from mindlang.editing.references import DRIVEN, READ
+from mindlang.server import offers, rewarding
+from mindlang.server.offers import NUMBER, Offer, arguments_of, kinds_of, names, units, words
+from mindlang.server.sentence import Line
+from mindlang.syntax import Drives, Influences, Reads
+
+Answer = Callable[[Line, Sequence[str]], list[Offer]]
+
+
+def _reads(line: Line, rest: Sequence[str]) -> list[Offer]:
+    return [] if rest else names(line.view, *READ, but=line.said(Reads))
+
+
+def _drives(line: Line, rest: Sequence[str]) -> list[Offer]:
+    return _at(line, rest) if rest else names(line.view, *DRIVEN, but=line.said(Drives))
+
+
+def _influences(line: Line, rest: Sequence[str]) -> list[Offer]:
+    own = {line.above.header.name.text} if line.above else set()
+    return _at(line, rest) if rest else names(line.view, "skill", but=own | line.said(Influences))
+
+
+def _at(line: Line, rest: Sequence[str]) -> list[Offer]:
+    """After the name of an edge: `at`, and an expression of what the skill reads."""
+    if len(rest) == 1:
+        return words("at")
+    if rest[-1] == "at" or rest[-1] in "+-*/(":
+        read = line.said(Reads)
+        return [offer for offer in names(line.view, *READ) if offer.label in read]
+    return []
+
+
+def _contains(line: Line, rest: Sequence[str]) -> list[Offer]:
+    match rest:
+        case [_]:
+            return words("is")
+        case [_, "is"]:
+            return kinds_of("content")
+        case [_, "is", kind, *said]:
+            return arguments_of(line.view, "content", kind, said, line.above)
+    return []
+
+
+def _event(line: Line, rest: Sequence[str]) -> list[Offer]:
+    return arguments_of(line.view, "event", rest[0], rest[1:], line.above) if rest else kinds_of("event")
+
+
+def _ends(line: Line, rest: Sequence[str]) -> list[Offer]:
+    return _event(line, rest[1:]) if rest else words("on")
+
+
+def _rewards(line: Line, rest: Sequence[str]) -> list[Offer]:
+    return rewarding.offered(line.view, line.above, rest)
+
+
+def _teaches(line: Line, rest: Sequence[str]) -> list[Offer]:
+    match rest:
+        case []:
+            return names(line.view, "skill")
+        case [_]:
+            return words("on")
+        case [_, "on"]:
+            return names(line.view, "task")
+        case [_, "on", _]:
+            return words("for", "under")
+        case [_, "on", _, "under"]:
+            return names(line.view, "skill")
+        case [_, "on", _, "under", _]:
+            return words("for")
+        case [_, "on", _, "for", *said] | [_, "on", _, "under", _, "for", *said]:
+            return _lesson(line, said)
+    return []
+
+
+def _lesson(line: Line, rest: Sequence[str]) -> list[Offer]:
+    """After `for`: a number of generations, and then what a lesson may say beside."""
+    match rest:
+        case []:
+            return []
+        case [_]:
+            return units("generations")
+        case [*_, "from"]:
+            return [Offer("scratch", "word")]
+        case [*_, "with"]:
+            return [Offer("subskills", "word")]
+    phrase = line.above.header.phrase if line.above else None
+    switches = [offer for offer in words("from scratch", "with subskills") if offer.label.split()[0] not in rest]
+    if phrase is None or phrase.kind.text not in kinds("curriculum"):
+        return switches
+    found = arguments_of(line.view, "curriculum", phrase.kind.text, rest[2:], None)
+    waits = offers.said(kinds("curriculum")[phrase.kind.text], rest[2:]).awaits_number
+    return [] if waits else [*found, *switches]
+
+
+def _number(*of: str) -> Answer:
+    """After a number, its units."""
+    return lambda line, rest: units(*of) if len(rest) == 1 and rest[0][0] in NUMBER else []
+
+
+FACTS: Mapping[str, Answer] = {
+    "reads": _reads,
+    "drives": _drives,
+    "influences": _influences,
+    "stays": lambda line, rest: [] if rest else words("frozen"),
+    "contains": _contains,
+    "lasts": _number("ticks", "s"),
+    "ends": _ends,
+    "rewards": _rewards,
+    "counts": _event,
+    "teaches": _teaches,
+    "master": lambda line, rest: [] if rest else names(line.view, "skill"),
+    "tick": _number("s"),
+}
