@@ -18,15 +18,16 @@ Examples:
 def command(files: tuple[str, ...], as_json: bool) -> None:
     """Read files, and report everything that is wrong in them.
 
+    A file that is no whole mind is read with those that use it, where they are given as well.
     Ends with 0 when nothing is wrong, with 1 when something is, with 2 when a file cannot be read.
     """
-    from mindlang.compile import load
+    from mindlang.compile import minds
     from mindlang.report import as_data, print_report
     from mindlang.terminal import FINDINGS, MISUSE, OK, console, print_json, take_back
 
     for file in files:
         take_back(file)
-    compiled = {file: load(file) for file in files}
+    compiled = minds(files)
     found = [diagnostic for result in compiled.values() for diagnostic in result.diagnostics]
     if as_json:
         print_json(

@@ -35,13 +35,16 @@ def command(files: tuple[str, ...], fix: bool, select: tuple[str, ...], ignore: 
     """
     from mindrun.errors import MindError
 
+    from mindlang.compile import minds
     from mindlang.linting.command import Linted, linted
     from mindlang.terminal import FINDINGS, MISUSE, OK, fail, take_back
 
     for file in files:
         take_back(file)
     try:
-        done: list[Linted] = [linted(file, _codes(select), _codes(ignore), fix) for file in files]
+        done: list[Linted] = [
+            linted(file, compiled, _codes(select), _codes(ignore), fix) for file, compiled in minds(files).items()
+        ]
     except MindError as error:
         fail(str(error), error.hint)
     found = [diagnostic for each in done for diagnostic in each.diagnostics]

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from mindlang import journal
-from mindlang.compile import Compiled, compile_source, load
+from mindlang.compile import Compiled, compile_source
 from mindlang.diagnostic import Diagnostic
 from mindlang.linting.fixing import fixed
 from mindlang.linting.lint import lint
@@ -22,10 +22,9 @@ class Linted:
     fixed: int
 
 
-def linted(file: str, select: Collection[str], ignore: Collection[str], fix: bool) -> Linted:
+def linted(file: str, compiled: Compiled, select: Collection[str], ignore: Collection[str], fix: bool) -> Linted:
     """A file held against the rules; MindError where a lock is damaged or the mended file cannot be written."""
     codes = [code for code in (select or all_rules()) if code not in ignore]
-    compiled = load(file)
     if not fix or compiled.graph is None or file == "-":
         return Linted(tuple(lint(compiled, codes)), compiled.readable, 0)
     path = Path(file).resolve()

@@ -89,6 +89,17 @@ def test_a_file_with_errors_is_not_fixed(mindc: Call, file: Path) -> None:
     assert file.read_text() == text
 
 
+def test_what_is_no_mind_by_itself_is_read_with_who_uses_it(mindc: Call, file: Path) -> None:
+    head, rest = UNREAD.split("sensor pulse")
+    Path("parts.mind").write_text("body Robot is disc\n" + "".join(head.partition("body Robot is disc\n")[2:]))
+    file.write_text(f'use "parts.mind"\ntick 1/60 s\nmaster Roam\nsensor pulse{rest}')
+    for command in ("lint", "check"):
+        assert mindc(command, "parts.mind").code == 1
+    assert mindc("check", "parts.mind", file).code == 0
+    said = mindc("lint", "parts.mind", file, "--format", "json")
+    assert {each["file"] for each in json.loads(said.out)["diagnostics"]} == {"a b.mind"}
+
+
 def test_github(mindc: Call, file: Path) -> None:
     said = mindc("lint", file, "--select", "unread-sensor", "--format", "github")
     place = "file=a b.mind,line=7,col=8,endLine=7,endColumn=13"
