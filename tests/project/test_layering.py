@@ -66,7 +66,8 @@ def test_only_commands_know_the_command_line() -> None:
 
 def test_what_is_imported_is_declared() -> None:
     project = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]
-    declared = [*project["dependencies"], *project["optional-dependencies"]["plot"]]
+    extras = project["optional-dependencies"]
+    declared = [*project["dependencies"], *extras["plot"], *extras["lsp"], *extras.get("robot", [])]
     distributions = [requirement.split(">")[0] for requirement in declared]
     known = {MODULES.get(name, name) for name in distributions}
     assert {path: names - known for path, names in foreign(modules(COMPILER, RUNTIME)).items() if names - known} == {}
