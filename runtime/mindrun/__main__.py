@@ -1,10 +1,13 @@
-"""`python -m mindrun FILE.bundle`: say what a bundle holds, or run it on readings. Needs numpy alone."""
+"""`mindrun FILE.bundle`: drive the robot to which it is wired; without wiring say what it holds, or run it on readings.
+
+Needs numpy alone. `mindrun replay`, `report`, `calibrate` and `doctor` are in `tools/`.
+"""
 
 import argparse
 import json
 import os
 import sys
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import redirect_stdout
 from math import nan
 from pathlib import Path
@@ -15,12 +18,16 @@ from mindrun.describe import contents, describe
 from mindrun.engine import Engine
 from mindrun.errors import MindError, ProcedureError, ReadingsError
 from mindrun.readings import vector
+from mindrun.tools import run_tool, tools
 
 OK, FAILED, MISUSE, INTERRUPTED = 0, 1, 2, 130
 LONGEST = 1 << 20  # characters of one line of readings
 
 EXAMPLES = """examples:
-  mindrun collect.bundle                                    what it holds
+  mindrun ball.bundle                                       on its robot, nothing moves yet
+  mindrun ball.bundle --arm --record day.rec                everything moves, and every tick is recorded
+  mindrun ball.bundle --dry --arm                           in a simulated world, without hardware
+  mindrun ball.bundle --describe                            what it holds (a bundle without wiring does this anyway)
   mindrun collect.bundle --json                             the same as JSON
   mindrun collect.bundle --readings log.jsonl               one line of commands for each line of readings
   mindrun collect.bundle --readings - --fill 0.5            readings from standard input, missing ones 0.5
@@ -28,25 +35,25 @@ EXAMPLES = """examples:
   mindrun collect.bundle --readings - --master Avoid        another skill in charge
 
 A line of readings: {"proximity": [1, 1, 0.4], "object_bearing": 0.5}; NaN is a reading that failed.
-A line of commands: {"commands": {"left_wheel": 0.7, "right_wheel": 0.5}}"""
+A line of commands: {"commands": {"left_wheel": 0.7, "right_wheel": 0.5}}
+
+tools: mindrun replay | report | calibrate | doctor, each with --help"""
 
 
 def main() -> None:
     """Run the command line; whatever happens ends in one message and an exit code."""
-    sys.exit(run(_options()))
+    if len(sys.argv) > 1 and sys.argv[1] in tools():
+        sys.exit(guarded(lambda: run_tool(sys.argv[1], sys.argv[2:])))
+    options = _options()
+    sys.exit(guarded(lambda: run(options)))
 
 
-def run(options: argparse.Namespace) -> int:
-    """Describe or run the bundle; the exit code."""
+def guarded(command: Callable[[], int]) -> int:
+    """The exit code of a command, whatever happens in it."""
     try:
-        bundle = read_bundle(options.bundle)
-        if options.readings:
-            with redirect_stdout(sys.stderr):  # what a procedure prints is no command
-                engine = Engine(bundle.graph, bundle.weights, bundle.procedures, options.master)
-            _run(engine, options)
-        else:
-            print(json.dumps(contents(bundle), indent=2, ensure_ascii=False) if options.json else describe(bundle))
+        code = command()
         sys.stdout.flush()
+        return code
     except ProcedureError as error:
         return _said(error, FAILED)
     except MindError as error:
@@ -58,6 +65,28 @@ def run(options: argparse.Namespace) -> int:
     except KeyboardInterrupt:
         return INTERRUPTED
     return OK
+
+
+def run(options: argparse.Namespace) -> int:
+    """Drive, describe or run the bundle; the exit code."""
+    bundle = read_bundle(options.bundle)
+    if options.readings:
+        with redirect_stdout(sys.stderr):  # what a procedure prints is no command
+            engine = Engine(bundle.graph, bundle.weights, bundle.procedures, options.master)
+        _run(engine, options)
+    elif options.dry or (bundle.wiring and not options.describe and not options.json):
+        return drive(options)
+    else:
+        print(json.dumps(contents(bundle), indent=2, ensure_ascii=False) if options.json else describe(bundle))
+    return OK
+
+
+def drive(options: argparse.Namespace) -> int:
+    """Drive the robot, or a simulated one."""
+    from mindrun.robot.command import run as run_robot
+
+    with redirect_stdout(sys.stderr):  # a procedure may print
+        return run_robot(options)
 
 
 def _options() -> argparse.Namespace:
@@ -73,6 +102,15 @@ def _options() -> argparse.Namespace:
     parser.add_argument("--influence", action="store_true", help="print the influence of each skill too")
     parser.add_argument("--master", metavar="SKILL", help="the skill in charge (default: the mind's master)")
     parser.add_argument("--json", action="store_true", help="describe the bundle as one JSON document")
+    parser.add_argument("--describe", action="store_true", help="say what the bundle holds, and move nothing")
+    robot = parser.add_argument_group("on a robot")
+    robot.add_argument("--arm", action="store_true", help="let the actuators move: without it they stay neutral")
+    robot.add_argument("--record", type=Path, metavar="FILE", help="every reading, influence and command, per tick")
+    robot.add_argument("--ticks", type=_count, default=0, metavar="N", help="end after so many ticks (default: never)")
+    robot.add_argument("--dry", action="store_true", help="no hardware: a simulated world (needs the simulator)")
+    robot.add_argument("--task", metavar="TASK", help="with --dry: the task of that world (default: the last)")
+    robot.add_argument("--seed", type=_count, default=1, help="with --dry: the layout of that world")
+    robot.add_argument("-q", "--quiet", action="store_true", help="say nothing but errors")
     return parser.parse_args()
 
 
@@ -84,6 +122,12 @@ def _share(text: str) -> float:
     if not 0 <= value <= 1:
         raise argparse.ArgumentTypeError(f"{text} is not a number from 0 to 1")
     return value
+
+
+def _count(text: str) -> int:
+    if not text.isdecimal():
+        raise argparse.ArgumentTypeError(f"{text} is not a whole number")
+    return int(text)
 
 
 def _run(engine: Engine, options: argparse.Namespace) -> None:
@@ -137,6 +181,8 @@ def _object(text: str, where: str) -> dict[str, Any]:
 
 def _said(error: Exception, code: int) -> int:
     print(f"mindrun: {error}", file=sys.stderr)
+    if hint := getattr(error, "hint", ""):
+        print(f"  {hint}", file=sys.stderr)
     return code
 
 

@@ -127,8 +127,8 @@ class Sent:
 
     commands: list[NDArray[np.float32]] = field(default_factory=list)
 
-    def send(self, commands: NDArray[np.float32], armed: bool) -> None:
-        self.commands.append(commands.copy())
+    def send(self, commands: Sequence[float], armed: bool) -> None:
+        self.commands.append(np.array(commands, np.float32))
 
 
 @dataclass(slots=True)

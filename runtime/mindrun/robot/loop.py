@@ -1,6 +1,6 @@
 """The control loop: sense, think, send, at a fixed rate. Whatever goes wrong in it, the guardian stops the robot."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from typing import Protocol
 
@@ -18,7 +18,7 @@ BEHIND = 3  # ticks in a row that were missed, after which every actuator is neu
 class Sends(Protocol):
     """Takes the commands of a tick; MindError where nobody is there to obey them."""
 
-    def send(self, commands: NDArray[np.float32], armed: bool) -> None: ...
+    def send(self, commands: Sequence[float], armed: bool) -> None: ...
 
 
 @dataclass(frozen=True, slots=True)
@@ -64,7 +64,7 @@ class Loop:
         commands = self.engine.tick(sensed.readings)
         stopped = sensed.must_stop or behind
         sent = self.neutral if stopped else commands
-        self.guardian.send(sent, self.armed)
+        self.guardian.send(sent.tolist(), self.armed)
         done = Tick(self.ticks, time, sensed, commands, sent, stopped)
         self._record(done)
         self.ticks += 1

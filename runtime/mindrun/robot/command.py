@@ -1,0 +1,60 @@
+"""`mindrun FILE.bundle` on a robot, or with --dry in a simulated world: what the command line wishes, carried out."""
+
+import argparse
+import sys
+from hashlib import sha256
+from pathlib import Path
+
+from mindrun.bundle import Bundle, read_bundle
+from mindrun.errors import MindError
+from mindrun.robot.drive import Wishes, drive
+from mindrun.robot.loop import Loop
+
+
+def run(options: argparse.Namespace) -> int:
+    """Drive until a signal comes; the exit code."""
+    bundle = read_bundle(options.bundle)
+    wishes = Wishes(options.arm, options.record, options.ticks)
+    tell = _quiet if options.quiet else _tell
+    if not options.arm:
+        tell("nothing will move: --arm lets it")
+    loop = _dry(options, bundle, wishes) if options.dry else _wired(options, bundle, wishes)
+    tell(_summary(loop))
+    return 0
+
+
+def _wired(options: argparse.Namespace, bundle: Bundle, wishes: Wishes) -> Loop:
+    if bundle.wiring is None:
+        raise MindError("this bundle is wired to no robot", "mindc build … --robot robot.yaml, or try it with --dry")
+    return drive(bundle, digest(options.bundle), bundle.wiring, wishes, _quiet if options.quiet else _tell)
+
+
+def _dry(options: argparse.Namespace, bundle: Bundle, wishes: Wishes) -> Loop:
+    from mindrun.robot.drivers.simulated import dry
+    from mindrun.robot.world import simulated
+
+    tasks = [task.name for task in bundle.graph.tasks]
+    task = options.task or (tasks[-1] if tasks else "")
+    if task not in tasks:
+        raise MindError(f"this mind has no task {task}", f"it has {', '.join(tasks)}" if tasks else "")
+    with simulated(options.bundle, task, options.seed) as socket:
+        wiring = dry(bundle.graph, socket)
+        return drive(bundle, digest(options.bundle), wiring, wishes, _quiet if options.quiet else _tell)
+
+
+def digest(path: Path) -> str:
+    """The SHA-256 of a bundle's file."""
+    return sha256(path.read_bytes()).hexdigest()
+
+
+def _summary(loop: Loop) -> str:
+    faults = f", {loop.engine.faults} outputs not sent because a number was not finite" if loop.engine.faults else ""
+    return f"{loop.pace}; {loop.stopped} at neutral because of a fault{faults}"
+
+
+def _tell(sentence: str) -> None:
+    print(sentence, file=sys.stderr, flush=True)
+
+
+def _quiet(sentence: str) -> None:
+    """Say nothing."""

@@ -1,0 +1,101 @@
+"""A bundle in charge of its robot: opened, run until somebody says stop, and brought to neutral whatever happens."""
+
+import signal
+from collections.abc import Callable, Iterator
+from contextlib import ExitStack, contextmanager, nullcontext
+from dataclasses import dataclass
+from pathlib import Path
+from time import monotonic, sleep
+from types import FrameType
+
+import mindrun.robot.drivers  # noqa: F401  every driver is known once this is imported
+from mindrun.bundle import Bundle
+from mindrun.engine import Engine
+from mindrun.errors import MindError
+from mindrun.robot.guardian.client import Guardian
+from mindrun.robot.guardian.plan import plan_of
+from mindrun.robot.guardian.service import notify
+from mindrun.robot.loop import Loop, Tick
+from mindrun.robot.pace import Pace
+from mindrun.robot.recording import About, Recorder
+from mindrun.robot.sampling import Sampler
+from mindrun.robot.senses import Senses
+from mindrun.robot.wiring import Wiring
+
+SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
+PATIENCE = 10.0  # seconds for every sensor to have been measured once
+
+
+class DriveError(MindError):
+    """A robot that cannot be driven with this bundle."""
+
+
+@dataclass(frozen=True, slots=True)
+class Wishes:
+    """What is asked for: whether anything may move, where to record to, after how many ticks to end (0: never)."""
+
+    armed: bool = False
+    record: Path | None = None
+    ticks: int = 0
+
+
+def drive(bundle: Bundle, digest: str, wiring: Wiring, wishes: Wishes, tell: Callable[[str], None]) -> Loop:
+    """Run a mind on a robot until a signal comes or the ticks are over; the loop as it ended.
+
+    `tell` gets sentences for people. MindError where something fails; then every actuator is at neutral, too.
+    """
+    graph = bundle.graph
+    engine = Engine(graph, bundle.weights, bundle.procedures)
+    neutrals = {actuator.name: actuator.kind.neutral for actuator in graph.actuators}
+    with ExitStack() as stack:
+        stop = stack.enter_context(_stopping())
+        samplers = stack.enter_context(_sampling(wiring))
+        guardian = stack.enter_context(Guardian(plan_of(graph.tick, neutrals, wiring)))
+        about = About.of(graph, digest, tuple(wire.sensor for wire in wiring.sensors))
+        recorder = stack.enter_context(Recorder(wishes.record, about) if wishes.record else nullcontext())
+        loop = Loop(engine, Senses(graph, samplers), guardian, Pace(graph.tick), wishes.armed, recorder, tell)
+        _wait(samplers, guardian, loop, stop)
+        notify("READY=1")
+        loop.run(lambda tick: _goes_on(tick, wishes.ticks, stop))
+        return loop
+
+
+def _goes_on(tick: Tick, ticks: int, stop: list[int]) -> bool:
+    notify("WATCHDOG=1")
+    return not stop and (not ticks or tick.number + 1 < ticks)
+
+
+def _wait(samplers: list[Sampler], guardian: Guardian, loop: Loop, stop: list[int]) -> None:
+    """Until every sensor has been measured once, or for some seconds; the guardian hears all the while, unarmed."""
+    until = monotonic() + PATIENCE
+    while monotonic() < until and not stop and not all(sampler.latest for sampler in samplers):
+        guardian.send(loop.neutral.tolist(), False)
+        sleep(loop.pace.tick)
+
+
+@contextmanager
+def _stopping() -> Iterator[list[int]]:
+    """Signals that have come: the loop ends after the tick in which one does."""
+    came: list[int] = []
+
+    def note(number: int, _frame: FrameType | None) -> None:
+        came.append(number)
+
+    before = {number: signal.signal(number, note) for number in SIGNALS}
+    try:
+        yield came
+    finally:
+        for number, handler in before.items():
+            signal.signal(number, handler)
+
+
+@contextmanager
+def _sampling(wiring: Wiring) -> Iterator[list[Sampler]]:
+    samplers = [Sampler(wire) for wire in wiring.sensors]
+    for sampler in samplers:
+        sampler.start()
+    try:
+        yield samplers
+    finally:
+        for sampler in samplers:
+            sampler.stop()

@@ -1,0 +1,38 @@
+"""Compute a recording again: the same commands, bit for bit, or the first tick that differs.
+
+examples:
+  mindrun replay day.rec ball.bundle
+"""
+
+import argparse
+import sys
+from pathlib import Path
+
+from mindrun.bundle import read_bundle
+from mindrun.engine import Engine
+from mindrun.robot.command import digest
+from mindrun.robot.replay import replay
+
+
+def options(parser: argparse.ArgumentParser) -> None:
+    """The arguments."""
+    parser.add_argument("recording", type=Path)
+    parser.add_argument("bundle", type=Path, help="the bundle that was running")
+
+
+def run(options: argparse.Namespace) -> int:
+    """0 where every tick is the same, else 1."""
+    bundle = read_bundle(options.bundle)
+    engine = Engine(bundle.graph, bundle.weights, bundle.procedures)
+    found = replay(options.recording, digest(options.bundle), engine, _told)
+    if found.differs:
+        tick, what = found.differs
+        print(f"tick {tick:,} differs: {what} ({found.ticks:,} ticks before it are the same)")
+        return 1
+    print(f"{found.ticks:,} ticks, the same to the bit")
+    return 0
+
+
+def _told(ticks: int) -> None:
+    if sys.stderr.isatty():
+        print(f"\r{ticks:,} ticks", end="", file=sys.stderr, flush=True)
