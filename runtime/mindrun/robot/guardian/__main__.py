@@ -1,0 +1,94 @@
+"""`python -P -m mindrun.robot.guardian`: guard actuators; standard input is their plan, one line, and then frames.
+
+With `--neutral FILE`, bring them to neutral once, and end: for systemd, after the robot has stopped.
+"""
+
+import argparse
+import os
+from pathlib import Path
+
+from mindrun.errors import MindError
+from mindrun.robot.guardian.plan import DRIVERS, LARGEST, Plan, from_json, read_plan
+from mindrun.robot.guardian.process import Process
+from mindrun.robot.guardian.teller import Teller
+from mindrun.robot.guardian.urgent import be_urgent, import_little, wake_on_signals
+
+OK, FAILED, USAGE, UNAVAILABLE, BROKEN = 0, 1, 64, 69, 70  # as in sysexits.h
+INPUT, OUTPUT, ERRORS = 0, 1, 2
+
+
+def main() -> None:
+    """Guard, and end without waiting for anything that hangs."""
+    options = _options()
+    import_little(DRIVERS)
+    be_urgent()
+    errors = Teller(ERRORS, "guardian: ")
+    status = Teller(os.dup(OUTPUT))
+    os.dup2(ERRORS, OUTPUT)  # what a driver prints is no status
+    try:
+        plan = _plan(options.neutral or "-")
+    except MindError as error:
+        errors(str(error))
+        status(f"failed {error}")
+        code = USAGE
+    else:
+        once = bool(options.neutral)
+        code = bring(Process(plan, INPUT, errors), errors, options.within) if once else guard(plan, errors, status)
+    errors.flush(0.2)
+    status.flush(0.2)
+    os._exit(code)  # a thread that hangs in a device's write would never be joined
+
+
+def guard(plan: Plan, report: Teller, status: Teller) -> int:
+    """Follow the frames on standard input; however this ends, every actuator is at neutral first."""
+    process = Process(plan, INPUT, report, status)
+    wake_on_signals(process.wake)
+    code = OK
+    try:
+        wrong = process.open()
+        if wrong:
+            status(f"failed {'; '.join(wrong)}")
+            report("; ".join(wrong))
+            code = UNAVAILABLE
+        else:
+            process.settle()
+            status("ready")
+            process.serve()
+    except BaseException as error:
+        process.rest()
+        report(f"broken: {type(error).__name__} {error}")
+        code = BROKEN
+    process.rest()
+    process.settle()
+    process.close()
+    return code
+
+
+def bring(process: Process, report: Teller, seconds: float) -> int:
+    """Bring all that can be opened to neutral; whether that was all, and in time."""
+    wrong = process.open()
+    if not process.settle(seconds):
+        wrong.append(f"not everything was at neutral after {seconds:g} s")
+    process.close()
+    for line in wrong:
+        report(line)
+    return FAILED if wrong else OK
+
+
+def _plan(path: str) -> Plan:
+    """The plan in a file, or on standard input up to the end of the first line: what follows are frames."""
+    if path != "-":
+        return read_plan(Path(path))
+    with open(INPUT, "rb", buffering=0, closefd=False) as file:
+        return from_json(file.readline(LARGEST))
+
+
+def _options() -> argparse.Namespace:
+    parser = argparse.ArgumentParser("guardian", description=__doc__)
+    parser.add_argument("--neutral", metavar="FILE", help="bring all actuators of this plan to neutral, and end")
+    parser.add_argument("--within", metavar="SECONDS", type=float, default=5.0, help="for --neutral (default: 5)")
+    return parser.parse_args()
+
+
+if __name__ == "__main__":
+    main()

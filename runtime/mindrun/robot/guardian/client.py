@@ -1,0 +1,140 @@
+"""The controller's side: start the guardian, send it a frame each tick, and see that it lives."""
+
+import fcntl
+import os
+import subprocess
+import sys
+from collections.abc import Iterable, Sequence
+from contextlib import suppress
+from select import select
+from time import monotonic, monotonic_ns
+from types import TracebackType
+
+from mindrun.errors import MindError
+from mindrun.robot.guardian.frames import pack
+from mindrun.robot.guardian.guard import LATCHED, NEUTRAL
+from mindrun.robot.guardian.plan import Plan, to_json
+
+# -P: a file of the user's folder that is named like a module must not be imported.
+PROGRAM = (sys.executable, "-P", "-m", "mindrun.robot.guardian")
+PIPE = 4096  # bytes: a guardian that hangs is noticed when so many have not been read
+
+
+class GuardianError(MindError):
+    """The guardian did not start, has latched, or is gone; whatever it is, nothing can be moved any more."""
+
+
+class Guardian:
+    """The guardian as a process of its own. Use it in `with`: at the end every actuator is at neutral.
+
+    Call `send` once a tick, from the control loop and nowhere else: that it is called is what shows that the loop runs.
+    """
+
+    def __init__(self, plan: Plan, patience: float = 5.0, program: Sequence[str] = PROGRAM) -> None:
+        self.state, self.why = NEUTRAL, "started"
+        self._plan = f"{to_json(plan)}\n".encode()
+        self._patience = patience
+        self._program = program
+        self._number = 0
+        self._said = b""
+        # A session of its own: no key of a terminal reaches it, neither Ctrl-C nor Ctrl-Z.
+        self._process = subprocess.Popen(
+            [*program], stdin=subprocess.PIPE, stdout=subprocess.PIPE, bufsize=0, start_new_session=True
+        )
+        assert self._process.stdin
+        assert self._process.stdout
+        self._input, self._output = self._process.stdin, self._process.stdout
+        try:
+            self._start()
+        except BaseException:
+            self._abandon()
+            raise
+
+    @property
+    def pid(self) -> int:
+        """The number of its process."""
+        return self._process.pid
+
+    def send(self, commands: Iterable[float], armed: bool) -> None:
+        """One tick's commands in the order of the plan; without `armed` nothing moves.
+
+        GuardianError where the guardian has latched, hangs or is gone; then another has tried to bring all to neutral.
+        """
+        self._listen()
+        if self.state == LATCHED:
+            raise GuardianError(f"the guardian holds every actuator at neutral: {self.why}", "start the robot again")
+        try:
+            os.write(self._input.fileno(), pack(self._number, monotonic_ns(), armed, tuple(commands)))
+        except OSError as error:
+            hangs = isinstance(error, BlockingIOError)
+            raise GuardianError(f"the guardian {'hangs' if hangs else 'is gone'}: {self._rescue()}") from error
+        self._number += 1
+
+    def close(self) -> None:
+        """End the frames and wait until every actuator is at neutral; GuardianError where one is not in time."""
+        with suppress(OSError):
+            self._input.close()
+        try:
+            self._process.wait(self._patience)
+        except subprocess.TimeoutExpired:
+            raise GuardianError(
+                f"an actuator is not at neutral after {self._patience:g} s; process {self.pid} goes on trying",
+                "cut the actuators' power",
+            ) from None
+        finally:
+            self._output.close()
+
+    def __enter__(self) -> "Guardian":
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        self.close()
+
+    def _start(self) -> None:
+        with suppress(BrokenPipeError):  # it says why
+            self._input.write(self._plan)
+        until = monotonic() + self._patience
+        self.state = ""
+        while not self.state:
+            if not select([self._output], [], [], max(until - monotonic(), 0.0))[0]:
+                raise GuardianError(f"the guardian is not ready after {self._patience:g} s")
+            if not self._listen():
+                raise GuardianError("the guardian ended before it was ready")
+        if self.state != "ready":
+            raise GuardianError(f"the guardian cannot start: {self.why}")
+        self.state = NEUTRAL
+        os.set_blocking(self._output.fileno(), False)
+        os.set_blocking(self._input.fileno(), False)
+        with suppress(OSError):
+            fcntl.fcntl(self._input, fcntl.F_SETPIPE_SZ, PIPE)
+
+    def _listen(self) -> bool:
+        """Hear what the guardian has said since; False where it will say no more."""
+        try:
+            data = os.read(self._output.fileno(), 1 << 16)
+        except BlockingIOError:
+            return True
+        *lines, self._said = (self._said + data).split(b"\n")
+        if lines:
+            self.state, _, self.why = lines[-1].decode(errors="replace").partition(" ")
+        return bool(data)
+
+    def _rescue(self) -> str:
+        """Bring the actuators to neutral in place of a guardian that no longer can; what came of it."""
+        self._process.kill()
+        self._process.wait()
+        try:
+            done = subprocess.run([*self._program, "--neutral", "-"], input=self._plan, timeout=self._patience)
+        except (OSError, subprocess.TimeoutExpired):
+            return "nothing brought the actuators to neutral"
+        return "another has brought the actuators to neutral" if done.returncode == 0 else "an actuator may still move"
+
+    def _abandon(self) -> None:
+        """It never was of use: let it end by itself if it does, since that is at neutral, or make it end."""
+        with suppress(GuardianError):
+            self.close()
+        if self._process.poll() is None:
+            self._process.kill()
+            self._process.wait()

@@ -1,0 +1,123 @@
+"""What the guardian decides: a state, the time, and what came; no devices, no clock, so that a test can be all three.
+
+neutral    nothing moves; an armed frame starts it, once every actuator has acknowledged its neutral
+following  each frame moves the actuators; two ticks without one, or an actuator that fails, and all are neutral
+latched    neutral until the guardian is started anew: whoever sends such frames is broken
+"""
+
+from dataclasses import dataclass
+from math import inf
+
+from mindrun.robot.guardian.frames import Frame
+from mindrun.robot.guardian.plan import Channel, Plan
+
+NEUTRAL, FOLLOWING, LATCHED = "neutral", "following", "latched"
+SILENCE = 2  # ticks, after which the controller hangs, or an actuator does not answer
+FAILURES = 3  # of actuators: the third latches
+
+
+@dataclass(frozen=True, slots=True)
+class Move:
+    """Send these values to the devices."""
+
+    values: tuple[float, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Rest:
+    """Bring every device to neutral."""
+
+
+Order = Move | Rest | None
+
+
+class Guard:
+    """Decides; the caller does what it is told, every time."""
+
+    def __init__(self, plan: Plan) -> None:
+        self._plan = plan
+        self._rest = tuple(map(resting, plan.channels))
+        self._values, self._then = self._rest, -inf
+        self.limit = SILENCE * plan.tick
+        self.state, self.why = NEUTRAL, "started"
+        self.deadline = inf
+        self.silences = self.failures = 0
+
+    @property
+    def rest(self) -> tuple[float, ...]:
+        """What every device is sent at neutral."""
+        return tuple(map(turned, self._plan.channels, self._rest))
+
+    def frame(self, frame: Frame, now: float, settled: bool) -> Order:
+        """A good frame came; `settled` says whether every actuator has acknowledged its neutral.
+
+        Its age counts from when it was sent: a frame that waited while this process hung is no sign of life.
+        """
+        if self.state == LATCHED or now >= frame.sent + self.limit:
+            return None
+        if frame.sent > now + self._plan.tick:
+            return self.broken("a frame from the future")
+        if not frame.armed:
+            return self._neutral("not armed") if self.state == FOLLOWING else None
+        if self.state == NEUTRAL:
+            if not settled:
+                return None
+            self.state, self.why = FOLLOWING, ""
+        self.deadline = frame.sent + self.limit
+        return self._move(frame.commands, now)
+
+    def passed(self, now: float) -> Order:
+        """It is `now`, and no other frame has come."""
+        if self.state != FOLLOWING or now < self.deadline:
+            return None
+        self.silences += 1
+        return self._neutral("no frame for two ticks")
+
+    def failed(self, actuator: str, why: str) -> Order:
+        """An actuator has acknowledged no command for two ticks."""
+        if self.state != FOLLOWING:
+            return None
+        self.failures += 1
+        if self.failures >= FAILURES:
+            return self.broken(f"{actuator} failed, as did {FAILURES - 1} before: {why}")
+        return self._neutral(f"{actuator} failed: {why}")
+
+    def broken(self, why: str) -> Order:
+        """Something came that no sound controller sends."""
+        if self.state == LATCHED:
+            return None
+        order = self._neutral(why)
+        self.state = LATCHED
+        return order
+
+    def _neutral(self, why: str) -> Rest:
+        self.state, self.why, self.deadline = NEUTRAL, why, inf
+        self._values, self._then = self._rest, -inf
+        return Rest()
+
+    def _move(self, commands: tuple[float, ...], now: float) -> Move:
+        # No more than a tick: after a rest the first step is as small as any other.
+        seconds = min(max(now - self._then, 0.0), self._plan.tick)
+        wanted = zip(self._plan.channels, commands, self._values, strict=True)
+        self._values = tuple(moved(channel, command, before, seconds) for channel, command, before in wanted)
+        self._then = now
+        return Move(tuple(map(turned, self._plan.channels, self._values)))
+
+
+def moved(channel: Channel, command: float, before: float, seconds: float) -> float:
+    """A command with the trim, within the limits, no further from the value before than the slew allows."""
+    value = min(max(command + channel.trim, channel.low), channel.high)
+    if channel.slew > 0:
+        step = channel.slew * seconds
+        value = min(max(value, before - step), before + step)
+    return min(max(value, 0.0), 1.0)
+
+
+def resting(channel: Channel) -> float:
+    """Neutral with the trim, which corrects where a wheel stands still; limits and slew do not hold it."""
+    return min(max(channel.neutral + channel.trim, 0.0), 1.0)
+
+
+def turned(channel: Channel, value: float) -> float:
+    """A value as the device counts: a reversed gripper's neutral must open it, too."""
+    return 1.0 - value if channel.reversed else value

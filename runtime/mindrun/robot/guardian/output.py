@@ -1,0 +1,106 @@
+"""One actuator's writer: a thread of its own, so that a device that hangs keeps no other from its neutral."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from threading import Condition, Thread
+from time import monotonic
+
+from mindrun.robot.contract import ActuatorDevice
+
+SOON, LATER = 0.002, 0.05  # seconds between two tries: at first, and in the end
+
+
+@dataclass(frozen=True, slots=True)
+class Wanted:
+    """A value that a device is to have. A newer one replaces it, tried or not."""
+
+    value: float
+    neutral: bool
+    given: float
+
+
+class Output:
+    """Writes what is wanted until the device acknowledges it; at the beginning that is neutral."""
+
+    def __init__(
+        self, name: str, rest: float, settled: Callable[[], None], clock: Callable[[], float] = monotonic
+    ) -> None:
+        self.name = name
+        self.error = ""
+        self._neutral = rest
+        self._settled = settled
+        self._clock = clock
+        self._wanted = Wanted(rest, True, clock())
+        self._waiting: float | None = clock()  # since when a wanted value has not been acknowledged
+        self._closing = False
+        self._change = Condition()
+        self._thread = Thread(target=self._run, name=name, daemon=True)
+        self._device: ActuatorDevice
+
+    def start(self, device: ActuatorDevice) -> None:
+        """Begin to write."""
+        self._device = device
+        self._thread.start()
+
+    def move(self, value: float) -> None:
+        """Want a value; returns at once."""
+        self._want(value, False)
+
+    def rest(self) -> None:
+        """Want neutral; returns at once."""
+        self._want(self._neutral, True)
+
+    @property
+    def settled(self) -> bool:
+        """Whether neutral was the last that was wanted, and is acknowledged."""
+        with self._change:
+            return self._wanted.neutral and self._waiting is None
+
+    def late(self, now: float) -> float:
+        """For how long the device has not acknowledged what is wanted."""
+        with self._change:
+            return 0.0 if self._waiting is None else now - self._waiting
+
+    def close(self, seconds: float) -> None:
+        """Let go of the device, unless that takes longer."""
+        with self._change:
+            self._closing = True
+            self._change.notify()
+        self._thread.join(seconds)
+
+    def attempt(self) -> Wanted | None:
+        """Write what is wanted, once: what has been tried without success, or None when there is nothing left to do."""
+        with self._change:
+            wanted = self._wanted
+        try:
+            self._device.write(wanted.value)
+        except BaseException as error:  # whatever a driver raises, this thread goes on
+            self.error = str(error) or type(error).__name__
+            return wanted
+        with self._change:
+            if self._wanted is not wanted:
+                self._waiting = self._wanted.given
+                return wanted
+            self._waiting, self.error = None, ""
+        if wanted.neutral:
+            self._settled()
+        return None
+
+    def _want(self, value: float, neutral: bool) -> None:
+        with self._change:
+            self._wanted = Wanted(value, neutral, self._clock())
+            if self._waiting is None:
+                self._waiting = self._wanted.given
+            self._change.notify()
+
+    def _run(self) -> None:
+        pause = SOON
+        while not self._closing:
+            tried = self.attempt()
+            with self._change:
+                if tried is self._wanted:
+                    self._change.wait(pause)
+                elif tried is None and self._waiting is None and not self._closing:
+                    self._change.wait()
+                pause = min(2 * pause, LATER) if tried is self._wanted else SOON
+        self._device.close()

@@ -1,0 +1,159 @@
+"""What the guardian has to know, as one line of JSON: the tick, and each actuator with its neutral and its driver.
+
+Not the bundle itself: to read that takes numpy, and the guardian has no use for a mind's weights and procedures.
+"""
+
+import json
+from collections.abc import Mapping
+from contextlib import suppress
+from dataclasses import dataclass, fields, is_dataclass
+from importlib import import_module
+from math import isfinite
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any, NoReturn, get_args, get_origin, get_type_hints
+
+from mindrun.errors import MindError
+from mindrun.quantity import RATIO, SECONDS, Quantity, Reference
+from mindrun.registry import kinds, names
+from mindrun.robot.contract import ActuatorDriver
+from mindrun.robot.guardian.frames import MOST
+
+if TYPE_CHECKING:
+    from mindrun.robot.wiring import Wiring  # which needs numpy
+
+DRIVERS = "mindrun.robot.drivers"
+LARGEST = 1 << 20  # bytes
+RATIO_EITHER_WAY = Quantity("a share of the travel", {"": 1.0}, low=-1.0, high=1.0)
+NOT_NEGATIVE = Quantity("a number", {"": 1.0}, low=0.0)
+
+
+class PlanError(MindError):
+    """A plan that cannot be read, or that no robot can have."""
+
+
+@dataclass(frozen=True, slots=True)
+class Channel:
+    """An actuator: the command of its mind at which nothing happens, its driver, and what its wire says."""
+
+    actuator: str
+    neutral: Annotated[float, RATIO]
+    driver: ActuatorDriver
+    trim: Annotated[float, RATIO_EITHER_WAY] = 0.0
+    low: Annotated[float, RATIO] = 0.0
+    high: Annotated[float, RATIO] = 1.0
+    slew: Annotated[float, NOT_NEGATIVE] = 0.0
+    reversed: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Plan:
+    """All actuators in the order of the commands, and how long a tick is."""
+
+    tick: Annotated[float, SECONDS]
+    channels: tuple[Channel, ...]
+
+
+def plan_of(tick: float, neutrals: Mapping[str, float], wiring: "Wiring") -> Plan:
+    """The plan of a robot whose mind declares these neutral commands by the names of its actuators."""
+    channels = (
+        Channel(w.actuator, neutrals[w.actuator], w.driver, w.trim, w.low, w.high, w.slew, w.reversed)
+        for w in wiring.actuators
+    )
+    return checked(Plan(tick, tuple(channels)))
+
+
+def checked(plan: Plan) -> Plan:
+    """The plan itself; PlanError where it makes no sense."""
+    if not 1 <= len(plan.channels) <= MOST:
+        raise PlanError(f"a robot has 1 to {MOST} actuators, not {len(plan.channels)}")
+    for channel in plan.channels:
+        if channel.low > channel.high:
+            raise PlanError(f"{channel.actuator}: `low` {channel.low:g} is above `high` {channel.high:g}")
+    return plan
+
+
+def to_json(plan: Plan) -> str:
+    """A plan as one line."""
+    return json.dumps(_encode(plan), ensure_ascii=True, allow_nan=False)
+
+
+def from_json(text: str | bytes) -> Plan:
+    """The plan in this text; PlanError unless it is one."""
+    try:
+        plan: Plan = _decode(Plan, json.loads(text, parse_constant=_no_number), "plan")
+    except (ValueError, RecursionError) as error:
+        raise PlanError(f"this is no plan of a robot: {error}") from error
+    return checked(plan)
+
+
+def read_plan(path: Path) -> Plan:
+    """The plan in a file."""
+    try:
+        with path.open("rb") as file:
+            data = file.read(LARGEST)
+    except OSError as error:
+        raise PlanError(f"cannot read {path}: {error.strerror}") from error
+    return from_json(data)
+
+
+def _encode(value: Any) -> Any:
+    if isinstance(value, tuple):
+        return [_encode(part) for part in value]
+    if not is_dataclass(value):
+        return value
+    data = {field.name: _encode(getattr(value, field.name)) for field in fields(value)}
+    name = names().get(type(value))
+    return data if name is None else {"is": name, "in": type(value).__module__.rpartition(".")[2], **data}
+
+
+def _decode(hint: Any, data: Any, where: str) -> Any:
+    """The value of type `hint` that stands at `where`."""
+    parts = get_args(hint)
+    if get_origin(hint) is Annotated:
+        return _in_range(parts[1], _decode(parts[0], data, where), where)
+    if get_origin(hint) is tuple and isinstance(data, list):
+        return tuple(_decode(parts[0], part, f"{where}[{place}]") for place, part in enumerate(data))
+    if hint is ActuatorDriver:
+        return _decode_driver(data, where)
+    if is_dataclass(hint):
+        return _decode_fields(hint, data, where)
+    if hint is float and type(data) is int:
+        data = float(data)
+    if type(data) is not hint or (hint is float and not isfinite(data)):
+        raise ValueError(f"{where} cannot be {data!r:.40}")
+    return data
+
+
+def _decode_driver(data: Any, where: str) -> Any:
+    """A driver, from the only module that has it: to import all of them would take numpy, and longer."""
+    match data:
+        case {"is": str(name), "in": str(module), **options} if module.isidentifier():
+            with suppress(ModuleNotFoundError):
+                import_module(f"{DRIVERS}.{module}")
+            return _decode_fields(kinds("actuator driver").get(name), options, where)
+    raise ValueError(f"{where} is no driver")
+
+
+def _decode_fields(cls: Any, data: Any, where: str) -> Any:
+    known = {field.name for field in fields(cls)} if isinstance(cls, type) and is_dataclass(cls) else None
+    if not isinstance(data, dict) or set(data) != known:
+        raise ValueError(f"{where} is none that this version knows")
+    hints = get_type_hints(cls, include_extras=True)
+    return cls(**{name: _decode(hints[name], value, f"{where}.{name}") for name, value in data.items()})
+
+
+def _in_range(meaning: Quantity | Reference, value: Any, where: str) -> Any:
+    match meaning, value:
+        case Quantity(low=low, high=high), int() | float():
+            fine = low <= value <= high
+        case Reference(words=words), str():
+            fine = not words or value in words
+        case _:
+            fine = True
+    if not fine:
+        raise ValueError(f"{where} cannot be {value!r:.40}")
+    return value
+
+
+def _no_number(text: str) -> NoReturn:
+    raise ValueError(f"{text} is no number")

@@ -1,0 +1,143 @@
+"""The guardian at work: devices opened and at neutral, then frames followed until they end."""
+
+import os
+from collections.abc import Callable
+from contextlib import suppress
+from math import ceil
+from select import select
+from time import monotonic
+
+from mindrun.robot.guardian.frames import FrameError, Reader
+from mindrun.robot.guardian.guard import FOLLOWING, LATCHED, Guard, Move, Order, Rest
+from mindrun.robot.guardian.output import Output
+from mindrun.robot.guardian.plan import Plan
+
+EVERY = 1.0  # seconds between two reports on an actuator that is not at neutral
+CLOSING = 0.5  # seconds that a device may take to close
+Say = Callable[[str], None]
+
+
+class Process:
+    """All outputs, the guard that decides about them, and the two pipes that wake them."""
+
+    def __init__(self, plan: Plan, frames: int, report: Say, status: Say = lambda line: None) -> None:
+        self._plan = plan
+        self._frames = frames
+        self._report = report
+        self._status = status
+        self._woken, self.wake = os.pipe()  # by a signal's number, or 0 of an output that is at neutral
+        for descriptor in (self._woken, self.wake):
+            os.set_blocking(descriptor, False)
+        self._guard = Guard(plan)
+        self._reader = Reader(len(plan.channels))
+        rests = zip(plan.channels, self._guard.rest, strict=True)
+        self._outputs = [Output(channel.actuator, rest, self._nudge) for channel, rest in rests]
+        self._opened: list[Output] = []
+        self._ending = False
+        self._told = 0.0
+
+    def open(self) -> list[str]:
+        """Open every device, each at neutral before the next, and say which cannot be opened, and why."""
+        wrong = []
+        for channel, output in zip(self._plan.channels, self._outputs, strict=True):
+            try:
+                output.start(channel.driver.open())
+            except Exception as error:
+                hint = getattr(error, "hint", "")
+                wrong.append(f"{output.name} cannot be opened: {error or type(error).__name__} {hint}".strip())
+            else:
+                self._opened.append(output)
+        self.rest()  # once more: to open one can reset another that is on the same chip
+        return wrong
+
+    def rest(self) -> None:
+        """Order neutral of all."""
+        for output in self._opened:
+            output.rest()
+
+    def settle(self, seconds: float = float("inf")) -> bool:
+        """Wait until every actuator is at neutral; False where that takes longer than this."""
+        until = monotonic() + seconds
+        while not self._settled():
+            left = until - monotonic()
+            if left <= 0:
+                return False
+            self._wait([], min(left, EVERY))
+            self._complain(monotonic())
+        return True
+
+    def serve(self) -> None:
+        """Do what the frames say, until they end or a signal comes."""
+        while not self._ending:
+            before = self._guard.state
+            if self._frames in self._wait([self._frames], self._patience(monotonic())):
+                data = os.read(self._frames, 1 << 16)
+                if not data:
+                    return
+                self._obey(self._take(data))
+            self._obey(self._guard.passed(monotonic()))
+            self._obey(self._failure())
+            self._complain(monotonic())
+            if self._guard.state != before:
+                self._status(f"{self._guard.state} {self._guard.why}")
+
+    def close(self) -> None:
+        """Let go of every device that can."""
+        for output in self._opened:
+            output.close(CLOSING)
+
+    def _take(self, data: bytes) -> Order:
+        if self._guard.state == LATCHED:
+            return None
+        try:
+            frames = self._reader.feed(data)
+        except FrameError as error:
+            return self._guard.broken(str(error))
+        # Of several that waited only the newest counts.
+        return self._guard.frame(frames[-1], monotonic(), self._settled()) if frames else None
+
+    def _failure(self) -> Order:
+        """What follows from an actuator that answers no more."""
+        if self._guard.state == FOLLOWING:
+            now = monotonic()
+            for output in self._outputs:
+                if output.late(now) > self._guard.limit:
+                    return self._guard.failed(output.name, output.error or "it does not answer")
+        return None
+
+    def _obey(self, order: Order) -> None:
+        match order:
+            case Move(values):
+                for output, value in zip(self._outputs, values, strict=True):
+                    output.move(value)
+            case Rest():
+                self.rest()
+                self._report(f"all actuators to neutral: {self._guard.why}")
+
+    def _complain(self, now: float) -> None:
+        """Say once a second which actuator is not at neutral but should be."""
+        if self._guard.state == FOLLOWING or now - self._told < EVERY:
+            return
+        for output in self._opened:
+            if output.late(now) >= EVERY:
+                self._told = now
+                late = ceil(output.late(now))
+                self._report(f"{output.name} is not at neutral after {late} s: {output.error or 'it does not answer'}")
+
+    def _settled(self) -> bool:
+        return all(output.settled for output in self._opened)
+
+    def _patience(self, now: float) -> float | None:
+        if self._guard.state == FOLLOWING:
+            return max(self._guard.deadline - now, 0.0)
+        return None if self._settled() else EVERY
+
+    def _wait(self, descriptors: list[int], seconds: float | None) -> list[int]:
+        ready = select([self._woken, *descriptors], [], [], seconds)[0]
+        if self._woken in ready and any(os.read(self._woken, 4096)):
+            self._ending = True
+        return ready
+
+    def _nudge(self) -> None:
+        with suppress(BlockingIOError):  # full: then it wakes as well
+            os.write(self.wake, b"\0")

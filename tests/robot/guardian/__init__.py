@@ -1,0 +1,1 @@
+"""What the guardian promises: neutral, whatever happens to whom."""
