@@ -1,0 +1,187 @@
+"""Sensors and actuators of a simulated world, which is another process: see `mindrun.robot.world`."""
+
+import json
+from dataclasses import dataclass, field
+from socket import AF_UNIX, SOCK_STREAM, socket
+from struct import Struct, unpack
+from time import monotonic
+from typing import Annotated, Any
+
+from mindrun.graph import Graph
+from mindrun.quantity import COUNT, Reference
+from mindrun.readings import physical
+from mindrun.registry import kind
+from mindrun.robot.contract import DeviceError
+from mindrun.robot.wiring import ActuatorWire, SensorWire, Wiring
+from mindrun.robot.world import ANSWER, READ, REQUEST, STATUS, WRITE
+
+DEADLINE = 0.2  # seconds for a whole exchange
+TEXT = Reference("text")
+VALUE = Struct("<d")
+
+
+@dataclass(slots=True)
+class Link:
+    """A connection to a simulated world. One that has failed is made anew: what comes late answers nothing."""
+
+    path: str
+    closed: bool = False
+    _socket: socket | None = field(default=None, repr=False)
+
+    def ask(self, what: bytes, name: str = "", value: float = 0.0) -> bytes:
+        """What the world answers; DeviceError where it refuses, or has not answered in time."""
+        if self.closed:
+            raise DeviceError("the connection to the simulated world is closed")
+        try:
+            done, held = self._exchange(what, name.encode(), value, monotonic() + DEADLINE)
+        except OSError as error:
+            self._drop()
+            why = error.strerror or error
+            raise DeviceError(f"the simulated world at {self.path} does not answer: {why}") from error
+        if not done:
+            raise DeviceError(f"in the simulated world, {held.decode(errors='replace')}")
+        return held
+
+    def close(self) -> None:
+        """Let go of the world; never raises."""
+        self.closed = True
+        self._drop()
+
+    def _exchange(self, what: bytes, name: bytes, value: float, until: float) -> tuple[bool, bytes]:
+        if self._socket is None:
+            self._socket = socket(AF_UNIX, SOCK_STREAM)
+            self._socket.settimeout(DEADLINE)
+            self._socket.connect(self.path)
+        self._socket.settimeout(max(until - monotonic(), 0.001))
+        self._socket.sendall(REQUEST.pack(what, len(name), value) + name)
+        done, length, _ = ANSWER.unpack(_received(self._socket, ANSWER.size, until))
+        return done, _received(self._socket, length, until)
+
+    def _drop(self) -> None:
+        if self._socket is not None:
+            self._socket.close()
+            self._socket = None
+
+
+def _received(connection: socket, count: int, until: float) -> bytes:
+    """So many bytes."""
+    data = b""
+    while len(data) < count:
+        left = until - monotonic()
+        if left <= 0:
+            raise TimeoutError("timed out")
+        connection.settimeout(left)
+        part = connection.recv(count - len(data))
+        if not part:
+            raise ConnectionError("it has hung up")
+        data += part
+    return data
+
+
+@dataclass(frozen=True, slots=True)
+class SimulatedSensorDevice:
+    """A sensor of a simulated world."""
+
+    link: Link
+    sensor: str
+    count: int
+
+    def read(self) -> tuple[float, ...]:
+        """Its readings in this tick, as rough as the mind declares them."""
+        held = self.link.ask(READ, self.sensor)
+        if len(held) != VALUE.size * self.count:
+            raise DeviceError(f"{self.sensor} has {len(held) // VALUE.size} readings there, not {self.count}")
+        return unpack(f"<{self.count}d", held)
+
+    def close(self) -> None:
+        """Let go of the world."""
+        self.link.close()
+
+
+@dataclass(frozen=True, slots=True)
+class SimulatedActuatorDevice:
+    """An actuator of a simulated world, which keeps the last command."""
+
+    link: Link
+    actuator: str
+
+    def write(self, value: float) -> None:
+        """The command from the next tick on."""
+        self.link.ask(WRITE, self.actuator, value)
+
+    def close(self) -> None:
+        """Let go of the world."""
+        self.link.close()
+
+
+@kind("sensor driver", "simulated")
+@dataclass(frozen=True, slots=True)
+class SimulatedSensor:
+    """A `sensor` of the simulated world at a `socket`, which has `count` readings."""
+
+    socket: Annotated[str, TEXT]
+    sensor: Annotated[str, TEXT]
+    count: Annotated[int, COUNT] = 1
+
+    unit = ""
+    usual = (0.0, 1.0)
+
+    @property
+    def readings(self) -> int:
+        """How many values it reads."""
+        return self.count
+
+    def open(self) -> SimulatedSensorDevice:
+        """The sensor; DeviceError where the world has none such."""
+        device = SimulatedSensorDevice(Link(self.socket), self.sensor, self.count)
+        try:
+            device.read()
+        except DeviceError:
+            device.close()
+            raise
+        return device
+
+
+@kind("actuator driver", "simulated")
+@dataclass(frozen=True, slots=True)
+class SimulatedActuator:
+    """An `actuator` of the simulated world at a `socket`."""
+
+    socket: Annotated[str, TEXT]
+    actuator: Annotated[str, TEXT]
+
+    def open(self) -> SimulatedActuatorDevice:
+        """The actuator, which does not move until it is commanded; DeviceError where the world has none such."""
+        if self.actuator not in status(self.socket)["commands"]:
+            raise DeviceError(f"in the simulated world, there is no actuator {self.actuator}")
+        return SimulatedActuatorDevice(Link(self.socket), self.actuator)
+
+
+def status(path: str) -> dict[str, Any]:
+    """How the world at a socket stands: `tick`, `pose`, `events`, `ended` and more (`Scene.status`)."""
+    link = Link(path)
+    try:
+        found: dict[str, Any] = json.loads(link.ask(STATUS))
+        return found
+    finally:
+        link.close()
+
+
+def dry(graph: Graph, path: str) -> Wiring:
+    """A robot all of whose sensors and actuators are those of the simulated world at a socket.
+
+    Each sensor is read twice a tick, so that what the loop sees is never much more than half a tick older than in
+    training.
+    """
+    rate = min(max(2 / graph.tick, 0.01), 1000.0)
+    max_age = min(max(0.25, 5 * graph.tick), 3600.0)  # a computer that simulates has other things to do, too
+    return Wiring(
+        robot="simulated",
+        sensors=tuple(
+            SensorWire(name, SimulatedSensor(path, name, sensor.width), 0.0, 1.0, rate=rate, max_age=max_age)
+            for name, sensor in physical(graph).items()
+        ),
+        actuators=tuple(
+            ActuatorWire(actuator.name, SimulatedActuator(path, actuator.name)) for actuator in graph.actuators
+        ),
+    )
