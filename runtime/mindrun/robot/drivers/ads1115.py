@@ -1,0 +1,83 @@
+"""A battery's voltage by an ADS1115 (Texas Instruments, 4 inputs of 16 bits; data sheet SBAS444)."""
+
+from dataclasses import dataclass
+from time import monotonic, sleep
+from typing import Annotated
+
+from mindrun.quantity import Quantity
+from mindrun.registry import kind
+from mindrun.robot.parts import ADDRESS, BUS, Wire
+
+INPUT = Quantity("an input", {"": 1.0}, low=0, high=3, whole=True)
+RATIO_OF_DIVIDER = Quantity("how many times more than the input gets", {"": 1.0}, low=1.0, high=100.0)
+CONVERSION, CONFIG = 0x00, 0x01  # table 8-1
+START, FROM_GROUND, RANGE_4V, ONCE, RATE_128, NO_COMPARATOR = 0x8000, 0x4000, 0x0200, 0x0100, 0x0080, 0x0003  # 8-3
+VOLTS_PER_COUNT = 4.096 / 0x8000
+TOO_MUCH = 0x7FFF
+DONE_IN = 0.05  # seconds; at 128 a second it takes 8 ms
+
+
+@dataclass(slots=True)
+class VoltageDevice:
+    """One input of the converter."""
+
+    wire: Wire
+    config: int
+    divider: float
+
+    def read(self) -> tuple[float]:
+        """The battery's voltage, measured now."""
+        self.wire.write(CONFIG, (self.config | START) >> 8, self.config & 0xFF)
+        self.wait()
+        count = int.from_bytes(self.wire.read(CONVERSION, 2), "big", signed=True)
+        if count >= TOO_MUCH:
+            raise self.wire.error("has more than 4.096 V on its input; the divider is wrong or open")
+        return (max(count, 0) * VOLTS_PER_COUNT * self.divider,)
+
+    def wait(self) -> None:
+        """Return when the measurement is done."""
+        begin = monotonic()
+        while True:
+            found = int.from_bytes(self.wire.read(CONFIG, 2), "big")
+            if found & ~START != self.config:
+                raise self.wire.error(f"has settings nobody gave it (0x{found:04x})")
+            if found & START:
+                return
+            if monotonic() - begin > DONE_IN:
+                raise self.wire.error("does not finish measuring")
+            sleep(0.002)
+
+    def close(self) -> None:
+        """Let go."""
+        self.wire.close()
+
+
+@kind("sensor driver", "ads1115")
+@dataclass(frozen=True, slots=True)
+class Ads1115:
+    """A battery's voltage, in volts, on one input of an ADS1115.
+
+    Two resistors bring it under 3.3 V: 100 kΩ from the battery to the input and 47 kΩ from there to ground make a
+    `divider` of 3.13, for up to 10 V. Usually empty at 6.4 V and full at 8.4 V, as two lithium cells are.
+    """
+
+    channel: Annotated[int, INPUT] = 0
+    divider: Annotated[float, RATIO_OF_DIVIDER] = 3.13
+    bus: Annotated[int, BUS] = 1
+    address: Annotated[int, ADDRESS] = 0x48
+
+    unit = "V"
+    readings = 1
+    usual = (6.4, 8.4)
+    possible = (0.0, 500.0)
+
+    def open(self) -> VoltageDevice:
+        """The converter."""
+        config = FROM_GROUND | self.channel << 12 | RANGE_4V | ONCE | RATE_128 | NO_COMPARATOR
+        device = VoltageDevice(Wire("the voltage converter", self.bus, self.address), config, self.divider)
+        try:
+            device.read()
+        except Exception:
+            device.close()
+            raise
+        return device

@@ -1,0 +1,164 @@
+"""A camera that looks for a luminous ball, and turns after it where it can."""
+
+from dataclasses import dataclass, replace
+from threading import Lock, Thread
+from time import sleep
+from typing import Annotated
+
+from mindrun.quantity import COUNT, RATIO, Quantity, Reference
+from mindrun.registry import kind
+from mindrun.robot import eye
+from mindrun.robot.drivers.pca9685 import Pca9685
+from mindrun.robot.eye import Eye, Joint, Sight
+from mindrun.robot.parts import ADDRESS, BUS, CHANNEL, DEGREES, METRES, MICROSECONDS, PATH
+from mindrun.robot.tracker import Look, Neck, distance
+
+MEASURE = Reference("measure", ("bearing", "elevation", "distance"))
+HUE = Quantity("a hue", {"deg": 1.0}, low=0.0, high=360.0)
+VIEW = Quantity("an angle of view", {"deg": 1.0}, low=5.0, high=170.0)
+STALE = 0.2  # seconds without a frame that are a fault
+FIRST = 5.0  # seconds until the first frame: cameras take their time to start
+CENTRING = 0.4  # seconds that servos need to the middle
+LETTING_GO = 1.0  # seconds that the thread may need to end
+
+_eyes: dict["BallTracker", tuple[Eye, Thread, int]] = {}  # of each, how many look through it
+_opening = Lock()
+
+
+@dataclass(slots=True)
+class BallTrackerDevice:
+    """One thing that is measured of the ball."""
+
+    driver: "BallTracker"
+    eye: Eye
+    number: int = 0
+    closed: bool = False
+
+    def read(self) -> tuple[float | None]:
+        """It, in the newest frame that was not read before; None where there is no ball in that."""
+        sight = self.eye.after(self.number, STALE)
+        self.number = sight.number
+        return (self.measured(sight),)
+
+    def measured(self, sight: Sight) -> float | None:
+        """The measure, in degrees or metres."""
+        if sight.ball is None:
+            return None
+        match self.driver.measure:
+            case "bearing":
+                return (sight.aim.pan + sight.ball.bearing + 180) % 360 - 180
+            case "elevation":
+                return sight.aim.tilt + sight.ball.elevation
+        return distance(sight.ball.diameter, self.driver.size, sight.width, self.driver.view)
+
+    def close(self) -> None:
+        """Let go; the last one who looks through a camera turns it off."""
+        if self.closed:
+            return
+        self.closed = True
+        with _opening:
+            key = self.driver.camera_alone()
+            through, thread, users = _eyes.pop(key)
+            if users > 1:
+                _eyes[key] = through, thread, users - 1
+                return
+            through.stop.set()
+            thread.join(LETTING_GO)  # the thread lets go, at the latest when its camera answers
+
+
+@kind("sensor driver", "ball_tracker")
+@dataclass(frozen=True, slots=True)
+class BallTracker:
+    """A camera that looks for the largest round thing that is bright and has a hue: 0 red, 120 green, 240 blue.
+
+    `measure` says what is read: the bearing or the elevation in degrees, to the left and up positive, or the distance
+    in metres to a ball of diameter `size`. Several sensors can read of one camera, where all else is written the same.
+    Where no ball is seen there is none; no frame, the same one, a black or a white one is a fault.
+
+    `camera` is a path: /dev/video0, or a film. With `pan` and `tilt`, channels of a PCA9685 servo card, it turns after
+    the ball and back to the middle when it has lost it; each servo does `travel` degrees between its pulses, negative
+    where the longest one turns it to the right, or down. The servos turn as soon as the robot is started.
+    """
+
+    measure: Annotated[str, MEASURE] = "bearing"
+    camera: Annotated[str, PATH] = "/dev/video0"
+    width: Annotated[int, COUNT] = 320
+    height: Annotated[int, COUNT] = 240
+    view: Annotated[float, VIEW] = 60.0
+    size: Annotated[float, METRES] = 0.1
+    hue: Annotated[float, HUE] = 120.0
+    tolerance: Annotated[float, HUE] = 25.0
+    colour: Annotated[float, RATIO] = 0.4
+    brightness: Annotated[float, RATIO] = 0.5
+    pan: Annotated[int, CHANNEL] | None = None
+    tilt: Annotated[int, CHANNEL] | None = None
+    travel: Annotated[float, DEGREES] = 90.0
+    tilt_travel: Annotated[float, DEGREES] = 90.0
+    shortest: Annotated[float, MICROSECONDS] = 1000.0
+    longest: Annotated[float, MICROSECONDS] = 2000.0
+    bus: Annotated[int, BUS] = 1
+    address: Annotated[int, ADDRESS] = 0x40
+
+    readings = 1
+
+    @property
+    def unit(self) -> str:
+        """Of what is measured."""
+        return "m" if self.measure == "distance" else "deg"
+
+    @property
+    def usual(self) -> tuple[float, float]:
+        """A bearing is 0.5 straight ahead, less on the left and more on the right; so is an elevation, less above."""
+        return (0.0, 3.0) if self.measure == "distance" else (180.0, -180.0)
+
+    @property
+    def possible(self) -> tuple[float, float]:
+        """What is not nonsense."""
+        return (0.0, 100.0) if self.measure == "distance" else (-180.0, 180.0)
+
+    def camera_alone(self) -> "BallTracker":
+        """This, whatever is measured: those who share a camera."""
+        return replace(self, measure="bearing")
+
+    def open(self) -> BallTrackerDevice:
+        """The camera, which gives frames."""
+        key = self.camera_alone()
+        with _opening:
+            if key not in _eyes:
+                through = self.open_eye()
+                thread = Thread(target=through.watch, name=f"camera {self.camera}", daemon=True)
+                _eyes[key] = through, thread, 0
+                thread.start()
+            through, thread, users = _eyes[key]
+            _eyes[key] = through, thread, users + 1
+        device = BallTrackerDevice(self, through)
+        try:
+            through.after(0, FIRST)
+        except Exception:
+            device.close()
+            raise
+        return device
+
+    def open_eye(self) -> Eye:
+        """The camera, and its servos, in the middle."""
+        look = Look(self.hue, self.tolerance, self.colour, self.brightness, view=self.view)
+        through = Eye(eye.open_camera(self.camera, self.width, self.height), look, Neck(pan=0.0, tilt=0.0))
+        try:
+            if self.pan is not None:
+                through.pan = self.joint(self.pan, self.travel)
+            if self.tilt is not None:
+                through.tilt = self.joint(self.tilt, self.tilt_travel)
+            through.point()
+        except Exception:
+            through.let_go()
+            raise
+        if through.pan or through.tilt:
+            sleep(CENTRING)
+        reach = [abs(joint.travel) / 2 if joint else 0.0 for joint in (through.pan, through.tilt)]
+        through.neck = Neck(*reach)
+        return through
+
+    def joint(self, channel: int, travel: float) -> Joint:
+        """A servo of the neck."""
+        servo = Pca9685(channel, self.shortest, self.longest, self.bus, self.address)
+        return Joint(servo.open(), travel)

@@ -1,0 +1,98 @@
+"""Grove ultrasonic rangers on a GrovePi board, over I2C (protocol of the board's firmware 1.2 to 1.4)."""
+
+from dataclasses import dataclass
+from time import monotonic, sleep
+from typing import Annotated
+
+from mindrun.quantity import Quantity
+from mindrun.registry import kind
+from mindrun.robot.parts import ADDRESS, BUS, METRES, Wire
+
+PORT = Quantity("a digital port of the GrovePi", {"": 1.0}, low=2, high=8, whole=True)
+RANGER, VERSION = 7, 8  # commands
+BUSY, NOBODY = 23, 255  # first bytes of an answer: still measuring; nobody drives the bus
+UNUSED = 0
+POLL = 0.003  # seconds between two questions
+ANSWERED_IN = 0.15  # seconds; the board itself listens for 75 ms
+FARTHEST = 5.2  # metres: where nothing echoes the ranger's pulse ends at about 5 m, and is longer on some
+
+
+@dataclass(frozen=True, slots=True)
+class GroveUltrasonicDevice:
+    """The rangers of one board."""
+
+    wire: Wire
+    ports: tuple[int, ...]
+    reach: float
+
+    def read(self) -> tuple[float | None, ...]:
+        """One measurement of each, one after the other."""
+        return tuple(self.measure(port) for port in self.ports)
+
+    def measure(self, port: int) -> float | None:
+        """Metres to what echoed, None where nothing did."""
+        high, low = self.ask(RANGER, port, count=3)
+        centimetres = high << 8 | low
+        if not centimetres:  # the board heard no pulse at all; where nothing echoes there is a long one
+            raise self.wire.error(f"hears no ranger on port D{port}")
+        metres = centimetres / 100
+        return metres if metres <= min(self.reach, FARTHEST) else None
+
+    def ask(self, command: int, port: int = UNUSED, *, count: int) -> bytes:
+        """What the board answers after repeating the command; asks until a deadline that no answer can put off."""
+        self.wire.write(command, port, UNUSED, UNUSED)
+        begin = monotonic()
+        while monotonic() - begin < ANSWERED_IN:
+            sleep(POLL)
+            answer = self.wire.transfer(b"", count)
+            if answer[0] == command:
+                return answer[1:]
+            if answer[0] not in (BUSY, NOBODY):
+                raise self.wire.error(f"answers nonsense ({answer.hex(' ')})")
+        raise self.wire.error("does not finish measuring")
+
+    def close(self) -> None:
+        """Let go."""
+        self.wire.close()
+
+
+@kind("sensor driver", "grove_ultrasonic")
+@dataclass(frozen=True, slots=True)
+class GroveUltrasonic:
+    """Grove ultrasonic rangers on the digital ports of a GrovePi board: metres to an echo.
+
+    `ports` lists the numbers of the ports (4 for D4) in the order of the sensor's angles; not two neighbours in a row.
+    Each takes 10 to 40 ms. What is farther away than `range`, or does not echo, is none.
+    """
+
+    ports: Annotated[tuple[int, ...], PORT]
+    range: Annotated[float, METRES] = 3.5
+    bus: Annotated[int, BUS] = 1
+    address: Annotated[int, ADDRESS] = 0x04
+
+    unit = "m"
+
+    @property
+    def readings(self) -> int:
+        """How many there are."""
+        return len(self.ports)
+
+    @property
+    def usual(self) -> tuple[float, float]:
+        """Touching, and clear within the range."""
+        return 0.0, self.range
+
+    @property
+    def possible(self) -> tuple[float, float]:
+        """What is not nonsense."""
+        return self.usual
+
+    def open(self) -> GroveUltrasonicDevice:
+        """All of them."""
+        device = GroveUltrasonicDevice(Wire("the GrovePi", self.bus, self.address), self.ports, self.range)
+        try:
+            device.ask(VERSION, count=4)
+        except Exception:
+            device.close()
+            raise
+        return device

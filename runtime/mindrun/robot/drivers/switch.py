@@ -1,0 +1,49 @@
+"""A switch between a GPIO pin and ground, or 3.3 V."""
+
+from dataclasses import dataclass
+from typing import Annotated, Any
+
+from mindrun.quantity import Reference
+from mindrun.registry import kind
+from mindrun.robot.parts import PIN, library, pins
+
+PULL = Reference("pull", ("up", "down"))
+
+
+@dataclass(frozen=True, slots=True)
+class SwitchDevice:
+    """A switch."""
+
+    button: Any
+
+    def read(self) -> tuple[float]:
+        """1 while it is closed, else 0."""
+        with pins("the switch cannot be read"):
+            return (1.0 if self.button.is_pressed else 0.0,)
+
+    def close(self) -> None:
+        """Let go."""
+        self.button.close()
+
+
+@kind("sensor driver", "switch")
+@dataclass(frozen=True, slots=True)
+class Switch:
+    """A switch or a bumper: 1 while it is closed, else 0.
+
+    It connects `pin` (a GPIO number) to ground; with `pull` "down", to 3.3 V.
+    """
+
+    pin: Annotated[int, PIN]
+    pull: Annotated[str, PULL] = "up"
+
+    unit = ""
+    readings = 1
+    usual = (0.0, 1.0)
+    possible = (0.0, 1.0)
+
+    def open(self) -> SwitchDevice:
+        """The switch."""
+        gpiozero = library("gpiozero")
+        with pins(f"the switch on GPIO {self.pin} cannot be opened"):
+            return SwitchDevice(gpiozero.Button(self.pin, pull_up=self.pull == "up"))

@@ -1,0 +1,155 @@
+"""Ultrasonic range finders with trigger and echo pins (HC-SR04 and its kin), fired in turn."""
+
+from dataclasses import dataclass, field
+from math import gcd
+from threading import Event
+from time import monotonic, sleep
+from typing import Annotated, Any
+
+from mindrun.registry import kind
+from mindrun.robot.contract import DeviceError
+from mindrun.robot.parts import METRES, PIN, library, pins
+
+SOUND = 343.2  # metres a second, at 20 °C
+TRIGGER = 10e-6  # seconds, HC-SR04 data sheet
+BEGINS = 0.05  # seconds until the echo line must have gone high; it does so within 1 ms
+ENDS = 0.25  # seconds until it must be low again where nothing echoed: 38 ms, of some makes 200 ms
+LATE = 0.003  # seconds that the news of an edge may need
+
+
+@dataclass(slots=True, weakref_slot=True, eq=False)
+class Pair:
+    """The two pins of one range finder. The times of the edges are the kernel's, not ours."""
+
+    trigger: Any
+    echo: Any
+    rose: Any = None
+    fell: Any = None
+    risen: Event = field(default_factory=Event)
+    fallen: Event = field(default_factory=Event)
+
+    def __post_init__(self) -> None:
+        self.echo.pin.edges = "both"
+        self.echo.pin.bounce = None
+        self.echo.pin.when_changed = self.changed
+
+    def changed(self, ticks: Any, level: Any) -> None:
+        """An edge of the echo line."""
+        if level:
+            self.rose = ticks
+            self.risen.set()
+        elif self.risen.is_set():
+            self.fell = ticks
+            self.fallen.set()
+
+    def measure(self, reach: float) -> float | None:
+        """Metres to what echoed, None where nothing did within `reach`."""
+        self.wait_for_silence()
+        self.risen.clear()
+        self.fallen.clear()
+        self.trigger.on()
+        sleep(TRIGGER)
+        self.trigger.off()
+        if not self.risen.wait(BEGINS):
+            raise DeviceError(f"{self} does not answer", "is it wired to these pins, and has it 5 V?")
+        if not self.fallen.wait(2 * reach / SOUND + LATE):
+            if self.echo.pin.state:
+                return None
+            if not self.fallen.wait(BEGINS):  # the line is low, so there was an echo: it must not read as none
+                raise DeviceError(f"{self} answered, but when is not known")
+        metres = float(self.echo.pin_factory.ticks_diff(self.fell, self.rose)) * SOUND / 2
+        return metres if metres <= reach else None
+
+    def wait_for_silence(self) -> None:
+        """Return when the echo line is low."""
+        begin = monotonic()
+        while self.echo.pin.state:
+            if monotonic() - begin > ENDS:
+                raise DeviceError(f"{self} holds its echo line high", "is it broken, or wired to another pin?")
+            sleep(0.001)
+
+    def __str__(self) -> str:
+        return f"the range finder on {self.trigger.pin} and {self.echo.pin}"
+
+    def close(self) -> None:
+        """Let go of both pins."""
+        self.trigger.close()
+        self.echo.close()
+
+
+@dataclass(frozen=True, slots=True)
+class UltrasonicDevice:
+    """Range finders in a ring."""
+
+    pairs: tuple[Pair, ...]
+    reach: float
+
+    def read(self) -> tuple[float | None, ...]:
+        """One measurement of each, in turn; each takes as long as sound needs to and fro, so that echoes die away."""
+        found: dict[int, float | None] = {}
+        for index in firing_order(len(self.pairs)):
+            begin = monotonic()
+            with pins(f"range finder {index + 1} cannot be read"):
+                found[index] = self.pairs[index].measure(self.reach)
+            sleep(max(0.0, begin + 2 * self.reach / SOUND - monotonic()))
+        return tuple(found[index] for index in range(len(self.pairs)))
+
+    def close(self) -> None:
+        """Let go of all pins."""
+        for pair in self.pairs:
+            pair.close()
+
+
+def firing_order(count: int) -> list[int]:
+    """Which is fired when: where it can be, two neighbours of the ring never follow each other, nor last and first."""
+    strides = [stride for stride in range(2, count - 1) if gcd(stride, count) == 1]
+    if not strides:
+        return [*range(0, count, 2), *range(1, count, 2)]
+    stride = min(strides, key=lambda step: abs(step - count / 3))
+    return [index * stride % count for index in range(count)]
+
+
+@kind("sensor driver", "ultrasonic")
+@dataclass(frozen=True, slots=True)
+class Ultrasonic:
+    """Ultrasonic range finders with a trigger and an echo pin each (HC-SR04, US-100, RCWL-1601): metres to an echo.
+
+    `trigger` and `echo` list the GPIO numbers in the order of the sensor's angles. Echo is 5 V on an HC-SR04: bring it
+    to 3.3 V with two resistors. They are fired in turn, never two neighbours, and each is listened to for as long as
+    sound needs to `range` and back: ten of them up to 1 m take 70 ms. What is farther away, or does not echo, is none.
+    """
+
+    trigger: Annotated[tuple[int, ...], PIN]
+    echo: Annotated[tuple[int, ...], PIN]
+    range: Annotated[float, METRES] = 1.0
+
+    unit = "m"
+
+    @property
+    def readings(self) -> int:
+        """How many there are."""
+        return len(self.trigger)
+
+    @property
+    def usual(self) -> tuple[float, float]:
+        """Touching, and clear within the range."""
+        return 0.0, self.range
+
+    @property
+    def possible(self) -> tuple[float, float]:
+        """What is not nonsense."""
+        return self.usual
+
+    def open(self) -> UltrasonicDevice:
+        """All of them."""
+        if len(self.trigger) != len(self.echo) or not self.trigger:
+            raise DeviceError(f"{len(self.trigger)} trigger pins and {len(self.echo)} echo pins make no pairs")
+        gpiozero, pairs = library("gpiozero"), []
+        try:
+            for trigger, echo in zip(self.trigger, self.echo, strict=True):
+                with pins(f"the range finder on GPIO {trigger} and {echo} cannot be opened"):
+                    pairs.append(Pair(gpiozero.OutputDevice(trigger), gpiozero.InputDevice(echo, pull_up=False)))
+        except DeviceError:
+            UltrasonicDevice(tuple(pairs), self.range).close()
+            raise
+        return UltrasonicDevice(tuple(pairs), self.range)

@@ -1,0 +1,166 @@
+"""A camera that a thread of its own watches, and turns after a ball, so that one that hangs holds up nobody."""
+
+from collections.abc import Callable
+from contextlib import suppress
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+from threading import Condition, Event
+from time import monotonic, sleep
+from typing import Any, Protocol
+
+import numpy as np
+
+from mindrun.robot.contract import ActuatorDevice, DeviceError
+from mindrun.robot.parts import library
+from mindrun.robot.tracker import Aim, Ball, Frame, Look, Neck, blindness, find_ball, follow
+
+STALE = 0.2  # seconds for which the same frame may come
+RETRY = 0.02  # seconds between two questions to a camera that has no frame
+AHEAD = Aim()
+STILL_IMAGE = 8  # every so many pixels are compared with the frame before
+
+
+class Camera(Protocol):
+    """Where frames come from: `read` blocks until there is one, and says whether there is."""
+
+    def read(self) -> tuple[bool, Frame]: ...
+
+    def release(self) -> None: ...
+
+
+@dataclass(slots=True)
+class Film:
+    """A recorded film, shown as fast as it was recorded."""
+
+    capture: Any
+    interval: float
+    due: float = 0.0
+
+    def read(self) -> tuple[bool, Frame]:
+        """The next frame when it is due."""
+        sleep(max(0.0, self.due - monotonic()))
+        self.due = max(self.due, monotonic() - self.interval) + self.interval
+        found: tuple[bool, Frame] = self.capture.read()
+        return found
+
+    def release(self) -> None:
+        """Close the file."""
+        self.capture.release()
+
+
+def open_camera(path: str, width: int, height: int) -> Camera:
+    """The camera, or the film, of that path; tests put a camera of their own here."""
+    cv2 = library("cv2")
+    film = Path(path).is_file()
+    capture = cv2.VideoCapture(path, cv2.CAP_ANY if film else cv2.CAP_V4L2)
+    if not capture.isOpened():
+        raise DeviceError(f"the camera {path} cannot be opened", "is it there, and free? ls /dev/video*")
+    if film:
+        return Film(capture, 1 / (capture.get(cv2.CAP_PROP_FPS) or 30.0))
+    capture.set(cv2.CAP_PROP_FRAME_WIDTH, width)
+    capture.set(cv2.CAP_PROP_FRAME_HEIGHT, height)
+    capture.set(cv2.CAP_PROP_BUFFERSIZE, 1)  # an old frame is an old bearing
+    opened: Camera = capture
+    return opened
+
+
+@dataclass(frozen=True, slots=True)
+class Joint:
+    """A servo of the neck: `travel` degrees from command 0 to 1, negative where that is to the right, or down."""
+
+    servo: ActuatorDevice
+    travel: float
+
+    def point(self, angle: float) -> None:
+        """Turn it to an angle from the middle."""
+        self.servo.write(min(1.0, max(0.0, 0.5 + angle / self.travel)))
+
+
+@dataclass(frozen=True, slots=True)
+class Sight:
+    """What was seen in a frame, where the camera pointed, and how wide the frame was; or why there was nothing."""
+
+    number: int = 0
+    ball: Ball | None = None
+    aim: Aim = AHEAD
+    width: int = 1
+    error: DeviceError | None = None
+
+
+@dataclass(slots=True, eq=False)
+class Eye:
+    """A camera, what it looks for, and the joints that turn it, pan and tilt, as far as it has them."""
+
+    camera: Camera
+    look: Look
+    neck: Neck
+    pan: Joint | None = None
+    tilt: Joint | None = None
+    sight: Sight = field(default_factory=Sight)
+    aim: Aim = AHEAD
+    then: float = field(default_factory=monotonic)
+    sample: Frame | None = None
+    changed: float = field(default_factory=monotonic)
+    news: Condition = field(default_factory=Condition)
+    stop: Event = field(default_factory=Event)
+
+    def watch(self) -> None:
+        """Look at one frame after another until told to stop, then let go of everything."""
+        while not self.stop.is_set():
+            try:
+                seen, frame = self.camera.read()
+                if not seen:
+                    self.stop.wait(RETRY)
+                    continue  # who waits for a frame notices that none comes
+                self.tell(self.see(frame))
+            except DeviceError as error:
+                self.tell(Sight(aim=self.aim, error=error))
+            except Exception as error:  # whatever OpenCV raises must reach who waits, not end the thread
+                self.tell(Sight(aim=self.aim, error=DeviceError(f"the camera failed: {error}")))
+        self.let_go()
+
+    def see(self, frame: Frame) -> Sight:
+        """What is in a frame; turns the camera after it."""
+        now = monotonic()
+        sample = frame[::STILL_IMAGE, ::STILL_IMAGE]
+        if self.sample is None or not np.array_equal(sample, self.sample):
+            self.sample, self.changed = sample.copy(), now
+        if now - self.changed > STALE:
+            raise DeviceError("the camera repeats the same frame")
+        if reason := blindness(frame):
+            raise DeviceError(f"the camera sees nothing: its frames are {reason}")
+        sight = Sight(0, find_ball(frame, self.look), self.aim, frame.shape[1])
+        self.aim, self.then = follow(self.aim, sight.ball, now - self.then, self.neck), now
+        self.point()
+        return sight
+
+    def point(self) -> None:
+        """Turn the camera to where it should point."""
+        if self.pan:
+            self.pan.point(self.aim.pan)
+        if self.tilt:
+            self.tilt.point(self.aim.tilt)
+
+    def tell(self, sight: Sight) -> None:
+        """Tell who waits for a frame."""
+        with self.news:
+            self.sight = replace(sight, number=self.sight.number + 1)
+            self.news.notify_all()
+
+    def after(self, number: int, seconds: float) -> Sight:
+        """What was seen in a frame after the one of that number; DeviceError where none comes, or nothing is in it."""
+        with self.news:
+            if not self.news.wait_for(lambda: self.sight.number > number, seconds):
+                raise DeviceError(f"the camera has given no frame for {seconds:g} s")
+            sight = self.sight
+        if sight.error:
+            raise DeviceError(str(sight.error), sight.error.hint)
+        return sight
+
+    def let_go(self) -> None:
+        """Let go of the camera and of the servos, which stay where they are."""
+        release: list[Callable[[], None]] = [self.camera.release]
+        release += [joint.servo.close for joint in (self.pan, self.tilt) if joint]
+        for close in release:
+            with suppress(Exception):  # closing never raises
+                close()

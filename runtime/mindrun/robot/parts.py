@@ -1,0 +1,149 @@
+"""What drivers share: quantities of their options, packages imported when needed, and I2C transfers that always end."""
+
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
+from dataclasses import dataclass, field
+from fcntl import ioctl
+from importlib import import_module
+from time import monotonic, sleep
+from typing import Any, Protocol
+
+from mindrun.quantity import Quantity, Reference
+from mindrun.robot.contract import DeviceError
+
+PIN = Quantity("a GPIO number", {"": 1.0}, low=0, high=27, whole=True)  # as Broadcom counts, not as the header does
+BUS = Quantity("the number of an I2C bus", {"": 1.0}, low=0, high=99, whole=True)
+ADDRESS = Quantity("an I2C address", {"": 1.0}, low=0x03, high=0x77, whole=True)
+CHANNEL = Quantity("a channel", {"": 1.0}, low=0, high=15, whole=True)
+METRES = Quantity("a distance", {"m": 1.0, "cm": 0.01}, low=0.0)
+MICROSECONDS = Quantity("a pulse width", {"us": 1.0}, low=100.0, high=4000.0)
+DEGREES = Quantity("an angle", {"deg": 1.0}, low=-360.0, high=360.0)
+PATH = Reference("path")
+
+INSTALL = "pip install 'mindrun[robot]'"
+INSTALL_PINS = "sudo apt install python3-lgpio, or in a virtual environment: pip install lgpio"
+TRIES = 3
+PAUSE = 0.002  # seconds between two tries
+DEADLINE = 0.1  # seconds for all tries of one transfer
+I2C_TIMEOUT, KERNEL_TICKS = 0x0702, 5  # <linux/i2c-dev.h>; in units of 10 ms: for how long a part may hold the clock
+
+
+def library(module: str, install: str = INSTALL) -> Any:
+    """A module that only this driver needs; DeviceError with the line that installs it."""
+    try:
+        return import_module(module)
+    except ImportError as error:
+        raise DeviceError(f"the package {module} is not installed ({error})", install) from error
+
+
+def share(value: float) -> float:
+    """A command as it was given; DeviceError, before anything is sent, unless it is in 0..1 (NaN is not)."""
+    if not 0.0 <= value <= 1.0:
+        raise DeviceError(f"a command of {value} is not between 0 and 1, and was not sent")
+    return float(value)
+
+
+@contextmanager
+def pins(what: str) -> Iterator[None]:
+    """Whatever goes wrong with GPIO pins inside is a DeviceError."""
+    try:
+        yield
+    except DeviceError:
+        raise
+    except Exception as error:  # gpiozero's, lgpio's and RPi.GPIO's errors have nothing else in common
+        raise DeviceError(f"{what}: {error}", INSTALL_PINS) from error
+
+
+class Bus(Protocol):
+    """An I2C bus that is open."""
+
+    def transfer(self, address: int, out: bytes, count: int) -> bytes:
+        """Write `out`, then read `count` bytes, as one transfer; OSError where the part does not acknowledge."""
+        ...
+
+    def close(self) -> None: ...
+
+
+@dataclass(frozen=True, slots=True)
+class LinuxBus:
+    """The I2C bus of a Raspberry Pi."""
+
+    smbus: Any
+    message: Any
+
+    def transfer(self, address: int, out: bytes, count: int) -> bytes:
+        """One transfer, with a repeated start between writing and reading."""
+        writing = [self.message.write(address, out)] if out else []
+        reading = [self.message.read(address, count)] if count else []
+        self.smbus.i2c_rdwr(*writing, *reading)
+        return b"".join(bytes(message) for message in reading)
+
+    def close(self) -> None:
+        """Let go of it."""
+        self.smbus.close()
+
+
+def open_bus(number: int) -> Bus:
+    """The I2C bus of that number; tests put a bus of their own here."""
+    smbus2 = library("smbus2")
+    try:
+        smbus = smbus2.SMBus(number)
+    except OSError as error:
+        hint = "turn it on with: sudo raspi-config nonint do_i2c 0"
+        raise DeviceError(f"I2C bus {number} cannot be opened: {error}", hint) from error
+    with suppress(OSError, TypeError):  # not every adapter can be told how long to wait
+        ioctl(smbus.fd, I2C_TIMEOUT, KERNEL_TICKS)
+    return LinuxBus(smbus, smbus2.i2c_msg)
+
+
+@dataclass(slots=True)
+class Wire:
+    """One part on an I2C bus. Every transfer is tried up to `TRIES` times and ends, in an answer or a DeviceError."""
+
+    name: str
+    number: int
+    address: int
+    bus: Bus = field(init=False)
+    closed: bool = False
+
+    def __post_init__(self) -> None:
+        self.bus = open_bus(self.number)
+
+    def write(self, *out: int) -> None:
+        """Write bytes, of which the first is a register or a command; returns when all are acknowledged."""
+        self.transfer(bytes(out))
+
+    def read(self, register: int, count: int) -> bytes:
+        """Read from a register on."""
+        return self.transfer(bytes((register,)), count)
+
+    def transfer(self, out: bytes, count: int = 0) -> bytes:
+        """Write, then read."""
+        if self.closed:
+            raise self.error("is closed")
+        begin, failure = monotonic(), "no answer"
+        for _ in range(TRIES):
+            try:
+                answer = self.bus.transfer(self.address, out, count)
+            except OSError as error:
+                answer, failure = None, str(error)
+            if monotonic() - begin > DEADLINE:
+                raise self.error(f"took {monotonic() - begin:.2f} s to answer")
+            if answer is not None and len(answer) == count:
+                return answer
+            sleep(PAUSE)
+        raise self.error(f"does not answer: {failure}")
+
+    def error(self, what: str) -> DeviceError:
+        """An error that says which part it is about, and how to look for it."""
+        return DeviceError(
+            f"{self.name} at 0x{self.address:02x} on I2C bus {self.number} {what}",
+            f"look whether it is there with: i2cdetect -y {self.number}",
+        )
+
+    def close(self) -> None:
+        """Let go of the bus; never raises, and again does nothing."""
+        if not self.closed:
+            self.closed = True
+            with suppress(OSError):
+                self.bus.close()
