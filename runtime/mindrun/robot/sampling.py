@@ -44,6 +44,12 @@ class Sampler:
         self._stop.set()
         self._thread.join(wait)
 
+    def measured_once(self) -> Sample:
+        """A sample measured now, in this thread, of a device that is open for it alone."""
+        device, sample = self._measured(None)
+        _close(device)
+        return sample
+
     def _run(self) -> None:
         device: SensorDevice | None = None
         due = self._clock()

@@ -1,0 +1,124 @@
+"""Watch a sensor, and print the lines for robot.yaml that its values call for.
+
+Move what it measures through its whole range while it runs; then let it rest. Nothing is moved by the robot.
+
+examples:
+  mindrun calibrate ball.bundle proximity
+  mindrun calibrate ball.bundle ball_bearing --seconds 30
+"""
+
+import argparse
+import sys
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from statistics import median, pstdev
+from time import monotonic, sleep
+
+import mindrun.robot.drivers  # noqa: F401  every driver is known once this is imported
+from mindrun.bundle import read_bundle
+from mindrun.errors import MindError
+from mindrun.robot.sampling import Sample, Sampler
+from mindrun.robot.wiring import SensorWire, reading
+
+REST = 10  # values that follow one another, over which noise is measured
+
+
+def options(parser: argparse.ArgumentParser) -> None:
+    """The arguments."""
+    parser.add_argument("bundle", type=Path)
+    parser.add_argument("sensor")
+    parser.add_argument("--seconds", type=float, default=20.0, metavar="S", help="how long to watch (default: 20)")
+
+
+def run(options: argparse.Namespace) -> int:
+    """0 where something was measured, else 1."""
+    wire = _wire(options.bundle, options.sensor)
+    samples = _watched(wire, options.seconds)
+    good = [sample for sample in samples if not sample.fault]
+    for why in sorted({sample.fault for sample in samples if sample.fault}):
+        print(f"{wire.sensor} {why}", file=sys.stderr)
+    if not good:
+        print("nothing has been measured", file=sys.stderr)
+        return 1
+    print("\n".join(lines(wire, good)))
+    return 0
+
+
+def _wire(bundle: Path, sensor: str) -> SensorWire:
+    wiring = read_bundle(bundle).wiring
+    if wiring is None:
+        raise MindError("this bundle is wired to no robot", "mindc build … --robot robot.yaml")
+    names = [wire.sensor for wire in wiring.sensors]
+    if sensor not in names:
+        raise MindError(f"no sensor {sensor} is wired", f"there are {', '.join(names)}")
+    return wiring.sensors[names.index(sensor)]
+
+
+def _watched(wire: SensorWire, seconds: float) -> list[Sample]:
+    """What is measured in so many seconds or until Ctrl-C, shown as it comes."""
+    sampler, samples = Sampler(wire), list[Sample]()
+    until = monotonic() + seconds
+    sampler.start()
+    try:
+        while monotonic() < until:
+            latest = sampler.latest
+            if latest and (not samples or latest is not samples[-1]):
+                samples.append(latest)
+                _show(wire, latest)
+            sleep(0.2 / wire.rate)
+    except KeyboardInterrupt:
+        pass  # that is enough
+    finally:
+        sampler.stop()
+    if sys.stderr.isatty():
+        print(file=sys.stderr)
+    return samples
+
+
+def _show(wire: SensorWire, sample: Sample) -> None:
+    if not sys.stderr.isatty():
+        return
+    pairs = (f"{'-' if raw is None else f'{raw:.3g}'} → {reading(wire, raw):.2f}" for raw in sample.values)
+    print(f"\r\033[K{sample.fault or '  '.join(pairs)}"[:160], end="", file=sys.stderr, flush=True)
+
+
+@dataclass(frozen=True, slots=True)
+class Found:
+    """What the values of a reading were like; `noise` is their spread at rest, `lost` the share without a value."""
+
+    low: float
+    high: float
+    noise: float
+    lost: float
+
+
+def found(values: Sequence[float | None]) -> Found | None:
+    """What values were like; None where there were none."""
+    there = [value for value in values if value is not None]
+    if not there:
+        return None
+    spans = [there[i : i + REST] for i in range(max(1, len(there) - REST + 1))]
+    noise = min(pstdev(span) for span in spans)
+    return Found(min(there), max(there), noise, 1 - len(there) / len(values))
+
+
+def lines(wire: SensorWire, samples: Sequence[Sample]) -> list[str]:
+    """The lines for robot.yaml, with what they rest on as comments."""
+    columns = [found(column) for column in zip(*(sample.values for sample in samples), strict=True)]
+    known = [column for column in columns if column]
+    said = [f"# {wire.sensor}: {len(samples)} measurements, in {wire.driver.unit or 'units of its own'}"]
+    for number, column in enumerate(columns):
+        what = "nothing measured" if column is None else (
+            f"{column.low:.4g} to {column.high:.4g}, noise {column.noise:.2g}, lost {column.lost:.0%}"
+        )  # fmt: skip
+        said.append(f"#   reading {number}: {what}")
+    if known:
+        low, high = min(column.low for column in known), max(column.high for column in known)
+        first, last = (low, high) if wire.low <= wire.high else (high, low)
+        said += [f"{wire.sensor}:", f"  from: {first:.4g}", f"  to: {last:.4g}"]
+        span, noise = abs(high - low), median(column.noise for column in known)
+        if span > 0:
+            said.append(f"# for the .mind file: noise {2 * noise / span:.1%} dead_zone {3 * noise / span:.1%}")
+            said[-1] += f" lost {max(column.lost for column in known):.0%}"
+    return said

@@ -1,0 +1,101 @@
+"""Say what a robot has, what is wired to it, what answers, and what to install.
+
+Nothing is moved: sensors are read once, actuators are left alone.
+
+examples:
+  mindrun doctor
+  mindrun doctor ball.bundle
+"""
+
+import argparse
+import os
+import platform
+from collections.abc import Iterator
+from dataclasses import dataclass
+from importlib.util import find_spec
+from pathlib import Path
+from threading import Thread
+
+import mindrun.robot.drivers  # noqa: F401  every driver is known once this is imported
+from mindrun.bundle import read_bundle
+from mindrun.registry import names
+from mindrun.robot.sampling import Sample, Sampler
+from mindrun.robot.wiring import SensorWire, Wiring
+
+PATIENCE = 3.0  # seconds for a sensor to answer
+PACKAGES = {  # that drivers may need, and the line that installs each
+    "numpy": "pip install numpy",
+    "smbus2": "pip install smbus2",
+    "gpiozero": "sudo apt install python3-gpiozero",
+    "lgpio": "sudo apt install python3-lgpio",
+    "cv2": "pip install 'opencv-python-headless>=4.10,<6'",
+}
+
+
+@dataclass(frozen=True, slots=True)
+class Finding:
+    """What was looked at, whether it is fine, and what there is to say or do."""
+
+    what: str
+    fine: bool
+    words: str
+
+
+def options(parser: argparse.ArgumentParser) -> None:
+    """The arguments."""
+    parser.add_argument("bundle", type=Path, nargs="?", help="look at what this bundle is wired to, as well")
+
+
+def run(options: argparse.Namespace) -> int:
+    """0 where everything that is wired answers, else 1."""
+    findings = [*machine()]
+    if options.bundle:
+        wiring = read_bundle(options.bundle).wiring
+        findings += wired(wiring) if wiring else [Finding("bundle", False, "it is wired to no robot")]
+    width = max(len(finding.what) for finding in findings)
+    for finding in findings:
+        print(f"{'ok ' if finding.fine else 'NOT'}  {finding.what:<{width}}  {finding.words}")
+    return 0 if all(finding.fine for finding in findings) else 1
+
+
+def machine() -> Iterator[Finding]:
+    """The machine, and what is installed; a package that is missing is no fault before something needs it."""
+    system = f"{platform.machine()}, {platform.platform(terse=True)}, Python {platform.python_version()}"
+    yield Finding("machine", True, system)
+    for package, line in PACKAGES.items():
+        there = find_spec(package) is not None
+        yield Finding(package, there or package != "numpy", "installed" if there else f"not installed: {line}")
+    for device in ("i2c-1", "gpiochip0", "video0"):
+        path = Path("/dev") / device
+        if path.exists():
+            may = os.access(path, os.R_OK | os.W_OK)
+            group = "gpio" if "gpio" in device else "video" if "video" in device else "i2c"
+            words = "you may use it" if may else f"you may not use it: sudo usermod -aG {group} $USER, and log in again"
+            yield Finding(str(path), may, words)
+        else:
+            yield Finding(str(path), True, "not there")
+
+
+def wired(wiring: Wiring) -> Iterator[Finding]:
+    """Every sensor, read once; every actuator, by the name of its driver."""
+    for wire in wiring.sensors:
+        sample = answered(wire)
+        kind = names()[type(wire.driver)]
+        if sample is None:
+            yield Finding(wire.sensor, False, f"{kind} has not answered within {PATIENCE:g} s")
+        else:
+            values = " ".join("-" if value is None else f"{value:.3g}" for value in sample.values)
+            words = sample.fault or f"{kind} reads {values} {wire.driver.unit}".rstrip()
+            yield Finding(wire.sensor, not sample.fault, words)
+    for end in wiring.actuators:
+        yield Finding(end.actuator, True, f"{names()[type(end.driver)]}, left alone")
+
+
+def answered(wire: SensorWire) -> Sample | None:
+    """One measurement; None where it takes too long."""
+    sampler = Sampler(wire)
+    came: list[Sample] = []
+    thread = Thread(target=lambda: came.append(sampler.measured_once()), daemon=True)
+    thread.start()
+    thread.join(PATIENCE)
+    return came[0] if came else None
