@@ -155,7 +155,7 @@ def _common(mistakes: Sequence[Mistake], code: str, line: Span) -> Diagnostic | 
 
 def _made_of(groups: Mapping[str, str], code: str) -> dict[str, str]:
     """The words of a message that are made of what a pattern found."""
-    here, noun, first = groups["here"], groups.get("noun", ""), code.split()[0]
+    here, noun, first = groups["here"], groups.get("noun", ""), (code.split() or [""])[0]
     registered = kinds("content" if noun == "contains" else noun)
     kind = registered.get(groups.get("kind", ""))
     digits = "".join(str(int(c)) for c in here if c.isdecimal())

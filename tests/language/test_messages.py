@@ -91,3 +91,11 @@ def test_what_stands_in_an_unread_line_is_not_said_to_be_missing() -> None:
         ("no-verb", 5),
         ("no-verb", 12),
     ]
+
+
+@pytest.mark.parametrize("line", ["\x0b", "\x0c ", "\u00a0", "\u2003\u3000", "\x85", "\u200b"])
+def test_a_line_of_odd_blanks_alone_is_told(line: str) -> None:
+    findings = Findings()
+    parse(Source("blank", f"tick 1/60 s\n{line}\n"), findings)
+    assert len(findings.diagnostics) == 1
+    assert findings.diagnostics[0].hint
