@@ -1,9 +1,7 @@
 """`python -P -m mindrun.robot.world --task T --socket PATH BUNDLE`: a simulated world at real time, behind a socket.
 
 A process of its own, because the controller opens the sensors and the guardian the actuators. It says `ready` on its
-standard output, or in one line what is wrong. An exchange is a REQUEST with a name, then an ANSWER with what it holds:
-READ a sensor by its name: its readings, float64; WRITE an actuator: nothing, now it has the value; STATUS: JSON.
-Where one is refused it is the reason. The time of an answer is that of the tick, in seconds of the monotonic clock.
+standard output, or in one line what is wrong; `mindrun.robot.drivers.simulated` is who talks to it, and how.
 """
 
 import argparse
@@ -21,17 +19,14 @@ from math import inf, isfinite
 from pathlib import Path
 from selectors import EVENT_READ, SelectSelector
 from socket import AF_UNIX, SOCK_STREAM, socket
-from struct import Struct
 from tempfile import TemporaryDirectory
 from time import monotonic
 from typing import Any, Protocol
 
 from mindrun.errors import MindError
 from mindrun.graph import Graph
+from mindrun.robot.drivers.simulated import ANSWER, READ, REQUEST, STATUS, WRITE
 
-READ, WRITE, STATUS = b"R", b"W", b"S"
-REQUEST = Struct("<cHd")  # what, length of the name, value; then the name in UTF-8
-ANSWER = Struct("<?Id")  # whether it was done, length of what it holds, time
 CLIENTS = 64
 CHUNK = 4096  # bytes of requests that one client may have answered before the others
 LINGER = 2.0  # seconds that the guardian has to bring a robot to neutral whose controller is gone

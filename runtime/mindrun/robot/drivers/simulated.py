@@ -1,4 +1,8 @@
-"""Sensors and actuators of a simulated world, which is another process: see `mindrun.robot.world`."""
+"""Sensors and actuators of a simulated world, which is another process: see `mindrun.robot.world`.
+
+An exchange is a REQUEST with a name, then an ANSWER with what it holds. READ a sensor: its readings, float64. WRITE an
+actuator: nothing, it has the value now. STATUS: JSON. Where one is refused, the reason.
+"""
 
 import json
 from dataclasses import dataclass, field
@@ -13,8 +17,10 @@ from mindrun.readings import physical
 from mindrun.registry import kind
 from mindrun.robot.contract import DeviceError
 from mindrun.robot.wiring import ActuatorWire, SensorWire, Wiring
-from mindrun.robot.world import ANSWER, READ, REQUEST, STATUS, WRITE
 
+READ, WRITE, STATUS = b"R", b"W", b"S"
+REQUEST = Struct("<cHd")  # what, length of the name, value; then the name in UTF-8
+ANSWER = Struct("<?Id")  # whether it was done, length of what it holds, when the tick began (monotonic seconds)
 DEADLINE = 0.2  # seconds for a whole exchange
 TEXT = Reference("text")
 VALUE = Struct("<d")
