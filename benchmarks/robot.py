@@ -1,0 +1,88 @@
+"""A tick of ball.mind, recorded ticks computed again, the start of mindrun: python benchmarks/robot.py [--json]."""
+
+import argparse
+import json
+import subprocess
+import sys
+import time
+from pathlib import Path
+from statistics import median
+from tempfile import TemporaryDirectory
+
+import numpy as np
+from mindrun.bundle import read_bundle
+from mindrun.engine import Engine
+from mindrun.robot.recording import About, Recorder
+from mindrun.robot.replay import replay
+
+BALL = Path(__file__).parents[1] / "examples" / "collect" / "ball.mind"
+TICKS, STARTS = 20_000, 9
+
+
+def bundle_of(mind: Path, folder: Path) -> Path:
+    """The mind's bundle."""
+    path = folder / "ball.bundle"
+    program = "from mindlang.cli import main; main()"
+    subprocess.run([sys.executable, "-c", program, "build", mind, "-o", path, "-q"], check=True)
+    return path
+
+
+def tick(path: Path) -> float:
+    """Microseconds of one tick of the engine."""
+    bundle = read_bundle(path)
+    engine = Engine(bundle.graph, bundle.weights, bundle.procedures)
+    readings = np.random.default_rng(1).random((1000, bundle.graph.width), np.float32)
+    times = []
+    for _ in range(7):
+        begin = time.perf_counter()
+        for row in readings:
+            engine.tick(row)
+        times.append((time.perf_counter() - begin) / len(readings))
+    return median(times) * 1e6
+
+
+def replayed(path: Path, folder: Path, ticks: int) -> tuple[float, bool]:
+    """Seconds for so many recorded ticks, and whether all are the same."""
+    bundle = read_bundle(path)
+    engine = Engine(bundle.graph, bundle.weights, bundle.procedures)
+    readings = np.random.default_rng(2).random((ticks, bundle.graph.width), np.float32)
+    day = folder / "day.rec"
+    with Recorder(day, About.of(bundle.graph, "0" * 64, ("proximity",))) as recorder:
+        for number, row in enumerate(readings):
+            commands = engine.tick(row)
+            recorder.write(tick=number, readings=row, influence=engine.influence, commands=commands, sent=commands)
+    begin = time.perf_counter()
+    found = replay(day, "0" * 64, engine)
+    return time.perf_counter() - begin, found.differs is None and found.ticks == ticks
+
+
+def start(path: Path) -> float:
+    """Seconds until mindrun has read a bundle and said what it holds."""
+    times = []
+    for _ in range(STARTS):
+        begin = time.perf_counter()
+        subprocess.run([sys.executable, "-m", "mindrun", path, "--describe"], check=True, stdout=subprocess.DEVNULL)
+        times.append(time.perf_counter() - begin)
+    return median(times)
+
+
+def main() -> None:
+    """Measure and print."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--ticks", type=int, default=TICKS, help="to record and replay (the issue: 1000000)")
+    parser.add_argument("--json", action="store_true")
+    options = parser.parse_args()
+    with TemporaryDirectory() as folder:
+        path = bundle_of(BALL, Path(folder))
+        seconds, same = replayed(path, Path(folder), options.ticks)
+        found = {"tick µs": tick(path), "replayed": options.ticks, "replay s": seconds, "same": same}
+        found["start s"] = start(path)
+    if options.json:
+        print(json.dumps(found))
+        return
+    for name, value in found.items():
+        print(f"{name:>10}  {value:,.3g}" if isinstance(value, float) else f"{name:>10}  {value:,}")
+
+
+if __name__ == "__main__":
+    main()
