@@ -90,8 +90,8 @@ class BallTracker:
     tolerance: Annotated[float, HUE] = 25.0
     colour: Annotated[float, RATIO] = 0.4
     brightness: Annotated[float, RATIO] = 0.5
-    pan: Annotated[int, CHANNEL] | None = None
-    tilt: Annotated[int, CHANNEL] | None = None
+    pan: Annotated[int | None, CHANNEL] = None
+    tilt: Annotated[int | None, CHANNEL] = None
     travel: Annotated[float, DEGREES] = 90.0
     tilt_travel: Annotated[float, DEGREES] = 90.0
     shortest: Annotated[float, MICROSECONDS] = 1000.0
