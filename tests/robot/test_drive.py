@@ -1,0 +1,125 @@
+"""`mindrun` on a robot of mock drivers: real processes, from the command line."""
+
+import json
+import signal
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+from mindrun.bundle import write_bundle
+from mindrun.robot.drivers.mock import MockActuator, MockSensor
+from mindrun.robot.recording import read
+from mindrun.robot.wiring import ActuatorWire, SensorWire, Wiring
+
+from tests.robot.faults import graph
+
+MINDRUN = (sys.executable, "-m", "mindrun")
+NEUTRAL = [0.5, 0.5, 0.0]
+
+
+def wiring(value: float = 0.6) -> Wiring:
+    actuators = ("left_wheel", "right_wheel", "claw")
+    sensor = SensorWire("sense", MockSensor(value), 0.0, 1.0)
+    return Wiring("mock", (sensor,), tuple(ActuatorWire(name, MockActuator()) for name in actuators))
+
+
+@pytest.fixture
+def bundle(tmp_path: Path) -> Path:
+    path = tmp_path / "mind.bundle"
+    write_bundle(path, graph("bearing"), {}, {}, wiring())
+    return path
+
+
+def mindrun(*words: object) -> subprocess.CompletedProcess[str]:
+    return subprocess.run([*MINDRUN, *map(str, words)], capture_output=True, text=True, check=False, timeout=60)
+
+
+def test_it_drives_records_and_is_replayed(bundle: Path, tmp_path: Path) -> None:
+    day = tmp_path / "day.rec"
+    said = mindrun(bundle, "--arm", "--ticks", 25, "--record", day)
+    assert (said.returncode, said.stdout) == (0, ""), said.stderr
+    assert "25 ticks of 50.0 ms" in said.stderr
+    assert "nothing will move" not in said.stderr
+    about, parts = read(day)
+    (rows,) = parts
+    assert about.sensors == ("sense",)
+    assert (rows["armed"] == 1).all()
+    assert (rows["sent"] == rows["commands"]).all()
+    said = mindrun("replay", day, bundle)
+    assert (said.returncode, said.stdout) == (0, "25 ticks, the same to the bit\n")
+    said = mindrun("report", day, bundle, "--json")
+    lines = {line["what"]: line for line in json.loads(said.stdout)["lines"]}
+    assert lines["sense lost"]["kept"]
+
+
+def test_nothing_moves_unless_it_is_armed(bundle: Path, tmp_path: Path) -> None:
+    said = mindrun(bundle, "--ticks", 5, "--record", tmp_path / "day.rec")
+    assert said.returncode == 0
+    assert "nothing will move: --arm lets it" in said.stderr
+    _, (rows,) = read(tmp_path / "day.rec")
+    assert (rows["armed"] == 0).all()
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
+def test_a_signal_ends_it_and_keeps_the_recording(bundle: Path, tmp_path: Path, number: signal.Signals) -> None:
+    day = tmp_path / "day.rec"
+    process = subprocess.Popen([*MINDRUN, bundle, "--record", day], stderr=subprocess.PIPE, text=True)
+    assert process.stderr
+    assert "nothing will move" in process.stderr.readline()
+    while not day.exists() or day.stat().st_size < 2000:
+        assert process.poll() is None
+    process.send_signal(number)
+    _, err = process.communicate(timeout=30)
+    assert process.returncode == 0, err
+    assert "ticks of 50.0 ms" in err
+    assert mindrun("replay", day, bundle).returncode == 0
+
+
+def test_a_bundle_without_wiring_says_what_it_holds(tmp_path: Path) -> None:
+    bundle = tmp_path / "mind.bundle"
+    write_bundle(bundle, graph("bearing"), {}, {})
+    assert mindrun(bundle).stdout.startswith("master Go, 20 ticks a second")
+    said = mindrun("replay", bundle, bundle)
+    assert (said.returncode, said.stdout) == (2, "")
+    assert "is no recording of this mindrun" in said.stderr
+
+
+def test_describe_moves_nothing(bundle: Path) -> None:
+    assert mindrun(bundle, "--describe").stdout.startswith("master Go")
+    assert json.loads(mindrun(bundle, "--json").stdout)["master"] == "Go"
+
+
+def test_a_damaged_bundle_moves_nothing(bundle: Path) -> None:
+    data = bytearray(bundle.read_bytes())
+    data[len(data) // 2] ^= 1
+    bundle.write_bytes(data)
+    said = mindrun(bundle, "--arm", "--ticks", 3)
+    assert said.returncode == 2
+    assert "damaged" in said.stderr
+
+
+def test_doctor_says_what_answers(bundle: Path) -> None:
+    said = mindrun("doctor", bundle)
+    assert said.returncode == 0, said.stdout
+    rows = {line[4:].split()[0]: line for line in said.stdout.splitlines()}
+    assert rows["sense"].startswith("ok   sense")
+    assert "mock reads 0.6" in rows["sense"]
+    assert "mock, left alone" in rows["claw"]
+
+
+def test_calibrate_prints_lines_for_the_wiring(bundle: Path) -> None:
+    said = mindrun("calibrate", bundle, "sense", "--seconds", 0.5)
+    assert said.returncode == 0, said.stderr
+    assert "sense:\n  from: 0.6\n  to: 0.6" in said.stdout
+    said = mindrun("calibrate", bundle, "sence")
+    assert said.returncode == 2
+    assert "no sensor sence is wired" in said.stderr
+
+
+@pytest.mark.parametrize("tool", ["replay", "report", "calibrate", "doctor"])
+def test_every_tool_explains_itself(tool: str) -> None:
+    said = mindrun(tool, "--help")
+    assert said.returncode == 0
+    assert f"mindrun {tool}" in said.stdout
+    assert "examples:" in said.stdout
