@@ -5,8 +5,8 @@ actuator: nothing, it has the value now. STATUS: JSON. Where one is refused, the
 """
 
 import json
+import socket as sockets  # AF_UNIX by its name: there is none on Windows, where every driver is known all the same
 from dataclasses import dataclass, field
-from socket import AF_UNIX, SOCK_STREAM, socket
 from struct import Struct, unpack
 from time import monotonic
 from typing import Annotated, Any
@@ -32,7 +32,7 @@ class Link:
 
     path: str
     closed: bool = False
-    _socket: socket | None = field(default=None, repr=False)
+    _socket: sockets.socket | None = field(default=None, repr=False)
 
     def ask(self, what: bytes, name: str = "", value: float = 0.0) -> bytes:
         """What the world answers; DeviceError where it refuses, or has not answered in time."""
@@ -55,7 +55,7 @@ class Link:
 
     def _exchange(self, what: bytes, name: bytes, value: float, until: float) -> tuple[bool, bytes]:
         if self._socket is None:
-            self._socket = socket(AF_UNIX, SOCK_STREAM)
+            self._socket = sockets.socket(sockets.AF_UNIX, sockets.SOCK_STREAM)
             self._socket.settimeout(DEADLINE)
             self._socket.connect(self.path)
         self._socket.settimeout(max(until - monotonic(), 0.001))
@@ -69,7 +69,7 @@ class Link:
             self._socket = None
 
 
-def _received(connection: socket, count: int, until: float) -> bytes:
+def _received(connection: sockets.socket, count: int, until: float) -> bytes:
     """So many bytes."""
     data = b""
     while len(data) < count:
