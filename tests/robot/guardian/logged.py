@@ -69,7 +69,8 @@ class Logged:
         channel = next(_channels)
         if MANNERS[channel] == "missing":
             raise DeviceError("nobody answers")
-        print("a driver that prints")
+        if "MIND_PRINTS" in os.environ:
+            print("ready or not")
         return LoggedDevice(channel, MANNERS[channel])
 
 

@@ -20,7 +20,8 @@ INPUT, OUTPUT, ERRORS = 0, 1, 2
 def main() -> None:
     """Guard, and end without waiting for anything that hangs."""
     options = _options()
-    import_little(DRIVERS)
+    if options.neutral in (None, "-"):  # a bundle needs all drivers to be read
+        import_little(DRIVERS)
     be_urgent()
     errors = Teller(ERRORS, "guardian: ")
     status = Teller(os.dup(OUTPUT))
@@ -85,7 +86,9 @@ def _plan(path: str) -> Plan:
 
 def _options() -> argparse.Namespace:
     parser = argparse.ArgumentParser("guardian", description=__doc__)
-    parser.add_argument("--neutral", metavar="FILE", help="bring all actuators of this plan to neutral, and end")
+    parser.add_argument(
+        "--neutral", metavar="FILE", help="bring all actuators of this bundle or plan to neutral, and end"
+    )
     parser.add_argument("--within", metavar="SECONDS", type=float, default=5.0, help="for --neutral (default: 5)")
     return parser.parse_args()
 

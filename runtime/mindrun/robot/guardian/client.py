@@ -67,7 +67,7 @@ class Guardian:
             os.write(self._input.fileno(), pack(self._number, monotonic_ns(), armed, tuple(commands)))
         except OSError as error:
             hangs = isinstance(error, BlockingIOError)
-            raise GuardianError(f"the guardian {'hangs' if hangs else 'is gone'}: {self._rescue()}") from error
+            raise GuardianError(f"the guardian {'hangs' if hangs else 'is gone'}: {self._rescue(hangs)}") from error
         self._number += 1
 
     def close(self) -> None:
@@ -121,10 +121,12 @@ class Guardian:
             self.state, _, self.why = lines[-1].decode(errors="replace").partition(" ")
         return bool(data)
 
-    def _rescue(self) -> str:
+    def _rescue(self, hangs: bool) -> str:
         """Bring the actuators to neutral in place of a guardian that no longer can; what came of it."""
-        self._process.kill()
-        self._process.wait()
+        if hangs:
+            self._process.kill()
+        if self._process.wait() == 0:
+            return "it was told to end, with every actuator at neutral"
         try:
             done = subprocess.run([*self._program, "--neutral", "-"], input=self._plan, timeout=self._patience)
         except (OSError, subprocess.TimeoutExpired):

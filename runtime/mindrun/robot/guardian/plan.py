@@ -87,13 +87,22 @@ def from_json(text: str | bytes) -> Plan:
 
 
 def read_plan(path: Path) -> Plan:
-    """The plan in a file."""
+    """The plan in a file, which may be a bundle with a wiring; MindError where there is none."""
     try:
         with path.open("rb") as file:
             data = file.read(LARGEST)
     except OSError as error:
         raise PlanError(f"cannot read {path}: {error.strerror}") from error
-    return from_json(data)
+    return _of_bundle(path) if data.startswith(b"PK") else from_json(data)
+
+
+def _of_bundle(path: Path) -> Plan:
+    from mindrun.bundle import read_bundle  # which needs numpy
+
+    bundle = read_bundle(path)
+    if bundle.wiring is None:
+        raise PlanError(f"{path} is for no robot", "build it with its wiring")
+    return plan_of(bundle.graph.tick, {each.name: each.kind.neutral for each in bundle.graph.actuators}, bundle.wiring)
 
 
 def _encode(value: Any) -> Any:

@@ -15,12 +15,18 @@ from mindrun.robot.guardian.plan import Plan
 EVERY = 1.0  # seconds between two reports on an actuator that is not at neutral
 CLOSING = 0.5  # seconds that a device may take to close
 Say = Callable[[str], None]
+Clock = Callable[[], float]
+
+
+def quiet(line: str) -> None:
+    """Say nothing."""
 
 
 class Process:
     """All outputs, the guard that decides about them, and the two pipes that wake them."""
 
-    def __init__(self, plan: Plan, frames: int, report: Say, status: Say = lambda line: None) -> None:
+    def __init__(self, plan: Plan, frames: int, report: Say, status: Say = quiet, clock: Clock = monotonic) -> None:
+        self._clock = clock
         self._plan = plan
         self._frames = frames
         self._report = report
@@ -28,10 +34,10 @@ class Process:
         self._woken, self.wake = os.pipe()  # by a signal's number, or 0 of an output that is at neutral
         for descriptor in (self._woken, self.wake):
             os.set_blocking(descriptor, False)
-        self._guard = Guard(plan)
+        self.guard = Guard(plan)
         self._reader = Reader(len(plan.channels))
-        rests = zip(plan.channels, self._guard.rest, strict=True)
-        self._outputs = [Output(channel.actuator, rest, self._nudge) for channel, rest in rests]
+        rests = zip(plan.channels, self.guard.rest, strict=True)
+        self.outputs = [Output(channel.actuator, rest, self._nudge, clock) for channel, rest in rests]
         self._opened: list[Output] = []
         self._ending = False
         self._told = 0.0
@@ -39,7 +45,7 @@ class Process:
     def open(self) -> list[str]:
         """Open every device, each at neutral before the next, and say which cannot be opened, and why."""
         wrong = []
-        for channel, output in zip(self._plan.channels, self._outputs, strict=True):
+        for channel, output in zip(self._plan.channels, self.outputs, strict=True):
             try:
                 output.start(channel.driver.open())
             except Exception as error:
@@ -57,66 +63,77 @@ class Process:
 
     def settle(self, seconds: float = float("inf")) -> bool:
         """Wait until every actuator is at neutral; False where that takes longer than this."""
-        until = monotonic() + seconds
+        until = self._clock() + seconds
         while not self._settled():
-            left = until - monotonic()
+            left = until - self._clock()
             if left <= 0:
                 return False
             self._wait([], min(left, EVERY))
-            self._complain(monotonic())
+            self._complain(self._clock())
         return True
 
     def serve(self) -> None:
         """Do what the frames say, until they end or a signal comes."""
         while not self._ending:
-            before = self._guard.state
-            if self._frames in self._wait([self._frames], self._patience(monotonic())):
+            data = None
+            if self._frames in self._wait([self._frames], self._patience(self._clock())):
                 data = os.read(self._frames, 1 << 16)
                 if not data:
                     return
-                self._obey(self._take(data))
-            self._obey(self._guard.passed(monotonic()))
-            self._obey(self._failure())
-            self._complain(monotonic())
-            if self._guard.state != before:
-                self._status(f"{self._guard.state} {self._guard.why}")
+            self.step(data)
+
+    def step(self, data: bytes | None) -> None:
+        """Do what follows from this data, from the time, and from what the devices have done."""
+        before = self.guard.state
+        if data:
+            self._obey(self._take(data))
+        self._obey(self.guard.passed(self._clock()))
+        self._obey(self._failure())
+        self._complain(self._clock())
+        if self.guard.state != before:
+            self._status(f"{self.guard.state} {self.guard.why}")
 
     def close(self) -> None:
         """Let go of every device that can."""
         for output in self._opened:
             output.close(CLOSING)
 
+    def hang_up(self) -> None:
+        """Let go of its own pipe, where the process goes on without it."""
+        os.close(self._woken)
+        os.close(self.wake)
+
     def _take(self, data: bytes) -> Order:
-        if self._guard.state == LATCHED:
+        if self.guard.state == LATCHED:
             return None
         try:
             frames = self._reader.feed(data)
         except FrameError as error:
-            return self._guard.broken(str(error))
+            return self.guard.broken(str(error))
         # Of several that waited only the newest counts.
-        return self._guard.frame(frames[-1], monotonic(), self._settled()) if frames else None
+        return self.guard.frame(frames[-1], self._clock(), self._settled()) if frames else None
 
     def _failure(self) -> Order:
         """What follows from an actuator that answers no more."""
-        if self._guard.state == FOLLOWING:
-            now = monotonic()
-            for output in self._outputs:
-                if output.late(now) > self._guard.limit:
-                    return self._guard.failed(output.name, output.error or "it does not answer")
+        if self.guard.state == FOLLOWING:
+            now = self._clock()
+            for output in self.outputs:
+                if output.late(now) > self.guard.limit:
+                    return self.guard.failed(output.name, output.error or "it does not answer")
         return None
 
     def _obey(self, order: Order) -> None:
         match order:
             case Move(values):
-                for output, value in zip(self._outputs, values, strict=True):
+                for output, value in zip(self.outputs, values, strict=True):
                     output.move(value)
             case Rest():
                 self.rest()
-                self._report(f"all actuators to neutral: {self._guard.why}")
+                self._report(f"all actuators to neutral: {self.guard.why}")
 
     def _complain(self, now: float) -> None:
         """Say once a second which actuator is not at neutral but should be."""
-        if self._guard.state == FOLLOWING or now - self._told < EVERY:
+        if self.guard.state == FOLLOWING or now - self._told < EVERY:
             return
         for output in self._opened:
             if output.late(now) >= EVERY:
@@ -128,8 +145,8 @@ class Process:
         return all(output.settled for output in self._opened)
 
     def _patience(self, now: float) -> float | None:
-        if self._guard.state == FOLLOWING:
-            return max(self._guard.deadline - now, 0.0)
+        if self.guard.state == FOLLOWING:
+            return max(self.guard.deadline - now, 0.0)
         return None if self._settled() else EVERY
 
     def _wait(self, descriptors: list[int], seconds: float | None) -> list[int]:

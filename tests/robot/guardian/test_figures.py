@@ -1,0 +1,46 @@
+"""The figures that docs/safety.md promises, each with as many trials as it says: minutes, on a machine that is idle."""
+
+import random
+import statistics
+from pathlib import Path
+
+import pytest
+
+from tests.robot.guardian.driven import TICK
+from tests.robot.guardian.scenes import HANGS, KILLS, NEUTRALS, hang, kill, robot, start
+
+pytestmark = pytest.mark.slow
+
+AT_ONCE = 0.05  # seconds after a death
+IN_TIME = 2 * TICK + 0.01  # seconds after the beginning of a hang
+
+
+def told(what: str, times: list[float | None]) -> list[float]:
+    """All times, of which none is missing; they are printed."""
+    assert None not in times
+    found = [time for time in times if time is not None]
+    print(f"{len(found)} {what}: median {statistics.median(found) * 1e3:.1f} ms, max {max(found) * 1e3:.1f} ms")
+    return found
+
+
+def test_500_kills(tmp_path: Path) -> None:
+    rng = random.Random(1)
+    for number in KILLS:
+        times = [kill(tmp_path, number, rng) for _ in range(167)]
+        assert max(told(number.name, times)) <= AT_ONCE
+
+
+def test_500_hangs(tmp_path: Path) -> None:
+    rng = random.Random(1)
+    for how in HANGS:
+        times = []
+        for _ in range(7):  # a log of many would take long to read
+            with robot(tmp_path) as found:
+                times += [hang(found, how, rng) for _ in range(24)]
+        assert max(told(how, times)) <= IN_TIME
+
+
+def test_1000_starts(tmp_path: Path) -> None:
+    for index in range(1000):
+        written = start(tmp_path, eager=bool(index % 2))
+        assert [next(write.value for write in written if write.channel == c) for c in range(3)] == list(NEUTRALS)

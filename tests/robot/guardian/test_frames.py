@@ -1,0 +1,60 @@
+"""Only what is exactly a frame is one."""
+
+from math import inf, nan
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from mindrun.robot.guardian.frames import MOST, FrameError, Reader, pack, size
+
+SHARES = st.floats(0, 1, width=32)
+
+
+@given(st.lists(SHARES, min_size=1, max_size=9), st.booleans(), st.integers(0, 2**32 - 1), st.integers(0, 2**62))
+def test_a_frame_is_read_as_it_was_written(commands: list[float], armed: bool, number: int, sent: int) -> None:
+    frame = Reader(len(commands)).feed(pack(number, sent, armed, commands))[0]
+    assert (frame.commands, frame.armed, frame.number, frame.sent) == (tuple(commands), armed, number, sent / 1e9)
+
+
+@given(st.lists(st.integers(1, 60), max_size=20))
+def test_it_does_not_matter_in_which_pieces_frames_come(pieces: list[int]) -> None:
+    reader, data, frames = Reader(2), b"".join(pack(number, 0, True, (0, 1)) for number in range(5)), []
+    for piece in pieces:
+        frames += reader.feed(data[:piece])
+        data = data[piece:]
+    assert [frame.number for frame in frames + reader.feed(data)] == [0, 1, 2, 3, 4]
+
+
+@given(st.binary(min_size=size(2)))
+def test_any_other_bytes_are_refused(data: bytes) -> None:
+    with pytest.raises(FrameError):
+        Reader(2).feed(data)
+
+
+@given(st.integers(0, 8 * size(2) - 1))
+def test_one_wrong_bit_is_noticed(bit: int) -> None:
+    data = bytearray(pack(7, 1, True, (0.5, 0.5)))
+    data[bit // 8] ^= 1 << bit % 8
+    with pytest.raises(FrameError):
+        Reader(2).feed(bytes(data))
+
+
+@pytest.mark.parametrize("value", [nan, inf, -inf, -0.001, 1.001, 1e300, -1e300])
+def test_a_command_that_is_no_share_is_refused(value: float) -> None:
+    with pytest.raises(FrameError, match="command"):
+        Reader(2).feed(pack(0, 0, True, (0.5, value)))
+
+
+@pytest.mark.parametrize("numbers", [(0, 0), (5, 4), (1, 2, 2)])
+def test_numbers_must_rise(numbers: tuple[int, ...]) -> None:
+    with pytest.raises(FrameError, match="number"):
+        Reader(1).feed(b"".join(pack(number, 0, True, (0.5,)) for number in numbers))
+
+
+def test_the_number_of_commands_must_be_that_of_the_actuators() -> None:
+    with pytest.raises(FrameError):
+        Reader(2).feed(pack(0, 0, True, (0.5, 0.5, 0.5)))
+
+
+def test_the_longest_frame_is_written_at_once() -> None:
+    assert size(MOST) <= 4096

@@ -1,0 +1,249 @@
+"""A real guardian, and a real controller that dies, hangs or lies. What and in which order, not how soon: see slow."""
+
+import os
+import random
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Iterator
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+
+import pytest
+from mindrun.robot.guardian.client import PROGRAM, Guardian, GuardianError
+from mindrun.robot.guardian.plan import to_json
+
+from tests.robot.guardian.driven import LOGGED, PLAN, TICK
+from tests.robot.guardian.scenes import HANGS, KILLS, NEUTRALS, Write, hang, kill, patient, robot, start, writes
+
+ROUNDS = 12
+MOVING = (0.9, 0.8, 1.0)
+
+
+@pytest.fixture
+def log(tmp_path: Path) -> Iterator[Path]:
+    """Where guardians that this test starts write to."""
+    file = tmp_path / "log"
+    file.write_text("")
+    with patient({"MIND_LOG": str(file)}):
+        yield file
+
+
+def last(log: Path) -> list[Write]:
+    """The last write to each actuator."""
+    return [[w for w in writes(log) if w.channel == c and w.value is not None][-1] for c in range(len(NEUTRALS))]
+
+
+def all_at_rest(log: Path) -> bool:
+    """Whether each was told neutral last."""
+    return all(write.neutral for write in last(log))
+
+
+def wait_for(log: Path, *, rest: bool) -> None:
+    """Wait until all are at neutral, or one is not."""
+    give_up = time.monotonic() + 20
+    while all_at_rest(log) != rest:
+        assert time.monotonic() < give_up
+        time.sleep(0.005)
+
+
+def drive(guardian: Guardian, log: Path) -> None:
+    """Send until something moves."""
+    while all_at_rest(log):
+        guardian.send(MOVING, armed=True)
+        time.sleep(TICK / 2)
+
+
+@pytest.mark.parametrize("number", KILLS)
+def test_a_controller_that_is_killed_leaves_everything_at_neutral(number: signal.Signals, tmp_path: Path) -> None:
+    def once(index: int) -> float | None:
+        folder = tmp_path / str(index)
+        folder.mkdir()
+        return kill(folder, number, random.Random(index))
+
+    with ThreadPoolExecutor(2) as pool:
+        assert None not in list(pool.map(once, range(ROUNDS // len(KILLS))))
+
+
+def test_a_controller_that_hangs_leaves_everything_at_neutral_until_it_goes_on(tmp_path: Path) -> None:
+    with robot(tmp_path) as found:
+        for index in range(ROUNDS):
+            assert hang(found, HANGS[index % 3], random.Random(index), seconds=0.3) is not None
+        found.process.kill()
+        found.end()
+    assert all_at_rest(found.log)
+
+
+@pytest.mark.parametrize("eager", [False, True])
+def test_the_first_write_is_neutral(tmp_path: Path, eager: bool) -> None:
+    for _ in range(ROUNDS // 2):
+        told = start(tmp_path, eager)
+        assert [next(write for write in told if write.channel == c).value for c in range(3)] == list(NEUTRALS)
+        moved = [write for write in told if write.value is not None and not write.neutral]
+        assert not moved or {w.channel for w in told[: told.index(moved[0])]} == {0, 1, 2}
+
+
+def test_a_controller_that_closes_ends_it_at_neutral_and_closed(log: Path) -> None:
+    with Guardian(PLAN, program=LOGGED) as guardian:
+        drive(guardian, log)
+    assert all_at_rest(log)
+    assert [write.value for write in writes(log)[-3:]] == [None] * 3
+    assert guardian._process.returncode == 0
+
+
+def test_an_error_in_the_controller_ends_at_neutral(log: Path) -> None:
+    def fail() -> None:
+        with Guardian(PLAN, program=LOGGED) as guardian:
+            drive(guardian, log)
+            guardian.send([1 / 0], armed=True)
+
+    with pytest.raises(ZeroDivisionError):
+        fail()
+    assert all_at_rest(log)
+
+
+@pytest.mark.parametrize("commands", [(float("nan"), 0.5, 0.5), (1.5, 0.5, 0.5), (0.5, 0.5), (1e300, 0, 0)])
+def test_what_no_controller_may_send_latches(log: Path, commands: tuple[float, ...]) -> None:
+    def until_latched(guardian: Guardian) -> None:
+        guardian.send(commands, armed=True)
+        while True:
+            guardian.send(MOVING, armed=True)
+            time.sleep(TICK)
+
+    with Guardian(PLAN, program=LOGGED) as guardian:
+        drive(guardian, log)
+        with pytest.raises(GuardianError, match="a frame") as caught:
+            until_latched(guardian)
+        assert caught.value.hint
+        assert all_at_rest(log)
+
+
+@pytest.mark.parametrize("name", ["SIGTERM", "SIGHUP", "SIGQUIT"])
+def test_told_to_end_it_ends_at_neutral(log: Path, name: str, capfd: pytest.CaptureFixture[str]) -> None:
+    with Guardian(PLAN, program=LOGGED) as guardian:
+        drive(guardian, log)
+        os.kill(guardian.pid, signal.Signals[name])
+        assert guardian._process.wait(20) == 0
+        assert all_at_rest(log)
+        with pytest.raises(GuardianError, match="told to end"):
+            guardian.send(MOVING, armed=True)
+
+
+@pytest.mark.parametrize("name", ["SIGINT", "SIGTSTP", "SIGUSR1", "SIGPIPE"])
+def test_keys_of_a_terminal_do_nothing(log: Path, name: str) -> None:
+    with Guardian(PLAN, program=LOGGED) as guardian:
+        os.kill(guardian.pid, signal.Signals[name])
+        drive(guardian, log)
+        assert os.getpgid(guardian.pid) != os.getpgid(0)
+
+
+@pytest.mark.parametrize(("name", "words"), [("SIGKILL", "is gone"), ("SIGSTOP", "hangs")])
+def test_a_guardian_that_dies_or_hangs_is_replaced_by_neutral(log: Path, name: str, words: str) -> None:
+    def until_noticed(guardian: Guardian) -> None:
+        for _ in range(1000):
+            guardian.send(MOVING, armed=True)
+            time.sleep(TICK / 10)
+
+    with Guardian(PLAN, program=LOGGED) as guardian:
+        drive(guardian, log)
+        os.kill(guardian.pid, signal.Signals[name])
+        with pytest.raises(GuardianError, match=f"{words}: another has brought"):
+            until_noticed(guardian)
+        assert all_at_rest(log)
+
+
+@pytest.mark.parametrize("manner", ["fails", "exits"])
+def test_one_that_fails_keeps_no_other_from_neutral(log: Path, manner: str) -> None:
+    def until_latched(guardian: Guardian) -> None:
+        while True:
+            guardian.send(MOVING, armed=True)
+            time.sleep(TICK)
+
+    latched = pytest.raises(GuardianError, match="left_wheel failed, as did 2 before")
+    with patient({"MIND_MANNERS": f"{manner} fine fine"}), Guardian(PLAN, program=LOGGED) as guardian, latched:
+        until_latched(guardian)
+    assert all_at_rest(log)
+
+
+def test_one_that_hangs_keeps_no_other_from_neutral(log: Path) -> None:
+    with patient({"MIND_MANNERS": "hangs fine fine"}):
+        guardian = Guardian(PLAN, program=LOGGED)
+    drive(guardian, log)
+    guardian._patience = 0.5
+    while guardian.state != "neutral" or not all_at_rest(log):
+        guardian.send(MOVING, armed=True)
+        time.sleep(TICK)
+    with pytest.raises(GuardianError, match="not at neutral"):
+        guardian.close()
+    guardian._process.kill()
+    guardian._process.wait()
+
+
+def test_what_a_driver_prints_is_no_status(log: Path) -> None:
+    with patient({"MIND_PRINTS": ""}), Guardian(PLAN, program=LOGGED) as guardian:
+        drive(guardian, log)
+        assert guardian.state in ("neutral", "following")
+
+
+def test_neutral_is_repeated_until_it_is_acknowledged(log: Path) -> None:
+    with patient({"MIND_MANNERS": "fine tired fine"}), Guardian(PLAN, program=LOGGED):
+        assert all_at_rest(log)
+
+
+def test_a_guardian_that_cannot_open_a_device_says_so_and_brings_the_others_to_neutral(log: Path) -> None:
+    with patient({"MIND_MANNERS": "fine missing fine"}), pytest.raises(GuardianError, match="right_wheel cannot be"):
+        Guardian(PLAN, program=LOGGED)
+    assert {write.channel for write in writes(log) if write.neutral} == {0, 2}
+
+
+def test_neutral_that_is_never_acknowledged_is_no_start(log: Path) -> None:
+    with patient({"MIND_MANNERS": "fine stuck fine"}), pytest.raises(GuardianError, match="not ready after 1 s"):
+        Guardian(PLAN, patience=1, program=LOGGED)
+
+
+def test_a_reader_of_its_messages_that_sleeps_does_not_hold_it(log: Path) -> None:
+    listening, speaking = os.pipe()
+    os.set_blocking(speaking, False)
+    while True:
+        try:
+            os.write(speaking, b"x" * 4096)
+        except BlockingIOError:
+            break
+    os.set_blocking(speaking, True)
+    before = os.dup(2)
+    os.dup2(speaking, 2)
+    try:
+        guardian = Guardian(PLAN, program=LOGGED)
+    finally:
+        os.dup2(before, 2)
+        os.close(before)
+    with guardian:
+        drive(guardian, log)
+        wait_for(log, rest=True)
+    os.close(listening)
+    os.close(speaking)
+
+
+@pytest.mark.parametrize(("manners", "code"), [("fine fine fine", 0), ("fine missing fine", 1), ("stuck fine fine", 1)])
+def test_neutral_once(log: Path, tmp_path: Path, manners: str, code: int) -> None:
+    plan = tmp_path / "plan.json"
+    plan.write_text(to_json(PLAN))
+    with patient({"MIND_MANNERS": manners}):
+        done = subprocess.run([*LOGGED, "--neutral", str(plan), "--within", "0.5"], capture_output=True)
+    assert done.returncode == code
+    assert {w.channel for w in writes(log) if w.neutral} == {c for c, m in enumerate(manners.split()) if m == "fine"}
+
+
+@pytest.mark.parametrize("text", [b"", b"{}\n", b"\xff" * 99])
+def test_without_a_plan_it_does_not_start(text: bytes) -> None:
+    done = subprocess.run(PROGRAM, input=text, capture_output=True)
+    assert (done.returncode, done.stdout.startswith(b"failed ")) == (64, True)
+
+
+def test_it_needs_no_numpy_and_imports_nothing_from_where_it_is_started(tmp_path: Path) -> None:
+    (tmp_path / "argparse.py").write_text("raise SystemExit('imported what the user wrote')")
+    program = "import sys, mindrun.robot.guardian.__main__ as main; main.import_little(main.DRIVERS)\n"
+    program += "import mindrun.robot.drivers.mock; print({'numpy', 'cv2'} & {*sys.modules})"
+    done = subprocess.run([sys.executable, *PROGRAM[1:2], "-c", program], capture_output=True, cwd=tmp_path)
+    assert (done.stdout, done.stderr) == (b"set()\n", b"")
