@@ -1,0 +1,164 @@
+"""`mindc deploy`: a bundle brought to a robot, and back to the one before."""
+
+from __future__ import annotations
+
+from datetime import UTC, datetime
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import click
+
+if TYPE_CHECKING:
+    from mindrun.bundle import Bundle
+
+    from mindlang.deploying.deployment import Outcome, Settings
+    from mindlang.deploying.robot import Robot
+    from mindlang.deploying.state import State
+
+EXAMPLES = """\b
+Examples:
+  mindc deploy ball.bundle pi@robot.local
+  mindc deploy ball.bundle pi@robot.local --arm-service
+  mindc deploy ball.bundle pi@robot.local --dry-run
+  mindc deploy pi@robot.local --list
+  mindc deploy pi@robot.local --rollback
+"""
+
+
+@click.command(epilog=EXAMPLES)
+@click.argument("words", nargs=-1, required=True, metavar="[BUNDLE] HOST")
+@click.option("--rollback", is_flag=True, help="Go back to the release before: --rollback")
+@click.option("--list", "as_list", is_flag=True, help="Show the releases that are there: --list")
+@click.option("--arm-service", is_flag=True, help="The service moves the robot, at every start: --arm-service")
+@click.option("--no-service", is_flag=True, help="No service runs it, an older one is removed: --no-service")
+@click.option("--keep", type=click.IntRange(2), default=3, show_default=True, help="Releases that stay: --keep 5")
+@click.option(
+    "--watch", type=click.IntRange(0, 60), default=5, show_default=True, help="Seconds to see it run: --watch 10"
+)
+@click.option("--no-auto-rollback", is_flag=True, help="Stay with a release that does not run: --no-auto-rollback")
+@click.option("--dry-run", is_flag=True, help="Say what would be done, and do nothing: --dry-run")
+@click.option("--json", "as_json", is_flag=True, help="Say what came of it as one JSON document: --json")
+@click.option("-q", "--quiet", is_flag=True, help="Print nothing but errors: -q")
+def command(
+    words: tuple[str, ...],
+    rollback: bool,
+    as_list: bool,
+    arm_service: bool,
+    no_service: bool,
+    keep: int,
+    watch: int,
+    no_auto_rollback: bool,
+    dry_run: bool,
+    as_json: bool,
+    quiet: bool,
+) -> None:
+    """Bring BUNDLE to HOST over ssh and rsync, verify it there, make it current in one step and start it as a service.
+
+    The service is not armed, that is it moves nothing, unless this very command says --arm-service. A release whose
+    service does not stay up is left again for the one before. Interrupted at any moment, the robot has the old release
+    or the new one, whole; the same command goes on.
+    """
+    from mindrun.errors import MindError
+
+    from mindlang.deploying.checks import check_host, check_tools
+    from mindlang.deploying.deployment import Settings
+    from mindlang.deploying.robot import connected
+    from mindlang.terminal import INTERRUPTED, fail
+
+    path, host = _path_and_host(words, rollback or as_list)
+    if (rollback and as_list) or (arm_service and no_service):
+        raise click.UsageError("--rollback and --list, like --arm-service and --no-service, exclude each other.")
+    settings = Settings(not no_service, arm_service, keep, watch, not no_auto_rollback)
+    try:
+        check_host(host)
+        bundle = _checked(path, settings) if path else None
+        check_tools()
+        with connected(host) as robot:
+            if as_list:
+                _list(robot, as_json)
+                return
+            outcome = _do(robot, path, bundle, settings, dry_run, quiet)
+    except MindError as error:
+        fail(str(error), error.hint)
+    except KeyboardInterrupt:
+        fail(
+            "Interrupted: the robot has the old release or the new one, whole.",
+            "The same command goes on.",
+            INTERRUPTED,
+        )
+    _say(host, outcome, settings, dry_run, as_json, quiet)
+
+
+def _path_and_host(words: tuple[str, ...], without: bool) -> tuple[Path | None, str]:
+    match words:
+        case (*_, host) if without and len(words) <= 2:
+            return None, host
+        case (bundle, host):
+            return Path(bundle), host
+    raise click.UsageError("Write mindc deploy BUNDLE HOST, or mindc deploy HOST with --rollback or --list.")
+
+
+def _checked(path: Path, settings: Settings) -> Bundle:
+    """The bundle; one that cannot be read ends the program."""
+    from mindrun.bundle import read_bundle
+    from mindrun.errors import BundleError
+
+    from mindlang.deploying.checks import check_wired
+    from mindlang.terminal import MISUSE, fail
+
+    try:
+        bundle = read_bundle(path)
+    except BundleError as error:
+        fail(str(error), error.hint or "mindc build writes one.", MISUSE)
+    if settings.service:
+        check_wired(bundle)
+    return bundle
+
+
+def _do(
+    robot: Robot, path: Path | None, bundle: Bundle | None, settings: Settings, dry_run: bool, quiet: bool
+) -> Outcome:
+    from mindlang.deploying.deployment import deploy, roll_back
+
+    def tell(message: str) -> None:
+        if not quiet:
+            click.echo(message, err=True)
+
+    if path is None or bundle is None:
+        return roll_back(robot, settings, tell, dry_run)
+    return deploy(robot, path, bundle, settings, datetime.now(UTC), tell, dry_run)
+
+
+def _list(robot: Robot, as_json: bool) -> None:
+    from mindlang.deploying.state import look
+    from mindlang.report import visible
+    from mindlang.terminal import print_json
+
+    state = look(robot)
+    if as_json:
+        print_json(_listed(state))
+        return
+    for each in state.releases:
+        mark = "→" if each.name == state.current else " "
+        made_of = f"{each.made_of.get('bundle', '?')}, {each.made_of.get('master', '?')} in charge"
+        click.echo(f"{mark} {each.name}  {each.state:8}{visible(made_of)}")
+    if not state.releases:
+        click.echo("nothing has been deployed there", err=True)
+
+
+def _listed(state: State) -> dict[str, object]:
+    releases = [{"release": each.name, "state": each.state, **each.made_of} for each in state.releases]
+    return {"current": state.current or None, "releases": releases}
+
+
+def _say(host: str, outcome: Outcome, settings: Settings, dry_run: bool, as_json: bool, quiet: bool) -> None:
+    from mindlang.terminal import print_json
+
+    for note in outcome.notes:
+        click.echo(f"note: {note}", err=True)
+    if as_json:
+        service = {"unit": "mind.service", "armed": settings.armed} if settings.service else None
+        done = {"host": host, "dry_run": dry_run, "release": outcome.release or None, "before": outcome.before or None}
+        print_json({**done, "service": service, "notes": list(outcome.notes)})
+    elif not quiet and not dry_run:
+        click.echo(f"{host} has {outcome.release}", err=True)

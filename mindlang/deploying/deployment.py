@@ -1,0 +1,114 @@
+"""A deployment from the first look to the last: every step may be the last one, and may be done again."""
+
+from __future__ import annotations
+
+import tempfile
+from collections.abc import Callable
+from dataclasses import dataclass
+from datetime import datetime
+from pathlib import Path
+
+from mindrun.bundle import Bundle
+
+from mindlang.deploying.release import Release, make_release
+from mindlang.deploying.robot import Event, Robot
+from mindlang.deploying.state import State, check_able, look
+from mindlang.deploying.unit import ARMED, SERVICE
+
+Tell = Callable[[str], None]
+
+
+@dataclass(frozen=True, slots=True)
+class Settings:
+    """How a release is run: by a service, armed or not, or by none; watched for some seconds at its start."""
+
+    service: bool = True
+    armed: bool = False
+    keep: int = 3
+    watch: int = 5
+    go_back: bool = True
+
+    @property
+    def unit(self) -> str:
+        """The file of the release that becomes the service, or none."""
+        return (ARMED if self.armed else SERVICE) if self.service else "none"
+
+    def words(self, release: str, left: str = "") -> list[str]:
+        """The words of the verb `switch`."""
+        return [release, self.unit, str(self.keep), str(self.watch), "yes" if self.go_back else "no", left]
+
+
+@dataclass(frozen=True, slots=True)
+class Outcome:
+    """What came of it: the current release, and the one before."""
+
+    release: str
+    before: str
+    notes: tuple[str, ...] = ()
+
+
+def deploy(
+    robot: Robot, path: Path, bundle: Bundle, settings: Settings, now: datetime, tell: Tell, try_only: bool = False
+) -> Outcome:
+    """Bring a bundle to a robot; with `try_only` say only what would be done."""
+    with tempfile.TemporaryDirectory(prefix="mind-release-") as folder:
+        release = make_release(path, bundle, Path(folder))
+        state = look(robot)
+        check_able(state, settings.service)
+        if state.has(release.fingerprint):
+            name = state.current
+            tell(f"{robot.host} has this release already: {name}")
+        else:
+            name = release.named(state.moment(now))
+            tell(f"{_would(try_only)}copy {release.size / 1024:,.0f} KiB to {robot.host} as {name}")
+            if not try_only:
+                _bring(robot, release, name, tell)
+        return _switch(robot, state, name, settings, tell, try_only)
+
+
+def roll_back(robot: Robot, settings: Settings, tell: Tell, try_only: bool = False) -> Outcome:
+    """Go back to the release before the current one, which is then left for good."""
+    state = look(robot)
+    check_able(state, settings.service)
+    return _switch(robot, state, state.before(), settings, tell, try_only, left=state.current)
+
+
+def _bring(robot: Robot, release: Release, name: str, tell: Tell) -> None:
+    for _, detail in robot.ask("prepare"):
+        tell(detail)
+    robot.copy(release.folder, f"mind/incoming/{release.fingerprint}")
+    robot.ask("accept", release.fingerprint, name)
+    tell("it has arrived whole, and the robot can read it")
+
+
+def _switch(
+    robot: Robot, state: State, name: str, settings: Settings, tell: Tell, try_only: bool, left: str = ""
+) -> Outcome:
+    before = state.current
+    tell(f"{_would(try_only)}switch from {before or 'nothing'} to {name}, {_manner(settings)}")
+    if try_only:
+        return Outcome(before, before)
+    told = robot.ask("switch", *settings.words(name, left))
+    return Outcome(name, before, tuple(note for event in told if (note := _note(event))))
+
+
+def _manner(settings: Settings) -> str:
+    match settings.unit:
+        case "none":
+            return "without a service"
+        case unit if unit == ARMED:
+            return "with an armed service"
+        case _:
+            return "with a service that is not armed"
+
+
+def _note(event: Event) -> str:
+    match event:
+        case "unlingering", user:
+            return f"the service waits for a login: on the robot, sudo loginctl enable-linger {user}"
+        case _:
+            return ""
+
+
+def _would(try_only: bool) -> str:
+    return "would " if try_only else ""

@@ -1,0 +1,97 @@
+"""A robot as ssh and rsync reach it: verbs of robot.sh asked of it, folders copied to it."""
+
+from __future__ import annotations
+
+import os
+import shlex
+import shutil
+import subprocess
+import tempfile
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass
+from importlib.resources import files
+from pathlib import Path
+
+from mindlang.deploying.errors import DeployError
+
+UNREACHABLE = 255  # ssh's own exit code
+SCRIPTS = ("robot.sh", "switch.sh")
+Event = tuple[str, str]
+
+
+@dataclass(frozen=True, slots=True)
+class Robot:
+    """A host, and the options of the one connection that all steps share."""
+
+    host: str
+    options: tuple[str, ...]
+
+    def ask(self, verb: str, *words: str) -> list[Event]:
+        """Let the robot do one verb; what it told, or DeployError with its reason."""
+        done = subprocess.run(
+            ["ssh", *self.options, "--", self.host, "sh -s"],  # no word of anybody: the login shell may be any
+            input=script(verb, words),
+            stdout=subprocess.PIPE,  # stderr is the user's: ssh asks and explains there
+        )
+        told = list(events(done.stdout))
+        if done.returncode:
+            raise _refusal(self.host, done.returncode, told)
+        return told
+
+    def copy(self, folder: Path, to: str) -> None:
+        """Make the robot's folder `to`, which is relative to its home, the same as `folder`."""
+        shell = " ".join(["ssh", *self.options])  # rsync splits this at spaces: no option has one
+        words = ["rsync", "--recursive", "--times", "--chmod=D755,F644", "--delete", "--timeout=60", "--rsh", shell]
+        done = subprocess.run([*words, "--", f"{folder}/", f"{self.host}:{to}/"], stdout=subprocess.DEVNULL)
+        if done.returncode:
+            raise DeployError(
+                f"The copy to {self.host} broke off, what is current there stays (rsync ended with {done.returncode}).",
+                "The same command goes on where it stopped.",
+            )
+
+
+@contextmanager
+def connected(host: str) -> Iterator[Robot]:
+    """A robot that asks for a password once at most; the connection ends with the block."""
+    folder = tempfile.mkdtemp(prefix="mind-", dir="/tmp")  # a socket's path is short, and rsync wants no space in it
+    settings = ["ControlMaster=auto", f"ControlPath={folder}/%C", "ControlPersist=60", "RemoteCommand=none"]
+    settings += ["ConnectTimeout=10", "ServerAliveInterval=5", "ServerAliveCountMax=3"]
+    options = ("-axT", *(word for setting in settings for word in ("-o", setting)))
+    try:
+        yield Robot(host, options)
+    finally:
+        if os.listdir(folder):  # noqa: PTH208 - a socket, where a connection was made
+            subprocess.run(["ssh", *options, "-O", "exit", "--", host], stderr=subprocess.DEVNULL)
+        shutil.rmtree(folder, ignore_errors=True)
+
+
+def script(verb: str, words: Sequence[str]) -> bytes:
+    """The robot's script with its last line, which does nothing unless it has arrived whole."""
+    call = shlex.join(["main", verb, *words])
+    text = "".join((files("mindlang.deploying") / name).read_text(encoding="utf-8") for name in SCRIPTS)
+    return f"{text}\n{{ {call}; exit; }}\n".encode()
+
+
+def events(said: bytes) -> Iterator[Event]:
+    """What the script told; a greeting of the login shell is nothing of it."""
+    for line in said.decode(errors="replace").splitlines():
+        event, tab, detail = line.partition("\t")
+        if tab:
+            yield event, detail
+
+
+def _refusal(host: str, code: int, told: Sequence[Event]) -> DeployError:
+    """Why the robot did not do it, with what its service wrote last."""
+    last = dict(told)
+    if code == UNREACHABLE:
+        return DeployError(f"{host} cannot be reached.", f"ssh {host} must work; ~/.ssh/config is honoured.")
+    if "refused" not in last:
+        return DeployError(f"{host} could not do it (its shell ended with {code}).", "What it wrote stands above.")
+    log = [f"  {detail}" for event, detail in told if event == "log"]
+    reason = "\n".join([f"{host} says: {last['refused']}.", *log])
+    if "back" in last:
+        return DeployError(f"{reason}\nIt is back with {last['back']}.", "The new release has been left.")
+    if "failed" in last:
+        return DeployError(reason, "mindc deploy --rollback goes back to the release before.")
+    return DeployError(reason, "Nothing has changed there.")

@@ -1,0 +1,34 @@
+"""The service that runs the current release, for the systemd of the robot's user: it needs no root, and no password."""
+
+SERVICE, ARMED = "mind.service", "mind-armed.service"  # what they are called in a release
+
+UNIT = """\
+# Written by `mindc deploy`, which replaces it; `systemctl --user edit mind.service` is for changes that stay.
+[Unit]
+Description=The mind of this robot, {state}
+StartLimitIntervalSec=60
+StartLimitBurst=5
+
+[Service]
+Type=exec
+# Entered once: a process keeps the release that it was started in, whatever is current later.
+WorkingDirectory=%h/mind/current
+# No .pyc files: a release stays what was sent, and a power cut leaves none that is half written.
+Environment=PYTHONPATH=runtime PYTHONDONTWRITEBYTECODE=1 PYTHONUNBUFFERED=1
+ExecStart={run}
+{neutral}Restart=on-failure
+RestartSec=2
+TimeoutStopSec=10
+NoNewPrivileges=yes
+
+[Install]
+WantedBy=default.target
+"""
+PYTHON = "%h/mind/venv/bin/python"
+
+
+def unit(arm: bool = False) -> str:
+    """The unit's text. Armed, the mind moves what is wired to it, and however it ends everything goes to neutral."""
+    run = f"{PYTHON} -m mindrun mind.bundle" + " --arm" * arm
+    neutral = f"ExecStopPost={PYTHON} -m mindrun.robot.guardian --neutral mind.bundle\n" * arm
+    return UNIT.format(state="armed" if arm else "not armed", run=run, neutral=neutral)

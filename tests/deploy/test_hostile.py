@@ -1,0 +1,58 @@
+"""Names that would like to be options, paths or commands are names, or refused."""
+
+import json
+import shutil
+from pathlib import Path
+
+import pytest
+
+from mindlang.deploying.robot import events, script
+from tests.calling import Call
+from tests.deploy.robot import HOST, FakeRobot
+
+Bundles = tuple[Path, Path, Path]
+HOSTS = [
+    "a b",
+    "pi@robot; touch pwned",
+    "-oProxyCommand=touch pwned",
+    "pi@-oX",
+    "$(touch pwned)",
+    "a:b",
+    "pi@",
+    "",
+    "ö",
+]
+NAMES = ["""it's; "$(touch pwned)" `touch pwned`\n.bundle""", "-rf.bundle"]
+
+
+@pytest.mark.parametrize("host", HOSTS)
+def test_hosts(host: str, robot: FakeRobot, bundles: Bundles, mindc: Call) -> None:
+    said = (
+        mindc("deploy", bundles[0], "--", host) if not host.startswith("-") else mindc("deploy", "--", bundles[0], host)
+    )
+    assert said.code == 1
+    assert "is not a host" in said.err
+    assert robot.log("ssh.log") == []
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_bundles(
+    name: str, robot: FakeRobot, bundles: Bundles, mindc: Call, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    shutil.copy(bundles[0], tmp_path / name)
+    monkeypatch.chdir(tmp_path)
+    assert mindc("deploy", "--watch", 0, "--", name, HOST).code == 0
+    assert robot.current()
+    assert not list(tmp_path.rglob("pwned"))
+    listed = json.loads(mindc("deploy", HOST, "--list", "--json").out)
+    assert listed["releases"][0]["bundle"] == name
+    assert len(mindc("deploy", HOST, "--list").out.splitlines()) == 1
+
+
+def test_words_stay_words() -> None:
+    last = script("accept", ["it's", "$(touch pwned)", ""]).decode().splitlines()[-1]
+    assert last == """{ main accept 'it'"'"'s' '$(touch pwned)' ''; exit; }"""
+
+
+def test_the_greeting_of_a_shell_is_no_event() -> None:
+    assert list(events(b"Welcome!\ncurrent\tone\n\xff\n")) == [("current", "one")]
