@@ -21,8 +21,9 @@ def convert(amount: Amount, quantity: Quantity, findings: Findings, unit: str = 
     # 7 / 100 is the number nearest to 7%; 7 * 0.01 is not.
     value = amount.number / 100 if written == "%" else amount.number * quantity.units[written]
     if quantity.whole and not value.is_integer():
-        near = (bound for bound in (floor(value), ceil(value)) if quantity.low <= bound <= quantity.high)
-        hint = f"Here stands {quantity.name}: write {listed(f'{bound} {amount.unit}'.strip() for bound in near)}."
+        near = [bound for bound in (floor(value), ceil(value)) if quantity.low <= bound <= quantity.high]
+        fit = listed(f"{bound} {amount.unit}".strip() for bound in near) if near else ""
+        hint = f"Here stands {quantity.name}: write {fit}." if fit else _bounds(quantity)
         findings.error("not-whole", amount.span, f"{amount.span.text} is not a whole number.", hint)
         return None
     if not quantity.low <= value <= quantity.high:
