@@ -3,7 +3,6 @@
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass, field
-from fcntl import ioctl
 from importlib import import_module
 from time import monotonic, sleep
 from typing import Any, Protocol
@@ -24,7 +23,7 @@ INSTALL = "pip install 'mindrun[robot]'"
 INSTALL_PINS = "sudo apt install python3-lgpio, or in a virtual environment: pip install lgpio"
 TRIES = 3
 PAUSE = 0.002  # seconds between two tries
-DEADLINE = 0.1  # seconds for all tries of one transfer
+DEADLINE = 0.1  # seconds after which a transfer that failed is not tried again
 I2C_TIMEOUT, KERNEL_TICKS = 0x0702, 5  # <linux/i2c-dev.h>; in units of 10 ms: for how long a part may hold the clock
 
 
@@ -85,14 +84,14 @@ class LinuxBus:
 
 def open_bus(number: int) -> Bus:
     """The I2C bus of that number; tests put a bus of their own here."""
-    smbus2 = library("smbus2")
+    smbus2, fcntl = library("smbus2"), library("fcntl", "robots run Linux")
     try:
         smbus = smbus2.SMBus(number)
     except OSError as error:
         hint = "turn it on with: sudo raspi-config nonint do_i2c 0"
         raise DeviceError(f"I2C bus {number} cannot be opened: {error}", hint) from error
     with suppress(OSError, TypeError):  # not every adapter can be told how long to wait
-        ioctl(smbus.fd, I2C_TIMEOUT, KERNEL_TICKS)
+        fcntl.ioctl(smbus.fd, I2C_TIMEOUT, KERNEL_TICKS)
     return LinuxBus(smbus, smbus2.i2c_msg)
 
 
@@ -125,12 +124,13 @@ class Wire:
         for _ in range(TRIES):
             try:
                 answer = self.bus.transfer(self.address, out, count)
+                if len(answer) == count:
+                    return answer
+                failure = f"it gave {len(answer)} bytes, not {count}"
             except OSError as error:
-                answer, failure = None, str(error)
+                failure = str(error)
             if monotonic() - begin > DEADLINE:
-                raise self.error(f"took {monotonic() - begin:.2f} s to answer")
-            if answer is not None and len(answer) == count:
-                return answer
+                break
             sleep(PAUSE)
         raise self.error(f"does not answer: {failure}")
 

@@ -1,5 +1,6 @@
 """A camera that looks for a luminous ball, and turns after it where it can."""
 
+import atexit
 from dataclasses import dataclass, replace
 from threading import Lock, Thread
 from time import sleep
@@ -23,6 +24,19 @@ LETTING_GO = 1.0  # seconds that the thread may need to end
 
 _eyes: dict["BallTracker", tuple[Eye, Thread, int]] = {}  # of each, how many look through it
 _opening = Lock()
+
+
+def _end(through: Eye, thread: Thread) -> None:
+    """Tell a thread to end; it lets go of its camera, at the latest when that answers."""
+    through.stop.set()
+    thread.join(LETTING_GO)
+
+
+@atexit.register
+def _end_all() -> None:
+    """End all threads: Python must not, while they are inside OpenCV."""
+    for through, thread, _ in _eyes.values():
+        _end(through, thread)
 
 
 @dataclass(slots=True)
@@ -62,8 +76,7 @@ class BallTrackerDevice:
             if users > 1:
                 _eyes[key] = through, thread, users - 1
                 return
-            through.stop.set()
-            thread.join(LETTING_GO)  # the thread lets go, at the latest when its camera answers
+            _end(through, thread)
 
 
 @kind("sensor driver", "ball_tracker")

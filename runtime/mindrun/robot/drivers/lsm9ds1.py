@@ -22,6 +22,7 @@ OUT_GYROSCOPE, OUT_ACCELEROMETER, OUT_MAGNETOMETER = 0x18, 0x28, 0xA8  # of the 
 G = 9.80665
 MS2, DEGREES_A_SECOND, MILLIGAUSS = 0.061e-3 * G, 8.75e-3, 0.14  # of one count, table 3
 MEASURED_IN = 0.1  # seconds until a new value must be there; they come every 8 to 13 ms
+READ_IN = 0.5  # seconds until there must be enough of them
 RAIL = 32767
 ENOUGH = 5  # values until a deviation means something
 WINDOW = Quantity("a time", {"s": 1.0}, low=0.2, high=10.0)
@@ -39,12 +40,14 @@ class Chip:
     settings: tuple[tuple[int, int], ...]
     status: int
     fresh: int  # the bit of the status that says that there is a new value
+    never: int  # bits of the status that are never set
     out: int
     ready: bool = False
 
     def measure(self) -> tuple[int, int, int]:
         """The next value that was not read before, in counts."""
         try:
+            self.identify()
             if not self.ready:
                 self.prepare()
             self.wait()
@@ -56,11 +59,14 @@ class Chip:
             raise self.wire.error("measures more than it can")
         return counts
 
-    def prepare(self) -> None:
-        """Set it up."""
+    def identify(self) -> None:
+        """DeviceError where something else answers, or a line is stuck: any counts could be an acceleration."""
         found = self.wire.read(WHO_AM_I, 1)[0]
         if found != self.identity:
             raise self.wire.error(f"is no LSM9DS1 (it says 0x{found:02x}, not 0x{self.identity:02x})")
+
+    def prepare(self) -> None:
+        """Set it up."""
         for register, value in self.settings:
             self.wire.write(register, value)
         self.ready = True
@@ -68,10 +74,12 @@ class Chip:
     def wait(self) -> None:
         """Return when there is a new value: a chip that has stopped must not look like a robot that has."""
         begin = monotonic()
-        while not self.wire.read(self.status, 1)[0] & self.fresh:
+        while not (status := self.wire.read(self.status, 1)[0]) & self.fresh:
             if monotonic() - begin > MEASURED_IN:
                 raise self.wire.error("does not measure anything new")
             sleep(0.002)
+        if status & self.never:
+            raise self.wire.error(f"has an impossible status (0x{status:02x})")
 
 
 @dataclass(frozen=True, slots=True)
@@ -83,7 +91,8 @@ class NineDofDevice:
 
     def read(self) -> tuple[float]:
         """One value, measured now."""
-        for _ in range(4 * ENOUGH):
+        begin = monotonic()
+        while monotonic() - begin < READ_IN:
             if (found := self.value(self.chip.measure())) is not None:
                 return (found,)
         raise self.chip.wire.error("measures too slowly")
@@ -97,7 +106,6 @@ def opened(chip: Chip, value: Callable[[tuple[int, int, int]], float | None]) ->
     """The device, when the chip has answered."""
     device = NineDofDevice(chip, value)
     try:
-        chip.prepare()
         device.read()
     except Exception:
         device.close()
@@ -152,7 +160,7 @@ class Motion:
     def open(self) -> NineDofDevice:
         """The accelerometer."""
         wire = Wire("the accelerometer", self.bus, self.address)
-        chip = Chip(wire, INERTIAL, ACCELEROMETER_ON, STATUS, 0x01, OUT_ACCELEROMETER)
+        chip = Chip(wire, INERTIAL, ACCELEROMETER_ON, STATUS, 0x01, 0x80, OUT_ACCELEROMETER)
         return opened(chip, Shaking(wire.error, self.window))
 
 
@@ -178,7 +186,7 @@ class Turn:
         """The gyroscope."""
         wire = Wire("the gyroscope", self.bus, self.address)
         sign = 1 if self.face == "up" else -1
-        chip = Chip(wire, INERTIAL, GYROSCOPE_ON, STATUS, 0x02, OUT_GYROSCOPE)
+        chip = Chip(wire, INERTIAL, GYROSCOPE_ON, STATUS, 0x02, 0x80, OUT_GYROSCOPE)
         return opened(chip, lambda counts: sign * (counts[2] * DEGREES_A_SECOND) - self.still)
 
 
@@ -208,7 +216,7 @@ class Compass:
     def open(self) -> NineDofDevice:
         """The magnetometer."""
         wire = Wire("the compass", self.bus, self.address)
-        chip = Chip(wire, MAGNETIC, MAGNETOMETER_ON, STATUS_MAGNETIC, 0x08, OUT_MAGNETOMETER)
+        chip = Chip(wire, MAGNETIC, MAGNETOMETER_ON, STATUS_MAGNETIC, 0x08, 0x00, OUT_MAGNETOMETER)
 
         def bearing(counts: tuple[int, int, int]) -> float:
             x, y, z = (count * MILLIGAUSS for count in counts)

@@ -5,6 +5,7 @@ from typing import Annotated
 
 from mindrun.quantity import COUNT, NUMBER
 from mindrun.registry import kind
+from mindrun.robot.parts import share
 
 
 @dataclass(frozen=True, slots=True)
@@ -23,13 +24,13 @@ class MockSensorDevice:
 
 @dataclass(slots=True)
 class MockActuatorDevice:
-    """Takes every command, and remembers the last."""
+    """Takes every command in 0..1, and remembers the last."""
 
     value: float | None = None
 
     def write(self, value: float) -> None:
         """Nothing moves."""
-        self.value = value
+        self.value = share(value)
 
     def close(self) -> None:
         """Nothing to let go."""

@@ -1,0 +1,165 @@
+"""For every driver: a fake of its part, what it must read there, and how to break it."""
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from math import inf
+from typing import Any
+
+import pytest
+from gpiozero import Device
+from gpiozero.pins.mock import MockFactory
+from mindrun.robot import eye, parts
+from mindrun.robot.drivers import ball_tracker as tracking
+from mindrun.robot.drivers import grove_motor as motors
+from mindrun.robot.drivers.ads1115 import Ads1115
+from mindrun.robot.drivers.ball_tracker import BallTracker
+from mindrun.robot.drivers.grove_motor import GroveMotor
+from mindrun.robot.drivers.grove_ultrasonic import GroveUltrasonic
+from mindrun.robot.drivers.lsm9ds1 import Compass, Motion, Turn
+from mindrun.robot.drivers.mock import MockActuator, MockSensor
+from mindrun.robot.drivers.pca9685 import Pca9685
+from mindrun.robot.drivers.switch import Switch
+from mindrun.robot.drivers.ultrasonic import Ultrasonic
+
+from tests.robot.drivers import frames
+from tests.robot.drivers.echoes import ring
+from tests.robot.drivers.fakes import FakeAds1115, FakeBus, FakeGroveMotor, FakeGrovePi, FakeLsm9ds1, FakePca9685
+
+
+@dataclass
+class World:
+    """A driver on fakes: what it reads (`within` so much), or what its part does (`state`) for a command."""
+
+    driver: Any
+    expected: tuple[float | None, ...] = ()
+    within: float = 0.0
+    state: Callable[[Any], float | None] = lambda device: None
+    meant: Callable[[float], float] = lambda value: value
+    bus: FakeBus | None = None
+    fail: Callable[[], None] | None = None
+    parts: list[Any] = field(default_factory=list)
+
+
+def on_bus(patch: pytest.MonkeyPatch, address: int, part: Any, **world: Any) -> World:
+    """A part on a bus of its own."""
+    bus = FakeBus({address: part})
+
+    def open_bus(number: int) -> FakeBus:
+        assert number == 1
+        bus.open += 1
+        return bus
+
+    patch.setattr(parts, "open_bus", open_bus)
+    return World(bus=bus, parts=[part], fail=lambda: setattr(bus, "failing", 1.0), **world)
+
+
+def mock_pins(patch: pytest.MonkeyPatch) -> MockFactory:
+    """Pins that are not there."""
+    factory = MockFactory()
+    patch.setattr(Device, "pin_factory", factory)
+    return factory
+
+
+def mock_sensor(patch: pytest.MonkeyPatch) -> World:
+    return World(MockSensor(0.3, 2), (0.3, 0.3))
+
+
+def ultrasonic(patch: pytest.MonkeyPatch) -> World:
+    triggers, echoes, log = (5, 6, 13, 19, 26), (16, 17, 20, 21, 22), []
+    pins = ring(mock_pins(patch), triggers, echoes, log)
+    for pin, metres in zip(pins, (0.03, 0.2, None, 0.5, 0.6), strict=True):
+        pin.metres = metres
+    world = World(Ultrasonic(triggers, echoes, range=0.55), (0.03, 0.2, None, 0.5, None), 1e-3, parts=[pins, log])
+    world.fail = lambda: setattr(pins[3], "fault", "silent")
+    return world
+
+
+def grove_ultrasonic(patch: pytest.MonkeyPatch) -> World:
+    part = FakeGrovePi({4: 35, 2: 350, 3: 520})
+    return on_bus(patch, 0x04, part, driver=GroveUltrasonic((4, 2, 3)), expected=(0.35, 3.5, None), within=0.001)
+
+
+def ads1115(patch: pytest.MonkeyPatch) -> World:
+    return on_bus(patch, 0x48, FakeAds1115(7.4 / 3.13), driver=Ads1115(), expected=(7.4,), within=0.001)
+
+
+def motion(patch: pytest.MonkeyPatch) -> World:
+    part = FakeLsm9ds1(0x68, 0x20, 0x17, 0x01, 0x28)
+    part.vector = (300.0, -200.0, 16390.0)
+    return on_bus(patch, 0x6B, part, driver=Motion(), expected=(0.0,), within=0.03)
+
+
+def turn(patch: pytest.MonkeyPatch) -> World:
+    part = FakeLsm9ds1(0x68, 0x10, 0x17, 0x02, 0x18)
+    part.vector = (10.0, -20.0, 90 / 8.75e-3)
+    return on_bus(patch, 0x6B, part, driver=Turn(), expected=(90.0,), within=0.5)
+
+
+def compass(patch: pytest.MonkeyPatch) -> World:
+    part = FakeLsm9ds1(0x3D, 0x22, 0x27, 0x08, 0xA8)
+    part.vector = (200 / 0.14, 200 / 0.14, -400 / 0.14)
+    return on_bus(patch, 0x1E, part, driver=Compass(), expected=(45.0,), within=1.5)
+
+
+def switch(patch: pytest.MonkeyPatch) -> World:
+    factory = mock_pins(patch)
+    world = World(Switch(17), (0.0,), parts=[factory.pin(17)])
+
+    def fail() -> None:
+        patch.setattr(type(factory.pin(17)), "_get_state", lambda pin: 1 / 0)
+
+    world.fail = fail
+    return world
+
+
+def ball_tracker(patch: pytest.MonkeyPatch) -> World:
+    x = frames.column(12.0)
+    camera = frames.FakeCamera(lambda count: frames.taken(frames.ball(frames.room(), x, 100, 25), seed=count))
+    patch.setattr(eye, "open_camera", lambda path, width, height: camera)
+    patch.setattr(tracking, "_eyes", {})
+    return World(BallTracker(), (12.0,), 0.5, parts=[camera], fail=camera.stopped.set)
+
+
+def mock_actuator(patch: pytest.MonkeyPatch) -> World:
+    return World(MockActuator(), state=lambda device: device.value)
+
+
+def pca9685(patch: pytest.MonkeyPatch) -> World:
+    part = FakePca9685()
+    driver = Pca9685(channel=3, shortest=600.0, longest=2400.0)
+    return on_bus(
+        patch, 0x40, part, driver=driver, state=lambda device: part.pulse(3), meant=lambda v: 600 + 1800 * v, within=2.5
+    )
+
+
+def grove_motor(patch: pytest.MonkeyPatch) -> World:
+    part = FakeGroveMotor()
+    patch.setattr(motors, "_boards", {})
+    return on_bus(
+        patch,
+        0x0F,
+        part,
+        driver=GroveMotor(motor=2),
+        state=lambda device: part.turning(1),
+        meant=lambda v: 255 * (2 * v - 1),
+        within=0.51,
+    )
+
+
+SENSORS: dict[str, Callable[[pytest.MonkeyPatch], World]] = {
+    "mock": mock_sensor,
+    "ultrasonic": ultrasonic,
+    "grove_ultrasonic": grove_ultrasonic,
+    "ads1115": ads1115,
+    "lsm9ds1_motion": motion,
+    "lsm9ds1_turn": turn,
+    "lsm9ds1_compass": compass,
+    "switch": switch,
+    "ball_tracker": ball_tracker,
+}
+ACTUATORS: dict[str, Callable[[pytest.MonkeyPatch], World]] = {
+    "mock": mock_actuator,
+    "pca9685": pca9685,
+    "grove_motor": grove_motor,
+}
+ANYTHING = (-inf, inf)
