@@ -9,6 +9,7 @@ import time
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, field
+from math import inf
 from pathlib import Path
 
 from mindrun.robot.guardian.client import Guardian
@@ -46,11 +47,11 @@ def writes(log: Path) -> list[Write]:
     ]
 
 
-def at_rest(log: Path, after: float) -> float | None:
-    """When the last actuator had come to neutral for good, counted from `after`; None where one never did."""
+def at_rest(log: Path, after: float, until: float = inf) -> float | None:
+    """When the last actuator had come to neutral, counted from `after`; None where one was not there at `until`."""
     since: list[float | None] = [None] * len(NEUTRALS)
     for write in writes(log):
-        if write.value is not None:
+        if write.value is not None and write.time < until:
             since[write.channel] = (since[write.channel] or write.time) if write.neutral else None
     return None if None in since else max(0.0, max(time or 0.0 for time in since) - after)
 
@@ -131,7 +132,7 @@ def hang(found: Robot, how: str, rng: random.Random, seconds: float = HANG) -> f
     else:
         begin = int(found.ask(f"{how} {seconds + rng.uniform(0, TICK)}")) / 1e9
     time.sleep(max(0.0, begin + seconds - time.monotonic()))
-    rest = at_rest(found.log, begin)
+    rest = at_rest(found.log, begin, begin + seconds)
     found.process.send_signal(signal.SIGCONT)
     return rest
 

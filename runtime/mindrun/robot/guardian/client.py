@@ -4,9 +4,11 @@ import fcntl
 import os
 import subprocess
 import sys
+from array import array
 from collections.abc import Iterable, Sequence
 from contextlib import suppress
 from select import select
+from termios import FIONREAD
 from time import monotonic, monotonic_ns
 from types import TracebackType
 
@@ -17,7 +19,8 @@ from mindrun.robot.guardian.plan import Plan, to_json
 
 # -P: a file of the user's folder that is named like a module must not be imported.
 PROGRAM = (sys.executable, "-P", "-m", "mindrun.robot.guardian")
-PIPE = 4096  # bytes: a guardian that hangs is noticed when so many have not been read
+PIPE = 4096  # bytes that can wait in the pipe
+HANGS = 0.5  # seconds in which the guardian has not once read all that was there
 
 
 class GuardianError(MindError):
@@ -37,6 +40,7 @@ class Guardian:
         self._program = program
         self._number = 0
         self._said = b""
+        self._read_at = monotonic()
         # A session of its own: no key of a terminal reaches it, neither Ctrl-C nor Ctrl-Z.
         self._process = subprocess.Popen(
             [*program], stdin=subprocess.PIPE, stdout=subprocess.PIPE, bufsize=0, start_new_session=True
@@ -64,10 +68,12 @@ class Guardian:
         if self.state == LATCHED:
             raise GuardianError(f"the guardian holds every actuator at neutral: {self.why}", "start the robot again")
         try:
+            self._see_it_read()
             os.write(self._input.fileno(), pack(self._number, monotonic_ns(), armed, tuple(commands)))
-        except OSError as error:
-            hangs = isinstance(error, BlockingIOError)
-            raise GuardianError(f"the guardian {'hangs' if hangs else 'is gone'}: {self._rescue(hangs)}") from error
+        except BlockingIOError:
+            raise GuardianError(f"the guardian hangs: {self._rescue(hangs=True)}") from None
+        except OSError:
+            raise GuardianError(f"the guardian is gone: {self._rescue(hangs=False)}") from None
         self._number += 1
 
     def close(self) -> None:
@@ -104,11 +110,21 @@ class Guardian:
                 raise GuardianError("the guardian ended before it was ready")
         if self.state != "ready":
             raise GuardianError(f"the guardian cannot start: {self.why}")
-        self.state = NEUTRAL
+        self.state, self._read_at = NEUTRAL, monotonic()
         os.set_blocking(self._output.fileno(), False)
         os.set_blocking(self._input.fileno(), False)
         with suppress(OSError):
             fcntl.fcntl(self._input, fcntl.F_SETPIPE_SZ, PIPE)
+
+    def _see_it_read(self) -> None:
+        """BlockingIOError where what was sent before has not been read for long."""
+        now = monotonic()
+        unread = array("i", [0])
+        fcntl.ioctl(self._input, FIONREAD, unread)
+        if not unread[0]:
+            self._read_at = now
+        elif now - self._read_at > HANGS:
+            raise BlockingIOError
 
     def _listen(self) -> bool:
         """Hear what the guardian has said since; False where it will say no more."""
