@@ -25,9 +25,12 @@ def wiring(value: float = 0.6) -> Wiring:
 
 
 @pytest.fixture
-def bundle(tmp_path: Path) -> Path:
+def bundle(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """A bundle that this robot is wired for."""
+    monkeypatch.setenv("MIND_ROBOT", str(tmp_path / "robot" / "identity"))
     path = tmp_path / "mind.bundle"
     write_bundle(path, graph("bearing"), {}, {}, wiring())
+    assert mindrun("adopt", path).returncode == 0
     return path
 
 
@@ -76,6 +79,20 @@ def test_a_signal_ends_it_and_keeps_the_recording(bundle: Path, tmp_path: Path, 
     assert mindrun("replay", day, bundle).returncode == 0
 
 
+def test_a_bundle_for_another_wiring_moves_nothing(bundle: Path, tmp_path: Path) -> None:
+    other, day = tmp_path / "other.bundle", tmp_path / "day.rec"
+    write_bundle(other, graph("bearing"), {}, {}, wiring(0.7))
+    said = mindrun(other, "--arm", "--ticks", 3, "--record", day)
+    assert (said.returncode, day.exists()) == (2, False)
+    assert "this bundle is wired for mock, otherwise than mock is" in said.stderr
+    assert f"mindrun adopt {other}" in said.stderr
+    assert mindrun(other, "--ticks", 3).returncode == 0, "unarmed, nothing moves"
+    (tmp_path / "robot" / "identity").unlink()
+    said = mindrun(bundle, "--arm", "--ticks", 3)
+    assert said.returncode == 2
+    assert "this robot has not said how it is wired" in said.stderr
+
+
 def test_a_bundle_without_wiring_says_what_it_holds(tmp_path: Path) -> None:
     bundle = tmp_path / "mind.bundle"
     write_bundle(bundle, graph("bearing"), {}, {})
@@ -117,7 +134,7 @@ def test_calibrate_prints_lines_for_the_wiring(bundle: Path) -> None:
     assert "no sensor sence is wired" in said.stderr
 
 
-@pytest.mark.parametrize("tool", ["replay", "report", "calibrate", "doctor"])
+@pytest.mark.parametrize("tool", ["adopt", "calibrate", "doctor", "replay", "report"])
 def test_every_tool_explains_itself(tool: str) -> None:
     said = mindrun(tool, "--help")
     assert said.returncode == 0

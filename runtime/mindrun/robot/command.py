@@ -8,6 +8,7 @@ from pathlib import Path
 from mindrun.bundle import Bundle, read_bundle
 from mindrun.errors import MindError
 from mindrun.robot.drive import Wishes, drive
+from mindrun.robot.identity import refuse_another
 from mindrun.robot.loop import Loop
 
 
@@ -26,6 +27,8 @@ def run(options: argparse.Namespace) -> int:
 def _wired(options: argparse.Namespace, bundle: Bundle, wishes: Wishes) -> Loop:
     if bundle.wiring is None:
         raise MindError("this bundle is wired to no robot", "mindc build … --robot robot.yaml, or try it with --dry")
+    if wishes.armed:
+        refuse_another(bundle.wiring, options.bundle)
     return drive(bundle, digest(options.bundle), bundle.wiring, wishes, _quiet if options.quiet else _tell)
 
 
