@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import sys
+from dataclasses import replace
 from hashlib import sha256
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -9,6 +11,9 @@ from typing import TYPE_CHECKING
 import click
 
 if TYPE_CHECKING:
+    from mindrun.graph import Graph
+    from mindrun.robot.wiring import Wiring
+
     from mindlang.lock.ready import Ready
 
 EXAMPLES = """\b
@@ -16,6 +21,7 @@ Examples:
   mindc build collect.mind -o collect.bundle
   mindc build collect.mind -o avoid.bundle --master Avoid
   mindc build collect.mind -o collect.bundle --json
+  mindc build ball.mind --robot robot.yaml -o ball.bundle
 """
 
 
@@ -23,11 +29,15 @@ Examples:
 @click.argument("file")
 @click.option("-o", "--output", required=True, type=click.Path(path_type=Path), help="The bundle: -o collect.bundle")
 @click.option("--master", metavar="SKILL", help="Another skill in charge: --master Avoid")
+@click.option(
+    "--robot", type=click.Path(path_type=Path), metavar="FILE", help="What it is wired to: --robot robot.yaml"
+)
 @click.option("--json", "as_json", is_flag=True, help="Say what was built as one JSON document: --json")
 @click.option("-q", "--quiet", is_flag=True, help="Print nothing but errors: -q")
-def command(file: str, output: Path, master: str | None, as_json: bool, quiet: bool) -> None:
+def command(file: str, output: Path, master: str | None, robot: Path | None, as_json: bool, quiet: bool) -> None:
     """Build a bundle of FILE: its hierarchy, the weights of every skill that can act, and the text of its procedures.
 
+    With --robot also what each sensor and actuator is wired to, checked here against FILE and not on the robot.
     Refuses skills that have not been taught, or whose weights belong to another declaration.
     """
     from mindrun.bundle import write_bundle
@@ -43,6 +53,7 @@ def command(file: str, output: Path, master: str | None, as_json: bool, quiet: b
     skills = [skill.name for skill in compiled.graph.skills]
     if master is not None and master not in skills:
         fail(f"There is no skill {master}.", did_you_mean(master, skills), MISUSE)
+    wiring = _wiring(robot, replace(compiled.graph, master=master or compiled.graph.master)) if robot else None
     try:
         ready = make_ready(compiled.graph, compiled.sources, master)
         if ready.refusals:
@@ -50,7 +61,7 @@ def command(file: str, output: Path, master: str | None, as_json: bool, quiet: b
                 say(refusal)
             fail(ready.refusals[-1], f"mindc train {file}")
         procedures = procedure_sources(ready.graph, compiled.sources[0].folder)
-        write_bundle(output, ready.graph, ready.weights, procedures)
+        write_bundle(output, ready.graph, ready.weights, procedures, wiring)
     except MindError as error:
         fail(str(error), code=MISUSE)
     except OSError as error:
@@ -58,16 +69,34 @@ def command(file: str, output: Path, master: str | None, as_json: bool, quiet: b
     for note in ready.notes:
         say(f"note: {note}")
     if as_json:
-        print_json(_built(output, ready))
+        print_json(_built(output, ready, wiring))
     elif not quiet:
-        click.echo(f"{output}: {ready.graph.master} in charge, {len(ready.weights)} trained skills", err=True)
+        wired = f", wired to {wiring.robot}" if wiring else ""
+        click.echo(f"{output}: {ready.graph.master} in charge, {len(ready.weights)} trained skills{wired}", err=True)
 
 
-def _built(output: Path, ready: Ready) -> dict[str, object]:
+def _wiring(path: Path, graph: Graph) -> Wiring:
+    """What the mind is wired to; its report goes to stderr, and one with errors ends the program."""
+    from mindlang.report import print_report
+    from mindlang.terminal import FINDINGS, MISUSE, console
+    from mindlang.wiring.wire import load_wiring
+
+    checked = load_wiring(path, graph)
+    print_report(checked.diagnostics, console(stderr=True))
+    if checked.wiring is None:
+        sys.exit(FINDINGS if checked.readable else MISUSE)
+    return checked.wiring
+
+
+def _built(output: Path, ready: Ready, wiring: Wiring | None) -> dict[str, object]:
+    from mindrun.bundle import fingerprint
+
+    robot = {"robot": {"name": wiring.robot, "wiring": fingerprint(wiring)}} if wiring else {}
     return {
         "bundle": str(output),
         "sha256": sha256(output.read_bytes()).hexdigest(),
         "master": ready.graph.master,
         "skills": sorted(ready.weights),
         "notes": list(ready.notes),
+        **robot,
     }

@@ -15,7 +15,7 @@ from mindrun.robot.contract import ActuatorDriver, SensorDriver
 from mindrun.sensors import Derivative
 from mindrun.weights import reachable
 
-ODD = Quantity("an odd number of values", {"": 1.0}, low=1, high=15, whole=True)
+VALUES = Quantity("a number of values", {"": 1.0}, low=1, high=15, whole=True)
 HERTZ = Quantity("a rate", {"Hz": 1.0}, low=0.01, high=1000)
 TIME = Quantity("a time", {"s": 1.0, "ms": 0.001}, low=1e-9, high=3600)
 TRIM = Quantity("a share of the travel", {"": 1.0, "%": 0.01}, low=-0.5, high=0.5)
@@ -38,7 +38,7 @@ class SensorWire:
     driver: SensorDriver
     low: Annotated[float, NUMBER]
     high: Annotated[float, NUMBER]
-    median: Annotated[int, ODD] = 1
+    median: Annotated[int, VALUES] = 1
     rate: Annotated[float, HERTZ] = 20.0
     max_age: Annotated[float, TIME] = 0.25
     on_fault: Annotated[str, ON_FAULT] = "neutral"

@@ -1,0 +1,19 @@
+"""`mindc schema`: the JSON Schema of `robot.yaml`."""
+
+import click
+
+EXAMPLES = """\b
+Examples:
+  mindc schema > robot.schema.json
+Then an editor that knows YAML completes and checks a file that begins with:
+  # yaml-language-server: $schema=robot.schema.json
+"""
+
+
+@click.command(epilog=EXAMPLES)
+def command() -> None:
+    """Print the JSON Schema of robot.yaml, with every driver that is installed and its options."""
+    from mindlang.terminal import print_json
+    from mindlang.wiring.schema import schema
+
+    print_json(schema())

@@ -1,0 +1,87 @@
+"""Which pins, addresses and channels a wiring uses; each belongs to one sensor or actuator."""
+
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+
+from mindrun.robot.parts import ADDRESS, BUS, CHANNEL, PIN
+
+from mindlang.diagnostic import Findings, Label
+from mindlang.source import Span
+from mindlang.wiring.driver import Wired
+from mindlang.wiring.nodes import Items, tell
+from mindlang.wiring.options import Option, driver_options
+from mindlang.wiring.values import first_line
+
+OUTPUTS = ("channel", "motor", "port", "ports", "output", "input")  # which of the things on a board
+BUS_PINS = {0: (0, 1), 1: (2, 3)}  # of a Raspberry Pi
+
+
+@dataclass(frozen=True, slots=True)
+class Claim:
+    """Something that is used, and where that is said; `sharing` says with whom: those who say the same, or nobody."""
+
+    what: str
+    span: Span
+    sharing: object = None
+
+
+def check_claims(everything: Iterable[Wired], findings: Findings) -> None:
+    """Report what is used twice."""
+    taken: dict[str, Claim] = {}
+    claims = [claim for wired in everything for claim in _claims(wired)]
+    for claim in sorted(claims, key=lambda claim: not isinstance(claim.sharing, str)):  # buses are where they are
+        first = taken.setdefault(claim.what, claim)
+        if first is not claim and (first.sharing is None or first.sharing != claim.sharing):
+            label = Label(first.span, f"used here{f', by {first.sharing}' * isinstance(first.sharing, str)}")
+            hint = "Write where this one is wired to: each has its own."
+            tell(findings, "used-twice", claim.span, f"{claim.what} is used twice.", hint, label)
+
+
+def _claims(wired: Wired) -> Iterator[Claim]:
+    options = driver_options(type(wired.driver))
+    for option in options:
+        if option.type is PIN:
+            yield from (Claim(f"GPIO {number}", span) for number, span in _numbers(wired, option))
+    bus = next((getattr(wired.driver, option.field) for option in options if option.type is BUS), None)
+    used = [getattr(wired.driver, option.field) is not None for option in _outputs(wired)]
+    if bus is None or (used and not any(used)):  # a camera without servos
+        return
+    here = wired.span("bus", "driver")
+    yield from (Claim(f"GPIO {pin}", here, f"I2C bus {bus}") for pin in BUS_PINS.get(bus, ()))
+    for option in options:
+        if option.type is ADDRESS:
+            yield from _on_board(wired, f"I2C address 0x{getattr(wired.driver, option.field):02x} of bus {bus}", option)
+
+
+def _on_board(wired: Wired, board: str, address: Option) -> Iterator[Claim]:
+    """A board has one address. Drivers with the same usual one are for the same board, each for other outputs of it."""
+    selecting = _outputs(wired)
+    can_share = selecting or wired.noun == "sensor"
+    yield Claim(board, wired.span(address.key, "driver"), ("board", address.default) if can_share else None)
+    for option in selecting:
+        for number, place in _numbers(wired, option):
+            yield Claim(f"Number {number} at {board}", place, _one_device(wired))
+
+
+def _outputs(wired: Wired) -> list[Option]:
+    """The options that say which of the things on a board."""
+    return [option for option in driver_options(type(wired.driver)) if option.key in OUTPUTS or option.type is CHANNEL]
+
+
+def _one_device(wired: Wired) -> object:
+    """What sensors that read different things of one device have in common: all of its numbers, and its texts."""
+    if wired.noun != "sensor":
+        return None
+    options = [option for option in driver_options(type(wired.driver)) if option.shape not in ("word", "words")]
+    return type(wired.driver), tuple(getattr(wired.driver, option.field) for option in options)
+
+
+def _numbers(wired: Wired, option: Option) -> Iterator[tuple[int, Span]]:
+    """The numbers under a key, and where each stands."""
+    found, entry = getattr(wired.driver, option.field), wired.entry(option.key)
+    numbers = found if isinstance(found, tuple) else (found,)
+    if entry and isinstance(entry.value, Items):
+        yield from ((number, node.span) for number, node in zip(numbers, entry.value.items, strict=True))
+    else:
+        place = first_line(entry.value.span) if entry else wired.span("driver")
+        yield from ((number, place) for number in numbers if number is not None)

@@ -1,0 +1,60 @@
+"""The tree of a YAML text: scalars, lists and tables, each with its span. Nothing in it is checked yet."""
+
+from dataclasses import dataclass
+
+from mindlang.diagnostic import Diagnostic, Findings, Label
+from mindlang.source import Span
+
+
+@dataclass(frozen=True, slots=True)
+class Scalar:
+    """One value as written; `plain` without quotes."""
+
+    text: str
+    plain: bool
+    span: Span
+
+
+@dataclass(frozen=True, slots=True)
+class Items:
+    """A list."""
+
+    items: tuple["Node", ...]
+    span: Span
+
+
+@dataclass(frozen=True, slots=True)
+class Entry:
+    """A key and its value."""
+
+    key: Scalar
+    value: "Node"
+
+
+@dataclass(frozen=True, slots=True)
+class Table:
+    """Keys and their values; it is `whole` unless an entry had a key that is no word."""
+
+    entries: tuple[Entry, ...]
+    span: Span
+    whole: bool = True
+
+
+@dataclass(frozen=True, slots=True)
+class Lost:
+    """A value of which it has been said that it cannot be read: nothing more is said of it."""
+
+    span: Span
+
+
+Node = Scalar | Items | Table | Lost
+
+
+def tell(findings: Findings, code: str, span: Span, message: str, hint: str, *labels: Label) -> None:
+    """Collect an error; every error of a wiring says what to do."""
+    findings.diagnostics.append(Diagnostic(code, message, span, hint, labels))
+
+
+def shortened(text: str) -> str:
+    """What was written, if it is not too long for a message."""
+    return text if len(text) <= 40 else f"{text[:39]}…"

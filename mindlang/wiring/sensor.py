@@ -1,0 +1,117 @@
+"""A table about a sensor → SensorWire: what its values mean, checked against the sensor of the mind."""
+
+from mindrun.graph import Sensor
+from mindrun.quantity import Quantity
+from mindrun.robot.parts import PIN
+from mindrun.robot.wiring import SensorWire
+from mindrun.sensors import Bearing, RangeFinder
+
+from mindlang.diagnostic import Findings, Label
+from mindlang.wiring.driver import Wired
+from mindlang.wiring.nodes import Items, tell
+from mindlang.wiring.options import driver_options
+from mindlang.wiring.tables import is_empty
+from mindlang.wiring.values import first_line, number
+
+# What a driver may measure in, and how people may write it.
+UNITS = {"m": {"m": 1.0, "cm": 0.01, "mm": 0.001}, "V": {"V": 1.0, "mV": 0.001}, "m/s²": {"m/s²": 1.0, "m/s2": 1.0}}
+TURN = 360.0  # degrees
+
+
+def sensor_wire(wired: Wired, sensor: Sensor, findings: Findings) -> SensorWire | None:
+    """The wire of a sensor, or None after reporting why it cannot be wired so."""
+    before = len(findings.diagnostics)
+    low, high = (_end(wired, index, findings) for index in (0, 1))
+    if low is None or high is None:
+        return None
+    blank, rest = nothing(sensor)
+    defaults = {"blank": blank, "dead_zone": float(getattr(sensor.kind, "dead_zone", 0.0))}
+    wire = SensorWire(sensor.name, wired.driver, low, high, rest=rest, **{**defaults, **wired.own})
+    _check_readings(wired, sensor, findings)
+    _check_range(wired, wire, sensor, findings)
+    if wire.median % 2 == 0:
+        hint = f"Only of an odd number one stands in the middle: write {wire.median - 1} or {wire.median + 1}."
+        tell(findings, "not-odd", wired.span("median"), f"{wire.median} is an even number.", hint)
+    _check_times(wired, wire, findings)
+    return wire if len(findings.diagnostics) == before else None
+
+
+def nothing(sensor: Sensor) -> tuple[float, float]:
+    """What a sensor of this kind reads where there is nothing to measure, and in its dead zone; as in training."""
+    match sensor.kind:
+        case RangeFinder():
+            return 1.0, 0.0
+        case Bearing():
+            return 0.5, 0.5
+    return 0.0, 0.0
+
+
+def _end(wired: Wired, index: int, findings: Findings) -> float | None:
+    """The value that is the reading 0, or 1."""
+    unit = wired.driver.unit
+    entry = wired.entry(("from", "to")[index])
+    if entry is None:
+        return float(wired.driver.usual[index])
+    if is_empty(entry, findings):
+        return None
+    name = f"a value in {unit}" if unit else "a number without a unit"
+    found = number(entry.value, Quantity(name, UNITS.get(unit, {unit: 1.0}), low=-1e6, high=1e6), findings)
+    return None if found is None else float(found)
+
+
+def _check_readings(wired: Wired, sensor: Sensor, findings: Findings) -> None:
+    """One value for each reading, and where there are pins, as many in each list."""
+    count, name = wired.driver.readings, wired.name.text
+    lists = [option.key for option in driver_options(type(wired.driver)) if option.shape == "numbers"]
+    if count != sensor.width:
+        message = f"The mind's {name} has {_many(sensor.width)}, and this driver {count}."
+        hint = (
+            f"List {sensor.width} in {lists[0]}: one for each."
+            if lists
+            else "Take another driver, or wire another sensor to it."
+        )
+        tell(findings, "wrong-width", wired.span(*lists, "driver"), message, hint)
+        return
+    for option in driver_options(type(wired.driver)):
+        entry = wired.entry(option.key)
+        if option.type is PIN and entry and isinstance(entry.value, Items) and len(entry.value.items) != count:
+            message = f"{option.key} has {len(entry.value.items)} pins, for {_many(count)}."
+            hint = f"List {count}, in the order of the readings."
+            tell(findings, "wrong-count", first_line(entry.value.span), message, hint)
+
+
+def _check_range(wired: Wired, wire: SensorWire, sensor: Sensor, findings: Findings) -> None:
+    if wire.low == wire.high:
+        labels = [Label(wired.span("from"), "the reading 0")] if wired.entry("from") and wired.entry("to") else []
+        hint = "from is the value at which it reads 0, to the one at which it reads 1: write two different ones."
+        tell(
+            findings,
+            "no-range",
+            wired.span("to", "from"),
+            f"It would read 0 and 1 at the same value, {wire.low:g}.",
+            hint,
+            *labels,
+        )
+    elif isinstance(sensor.kind, Bearing) and wired.driver.unit == "deg" and abs(wire.high - wire.low) != TURN:
+        message = f"A bearing's readings 0 to 1 are a whole turn, and these are {abs(wire.high - wire.low):g} degrees."
+        usual = wired.driver.usual
+        hint = f"Leave both out, or write from: {usual[0]:g} deg and to: {usual[1]:g} deg."
+        tell(findings, "not-a-turn", wired.span("to", "from", "driver"), message, hint)
+
+
+def _check_times(wired: Wired, wire: SensorWire, findings: Findings) -> None:
+    apart = 1 / wire.rate
+    if wire.max_age < apart:
+        message = f"Measured every {apart:g} s, it would always be too old after {wire.max_age:g} s."
+        hint = f"Write max_age: {2 * apart:.3g} s, twice the time between two of them, or a higher rate."
+        labels = (
+            [Label(wired.span("rate"), f"every {apart:g} s")] if wired.entry("rate") and wired.entry("max_age") else []
+        )
+        tell(findings, "always-old", wired.span("max_age", "rate"), message, hint, *labels)
+    if wired.entry("hold") and wire.on_fault != "hold":
+        hint = "Add on_fault: hold, or remove it."
+        tell(findings, "idle-hold", wired.span("hold"), "Nothing is held here on a fault.", hint)
+
+
+def _many(count: int) -> str:
+    return f"{count} reading{'s' * (count != 1)}"

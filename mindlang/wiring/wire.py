@@ -1,0 +1,85 @@
+"""`robot.yaml` → Wiring, checked against a mind; for any text without an exception."""
+
+from dataclasses import dataclass
+from pathlib import Path
+
+from mindrun.graph import Graph
+from mindrun.robot.wiring import Wiring
+
+from mindlang.diagnostic import Diagnostic, Findings, nearest
+from mindlang.source import Source, decode
+from mindlang.wiring.claims import check_claims
+from mindlang.wiring.nodes import Entry, Node, tell
+from mindlang.wiring.read import read
+from mindlang.wiring.section import actuators, sensors
+from mindlang.wiring.tables import is_empty, missing_key, table, unknown_key
+from mindlang.wiring.values import text
+
+LIMIT = 256 << 10  # bytes
+KEYS = {"robot": "paper, or another name", "sensors": "and below it each with its driver", "actuators": "likewise"}
+
+
+@dataclass(frozen=True, slots=True)
+class Checked:
+    """What became of a wiring; `wiring` is None where the diagnostics hold an error."""
+
+    wiring: Wiring | None
+    diagnostics: tuple[Diagnostic, ...]
+    readable: bool = True
+
+
+def load_wiring(path: Path, graph: Graph) -> Checked:
+    """The wiring of a mind in the file at `path`; whatever is wrong is in the diagnostics."""
+    try:
+        if path.is_dir():
+            raise ValueError("is a folder")
+        with path.open("rb") as file:
+            data = file.read(LIMIT + 1)
+        if len(data) > LIMIT:
+            raise ValueError(f"is larger than {LIMIT >> 10} kB")
+        return check_wiring(Source(str(path), decode(data), path.resolve().parent), graph)
+    except (OSError, RuntimeError) as error:  # a loop of links is a RuntimeError
+        return _unreadable(f"{path} cannot be read: {getattr(error, 'strerror', None) or error}.", "Is the path right?")
+    except ValueError as error:
+        return _unreadable(f"{path} {error}.", f"A robot.yaml is UTF-8 text of at most {LIMIT >> 10} kB.")
+
+
+def _unreadable(message: str, hint: str) -> Checked:
+    return Checked(None, (Diagnostic("unreadable", message, None, hint),), readable=False)
+
+
+def check_wiring(source: Source, graph: Graph) -> Checked:
+    """The wiring that a text says, checked against a mind with its master."""
+    findings = Findings()
+    node = read(source, findings)
+    wiring = _wiring(node, graph, findings) if node else None
+    found = sorted(findings.diagnostics, key=lambda diagnostic: diagnostic.span.start if diagnostic.span else -1)
+    return Checked(None if found else wiring, tuple(found))
+
+
+def _wiring(node: Node, graph: Graph, findings: Findings) -> Wiring | None:
+    top = table(node, "The file", "robot, sensors and actuators", findings)
+    if top is None:
+        return None
+    said = {entry.key.text: entry for entry in top.entries}
+    strange = [entry.key for entry in top.entries if entry.key.text not in KEYS]
+    for key in strange:
+        unknown_key(key, "The file", KEYS, findings)
+    meant = {nearest(key.text, KEYS) for key in strange}
+    for word, example in KEYS.items():
+        if word not in said and word not in meant and top.whole:
+            missing_key(top.span, "The file", word, example, findings)
+    sensing, acting = sensors(said.get("sensors"), graph, findings), actuators(said.get("actuators"), graph, findings)
+    check_claims([wired for wired, _ in (*sensing, *acting)], findings)
+    name = _name(said.get("robot"), findings)
+    wires = tuple(wire for _, wire in sensing if wire)
+    return Wiring(name, wires, tuple(wire for _, wire in acting if wire)) if name else None
+
+
+def _name(entry: Entry | None, findings: Findings) -> str | None:
+    if entry is None or is_empty(entry, findings):
+        return None
+    name = text(entry.value, findings)
+    if name and name.strip() != name:
+        tell(findings, "not-a-text", entry.value.span, "A name has no spaces around it.", "Remove them.")
+    return name

@@ -1,0 +1,159 @@
+"""YAML that is not meant well: every text gets a wiring or messages, and gets them soon."""
+
+from functools import cache
+from itertools import pairwise
+from pathlib import Path
+from random import Random
+from time import process_time
+
+import pytest
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+from mindrun.graph import Graph
+
+from mindlang.compile import load
+from mindlang.report import as_data, plain
+from mindlang.source import Source
+from mindlang.wiring.surprises import surprise
+from mindlang.wiring.wire import Checked, check_wiring, load_wiring
+from tests.language.test_fuzz import delete, duplicate, flip, swap_lines
+
+HERE = Path(__file__).parent
+SEEDS = [HERE / "right.yaml", *sorted((HERE / "wrong").glob("*.yaml"))]
+SOON = 1.0  # seconds of the processor
+ODD = ["\0", "[" * 99, "{a: " * 9, "&a ", "*a", "!!python/name:os.system ", "<<: ", "\t", "\r", "é", "\ufeff", "\u2028"]
+ODD += [
+    '"',
+    "'",
+    "|\n",
+    "? ",
+    "- ",
+    ": ",
+    "#",
+    "%",
+    "---\n",
+    "...\n",
+    "1e999",
+    "9" * 400,
+    "0x",
+    "\x85",
+    "\U0010ffff",
+    "@",
+    "~",
+]
+ODD += [
+    '"\\UFFFFFFFF"',
+    '"\\ud800"',
+    "1/0",
+    "-" * 99,
+    "12:30:45",
+    ".nan",
+    "\u202e",
+    "0x" + "f" * 99,
+    "1_" * 50,
+    "%YAML 1.9\n",
+]
+BOMBS = {
+    "laughs": "a: &a [x,x]\n" + "".join(f"{b}: &{b} [*{a},*{a},*{a},*{a}]\n" for a, b in pairwise("abcdefghij")),
+    "nested lists": "[" * 200_000,
+    "nested tables": "a: {b: " * 30_000,
+    "nested lines": "".join(" " * i + "b:\n" for i in range(700)),
+    "questions": "? " * 100_000,
+    "dashes": "- " * 100_000,
+    "anchors": "- &a x\n" * 30_000,
+    "keys": "".join(f"k{i}: 1\n" for i in range(25_000)),
+    "same key": "k: 1\n" * 40_000,
+    "one word": "x" * 250_000,
+    "one quote": '"' + "x " * 120_000,
+    "one comment": "#" * 250_000,
+    "empty lines": "\n" * 250_000,
+    "digits": "robot: " + "9" * 250_000,
+    "underscores": "robot: 1" + "_" * 250_000,
+    "hexadecimal": "robot: 0x" + "f" * 250_000,
+    "clock": "robot: 1" + ":1" * 120_000,
+    "merges": "<<: [{a: 1}]\n" * 15_000,
+    "unknown sensors": "robot: a\nsensors:\n" + "".join(f"  s{i}: {{driver: mok}}\n" for i in range(4_000)),
+    "escapes": 'robot: "' + "\\x41" * 60_000 + '"',
+}  # fmt: skip
+
+
+@cache
+def graph() -> Graph:
+    found = load(HERE / "right.mind").graph
+    assert found
+    return found
+
+
+def sane(checked: Checked) -> None:
+    """What must hold of any result."""
+    assert (checked.wiring is None) == bool(checked.diagnostics)
+    for diagnostic in checked.diagnostics[:20]:
+        assert plain(diagnostic).isprintable() or "\n" in plain(diagnostic)
+        assert as_data(diagnostic)["hint"]
+
+
+@pytest.mark.parametrize("name", BOMBS)
+def test_bombs_are_refused_soon(name: str) -> None:
+    start = process_time()
+    checked = check_wiring(Source("bomb.yaml", BOMBS[name]), graph())
+    assert process_time() - start < 2 * SOON
+    assert checked.wiring is None
+    sane(checked)
+
+
+def insert(data: bytes, rng: Random) -> bytes:
+    at = rng.randrange(len(data))
+    return data[:at] + rng.choice(ODD).encode("utf-8", "surrogatepass") + data[at:]
+
+
+def splice(data: bytes, rng: Random) -> bytes:
+    other = rng.choice(SEEDS).read_bytes()
+    start, at = rng.randrange(len(other)), rng.randrange(len(data))
+    return data[:at] + other[start : start + rng.randrange(200)] + data[at + rng.randrange(100) :]
+
+
+@pytest.mark.parametrize("chunk", range(4))
+def test_mutations_of_the_examples(chunk: int, tmp_path: Path) -> None:
+    path = tmp_path / "mutant.yaml"
+    for seed in range(400):
+        rng = Random(1000 * chunk + seed)
+        data = rng.choice(SEEDS).read_bytes()
+        for _ in range(rng.randint(1, 4)):
+            data = rng.choice((flip, delete, duplicate, swap_lines, splice, insert))(data, rng) or b" "
+        path.write_bytes(data)
+        start = process_time()
+        sane(load_wiring(path, graph()))
+        assert process_time() - start < SOON, data
+
+
+@settings(max_examples=400, suppress_health_check=list(HealthCheck), database=None, derandomize=True)
+@given(
+    st.lists(
+        st.sampled_from([*ODD, *(HERE / "right.yaml").read_text().split("\n"), " ", "\n", "robot: a\n"]), max_size=12
+    )
+)
+def test_pieces_in_any_order(pieces: list[str]) -> None:
+    sane(check_wiring(Source("pieces.yaml", "\n".join(pieces)), graph()))
+
+
+@settings(max_examples=400, database=None, derandomize=True)
+@given(st.text(max_size=12) | st.from_regex(r"[-+]?[0-9_.:eox]{1,12}", fullmatch=True))
+def test_any_word_is_surprising_or_not(text: str) -> None:
+    found = surprise(text)
+    assert found is None or all(found)
+
+
+SURPRISES = """
+yes no On OFF True FALSE ~ null 1e3 -1.5E-3 12:30 1:2:3 017 0o17 0b11 1_000 .5 5. +5 .inf -.INF .nan 2026-01-02
+"""
+PLAIN = "true false 0 -1 0.5 0x0f 20% 1/60 paper /dev/video0 a:b y n o x-1 1.2.3 e3 Oslo nobody"
+
+
+@pytest.mark.parametrize("word", SURPRISES.split())
+def test_what_versions_of_yaml_read_differently_is_refused(word: str) -> None:
+    assert surprise(word)
+
+
+@pytest.mark.parametrize("word", PLAIN.split())
+def test_what_all_read_the_same_is_taken(word: str) -> None:
+    assert surprise(word) is None
