@@ -90,7 +90,7 @@ def open_bus(number: int) -> Bus:
     except OSError as error:
         hint = "turn it on with: sudo raspi-config nonint do_i2c 0"
         raise DeviceError(f"I2C bus {number} cannot be opened: {error}", hint) from error
-    with suppress(OSError, TypeError):  # not every adapter can be told how long to wait
+    with suppress(OSError):  # not every adapter can be told how long to wait
         fcntl.ioctl(smbus.fd, I2C_TIMEOUT, KERNEL_TICKS)
     return LinuxBus(smbus, smbus2.i2c_msg)
 

@@ -38,8 +38,12 @@ class FakePca9685(Registers):
         self.values = {0x00: 0x11, 0x01: 0x04, 0xFE: 0x1E} | {0x09 + 4 * channel: 0x10 for channel in range(16)}
 
     def write(self, out: bytes) -> None:
-        assert len(out) <= 2 or self.values[0x00] & 0x20, "several bytes need the bit AI"
-        super().write(out)
+        if self.values[0x00] & 0x20:
+            super().write(out)
+            return
+        self.pointer = out[0]  # without the bit AI the register stays the same
+        for value in out[1:]:
+            self.set(out[0], value)
 
     def set(self, register: int, value: int) -> None:
         match register:

@@ -135,7 +135,7 @@ def test_sensor_on_a_dead_bus_cannot_be_opened(world: World) -> None:
 def test_sensor_on_a_hanging_bus_ends(world: World) -> None:
     device = world.driver.open()
     for failing in (0.0, 1.0):
-        world.bus.hang, world.bus.failing = 0.15, failing
+        world.bus.hang, world.bus.failing = 0.11, failing
         begin = monotonic()
         with suppress(DeviceError):
             assert matches(device.read(), world)
@@ -212,7 +212,7 @@ def test_what_is_no_command_is_not_sent(world: World) -> None:
 
 
 @pytest.mark.parametrize("world", ON_BUS_ACTUATORS, indirect=True)
-@pytest.mark.parametrize("hang", [0.0, 0.15])
+@pytest.mark.parametrize("hang", [0.0, 0.11])
 def test_an_actuator_that_fails_says_so_in_time(world: World, hang: float) -> None:
     device = world.driver.open()
     device.write(0.75)
