@@ -7,15 +7,14 @@ from dataclasses import dataclass, field
 
 import yaml
 
-from mindlang.diagnostic import Findings, Label
+from mindlang.diagnostic import Findings
 from mindlang.source import Source, Span
 from mindlang.wiring.misread import misread, odd_line
-from mindlang.wiring.nodes import Entry, Items, Lost, Node, Scalar, Table, shortened, tell
-from mindlang.wiring.surprises import surprise
+from mindlang.wiring.nodes import Items, Lost, Node, shortened, tell
+from mindlang.wiring.written import keyed, scalar, unmarked
 
 DEEP = 8
 MANY = 20_000  # values
-WORDS = 'Write the value itself, in quotes where it is a word: "!".'
 
 
 @dataclass(slots=True)
@@ -79,15 +78,17 @@ def _take(event: yaml.Event, reader: _Reader) -> bool:
             tell(reader.findings, "yaml-alias", span, f"{shortened(span.text)} stands for another place.", hint)
             reader.add(Lost(span))
         case yaml.ScalarEvent():
-            reader.add(_scalar(event, reader) if _unmarked(event, reader) else Lost(reader.span(event)))
+            fine = unmarked(event, reader.source, reader.findings)
+            reader.add(scalar(event, reader.source, reader.findings) if fine else Lost(reader.span(event)))
         case yaml.SequenceStartEvent() | yaml.MappingStartEvent():
-            _unmarked(event, reader)
+            unmarked(event, reader.source, reader.findings)
             reader.open.append(_Open(event.start_mark.index, isinstance(event, yaml.MappingStartEvent)))
             return _shallow(event, reader)
         case yaml.SequenceEndEvent() | yaml.MappingEndEvent():
             done = reader.open.pop()
             span = Span(reader.source, done.start, max(done.start, event.end_mark.index))
-            reader.add(_table(done, span, reader) if done.is_table else Items(tuple(done.nodes), span))
+            table = keyed(done.nodes, span, reader.findings) if done.is_table else None
+            reader.add(table or Items(tuple(done.nodes), span))
     return _few(event, reader)
 
 
@@ -121,58 +122,3 @@ def _few(event: yaml.Event, reader: _Reader) -> bool:
     message = f"This file has more than {MANY} values."
     tell(reader.findings, "yaml-large", reader.span(event), message, "Write only what is wired to this robot.")
     return False
-
-
-def _unmarked(event: yaml.NodeEvent, reader: _Reader) -> bool:
-    """Whether a value has neither an anchor nor a tag; one that has is reported."""
-    start = event.start_mark.index
-    word = reader.source.text[start : start + 200].split(maxsplit=1)[0] if event.anchor or event.tag else ""
-    span = Span(reader.source, start, start + len(word))
-    if event.anchor:
-        hint = (
-            f"Remove &{shortened(event.anchor)}, and write out what it stands for where *{shortened(event.anchor)} is."
-        )
-        tell(reader.findings, "yaml-anchor", span, "This gives a place a name for later.", hint)
-    elif event.tag:
-        hint = f"Remove {shortened(word)}: what a value is comes from what it is for."
-        tell(reader.findings, "yaml-tag", span, "This says of which type a value is.", hint)
-    return not (event.anchor or event.tag)
-
-
-def _scalar(event: yaml.ScalarEvent, reader: _Reader) -> Node:
-    span = reader.span(event)
-    plain = event.style is None
-    if event.style in ("|", ">") or "\n" in span.text:
-        first = Span(reader.source, span.start, span.start + len(span.text.split("\n")[0].rstrip()))
-        hint = "Write it on one line; a key of its own begins a line of its own, as far in as its neighbours."
-        tell(reader.findings, "yaml-lines", first, "This value goes on in the next line.", hint)
-        return Lost(span)
-    if plain and (found := surprise(event.value)):
-        tell(reader.findings, found[0], span, *found[1:])
-        return Lost(span)
-    return Scalar(event.value, plain, span)
-
-
-def _table(done: _Open, span: Span, reader: _Reader) -> Table:
-    """The entries of a table, each key once."""
-    entries: dict[str, Entry] = {}
-    lost = False
-    for key, value in zip(done.nodes[::2], done.nodes[1::2], strict=True):
-        match key:
-            case Scalar(text="<<", plain=True):
-                hint = "Write out the lines that it would bring."
-                tell(reader.findings, "yaml-merge", key.span, "<< copies from another place.", hint)
-                lost = True
-            case Scalar(text=text) if text in entries:
-                first = Label(entries[text].key.span, "first said here")
-                message = f"{shortened(text)} is said twice."
-                tell(reader.findings, "yaml-duplicate", key.span, message, "Leave one of them out.", first)
-            case Scalar(text=text):
-                entries[text] = Entry(key, value)
-            case Lost():
-                lost = True
-            case _:
-                hint = "Write a word, a colon and its value."
-                tell(reader.findings, "yaml-key", key.span, "A list or table cannot be a key.", hint)
-                lost = True
-    return Table(tuple(entries.values()), span, not lost)

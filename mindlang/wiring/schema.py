@@ -21,7 +21,7 @@ WHAT = {
     "hold": "For how long the reading before is held.",
     "blank": "What it reads where there is nothing to measure; as in training where it is not said.",
     "dead_zone": "Closer to 0, of a bearing to 0.5, it reads just that; as in training where it is not said.",
-    "trim": "Added to every command.",
+    "trim": "Added to every command, and to neutral.",
     "slew": "A command changes by no more than this share of the travel in a second.",
     "reversed": "Whether 0 and 1 change places.",
     "limits": "No command is below the first or above the second.",

@@ -7,7 +7,7 @@ from mindrun.graph import Actuator, Graph, Sensor
 from mindrun.readings import physical
 from mindrun.robot.wiring import ActuatorWire, SensorWire, read_by
 
-from mindlang.diagnostic import Findings, listed, nearest
+from mindlang.diagnostic import Findings, a, listed, nearest
 from mindlang.wiring.actuator import actuator_wire
 from mindlang.wiring.driver import Wired, wired
 from mindlang.wiring.nodes import Entry, Scalar, Table, shortened, tell
@@ -63,7 +63,7 @@ def _table(noun: str, entry: Entry | None, findings: Findings) -> Table | None:
             return None
         case Entry(value=Scalar(text="", plain=True, span=span)):
             return Table((), span)
-    return table(entry.value, entry.key.text, f"the name of a {noun} and a colon, and below it its driver", findings)
+    return table(entry.value, entry.key.text, f"the name of {a(noun)} and a colon, and below it its driver", findings)
 
 
 def _inner(entry: Entry, findings: Findings) -> Table | None:

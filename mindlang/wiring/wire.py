@@ -16,7 +16,11 @@ from mindlang.wiring.tables import is_empty, missing_key, table, unknown_key
 from mindlang.wiring.values import text
 
 LIMIT = 256 << 10  # bytes
-KEYS = {"robot": "paper, or another name", "sensors": "and below it each with its driver", "actuators": "likewise"}
+KEYS = {
+    "robot": "paper, or another name",
+    "sensors": "and below it each of them with its driver",
+    "actuators": "and below it each of them with its driver",
+}
 
 
 @dataclass(frozen=True, slots=True)

@@ -76,7 +76,7 @@ def _decode_plain(hint: Any, data: Any, where: str) -> Any:
     if hint is float and type(data) is int and abs(data) < 2**53:
         data = float(data)
     if type(data) is not hint or (hint is float and not isfinite(data)):
-        raise BundleError(f"this graph is damaged: {where} is not a {hint.__name__}")
+        raise BundleError(f"this is damaged: {where} is not a {hint.__name__}")
     return data
 
 
@@ -89,7 +89,7 @@ def _decode_union(hints: tuple[Any, ...], data: Any, where: str) -> Any:
     elif len(hints) > 1:  # a number in an expression
         hints = tuple(hint for hint in hints if hint is type(data))
     if len(hints) != 1:
-        raise BundleError(f"this graph is damaged: {where} is of an unknown kind")
+        raise BundleError(f"this is damaged: {where} is of an unknown kind")
     return _decode(hints[0], data, where)
 
 
@@ -106,11 +106,11 @@ def _decode_driver(noun: str, data: Any, where: str) -> Any:
 
 def _decode_tuple(hints: tuple[Any, ...], data: Any, where: str) -> tuple[Any, ...]:
     if not isinstance(data, list):
-        raise BundleError(f"this graph is damaged: {where} is not a list")
+        raise BundleError(f"this is damaged: {where} is not a list")
     if hints[-1] is Ellipsis:
         hints = hints[:1] * len(data)
     if len(hints) != len(data):
-        raise BundleError(f"this graph is damaged: {where} has {len(data)} entries")
+        raise BundleError(f"this is damaged: {where} has {len(data)} entries")
     return tuple(_decode(hint, part, f"{where}[{i}]") for i, (hint, part) in enumerate(zip(hints, data, strict=True)))
 
 
@@ -118,7 +118,7 @@ def _decode_fields(cls: type[Any], data: Any, where: str) -> Any:
     hints = get_type_hints(cls, include_extras=True)
     expected = {"is", *hints} if cls in names() else set(hints)
     if not isinstance(data, Mapping) or set(data) != expected or data.get("is") != names().get(cls):
-        raise BundleError(f"this graph is damaged: {where} is not a {cls.__name__}")
+        raise BundleError(f"this is damaged: {where} is not a {cls.__name__}")
     return cls(**{name: _decode(hint, data[name], f"{where}.{name}") for name, hint in hints.items()})
 
 
@@ -132,5 +132,5 @@ def _in_range(meaning: Quantity | Reference, value: Any, where: str) -> Any:
         case _:
             fine = True
     if not fine:
-        raise BundleError(f"this graph is damaged: {where} cannot be {value}")
+        raise BundleError(f"this is damaged: {where} cannot be {value}")
     return value

@@ -181,6 +181,7 @@ def test_a_wiring_is_described() -> None:
 
 
 WRONG_WIRES = {
+    "no name": lambda wiring: replace(wiring, robot="\x1b[2J"),
     "sensors": lambda wiring: replace(wiring, sensors=()),
     "actuators": lambda wiring: replace(wiring, actuators=wiring.actuators[::-1]),
     "readings": lambda wiring: with_sensor(wiring, driver=MockSensor(count=2)),

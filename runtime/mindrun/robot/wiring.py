@@ -53,7 +53,7 @@ class ActuatorWire:
     """How an actuator is commanded.
 
     A command c becomes c + `trim`, kept within `low` and `high` and changed by no more than `slew` a second (0: at
-    once), and turned round where it is `reversed`. Neutral is the mind's, and is sent as it is, at once.
+    once), and turned round where it is `reversed`. Neutral is the mind's with the trim, at once and within no limits.
     """
 
     actuator: str
@@ -103,6 +103,8 @@ def flaws(wiring: Wiring, graph: Graph) -> Iterator[str]:
     """Why a robot that is wired so cannot have this mind."""
     sensors, actuators = physical(graph), {actuator.name: actuator.kind for actuator in graph.actuators}
     wired = [wire.sensor for wire in wiring.sensors]
+    if not wiring.robot or not wiring.robot.isprintable():
+        yield "its robot has no name that can be printed"
     if wired != [name for name in sensors if name in wired] or not read_by(graph, graph.master) <= set(wired):
         yield "its sensors are not those of the mind"
     if [wire.actuator for wire in wiring.actuators] != list(actuators):
