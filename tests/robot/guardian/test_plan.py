@@ -1,14 +1,21 @@
 """What the guardian is told about its robot, and what it does not believe."""
 
 import json
+import subprocess
 from pathlib import Path
 from typing import Any
 
 import pytest
+from mindrun.bundle import write_bundle
 from mindrun.errors import MindError
+from mindrun.quantity import Reference
+from mindrun.registry import arguments, kinds
 from mindrun.robot.drivers.mock import MockActuator
+from mindrun.robot.guardian.client import PROGRAM
 from mindrun.robot.guardian.plan import Channel, Plan, PlanError, from_json, plan_of, read_plan, to_json
 from mindrun.robot.wiring import ActuatorWire, Wiring
+
+from tests.minds import always, mind, rule
 
 PLAN = Plan(0.05, (Channel("wheel", 0.5, MockActuator(), -0.1, 0.2, 0.9, 3.0, True), Channel("é", 0, MockActuator())))
 
@@ -33,6 +40,28 @@ def test_a_plan_comes_back(tmp_path: Path) -> None:
 def test_a_plan_is_a_wiring_with_the_neutrals_of_the_mind() -> None:
     wire = ActuatorWire("wheel", MockActuator(), trim=-0.1, low=0.2, high=0.9, slew=3.0, reversed=True)
     assert plan_of(0.05, {"wheel": 0.5, "other": 1}, Wiring("r", (), (wire,))).channels == PLAN.channels[:1]
+
+
+def test_a_bundle_with_a_wiring_holds_a_plan(tmp_path: Path) -> None:
+    graph = mind(rule("Go", always("actuator", 0, 0.9)))
+    wheels = (ActuatorWire("left_wheel", MockActuator()), ActuatorWire("right_wheel", MockActuator(), reversed=True))
+    write_bundle(tmp_path / "a.bundle", graph, {}, {}, Wiring("rover", (), wheels))
+    plan = read_plan(tmp_path / "a.bundle")
+    assert (plan.tick, [each.neutral for each in plan.channels]) == (graph.tick, [0.5, 0.5])
+    assert [each.reversed for each in plan.channels] == [False, True]
+    assert subprocess.run([*PROGRAM, "--neutral", tmp_path / "a.bundle"]).returncode == 0
+    write_bundle(tmp_path / "b.bundle", graph, {}, {})
+    with pytest.raises(PlanError, match="for no robot"):
+        read_plan(tmp_path / "b.bundle")
+
+
+@pytest.mark.parametrize("name", sorted(kinds("actuator driver")))
+def test_every_actuator_driver_can_be_in_a_plan(name: str) -> None:
+    cls = kinds("actuator driver")[name]
+    needed = {each.field: each.type for each in arguments(cls) if each.required}
+    driver = cls(**{f: "x" if isinstance(t, Reference) else int(t.low) for f, t in needed.items()})
+    plan = Plan(0.05, (Channel("any", 0.5, driver),))
+    assert from_json(to_json(plan)) == plan
 
 
 @pytest.mark.parametrize(
