@@ -51,6 +51,7 @@ class Film:
 def open_camera(path: str, width: int, height: int) -> Camera:
     """The camera, or the film, of that path; tests put a camera of their own here."""
     cv2 = library("cv2")
+    cv2.setNumThreads(1)  # more gain nothing at this size, and the other cores have other things to do
     film = Path(path).is_file()
     capture = cv2.VideoCapture(path, cv2.CAP_ANY if film else cv2.CAP_V4L2)
     if not capture.isOpened():

@@ -144,6 +144,7 @@ def test_the_neck_follows_and_the_bearing_stays(camera: Install, monkeypatch: py
     card = FakePca9685()
     bus = FakeBus({0x40: card})
     monkeypatch.setattr(parts, "open_bus", lambda number: bus)
+    monkeypatch.setattr(ball_tracker, "CENTRING", 0.05)
     driver = BallTracker(pan=0, tilt=1, travel=180.0, tilt_travel=-90.0)
 
     def draw(count: int) -> Frame:
@@ -157,7 +158,7 @@ def test_the_neck_follows_and_the_bearing_stays(camera: Install, monkeypatch: py
     assert device.read() == (None,)
     card.write(bytes([0x06, 0, 0, 0x63, 0x01]))  # somebody turns the camera to where the ball is in sight
     device.eye.aim = eye.Aim(pan=(card.pulse(0) - 1500) / 1000 * 180)
-    sleep(1.0)
+    sleep(0.6)
     assert device.read()[0] == pytest.approx(50, abs=2)
     assert (card.pulse(0) - 1500) / 1000 * 180 == pytest.approx(50, abs=2)
     assert card.pulse(1) == pytest.approx(1500, abs=40)

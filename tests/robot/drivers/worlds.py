@@ -75,8 +75,8 @@ def ultrasonic(patch: pytest.MonkeyPatch) -> World:
 
 
 def grove_ultrasonic(patch: pytest.MonkeyPatch) -> World:
-    part = FakeGrovePi({4: 35, 2: 350, 3: 520})
-    return on_bus(patch, 0x04, part, driver=GroveUltrasonic((4, 2, 3)), expected=(0.35, 3.5, None), within=0.001)
+    part = FakeGrovePi({4: 35, 3: 520})
+    return on_bus(patch, 0x04, part, driver=GroveUltrasonic((4, 3)), expected=(0.35, None), within=0.001)
 
 
 def ads1115(patch: pytest.MonkeyPatch) -> World:
