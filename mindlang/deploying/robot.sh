@@ -43,7 +43,8 @@ whole() { # RELEASE: every byte is what its name stands for
     ) 2>/dev/null
 }
 
-# What is there; changes nothing.
+# What is there; changes nothing. In a release WAS says that it was current until another became it, LEFT that this
+# other was an older one; without either it is the current one, or what an interrupted deployment made and never used.
 look() {
     for tool in rsync python3 sha256sum flock; do
         command -v "$tool" >/dev/null || tell lacks "$tool"
@@ -56,6 +57,7 @@ look() {
         name=$(basename "$folder")
         state=damaged
         ! whole "$name" || state=whole
+        [ "$name" = "$(current)" ] || [ -e "$folder/WAS" ] || state=unused
         [ ! -e "$folder/LEFT" ] || state=left
         tell release "$name $state $(cat "$folder/release.json" 2>/dev/null || echo '{}')"
     done

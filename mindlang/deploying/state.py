@@ -16,7 +16,7 @@ SYSTEMD = "systemctl --user"
 
 @dataclass(frozen=True, slots=True)
 class Deployed:
-    """A release on the robot; `state` is whole, damaged, or left: for an older one."""
+    """A release on the robot; `state` is whole, damaged, left (for an older one) or unused (never current)."""
 
     name: str
     state: str

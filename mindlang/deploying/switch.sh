@@ -6,6 +6,7 @@ switch() { # RELEASE SERVICE KEEP SECONDS BACK LEFT; SERVICE is a file of the re
     before=$(current)
     armed=no
     ! cmp -s "$units/$unit" "$mind/current/mind-armed.service" || armed=yes
+    [ -z "$before" ] || [ "$before" = "$release" ] || : >"$mind/releases/$before/WAS"
     stop || refuse 'the service cannot be stopped'
     if ! change "$release" "$service"; then
         start 0 || :
@@ -88,15 +89,17 @@ failed() { # BACK
     refuse 'the service does not stay up with the new release'
 }
 
-# Keep the newest releases and the current one; those that were left for an older one go first.
+# Keep the current release, and of those that one could go back to the newest.
 prune() { # KEEP
     now=$(current)
-    kept=0
+    kept=1
     ls -1r "$mind/releases" | while read -r name; do
-        if [ -e "$mind/releases/$name/LEFT" ] || [ "$kept" -ge "$1" ]; then
-            [ "$name" = "$now" ] || discard "$name"
-        else
+        if [ "$name" = "$now" ]; then
+            continue
+        elif [ -e "$mind/releases/$name/WAS" ] && [ ! -e "$mind/releases/$name/LEFT" ] && [ "$kept" -lt "$1" ]; then
             kept=$((kept + 1))
+        else
+            discard "$name"
         fi
     done
     find "$mind/incoming" -mindepth 1 -maxdepth 1 -mmin +60 -exec rm -rf {} +

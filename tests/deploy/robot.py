@@ -2,6 +2,7 @@
 
 import json
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -45,6 +46,11 @@ class FakeRobot:
         path = self.root / name
         return path.read_text().splitlines() if path.exists() else []
 
+    def clean(self) -> None:
+        """Remove what killed programs could not remove themselves: the folders of their connections."""
+        for folder in set(re.findall(r"ControlPath=(/tmp/mind-\w+)/", "\n".join(self.log("ssh.log")))):
+            shutil.rmtree(folder, ignore_errors=True)
+
     def releases(self) -> list[str]:
         """The names of all releases."""
         return sorted(path.name for path in (self.mind / "releases").iterdir())
@@ -83,6 +89,7 @@ def make_robot(root: Path, rsync: bool = False) -> FakeRobot:
         (root / "robot" / tool).symlink_to("/bin/true")
     (root / "python").write_text(sys.executable)
     (root / "borrowed.pth").write_text(sysconfig.get_path("purelib") + "\n")
+    (root / "tmp").mkdir()
     return FakeRobot(root)
 
 
@@ -104,7 +111,12 @@ def program(robot: FakeRobot, *words: object) -> subprocess.Popen[str]:
     """Mindc as a program at the head of a process group of its own."""
     return subprocess.Popen(
         [sys.executable, "-c", "from mindlang.cli import main; main()", *map(str, words)],
-        env={**os.environ, "FAKE": str(robot.root), "PATH": f"{robot.root}/bin:{os.environ['PATH']}"},
+        env={
+            **os.environ,
+            "FAKE": str(robot.root),
+            "TMPDIR": str(robot.root / "tmp"),
+            "PATH": f"{robot.root}/bin:{os.environ['PATH']}",
+        },
         stdin=subprocess.DEVNULL,
         stdout=subprocess.PIPE,
         stderr=subprocess.STDOUT,

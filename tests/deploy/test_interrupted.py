@@ -1,5 +1,6 @@
 """Whenever a deployment ends, the robot has the old release or the new one, whole."""
 
+import json
 import os
 import random
 import signal
@@ -9,6 +10,7 @@ from pathlib import Path
 
 import pytest
 
+from tests.calling import Call
 from tests.deploy.robot import HOST, FakeRobot, copy, deployed, make_robot, program
 
 Bundles = tuple[Path, Path, Path]
@@ -31,6 +33,7 @@ def killed_at_random(robot: FakeRobot, bundle: Path, moment: float) -> bool:
         os.killpg(process.pid, signal.SIGKILL)
     process.communicate(timeout=60)
     settled(robot)
+    robot.clean()
     return going_on
 
 
@@ -68,34 +71,48 @@ def killed_at_step(template: FakeRobot, folder: Path, bundle: Path, step: int, w
     robot = copy(template, FakeRobot(folder / f"{step}{when}"))
     robot.tell("kill", f"{step} {when}\n")
     assert deployed(robot, bundle) != 0
-    master = robot.master()
-    robot.forget("kill")
-    assert deployed(robot, bundle) == 0  # the same command goes on
-    assert robot.master() == bundle.stem
-    return master
+    robot.clean()
+    return robot.master()
 
 
-def check_steps(first: FakeRobot, folder: Path, bundles: Bundles, every: int) -> None:
+def check_steps(first: FakeRobot, folder: Path, bundles: Bundles, every: int) -> list[FakeRobot]:
     """End a deployment at every so many of its steps, from the last to the first: first the new one is current."""
     trial = copy(first, FakeRobot(folder / "trial"))
     moments = [(step, when) for step in range(1, steps_of(trial, bundles[1]) + 1) for when in ("before", "after")]
     masters = [killed_at_step(first, folder, bundles[1], *moment) for moment in moments[::-every]]
     assert set(masters) == {"Roam", "Chase"}
     assert masters == sorted(masters)
+    return [FakeRobot(folder / f"{step}{when}") for step, when in moments[::-every]]
 
 
 def test_a_few_moments(old: str, robot: FakeRobot, bundles: Bundles) -> None:
-    interrupt(robot, bundles, 6)
+    interrupt(robot, bundles, 4)
 
 
 def test_a_few_steps(template: FakeRobot, tmp_path: Path, bundles: Bundles) -> None:
-    check_steps(template, tmp_path, bundles, 14)
+    check_steps(template, tmp_path, bundles, 24)
 
 
 def test_in_the_middle_of_copying(old: str, robot: FakeRobot, bundles: Bundles) -> None:
     robot.tell("kill-copy", 7)
     assert deployed(robot, bundles[1]) == -signal.SIGKILL
+    robot.clean()
     assert robot.current() == old
+
+
+def test_what_was_never_current_is_not_gone_back_to(old: str, robot: FakeRobot, bundles: Bundles, mindc: Call) -> None:
+    assert deployed(robot, bundles[1]) == 0
+    robot.forget("steps")
+    robot.tell("kill", "mv:1 after\n")  # what was accepted is a release now
+    assert deployed(robot, bundles[2]) != 0
+    robot.forget("kill")
+    robot.clean()
+    states = [each["state"] for each in json.loads(mindc("deploy", HOST, "--list", "--json").out)["releases"]]
+    assert states == ["whole", "whole", "unused"]
+    assert deployed(robot, bundles[2]) == 0
+    assert mindc("deploy", HOST, "--rollback", "--watch", 0).code == 0
+    assert robot.master() == "Chase"
+    assert robot.releases()[0] == old
 
 
 @pytest.mark.slow
@@ -105,7 +122,10 @@ def test_a_hundred_moments(old: str, robot: FakeRobot, bundles: Bundles) -> None
 
 @pytest.mark.slow
 def test_every_step(template: FakeRobot, tmp_path: Path, bundles: Bundles) -> None:
-    check_steps(template, tmp_path, bundles, 1)
+    for robot in check_steps(template, tmp_path, bundles, 1):
+        robot.forget("kill")
+        assert deployed(robot, bundles[1]) == 0  # the same command goes on
+        assert robot.master() == "Chase"
 
 
 @pytest.mark.slow
