@@ -47,7 +47,7 @@ def replayed(path: Path, folder: Path, ticks: int) -> tuple[float, bool]:
     engine = Engine(bundle.graph, bundle.weights, bundle.procedures)
     readings = np.random.default_rng(2).random((ticks, bundle.graph.width), np.float32)
     day = folder / "day.rec"
-    with Recorder(day, About.of(bundle.graph, "0" * 64, ("proximity",))) as recorder:
+    with Recorder(day, About.of(bundle.graph, "0" * 64, bundle.graph.master, ("proximity",))) as recorder:
         for number, row in enumerate(readings):
             commands = engine.tick(row)
             recorder.write(tick=number, readings=row, influence=engine.influence, commands=commands, sent=commands)

@@ -12,7 +12,8 @@ from mindrun.robot.drivers.mock import MockActuator, MockSensor
 from mindrun.robot.recording import read
 from mindrun.robot.wiring import ActuatorWire, SensorWire, Wiring
 
-from tests.robot.faults import graph
+from tests.robot.faults import MIND, SENSORS, graph
+from tests.sim.minds import compile_text
 
 MINDRUN = (sys.executable, "-m", "mindrun")
 NEUTRAL = [0.5, 0.5, 0.0]
@@ -91,6 +92,28 @@ def test_a_bundle_for_another_wiring_moves_nothing(bundle: Path, tmp_path: Path)
     said = mindrun(bundle, "--arm", "--ticks", 3)
     assert said.returncode == 2
     assert "this robot has not said how it is wired" in said.stderr
+
+
+def test_another_master_is_in_charge(bundle: Path, tmp_path: Path) -> None:
+    day = tmp_path / "day.rec"
+    said = mindrun(bundle, "--master", "Gone")
+    assert said.returncode == 2
+    assert "there is no skill Gone" in said.stderr
+    said = mindrun(bundle, "--ticks", 3, "--master", "Go", "--record", day)
+    assert said.returncode == 0, said.stderr
+    assert read(day)[0].master == "Go"
+    assert mindrun("replay", day, bundle).returncode == 0
+
+
+def test_a_master_that_reads_what_is_not_wired_is_refused(bundle: Path) -> None:
+    text = MIND.format(kind=SENSORS["bearing"][0], function="rule")
+    text = text.replace("sensor pulse", "sensor charge is battery\nsensor pulse")
+    look = "skill Look is rule\n  reads charge\n  drives claw at charge\n"
+    write_bundle(bundle, compile_text(text.replace("task Play", f"{look}task Play")), {}, {}, wiring())
+    assert mindrun(bundle, "--ticks", 2).returncode == 0
+    said = mindrun(bundle, "--ticks", 2, "--master", "Look")
+    assert said.returncode == 2
+    assert "Look reads charge, which is not wired" in said.stderr
 
 
 def test_a_bundle_without_wiring_says_what_it_holds(tmp_path: Path) -> None:

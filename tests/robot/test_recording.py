@@ -30,7 +30,7 @@ def day(tmp_path: Path) -> Path:
         for n in range(TICKS)
     ]
     sampler = Sampler(SensorWire("sense", Scripted(3, script), 0.0, 1.0, max_age=2 * TICK), clock)
-    with Recorder(path, About.of(of, BUNDLE, ("sense",))) as recorder:
+    with Recorder(path, About.of(of, BUNDLE, of.master, ("sense",))) as recorder:
         loop = Loop(Engine(of, {}), Senses(of, [sampler]), Sent(), Pace(TICK, clock, clock.sleep), True, recorder)
         loop.pace.begin()
         device = None

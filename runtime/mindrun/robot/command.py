@@ -15,7 +15,7 @@ from mindrun.robot.loop import Loop
 def run(options: argparse.Namespace) -> int:
     """Drive until a signal comes; the exit code."""
     bundle = read_bundle(options.bundle)
-    wishes = Wishes(options.arm, options.record, options.ticks)
+    wishes = Wishes(options.arm, options.record, options.ticks, options.master)
     tell = _quiet if options.quiet else _tell
     if not options.arm:
         tell("nothing will move: --arm lets it")
@@ -40,7 +40,7 @@ def _dry(options: argparse.Namespace, bundle: Bundle, wishes: Wishes) -> Loop:
     task = options.task or (tasks[-1] if tasks else "")
     if task not in tasks:
         raise MindError(f"this mind has no task {task}", f"it has {', '.join(tasks)}" if tasks else "")
-    with simulated(options.bundle, task, options.seed) as socket:
+    with simulated(options.bundle, task, options.seed, master=options.master or "") as socket:
         wiring = dry(bundle.graph, socket)
         return drive(bundle, digest(options.bundle), wiring, wishes, _quiet if options.quiet else _tell)
 

@@ -12,6 +12,7 @@ import mindrun.robot.drivers  # noqa: F401  every driver is known once this is i
 from mindrun.bundle import Bundle
 from mindrun.engine import Engine
 from mindrun.errors import MindError
+from mindrun.graph import Graph
 from mindrun.robot.guardian.client import Guardian
 from mindrun.robot.guardian.plan import plan_of
 from mindrun.robot.guardian.service import notify
@@ -20,7 +21,7 @@ from mindrun.robot.pace import Pace
 from mindrun.robot.recording import About, Recorder
 from mindrun.robot.sampling import Sampler
 from mindrun.robot.senses import Senses
-from mindrun.robot.wiring import Wiring
+from mindrun.robot.wiring import Wiring, read_by
 
 SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 PATIENCE = 10.0  # seconds for every sensor to have been measured once
@@ -32,11 +33,15 @@ class DriveError(MindError):
 
 @dataclass(frozen=True, slots=True)
 class Wishes:
-    """What is asked for: whether anything may move, where to record to, after how many ticks to end (0: never)."""
+    """What is asked for: whether anything may move, where to record to, after how many ticks to end (0: never).
+
+    `master` is another skill than the mind's own to be in charge.
+    """
 
     armed: bool = False
     record: Path | None = None
     ticks: int = 0
+    master: str | None = None
 
 
 def drive(bundle: Bundle, digest: str, wiring: Wiring, wishes: Wishes, tell: Callable[[str], None]) -> Loop:
@@ -45,19 +50,26 @@ def drive(bundle: Bundle, digest: str, wiring: Wiring, wishes: Wishes, tell: Cal
     `tell` gets sentences for people. MindError where something fails; then every actuator is at neutral, too.
     """
     graph = bundle.graph
-    engine = Engine(graph, bundle.weights, bundle.procedures)
+    engine = Engine(graph, bundle.weights, bundle.procedures, wishes.master)
+    _refuse_blind(graph, wishes.master or graph.master, wiring)
     neutrals = {actuator.name: actuator.kind.neutral for actuator in graph.actuators}
     with ExitStack() as stack:
         stop = stack.enter_context(_stopping())
         samplers = stack.enter_context(_sampling(wiring))
         guardian = stack.enter_context(Guardian(plan_of(graph.tick, neutrals, wiring)))
-        about = About.of(graph, digest, tuple(wire.sensor for wire in wiring.sensors))
+        about = About.of(graph, digest, wishes.master or graph.master, tuple(wire.sensor for wire in wiring.sensors))
         recorder = stack.enter_context(Recorder(wishes.record, about) if wishes.record else nullcontext())
         loop = Loop(engine, Senses(graph, samplers), guardian, Pace(graph.tick), wishes.armed, recorder, tell)
         _wait(samplers, guardian, loop, stop)
         notify("READY=1")
         loop.run(lambda tick: _goes_on(tick, wishes.ticks, stop))
         return loop
+
+
+def _refuse_blind(graph: Graph, master: str, wiring: Wiring) -> None:
+    """DriveError where a skill below the master reads what is not wired."""
+    if missing := read_by(graph, master) - {wire.sensor for wire in wiring.sensors}:
+        raise DriveError(f"{master} reads {', '.join(sorted(missing))}, which is not wired", "add it to robot.yaml")
 
 
 def _goes_on(tick: Tick, ticks: int, stop: list[int]) -> bool:

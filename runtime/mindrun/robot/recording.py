@@ -41,11 +41,11 @@ class About:
     readings: int
 
     @classmethod
-    def of(cls, graph: Graph, bundle: str, sensors: tuple[str, ...]) -> Self:
+    def of(cls, graph: Graph, bundle: str, master: str, sensors: tuple[str, ...]) -> Self:
         """A recording of these wired sensors under a graph."""
         actuators = tuple(actuator.name for actuator in graph.actuators)
         skills = tuple(skill.name for skill in graph.skills)
-        return cls(bundle, graph.master, graph.tick, sensors, actuators, skills, graph.width)
+        return cls(bundle, master, graph.tick, sensors, actuators, skills, graph.width)
 
     @property
     def row(self) -> np.dtype[Any]:

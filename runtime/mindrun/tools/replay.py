@@ -11,6 +11,7 @@ from pathlib import Path
 from mindrun.bundle import read_bundle
 from mindrun.engine import Engine
 from mindrun.robot.command import digest
+from mindrun.robot.recording import read
 from mindrun.robot.replay import replay
 
 
@@ -23,7 +24,8 @@ def options(parser: argparse.ArgumentParser) -> None:
 def run(options: argparse.Namespace) -> int:
     """0 where every tick is the same, else 1."""
     bundle = read_bundle(options.bundle)
-    engine = Engine(bundle.graph, bundle.weights, bundle.procedures)
+    about, _ = read(options.recording)
+    engine = Engine(bundle.graph, bundle.weights, bundle.procedures, about.master)
     found = replay(options.recording, digest(options.bundle), engine, _told)
     if found.differs:
         tick, what = found.differs
