@@ -126,8 +126,10 @@ class Sent:
     """A guardian that remembers what it was sent."""
 
     commands: list[NDArray[np.float32]] = field(default_factory=list)
+    armed: list[bool] = field(default_factory=list)
 
     def send(self, commands: Sequence[float], armed: bool) -> None:
+        self.armed.append(armed)
         self.commands.append(np.array(commands, np.float32))
 
 

@@ -34,6 +34,7 @@ def test_a_fault_makes_everything_neutral_at_once(fault: str, kind: str, phase: 
     sound(of)
     assert all(moves(commands) for commands in of.sent.commands[:begin])
     assert not any(moves(commands) for commands in of.sent.commands[begin:])
+    assert of.sent.armed == [tick < begin for tick in range(TICKS)]
     assert "sense" in of.loop.faulty
 
 

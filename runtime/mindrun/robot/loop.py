@@ -64,7 +64,7 @@ class Loop:
         commands = self.engine.tick(sensed.readings)
         stopped = sensed.must_stop or behind
         sent = self.neutral if stopped else commands
-        self.guardian.send(sent.tolist(), self.armed)
+        self.guardian.send(sent.tolist(), self.armed and not stopped)  # unarmed, neutral is not slowed down by slew
         done = Tick(self.ticks, time, sensed, commands, sent, stopped)
         self._record(done)
         self.ticks += 1
