@@ -175,6 +175,8 @@ def test_a_neck_that_is_not_there_is_told_and_lets_the_camera_go(
     with pytest.raises(DeviceError, match="servo card"):
         BallTracker(pan=0).open()
     assert made.released == 1
+    with pytest.raises(DeviceError, match="channel 3 has no travel"):
+        BallTracker(tilt=3, tilt_travel=0.0).open()
 
 
 def test_a_camera_that_is_not_there_is_told(tmp_path: Path) -> None:

@@ -9,6 +9,7 @@ from typing import Annotated
 from mindrun.quantity import COUNT, RATIO, Quantity, Reference
 from mindrun.registry import kind
 from mindrun.robot import eye
+from mindrun.robot.contract import DeviceError
 from mindrun.robot.drivers.pca9685 import Pca9685
 from mindrun.robot.eye import Eye, Joint, Sight
 from mindrun.robot.parts import ADDRESS, BUS, CHANNEL, DEGREES, METRES, MICROSECONDS, PATH
@@ -16,6 +17,7 @@ from mindrun.robot.tracker import Look, Neck, distance
 
 MEASURE = Reference("measure", ("bearing", "elevation", "distance"))
 HUE = Quantity("a hue", {"deg": 1.0}, low=0.0, high=360.0)
+TOLERANCE = Quantity("how far a hue may be off", {"deg": 1.0}, low=1.0, high=90.0)
 VIEW = Quantity("an angle of view", {"deg": 1.0}, low=5.0, high=170.0)
 STALE = 0.2  # seconds without a frame that are a fault
 FIRST = 5.0  # seconds until the first frame: cameras take their time to start
@@ -100,7 +102,7 @@ class BallTracker:
     view: Annotated[float, VIEW] = 60.0
     size: Annotated[float, METRES] = 0.1
     hue: Annotated[float, HUE] = 120.0
-    tolerance: Annotated[float, HUE] = 25.0
+    tolerance: Annotated[float, TOLERANCE] = 25.0
     colour: Annotated[float, RATIO] = 0.4
     brightness: Annotated[float, RATIO] = 0.5
     pan: Annotated[int | None, CHANNEL] = None
@@ -173,5 +175,7 @@ class BallTracker:
 
     def joint(self, channel: int, travel: float) -> Joint:
         """A servo of the neck."""
+        if not travel:
+            raise DeviceError(f"the servo on channel {channel} has no travel")
         servo = Pca9685(channel, self.shortest, self.longest, self.bus, self.address)
         return Joint(servo.open(), travel)

@@ -26,7 +26,7 @@ READ_IN = 0.5  # seconds until there must be enough of them
 RAIL = 32767
 ENOUGH = 5  # values until a deviation means something
 WINDOW = Quantity("a time", {"s": 1.0}, low=0.2, high=10.0)
-AXES = Reference("face", ("up", "down"))
+FACE = Reference("face", ("up", "down"))
 MILLIGAUSS_OFFSET = Quantity("a magnetic field in milligauss", {"": 1.0}, low=-4000.0, high=4000.0)
 Vector = tuple[float, float, float]
 
@@ -172,7 +172,7 @@ class Turn:
     An LSM9DS1 that lies flat, its printed side `face` up or down. `still` is what it reads at rest.
     """
 
-    face: Annotated[str, AXES] = "up"
+    face: Annotated[str, FACE] = "up"
     still: Annotated[float, NUMBER] = 0.0
     bus: Annotated[int, BUS] = 1
     address: Annotated[int, ADDRESS] = 0x6B
@@ -202,7 +202,7 @@ class Compass:
     """
 
     turn: Annotated[float, DEGREES] = 0.0
-    face: Annotated[str, AXES] = "up"
+    face: Annotated[str, FACE] = "up"
     x: Annotated[float, MILLIGAUSS_OFFSET] = 0.0
     y: Annotated[float, MILLIGAUSS_OFFSET] = 0.0
     bus: Annotated[int, BUS] = 1
