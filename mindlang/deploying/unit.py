@@ -10,7 +10,10 @@ StartLimitIntervalSec=60
 StartLimitBurst=5
 
 [Service]
-Type=exec
+# Ready when every sensor has been measured once; then each tick is told, and two seconds without one are the end.
+Type=notify
+NotifyAccess=main
+WatchdogSec=2
 # Entered once: a process keeps the release that it was started in, whatever is current later.
 WorkingDirectory=%h/mind/current
 # No .pyc files: a release stays what was sent, and a power cut leaves none that is half written.
@@ -18,7 +21,10 @@ Environment=PYTHONPATH=runtime PYTHONDONTWRITEBYTECODE=1 PYTHONUNBUFFERED=1
 ExecStart={run}
 {neutral}Restart=on-failure
 RestartSec=2
+# Only the controller is told to end; the guardian ends after it, once every actuator is at neutral.
+KillMode=mixed
 TimeoutStopSec=10
+LimitCORE=0
 NoNewPrivileges=yes
 
 [Install]
@@ -30,5 +36,5 @@ PYTHON = "%h/mind/venv/bin/python"
 def unit(arm: bool = False) -> str:
     """The unit's text. Armed, the mind moves what is wired to it, and however it ends everything goes to neutral."""
     run = f"{PYTHON} -m mindrun mind.bundle" + " --arm" * arm
-    neutral = f"ExecStopPost={PYTHON} -m mindrun.robot.guardian --neutral mind.bundle\n" * arm
+    neutral = f"ExecStopPost={PYTHON} -P -m mindrun.robot.guardian --neutral mind.bundle\n" * arm
     return UNIT.format(state="armed" if arm else "not armed", run=run, neutral=neutral)

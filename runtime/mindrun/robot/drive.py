@@ -15,8 +15,8 @@ from mindrun.errors import MindError
 from mindrun.graph import Graph
 from mindrun.robot.guardian.client import Guardian
 from mindrun.robot.guardian.plan import plan_of
-from mindrun.robot.guardian.service import notify
 from mindrun.robot.loop import Loop, Tick
+from mindrun.robot.notify import notify
 from mindrun.robot.pace import Pace
 from mindrun.robot.recording import About, Recorder
 from mindrun.robot.sampling import Sampler
