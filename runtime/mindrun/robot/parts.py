@@ -1,5 +1,7 @@
 """What drivers share: quantities of their options, packages imported when needed, and I2C transfers that always end."""
 
+import os
+import warnings
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass, field
@@ -29,6 +31,9 @@ I2C_TIMEOUT, KERNEL_TICKS = 0x0702, 5  # <linux/i2c-dev.h>; in units of 10 ms: f
 
 def library(module: str, install: str = INSTALL) -> Any:
     """A module that only this driver needs; DeviceError with the line that installs it."""
+    # What OpenCV and gpiozero would warn of, a driver says in a sentence where it matters.
+    os.environ.setdefault("OPENCV_LOG_LEVEL", "ERROR")
+    warnings.filterwarnings("ignore", message="Falling back from")
     try:
         return import_module(module)
     except ImportError as error:
