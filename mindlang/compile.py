@@ -1,7 +1,7 @@
 """The way through: text → File → Mind → Graph, for any input without an exception."""
 
 import sys
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -42,15 +42,6 @@ def load(path: Path | str, texts: Mapping[Path, str] = NOTHING) -> Compiled:
     if isinstance(source, Diagnostic):
         return Compiled(None, None, (source,), ())
     return compile_source(source, Path(path).resolve(), texts)
-
-
-def minds(files: Iterable[str]) -> dict[str, Compiled]:
-    """Files compiled, without those that are no minds by themselves and that another one of them uses."""
-    found = {file: load(file) for file in files}
-    used = {source.path for each in found.values() for source in each.sources[1:]}
-    return {
-        file: each for file, each in found.items() if each.graph or not each.sources or each.sources[0].path not in used
-    }
 
 
 def read_main(path: Path | str, texts: Mapping[Path, str] = NOTHING) -> Source | Diagnostic:

@@ -30,7 +30,7 @@ class _Project:
 def read(path: Path, name: str) -> Source:
     """The source at a path; OSError or ValueError says why it cannot be read."""
     if path.is_dir():
-        raise ValueError("is a folder")
+        raise ValueError("is a folder: name the files in it")
     with path.open("rb") as file:
         return Source(name, decode(file.read(LIMIT + 1)), path.resolve().parent)
 

@@ -21,7 +21,7 @@ def command(files: tuple[str, ...], as_json: bool) -> None:
     A file that is no whole mind is read with those that use it, where they are given as well.
     Ends with 0 when nothing is wrong, with 1 when something is, with 2 when a file cannot be read.
     """
-    from mindlang.compile import minds
+    from mindlang.editing.neighbours import minds
     from mindlang.report import as_data, print_report
     from mindlang.terminal import FINDINGS, MISUSE, OK, console, print_json, take_back
 

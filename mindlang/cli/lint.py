@@ -24,7 +24,7 @@ FORMATS = ("text", "json", "github", "sarif")
 @click.command(epilog=EXAMPLES)
 @click.argument("files", nargs=-1, required=True, metavar="FILE…")
 @click.option("--fix", is_flag=True, help="Make the fixes that never change what the robot does.")
-@click.option("--select", multiple=True, metavar="CODES", help="Only these rules: --select unread-sensor,idle-edge")
+@click.option("--select", multiple=True, metavar="CODES", help="Only these rules: --select unread-sensor,edge-at-zero")
 @click.option("--ignore", multiple=True, metavar="CODES", help="Not these rules: --ignore untaught-skill")
 @click.option("--format", "as_", type=click.Choice(FORMATS), default="text", show_default=True, help="Of the findings.")
 def command(files: tuple[str, ...], fix: bool, select: tuple[str, ...], ignore: tuple[str, ...], as_: str) -> None:
@@ -35,10 +35,12 @@ def command(files: tuple[str, ...], fix: bool, select: tuple[str, ...], ignore: 
     """
     from mindrun.errors import MindError
 
-    from mindlang.compile import minds
+    from mindlang.editing.neighbours import minds
     from mindlang.linting.command import Linted, linted
     from mindlang.terminal import FINDINGS, MISUSE, OK, fail, take_back
 
+    if fix and "-" in files:
+        fail("Standard input cannot be mended.", "Leave --fix out, or save it as a file.", MISUSE)
     for file in files:
         take_back(file)
     try:
@@ -58,11 +60,16 @@ def command(files: tuple[str, ...], fix: bool, select: tuple[str, ...], ignore: 
 def _codes(said: Sequence[str]) -> list[str]:
     """The codes of an option; one that is none ends the program."""
     from mindlang.diagnostic import did_you_mean
+    from mindlang.explaining.explanation import errors
     from mindlang.linting.rule import all_rules
     from mindlang.terminal import MISUSE, fail
 
     codes = [code for text in said for code in text.replace(",", " ").split()]
+    if said and not codes:
+        fail("No rule is named.", "Write for example --select unread-sensor.", MISUSE)
     for code in codes:
+        if any(code == error.code for error in errors()):
+            fail(f"{code} is an error, not a rule: errors are always reported.", "", MISUSE)
         if code not in all_rules():
             fail(
                 f"There is no rule called {code}.",

@@ -1,6 +1,6 @@
 """Minds that share files with the one that is edited: those that use one of its files, and its files by themselves."""
 
-from collections.abc import Collection, Iterator
+from collections.abc import Collection, Iterable, Iterator
 from pathlib import Path
 
 from mindlang.compile import Compiled, load
@@ -18,6 +18,20 @@ def neighbours(files: Collection[Path]) -> Iterator[Compiled]:
             compiled = load(path)
             if compiled.graph and not {source.path for source in compiled.sources}.isdisjoint(files):
                 yield compiled
+
+
+def minds(files: Iterable[str]) -> dict[str, Compiled]:
+    """Files compiled, each once, without those that are no minds by themselves and of which a mind makes use."""
+    names = {Path(file).resolve() if file != "-" else file: file for file in reversed(list(files))}
+    found = {file: load(file) for file in reversed(names.values())}
+    used = {source.path for each in found.values() for source in each.sources[1:]}
+    return {file: each for file, each in found.items() if each.graph or not each.sources or not _is_part(each, used)}
+
+
+def _is_part(compiled: Compiled, used: Collection[Path]) -> bool:
+    """Whether a file is one of those `used`, or a mind beside it or above uses it."""
+    path = compiled.sources[0].path
+    return path in used or next(neighbours([path]), None) is not None
 
 
 def _uses(path: Path) -> bool:

@@ -5,11 +5,13 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from mindlang import journal
-from mindlang.compile import Compiled, compile_source
+from mindlang.compile import Compiled, compile_source, load
 from mindlang.diagnostic import Diagnostic
+from mindlang.editing.neighbours import neighbours
 from mindlang.linting.fixing import fixed
 from mindlang.linting.lint import lint
 from mindlang.linting.rule import all_rules
+from mindlang.lock import LockError
 from mindlang.source import Source, encoded
 
 
@@ -23,16 +25,30 @@ class Linted:
 
 
 def linted(file: str, compiled: Compiled, select: Collection[str], ignore: Collection[str], fix: bool) -> Linted:
-    """A file held against the rules; MindError where a lock is damaged or the mended file cannot be written."""
+    """A file held against the rules; MindError where the mended file cannot be written."""
     codes = [code for code in (select or all_rules()) if code not in ignore]
-    if not fix or compiled.graph is None or file == "-":
+    try:
+        if fix and compiled.graph:
+            return _mended(Path(file).resolve(), compiled, codes)
         return Linted(tuple(lint(compiled, codes)), compiled.readable, 0)
-    path = Path(file).resolve()
+    except LockError as error:
+        return Linted((Diagnostic("damaged-lock", f"{error}.", None, error.hint),), True, 0)
+
+
+def _mended(path: Path, compiled: Compiled, codes: Collection[str]) -> Linted:
+    """A file after its fixes; none is made where one of them would break it, or another mind that uses it."""
 
     def again(source: Source) -> Compiled:
         return compiled if source is compiled.sources[0] else compile_source(source, path)
 
     source, made = fixed(compiled.sources[0], lambda source: lint(again(source), codes))
-    if made:
-        journal.change(path.parent, {path: encoded(path, source.text)})
+    if not made or _breaks(path, source.text, again(source)):
+        return Linted(tuple(lint(compiled, codes)), True, 0)
+    journal.change(path.parent, {path: encoded(path, source.text)})
     return Linted(tuple(lint(again(source), codes)), True, made)
+
+
+def _breaks(path: Path, text: str, mended: Compiled) -> bool:
+    """Whether a file no longer compiles with this text, or a mind that uses it does not."""
+    mains = (each.sources[0].path for each in neighbours([path]))
+    return mended.graph is None or any(load(main, {path: text}).graph is None for main in mains)

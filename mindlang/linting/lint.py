@@ -5,10 +5,12 @@ from collections.abc import Collection, Iterator
 
 from mindlang.compile import Compiled
 from mindlang.diagnostic import Diagnostic
+from mindlang.editing.neighbours import neighbours
 from mindlang.linting.rule import Rule, all_rules
 from mindlang.linting.study import Finding, study
 
-_NOQA = re.compile(r"#.*?\bnoqa\b(?::(?P<codes>[\w ,-]*))?")
+_NOQA = re.compile(r"#\s*noqa(?:\s*:\s*(?P<codes>[\w-]+(?:[ ,]+[\w-]+)*))?\s*$", re.IGNORECASE)
+_WORD = re.compile(r"[A-Za-z]\w*(?:\+[A-Z]\w*)*")
 
 
 def lint(compiled: Compiled, codes: Collection[str] | None = None) -> list[Diagnostic]:
@@ -21,10 +23,21 @@ def lint(compiled: Compiled, codes: Collection[str] | None = None) -> list[Diagn
         return list(compiled.diagnostics)
     about = study(compiled)
     held = [rule for code, rule in all_rules().items() if codes is None or code in codes]
-    found = [_diagnostic(rule, finding) for rule in held for finding in rule.check(about)]
+    found = [_diagnostic(rule, finding) for rule in held if not rule.elsewhere for finding in rule.check(about)]
+    useless = [_diagnostic(rule, finding) for rule in held if rule.elsewhere for finding in rule.check(about)]
+    if useless:
+        named = _named_elsewhere(compiled)
+        found += [each for each in useless if each.span and each.span.text not in named]
     main = compiled.sources[0]
     own = [each for each in found if each.span and each.span.source is main and not _is_silenced(each)]
     return [*compiled.diagnostics, *sorted(own, key=lambda each: (each.span.start if each.span else 0, each.code))]
+
+
+def _named_elsewhere(compiled: Compiled) -> set[str]:
+    """Every name that stands in a file of another mind that uses this one."""
+    own = [source.path for source in compiled.sources]
+    files = (file for mind in neighbours(own) if mind.mind for file in mind.mind.files if file.source.path not in own)
+    return {word for file in files for word in _WORD.findall(file.source.text)}
 
 
 def _diagnostic(rule: Rule, of: Finding) -> Diagnostic:

@@ -12,13 +12,17 @@ from mindlang.linting.study import Found, Study
 
 @dataclass(frozen=True, slots=True)
 class Rule:
-    """A rule: its code, its explanation, minds that it has nothing to say of and minds that it does, and its check."""
+    """A rule: its code, its explanation, minds that it has nothing to say of and minds that it does, and its check.
+
+    What is of no use here may be of use `elsewhere`, in a mind that uses this one.
+    """
 
     code: str
     text: str
     good: tuple[str, ...]
     bad: tuple[str, ...]
     check: Callable[[Study], Found]
+    elsewhere: bool
 
 
 @cache
@@ -30,4 +34,5 @@ def all_rules() -> dict[str, Rule]:
 
 def _rule(name: str) -> Rule:
     module = import_module(f"{rules.__name__}.{name}")
-    return Rule(name.replace("_", "-"), (module.__doc__ or "").strip(), module.GOOD, module.BAD, module.check)
+    text, elsewhere = (module.__doc__ or "").strip(), getattr(module, "ELSEWHERE", False)
+    return Rule(name.replace("_", "-"), text, module.GOOD, module.BAD, module.check, elsewhere)

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from functools import cached_property
 
 from mindrun.actuators import Gripper
+from mindrun.events import Event, Exhaustion
 from mindrun.functions import Mlp
 from mindrun.graph import Graph, Lesson, SensorKind
 from mindrun.sensors import Bearing, Contact, Derivative, Held, Inside
@@ -98,6 +99,12 @@ class Study:
         return tuple(mentions(self.mind.files, self.names))
 
     @cached_property
+    def is_exhausted(self) -> bool:
+        """Whether a task asks for exhaustion, which is of the battery without naming it."""
+        events = (event for task in self.mind.tasks for event in (*task.ends, *task.counts, *_paid(task)))
+        return any(isinstance(event, Exhaustion) for event in events)
+
+    @cached_property
     def used(self) -> dict[str, set[str]]:
         """The names that stand anywhere but in their own declaration, by noun."""
         found: dict[str, set[str]] = {}
@@ -140,6 +147,10 @@ class Finding:
 
 
 Found = Iterator[Finding]
+
+
+def _paid(task: Task) -> Iterator[Event]:
+    return (reward.on for reward in task.rewards if reward.on)
 
 
 def study(compiled: Compiled) -> Study:

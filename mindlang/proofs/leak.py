@@ -50,8 +50,9 @@ def leaks(found: Ways, actuators: int, delta: float) -> list[Leak | None]:
     """For each actuator the worst case of a leak of `delta`; None where no path leads to it."""
     with np.errstate(all="ignore"):  # where the ways are too many for a number, they are infinitely many
         reach = _weighted(found, actuators)
-        worst, above = _worst(found, reach, actuators, delta)
-        return [_leak(found, reach, worst, above, actuator, delta) for actuator in range(actuators)]
+        learnt = {skill: _learnt(found, reach, skill, None) for skill in found.skills}
+        worst, above = _worst(found, reach, learnt, actuators, delta)
+        return [_leak(found, reach, learnt, worst, above, actuator, delta) for actuator in range(actuators)]
 
 
 def _weighted(found: Ways, actuators: int) -> dict[int, Row]:
@@ -65,8 +66,16 @@ def _weighted(found: Ways, actuators: int) -> dict[int, Row]:
     return reach
 
 
-def _others(found: Ways, reach: dict[int, Row], skill: int, kept: Way | None) -> Row:
-    """Σ W over the learnt lines of a skill other than the one that is meant."""
+def _others(found: Ways, reach: dict[int, Row], learnt: dict[int, Row], skill: int, kept: Way | None) -> Row:
+    """Σ W over the learnt lines of a skill other than the one that is meant; `learnt` has the sums over all of them."""
+    if kept is None or not kept.is_learnt:
+        return learnt[skill]
+    if np.isfinite(learnt[skill]).all():
+        return np.maximum(learnt[skill] - reach[kept.target], 0.0)
+    return _learnt(found, reach, skill, kept)
+
+
+def _learnt(found: Ways, reach: dict[int, Row], skill: int, kept: Way | None) -> Row:
     total = np.zeros_like(reach[skill])
     for way in found.onward[skill]:
         if way.is_learnt and way is not kept:
@@ -75,7 +84,7 @@ def _others(found: Ways, reach: dict[int, Row], skill: int, kept: Way | None) ->
 
 
 def _worst(
-    found: Ways, reach: dict[int, Row], actuators: int, delta: float
+    found: Ways, reach: dict[int, Row], learnt: dict[int, Row], actuators: int, delta: float
 ) -> tuple[dict[int, Row], dict[int, list[tuple[int, Way] | None]]]:
     """By skill: the greatest U of a path to it, by actuator, −1 where there is none, and the last step of that path."""
     master = found.skills[0]
@@ -84,7 +93,7 @@ def _worst(
     worst[master] = np.zeros(actuators)
     for skill in found.skills:
         for way in found.onward[skill] if worst[skill].min(initial=0) >= 0 else ():
-            leaked = (worst[skill] + delta * _others(found, reach, skill, way)) / way.most
+            leaked = (worst[skill] + delta * _others(found, reach, learnt, skill, way)) / way.most
             for actuator in np.flatnonzero(leaked > worst[way.target]).tolist():
                 worst[way.target][actuator] = leaked[actuator]
                 above[way.target][actuator] = skill, way
@@ -94,6 +103,7 @@ def _worst(
 def _leak(
     found: Ways,
     reach: dict[int, Row],
+    learnt: dict[int, Row],
     worst: dict[int, Row],
     above: dict[int, list[tuple[int, Way] | None]],
     actuator: int,
@@ -103,14 +113,16 @@ def _leak(
     drivers = [skill for skill in found.skills if actuator in found.drives[skill] and worst[skill][actuator] >= 0]
     if not drivers:
         return None
-    ends = [worst[driver][actuator] + delta * _others(found, reach, driver, None)[actuator] for driver in drivers]
+    ends = [
+        worst[driver][actuator] + delta * _others(found, reach, learnt, driver, None)[actuator] for driver in drivers
+    ]
     unwanted = max(ends)
     skill, way = drivers[ends.index(unwanted)], None
     levels: list[Level] = []
     passed = 1.0
     while True:
         passed *= way.most if way else 1.0
-        own = delta * _others(found, reach, skill, way)[actuator] / passed
+        own = delta * _others(found, reach, learnt, skill, way)[actuator] / passed
         into = (w.target for w in found.onward[skill] if w.is_learnt and w is not way and reach[w.target][actuator] > 0)
         levels.append(Level(found.names[skill], _share(own, unwanted), tuple(found.names[m] for m in into)))
         step = above[skill][actuator]

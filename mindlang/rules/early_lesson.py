@@ -4,7 +4,7 @@ A lesson runs the whole hierarchy below its master, and a skill that has not bee
 stops there. Teach subskills first; lessons are taught in the order in which they stand.
 """
 
-from collections.abc import Sequence
+from collections.abc import Sequence, Set
 
 from mindlang.diagnostic import Label
 from mindlang.linting.study import Finding, Found, Study
@@ -45,7 +45,7 @@ def check(study: Study) -> Found:
     for curriculum, lessons in courses.items():
         if len(lessons) > 1:
             first = {skill: place for skill, place in firsts[curriculum].items() if taught_in[skill] == 1}
-            yield from _early(lessons, _latest(study, first))
+            yield from _early(lessons, _latest(study, first), study.lock.keys())
 
 
 def _firsts(study: Study, lessons: Sequence[Lesson]) -> dict[str, int]:
@@ -69,10 +69,10 @@ def _latest(study: Study, first: dict[str, int]) -> Latest:
     return found
 
 
-def _early(lessons: Sequence[Lesson], latest: Latest) -> Found:
+def _early(lessons: Sequence[Lesson], latest: Latest, known: Set[str]) -> Found:
     for place, lesson in enumerate(lessons):
         needed, skill = latest[lesson.master]
-        if needed > place:
+        if needed > place and skill not in known:
             message = f"{lesson.skill} is taught before {skill}, which acts in this lesson and has no weights yet."
             label = Label(lessons[needed].fact.span, f"{skill} is taught here")
             yield Finding(lesson.fact.span, message, f"Move this line below the lesson of {skill}.", (label,))

@@ -68,7 +68,8 @@ def _finding(skill: Skill, edge: Edge, moved: str) -> Finding:
     learned = sum(other.at is None for other in skill.edges)
     fix = Fix("Write at 1", (instead(edge.fact.span, f"{edge.fact.span.text} at 1"),), is_safe=False)
     message = f"How much influence {skill.name} has on {edge.target} makes no difference, only whether it has any."
-    hint = f"Nobody else drives {moved}, so its command is the same (Eq. 3): write influences {edge.target} at 1."
+    same = f"Nobody else drives {moved}, so its command is the same (Eq. 3)"
+    hint = f"{same}: write influences {edge.target} at 1, unless it is to learn when it is on and when off (# noqa)."
     if learned == 1:
-        hint = f"Nobody else drives {moved}, so its command is the same (Eq. 3): let another skill drive it, too."
+        hint = f"{same}: let another skill drive it, too, unless it is to learn when it is on and when off (# noqa)."
     return Finding(edge.fact.span, message, hint, fix=fix if learned > 1 else None)

@@ -4,6 +4,8 @@ Right after itself it goes on where it ended: one lesson with more generations s
 scratch throws away what the same lesson taught before. Lessons that take turns with others are fine.
 """
 
+from mindrun.learners import Learner
+
 from mindlang.diagnostic import Label
 from mindlang.linting.study import Finding, Found, Study
 from mindlang.model import Lesson
@@ -28,7 +30,7 @@ GO = "  teaches Go on Course for 10 generations\n"
 GOOD = (SCHOOL + GO + TURN + GO + TURN,)
 BAD = (SCHOOL + GO + GO, SCHOOL + GO + TURN + GO.replace("\n", " from scratch\n"))
 
-Said = tuple[str, str, str, str, bool]
+Said = tuple[str, str, str, str, bool, Learner]
 
 
 def check(study: Study) -> Found:
@@ -36,7 +38,7 @@ def check(study: Study) -> Found:
     first: dict[Said, Lesson] = {}
     before: Said | None = None
     for lesson in study.mind.lessons:
-        said = (lesson.curriculum, lesson.skill, lesson.task, lesson.master, lesson.with_subskills)
+        said = (lesson.curriculum, lesson.skill, lesson.task, lesson.master, lesson.with_subskills, lesson.learner)
         earlier = first.setdefault(said, lesson)
         if earlier is not lesson and (lesson.from_scratch or said == before):
             yield _finding(lesson, earlier)

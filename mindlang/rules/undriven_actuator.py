@@ -8,6 +8,7 @@ from mindlang.diagnostic import Fix
 from mindlang.editing.page import without_declarations
 from mindlang.linting.study import Finding, Found, Study
 
+ELSEWHERE = True
 GOOD = (
     """
 skill Go is rule

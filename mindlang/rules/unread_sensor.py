@@ -8,6 +8,7 @@ from mindlang.diagnostic import Fix
 from mindlang.editing.page import without_declarations
 from mindlang.linting.study import Finding, Found, Study
 
+ELSEWHERE = True
 GOOD = (
     """
 sensor eye is range_finder at 0 deg
@@ -34,7 +35,9 @@ skill Go is rule
 def check(study: Study) -> Found:
     """Sensors that stand in no line but their own."""
     for name, declaration in study.names.declarations("sensor"):
-        if name not in study.used.get("sensor", set()):
+        phrase = declaration.header.phrase
+        is_battery = phrase is not None and phrase.kind.text == "battery"
+        if name not in study.used.get("sensor", set()) and not (is_battery and study.is_exhausted):
             fix = Fix(f"Remove {name}", without_declarations([declaration]))
             hint = f"Add reads {name} to a skill, or take the sensor out."
             yield Finding(declaration.header.name.span, f"Nobody reads {name}.", hint, fix=fix)

@@ -10,6 +10,7 @@ from mindlang.diagnostic import listed
 from mindlang.linting.study import Finding, Found, Study
 from mindlang.model import Skill
 
+ELSEWHERE = True
 LEARNS = """
 sensor eye is range_finder at 0 deg
 skill Go is mlp
@@ -36,7 +37,7 @@ BAD = (LEARNS,)
 def check(study: Study) -> Found:
     """Active skills that learn and are in no lesson; where there is no lesson at all this is said once."""
     taught = _taught(study)
-    names = (study.learning & study.active) - taught
+    names = (study.learning & study.active) - taught - study.lock.keys()
     untaught = [skill for skill in study.mind.skills if skill.name in names]
     if not study.mind.lessons:
         own = [skill for skill in untaught if skill.declaration.header.span.source is study.main]

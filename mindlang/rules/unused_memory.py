@@ -13,6 +13,7 @@ from mindlang.editing.page import without_declarations
 from mindlang.linting.study import Finding, Found, Study
 from mindlang.model import Expression, Reading
 
+ELSEWHERE = True
 GOOD = (
     """
 memory mood is cell decay 0.9

@@ -14,6 +14,7 @@ from mindlang.linting.study import Finding, Found, Study
 from mindlang.model import Task
 from mindlang.syntax import Contains
 
+ELSEWHERE = True
 GOOD = (
     """
 sensor ball_bearing is bearing of ball

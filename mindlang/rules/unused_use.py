@@ -11,7 +11,7 @@ from mindlang.diagnostic import Fix
 from mindlang.editing.lines import first_line, remove_lines
 from mindlang.linting.study import Finding, Found, Study
 from mindlang.lock import lock_path
-from mindlang.syntax import File, Tick, Use
+from mindlang.syntax import Declaration, File, Tick, Use
 
 PASSIVE = {"sensor", "memory", "skill"}
 PARTS = "-- parts.mind --\ntick 1/60 s\nsensor eye is range_finder at 0 deg\n"
@@ -52,6 +52,8 @@ def _is_used(study: Study, files: Iterable[File]) -> bool:
     sources = {id(file.source) for file in files}
     others = [file for file in study.mind.files if id(file.source) not in sources]
     nouns = {declaration.header.noun.text for file in files for declaration in file.declarations}
+    if study.is_exhausted and any(_is_battery(each) for file in files for each in file.declarations):
+        return True
     if nouns - PASSIVE or any(lock_path(file.source.path).exists() for file in files):
         return True
     if not any(isinstance(setting, Tick) for file in others for setting in file.settings):
@@ -59,3 +61,8 @@ def _is_used(study: Study, files: Iterable[File]) -> bool:
     named = {(each.noun, each.name.text) for each in study.mentions if id(each.name.span.source) not in sources}
     own = {(each.header.noun.text, each.header.name.text) for file in files for each in file.declarations}
     return not named.isdisjoint(own)
+
+
+def _is_battery(declaration: Declaration) -> bool:
+    phrase = declaration.header.phrase
+    return phrase is not None and phrase.kind.text == "battery"

@@ -110,7 +110,7 @@ def test_no_exception_becomes_a_traceback(
     def fail(*_: object) -> None:
         raise raised
 
-    monkeypatch.setattr("mindlang.compile.load", fail)
+    monkeypatch.setattr("mindlang.editing.neighbours.load", fail)
     monkeypatch.delenv("MIND_DEBUG", raising=False)
     found = mindc("check", RIGHT)
     assert found[0] == code

@@ -52,6 +52,9 @@ def test_no_rule(mindc: Call, file: Path) -> None:
         ("# noqa: unread-sensor", 0),
         ("# later # noqa: idle-skill, unread-sensor", 0),
         ("# noqa: idle-skill", 1),
+        ("# NOQA", 0),
+        ("# noqa : unread-sensor", 0),
+        ("# do not write noqa here", 1),
         ("# nothing", 1),
     ],
 )
@@ -82,6 +85,54 @@ def test_a_fix_makes_room_for_the_next(mindc: Call, file: Path) -> None:
     assert file.read_text() == RULES
 
 
+BATTERY = UNREAD.replace("sensor pulse is sine period 2 s", "sensor charge is battery").replace(
+    "ends on collision", "ends on exhaustion"
+)
+
+
+def test_a_battery_is_used_where_it_can_be_exhausted(mindc: Call, file: Path) -> None:
+    file.write_text(BATTERY)
+    assert mindc("lint", file, "--select", "unread-sensor", "--fix").code == 0
+    assert file.read_text() == BATTERY
+
+
+def test_what_another_mind_reads_is_of_use(mindc: Call, file: Path) -> None:
+    user = 'use "a b.mind"\nmaster Look\nskill Look is rule\n  reads pulse\n  drives left_wheel at pulse\n'
+    Path("user.mind").write_text(user)
+    assert mindc("check", "user.mind").code == 0
+    assert mindc("lint", file, "--select", "unread-sensor", "--fix").code == 0
+    assert file.read_text() == UNREAD
+
+
+def test_a_fix_that_would_break_another_mind_is_not_made(mindc: Call, file: Path) -> None:
+    Path("parts.mind").write_text("sensor extra is sine period 1 s\n")
+    file.write_text(f'use "parts.mind"\n{RULES}')
+    Path("user.mind").write_text(
+        'use "a b.mind"\nmaster Look\nskill Look is rule\n  reads extra\n  drives left_wheel at extra\n'
+    )
+    assert mindc("check", "user.mind").code == 0
+    said = mindc("lint", file, "--select", "unused-use", "--fix")
+    assert said.code == 1
+    assert mindc("check", "user.mind").code == 0
+
+
+def test_a_damaged_lock_is_a_finding_and_the_others_are_linted(mindc: Call, file: Path) -> None:
+    Path("b.mind").write_text(RULES)
+    Path("b.lock").write_text("junk")
+    said = mindc("lint", "b.mind", file, "--select", "unread-sensor", "--format", "json")
+    assert [each["code"] for each in json.loads(said.out)["diagnostics"]] == ["damaged-lock", "unread-sensor"]
+
+
+def test_one_file_by_two_names_is_one(mindc: Call, file: Path) -> None:
+    said = mindc("lint", file, f"./{file}", "--select", "unread-sensor", "--format", "json")
+    assert len(json.loads(said.out)["diagnostics"]) == 1
+
+
+@pytest.mark.parametrize("words", [("--select", ""), ("--select", ","), ("--ignore", "comma"), ("-", "--fix")])
+def test_what_makes_no_sense(mindc: Call, file: Path, words: tuple[str, ...]) -> None:
+    assert mindc("lint", file, *words).code == 2
+
+
 def test_a_file_with_errors_is_not_fixed(mindc: Call, file: Path) -> None:
     text = UNREAD.replace("drives left_wheel", "drives left_weel", 1)
     file.write_text(text)
@@ -94,7 +145,7 @@ def test_what_is_no_mind_by_itself_is_read_with_who_uses_it(mindc: Call, file: P
     Path("parts.mind").write_text("body Robot is disc\n" + "".join(head.partition("body Robot is disc\n")[2:]))
     file.write_text(f'use "parts.mind"\ntick 1/60 s\nmaster Roam\nsensor pulse{rest}')
     for command in ("lint", "check"):
-        assert mindc(command, "parts.mind").code == 1
+        assert mindc(command, "parts.mind").code == 0, "a b.mind, beside it, is a whole mind with it"
     assert mindc("check", "parts.mind", file).code == 0
     said = mindc("lint", "parts.mind", file, "--format", "json")
     assert {each["file"] for each in json.loads(said.out)["diagnostics"]} == {"a b.mind"}
