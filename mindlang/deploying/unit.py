@@ -20,6 +20,8 @@ WorkingDirectory=%h/mind/current
 Environment=PYTHONPATH=runtime PYTHONDONTWRITEBYTECODE=1 PYTHONUNBUFFERED=1
 ExecStart={run}
 {neutral}Restart=on-failure
+# 2 is said on purpose: a bundle that is refused, or a guardian that will move nothing more.
+RestartPreventExitStatus=2
 RestartSec=2
 # Only the controller is told to end; the guardian ends after it, once every actuator is at neutral.
 KillMode=mixed

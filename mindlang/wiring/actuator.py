@@ -17,9 +17,11 @@ def actuator_wire(wired: Wired, actuator: Actuator, findings: Findings) -> Actua
         hint = "Write the smaller share first, [0.2, 0.8]; reversed: true turns the actuator round."
         tell(findings, "no-travel", wired.span("limits"), "Between these limits nothing can move.", hint)
         return None
-    if not low <= neutral <= high:
-        message = f"The neutral of {actuator.name}, {neutral:g}, is outside of its limits."
-        hint = f"It is what the mind says is safe: write limits that have {neutral:g} between them."
+    rest = neutral + own.get("trim", 0.0)
+    if not low <= rest <= high:
+        trimmed = " with its trim" * (rest != neutral)
+        message = f"The neutral of {actuator.name}{trimmed}, {rest:g}, is outside of its limits."
+        hint = f"It is what the mind says is safe: write limits that have {rest:g} between them."
         tell(findings, "neutral-outside", wired.span("limits"), message, hint)
         return None
     return ActuatorWire(actuator.name, wired.driver, low=float(low), high=float(high), **own)

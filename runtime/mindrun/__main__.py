@@ -37,7 +37,7 @@ EXAMPLES = """examples:
 A line of readings: {"proximity": [1, 1, 0.4], "object_bearing": 0.5}; NaN is a reading that failed.
 A line of commands: {"commands": {"left_wheel": 0.7, "right_wheel": 0.5}}
 
-tools: mindrun replay | report | calibrate | doctor, each with --help"""
+tools: mindrun adopt | calibrate | doctor | replay | report, each with --help"""
 
 
 def main() -> None:
@@ -76,6 +76,8 @@ def run(options: argparse.Namespace) -> int:
         _run(engine, options)
     elif options.dry or (bundle.wiring and not options.describe and not options.json):
         return drive(options)
+    elif options.arm or options.record or options.ticks:
+        raise MindError("this bundle is wired to no robot", "mindc build … --robot robot.yaml, or try it with --dry")
     else:
         print(json.dumps(contents(bundle), indent=2, ensure_ascii=False) if options.json else describe(bundle))
     return OK

@@ -5,6 +5,7 @@ import signal
 import subprocess
 import sys
 from pathlib import Path
+from time import sleep
 
 import pytest
 from mindrun.bundle import write_bundle
@@ -85,13 +86,62 @@ def test_a_bundle_for_another_wiring_moves_nothing(bundle: Path, tmp_path: Path)
     write_bundle(other, graph("bearing"), {}, {}, wiring(0.7))
     said = mindrun(other, "--arm", "--ticks", 3, "--record", day)
     assert (said.returncode, day.exists()) == (2, False)
-    assert "this bundle is wired for mock, otherwise than mock is" in said.stderr
-    assert f"mindrun adopt {other}" in said.stderr
-    assert mindrun(other, "--ticks", 3).returncode == 0, "unarmed, nothing moves"
+    assert "whose wiring or neutral commands are others than those of mock" in said.stderr
+    assert mindrun(other, "--ticks", 3).returncode == 2, "a guardian writes neutral, and that is another's motion"
     (tmp_path / "robot" / "identity").unlink()
     said = mindrun(bundle, "--arm", "--ticks", 3)
     assert said.returncode == 2
     assert "this robot has not said how it is wired" in said.stderr
+    said = mindrun(other, "--ticks", 3)
+    assert said.returncode == 0
+    assert "no actuator is opened" in said.stderr
+
+
+def test_other_neutral_commands_are_another_robot(bundle: Path) -> None:
+    text = MIND.format(kind=SENSORS["bearing"][0], function="rule").replace(
+        "side left neutral 0.5", "side left neutral 0"
+    )
+    write_bundle(bundle, compile_text(text), {}, {}, wiring())
+    assert mindrun(bundle, "--ticks", 2).returncode == 2
+
+
+def test_two_never_drive_one_robot(bundle: Path, tmp_path: Path) -> None:
+    day = tmp_path / "day.rec"
+    first = subprocess.Popen([*MINDRUN, bundle, "--arm", "--record", day], stderr=subprocess.PIPE, text=True)
+    while not day.exists() or day.stat().st_size < 2000:
+        assert first.poll() is None
+    said = mindrun(bundle, "--ticks", 2)
+    assert said.returncode == 2
+    assert f"this robot is driven already, by process {first.pid}" in said.stderr
+    first.terminate()
+    first.communicate(timeout=30)
+    assert mindrun(bundle, "--ticks", 2).returncode == 0
+
+
+def test_nothing_is_recorded_over(bundle: Path) -> None:
+    data = bundle.read_bytes()
+    said = mindrun(bundle, "--ticks", 2, "--record", bundle)
+    assert said.returncode == 2
+    assert "exists already" in said.stderr
+    assert bundle.read_bytes() == data
+
+
+def test_the_second_signal_ends_what_hangs(bundle: Path, tmp_path: Path) -> None:
+    text = MIND.format(kind=SENSORS["bearing"][0], function="procedure from hang.f").replace(
+        "left_wheel at 0.2 + pulse * 0.7", "left_wheel"
+    )
+    write_bundle(
+        bundle, compile_text(text), {}, {"hang": "def f(sense, pulse):\n    while True:\n        pass\n"}, wiring()
+    )
+    process = subprocess.Popen([*MINDRUN, bundle, "--record", tmp_path / "d.rec"], stderr=subprocess.PIPE, text=True)
+    while not (tmp_path / "d.rec").exists():
+        assert process.poll() is None
+    sleep(2)
+    process.send_signal(signal.SIGINT)
+    sleep(0.5)
+    process.send_signal(signal.SIGINT)
+    process.communicate(timeout=30)
+    assert process.returncode == 130
 
 
 def test_another_master_is_in_charge(bundle: Path, tmp_path: Path) -> None:
@@ -120,6 +170,7 @@ def test_a_bundle_without_wiring_says_what_it_holds(tmp_path: Path) -> None:
     bundle = tmp_path / "mind.bundle"
     write_bundle(bundle, graph("bearing"), {}, {})
     assert mindrun(bundle).stdout.startswith("master Go, 20 ticks a second")
+    assert mindrun(bundle, "--arm").returncode == 2
     said = mindrun("replay", bundle, bundle)
     assert (said.returncode, said.stdout) == (2, "")
     assert "is no recording of this mindrun" in said.stderr

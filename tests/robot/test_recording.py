@@ -110,7 +110,7 @@ def test_what_is_no_recording(tmp_path: Path, data: bytes) -> None:
 
 
 def test_the_report_holds_it_against_the_contract(day: Path) -> None:
-    lines = {line.what: line for line in report(day, graph("range_finder"))}
+    lines = {line.what: line for line in report(day, BUNDLE, graph("range_finder"))}
     assert lines["tick"].kept
     assert lines["tick"].declared == "50.0 ms"
     assert not lines["ticks at neutral"].kept

@@ -2,13 +2,15 @@
 
 import argparse
 import sys
+from dataclasses import replace
 from hashlib import sha256
 from pathlib import Path
 
 from mindrun.bundle import Bundle, read_bundle
 from mindrun.errors import MindError
 from mindrun.robot.drive import Wishes, drive
-from mindrun.robot.identity import refuse_another
+from mindrun.robot.drivers.mock import MockActuator
+from mindrun.robot.identity import IdentityError, alone_on_robot, is_adopted
 from mindrun.robot.loop import Loop
 
 
@@ -27,9 +29,16 @@ def run(options: argparse.Namespace) -> int:
 def _wired(options: argparse.Namespace, bundle: Bundle, wishes: Wishes) -> Loop:
     if bundle.wiring is None:
         raise MindError("this bundle is wired to no robot", "mindc build … --robot robot.yaml, or try it with --dry")
-    if wishes.armed:
-        refuse_another(bundle.wiring, options.bundle)
-    return drive(bundle, digest(options.bundle), bundle.wiring, wishes, _quiet if options.quiet else _tell)
+    tell = _quiet if options.quiet else _tell
+    wiring = bundle.wiring
+    if not is_adopted(wiring, bundle.graph):
+        remedy = f"if it is wired as this bundle has it: mindrun adopt {options.bundle}"
+        if wishes.armed:
+            raise IdentityError("nothing may move yet: this robot has not said how it is wired", remedy)
+        tell("this robot has not said how it is wired: no actuator is opened")
+        wiring = replace(wiring, actuators=tuple(replace(wire, driver=MockActuator()) for wire in wiring.actuators))
+    with alone_on_robot() as held:
+        return drive(bundle, digest(options.bundle), wiring, wishes, tell, held)
 
 
 def _dry(options: argparse.Namespace, bundle: Bundle, wishes: Wishes) -> Loop:

@@ -2,7 +2,7 @@
 
 import signal
 from collections.abc import Callable, Iterator
-from contextlib import ExitStack, contextmanager, nullcontext
+from contextlib import AbstractContextManager, ExitStack, contextmanager, nullcontext
 from dataclasses import dataclass
 from pathlib import Path
 from time import monotonic, sleep
@@ -44,10 +44,13 @@ class Wishes:
     master: str | None = None
 
 
-def drive(bundle: Bundle, digest: str, wiring: Wiring, wishes: Wishes, tell: Callable[[str], None]) -> Loop:
+def drive(
+    bundle: Bundle, digest: str, wiring: Wiring, wishes: Wishes, tell: Callable[[str], None], held: int | None = None
+) -> Loop:
     """Run a mind on a robot until a signal comes or the ticks are over; the loop as it ended.
 
-    `tell` gets sentences for people. MindError where something fails; then every actuator is at neutral, too.
+    `tell` gets sentences for people; the guardian inherits the descriptor `held`. MindError where something fails; then
+    every actuator is at neutral, too.
     """
     graph = bundle.graph
     engine = Engine(graph, bundle.weights, bundle.procedures, wishes.master)
@@ -55,15 +58,28 @@ def drive(bundle: Bundle, digest: str, wiring: Wiring, wishes: Wishes, tell: Cal
     neutrals = {actuator.name: actuator.kind.neutral for actuator in graph.actuators}
     with ExitStack() as stack:
         stop = stack.enter_context(_stopping())
-        samplers = stack.enter_context(_sampling(wiring))
-        guardian = stack.enter_context(Guardian(plan_of(graph.tick, neutrals, wiring)))
         about = About.of(graph, digest, wishes.master or graph.master, tuple(wire.sensor for wire in wiring.sensors))
-        recorder = stack.enter_context(Recorder(wishes.record, about) if wishes.record else nullcontext())
+        recorder = stack.enter_context(_recorder(wishes.record, about))
+        samplers = stack.enter_context(_sampling(wiring))
+        inherited = () if held is None else (held,)
+        guardian = stack.enter_context(Guardian(plan_of(graph.tick, neutrals, wiring), inherited=inherited))
         loop = Loop(engine, Senses(graph, samplers), guardian, Pace(graph.tick), wishes.armed, recorder, tell)
         _wait(samplers, guardian, loop, stop)
         notify("READY=1")
         loop.run(lambda tick: _goes_on(tick, wishes.ticks, stop))
         return loop
+
+
+def _recorder(path: Path | None, about: About) -> AbstractContextManager[Recorder | None]:
+    """The recorder that is wished for; DriveError where it would write over something, or cannot write."""
+    if path is None:
+        return nullcontext()
+    try:
+        return Recorder(path, about)
+    except FileExistsError:
+        raise DriveError(f"{path} exists already", "record to another file, or delete it") from None
+    except OSError as error:
+        raise DriveError(f"{path} cannot be written: {error.strerror}") from error
 
 
 def _refuse_blind(graph: Graph, master: str, wiring: Wiring) -> None:
@@ -87,11 +103,13 @@ def _wait(samplers: list[Sampler], guardian: Guardian, loop: Loop, stop: list[in
 
 @contextmanager
 def _stopping() -> Iterator[list[int]]:
-    """Signals that have come: the loop ends after the tick in which one does."""
+    """Signals that have come: the loop ends after the tick in which one does, and at once with the second."""
     came: list[int] = []
 
     def note(number: int, _frame: FrameType | None) -> None:
         came.append(number)
+        if len(came) > 1:  # what hangs in a procedure hears no other way
+            raise KeyboardInterrupt
 
     before = {number: signal.signal(number, note) for number in SIGNALS}
     try:

@@ -1,19 +1,25 @@
-"""Which wiring this robot has: a bundle that was built for another one moves nothing here.
+"""Which robot this is: a bundle that was built for another one moves nothing here, and two never drive it at once.
 
-A file of the robot's own says it in one line, which `mindrun adopt` writes: its name and the SHA-256 of its wiring.
+A file of the robot's own says it in one line, which `mindrun adopt` writes: its name, and a SHA-256 of its wiring and
+of what its mind takes for neutral.
 """
 
+import fcntl
 import os
+from collections.abc import Iterator
+from contextlib import contextmanager
+from hashlib import sha256
 from pathlib import Path
 
 from mindrun.bundle import fingerprint
 from mindrun.durable import write
 from mindrun.errors import MindError
+from mindrun.graph import Graph
 from mindrun.robot.wiring import Wiring
 
 
 class IdentityError(MindError):
-    """A bundle for another robot, or a robot that has not said which it is."""
+    """A bundle for another robot, a robot that has not said which it is, or one that is driven already."""
 
 
 def identity_file() -> Path:
@@ -22,25 +28,54 @@ def identity_file() -> Path:
     return Path(given) if given else Path.home() / ".config" / "mind" / "robot"
 
 
-def adopt(wiring: Wiring) -> Path:
+def adopt(wiring: Wiring, graph: Graph) -> Path:
     """This robot is wired so from now on; the file that says it."""
     path = identity_file()
     path.parent.mkdir(parents=True, exist_ok=True)
-    write(path, f"{wiring.robot} {fingerprint(wiring)}\n".encode())
+    write(path, f"{wiring.robot} {identity(wiring, graph)}\n".encode())
     return path
 
 
-def refuse_another(wiring: Wiring, bundle: Path) -> None:
-    """IdentityError unless this robot has adopted just this wiring."""
+def identity(wiring: Wiring, graph: Graph) -> str:
+    """The SHA-256 of a wiring and of the neutral commands that go with it: one wiring's neutral is another's motion."""
+    neutrals = ", ".join(f"{actuator.name} {actuator.kind.neutral!r}" for actuator in graph.actuators)
+    return sha256(f"{fingerprint(wiring)} {neutrals}".encode()).hexdigest()
+
+
+def is_adopted(wiring: Wiring, graph: Graph) -> bool:
+    """Whether this robot has adopted just this wiring; False where it has adopted none, IdentityError for another."""
     path = identity_file()
-    remedy = f"if it really is wired so: mindrun adopt {bundle}"
     try:
         name, _, known = path.read_text(encoding="utf-8").strip().rpartition(" ")
     except FileNotFoundError:
-        raise IdentityError("nothing may move yet: this robot has not said how it is wired", remedy) from None
+        return False
     except (OSError, UnicodeDecodeError) as error:
-        raise IdentityError(f"{path} cannot be read: {error}", remedy) from error
-    if known != fingerprint(wiring):
+        raise IdentityError(f"{path} cannot be read: {error}") from error
+    if known != identity(wiring, graph):
         raise IdentityError(
-            f"this bundle is wired for {wiring.robot}, otherwise than {name or 'this robot'} is", remedy
+            f"this bundle is for {wiring.robot}, whose wiring or neutral commands are others than those of "
+            f"{name or 'this robot'}",
+            "build it for this robot; or, where this robot has been wired anew, adopt it: mindrun adopt --help",
         )
+    return True
+
+
+@contextmanager
+def alone_on_robot() -> Iterator[int]:
+    """Let one controller drive this robot: a descriptor that its guardian holds as well, for as long as it lives."""
+    path = identity_file().with_name("running")
+    path.parent.mkdir(parents=True, exist_ok=True)
+    descriptor = os.open(path, os.O_RDWR | os.O_CREAT, 0o600)
+    try:
+        try:
+            fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except OSError:
+            who = os.read(descriptor, 20).decode(errors="replace").strip()
+            raise IdentityError(
+                f"this robot is driven already, by process {who}", "end that first: systemctl --user stop mind"
+            ) from None
+        os.ftruncate(descriptor, 0)
+        os.pwrite(descriptor, f"{os.getpid()}\n".encode(), 0)
+        yield descriptor
+    finally:
+        os.close(descriptor)

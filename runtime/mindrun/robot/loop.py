@@ -13,6 +13,7 @@ from mindrun.robot.recording import Recorder
 from mindrun.robot.senses import Sensed, Senses
 
 BEHIND = 3  # ticks in a row that were missed, after which every actuator is neutral until one is not
+OLD = 2  # ticks that thinking may take
 
 
 class Sends(Protocol):
@@ -62,7 +63,8 @@ class Loop:
         sensed = self.senses.now(time)
         self._tell(sensed)
         commands = self.engine.tick(sensed.readings)
-        stopped = sensed.must_stop or behind
+        too_old = self.pace.clock() - time >= OLD * self.pace.tick  # to act on what was sensed then
+        stopped = sensed.must_stop or behind or too_old
         sent = self.neutral if stopped else commands
         self.guardian.send(sent.tolist(), self.armed and not stopped)  # unarmed, neutral is not slowed down by slew
         done = Tick(self.ticks, time, sensed, commands, sent, stopped)

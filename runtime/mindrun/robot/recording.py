@@ -47,6 +47,14 @@ class About:
         skills = tuple(skill.name for skill in graph.skills)
         return cls(bundle, master, graph.tick, sensors, actuators, skills, graph.width)
 
+    def refuse_another(self, bundle: str) -> None:
+        """RecordingError where the recording was made with another bundle than that of this SHA-256."""
+        if self.bundle != bundle:
+            raise RecordingError(
+                f"this was recorded with another bundle ({self.bundle[:8]}…, not {bundle[:8]}…)",
+                "take the bundle that was running",
+            )
+
     @property
     def row(self) -> np.dtype[Any]:
         """A tick: its number and time, whether all had to be neutral and was armed; what was read, thought and sent."""
@@ -60,11 +68,11 @@ class About:
 
 
 class Recorder:
-    """Writes a recording; a context manager. OSError where the file cannot be written."""
+    """Writes a recording; a context manager. OSError where the file is there already, or cannot be written."""
 
     def __init__(self, path: Path, about: About, every: float = 1.0) -> None:
         self._row = np.zeros(1, about.row)
-        self._file = path.open("wb")
+        self._file = path.open("xb")
         self._file.write(json.dumps({"format": FORMAT, **_plain(about)}).encode() + b"\n")
         self._every, self._flushed = every, 0.0
 

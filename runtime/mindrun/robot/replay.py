@@ -35,15 +35,13 @@ def replay(path: Path, bundle: str, engine: Engine, told: Callable[[int], None] 
                 return Replayed(ticks, (int(row["tick"]), _different(about.skills, engine.influence, row["influence"])))
             ticks += 1
         told(ticks)
+    if not ticks:
+        raise RecordingError(f"{path} has no tick in it")
     return Replayed(ticks, None)
 
 
 def _refuse_another(about: About, bundle: str, engine: Engine) -> None:
-    if about.bundle != bundle:
-        raise RecordingError(
-            f"this was recorded with another bundle ({about.bundle[:8]}…, not {bundle[:8]}…)",
-            "replay it with the bundle that was running",
-        )
+    about.refuse_another(bundle)
     if about.readings != engine.graph.width:
         raise RecordingError(f"this has {about.readings} readings a tick, the mind {engine.graph.width}")
 

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mindrun.graph import Graph, Sensor
-from mindrun.robot.recording import read
+from mindrun.robot.recording import RecordingError, read
 from mindrun.robot.senses import FINE
 from mindrun.sensors import Physical
 
@@ -24,10 +24,16 @@ class Line:
     kept: bool
 
 
-def report(path: Path, graph: Graph) -> list[Line]:
-    """The lines for the tick and for every wired sensor; RecordingError where the recording cannot be read."""
+def report(path: Path, bundle: str, graph: Graph) -> list[Line]:
+    """The lines for the tick and for every wired sensor.
+
+    RecordingError where it cannot be read, holds nothing, or was made with another bundle than that of this SHA-256.
+    """
     about, parts = read(path)
+    about.refuse_another(bundle)
     rows = np.concatenate(list(parts) or [np.zeros(0, about.row)])
+    if not len(rows):
+        raise RecordingError(f"{path} has no tick in it")
     sensors = {sensor.name: sensor for sensor in graph.sensors}
     lines = [*_tick(rows, graph.tick)]
     for number, name in enumerate(about.sensors):

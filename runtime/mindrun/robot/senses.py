@@ -3,7 +3,7 @@
 from collections import deque
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
-from math import inf, nan
+from math import inf, isfinite, nan
 from statistics import median
 from typing import Protocol
 
@@ -91,7 +91,10 @@ def _look(state: _State, time: float) -> tuple[int, float, str]:
         return FAILED, age, sample.fault
     if not state.window or state.window[-1] is not sample:
         state.window.append(sample)
-        state.good, state.good_at = _filtered(state), sample.at
+        good = _filtered(state)
+        if not all(map(isfinite, good)):
+            return FAILED, age, "has readings that are no numbers"
+        state.good, state.good_at = good, sample.at
     return FINE, age, ""
 
 

@@ -115,5 +115,5 @@ def flaws(wiring: Wiring, graph: Graph) -> Iterator[str]:
         if wire.sensor in sensors and wire.driver.readings != sensors[wire.sensor].width:
             yield f"sensor {wire.sensor} has {sensors[wire.sensor].width} readings, its driver {wire.driver.readings}"
     for end in wiring.actuators:
-        if end.actuator in actuators and not end.low <= actuators[end.actuator].neutral <= end.high:
+        if end.actuator in actuators and not end.low <= actuators[end.actuator].neutral + end.trim <= end.high:
             yield f"neutral of actuator {end.actuator} is outside of its limits"

@@ -19,9 +19,10 @@ def options(parser: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> int:
     """0 where it is adopted."""
-    wiring = read_bundle(options.bundle).wiring
+    bundle = read_bundle(options.bundle)
+    wiring = bundle.wiring
     if wiring is None:
         raise MindError("this bundle is wired to no robot", "mindc build … --robot robot.yaml")
-    path = adopt(wiring)
+    path = adopt(wiring, bundle.graph)
     print(f"this robot is {wiring.robot}, {len(wiring.sensors)} sensors and {len(wiring.actuators)} actuators ({path})")
     return 0

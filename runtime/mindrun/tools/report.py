@@ -11,6 +11,7 @@ from dataclasses import asdict
 from pathlib import Path
 
 from mindrun.bundle import read_bundle
+from mindrun.robot.command import digest
 from mindrun.robot.report import report
 
 
@@ -23,7 +24,7 @@ def options(parser: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> int:
     """0 where the robot keeps to what training had, else 1."""
-    lines = report(options.recording, read_bundle(options.bundle).graph)
+    lines = report(options.recording, digest(options.bundle), read_bundle(options.bundle).graph)
     if options.json:
         print(json.dumps({"lines": [asdict(line) for line in lines]}, indent=2))
     else:

@@ -33,7 +33,9 @@ class Guardian:
     Call `send` once a tick, from the control loop and nowhere else: that it is called is what shows that the loop runs.
     """
 
-    def __init__(self, plan: Plan, patience: float = 5.0, program: Sequence[str] = PROGRAM) -> None:
+    def __init__(
+        self, plan: Plan, patience: float = 5.0, program: Sequence[str] = PROGRAM, inherited: Sequence[int] = ()
+    ) -> None:
         self.state, self.why = NEUTRAL, "started"
         self._plan = f"{to_json(plan)}\n".encode()
         self._patience = patience
@@ -43,7 +45,12 @@ class Guardian:
         self._read_at = monotonic()
         # A session of its own: no key of a terminal reaches it, neither Ctrl-C nor Ctrl-Z.
         self._process = subprocess.Popen(
-            [*program], stdin=subprocess.PIPE, stdout=subprocess.PIPE, bufsize=0, start_new_session=True
+            [*program],
+            stdin=subprocess.PIPE,
+            stdout=subprocess.PIPE,
+            bufsize=0,
+            start_new_session=True,
+            pass_fds=inherited,
         )
         assert self._process.stdin
         assert self._process.stdout
