@@ -202,7 +202,8 @@ def test_doctor_says_what_answers(bundle: Path) -> None:
 def test_calibrate_prints_lines_for_the_wiring(bundle: Path) -> None:
     said = mindrun("calibrate", bundle, "sense", "--seconds", 0.5)
     assert said.returncode == 0, said.stderr
-    assert "sense:\n  from: 0.6\n  to: 0.6" in said.stdout
+    assert "# from and to are those of training (0 to 1)" in said.stdout
+    assert mindrun("calibrate", bundle, "sense", "--seconds", "nan").returncode == 2
     said = mindrun("calibrate", bundle, "sence")
     assert said.returncode == 2
     assert "no sensor sence is wired" in said.stderr

@@ -20,7 +20,9 @@ from mindrun.bundle import read_bundle
 from mindrun.errors import MindError
 from mindrun.robot.sampling import Sample, Sampler
 from mindrun.robot.wiring import SensorWire, reading
+from mindrun.sensors import Bearing, RangeFinder
 
+MOST = 3600.0  # seconds
 REST = 10  # values that follow one another, over which noise is measured
 
 
@@ -28,12 +30,12 @@ def options(parser: argparse.ArgumentParser) -> None:
     """The arguments."""
     parser.add_argument("bundle", type=Path)
     parser.add_argument("sensor")
-    parser.add_argument("--seconds", type=float, default=20.0, metavar="S", help="how long to watch (default: 20)")
+    parser.add_argument("--seconds", type=_seconds, default=20.0, metavar="S", help="how long to watch (default: 20)")
 
 
 def run(options: argparse.Namespace) -> int:
     """0 where something was measured, else 1."""
-    wire = _wire(options.bundle, options.sensor)
+    wire, has_scale = _wire(options.bundle, options.sensor)
     samples = _watched(wire, options.seconds)
     good = [sample for sample in samples if not sample.fault]
     for why in sorted({sample.fault for sample in samples if sample.fault}):
@@ -41,18 +43,27 @@ def run(options: argparse.Namespace) -> int:
     if not good:
         print("nothing has been measured", file=sys.stderr)
         return 1
-    print("\n".join(lines(wire, good)))
+    print("\n".join(lines(wire, good, has_scale)))
     return 0
 
 
-def _wire(bundle: Path, sensor: str) -> SensorWire:
-    wiring = read_bundle(bundle).wiring
+def _seconds(text: str) -> float:
+    if not text.replace(".", "", 1).isdecimal() or not float(text) <= MOST:
+        raise argparse.ArgumentTypeError(f"{text} is no number of seconds up to {MOST:g}")
+    return float(text)
+
+
+def _wire(path: Path, sensor: str) -> tuple[SensorWire, bool]:
+    """How a sensor is wired, and whether its scale means something by itself."""
+    bundle = read_bundle(path)
+    wiring = bundle.wiring
     if wiring is None:
         raise MindError("this bundle is wired to no robot", "mindc build … --robot robot.yaml")
     names = [wire.sensor for wire in wiring.sensors]
     if sensor not in names:
         raise MindError(f"no sensor {sensor} is wired", f"there are {', '.join(names)}")
-    return wiring.sensors[names.index(sensor)]
+    kind = next(known.kind for known in bundle.graph.sensors if known.name == sensor)
+    return wiring.sensors[names.index(sensor)], isinstance(kind, RangeFinder | Bearing)
 
 
 def _watched(wire: SensorWire, seconds: float) -> list[Sample]:
@@ -103,8 +114,11 @@ def found(values: Sequence[float | None]) -> Found | None:
     return Found(min(there), max(there), noise, 1 - len(there) / len(values))
 
 
-def lines(wire: SensorWire, samples: Sequence[Sample]) -> list[str]:
-    """The lines for robot.yaml, with what they rest on as comments."""
+def lines(wire: SensorWire, samples: Sequence[Sample], has_scale: bool) -> list[str]:
+    """The lines for robot.yaml, with what they rest on as comments.
+
+    Where the sensor `has_scale`, as distances and directions have, that of training stays.
+    """
     columns = [found(column) for column in zip(*(sample.values for sample in samples), strict=True)]
     known = [column for column in columns if column]
     said = [f"# {wire.sensor}: {len(samples)} measurements, in {wire.driver.unit or 'units of its own'}"]
@@ -113,12 +127,25 @@ def lines(wire: SensorWire, samples: Sequence[Sample]) -> list[str]:
             f"{column.low:.4g} to {column.high:.4g}, noise {column.noise:.2g}, lost {column.lost:.0%}"
         )  # fmt: skip
         said.append(f"#   reading {number}: {what}")
-    if known:
-        low, high = min(column.low for column in known), max(column.high for column in known)
+    if not known:
+        return said
+    low, high = min(column.low for column in known), max(column.high for column in known)
+    if has_scale:
+        said.append(
+            f"# from and to are those of training ({wire.low:g} to {wire.high:g}), and no matter of what was seen"
+        )
+    elif low < high:
         first, last = (low, high) if wire.low <= wire.high else (high, low)
-        said += [f"{wire.sensor}:", f"  from: {first:.4g}", f"  to: {last:.4g}"]
-        span, noise = abs(high - low), median(column.noise for column in known)
-        if span > 0:
-            said.append(f"# for the .mind file: noise {2 * noise / span:.1%} dead_zone {3 * noise / span:.1%}")
-            said[-1] += f" lost {max(column.lost for column in known):.0%}"
+        said += [f"{wire.sensor}:", f"  from: {_written(first, wire)}", f"  to: {_written(last, wire)}"]
+    else:
+        said.append("# it has not changed: move what it measures")
+    noise = median(column.noise for column in known) / abs(wire.high - wire.low)
+    lost = max(column.lost for column in known)
+    said.append(f"# for the .mind file: noise {2 * noise:.1%} dead_zone {3 * noise:.1%} lost {lost:.0%}")
     return said
+
+
+def _written(value: float, wire: SensorWire) -> str:
+    """A value as robot.yaml takes it: no exponent, and with its unit."""
+    number = f"{value:.6f}".rstrip("0").rstrip(".")
+    return f"{number} {wire.driver.unit}".replace("²", "2").strip()

@@ -8,7 +8,7 @@ from select import select
 from time import monotonic
 
 from mindrun.robot.guardian.frames import FrameError, Reader
-from mindrun.robot.guardian.guard import FOLLOWING, LATCHED, Guard, Move, Order, Rest
+from mindrun.robot.guardian.guard import FOLLOWING, LATCHED, NEUTRAL, Guard, Move, Order, Rest
 from mindrun.robot.guardian.output import Output
 from mindrun.robot.guardian.plan import Plan
 
@@ -114,12 +114,14 @@ class Process:
         return self.guard.frame(frames[-1], self._clock(), self._settled()) if frames else None
 
     def _failure(self) -> Order:
-        """What follows from an actuator that answers no more."""
-        if self.guard.state == FOLLOWING:
-            now = self._clock()
-            for output in self.outputs:
-                if output.late(now) > self.guard.limit:
-                    return self.guard.failed(output.name, output.error or "it does not answer")
+        """What follows from an actuator that answers no more: what moves is stopped, what does not stop is told."""
+        now = self._clock()
+        for output in self.outputs:
+            why = output.error or "it does not answer"
+            if self.guard.state == FOLLOWING and output.late(now) > self.guard.limit:
+                return self.guard.failed(output.name, why)
+            if self.guard.state == NEUTRAL and output.late(now) > EVERY:
+                return self.guard.broken(f"{output.name} does not come to neutral: {why}")
         return None
 
     def _obey(self, order: Order) -> None:

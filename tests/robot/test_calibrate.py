@@ -1,0 +1,40 @@
+"""The lines that `mindrun calibrate` prints can stand in robot.yaml."""
+
+from mindrun.robot.sampling import Sample
+from mindrun.robot.wiring import SensorWire
+from mindrun.tools.calibrate import found, lines
+
+from tests.robot.faults import Scripted
+
+
+def samples(*values: float | None) -> list[Sample]:
+    return [Sample((value,), float(number)) for number, value in enumerate(values)]
+
+
+def wire() -> SensorWire:
+    return SensorWire("sense", Scripted(1, []), 0.0, 2.0)
+
+
+def test_a_range_that_was_seen_is_proposed_without_exponents() -> None:
+    said = lines(wire(), samples(0.00002, *[0.5] * 20, 1.25), has_scale=False)
+    assert said[2:5] == ["sense:", "  from: 0.00002", "  to: 1.25"]
+    assert said[-1] == "# for the .mind file: noise 0.0% dead_zone 0.0% lost 0%"
+
+
+def test_the_scale_of_training_stays() -> None:
+    said = lines(wire(), samples(0.2, 0.4), has_scale=True)
+    assert not any("from:" in line for line in said)
+    assert "# from and to are those of training (0 to 2), and no matter of what was seen" in said
+
+
+def test_what_does_not_change_is_told() -> None:
+    assert "# it has not changed: move what it measures" in lines(wire(), samples(1.0, 1.0), has_scale=False)
+
+
+def test_noise_is_the_spread_at_rest_and_losses_are_counted() -> None:
+    seen = found([0.0, 1.0, *[0.5, 0.52] * 10, None, None])
+    assert seen
+    assert (seen.low, seen.high) == (0.0, 1.0)
+    assert abs(seen.noise - 0.01) < 1e-9
+    assert abs(seen.lost - 2 / 24) < 1e-9
+    assert found([None]) is None
