@@ -1,6 +1,7 @@
 """`mindrun` on a robot of mock drivers: real processes, from the command line."""
 
 import json
+import os
 import signal
 import subprocess
 import sys
@@ -215,3 +216,23 @@ def test_every_tool_explains_itself(tool: str) -> None:
     assert said.returncode == 0
     assert f"mindrun {tool}" in said.stdout
     assert "examples:" in said.stdout
+
+
+def test_a_dry_run_ends_when_its_world_does(bundle: Path) -> None:
+    words = [*MINDRUN, bundle, "--dry", "--arm", "--task", "Play"]
+    process = subprocess.Popen(words, stderr=subprocess.PIPE, text=True, start_new_session=True)
+    while not (worlds := children(process.pid, "mindrun.robot.world")) or not children(process.pid, "guardian"):
+        assert process.poll() is None
+        sleep(0.1)
+    sleep(1)
+    os.kill(worlds[0], signal.SIGKILL)
+    _, err = process.communicate(timeout=60)
+    assert process.returncode == 2
+    assert "does not come to neutral" in err
+    assert "guardian holds every actuator" in err
+
+
+def children(pid: int, what: str) -> list[int]:
+    """The processes that a process has started, and whose command line has these words."""
+    said = subprocess.run(["ps", "-o", "pid=,args=", "--ppid", str(pid)], capture_output=True, text=True, check=False)
+    return [int(line.split()[0]) for line in said.stdout.splitlines() if what in line]

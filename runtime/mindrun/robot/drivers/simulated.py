@@ -7,6 +7,7 @@ actuator: nothing, it has the value now. STATUS: JSON. Where one is refused, the
 import json
 import socket as sockets  # AF_UNIX by its name: there is none on Windows, where every driver is known all the same
 from dataclasses import dataclass, field
+from pathlib import Path
 from struct import Struct, unpack
 from time import monotonic
 from typing import Annotated, Any
@@ -112,8 +113,12 @@ class SimulatedActuatorDevice:
     actuator: str
 
     def write(self, value: float) -> None:
-        """The command from the next tick on."""
-        self.link.ask(WRITE, self.actuator, value)
+        """The command from the next tick on; where the world has been cleared away, nothing moves any more."""
+        try:
+            self.link.ask(WRITE, self.actuator, value)
+        except DeviceError:
+            if Path(self.link.path).exists():
+                raise
 
     def close(self) -> None:
         """Let go of the world."""

@@ -103,7 +103,12 @@ class Guardian:
     def __exit__(
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
-        self.close()
+        try:
+            self.close()
+        except GuardianError as later:
+            if error is None:
+                raise
+            raise GuardianError(f"{error}; {later}", later.hint) from error
 
     def _start(self) -> None:
         with suppress(BrokenPipeError):  # it says why
