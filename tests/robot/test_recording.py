@@ -116,3 +116,16 @@ def test_the_report_holds_it_against_the_contract(day: Path) -> None:
     assert not lines["ticks at neutral"].kept
     assert (lines["sense lost"].declared, lines["sense lost"].kept) == ("0.0%", False)
     assert lines["sense delay"].kept
+
+
+def test_a_full_disk_is_told_with_the_name_of_the_file(day: Path) -> None:
+    recorder = Recorder(day.with_name("more.rec"), read(day)[0])
+    recorder._file.close()
+    recorder._file = Path("/dev/full").open("wb", buffering=0)
+    with pytest.raises(RecordingError, match=r"more\.rec cannot be written: No space left on device"):
+        recorder.write(tick=0)
+
+
+def test_nothing_is_written_over(day: Path) -> None:
+    with pytest.raises(FileExistsError):
+        Recorder(day, read(day)[0])

@@ -12,6 +12,7 @@ from mindrun.robot.drive import Wishes, drive
 from mindrun.robot.drivers.mock import MockActuator
 from mindrun.robot.identity import IdentityError, alone_on_robot, is_adopted
 from mindrun.robot.loop import Loop
+from mindrun.robot.wiring import still
 
 
 def run(options: argparse.Namespace) -> int:
@@ -37,6 +38,8 @@ def _wired(options: argparse.Namespace, bundle: Bundle, wishes: Wishes) -> Loop:
             raise IdentityError("nothing may move yet: this robot has not said how it is wired", remedy)
         tell("this robot has not said how it is wired: no actuator is opened")
         wiring = replace(wiring, actuators=tuple(replace(wire, driver=MockActuator()) for wire in wiring.actuators))
+    if not wishes.armed:
+        wiring = replace(wiring, sensors=tuple(map(still, wiring.sensors)))
     with alone_on_robot() as held:
         return drive(bundle, digest(options.bundle), wiring, wishes, tell, held)
 

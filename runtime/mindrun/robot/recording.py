@@ -8,8 +8,10 @@ import json
 import os
 import zlib
 from collections.abc import Iterator
+from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
+from threading import Event, Thread
 from types import TracebackType
 from typing import Any, Self
 
@@ -72,27 +74,47 @@ class Recorder:
 
     def __init__(self, path: Path, about: About, every: float = 1.0) -> None:
         self._row = np.zeros(1, about.row)
+        self._path = path
         self._file = path.open("xb")
+        self._ending = Event()
+        self._syncing = Thread(target=self._sync, args=(every,), name="recording", daemon=True)
+        self._syncing.start()
         self._file.write(json.dumps({"format": FORMAT, **_plain(about)}).encode() + b"\n")
         self._every, self._flushed = every, 0.0
 
     def write(self, **columns: Any) -> None:
-        """A row; brought to the disk once a second."""
+        """A row, which is on the disk a second or two later; RecordingError where it cannot be."""
         for name, value in columns.items():
             self._row[name][0] = value
         self._row["check"] = 0
         self._row["check"] = zlib.crc32(self._row.tobytes())
-        self._file.write(self._row.tobytes())
         time = float(self._row["time"][0])
-        if time - self._flushed >= self._every:
-            self._file.flush()
-            self._flushed = time
+        try:
+            self._file.write(self._row.tobytes())
+            if time - self._flushed >= self._every:
+                self._file.flush()
+                self._flushed = time
+        except OSError as error:
+            raise RecordingError(f"{self._path} cannot be written: {error.strerror}") from error
 
     def close(self) -> None:
         """Bring the rest to the disk."""
-        self._file.flush()
-        os.fsync(self._file.fileno())
-        self._file.close()
+        self._ending.set()
+        self._syncing.join()
+        try:
+            self._file.flush()
+            os.fsync(self._file.fileno())
+        except OSError as error:
+            raise RecordingError(f"{self._path} cannot be written: {error.strerror}") from error
+        finally:
+            with suppress(OSError):  # it has said so already
+                self._file.close()
+
+    def _sync(self, every: float) -> None:
+        """Bring to the disk what has been written, beside the loop: a slow card must not hold a tick."""
+        while not self._ending.wait(every):
+            with suppress(OSError):  # the writer hears of it
+                os.fsync(self._file.fileno())
 
     def __enter__(self) -> Self:
         return self

@@ -4,7 +4,7 @@ It comes from `robot.yaml` and travels in the bundle, checked against the mind b
 """
 
 from collections.abc import Iterator, Set
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import isfinite, nan
 from typing import Annotated
 
@@ -86,6 +86,11 @@ def reading(wire: SensorWire, raw: float | None) -> float:
         return nan
     share = max(0.0, min(1.0, share))
     return wire.rest if abs(share - wire.rest) < wire.dead_zone else share
+
+
+def still(wire: SensorWire) -> SensorWire:
+    """A sensor without anything that it would move: a camera's neck."""
+    return replace(wire, driver=getattr(wire.driver, "still", wire.driver))
 
 
 def read_by(graph: Graph, master: str) -> Set[str]:

@@ -19,7 +19,7 @@ import mindrun.robot.drivers  # noqa: F401  every driver is known once this is i
 from mindrun.bundle import read_bundle
 from mindrun.errors import MindError
 from mindrun.robot.sampling import Sample, Sampler
-from mindrun.robot.wiring import SensorWire, reading
+from mindrun.robot.wiring import SensorWire, reading, still
 from mindrun.sensors import Bearing, RangeFinder
 
 MOST = 3600.0  # seconds
@@ -63,7 +63,7 @@ def _wire(path: Path, sensor: str) -> tuple[SensorWire, bool]:
     if sensor not in names:
         raise MindError(f"no sensor {sensor} is wired", f"there are {', '.join(names)}")
     kind = next(known.kind for known in bundle.graph.sensors if known.name == sensor)
-    return wiring.sensors[names.index(sensor)], isinstance(kind, RangeFinder | Bearing)
+    return still(wiring.sensors[names.index(sensor)]), isinstance(kind, RangeFinder | Bearing)
 
 
 def _watched(wire: SensorWire, seconds: float) -> list[Sample]:

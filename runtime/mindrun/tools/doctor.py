@@ -20,7 +20,7 @@ import mindrun.robot.drivers  # noqa: F401  every driver is known once this is i
 from mindrun.bundle import read_bundle
 from mindrun.registry import names
 from mindrun.robot.sampling import Sample, Sampler
-from mindrun.robot.wiring import SensorWire, Wiring
+from mindrun.robot.wiring import SensorWire, Wiring, still
 
 PATIENCE = 3.0  # seconds for a sensor to answer
 PACKAGES = {  # that drivers may need, and the line that installs each
@@ -93,7 +93,7 @@ def wired(wiring: Wiring) -> Iterator[Finding]:
 
 def answered(wire: SensorWire) -> Sample | None:
     """One measurement; None where it takes too long."""
-    sampler = Sampler(wire)
+    sampler = Sampler(still(wire))
     came: list[Sample] = []
     thread = Thread(target=lambda: came.append(sampler.measured_once()), daemon=True)
     thread.start()

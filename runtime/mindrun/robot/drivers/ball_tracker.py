@@ -135,6 +135,11 @@ class BallTracker:
         """This, whatever is measured: those who share a camera."""
         return replace(self, measure="bearing")
 
+    @property
+    def still(self) -> "BallTracker":
+        """The same camera, which does not turn: for a robot that may not move yet."""
+        return replace(self, pan=None, tilt=None)
+
     def open(self) -> BallTrackerDevice:
         """The camera, which gives frames."""
         key = self.camera_alone()
