@@ -121,8 +121,10 @@ def test_the_report_holds_it_against_the_contract(day: Path) -> None:
 def test_a_full_disk_is_told_with_the_name_of_the_file(day: Path) -> None:
     recorder = Recorder(day.with_name("more.rec"), read(day)[0])
     recorder._file.close()
-    recorder._file = Path("/dev/full").open("wb", buffering=0)
-    with pytest.raises(RecordingError, match=r"more\.rec cannot be written: No space left on device"):
+    with (
+        Path("/dev/full").open("wb", buffering=0) as recorder._file,
+        pytest.raises(RecordingError, match=r"more\.rec cannot be written: No space left on device"),
+    ):
         recorder.write(tick=0)
 
 
