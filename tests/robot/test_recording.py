@@ -120,6 +120,8 @@ def test_the_report_holds_it_against_the_contract(day: Path) -> None:
 
 def test_a_full_disk_is_told_with_the_name_of_the_file(day: Path) -> None:
     recorder = Recorder(day.with_name("more.rec"), read(day)[0])
+    recorder._ending.set()
+    recorder._syncing.join()
     recorder._file.close()
     with (
         Path("/dev/full").open("wb", buffering=0) as recorder._file,

@@ -113,7 +113,7 @@ class Recorder:
     def _sync(self, every: float) -> None:
         """Bring to the disk what has been written, beside the loop: a slow card must not hold a tick."""
         while not self._ending.wait(every):
-            with suppress(OSError):  # the writer hears of it
+            with suppress(OSError, ValueError):  # the writer hears of it; or the file is closed
                 os.fsync(self._file.fileno())
 
     def __enter__(self) -> Self:
