@@ -1,6 +1,9 @@
 """What may not move yet moves nothing: not even a camera's neck."""
 
+import pytest
+from mindrun.robot.contract import SensorDriver
 from mindrun.robot.drivers.ball_tracker import BallTracker
+from mindrun.robot.drivers.lsm9ds1 import Compass, Motion, Turn
 from mindrun.robot.drivers.mock import MockSensor
 from mindrun.robot.wiring import SensorWire, still
 
@@ -11,6 +14,7 @@ def test_a_camera_looks_straight_ahead() -> None:
     assert (wire.low, wire.high) == (180.0, -180.0)
 
 
-def test_other_sensors_are_as_they_are() -> None:
-    wire = SensorWire("charge", MockSensor(0.3), 0.0, 1.0)
+@pytest.mark.parametrize("driver", [MockSensor(0.3), Turn(still=0.2), Motion(), Compass()])
+def test_other_sensors_are_as_they_are(driver: SensorDriver) -> None:
+    wire = SensorWire("any", driver, 0.0, 1.0)
     assert still(wire) == wire

@@ -90,7 +90,7 @@ def reading(wire: SensorWire, raw: float | None) -> float:
 
 def still(wire: SensorWire) -> SensorWire:
     """A sensor without anything that it would move: a camera's neck."""
-    return replace(wire, driver=getattr(wire.driver, "still", wire.driver))
+    return replace(wire, driver=getattr(wire.driver, "motionless", wire.driver))
 
 
 def read_by(graph: Graph, master: str) -> Set[str]:

@@ -136,7 +136,7 @@ class BallTracker:
         return replace(self, measure="bearing")
 
     @property
-    def still(self) -> "BallTracker":
+    def motionless(self) -> "BallTracker":
         """The same camera, which does not turn: for a robot that may not move yet."""
         return replace(self, pan=None, tilt=None)
 
