@@ -9,7 +9,7 @@ from typing import Annotated, Any, TypeVar, Union, get_args, get_origin, get_typ
 
 from mindrun.errors import BundleError, MindError
 from mindrun.graph import Graph
-from mindrun.quantity import Quantity, Reference
+from mindrun.quantity import Quantity, Reference, fits
 from mindrun.registry import kinds, names
 from mindrun.robot.contract import ActuatorDriver, SensorDriver
 from mindrun.robot.wiring import Wiring, flaws
@@ -123,14 +123,6 @@ def _decode_fields(cls: type[Any], data: Any, where: str) -> Any:
 
 
 def _in_range(meaning: Quantity | Reference, value: Any, where: str) -> Any:
-    """`value` if it is what its argument may be: `neutral` is a share, a wheel's side left or right."""
-    match meaning, value:
-        case Quantity(low=low, high=high), int() | float():
-            fine = low <= value <= high
-        case Reference(words=words), str():
-            fine = not words or value in words
-        case _:
-            fine = True
-    if not fine:
+    if not fits(meaning, value):
         raise BundleError(f"this is damaged: {where} cannot be {value}")
     return value

@@ -33,6 +33,16 @@ class Span:
     by: float | None = None
 
 
+def fits(meaning: Quantity | Reference, value: object) -> bool:
+    """Whether a stored value is what its argument may be: `neutral` is a share, a wheel's side left or right."""
+    match meaning, value:
+        case Quantity(low=low, high=high), int() | float():
+            return low <= value <= high
+        case Reference(words=words), str():
+            return not words or value in words
+    return True
+
+
 NUMBER = Quantity("a number", {"": 1.0})
 LENGTH = Quantity("a length in world units", {"": 1.0}, low=0.0)
 POSITIVE = Quantity("a number above zero", {"": 1.0}, low=1e-9)

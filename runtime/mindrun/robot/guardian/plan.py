@@ -14,7 +14,7 @@ from types import NoneType, UnionType
 from typing import TYPE_CHECKING, Annotated, Any, NoReturn, Union, get_args, get_origin, get_type_hints
 
 from mindrun.errors import MindError
-from mindrun.quantity import RATIO, SECONDS, Quantity, Reference
+from mindrun.quantity import RATIO, SECONDS, Quantity, Reference, fits
 from mindrun.registry import kinds, names
 from mindrun.robot.contract import ActuatorDriver
 from mindrun.robot.guardian.frames import MOST
@@ -155,14 +155,7 @@ def _decode_fields(cls: Any, data: Any, where: str) -> Any:
 
 
 def _in_range(meaning: Quantity | Reference, value: Any, where: str) -> Any:
-    match meaning, value:
-        case Quantity(low=low, high=high), int() | float():
-            fine = low <= value <= high
-        case Reference(words=words), str():
-            fine = not words or value in words
-        case _:
-            fine = True
-    if not fine:
+    if not fits(meaning, value):
         raise ValueError(f"{where} cannot be {value!r:.40}")
     return value
 
