@@ -52,7 +52,7 @@ def command(
     seeds = layouts(seed, runs)
     scores, seconds = stage.score(rollout, seeds)
     found = {"task": cast.task.name, "master": cast.master, "seed": seed, "workers": workers}
-    found |= outcome.many(cast.task, scores, seeds, seconds)
+    found |= outcome.many(cast.task, scores, seeds, seconds) | {"notes": [*cast.ready.notes]}
     if as_json:
         print_json(found)
     else:

@@ -70,7 +70,7 @@ def command(
     cast, rollout = stage.prepare(file, task, master, interrupt=not no_interruption)
     seed = secrets.randbits(31) if seed is None else seed
     found = outcome.one(cast.task, stage.score(rollout, [seed])[0])
-    found = {"task": cast.task.name, "master": cast.master, "seed": seed} | found
+    found = {"task": cast.task.name, "master": cast.master, "seed": seed, "notes": [*cast.ready.notes]} | found
     if as_json:
         print_json(found)
     else:

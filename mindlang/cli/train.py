@@ -28,7 +28,7 @@ COUNT = click.IntRange(min=1)
 @click.option("--population", type=click.IntRange(min=4), help="Genomes in a generation.")
 @click.option("--attempts", type=COUNT, help="Independent attempts, of which the best is kept.")
 @click.option("--from-scratch", is_flag=True, help="Forget the weights that the skill has.")
-@click.option("--force", is_flag=True, help="Teach lessons whose weights are up to date, too.")
+@click.option("--force", is_flag=True, help="Teach what is up to date, too, and keep it even where it does worse.")
 @click.option("--seed", type=click.IntRange(0, 2**63 - 1), help="The same seed gives the same weights.")
 @click.option("--workers", type=COUNT, help="How many cores to use (default: all). Changes nothing else.")
 @click.option("--runs", type=click.Path(path_type=Path), default="runs", show_default=True, help="Where runs are kept.")
@@ -44,12 +44,16 @@ def command(
     population: int | None,
     attempts: int | None,
     from_scratch: bool,
+    force: bool,
     workers: int | None,
     as_json: bool,
     quiet: bool,
     **options: Any,
 ) -> int:
     """Teach the skills of FILE, in the order of its curriculum: those named, or all without up-to-date weights.
+
+    Weights are not up to date where the skill has changed, or the world in which it was taught: mindc status says so.
+    New weights that do worse than those of the lock, on common fresh layouts, do not take their place.
 
     Runs the Python code of the file's procedures. Every lesson gets a folder under runs/, from which it can go on after
     Ctrl-C, a crash or a power cut: with --resume, or by itself when the very same lesson is asked for with the same
@@ -69,9 +73,9 @@ def command(
     wishes = Wishes(generations, scale, population, attempts, from_scratch)
     try:
         if resume:
-            finished = school.resume(resume)
+            finished = school.resume(resume, force)
         else:
-            finished = school.teach_file(Path(str(file)), skills, wishes=wishes, **options)
+            finished = school.teach_file(Path(str(file)), skills, wishes=wishes, force=force, **options)
     except NotFoundError as error:
         fail(str(error), error.hint, MISUSE)
     except MindError as error:

@@ -9,6 +9,7 @@ from mindrun.weights import Weights
 
 from mindlang.editing.project import Change, Replaced
 from mindlang.editing.widen import widened
+from mindlang.editing.world_names import relabelled
 from mindlang.lock import Entry, Lock, lock_path, read_lock
 
 Locks = Mapping[Path, Lock]  # by the path of the lock
@@ -87,6 +88,7 @@ def _entry(entry: Entry, names: Names) -> Entry:
         signature=replace(signature, reads=tuple(map(read, signature.reads)), sends=tuple(sends)),
         taught=replace(taught, task=now_called(taught.task, names, "task"), master=skill(taught.master)),
         subskills=tuple(sorted((skill(name), weights) for name, weights in entry.subskills)),
+        worlds=tuple(relabelled(world, names) for world in entry.worlds),
     )
 
 

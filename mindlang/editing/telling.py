@@ -108,7 +108,8 @@ def _told(skill: str, old: str, before: Statuses, now: Status) -> Iterator[str]:
                 yield f"{skill} has the weights of {old}"
             if was.entry.weights != now.entry.weights:
                 yield f"{skill} keeps its weights, with zeros for what is new"
-            yield from (f"{skill} was {note}" for note in now.notes if note not in was.notes)
+            if news := [change for change in now.changes if change not in was.changes]:
+                yield f"{skill} was taught elsewhere: {'; '.join(news)}"
         case Stale(known), Stale(differences):
             if news := [difference for difference in differences if difference not in known]:
                 yield f"{skill} is stale already, and more so: {'; '.join(news)}"

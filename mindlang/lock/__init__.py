@@ -1,31 +1,40 @@
 """`collect.lock` beside `collect.mind`: one sorted line per trained skill, made for reading in a review.
 
 Each says what the genome belongs to (`reads` and `sends` in its order), the SHA-256 of its file in `weights/`, and how
-it came about.
+it came about. Below the lines stand the worlds in which the skills were taught; those of older versions have none.
 """
 
 import re
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
+from itertools import pairwise
+from math import isfinite
 from pathlib import Path
 from typing import Self
 
 from mindrun.durable import write
 from mindrun.errors import MindError
 
-VERSION = "# mind lock 1:"
-HEADER = f"{VERSION} what has been taught. `mindc train` writes it; it belongs under version control, with weights/."
-LARGEST = 1 << 20
+from mindlang.lock.training_world import HEADING, TrainingWorld, world_of
+
+VERSIONS = ("# mind lock 1:", "# mind lock 2:")
+HEADER = (
+    f"{VERSIONS[-1]} what has been taught. `mindc train` writes it; it belongs under version control, with weights/."
+)
+LARGEST = 64 << 20  # bytes
 
 _NAMES = r"[^\s|]+(?: [^\s|]+)*"
 _LINE = re.compile(
     rf"(?P<skill>\S+) is (?P<function>{_NAMES}) \| reads (?P<reads>{_NAMES}) \| sends (?P<sends>{_NAMES})"
     r" \| weights (?P<weights>[0-9a-f]{64})"
     r" \| task (?P<task>\S+) master (?P<master>\S+)(?P<jointly> with subskills)?"
-    r" generations (?P<generations>\d+) population (?P<population>\d+)"
-    r" seed (?P<seed>\d+) score (?P<score>-?\d+(?:\.\d+)?(?:e[+-]?\d+)?)"
+    r" generations (?P<generations>[0-9]{1,19}) population (?P<population>[0-9]{1,19})"
+    r" seed (?P<seed>[0-9]{1,19}) score (?P<score>-?[0-9]{1,400}(?:\.[0-9]{1,400})?(?:e[+-]?[0-9]{1,3})?)"
     r"(?: \| with (?P<subskills>\S+:[0-9a-f]{64}(?: \S+:[0-9a-f]{64})*))?"
+    r"(?: \| (?P<how>taught|accepted) in (?P<worlds>[0-9a-f]{16}(?: [0-9a-f]{16})*))?"
 )
+_HOW = {False: "taught", True: "accepted"}
+_NONE: Mapping[str, TrainingWorld] = {}
 
 
 class LockError(MindError):
@@ -56,13 +65,19 @@ class Taught:
 
 @dataclass(frozen=True, slots=True)
 class Entry:
-    """One line: a trained skill. `weights` and those of the `subskills` that it was taught with are SHA-256."""
+    """One line: a trained skill. `weights` and those of the `subskills` that it was taught with are SHA-256.
+
+    `worlds` are those of its lessons, the last one last; none where the lock does not know them. Where they are
+    `accepted`, they are others than it was taught in, and a person has said that its weights will do in them.
+    """
 
     skill: str
     signature: Signature
     weights: str
     taught: Taught
     subskills: tuple[tuple[str, str], ...] = ()
+    worlds: tuple[TrainingWorld, ...] = ()
+    accepted: bool = False
     folder: Path = field(default=Path(), compare=False)  # where the lock stands that it was read from
 
     def __str__(self) -> str:
@@ -79,20 +94,26 @@ class Entry:
         ]
         if self.subskills:
             parts.append("with " + " ".join(f"{skill}:{weights}" for skill, weights in self.subskills))
+        if self.worlds:
+            parts.append(f"{_HOW[self.accepted]} in " + " ".join(world.name for world in self.worlds))
         return " | ".join(parts)
 
     @classmethod
-    def of(cls, line: str, folder: Path) -> Self | None:
-        """The entry that a line says, or None."""
+    def of(cls, line: str, folder: Path, worlds: Mapping[str, TrainingWorld] = _NONE) -> Self | None:
+        """The entry that a line says, whose worlds are among these; or None."""
         found = _LINE.fullmatch(line)
-        if found is None:
+        names = (found["worlds"] or "").split() if found else []
+        if found is None or not isfinite(float(found["score"])) or not worlds.keys() >= set(names):
             return None
         signature = Signature(found["function"], tuple(found["reads"].split()), tuple(found["sends"].split()))
         generations, population, seed = (int(found[key]) for key in ("generations", "population", "seed"))
         where = found["task"], found["master"], found["jointly"] is not None
         taught = Taught(*where, generations, population, seed, float(found["score"]))
         pairs = (part.rpartition(":") for part in (found["subskills"] or "").split())
-        return cls(found["skill"], signature, found["weights"], taught, tuple((a, c) for a, _, c in pairs), folder)
+        subskills = tuple((skill, weights) for skill, _, weights in pairs)
+        taught_in = tuple(worlds[name] for name in names)
+        accepted = found["how"] == _HOW[True]
+        return cls(found["skill"], signature, found["weights"], taught, subskills, taught_in, accepted, folder)
 
 
 Lock = Mapping[str, Entry]
@@ -114,17 +135,39 @@ def read_lock(path: Path) -> dict[str, Entry]:
         raise LockError(f"{path} cannot be read: {error.strerror}") from error
     except UnicodeDecodeError as error:
         raise LockError(f"{path} is damaged: it is not text; get it back, or delete it and train") from error
-    header, *lines = text.split("\n")
-    if not header.startswith(VERSION) or lines[-1:] != [""] or len(text) > LARGEST:
+    header, *lines = text.replace("\r\n", "\n").split("\n")  # git may have written it for Windows
+    if not header.startswith(VERSIONS) or lines[-1:] != [""] or len(text) > LARGEST:
         raise LockError(f"{path} is damaged: it is not a whole lock of this mindc; get it back, or delete it and train")
+    lines = lines[:-1]
+    end = lines.index("") if "" in lines else len(lines)
+    worlds = _worlds(path, lines, end + 1)
     entries: dict[str, Entry] = {}
-    for number, line in enumerate(lines[:-1], 2):
-        entry = Entry.of(line, path.parent)
+    for number, line in enumerate(lines[:end], 2):
+        entry = Entry.of(line, path.parent, worlds)
         if entry is None or entry.skill in entries:
             why = "this is not what mindc wrote" if entry is None else f"{entry.skill} has two lines"
             raise LockError(f"{path}:{number} is damaged: {why}; get it back, or delete the line and train")
         entries[entry.skill] = entry
     return entries
+
+
+def _worlds(path: Path, lines: Sequence[str], start: int) -> dict[str, TrainingWorld]:
+    """The worlds in the lines of a lock below the empty one before `start`, by name."""
+    headings = [number for number in range(start, len(lines)) if not lines[number].startswith(" ")]
+    worlds: dict[str, TrainingWorld] = {}
+    try:
+        if start <= len(lines) and headings[:1] != [start]:
+            raise ValueError("this is not what mindc wrote")
+        for start, end in pairwise([*headings, len(lines)]):
+            heading = HEADING.fullmatch(lines[start])
+            if heading is None:
+                raise ValueError("this is not what mindc wrote")
+            worlds[heading["name"]] = world_of(heading["name"], lines[start + 1 : end])
+    except ValueError as error:
+        number = min(start, len(lines) - 1) + 2
+        message = f"{path}:{number} is damaged: {error}; get it back, or delete it and train"
+        raise LockError(message) from error
+    return worlds
 
 
 def read_locks(sources: Iterable[Path]) -> dict[str, Entry]:
@@ -136,8 +179,10 @@ def read_locks(sources: Iterable[Path]) -> dict[str, Entry]:
 
 
 def lock_text(entries: Lock) -> str:
-    """A lock as it is written: sorted, a line per skill."""
-    return "\n".join([HEADER, *(str(entries[skill]) for skill in sorted(entries)), ""])
+    """A lock as it is written: sorted, a line per skill, then a block per world."""
+    worlds = {world.name: world for entry in entries.values() for world in entry.worlds}
+    blocks = ["", *(worlds[name].text() for name in sorted(worlds))] if worlds else []
+    return "\n".join([HEADER, *(str(entries[skill]) for skill in sorted(entries)), *blocks, ""])
 
 
 def write_lock(path: Path, entries: Lock) -> None:

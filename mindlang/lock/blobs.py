@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
+from dataclasses import replace
 from hashlib import sha256
 from pathlib import Path
 
@@ -12,10 +13,12 @@ from mindrun.graph import Graph, Skill
 from mindrun.weights import Weights, from_npy, reachable, to_npy, weights_of
 
 from mindlang.diagnostic import listed
-from mindlang.lock import Entry, LockError, Taught, read_lock, write_lock
+from mindlang.lock import Entry, Lock, LockError, Taught, read_lock, write_lock
 from mindlang.lock.signature import signature
+from mindlang.lock.training_world import TrainingWorld
 
 FOLDER = "weights"
+NOTHING: Lock = {}
 
 
 def load_weights(entry: Entry, skill: Skill) -> Weights:
@@ -36,32 +39,50 @@ def load_weights(entry: Entry, skill: Skill) -> Weights:
 
 
 def record(
-    path: Path, graph: Graph, learnt: Mapping[str, Weights], taught: Taught, others: Mapping[str, Weights]
+    path: Path,
+    graph: Graph,
+    learnt: Mapping[str, Weights],
+    taught: Taught,
+    others: Mapping[str, Weights],
+    world: TrainingWorld | None = None,
+    begun_with: Lock = NOTHING,
 ) -> dict[str, Entry]:
     """Keep what a lesson taught: weights as files, the skills' lines in the lock at `path`; the other lines stay.
 
-    `others` are the weights of the skills that they were taught with. A file of a skill's old weights goes when no lock
-    of the folder names it.
+    `others` are the weights of the skills that they were taught with, `world` is the one in which that was, and
+    `begun_with` has the lines of the weights that the lesson began with. No file of weights is removed: that is for
+    `mindc gc`.
     """
-    entries = {skill: _entry(path, graph, skill, {**others, **learnt}, taught) for skill in learnt}
+    weights = {**others, **learnt}
+    entries = {}
+    for skill in learnt:
+        entry = _entry(path, graph, skill, weights, taught)
+        entries[skill] = replace(entry, worlds=_worlds(begun_with.get(skill), world))
     try:
         with alone(path.parent / FOLDER):
             lock = read_lock(path)
             for skill, entry in entries.items():
                 write(blob(path.parent, entry.weights), to_npy(learnt[skill]))
             write_lock(path, lock | entries)
-            for skill in entries.keys() & lock.keys():
-                _forget(path.parent, lock[skill].weights)
     except OSError as error:
         names = listed(entries, "and")
         raise LockError(f"the weights of {names} cannot be written: {error.strerror}") from error
     return entries
 
 
+def _worlds(before: Entry | None, world: TrainingWorld | None) -> tuple[TrainingWorld, ...]:
+    """The worlds of a skill that has been taught in `world` now: of the same lesson only the last counts."""
+    if world is None:
+        return ()
+    earlier = before.worlds if before else ()
+    return (*(each for each in earlier if each.lesson != world.lesson), world)
+
+
 def _entry(path: Path, graph: Graph, skill: str, weights: Mapping[str, Weights], taught: Taught) -> Entry:
     below = reachable(graph, skill)
     subskills = tuple(sorted((sub.name, digest(weights[sub.name])) for sub in below[1:] if sub.name in weights))
-    return Entry(skill, signature(graph, below[0]), digest(weights[skill]), taught, subskills, path.parent)
+    own, kept = signature(graph, below[0]), digest(weights[skill])
+    return Entry(skill, own, kept, taught, subskills, folder=path.parent)
 
 
 def digest(weights: Weights) -> str:
@@ -80,9 +101,3 @@ def alone(folder: Path) -> Iterator[None]:
 def blob(folder: Path, weights: str) -> Path:
     """The file of weights of this SHA-256, for the locks of a folder."""
     return folder / FOLDER / f"{weights}.npy"
-
-
-def _forget(folder: Path, weights: str) -> None:
-    """Remove old weights, unless a skill has them still: the locks of one folder share their weights."""
-    if not any(f"| weights {weights}".encode() in lock.read_bytes() for lock in folder.glob("*.lock")):
-        blob(folder, weights).unlink(missing_ok=True)

@@ -1,20 +1,24 @@
 """A mind with the weights that it needs to act: what `build`, `run` and `bench` begin with."""
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 from mindrun.graph import Graph
 from mindrun.weights import Weights, reachable
 
+from mindlang.diagnostic import listed
 from mindlang.lock import read_locks
 from mindlang.lock.arrange import arrange
-from mindlang.lock.status import Trained, status, trained_weights
+from mindlang.lock.status import UNKNOWN, Status, Trained, status, trained_weights
 from mindlang.source import Source
 
 
 @dataclass(frozen=True, slots=True)
 class Ready:
-    """A graph, arranged and with its master, and the weights of all skills below it; `refusals` say what is missing."""
+    """A graph, arranged and with its master, and the weights of all skills below it; `refusals` say what is missing.
+
+    `notes` say which of these skills were taught in a world that is not the mind's, or is not known.
+    """
 
     graph: Graph
     weights: dict[str, Weights]
@@ -24,14 +28,32 @@ class Ready:
 
 def make_ready(graph: Graph, sources: Iterable[Source], master: str | None = None) -> Ready:
     """The graph of these sources with the weights of their locks; LockError where a lock or weights are damaged."""
+    sources = tuple(sources)
     lock = read_locks(source.path for source in sources)
     graph = replace(arrange(graph, lock), master=master or graph.master)
     needed = [skill.name for skill in reachable(graph, graph.master)]
     weights, refusals = trained_weights(graph, lock, needed)
-    notes = (
-        f"{name} was {note}"
-        for name, state in status(graph, lock).items()
-        if name in needed and isinstance(state, Trained)
-        for note in state.notes
-    )
-    return Ready(graph, weights, tuple(refusals), tuple(notes))
+    states = status(graph, lock, sources[0].folder)
+    acting = {name: states[name] for name in needed}
+    return Ready(graph, weights, tuple(refusals), (*told_elsewhere(acting), *told_unknown(acting)))
+
+
+def told_elsewhere(states: Mapping[str, Status]) -> Iterator[str]:
+    """A sentence for all skills that were taught elsewhere in the same way."""
+    ways: dict[tuple[str, ...], list[str]] = {}
+    for name, state in states.items():
+        if isinstance(state, Trained) and state.is_elsewhere:
+            ways.setdefault(state.changes, []).append(name)
+    for changes, skills in ways.items():
+        yield f"{_were_taught(skills)} elsewhere: {'; '.join(changes)}"
+
+
+def told_unknown(states: Mapping[str, Status]) -> Iterator[str]:
+    """A sentence for all skills of which the lock does not know in which world they were taught."""
+    skills = [name for name, state in states.items() if isinstance(state, Trained) and not state.knows_world]
+    if skills:
+        yield f"{_were_taught(skills)} {UNKNOWN}"
+
+
+def _were_taught(skills: Sequence[str]) -> str:
+    return f"{listed(skills, 'and')} {'was' if len(skills) == 1 else 'were'} taught"

@@ -2,43 +2,61 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from mindrun.graph import Graph
+from mindrun.graph import Graph, Skill
+from mindrun.weights import reachable
 
 from mindlang.diagnostic import listed
-from mindlang.lock import Taught, read_locks
+from mindlang.lock import LockError, Taught, read_locks
 from mindlang.lock.arrange import arrange
-from mindlang.lock.status import NotLearning, Stale, Status, Trained, Untaught, status
+from mindlang.lock.blobs import load_weights
+from mindlang.lock.ready import told_elsewhere
+from mindlang.lock.status import UNKNOWN, NotLearning, Stale, Status, Trained, Untaught, status
 
 if TYPE_CHECKING:
     from rich.table import Table
 
-COLOURS = {"trained": "green", "stale": "red", "untaught": "yellow", "does not learn": "dim"}
+ACCEPTED = "taught in another world, and accepted by a person"
+COLOURS = {
+    "trained": "green",
+    "taught elsewhere": "magenta",
+    "damaged": "red",
+    "stale": "red",
+    "untaught": "yellow",
+    "does not learn": "dim",
+}
 
 
 @dataclass(frozen=True, slots=True)
 class Row:
-    """A skill, how it stands, and where it is frozen that it is."""
+    """A skill, how it stands, and what is wrong with the file of its weights if anything is.
+
+    One that is not `needed` stands nowhere below the master.
+    """
 
     skill: str
     status: Status
     is_frozen: bool
+    is_needed: bool
+    damage: str = ""
 
     @property
     def is_fine(self) -> bool:
         """Whether it can act."""
-        return isinstance(self.status, Trained | NotLearning)
+        return isinstance(self.status, Trained | NotLearning) and not self.damage
 
     @property
     def word(self) -> str:
-        """How it stands, in a word."""
+        """How it stands, in a word or two."""
+        if self.damage:
+            return "damaged"
         match self.status:
             case Trained():
-                return "trained"
+                return "taught elsewhere" if self.status.is_elsewhere else "trained"
             case Stale():
                 return "stale"
             case Untaught():
@@ -47,20 +65,39 @@ class Row:
 
     @property
     def remarks(self) -> tuple[str, ...]:
-        """Why it is stale, or what has changed since it was taught."""
+        """Why it cannot act, or what has changed since it was taught."""
+        if self.damage:
+            return (self.damage,)
         match self.status:
             case Stale(differences):
                 return differences
-            case Trained(_, notes):
-                return notes
+            case Trained(entry, changes):
+                if not entry.worlds:
+                    return (*changes, f"taught {UNKNOWN}")
+                return (*changes, *[ACCEPTED] * entry.accepted)
         return ()
 
 
-def rows(graph: Graph, sources: Iterable[Path]) -> list[Row]:
-    """Every skill, parents first; LockError where a lock is damaged."""
+def rows(graph: Graph, sources: Sequence[Path]) -> list[Row]:
+    """Every skill, parents first; `sources` are the files of the mind. LockError where a lock is damaged."""
     lock = read_locks(sources)
-    frozen = {skill.name: skill.frozen for skill in graph.skills}
-    return [Row(skill, found, frozen[skill]) for skill, found in status(arrange(graph, lock), lock).items()]
+    graph = arrange(graph, lock)
+    states = status(graph, lock, sources[0].parent)
+    needed = {skill.name for skill in reachable(graph, graph.master)}
+    return [
+        Row(skill.name, state, skill.frozen, skill.name in needed, _damage(skill, state))
+        for skill, state in ((skill, states[skill.name]) for skill in graph.skills)
+    ]
+
+
+def _damage(skill: Skill, state: Status) -> str:
+    """What is wrong with a trained skill's weights."""
+    if isinstance(state, Trained):
+        try:
+            load_weights(state.entry, skill)
+        except LockError as error:
+            return str(error)
+    return ""
 
 
 def report(found: Sequence[Row]) -> Table:
@@ -94,11 +131,13 @@ def made_by(taught: Taught) -> str:
 
 def as_data(row: Row) -> dict[str, Any]:
     """A row as plain data."""
-    data: dict[str, Any] = {"skill": row.skill, "status": row.word, "frozen": row.is_frozen, "remarks": [*row.remarks]}
+    data: dict[str, Any] = {"skill": row.skill, "status": row.word, "frozen": row.is_frozen, "needed": row.is_needed}
+    data["remarks"] = [*row.remarks]
     if isinstance(row.status, Trained):
         entry = row.status.entry
         taught = {name: getattr(entry.taught, name) for name in Taught.__slots__}
         data |= {"weights": entry.weights, "taught": taught, "subskills": dict(entry.subskills)}
+        data |= {"worlds": [world.name for world in entry.worlds], "accepted": entry.accepted}
     return data
 
 
@@ -106,5 +145,6 @@ def survival(found: Sequence[Row]) -> list[str]:
     """Which weights still fit, as sentences: those that do in one, each of the others in its own."""
     trained = [row.skill for row in found if isinstance(row.status, Trained)]
     lines = [f"weights of {listed(trained, 'and')} fit"] if trained else []
+    lines += told_elsewhere({row.skill: row.status for row in found})
     lines += [f"{row.skill} is stale: {'; '.join(row.remarks)}" for row in found if isinstance(row.status, Stale)]
     return lines + [f"{row.skill} has not been taught" for row in found if isinstance(row.status, Untaught)]

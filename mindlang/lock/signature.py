@@ -2,13 +2,15 @@
 
 from collections.abc import Iterator
 from dataclasses import fields, replace
+from typing import Any
 
 from mindrun.functions import Mlp
 from mindrun.functions.mlp import layers
-from mindrun.graph import Graph, Skill
+from mindrun.graph import Graph, SensorKind, Skill
 from mindrun.registry import names
+from mindrun.sensors import RangeFinder
 
-from mindlang.lock import Signature
+from mindlang.lock import Entry, Signature
 
 
 def signature(graph: Graph, skill: Skill) -> Signature:
@@ -31,6 +33,25 @@ def differences(old: Signature, new: Signature, derived: bool) -> tuple[str, ...
         if before.get(key) != now.get(key) and not (key == "width" and derived and found):
             found.append(f"{key} was {before.get(key, 'not there')}, now {now.get(key, 'not there')}")
     return tuple(found)
+
+
+def reordered(entry: Entry, graph: Graph) -> tuple[str, ...]:
+    """The sensors that a skill reads whose readings stand in another order than in the world it was last taught in."""
+    kinds = {sensor.name: sensor.kind for sensor in graph.sensors}
+    read = [name for name, _, width in (text.partition(":") for text in entry.signature.reads) if width]
+    facts = entry.worlds[-1].facts if entry.worlds else {}
+    return tuple(
+        f"the readings of {name} stand in another order"
+        for name in read
+        if _is_reordered(facts.get(f"sensor {name}", {}).get("at"), kinds.get(name))
+    )
+
+
+def _is_reordered(old: Any, now: SensorKind | None) -> bool:
+    """Whether a range finder looks at the same angles, in another order."""
+    if not isinstance(old, list) or not isinstance(now, RangeFinder):
+        return False
+    return tuple(old) != now.at and sorted(old) == sorted(now.at)
 
 
 def _reads(graph: Graph, skill: Skill) -> Iterator[tuple[str, int]]:

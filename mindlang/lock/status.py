@@ -2,22 +2,43 @@
 
 from collections.abc import Collection, Iterator
 from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
 
 from mindrun.functions import Mlp
-from mindrun.graph import Graph, Skill
-from mindrun.weights import Weights, below, genes
+from mindrun.graph import Graph, Lesson, Skill
+from mindrun.weights import Weights, below, genes, learners, reachable
 
 from mindlang.lock import Entry, Lock
 from mindlang.lock.blobs import load_weights
-from mindlang.lock.signature import differences, signature
+from mindlang.lock.signature import differences, reordered, signature
+from mindlang.lock.training_world import LessonKey, TrainingWorld
+from mindlang.lock.world_changes import changes
+from mindlang.lock.world_facts import Worlds, key_of, key_of_taught
+
+UNKNOWN = "in a world that the lock does not know (mindc status --accept says that it is this one)"
 
 
 @dataclass(frozen=True, slots=True)
 class Trained:
-    """Its weights fit. The notes say which subskills are others than those that it was taught with."""
+    """Its weights fit. Where `changes` are, sentences, it was taught elsewhere: in a world that is not the mind's.
+
+    `outdated` are the lessons that have changed since.
+    """
 
     entry: Entry
-    notes: tuple[str, ...]
+    changes: tuple[str, ...] = ()
+    outdated: frozenset[LessonKey] = frozenset()
+
+    @property
+    def is_elsewhere(self) -> bool:
+        """Whether the world in which it was taught is known, and is another now."""
+        return bool(self.changes)
+
+    @property
+    def knows_world(self) -> bool:
+        """Whether the lock says in which world it was taught; those of older versions do not."""
+        return bool(self.entry.worlds)
 
 
 @dataclass(frozen=True, slots=True)
@@ -40,38 +61,106 @@ class NotLearning:
 Status = Trained | Stale | Untaught | NotLearning
 
 
-def status(graph: Graph, lock: Lock) -> dict[str, Status]:
-    """How each skill of a mind stands to its lock; reads no weights."""
-    return {skill.name: _status(graph, index, lock) for index, skill in enumerate(graph.skills)}
+def status(graph: Graph, lock: Lock, folder: Path | None = None) -> dict[str, Status]:
+    """How each skill of a mind stands to its lock; reads no weights.
+
+    Procedures count where they are found in `folder`.
+    """
+    standing = _Standing(graph, lock, folder)
+    return {skill.name: standing.of(index) for index, skill in enumerate(graph.skills)}
 
 
-def _status(graph: Graph, index: int, lock: Lock) -> Status:
-    skill = graph.skills[index]
-    if genes(skill) == 0:
-        return NotLearning()
-    entry = lock.get(skill.name)
-    if entry is None:
-        return Untaught()
-    found = differences(entry.signature, signature(graph, skill), _width_is_derived(skill))
-    return Stale(found) if found else Trained(entry, tuple(_notes(below(graph, index)[1:], entry, lock)))
+@dataclass(frozen=True)
+class _Standing:
+    """A mind held against a lock."""
+
+    graph: Graph
+    lock: Lock
+    folder: Path | None
+
+    def of(self, index: int) -> Status:
+        """How the skill of an index stands."""
+        skill = self.graph.skills[index]
+        if genes(skill) == 0:
+            return NotLearning()
+        entry = self.lock.get(skill.name)
+        if entry is None:
+            return Untaught()
+        found = (
+            *differences(entry.signature, signature(self.graph, skill), _width_is_derived(skill)),
+            *reordered(entry, self.graph),
+        )
+        return Stale(found) if found else self._trained(index, entry)
+
+    def _trained(self, index: int, entry: Entry) -> Trained:
+        told = {world.lesson: self._world_changes(entry.skill, world) for world in entry.worlds}
+        subskills = [*self._subskill_changes(index, entry)]
+        outdated = {lesson for lesson, changed in told.items() if changed}
+        if subskills:
+            outdated.add(key_of_taught(entry.taught))
+        changed = dict.fromkeys((*subskills, *(each for changed in told.values() for each in changed)))
+        return Trained(entry, tuple(changed), frozenset(outdated))
+
+    def _world_changes(self, skill: str, world: TrainingWorld) -> list[str]:
+        """What has changed in the world of a lesson."""
+        lesson = world.lesson
+        if lesson.task not in self._tasks:
+            return [f"its task {lesson.task} is gone"]
+        if lesson.master not in self._skills:
+            return [f"its master {lesson.master} is gone"]
+        stands = (each for each in self._lessons.get(lesson, ()) if skill in learners(self.graph, each))
+        now = next(stands, None)
+        return changes(world, self._worlds.of(now) if now else self._worlds.of_gone(lesson, world.facts["lesson"]))
+
+    def _subskill_changes(self, index: int, entry: Entry) -> Iterator[str]:
+        """What is different about the learnt skills below one, but for what a lesson changed that it took part in."""
+        subskills = {skill.name for skill in below(self.graph, index)[1:] if genes(skill)}
+        for skill, weights in entry.subskills:
+            now = self.lock.get(skill)
+            if skill not in subskills:
+                yield f"taught with {skill} ({weights[:4]}…), which is not below it now"
+            elif now is None:
+                yield f"taught with {skill} ({weights[:4]}…), which has no weights now"
+            elif now.weights != weights and not self._took_part(entry.skill, now):
+                yield f"taught with another {skill} ({weights[:4]}…, now {now.weights[:4]}…)"
+        known = {skill for skill, _ in entry.subskills}
+        yield from (f"taught without {skill}" for skill in sorted(subskills - known))
+
+    def _took_part(self, skill: str, taught: Entry) -> bool:
+        """Whether a skill acted in the lesson that another was taught in."""
+        master = taught.taught.master
+        if master not in self._acting:
+            acting = reachable(self.graph, master) if master in self._skills else ()
+            self._acting[master] = {each.name for each in acting}
+        return master != taught.skill and skill in self._acting[master]
+
+    @cached_property
+    def _acting(self) -> dict[str, set[str]]:
+        """The skills that a master reaches, by master, as far as they were asked for."""
+        return {}
+
+    @cached_property
+    def _worlds(self) -> Worlds:
+        return Worlds(self.graph, self.folder)
+
+    @cached_property
+    def _tasks(self) -> set[str]:
+        return {task.name for task in self.graph.tasks}
+
+    @cached_property
+    def _skills(self) -> set[str]:
+        return {skill.name for skill in self.graph.skills}
+
+    @cached_property
+    def _lessons(self) -> dict[LessonKey, list[Lesson]]:
+        found: dict[LessonKey, list[Lesson]] = {}
+        for lesson in self.graph.lessons:
+            found.setdefault(key_of(lesson), []).append(lesson)
+        return found
 
 
 def _width_is_derived(skill: Skill) -> bool:
     return isinstance(skill.function, Mlp) and skill.function.width == 0
-
-
-def _notes(subskills: Collection[Skill], entry: Entry, lock: Lock) -> Iterator[str]:
-    names = {skill.name for skill in subskills}
-    for skill, weights in entry.subskills:
-        now = lock.get(skill)
-        if skill not in names:
-            yield f"taught with {skill} ({weights[:4]}…), which is not below it now"
-        elif now is None:
-            yield f"taught with {skill} ({weights[:4]}…), which has no weights now"
-        elif now.weights != weights:
-            yield f"taught with another {skill} ({weights[:4]}…, now {now.weights[:4]}…)"
-    known = {skill for skill, _ in entry.subskills}
-    yield from (f"taught without {skill.name}" for skill in subskills if genes(skill) and skill.name not in known)
 
 
 def trained_weights(graph: Graph, lock: Lock, skills: Collection[str]) -> tuple[dict[str, Weights], list[str]]:

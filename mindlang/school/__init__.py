@@ -6,7 +6,6 @@ import shlex
 from collections.abc import Sequence
 from dataclasses import dataclass
 from datetime import UTC, datetime
-from math import isfinite
 from pathlib import Path
 from time import perf_counter
 
@@ -16,13 +15,13 @@ from mindrun.train.errors import RunError
 from mindrun.train.lesson import Record, State
 from mindrun.train.run_folder import Run, keep_result, open_run, read_result
 from mindrun.train.training import Watch, train
-from mindrun.weights import learners, parts
+from mindrun.weights import learners
 
-from mindlang.lock import Entry, LockError, Taught
-from mindlang.lock.blobs import record
+from mindlang.lock import LockError
 from mindlang.school.book import Book, begin, open_book, refuse_changed
 from mindlang.school.interruption import Interruption
-from mindlang.school.results import Result, closing, opening, result_of
+from mindlang.school.keeping import Kept, keep
+from mindlang.school.results import Result, closing, opening, outcome, result_of
 from mindlang.school.teaching import Wishes, is_due, lessons
 from mindlang.school.watching import Bar, Lines, Pace, Silent, Watcher
 from mindlang.simulator import make_ready
@@ -63,14 +62,14 @@ class School:
             elif skills or force or is_due(book.graph, lesson, standing):
                 run = begin(book, wishes.applied(lesson), seed, runs, datetime.now(UTC))
                 taught += 1
-                if not self._teach(run, book):
+                if not self._teach(run, book, force):
                     return False
         if not taught:
             others = "all other lessons" if frozen else f"all {len(chosen)} lessons"
             self._say(f"nothing to do: {others} have been taught (--force teaches them again)")
         return True
 
-    def resume(self, folder: Path) -> bool:
+    def resume(self, folder: Path, force: bool) -> bool:
         """Go on with a run; False if it was interrupted."""
         run = open_run(folder)
         source = Path(run.manifest.source)
@@ -78,22 +77,32 @@ class School:
             raise RunError(f"{source}, from which this run began, is gone", f"its text is in {folder / 'source'}")
         book = open_book(source, load_compiled(source))
         refuse_changed(book, run)
-        return self._teach(run, book)
+        return self._teach(run, book, force)
 
-    def _teach(self, run: Run, book: Book) -> bool:
+    def _teach(self, run: Run, book: Book, force: bool) -> bool:
         if (result := read_result(run.folder)) is not None:
             self._say(f"{run.folder} has finished already")
             self._print(result)
             return True
-        state = self._watched(run, self._rollout(run, book))
+        rollout = self._rollout(run, book)
+        state = self._watched(run, rollout)
         if state.attempt < run.manifest.lesson.learner.attempts:
             talk.print(f"saved; to go on: {_command(run)}", markup=False)
             return False
-        result = result_of(run, state, _keep(run, book, state))
+        kept = self._kept(run, book, state, rollout, force)
+        result = result_of(run, state, kept)
         keep_result(run.folder, result)
-        self._say(f"{closing(result)}; weights in {book.keep_path(run.manifest.lesson).name}")
+        self._say(closing(result), *outcome(run, kept, book.keep_path(run.manifest.lesson).name))
         self._print(result)
         return True
+
+    @procedures_talk()
+    def _kept(self, run: Run, book: Book, state: State, rollout: Rollout, force: bool) -> Kept:
+        try:
+            return keep(run, book, state, rollout, force)
+        except LockError as error:
+            hint = f"what was learnt is safe; mend that, then: {_command(run)}"
+            raise RunError(str(error), hint) from error
 
     @procedures_talk()
     def _rollout(self, run: Run, book: Book) -> Rollout:
@@ -136,9 +145,9 @@ class School:
             return Silent()
         return (Bar if talk.is_terminal else Lines)(talk, run.manifest.name, pace)
 
-    def _say(self, text: str) -> None:
-        if not self.quiet:
-            talk.print(text, markup=False)
+    def _say(self, *lines: str) -> None:
+        for line in () if self.quiet else lines:
+            talk.print(line, markup=False)
 
     def _print(self, result: Result) -> None:
         if self.as_json:
@@ -156,22 +165,3 @@ def _refuse_frozen(book: Book, chosen: Sequence[Lesson]) -> None:
 def _command(run: Run) -> str:
     """What goes on with a run."""
     return f"mindc train --resume {shlex.quote(str(run.folder))}"
-
-
-def _keep(run: Run, book: Book, state: State) -> dict[str, Entry]:
-    """Put what was learnt into the lock, entries by skill; RunError where nothing was, or it cannot be kept there."""
-    lesson = run.manifest.lesson
-    if not isfinite(state.reevaluated):
-        raise RunError(
-            f"{lesson.skill} has learnt nothing: the rewards of every genome were not finite numbers",
-            f"look at the rewards of the task {lesson.task}",
-        )
-    population, seed = lesson.learner.population, run.manifest.seed
-    taught = Taught(
-        lesson.task, lesson.master, lesson.with_subskills, state.kept_after, population, seed, state.reevaluated
-    )
-    try:
-        learnt = parts(book.graph, run.manifest.learners, state.kept[0])
-        return record(book.keep_path(lesson), book.graph, learnt, taught, run.weights)
-    except LockError as error:
-        raise RunError(str(error), f"what was learnt is safe; mend that, then: {_command(run)}") from error

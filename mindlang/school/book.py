@@ -51,7 +51,7 @@ class Book:
 
     def standing(self, lesson: Lesson) -> dict[str, Status]:
         """How the learners of a lesson stand to that lock."""
-        found = status(self.graph, read_lock(self.keep_path(lesson)))
+        found = status(self.graph, read_lock(self.keep_path(lesson)), self.folder)
         return {skill: found[skill] for skill in learners(self.graph, lesson)}
 
 

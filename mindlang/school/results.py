@@ -1,20 +1,23 @@
 """What came of a lesson, for its user and for other programs."""
 
-from collections.abc import Mapping
 from math import isfinite
 from typing import Any
 
 from mindrun.train.lesson import State
-from mindrun.train.run_folder import Run
+from mindrun.train.run_folder import WEIGHTS, Run
 
 from mindlang.figures import duration, number, rate
-from mindlang.lock import Entry
+from mindlang.school.keeping import Kept
 
 Result = dict[str, Any]
 
 
-def result_of(run: Run, state: State, entries: Mapping[str, Entry]) -> Result:
-    """A finished run as plain data; `weights` has the SHA-256 of what each skill has learnt."""
+def result_of(run: Run, state: State, kept: Kept) -> Result:
+    """A finished run as plain data; `weights` has the SHA-256 of what the lock says now of each skill.
+
+    Where it had weights before, `compared` are their score and that of the new ones on common fresh layouts; `kept`
+    says whether the new ones are in the lock.
+    """
     lesson = run.manifest.lesson
     return {
         "lesson": run.manifest.name,
@@ -34,7 +37,9 @@ def result_of(run: Run, state: State, entries: Mapping[str, Entry]) -> Result:
         "ticks_per_second": round(state.ticks / max(state.seconds, 1e-9)),
         "faults": state.faults,
         "verdicts": [_finite(verdict) for verdict in state.verdicts[:, 1]],
-        "weights": {skill: entry.weights for skill, entry in entries.items()},
+        "weights": {skill: entry.weights for skill, entry in kept.entries.items()},
+        "kept": kept.is_new,
+        "compared": None if kept.comparison is None else [_finite(kept.comparison.old), _finite(kept.comparison.new)],
         "run": str(run.folder),
     }
 
@@ -62,3 +67,11 @@ def closing(result: Result) -> str:
         f"{result['skill']} has learnt: {number(result['reevaluated'])} on fresh layouts after "
         f"{generations}, in {duration(result['seconds'])} at {rate(result['ticks_per_second'])}"
     )
+
+
+def outcome(run: Run, kept: Kept, lock: str) -> list[str]:
+    """What is in the lock now, and where the new weights are if they are not there."""
+    if kept.is_new:
+        worse = kept.comparison is not None and kept.comparison.is_worse
+        return [f"weights in {lock}", *[f"but {kept.comparison}"] * worse]
+    return [f"{kept.comparison}, and stay in {lock}", f"the new ones: {run.folder / WEIGHTS}; --force puts them there"]

@@ -8,8 +8,8 @@ from mindrun.train.errors import NotFoundError, RunError
 from mindrun.weights import genes, learners, reachable
 
 from mindlang.diagnostic import did_you_mean, listed
-from mindlang.lock import Taught
 from mindlang.lock.status import Status, Trained
+from mindlang.lock.world_facts import key_of, key_of_taught
 
 
 @dataclass(frozen=True, slots=True)
@@ -67,7 +67,8 @@ def subskills(graph: Graph, lesson: Lesson) -> tuple[str, ...]:
 def is_due(graph: Graph, lesson: Lesson, states: Mapping[str, Status]) -> bool:
     """Whether a lesson has yet to be taught, by how its learners stand.
 
-    Skills whose weights fit are left alone, except where they came from an earlier lesson that taught them.
+    Skills whose weights fit are left alone, except where they came from an earlier lesson that taught them, and where
+    the world of the lesson is another than the one in which they were taught.
     """
     before = graph.lessons[: graph.lessons.index(lesson)]
     return any(
@@ -79,12 +80,10 @@ def is_due(graph: Graph, lesson: Lesson, states: Mapping[str, Status]) -> bool:
 def _is_due(lesson: Lesson, earlier: Iterable[Lesson], state: Status) -> bool:
     if not isinstance(state, Trained):
         return True
-    taught = state.entry.taught
-    return not _gave(lesson, taught) and any(_gave(other, taught) for other in earlier)
-
-
-def _gave(lesson: Lesson, taught: Taught) -> bool:
-    return (lesson.task, lesson.master, lesson.with_subskills) == (taught.task, taught.master, taught.jointly)
+    if key_of(lesson) in state.outdated:
+        return True
+    taught = key_of_taught(state.entry.taught)
+    return key_of(lesson) != taught and any(key_of(other) == taught for other in earlier)
 
 
 def _of(graph: Graph, curriculum: str) -> tuple[Lesson, ...]:

@@ -10,6 +10,7 @@ from mindlang.lock import Taught, lock_path, read_locks
 from mindlang.lock.arrange import arrange
 from mindlang.lock.blobs import record
 from mindlang.lock.status import Status, status
+from mindlang.lock.world_facts import Worlds
 
 MIND = """\
 # Two skills and one above them.
@@ -70,11 +71,13 @@ def teach(path: Path, *skills: str, seed: int = 1, lock: Path | None = None) -> 
     assert graph
     graph = arrange(graph, {})
     rng, weights = np.random.default_rng(seed), {}
+    worlds = {lesson.skill: Worlds(graph, path.parent).of(lesson) for lesson in graph.lessons}
     for skill in reversed(graph.skills):
         if genes(skill) and (skill.name in skills or not skills):
             weights[skill.name] = rng.uniform(-0.7, 1, genes(skill)).astype(np.float32)
             taught = Taught("Roam", skill.name, False, 3, 8, seed, 1.5)
-            record(lock or lock_path(path), graph, {skill.name: weights[skill.name]}, taught, weights)
+            learnt = {skill.name: weights[skill.name]}
+            record(lock or lock_path(path), graph, learnt, taught, weights, worlds.get(skill.name))
 
 
 def statuses(path: Path) -> dict[str, Status]:

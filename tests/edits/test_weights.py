@@ -84,8 +84,15 @@ def test_a_rename_relabels(drive: Path, noun: str, old: str, new: str) -> None:
     now = read_lock(lock_path(drive))
     assert {entry.weights for entry in now.values()} == {entry.weights for entry in lock.values()}
     text = lock_path(drive).read_text()
-    named = noun in ("skill", "sensor", "actuator", "memory", "task") and old != "charge"
+    named = noun in ("skill", "sensor", "actuator", "memory", "task", "thing") and old != "charge"
     assert (_stands(new, text), _stands(old, text)) == (named, False)
+    assert _elsewhere(drive) == {}, "the worlds follow, too"
+
+
+def _elsewhere(path: Path) -> dict[str, tuple[str, ...]]:
+    """The skills that were taught elsewhere, and why."""
+    states = statuses(path).items()
+    return {skill: state.changes for skill, state in states if isinstance(state, Trained) and state.changes}
 
 
 def _stands(name: str, text: str) -> bool:
@@ -104,8 +111,11 @@ def test_a_rename_relabels_the_lock_of_a_used_file_and_nothing_else(tmp_path: Pa
     made(main, "rename", old="Avoid", new="Dodge", noun="skill")
     assert commands(main, readings) == before
     now = read_lock(lock_path(parts))
-    assert now["Dodge"] == replace(old["Avoid"], skill="Dodge", taught=replace(old["Avoid"].taught, master="Dodge"))
+    taught = replace(old["Avoid"].taught, master="Dodge")
+    assert now["Dodge"] == replace(old["Avoid"], skill="Dodge", taught=taught, worlds=now["Dodge"].worlds)
+    assert [world.lesson.master for world in now["Dodge"].worlds] == ["Dodge"]
     assert now["Go"] == old["Go"]
+    assert _elsewhere(parts) == {}
     assert now["Drive"].subskills == (("Dodge", old["Avoid"].weights), ("Go", old["Go"].weights))
     assert read_lock(lock_path(main))["Drive"].signature.sends == ("Go", "Dodge")
 
@@ -135,7 +145,7 @@ def test_parents_keep_their_weights_over_what_encapsulates_their_subskill(drive:
     assert isinstance(drives, Trained)
     assert drives.entry.signature.sends == ("Go", "AvoidWell")
     assert sentences == [
-        "Drive was taught without AvoidWell",
+        "Drive was taught elsewhere: taught without AvoidWell",
         "AvoidWell has not been taught",
         "3 trained skills keep what was learnt",
     ]
@@ -150,7 +160,7 @@ def test_what_takes_the_place_of_a_subskill_is_told_of_those_above(drive: Path) 
     state = statuses(drive)["Drive"]
     assert isinstance(state, Trained)
     assert state.entry.weights == old["Drive"].weights
-    assert state.notes == (
+    assert state.changes == (
         f"taught with Avoid ({old['Avoid'].weights[:4]}…), which is not below it now",
         "taught without Dodge",
     )
@@ -235,7 +245,7 @@ def test_a_retrained_subskill_only_marks_its_parents(drive: Path) -> None:
     new = read_lock(lock_path(drive))["Avoid"].weights
     state = statuses(drive)["Drive"]
     assert isinstance(state, Trained)
-    assert state.notes == (f"taught with another Avoid ({old[:4]}…, now {new[:4]}…)",)
+    assert state.changes == (f"taught with another Avoid ({old[:4]}…, now {new[:4]}…)",)
     graph, sources = load(drive).graph, load(drive).sources
     assert graph
     assert make_ready(graph, sources).refusals == ()
@@ -253,7 +263,7 @@ def test_a_new_input_may_start_from_zeros(drive: Path, skill: str) -> None:
     assert lock[skill].weights != old[skill].weights
     assert (drive.parent / FOLDER / f"{lock[skill].weights}.npy").exists()
     assert dict(lock["Drive"].subskills)["Go"] == lock["Go"].weights, "nobody is told of another Go"
-    assert statuses(drive)["Drive"].notes == ()  # type: ignore[union-attr]
+    assert _elsewhere(drive) == {}
 
 
 def test_a_new_subskill_starts_without_influence(drive: Path) -> None:

@@ -61,7 +61,9 @@ def test_status_as_json_is_one_document(mindc: Call, drive: Path) -> None:
     said = mindc("status", drive, "--json")
     rows = {row["skill"]: row for row in json.loads(said.out)["skills"]}
     assert list(rows) == ["Drive", "Avoid", "Go", "Grab"]
-    assert rows["Grab"] == {"skill": "Grab", "status": "does not learn", "frozen": False, "remarks": []}
+    assert rows["Grab"] == {
+        "skill": "Grab", "status": "does not learn", "frozen": False, "needed": True, "remarks": [],
+    }  # fmt: skip
     lock = read_lock(drive.with_suffix(".lock"))
     assert rows["Drive"]["weights"] == lock["Drive"].weights
     assert rows["Drive"]["subskills"] == {"Avoid": lock["Avoid"].weights, "Go": lock["Go"].weights}
@@ -107,6 +109,7 @@ def test_diff_tells_what_changed_and_what_became_stale(mindc: Call, drive: Path,
         "  + reads eye",
         "  + drives claw",
         "weights of Drive and Avoid fit",
+        "Drive was taught elsewhere: Drive has changed: sends Grab at 1, now sends Grab at 0.5",
         "Go is stale: hidden was 1, now 2",
         "New has not been taught",
     ]
@@ -114,7 +117,8 @@ def test_diff_tells_what_changed_and_what_became_stale(mindc: Call, drive: Path,
     assert data["differences"][1] == {
         "what": "skill Drive", "gone": ["influences Grab at 1"], "new": ["influences Grab at 1/2"],
     }  # fmt: skip
-    assert [(row["skill"], row["status"]) for row in data["skills"]][:2] == [("Drive", "trained"), ("Avoid", "trained")]
+    found = [(row["skill"], row["status"]) for row in data["skills"]][:2]
+    assert found == [("Drive", "taught elsewhere"), ("Avoid", "trained")]
 
 
 def test_diff_from_standard_input_uses_the_lock_beside_the_new_file(drive: Path) -> None:

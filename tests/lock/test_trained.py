@@ -123,10 +123,19 @@ def test_a_retrained_subskill_only_marks_its_parents(tmp_path: Path) -> None:
     graph, path = example(), tmp_path / "a.lock"
     old = teach(path, graph)["Go"]
     new = old + np.float32(1)
-    record(path, graph, {"Go": new}, TAUGHT, {})
+    record(path, graph, {"Go": new}, replace(TAUGHT, master="Go"), {})
     state = status(graph, read_lock(path))["Top"]
     assert isinstance(state, Trained)
-    assert state.notes == (f"taught with another Go ({digest(old)[:4]}…, now {digest(new)[:4]}…)",)
+    assert state.changes == (f"taught with another Go ({digest(old)[:4]}…, now {digest(new)[:4]}…)",)
+
+
+def test_a_subskill_that_was_taught_on_the_job_marks_no_parent_that_was_there(tmp_path: Path) -> None:
+    graph, path = example(), tmp_path / "a.lock"
+    old = teach(path, graph)["Go"]
+    record(path, graph, {"Go": old + np.float32(1)}, replace(TAUGHT, master="Top"), {})
+    state = status(graph, read_lock(path))["Top"]
+    assert isinstance(state, Trained)
+    assert state.changes == ()
 
 
 def test_record_keeps_what_it_does_not_replace(tmp_path: Path) -> None:
@@ -137,7 +146,8 @@ def test_record_keeps_what_it_does_not_replace(tmp_path: Path) -> None:
     assert set(read_lock(path)) == {"Go", "Go2", "Top", "Top2"}
     record(path, graph, {"Go": old["Go"] * 2}, TAUGHT, {})
     blobs = {file.stem for file in (tmp_path / FOLDER).iterdir()}
-    assert blobs == {entry.weights for entry in read_lock(path).values()}, "the old weights of Go are gone"
+    named = {entry.weights for entry in read_lock(path).values()}
+    assert blobs == named | {digest(old["Go"])}, "the old weights of Go stay, until mindc gc"
 
 
 def test_weights_that_another_lock_names_stay(tmp_path: Path) -> None:

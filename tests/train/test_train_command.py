@@ -26,6 +26,7 @@ skill Go is mlp hidden 1
 skill Drive is mlp hidden 1
   reads bearing
   influences Go
+  drives left_wheel
 task Reach in plain
   contains object is item size 3
   lasts 100 ticks

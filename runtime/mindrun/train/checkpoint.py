@@ -19,7 +19,7 @@ from mindrun.train.genetic import Population
 from mindrun.train.lesson import State
 
 NAME, PREVIOUS = "checkpoint", "checkpoint.previous"
-MAGIC = b"mind checkpoint 3\n"
+MAGIC = b"mind checkpoint 4\n"
 DIGEST = 32
 
 
@@ -64,15 +64,18 @@ def pack(state: State, run: str) -> bytes:
         "lengths": state.lengths,
         "verdicts": state.verdicts,
         "floats": np.array([state.best, state.seconds]),
-        "counts": np.array(
-            [state.attempt, state.population.generation, state.since, state.generations, state.ticks, state.faults],
-            np.int64,
-        ),
+        "counts": np.array(_counts(state), np.int64),
     }
     shapes = {name: [array.dtype.str, list(array.shape)] for name, array in arrays.items()}
     header = json.dumps({"run": run, "arrays": shapes}).encode() + b"\n"
     body = MAGIC + header + b"".join(np.ascontiguousarray(array).tobytes() for array in arrays.values())
     return body + sha256(body).digest()
+
+
+def _counts(state: State) -> tuple[int, ...]:
+    """Its whole numbers, in the order of the file."""
+    generation = state.population.generation
+    return state.attempt, generation, state.since, state.generations, state.ticks, state.faults, state.told_apart
 
 
 def unpack(data: bytes, run: str) -> State | None:
@@ -97,12 +100,12 @@ def _arrays(shapes: dict[str, tuple[str, list[int]]], data: bytes) -> dict[str, 
 
 
 def _state(arrays: dict[str, NDArray[Any]]) -> State:
-    attempt, generation, since, generations, ticks, faults = (int(count) for count in arrays["counts"])
+    attempt, generation, since, generations, ticks, faults, told_apart = (int(count) for count in arrays["counts"])
     best, seconds = (float(number) for number in arrays["floats"])
     population = Population(arrays["genomes"], arrays["scores"], generation)
     now = arrays["champion"], arrays["rival"], since
     ended = arrays["champions"], arrays["lengths"], arrays["verdicts"]
-    return State(attempt, population, *now, *ended, best, generations, ticks, seconds, faults)
+    return State(attempt, population, *now, *ended, best, generations, ticks, seconds, faults, bool(told_apart))
 
 
 def _read(path: Path, run: str) -> State | None:

@@ -71,6 +71,9 @@ class State:
     Of the attempts that have ended, `champions` [ended, weights] are the best, `lengths` [ended] their generations, and
     `verdicts` [ended, 2] their scores on layouts that chose nothing before: the first decides between the attempts, the
     second, on yet others, is what is reported.
+
+    `told_apart` says whether the task has ever given two genomes of a generation different scores: if not, there was
+    nothing to learn from.
     """
 
     attempt: int
@@ -86,6 +89,7 @@ class State:
     ticks: int
     seconds: float
     faults: int
+    told_apart: bool
 
     @property
     def _best(self) -> NDArray[np.intp]:
@@ -140,7 +144,7 @@ def begin(course: Course) -> State:
     """The state before the first generation."""
     empty = course.start[:0]
     ended = empty, np.empty(0, np.int64), np.empty((0, 2))
-    return State(0, nobody(empty.shape[1]), course.start, empty, 0, *ended, -inf, 0, 0, 0.0, 0)
+    return State(0, nobody(empty.shape[1]), course.start, empty, 0, *ended, -inf, 0, 0, 0.0, 0, False)
 
 
 def teach(course: Course, scorer: Scorer, state: State, clock: Clock) -> Iterator[tuple[State, Record]]:
@@ -166,6 +170,7 @@ def generation(course: Course, scorer: Scorer, state: State) -> tuple[State, Rec
         generations=state.generations + 1,
         ticks=state.ticks + marks.ticks,
         faults=state.faults + marks.faults,
+        told_apart=state.told_apart or are_different(marks.scores),
     )
     number, reevaluated, verdict = population.generation, None, None
     if number == 1 or number % EVERY == 0 or has_ended(course.lesson, now):
@@ -206,6 +211,12 @@ def is_better(scores: Scores, than: Scores) -> bool:
         return bool(np.isfinite(scores).all())
     gain = scores - than
     return bool(gain.mean() > 2.0 * gain.std(ddof=1) / np.sqrt(len(gain)))
+
+
+def are_different(scores: Scores) -> bool:
+    """Whether there are two finite scores [genomes] that are not the same."""
+    finite = scores[np.isfinite(scores)]
+    return bool((finite != finite[:1]).any())
 
 
 def judge(course: Course, scorer: Scorer, state: State) -> tuple[State, float]:

@@ -15,6 +15,7 @@ class Purpose(IntEnum):
     LAYOUTS = 1
     REEVALUATION = 2
     VERDICT = 3
+    COMPARISON = 4
 
 
 def breeding(seed: int, attempt: int, generation: int) -> np.random.Generator:

@@ -1,0 +1,71 @@
+"""A training world said by other names, as its mind says it after a rename."""
+
+import re
+from collections.abc import Callable, Mapping
+from typing import Any
+
+from mindlang.lock.training_world import TrainingWorld
+
+NounNames = Mapping[str, Mapping[str, str]]  # what is called otherwise now, by noun
+OF_THINGS = {"of", "toward", "from"}  # words before the name of a thing, in a phrase
+_WORD = re.compile(r"[^\s()]+")
+
+Name = Callable[..., str]
+
+
+def relabelled(world: TrainingWorld, names: NounNames) -> TrainingWorld:
+    """The same world after these renames."""
+
+    def name(text: str, *nouns: str) -> str:
+        return next((names[noun][text] for noun in nouns if text in names.get(noun, {})), text)
+
+    return TrainingWorld(
+        {_subject(subject, name): _fact(subject, value, name) for subject, value in world.facts.items()}
+    )
+
+
+def _subject(subject: str, name: Name) -> str:
+    noun, space, named = subject.partition(" ")
+    return f"{noun}{space}{name(named, noun)}"
+
+
+def _fact(subject: str, value: Any, name: Name) -> Any:
+    match subject.partition(" ")[0]:
+        case "sensor":
+            noun = "sensor" if value["is"] == "derivative" else "thing"
+            return {key: name(part, noun) if key == "of" else part for key, part in value.items()}
+        case "skill":
+            return {key: _skill_part(key, part, name) for key, part in value.items()}
+        case "task":
+            return {**value, "ends": sorted(_phrase(event, name) for event in value["ends"])}
+        case "rewards":
+            return sorted([_phrase(part, name) for part in reward] for reward in value)
+        case "lesson":
+            return {**value, "task": name(value["task"], "task"), "master": name(value["master"], "skill")}
+    return value
+
+
+def _skill_part(key: str, value: Any, name: Name) -> Any:
+    if key == "reads":
+        return [name(each, "sensor", "memory") for each in value]
+    if key not in ("sends", "answers"):
+        return value
+    return [_sent(each, name) for each in value]
+
+
+def _sent(text: str, name: Name) -> str:
+    target, at, value = text.partition(" at ")
+    return f"{name(target, 'skill', 'actuator', 'memory')}{at}{_phrase(value, name)}"
+
+
+def _phrase(text: str, name: Name) -> str:
+    """An expression, an event or a measure with other names."""
+    before = ""
+
+    def instead(found: re.Match[str]) -> str:
+        nonlocal before
+        nouns = ("thing",) if before in OF_THINGS else ("sensor", "memory")
+        before = found.group()
+        return name(before, *nouns)
+
+    return _WORD.sub(instead, text)

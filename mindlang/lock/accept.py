@@ -1,0 +1,59 @@
+"""Weights that a person says will do in another world than the one in which they were taught."""
+
+from collections.abc import Sequence
+from dataclasses import replace
+from pathlib import Path
+
+from mindrun.graph import Graph, Lesson
+from mindrun.weights import genes, learners, reachable
+
+from mindlang.lock import Entry, Lock, LockError, lock_path, read_lock, read_locks, write_lock
+from mindlang.lock.blobs import FOLDER, alone
+from mindlang.lock.status import Trained, status
+from mindlang.lock.training_world import LessonKey, TrainingWorld
+from mindlang.lock.world_facts import Worlds, key_of, key_of_taught
+
+
+def accept(graph: Graph, sources: Sequence[Path], skills: Sequence[str]) -> None:
+    """Write into the locks of these files that the weights of these skills will do as the mind is now.
+
+    LockError where one has no weights that fit, or none of its lessons is there any more; then nothing is written.
+    """
+    lock = read_locks(sources)
+    states = status(graph, lock, sources[0].parent)
+    for skill in skills:
+        if not isinstance(states.get(skill), Trained):
+            raise LockError(f"{skill} has no weights that fit, and none can be accepted")
+    entries = {skill: _accepted(graph, lock, sources[0].parent, lock[skill]) for skill in skills}
+    for path in map(lock_path, sources):
+        mine = {skill: entry for skill, entry in entries.items() if skill in read_lock(path)}
+        if mine:
+            _write(path, mine)
+        entries = {skill: entry for skill, entry in entries.items() if skill not in mine}
+
+
+def _write(path: Path, entries: Lock) -> None:
+    try:
+        with alone(path.parent / FOLDER):
+            write_lock(path, read_lock(path) | dict(entries))
+    except OSError as error:
+        raise LockError(f"{path} cannot be written: {error.strerror}") from error
+
+
+def _accepted(graph: Graph, lock: Lock, folder: Path, entry: Entry) -> Entry:
+    taught = entry.taught
+    keys = [world.lesson for world in entry.worlds] or [key_of_taught(taught)]
+    lessons = [lesson for key in keys if (lesson := _lesson(graph, key, entry.skill))]
+    if not lessons:
+        raise LockError(
+            f"no lesson of the mind teaches {entry.skill} on {taught.task}, so its world cannot be accepted"
+        )
+    worlds: tuple[TrainingWorld, ...] = tuple(Worlds(graph, folder).of(lesson) for lesson in lessons)
+    below = (skill for skill in reachable(graph, entry.skill)[1:] if genes(skill) and skill.name in lock)
+    subskills = tuple(sorted((skill.name, lock[skill.name].weights) for skill in below))
+    return replace(entry, worlds=worlds, subskills=subskills, accepted=True)
+
+
+def _lesson(graph: Graph, key: LessonKey, skill: str) -> Lesson | None:
+    found = (lesson for lesson in graph.lessons if key_of(lesson) == key and skill in learners(graph, lesson))
+    return next(found, None)

@@ -1,0 +1,60 @@
+"""Compiled expressions and arguments as text: numbers in the units of the language, no more brackets than needed."""
+
+from collections.abc import Callable
+from typing import Any
+
+from mindrun.graph import Program
+from mindrun.quantity import Quantity, Reference
+from mindrun.registry import arguments, kinds
+
+PRECEDENCE = {"+": 1, "-": 1, "*": 2, "/": 2}
+TIGHTEST = 4
+
+Leaf = Callable[[str, float | int], str]
+
+
+def infix(program: Program, leaf: Leaf) -> str:
+    """An expression as it is written; `leaf` says a reading or a measure by its word and its index."""
+    stack: list[tuple[str, int]] = []
+    for word, operand in program:
+        if word == "number":
+            stack.append((number(operand), TIGHTEST))
+        elif word == "negate":
+            stack.append((f"-{_within(stack.pop(), 3)}", 3))
+        elif word in PRECEDENCE:
+            right, left, here = stack.pop(), stack.pop(), PRECEDENCE[word]
+            stack.append((f"{_within(left, here)} {word} {_within(right, here + 1)}", here))
+        else:
+            stack.append((leaf(word, operand), TIGHTEST))
+    return stack[-1][0] if stack else ""
+
+
+def _within(part: tuple[str, int], binding: int) -> str:
+    text, own = part
+    return text if own >= binding else f"({text})"
+
+
+def number(value: float) -> str:
+    """A number that reads back as the same."""
+    short = f"{value:g}"
+    return short if float(short) == value else repr(value)
+
+
+def argument(noun: str, kind: str, field: str, value: Any) -> str:
+    """An argument of a kind, as plain data, in words: range 12, at 0 22.5 deg, size 3 to 1 by 0.1."""
+    known = {each.field: each for each in arguments(kinds(noun)[kind])} if kind in kinds(noun) else {}
+    meaning = known[field].type if field in known else None
+    words = " ".join(_converted(each, meaning) for each in (value if isinstance(value, list) else [value]))
+    unit = next(iter(meaning.units), "") if isinstance(meaning, Quantity) else ""
+    return f"{field.removesuffix('_')} {words} {unit}".rstrip()
+
+
+def _converted(value: Any, meaning: Quantity | Reference | None) -> str:
+    match value:
+        case {"first": first, "last": last, "by": by}:
+            span = number(first) if first == last and by is None else f"{number(first)} to {number(last)}"
+            return span if by is None else f"{span} by {number(by)}"
+        case bool() | str() | None:
+            return str(value)
+    factor = next(iter(meaning.units.values()), 1.0) if isinstance(meaning, Quantity) else 1.0
+    return number(value) if factor == 1.0 else f"{value / factor:g}"

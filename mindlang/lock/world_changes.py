@@ -1,0 +1,138 @@
+"""What is different between the world in which a skill was taught and the one that its lesson teaches in now."""
+
+from collections import Counter
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Any
+
+from mindlang.lock.training_world import TrainingWorld
+from mindlang.lock.wording import argument, number
+
+PARTS = ("sensor", "memory", "actuator", "thing")
+NOUNS = {"thing": "content"}  # of the registry, where it says another
+
+
+def changes(old: TrainingWorld, now: TrainingWorld) -> list[str]:
+    """Each difference as a sentence. The order of lines is none, nor what a skill reads or sends beside its `at`s."""
+    return [*_changes(old.facts, now.facts)]
+
+
+def _changes(old: Mapping[str, Any], now: Mapping[str, Any]) -> Iterator[str]:
+    if old["tick"] != now["tick"]:
+        yield f"taught with tick {_tick(old['tick'])}, now {_tick(now['tick'])}"
+    yield from _kind_changes("body", "body", old["body"], now["body"])
+    for subject in sorted(old.keys() & now.keys()):
+        noun, _, name = subject.partition(" ")
+        if noun in PARTS:
+            yield from _kind_changes(NOUNS.get(noun, noun), name, old[subject], now[subject])
+        elif noun == "skill":
+            yield from _skill_changes(name, old[subject], now[subject])
+    yield from _actuators_at_rest(old, now)
+    if old.get("claw") != now.get("claw") and not _is_told(old, now):
+        yield f"taught with a claw's reach of {_reach(old)}, now {_reach(now)}"
+    yield from _task_changes(old, now)
+    yield from _lesson_changes(old["lesson"], now["lesson"])
+
+
+def _tick(seconds: float) -> str:
+    a_second = 1.0 / seconds
+    return f"1/{a_second:.6g} s" if abs(a_second - round(a_second)) < 1e-9 * a_second else f"{number(seconds)} s"
+
+
+def _kind_changes(noun: str, name: str, old: Mapping[str, Any], now: Mapping[str, Any]) -> Iterator[str]:
+    """What is said of a part otherwise. An argument that only one version of mindc knows is none."""
+    if old["is"] != now["is"]:
+        yield f"taught with {name} as {old['is']}, now {now['is']}"
+        return
+    for field in now:
+        if field != "is" and field in old and old[field] != now[field]:
+            before = argument(noun, now["is"], field, old[field])
+            after = argument(noun, now["is"], field, now[field]).partition(" ")[2]
+            yield f"taught with {name} {before}, now {after}"
+
+
+def _skill_changes(name: str, old: Mapping[str, Any], now: Mapping[str, Any]) -> Iterator[str]:
+    if old.get("text") != now.get("text") and old.get("text") and now.get("text"):
+        yield f"the text of {name}'s procedure has changed"
+    before, after = _said(old), _said(now)
+    gone, new = ", ".join(sorted((before - after).elements())), ", ".join(sorted((after - before).elements()))
+    if gone or new:
+        yield f"{name} has changed: " + (
+            f"{gone}, now {new}" if gone and new else f"{gone or new} is {'new' if new else 'gone'}"
+        )
+
+
+def _said(skill: Mapping[str, Any]) -> Counter[str]:
+    """What is said of a skill, but for the text of its procedure."""
+    said = [(key, each) for key, value in skill.items() if key != "text" for each in _each(value)]
+    return Counter(f"{word} {each}" for word, each in said)
+
+
+def _each(value: Any) -> Sequence[str]:
+    return [value] if isinstance(value, str) else value
+
+
+def _actuators_at_rest(old: Mapping[str, Any], now: Mapping[str, Any]) -> Iterator[str]:
+    """Actuators that move something in one of the worlds only."""
+    for subject in sorted(old.keys() ^ now.keys()):
+        noun, _, name = subject.partition(" ")
+        if noun == "actuator":
+            yield f"taught with {name}, which does nothing now" if subject in old else f"taught without {name}"
+        if noun == "thing":
+            word = "contains" if subject in now else "no longer contains"
+            yield f"its task has changed: {word} {name}"
+
+
+def _is_told(old: Mapping[str, Any], now: Mapping[str, Any]) -> bool:
+    """Whether the claw's reach is told already: as an argument of a gripper, or since items came or went."""
+    if "claw" not in old or "claw" not in now:
+        return True
+    shared = (subject for subject in old.keys() & now.keys() if subject.startswith("actuator "))
+    return any(old[s].get("reach") != now[s].get("reach") for s in shared)
+
+
+def _reach(facts: Mapping[str, Any]) -> str:
+    return number(facts["claw"])
+
+
+def _task_changes(old: Mapping[str, Any], now: Mapping[str, Any]) -> Iterator[str]:
+    told = [*_scene_changes(old.get("task"), now.get("task")), *_reward_changes(old["rewards"], now["rewards"])]
+    yield from (f"its task has changed: {change}" for change in told)
+
+
+def _scene_changes(old: Mapping[str, Any] | None, now: Mapping[str, Any] | None) -> Iterator[str]:
+    if old is None or now is None:
+        return
+    if old["scene"]["is"] != now["scene"]["is"]:
+        yield f"in {old['scene']['is']}, now {now['scene']['is']}"
+    else:
+        for field, value in now["scene"].items():
+            if old["scene"].get(field, value) != value:
+                kind = now["scene"]["is"]
+                before, after = (argument("task", kind, field, each) for each in (old["scene"][field], value))
+                yield f"in {kind} {before}, now {after.partition(' ')[2]}"
+    if old["ticks"] != now["ticks"]:
+        yield f"lasts {old['ticks']} ticks, now {now['ticks']}"
+    yield from (f"no longer ends on {event}" for event in sorted(set(old["ends"]) - set(now["ends"])))
+    yield from (f"ends on {event}" for event in sorted(set(now["ends"]) - set(old["ends"])))
+
+
+def _reward_changes(old: Sequence[Sequence[str]], now: Sequence[Sequence[str]]) -> Iterator[str]:
+    """Rewards that pay another amount for the same, that are gone and that are new."""
+    gone = Counter(map(tuple, old)) - Counter(map(tuple, now))
+    new = Counter(map(tuple, now)) - Counter(map(tuple, old))
+    amounts = {reason: amount for amount, reason in new}
+    for amount, reason in sorted(gone.elements()):
+        if reason in amounts:
+            after = amounts.pop(reason)
+            new[after, reason] -= 1
+            yield f"rewards {amount} {reason}, now {after}"
+        else:
+            yield f"no longer rewards {amount} {reason}"
+    yield from (f"rewards {amount} {reason} is new" for amount, reason in sorted((+new).elements()))
+
+
+def _lesson_changes(old: Mapping[str, Any], now: Mapping[str, Any]) -> Iterator[str]:
+    if old["from_scratch"] != now["from_scratch"]:
+        before, after = ("from scratch" if each["from_scratch"] else "from its weights" for each in (old, now))
+        yield f"taught {before}, now {after}"
+    yield from _kind_changes("curriculum", "the learner", old["learner"], now["learner"])

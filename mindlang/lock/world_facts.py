@@ -1,0 +1,191 @@
+"""The facts of the world that a lesson of a mind teaches in: all that a result of the lesson depends on.
+
+What a lesson cannot notice is none of them: parts that no skill below its master and no reward uses, what is only
+counted, names of curricula, how many generations there are, and the weights of skills that are not below the learner,
+since those may be taught again when it has learnt.
+"""
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from hashlib import sha256
+from pathlib import Path
+from typing import Any
+
+from mindrun.actuators import Gripper, Wheel
+from mindrun.encoding import encode
+from mindrun.errors import ProcedureError
+from mindrun.events import Exhaustion
+from mindrun.expression import leaves
+from mindrun.functions import Procedure
+from mindrun.functions.procedure import module_source
+from mindrun.graph import Actuator, Graph, Lesson, Reward, Skill, Task
+from mindrun.registry import names
+from mindrun.sensors import Battery, Derivative
+from mindrun.weights import genes, reachable
+from mindrun.world import Item
+
+from mindlang.drawing import phrase
+from mindlang.lock import Taught
+from mindlang.lock.training_world import LessonKey, TrainingWorld
+from mindlang.lock.wording import infix
+
+CLAW_REACH = 1.5  # of a robot without a claw, as `sim/task_rows.py` has it
+
+
+def key_of(lesson: Lesson) -> LessonKey:
+    """Which lesson it is, whatever its curriculum says of how it is learnt."""
+    return LessonKey(lesson.task, lesson.master, lesson.with_subskills)
+
+
+def key_of_taught(taught: Taught) -> LessonKey:
+    """Which lesson it was that a line of a lock tells of last."""
+    return LessonKey(taught.task, taught.master, taught.jointly)
+
+
+@dataclass(frozen=True)
+class Worlds:
+    """The training worlds of a mind; `folder` is where its procedures stand, None where they do not count."""
+
+    graph: Graph
+    folder: Path | None
+
+    def of(self, lesson: Lesson) -> TrainingWorld:
+        """The world that a lesson teaches in now."""
+        return TrainingWorld({**self._facts(lesson.task, lesson.master), "lesson": _lesson(lesson)})
+
+    def of_gone(self, lesson: LessonKey, said: Mapping[str, Any]) -> TrainingWorld:
+        """The world of a lesson that stands in no curriculum any more; how it was learnt is `said`."""
+        return TrainingWorld({**self._facts(lesson.task, lesson.master), "lesson": said})
+
+    def _facts(self, task: str, master: str) -> Mapping[str, Any]:
+        """All facts but the lesson's own."""
+        if (task, master) not in self._known:
+            self._known[task, master] = dict(self._found(task, master))
+        return self._known[task, master]
+
+    @cached_property
+    def _known(self) -> dict[tuple[str, str], Mapping[str, Any]]:
+        return {}
+
+    def _found(self, name: str, master: str) -> Iterator[tuple[str, Any]]:
+        task = next(task for task in self.graph.tasks if task.name == name)
+        skills = reachable(self.graph, master)
+        yield "tick", self.graph.tick
+        yield "body", encode(self.graph.body)
+        ends = sorted(phrase(task.events[event]) for event in task.ends)
+        yield "task", {"scene": encode(task.scene), "ticks": task.ticks, "ends": ends}
+        yield "rewards", sorted([*self._reward(task, reward)] for reward in task.rewards)
+        yield from ((f"thing {thing.name}", encode(thing.kind)) for thing in task.things)
+        yield from ((f"skill {skill.name}", self._skill(skill)) for skill in skills)
+        yield from self._parts(skills, task)
+
+    def _parts(self, skills: Sequence[Skill], task: Task) -> Iterator[tuple[str, Any]]:
+        """The sensors and memories that skills and rewards read, and the actuators that move."""
+        read = {self._names[index] for skill in skills for index in skill.inputs}
+        read |= {self._names[index] for reward in task.rewards for index in _read(reward)}
+        driven = {self.graph.named(edge.to, edge.target) for skill in skills for edge in skill.edges}
+        if any(isinstance(task.events[event], Exhaustion) for event in _happening(task)):
+            read |= {sensor.name for sensor in self.graph.sensors if isinstance(sensor.kind, Battery)}
+        sources = self._with_sources(read)
+        for sensor in self.graph.sensors:
+            if sensor.name in sources:
+                yield f"sensor {sensor.name}", encode(sensor.kind)
+        for memory in self.graph.memories:
+            if memory.name in read | driven:
+                yield f"memory {memory.name}", encode(memory.kind)
+        for actuator in self.graph.actuators:
+            if actuator.name in driven or _acts_at_rest(actuator):
+                yield f"actuator {actuator.name}", encode(actuator.kind)
+        if any(isinstance(thing.kind, Item) for thing in task.things):
+            claws = (actuator.kind.reach for actuator in self.graph.actuators if isinstance(actuator.kind, Gripper))
+            yield "claw", next(claws, CLAW_REACH)
+
+    def _with_sources(self, read: set[str]) -> set[str]:
+        """The sensors of these names, and those that they are derivatives of."""
+        found, waiting = set(read), [*read]
+        while waiting:
+            kind = self._sensors.get(waiting.pop())
+            if isinstance(kind, Derivative) and kind.of not in found:
+                found.add(kind.of)
+                waiting.append(kind.of)
+        return found
+
+    @cached_property
+    def _sensors(self) -> Mapping[str, Any]:
+        return {sensor.name: sensor.kind for sensor in self.graph.sensors}
+
+    @cached_property
+    def _names(self) -> list[str]:
+        """The sensor or memory of every reading, by its index."""
+        of_sensors = [sensor.name for sensor in self.graph.sensors for _ in range(sensor.width)]
+        return of_sensors + [memory.name for memory in self.graph.memories]
+
+    def _skill(self, skill: Skill) -> dict[str, Any]:
+        """What a skill does beside what its weights say: all of it where it does not learn."""
+        fixed = [edge for edge in skill.edges if edge.output is None]
+        sends = [f"{self.graph.named(edge.to, edge.target)} at {infix(edge.value, self._leaf)}" for edge in fixed]
+        if genes(skill):
+            return {"sends": sorted(sends)}
+        reads = list(dict.fromkeys(self._names[index] for index in skill.inputs))
+        if not isinstance(skill.function, Procedure):
+            return {"is": names()[type(skill.function)], "reads": sorted(reads), "sends": sorted(sends)}
+        answers = [self.graph.named(edge.to, edge.target) for edge in skill.edges if edge.output is not None]
+        function = {"is": f"procedure from {skill.function.from_}", "text": self._text(skill.function)}
+        return {**function, "reads": reads, "answers": answers, "sends": sorted(sends)}
+
+    def _text(self, procedure: Procedure) -> str:
+        """A hash of a procedure's module; empty where it does not count or cannot be read."""
+        try:
+            text = module_source(procedure, self.folder) if self.folder else ""
+        except ProcedureError:
+            text = ""
+        return sha256(text.encode()).hexdigest() if text else ""
+
+    def _reward(self, task: Task, reward: Reward) -> Iterator[str]:
+        """A reward's amount, and what it is paid for."""
+
+        def leaf(word: str, operand: float | int) -> str:
+            if word == "measure":
+                return phrase(task.measures[int(operand)])
+            return "p" if word == "each" else self._leaf(word, operand)
+
+        yield infix(reward.amount, leaf)
+        words = ["per tick" if reward.on is None else f"on {phrase(task.events[reward.on])}"]
+        if reward.each:
+            words.append(f"for each p in {self._names[reward.each[0]]}")
+        if reward.when:
+            words += ["when", infix(reward.when.left, leaf), reward.when.compare, infix(reward.when.right, leaf)]
+        yield " ".join(words)
+
+    def _leaf(self, word: str, operand: float | int) -> str:
+        return self._names[int(operand)]
+
+
+def _lesson(lesson: Lesson) -> dict[str, Any]:
+    learner = encode(lesson.learner)
+    where = {"task": lesson.task, "master": lesson.master, "with_subskills": lesson.with_subskills}
+    return {**where, "from_scratch": lesson.from_scratch, "learner": learner}
+
+
+def _read(reward: Reward) -> set[int]:
+    """The readings that a reward depends on."""
+    programs = [reward.amount, *((reward.when.left, reward.when.right) if reward.when else ())]
+    return {index for program in programs for index in leaves(program, "reading")} | (
+        {reward.each[0]} if reward.each else set()
+    )
+
+
+def _happening(task: Task) -> set[int]:
+    """The events that end a task or pay."""
+    return {*task.ends, *(reward.on for reward in task.rewards if reward.on is not None)}
+
+
+def _acts_at_rest(actuator: Actuator) -> bool:
+    """Whether it does something where no skill drives it."""
+    match actuator.kind:
+        case Wheel(neutral=neutral, thrust=thrust):
+            return neutral != 0.5 and thrust != 0.0
+        case Gripper(neutral=neutral):
+            return neutral > 0.5
+    return False

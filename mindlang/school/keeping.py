@@ -1,0 +1,130 @@
+"""What becomes of what a lesson has taught: it goes to the lock, unless what is there does better."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from math import isfinite
+
+import numpy as np
+from mindrun.graph import Lesson
+from mindrun.sim.rollout import Rollout
+from mindrun.train.errors import RunError
+from mindrun.train.genetic import Genomes
+from mindrun.train.lesson import State, mark
+from mindrun.train.run_folder import Run
+from mindrun.train.seeds import Purpose, layouts
+from mindrun.weights import parts
+
+from mindlang.figures import number
+from mindlang.lock import Entry, LockError, Taught, read_lock
+from mindlang.lock.blobs import record
+from mindlang.lock.status import Trained, trained_weights
+from mindlang.lock.world_facts import Worlds, key_of
+from mindlang.school.book import Book
+from mindlang.school.teaching import is_due
+
+COMPARED_LAYOUTS = 50  # common to the weights that a lock has and to the new ones, and to nothing else
+
+
+@dataclass(frozen=True, slots=True)
+class Comparison:
+    """The mean scores of the weights that stood in the lock and of the new ones, on the same fresh layouts."""
+
+    old: float
+    new: float
+
+    @property
+    def is_worse(self) -> bool:
+        """Whether the new weights do worse."""
+        return self.new < self.old
+
+    def __str__(self) -> str:
+        """Which stay, and why."""
+        return (
+            f"the weights that were there do better: {number(self.old)} against {number(self.new)} "
+            f"on the same {COMPARED_LAYOUTS} fresh layouts"
+        )
+
+
+@dataclass(frozen=True, slots=True)
+class Kept:
+    """What the lock says now of the skills that were taught; `comparison` where there were weights to compare with."""
+
+    entries: Mapping[str, Entry]
+    comparison: Comparison | None
+    is_new: bool
+
+
+def keep(run: Run, book: Book, state: State, rollout: Rollout, force: bool) -> Kept:
+    """Put what was learnt into the lock, or with `force` even where it is worse than what is there.
+
+    RunError where nothing was learnt. LockError where the lock cannot be read or written.
+    """
+    refuse_nothing(run.manifest.lesson, state)
+    old = _genome_there(run, book)
+    if old is None or np.array_equal(old, state.kept[0]):
+        return Kept(_record(run, book, state, state.kept[0], state.reevaluated), None, True)
+    found = compare(run, rollout, np.stack([old, state.kept[0]]))
+    if force or not found.is_worse:
+        return Kept(_record(run, book, state, state.kept[0], state.reevaluated), found, True)
+    lesson = declared(book, run.manifest.lesson)
+    if is_due(book.graph, lesson, book.standing(lesson)):
+        return Kept(_record(run, book, state, old, found.old), found, False)
+    known = read_lock(book.keep_path(lesson))
+    return Kept({skill: known[skill] for skill in run.manifest.learners}, found, False)
+
+
+def refuse_nothing(lesson: Lesson, state: State) -> None:
+    """RunError where a lesson has taught nothing: no score was a finite number, or all were the same."""
+    if not isfinite(state.reevaluated):
+        why, hint = (
+            "the rewards of every genome were not finite numbers",
+            f"look at the rewards of the task {lesson.task}",
+        )
+    elif not state.told_apart:
+        why = f"every genome of a generation scored the same, {number(state.best)} at best"
+        hint = (
+            f"look at the rewards of the task {lesson.task}: are they ever paid, and does what {lesson.skill} "
+            "sends make a difference? mindc run shows what each line pays"
+        )
+    else:
+        return
+    raise RunError(f"{lesson.skill} has learnt nothing: {why}; the lock stays as it is", hint)
+
+
+def compare(run: Run, rollout: Rollout, genomes: Genomes) -> Comparison:
+    """Two genomes on layouts that neither has seen: the mean of each; -inf where something was not finite."""
+    seeds = layouts(run.manifest.seed, 0, run.manifest.lesson.generations, COMPARED_LAYOUTS, Purpose.COMPARISON)
+    old, new = mark(rollout, genomes, seeds).scores
+    return Comparison(float(old), float(new))
+
+
+def _genome_there(run: Run, book: Book) -> Genomes | None:
+    """The weights of the learners in the lock to which the lesson goes; None where not all have some that fit."""
+    standing = book.standing(run.manifest.lesson)
+    if not all(isinstance(standing.get(skill), Trained) for skill in run.manifest.learners):
+        return None
+    try:
+        known, _ = trained_weights(book.graph, read_lock(book.keep_path(run.manifest.lesson)), run.manifest.learners)
+    except LockError:  # their file is gone or damaged
+        return None
+    return np.concatenate([known[skill] for skill in run.manifest.learners])
+
+
+def _record(run: Run, book: Book, state: State, genome: Genomes, score: float) -> dict[str, Entry]:
+    lesson, learners = run.manifest.lesson, run.manifest.learners
+    population, seed = lesson.learner.population, run.manifest.seed
+    taught = Taught(lesson.task, lesson.master, lesson.with_subskills, state.kept_after, population, seed, score)
+    begun_with = {} if lesson.from_scratch else {skill: book.lock[skill] for skill in learners if skill in run.weights}
+    learnt = parts(book.graph, learners, genome)
+    world = Worlds(book.graph, book.folder).of(declared(book, lesson))
+    return record(book.keep_path(lesson), book.graph, learnt, taught, run.weights, world, begun_with)
+
+
+def declared(book: Book, lesson: Lesson) -> Lesson:
+    """A lesson as it stands in the source: what the command line said of it once is no reason to teach it again."""
+    alike = (
+        each
+        for each in book.graph.lessons
+        if (each.skill, each.curriculum, key_of(each)) == (lesson.skill, lesson.curriculum, key_of(lesson))
+    )
+    return next(alike, lesson)
