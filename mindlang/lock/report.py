@@ -143,8 +143,9 @@ def as_data(row: Row) -> dict[str, Any]:
 
 def survival(found: Sequence[Row]) -> list[str]:
     """Which weights still fit, as sentences: those that do in one, each of the others in its own."""
-    trained = [row.skill for row in found if isinstance(row.status, Trained)]
+    trained = [row.skill for row in found if isinstance(row.status, Trained) and not row.damage]
     lines = [f"weights of {listed(trained, 'and')} fit"] if trained else []
     lines += told_elsewhere({row.skill: row.status for row in found})
+    lines += [row.damage for row in found if row.damage]
     lines += [f"{row.skill} is stale: {'; '.join(row.remarks)}" for row in found if isinstance(row.status, Stale)]
     return lines + [f"{row.skill} has not been taught" for row in found if isinstance(row.status, Untaught)]

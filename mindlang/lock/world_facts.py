@@ -86,7 +86,7 @@ class Worlds:
         read |= {self._names[index] for reward in task.rewards for index in _read(reward)}
         driven = {self.graph.named(edge.to, edge.target) for skill in skills for edge in skill.edges}
         if any(isinstance(task.events[event], Exhaustion) for event in _happening(task)):
-            read |= {sensor.name for sensor in self.graph.sensors if isinstance(sensor.kind, Battery)}
+            read |= {*[sensor.name for sensor in self.graph.sensors if isinstance(sensor.kind, Battery)][:1]}
         sources = self._with_sources(read)
         for sensor in self.graph.sensors:
             if sensor.name in sources:

@@ -1,0 +1,448 @@
+"""The world in which a skill was taught: whatever of it changes is noticed, and what changes nothing is not."""
+
+import json
+from collections.abc import Iterator
+from dataclasses import is_dataclass, replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from mindrun.functions import Mlp
+from mindrun.graph import Graph
+from mindrun.quantity import Quantity, Reference, Span
+from mindrun.registry import arguments, kinds, names
+from mindrun.weights import genes, learners
+
+from mindlang.compile import compile_source, load
+from mindlang.lock import Lock, LockError, Taught, lock_path, lock_text, read_lock
+from mindlang.lock.blobs import record
+from mindlang.lock.report import rows, survival
+from mindlang.lock.status import Stale, Trained, status
+from mindlang.lock.training_world import TrainingWorld, world_of
+from mindlang.lock.world_changes import changes
+from mindlang.lock.world_facts import Worlds
+from mindlang.source import Source
+
+# One of everything that a lesson can depend on, all of it below Top.
+MIND = """\
+tick 1/60 s
+master Top
+body Robot is disc
+actuator left_wheel is wheel side left neutral 0.5
+actuator right_wheel is wheel side right neutral 0.5
+actuator claw is gripper neutral 0
+actuator mast is servo neutral 0.5
+sensor eye is range_finder at 0 30 330 deg range 12
+sensor ball_bearing is bearing of ball
+sensor ball_drift is derivative of ball_bearing
+sensor near is contact of ball
+sensor holding is held of ball
+sensor home is inside of bin
+sensor moving is inertial
+sensor charge is battery
+sensor pulse is sine period 2 s
+sensor fear is range_finder at 0 deg range 3
+memory mood is cell decay 0.9
+
+skill Go is mlp hidden 1
+  reads eye
+  reads ball_drift
+  reads moving
+  reads pulse
+  reads charge
+  drives left_wheel
+  drives right_wheel
+  drives mast at 2 * moving
+
+skill Grab is rule
+  reads near
+  reads holding
+  reads home
+  drives claw at near + holding - home
+  drives mood at 1/2
+
+skill Turn is procedure from turn.by
+  reads eye
+  drives left_wheel
+
+skill Top is mlp
+  reads ball_bearing
+  reads mood
+  influences Go
+  influences Turn
+  influences Grab at 1
+
+task Fetch in arena size 80
+  contains ball is item size 2
+  contains bin is zone size 8
+  contains rock is obstacle count 3 size 2
+  contains dock is power size 4
+  lasts 600 ticks
+  ends on collision
+  ends on exhaustion
+  rewards 10 on reach of ball
+  rewards 50 on delivery of ball
+  rewards 1 on visit of patch size 5
+  rewards 0.1 * progress toward ball per tick
+  rewards 0.1 * advance toward bin per tick
+  rewards -0.1 * retreat from bin per tick
+  rewards -0.4 * change of thrust beyond 20% over 10 ticks per tick
+  rewards 0.01 * forward per tick when moving > 0.5
+  rewards -0.03 * (1 - p) per tick for each p in fear when p < 1/4
+  counts delivery of ball
+
+task Elsewhere in plain
+  lasts 60 ticks
+  rewards forward per tick
+
+curriculum School is genetic population 8
+  teaches Go on Fetch under Top for 3 generations
+  teaches Top on Fetch for 3 generations
+
+curriculum Other is restarting population 8
+  teaches Turnless on Elsewhere for 2 generations
+
+sensor unread is battery start 0.9
+memory unused is cell decay 0.5
+
+skill Turnless is mlp
+  reads pulse
+  drives left_wheel
+"""
+PROCEDURE = "def by(a, b, c):\n    return a\n"
+
+# Of these a lock need not know: they say nothing of the world, or what they say is told otherwise.
+NEED_NOT_BE_NOTICED = {
+    ("skill", "procedure", "from_"): "another function is told as another skill, by its text",
+}
+
+
+def compiled(text: str) -> Graph:
+    graph = compile_source(Source("a.mind", text, Path())).graph
+    assert graph, compile_source(Source("a.mind", text, Path())).diagnostics
+    return graph
+
+
+def taught(graph: Graph, folder: Path | None = None) -> Lock:
+    """The lock after every lesson, without a file."""
+    lock = {}
+    for lesson in graph.lessons:
+        for name in learners(graph, lesson):
+            skill = next(each for each in graph.skills if each.name == name)
+            path = (folder or Path("/nonexistent")) / "a.lock"
+            made = Taught(lesson.task, lesson.master, lesson.with_subskills, 3, 8, 1, 1.0)
+            world = Worlds(graph, folder).of(lesson)
+            entry = _entry(path, graph, name, made)
+            assert genes(skill)
+            lock[name] = replace(entry, worlds=(world,))
+    return lock
+
+
+def _entry(path: Path, graph: Graph, name: str, made: Taught) -> Any:
+    from mindlang.lock.blobs import _entry as entry
+
+    weights = {skill.name: np.zeros(genes(skill), np.float32) for skill in graph.skills if genes(skill)}
+    return entry(path, graph, name, weights, made)
+
+
+GRAPH = compiled(MIND)
+LOCK = taught(GRAPH)
+
+
+def is_noticed(graph: Graph, skill: str = "Top") -> bool:
+    state = status(graph, LOCK)[skill]
+    return isinstance(state, Stale) or (isinstance(state, Trained) and bool(state.changes))
+
+
+def _parts(graph: Graph) -> Iterator[tuple[str, Any]]:
+    """Every kind that the lesson of Top depends on, with its noun."""
+    task = graph.tasks[0]
+    yield "body", graph.body
+    yield from (("actuator", each.kind) for each in graph.actuators)
+    yield from (("sensor", each.kind) for each in graph.sensors if each.name != "unread")
+    yield "memory", graph.memories[0].kind
+    yield from (("skill", each.function) for each in graph.skills if each.name != "Turnless")
+    yield "task", task.scene
+    yield from (("content", each.kind) for each in task.things)
+    yield from (("event", each) for each in task.events)
+    yield from (("measure", each) for each in task.measures)
+    yield "curriculum", graph.lessons[1].learner
+
+
+def _exchanged(part: Any, old: Any, new: Any) -> Any:
+    """The same plain data with one part exchanged wherever it stands."""
+    if part is old:
+        return new
+    if isinstance(part, tuple):
+        return tuple(_exchanged(each, old, new) for each in part)
+    if is_dataclass(part) and not isinstance(part, type):
+        fields = {name: _exchanged(getattr(part, name), old, new) for name in part.__dataclass_fields__}
+        return type(part)(**fields)
+    return part
+
+
+def _another(value: Any, meaning: Quantity | Reference) -> Any:
+    """Another value that an argument may have."""
+    match value, meaning:
+        case Span(first=first, last=last, by=by), _:
+            return Span(first + 1.0, last + 1.0, by)
+        case tuple(), _:
+            return tuple(each + 0.1 for each in value)
+        case str(), Reference(words=words) if words:
+            return next((word for word in words if word != value), f"another {value}")
+        case str(), _:
+            return f"another_{value}"
+        case int(), Quantity(low=low, high=high):
+            return value + 1 if value + 1 <= high else max(low, value - 1)
+    assert isinstance(meaning, Quantity)
+    moved = value + 0.01 if value + 0.01 <= meaning.high else value - 0.01
+    assert meaning.low <= moved <= meaning.high
+    return moved
+
+
+ARGUMENTS = [
+    pytest.param(noun, kind, argument, id=f"{noun}-{names()[type(kind)]}-{argument.key}")
+    for noun, kind in _parts(GRAPH)
+    for argument in arguments(type(kind))
+]
+
+
+@pytest.mark.parametrize(("noun", "kind", "argument"), ARGUMENTS)
+def test_every_argument_of_every_kind_is_noticed(noun: str, kind: Any, argument: Any) -> None:
+    if (noun, names()[type(kind)], argument.field) in NEED_NOT_BE_NOTICED:
+        return
+    old = getattr(kind, argument.field)
+    new = replace(kind, **{argument.field: _another(old, argument.type)})
+    changed = _exchanged(GRAPH, kind, new)
+    assert changed != GRAPH
+    learns = isinstance(kind, Mlp) and any(skill.function is kind and skill.name == "Go" for skill in GRAPH.skills)
+    assert is_noticed(changed, "Go" if learns else "Top"), f"{noun} {kind} with {argument.key} {new}"
+
+
+def test_the_mind_of_these_tests_has_every_kind() -> None:
+    """A kind that is new to the language has to stand here, or its changes might go unnoticed."""
+    nouns = ("body", "actuator", "sensor", "memory", "skill", "task", "content", "event", "measure", "curriculum")
+    everywhere = {(noun, cls) for noun in nouns for cls in kinds(noun).values()}
+    here = {(noun, type(kind)) for noun, kind in _parts(GRAPH)}
+    assert {names()[cls] for _, cls in everywhere - here} == {"plain", "restarting"}, "of which Other has one"
+
+
+TEXTS = [
+    ("tick 1/60 s", "tick 1/20 s", "taught with tick 1/60 s, now 1/20 s"),
+    ("range 12", "range 3", "taught with eye range 12, now 3"),
+    ("0 30 330 deg", "0 30 331 deg", "taught with eye at 0 30 330 deg, now 0 30 331 deg"),
+    ("is disc", "is disc size 3", "taught with body size 2, now 3"),
+    ("of ball_bearing", "of near", "taught with ball_drift of ball_bearing, now near"),
+    ("size 2\n  contains bin", "size 3 to 1 by 0.5\n  contains bin", "taught with ball size 2, now 3 to 1 by 0.5"),
+    ("  contains dock is power size 4\n", "", "its task has changed: no longer contains dock"),
+    ("rewards 10 on", "rewards 5 on", "its task has changed: rewards 10 on reach of ball, now 5"),
+    (
+        "rewards 0.01 * forward per tick when moving > 0.5",
+        "rewards 0.01 * forward per tick",
+        "its task has changed: no longer rewards 0.01 * forward per tick when moving > 0.5; "
+        "its task has changed: rewards 0.01 * forward per tick is new",
+    ),
+    ("when p < 1/4", "when p <= 1/4", None),
+    ("each p in fear", "each p in eye", None),
+    ("lasts 600", "lasts 601", "its task has changed: lasts 600 ticks, now 601"),
+    ("  ends on exhaustion\n", "", "its task has changed: no longer ends on exhaustion"),
+    ("arena size 80", "arena size 81", "its task has changed: in arena size 80, now 81"),
+    ("genetic population 8", "genetic population 9", "taught with the learner population 8, now 9"),
+    ("School is genetic", "School is restarting", None),
+    ("drives mood at 1/2", "drives mood at 1/3", None),
+    ("influences Grab at 1", "influences Grab at 0.5", "Top has changed: sends Grab at 1, now sends Grab at 0.5"),
+    ("Top on Fetch for 3 generations", "Top on Fetch for 3 generations from scratch", None),
+    ("from turn.by", "from turn.to", None),
+    ("claw is gripper", "claw is gripper reach 2", "taught with claw reach 1.5, now 2"),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("old", "new", "told"), TEXTS)
+def test_what_changed_is_a_sentence(old: str, new: str, told: str | None) -> None:
+    assert MIND.count(old) >= 1
+    state = status(compiled(MIND.replace(old, new)), LOCK)["Top"]
+    assert isinstance(state, Trained)
+    assert state.changes
+    if told is not None:
+        assert "; ".join(state.changes) == told
+
+
+@pytest.mark.parametrize(
+    ("old", "new"),
+    [
+        ("  counts delivery of ball\n", ""),
+        ("for 3 generations", "for 300 generations"),
+        ("curriculum School", "curriculum Academy"),
+        ("start 0.9", "start 0.5"),
+        ("decay 0.5", "decay 0.6"),
+        ("neutral 0.5\nactuator claw", "neutral 50%  # said otherwise\nactuator claw"),
+        ("  reads near\n  reads holding\n", "  reads holding\n  reads near\n"),
+        ("  rewards 10 on reach of ball\n", "  rewards 10   on reach of ball\n"),
+        ("  ends on collision\n  ends on exhaustion\n", "  ends on exhaustion\n  ends on collision\n"),
+        ("near + holding - home", "(near + holding) - home"),
+        ("task Elsewhere in plain", "task Elsewhere in arena size 9"),
+        ("skill Top is mlp", "actuator flag is servo neutral 0.1\nskill Top is mlp"),
+        ("skill Top is mlp", "actuator third is wheel side left neutral 0.5\nskill Top is mlp"),
+        ("teaches Turnless on Elsewhere for 2", "teaches Turnless on Fetch for 2"),
+        ("influences Go\n", "influences Go\n  stays frozen\n"),
+    ],
+)
+def test_what_changes_nothing_is_not_noticed(old: str, new: str) -> None:
+    assert old in MIND
+    state = status(compiled(MIND.replace(old, new)), LOCK)["Top"]
+    assert isinstance(state, Trained)
+    assert state.changes == ()
+
+
+@pytest.mark.parametrize("actuator", ["wheel side left neutral 0.6", "gripper neutral 0.9"])
+def test_what_moves_by_itself_is_noticed(actuator: str) -> None:
+    """An actuator that no skill drives, and that does something at its neutral."""
+    state = status(compiled(f"{MIND}\nactuator third is {actuator}\n"), LOCK)["Top"]
+    assert isinstance(state, Trained)
+    assert state.changes == ("taught without third",)
+
+
+def test_a_claw_of_another_reach_is_noticed_by_a_skill_that_has_none() -> None:
+    text = MIND.replace("  influences Grab at 1\n", "")
+    lock = taught(compiled(text))
+    state = status(compiled(text.replace("claw is gripper", "claw is gripper reach 3")), lock)["Top"]
+    assert isinstance(state, Trained)
+    assert state.changes == ("taught with a claw's reach of 1.5, now 3",)
+
+
+def test_readings_in_another_order_are_other_readings() -> None:
+    """The weights of an angle would get what another angle sees."""
+    states = status(compiled(MIND.replace("0 30 330 deg", "30 0 330 deg")), LOCK)
+    assert states["Go"] == Stale(("the readings of eye stand in another order",))
+
+
+def test_the_text_of_a_procedure_is_noticed(tmp_path: Path) -> None:
+    (tmp_path / "turn.py").write_text(PROCEDURE)
+    lock = taught(GRAPH, tmp_path)
+    state = status(GRAPH, lock, tmp_path)["Top"]
+    assert isinstance(state, Trained)
+    assert state.changes == ()
+    (tmp_path / "turn.py").write_text(PROCEDURE.replace("return a", "return b"))
+    state = status(GRAPH, lock, tmp_path)["Top"]
+    assert isinstance(state, Trained)
+    assert state.changes == ("the text of Turn's procedure has changed",)
+
+
+def test_a_task_that_is_gone_is_told() -> None:
+    text = MIND.replace("task Fetch", "task Bring").replace("on Fetch", "on Bring")
+    state = status(compiled(text), LOCK)["Top"]
+    assert isinstance(state, Trained)
+    assert state.changes == ("its task Fetch is gone",)
+
+
+def test_an_earlier_lesson_is_known_too(tmp_path: Path) -> None:
+    """Taught on one task and then on another: both are kept, and of the same one the last."""
+    text = MIND.replace(
+        "for 3 generations\n\n", "for 3 generations\n  teaches Top on Elsewhere for 2 generations\n\n", 1
+    )
+    graph = compiled(text)
+    first, second = (lesson for lesson in graph.lessons if lesson.skill == "Top")
+    weights = {skill.name: np.zeros(genes(skill), np.float32) for skill in graph.skills if genes(skill)}
+    path, worlds = tmp_path / "a.lock", Worlds(graph, None)
+    record(path, graph, {"Go": weights["Go"]}, Taught("Fetch", "Go", False, 3, 8, 1, 1.0), {})
+    for lesson in (first, second, first, second):
+        made = Taught(lesson.task, lesson.master, False, 3, 8, 1, 1.0)
+        below = {"Go": weights["Go"]}
+        record(path, graph, {"Top": weights["Top"]}, made, below, worlds.of(lesson), read_lock(path))
+    lock = read_lock(path)
+    assert [world.lesson.task for world in lock["Top"].worlds] == ["Fetch", "Elsewhere"]
+    state = status(compiled(text.replace("rewards 10 on", "rewards 9 on")), lock)["Top"]
+    assert isinstance(state, Trained)
+    assert {lesson.task for lesson in state.outdated} == {"Fetch"}
+
+
+def test_worlds_are_written_once_and_read_back(tmp_path: Path) -> None:
+    text = lock_text(LOCK)
+    (tmp_path / "a.lock").write_text(text)
+    assert read_lock(tmp_path / "a.lock") == LOCK
+    (tmp_path / "a.lock").write_bytes(text.replace("\n", "\r\n").encode())
+    assert read_lock(tmp_path / "a.lock") == LOCK, "as git writes it on Windows"
+    assert text.count("\nworld ") == len({world.name for entry in LOCK.values() for world in entry.worlds})
+
+
+JSON = st.recursive(
+    st.none() | st.booleans() | st.integers() | st.floats() | st.text(max_size=5),
+    lambda inner: st.lists(inner, max_size=3) | st.dictionaries(st.text(max_size=5), inner, max_size=3),
+    max_leaves=5,
+)
+
+
+def _places(value: Any, path: tuple[Any, ...] = ()) -> Iterator[tuple[Any, ...]]:
+    yield path
+    if isinstance(value, dict | list):
+        for key, part in value.items() if isinstance(value, dict) else enumerate(value):
+            yield from _places(part, (*path, key))
+
+
+def _with(value: Any, path: tuple[Any, ...], new: Any) -> Any:
+    if not path:
+        return new
+    copy = value.copy()
+    copy[path[0]] = _with(value[path[0]], path[1:], new)
+    return copy
+
+
+PLAIN = json.loads(json.dumps(dict(LOCK["Top"].worlds[0].facts)))
+PLACES = [path for path in _places(PLAIN) if path]
+
+
+@given(st.sampled_from(PLACES), JSON)
+@settings(max_examples=300)
+def test_a_world_with_a_right_hash_and_odd_facts_is_refused_or_told(path: tuple[Any, ...], new: Any) -> None:
+    world = TrainingWorld(_with(PLAIN, path, new))
+    heading, *lines = world.text().split("\n")
+    try:
+        read = world_of(heading.split()[1], lines)
+    except ValueError:
+        return
+    assert all(isinstance(each, str) for each in changes(read, LOCK["Top"].worlds[0]))
+    assert all(isinstance(each, str) for each in changes(LOCK["Top"].worlds[0], read))
+
+
+@pytest.mark.parametrize(
+    "damage",
+    [
+        lambda text: text.replace("  tick = 0.01", "  tick = 0.02"),
+        lambda text: text.replace("\nworld ", "\nwordl "),
+        lambda text: text.replace("  tick", " tick"),
+        lambda text: text[: text.index("\nworld ")] + "\n",
+        lambda text: text.replace("taught in ", "taught in 0123456789abcdef "),
+        lambda text: text.replace("seed 1 ", f"seed {'1' * 5000} "),
+        lambda text: text.replace("score 1.0", "score 1e999"),
+        lambda text: text.replace("  tick = ", f"  tick = {'[' * 100_000}"),
+        lambda text: text + "\x00",
+    ],
+)
+def test_a_damaged_world_damages_the_lock(tmp_path: Path, damage: Any) -> None:
+    text = lock_text(LOCK)
+    assert damage(text) != text
+    (tmp_path / "a.lock").write_text(damage(text))
+    with pytest.raises(LockError, match="damaged"):
+        read_lock(tmp_path / "a.lock")
+
+
+def test_status_tells_weights_that_are_gone_or_anothers(tmp_path: Path) -> None:
+    from tests.edits.taught import teach, write_mind
+
+    path = write_mind(tmp_path)
+    teach(path)
+    lock = read_lock(lock_path(path))
+    blob = tmp_path / "weights" / f"{lock['Go'].weights}.npy"
+    other = (tmp_path / "weights" / f"{lock['Avoid'].weights}.npy").read_bytes()
+    blob.write_bytes(other)
+    graph = load(path).graph
+    assert graph
+    row = next(row for row in rows(graph, [path]) if row.skill == "Go")
+    assert (row.word, row.is_fine) == ("damaged", False)
+    blob.unlink()
+    row = next(row for row in rows(graph, [path]) if row.skill == "Go")
+    assert "cannot be read" in row.remarks[0]
+    assert not any("Go" in line and "fit" in line for line in survival(rows(graph, [path])))
