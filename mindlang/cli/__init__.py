@@ -1,8 +1,8 @@
 """The command line `mindc`: one command a file, found by looking, imported only when asked for."""
 
-import gc
 import os
 import sys
+from gc import set_threshold
 from importlib import import_module
 from pkgutil import iter_modules
 
@@ -56,7 +56,7 @@ def commands() -> None:
 
 def main() -> None:
     """Run one command; whatever happens ends in one message and an exit code, never in a traceback."""
-    gc.set_threshold(SELDOM)
+    set_threshold(SELDOM)
     try:
         code = commands.main(standalone_mode=False)
         sys.stdout.flush()

@@ -25,7 +25,7 @@ def command(folder: Path, write: bool, as_json: bool) -> None:
     """
     from mindlang.lock import LockError
     from mindlang.lock.garbage import remove, unnamed
-    from mindlang.terminal import MISUSE, console, fail, print_json
+    from mindlang.terminal import MISUSE, OK, console, fail, print_json
 
     if not folder.is_dir():
         fail(f"{folder} is not a folder.", code=MISUSE)
@@ -38,7 +38,7 @@ def command(folder: Path, write: bool, as_json: bool) -> None:
         fail(f"{error}.", error.hint)
     if as_json:
         print_json({"removed": write, "files": [str(path) for path in found], "bytes": size})
-        sys.exit()
+        sys.exit(OK)
     for path in found:
         console().print(str(path), markup=False)
     console(stderr=True).print(_told(len(found), size, write), markup=False)

@@ -71,11 +71,13 @@ def teach(path: Path, *skills: str, seed: int = 1, lock: Path | None = None) -> 
     assert graph
     graph = arrange(graph, {})
     rng, weights = np.random.default_rng(seed), {}
-    worlds = {lesson.skill: Worlds(graph, path.parent).of(lesson) for lesson in graph.lessons}
+    tasks = {lesson.skill: lesson.task for lesson in reversed(graph.lessons)}
+    worlds = {lesson.skill: Worlds(graph, path.parent).of(lesson) for lesson in reversed(graph.lessons)}
     for skill in reversed(graph.skills):
         if genes(skill) and (skill.name in skills or not skills):
             weights[skill.name] = rng.uniform(-0.7, 1, genes(skill)).astype(np.float32)
-            taught = Taught("Roam", skill.name, False, 3, 8, seed, 1.5)
+            task = tasks.get(skill.name, "Roam")
+            taught = Taught(task, skill.name, False, 3, 8, seed, 1.5)
             learnt = {skill.name: weights[skill.name]}
             record(lock or lock_path(path), graph, learnt, taught, weights, worlds.get(skill.name))
 

@@ -1,0 +1,164 @@
+"""What a lesson has taught goes to the lock, unless it is nothing, or what is there does better."""
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+from mindrun.weights import genes
+
+from mindlang.compile import load
+from mindlang.lock import lock_path, read_lock
+from mindlang.lock.blobs import blob
+from tests.calling import Call
+from tests.edits.taught import teach, write_mind
+from tests.train.test_train_command import MIND
+
+QUICK = ("--seed", "1", "--generations", "1")
+
+
+@pytest.fixture
+def drive(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    monkeypatch.chdir(tmp_path)
+    return write_mind(tmp_path, MIND)
+
+
+def weights(path: Path, skill: str = "Go") -> str:
+    return read_lock(lock_path(path))[skill].weights
+
+
+def test_worse_weights_take_no_place_without_force(mindc: Call, drive: Path) -> None:
+    assert mindc("train", drive, "Go", "--seed", 3, "--generations", 30).code == 0
+    good = weights(drive)
+    said = mindc("train", drive, "Go", "--from-scratch", "--json", *QUICK)
+    assert (said.code, weights(drive)) == (0, good)
+    result = json.loads(said.out)
+    assert (result["kept"], result["weights"]) == (False, {"Go": good})
+    assert result["compared"][0] > result["compared"][1]
+    assert "the weights that were there do better" in said.err
+    assert "--force puts them there" in said.err
+    assert (drive.parent / result["run"] / "weights.npy").exists(), "what was learnt is not lost"
+    forced = mindc("train", drive, "Go", "--from-scratch", "--force", *QUICK)
+    assert forced.code == 0, forced.err
+    assert weights(drive) != good
+    assert "but the weights that were there do better" in forced.err
+    assert blob(drive.parent, good).exists(), "mindc gc alone removes weights"
+
+
+def test_better_weights_take_the_place(mindc: Call, drive: Path) -> None:
+    teach(drive, "Go")
+    old = weights(drive)
+    said = mindc("train", drive, "Go", "--seed", 3, "--generations", 30, "--from-scratch", "--json")
+    assert said.code == 0, said.err
+    result = json.loads(said.out)
+    assert result["compared"][0] < result["compared"][1]
+    assert (result["kept"], result["weights"]["Go"]) == (True, weights(drive))
+    assert weights(drive) != old
+
+
+def test_a_lesson_that_tells_nobody_apart_has_taught_nothing(mindc: Call, drive: Path) -> None:
+    text = MIND.replace(
+        "  rewards 10 on reach of object\n  rewards progress toward object per tick\n", "  rewards 0.1 per tick\n"
+    )
+    drive.write_text(text)
+    said = mindc("train", drive, "Go", *QUICK)
+    assert said.code == 1
+    assert said.err.splitlines()[-2].startswith(
+        "Go has learnt nothing: every genome of a generation scored the same, 10.00"
+    )
+    assert not lock_path(drive).exists()
+    again = mindc("train", drive, "Go", *QUICK)
+    assert again.code == 1, "the run is done, and is not taught once more"
+    assert len([*(drive.parent / "runs").glob("Go-on-Reach/*")]) == 1
+
+
+def test_all_faults_have_taught_nothing(mindc: Call, drive: Path) -> None:
+    said = mindc("train", drive, "--curriculum", "Rest", *QUICK)
+    assert said.code == 1
+    assert "Go has learnt nothing: the rewards of every genome were not finite numbers" in said.err
+
+
+def test_train_is_like_make(mindc: Call, drive: Path) -> None:
+    """What has changed since is taught again, and then there is nothing to do; options of once are no change."""
+    small = ("--population", "4", "--attempts", "1", *QUICK)
+    assert mindc("train", drive, *small).code == 0
+    assert "nothing to do" in mindc("train", drive, *small).err
+    drive.write_text(drive.read_text().replace("rewards 10 on", "rewards 5 on"))
+    assert "taught elsewhere" in mindc("status", drive).out
+    said = mindc("run", drive, "--task", "Reach", "--seed", 1, "--json")
+    assert said.code == 0
+    note = "Go was taught elsewhere: its task has changed: rewards 10 on reach of object, now 5"
+    assert note in json.loads(said.out)["notes"][0] or note in said.err
+    taught = mindc("train", drive, "--json", *small)
+    assert [json.loads(line)["skill"] for line in taught.out.splitlines()] == ["Go", "Drive"]
+    assert "nothing to do" in mindc("train", drive, *small).err
+    assert "taught elsewhere" not in mindc("status", drive).out
+
+
+def test_what_a_person_accepts_is_not_taught_again(mindc: Call, drive: Path) -> None:
+    teach(drive)
+    drive.write_text(drive.read_text().replace("thrust 80", "thrust 70"))
+    old = weights(drive)
+    rows = json.loads(mindc("status", drive, "--json").out)["skills"]
+    assert {row["skill"]: row["status"] for row in rows} == {"Drive": "taught elsewhere", "Go": "taught elsewhere"}
+    said = mindc("status", drive, "--accept", "Go", "--accept", "Drive")
+    assert said.code == 0, said.err
+    assert "accepted by a person" in said.out
+    assert "nothing to do" in mindc("train", drive).err
+    assert weights(drive) == old
+    drive.write_text(drive.read_text().replace("thrust 70", "thrust 60"))
+    assert "taught with left_wheel thrust 70, now 60" in mindc("status", drive).out
+
+
+def test_what_cannot_be_accepted(mindc: Call, drive: Path) -> None:
+    said = mindc("status", drive, "--accept", "Gone")
+    assert (said.code, said.err.splitlines()) == (2, ["There is no skill Gone.", "  Did you mean Go?"])
+    said = mindc("status", drive, "--accept", "Go")
+    assert (said.code, said.err.splitlines()) == (1, ["Go has no weights that fit, and none can be accepted."])
+
+
+def test_an_old_lock_says_that_it_does_not_know(mindc: Call, drive: Path) -> None:
+    teach(drive)
+    text = lock_path(drive).read_text()
+    lines = [line.partition(" | taught in ")[0] for line in text.partition("\n\n")[0].splitlines()]
+    lock_path(drive).write_text("\n".join([lines[0].replace("lock 2", "lock 1"), *lines[1:], ""]))
+    said = mindc("status", drive)
+    assert said.code == 0
+    assert said.out.count("taught in a world that the lock does not know") == 2
+    assert "nothing to do" in mindc("train", drive).err, "what nobody knows is no reason"
+    assert mindc("status", drive, "--accept", "Go", "--accept", "Drive").code == 0
+    assert "does not know" not in mindc("status", drive).out
+
+
+def test_gc_removes_what_no_lock_names(mindc: Call, drive: Path) -> None:
+    teach(drive)
+    old = weights(drive)
+    teach(drive, seed=2)
+    graph = load(drive).graph
+    assert graph
+    assert any(genes(skill) for skill in graph.skills)
+    stray = drive.parent / "weights" / "notes.npy"
+    np.save(stray, np.zeros(3))
+    (drive.parent / "poetry.lock").write_text("no lock of ours")
+    listed = mindc("gc", drive.parent, "--json")
+    found = json.loads(listed.out)
+    assert str(blob(drive.parent, old)) in found["files"]
+    assert (len(found["files"]), found["removed"]) == (2, False)
+    assert blob(drive.parent, old).exists()
+    assert mindc("gc", drive.parent, "--write").code == 0
+    assert not blob(drive.parent, old).exists()
+    assert blob(drive.parent, weights(drive)).exists()
+    assert stray.exists()
+    assert mindc("gc", drive.parent).err.startswith("nothing to remove")
+
+
+def test_gc_removes_nothing_where_a_lock_is_damaged_or_missing(mindc: Call, drive: Path) -> None:
+    teach(drive)
+    kept = blob(drive.parent, weights(drive))
+    lock_path(drive).write_text("?")
+    said = mindc("gc", drive.parent, "--write")
+    assert (said.code, kept.exists()) == (1, True)
+    assert "drive.lock is damaged" in said.err
+    lock_path(drive).unlink()
+    assert mindc("gc", drive.parent, "--write").code == 0
+    assert kept.exists()
