@@ -21,7 +21,7 @@ from mindlang.lock import LockError
 from mindlang.school.book import Book, begin, open_book, refuse_changed
 from mindlang.school.interruption import Interruption
 from mindlang.school.keeping import Kept, keep
-from mindlang.school.results import Result, closing, opening, outcome, result_of
+from mindlang.school.results import Result, opening, outcome, result_of
 from mindlang.school.teaching import Wishes, is_due, lessons
 from mindlang.school.watching import Bar, Lines, Pace, Silent, Watcher
 from mindlang.simulator import make_ready
@@ -92,7 +92,7 @@ class School:
         kept = self._kept(run, book, state, rollout, force)
         result = result_of(run, state, kept)
         keep_result(run.folder, result)
-        self._say(closing(result), *outcome(run, kept, book.keep_path(run.manifest.lesson).name))
+        self._say(*outcome(run, result, kept, book.keep_path(run.manifest.lesson).name))
         self._print(result)
         return True
 

@@ -69,9 +69,11 @@ def closing(result: Result) -> str:
     )
 
 
-def outcome(run: Run, kept: Kept, lock: str) -> list[str]:
-    """What is in the lock now, and where the new weights are if they are not there."""
+def outcome(run: Run, result: Result, kept: Kept, lock: str) -> list[str]:
+    """What was learnt, what is in the lock now, and where the new weights are if they are not there."""
+    learnt = closing(result)
     if kept.is_new:
         worse = kept.comparison is not None and kept.comparison.is_worse
-        return [f"weights in {lock}", *[f"but {kept.comparison}"] * worse]
-    return [f"{kept.comparison}, and stay in {lock}", f"the new ones: {run.folder / WEIGHTS}; --force puts them there"]
+        return [f"{learnt}; weights in {lock}", *[f"but {kept.comparison}"] * worse]
+    stay = f"{kept.comparison}, and stay in {lock}"
+    return [learnt, stay, f"the new ones: {run.folder / WEIGHTS}; --force puts them there"]
