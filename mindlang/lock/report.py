@@ -20,7 +20,7 @@ from mindlang.lock.status import UNKNOWN, NotLearning, Stale, Status, Trained, U
 if TYPE_CHECKING:
     from rich.table import Table
 
-ACCEPTED = "taught in another world, and accepted by a person"
+ACCEPTED = "accepted by a person"
 COLOURS = {
     "trained": "green",
     "taught elsewhere": "magenta",
