@@ -40,7 +40,7 @@ MEMORY = _row(row="i8", decay="f4", rest="f4", start="f4")
 THING = _row(kind="i8", first="f8", last="f8", by="f8", low="f8", high="f8", hold="f8", drawn="i8")
 OBSTACLE = _row(first="f8", last="f8", grid="f8", jitter="f8", lines="i8", count="i8", low="f8", high="f8")
 MEASURES = _row(kind="i8", thing="i8", beyond="f8", over="i8", ring="i8")
-EVENT = _row(kind="i8", thing="i8", columns="i8", patch="f8", board="i8", ends="i8", counts="i8")
+EVENT = _row(kind="i8", thing="i8", columns="i8", patch="f8", board="i8", ends="i8")
 REWARD = _row(
     code="i8", length="i8", on="i8", each="i8", eachs="i8", compare="i8", left="i8", lefts="i8", right="i8", rights="i8"
 )

@@ -29,13 +29,15 @@ SLICE, SLOW_SLICE = 1000, 20  # ticks between two looks at whether to stop; wher
 class Scores:
     """What came of every genome on every seed: arrays [genomes, seeds].
 
-    `total` is −∞ where a reward was not a number; `by_line` [genomes, seeds, lines] sums each reward line; `ended_by`
-    is an index into the task's events, −1 where the run lasted its time; `faults` counts values that were not sent.
+    `total` is −∞ where a reward was not a number; `by_line` [genomes, seeds, lines] sums each reward line; `counts` are
+    all events that the task counts together, `by_event` [genomes, seeds, events] each event of the task; `ended_by` is
+    an index into these, −1 where the run lasted its time; `faults` counts values that were not sent.
     """
 
     total: NDArray[np.float64]
     by_line: NDArray[np.float64]
     counts: NDArray[np.int64]
+    by_event: NDArray[np.int64]
     ticks: NDArray[np.int64]
     ended_by: NDArray[np.int64]
     faults: NDArray[np.int64]
@@ -101,12 +103,12 @@ class Rollout:
                 except BaseException:
                     stop.set()  # before the pool waits for its threads
                     raise
-        return _scores(parts, shares, (len(genomes), len(seeds)))
+        return _scores(parts, shares, (len(genomes), len(seeds)), self.task.counts)
 
     def jobs(self, genomes: NDArray[np.float32], seeds: NDArray[np.uint64]) -> Jobs:
         """Every genome on every seed, as jobs that have not begun."""
         pairs = np.indices((len(genomes), len(seeds))).reshape(2, -1)
-        return _jobs(genomes, seeds, pairs[0], pairs[1], len(self.tables.rewards))
+        return _jobs(genomes, seeds, pairs[0], pairs[1], len(self.tables.rewards), len(self.tables.events))
 
     def compile(self) -> None:
         """Compile the lanes where no cache has them: up to a minute, otherwise under a second."""
@@ -123,7 +125,8 @@ class Rollout:
         return Tile(state, chipmunk.prepare(state.handles, state.floats, state.batch, radius, holds))
 
     def _run(self, jobs: Jobs, share: NDArray[np.int64], stop: Event, ended: Callable[[int], None]) -> Jobs:
-        mine = _jobs(jobs.genomes, jobs.seeds, jobs.genome[share], jobs.seed[share], jobs.lines.shape[1])
+        lines, events = jobs.lines.shape[1], jobs.counts.shape[1]
+        mine = _jobs(jobs.genomes, jobs.seeds, jobs.genome[share], jobs.seed[share], lines, events)
         tile = self.tile(lanes_for(len(share), self.lanes))
         self.fill(tile, mine)
         told, working = 0, 1
@@ -157,7 +160,7 @@ def lanes_for(jobs: int, most: int) -> int:
     return max(1, min(most, -(-lanes // 16) * 16 if lanes > 1 else 1))
 
 
-def _jobs(genomes: Array, seeds: Array, genome: Array, seed: Array, lines: int) -> Jobs:
+def _jobs(genomes: Array, seeds: Array, genome: Array, seed: Array, lines: int, events: int) -> Jobs:
     count = len(genome)
     return Jobs(
         genomes=genomes,
@@ -168,21 +171,21 @@ def _jobs(genomes: Array, seeds: Array, genome: Array, seed: Array, lines: int) 
         lanes=np.zeros(1, np.int64),
         clock=np.zeros(1, np.int64),
         lines=np.zeros((count, max(1, lines))),
-        counts=np.zeros(count, np.int64),
+        counts=np.zeros((count, events), np.int64),
         ticks=np.zeros(count, np.int64),
         ended=np.zeros(count, np.int64),
         faults=np.zeros(count, np.int64),
     )
 
 
-def _scores(parts: Sequence[Jobs], shares: Sequence[Array], shape: tuple[int, int]) -> Scores:
+def _scores(parts: Sequence[Jobs], shares: Sequence[Array], shape: tuple[int, int], counted: Sequence[int]) -> Scores:
     order = np.argsort(np.concatenate(shares))
 
     def joined(name: str) -> Array:
         whole: Array = np.concatenate([getattr(part, name) for part in parts])[order]
         return whole.reshape(*shape, *whole.shape[1:])
 
-    lines = joined("lines")
+    lines, happened = joined("lines"), joined("counts")
     total = np.zeros(shape)
     for i in range(lines.shape[2]):  # in the order of the source, so that every executor adds alike
         total = total + lines[:, :, i]
@@ -190,7 +193,8 @@ def _scores(parts: Sequence[Jobs], shares: Sequence[Array], shape: tuple[int, in
     return Scores(
         total=np.where(broken, -np.inf, total),
         by_line=lines,
-        counts=joined("counts"),
+        counts=happened[:, :, list(counted)].sum(axis=2),
+        by_event=happened,
         ticks=joined("ticks"),
         ended_by=joined("ended"),
         faults=joined("faults") + broken,

@@ -42,7 +42,7 @@ class State(NamedTuple):
     events: Array  # float64: how often each happened in this tick
     happened: Array  # [events]: in how many lanes
     lines: Array  # float64: the sum of each reward line
-    counts: Array
+    counts: Array  # [events] int64: how often each happened in this run
     tick: Array
     ended: Array  # the event that ended the run, −1 while it goes on or where it ran its time
     faults: Array
@@ -86,7 +86,7 @@ class Jobs(NamedTuple):
     lanes: Array  # [1]: how many lanes are at work
     clock: Array  # [1]: ticks since the beginning, for the rings
     lines: Array  # [jobs, lines]
-    counts: Array
+    counts: Array  # [jobs, events]
     ticks: Array
     ended: Array
     faults: Array
@@ -113,7 +113,7 @@ def empty_state(tables: Tables, sizes: Sizes, lanes: int) -> State:
         "slots": 4 * boxes,
     }  # fmt: skip
     numbers = (
-        "held", "counts", "tick", "ended", "faults", "job", "near", "touching", "touches", "slot_count", "active",
+        "held", "tick", "ended", "faults", "job", "near", "touching", "touches", "slot_count", "active",
     )  # fmt: skip
     return State(
         **{name: np.zeros((max(1, rows), whole)) for name, rows in doubles.items()},
@@ -129,4 +129,5 @@ def empty_state(tables: Tables, sizes: Sizes, lanes: int) -> State:
         floats=np.zeros((lanes, 16)),
         batch=np.zeros((lanes, 8), np.int64),
         slot_boxes=np.zeros((max(1, boxes), whole), np.int64),
+        counts=np.zeros((max(1, events), whole), np.int64),
     )

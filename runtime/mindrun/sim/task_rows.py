@@ -124,7 +124,7 @@ def event_rows(task: Task) -> tuple[list[Any], int]:
                 kind = COLLISION
             case events.Exhaustion():
                 kind = EXHAUSTION
-        rows.append((kind, thing, columns, patch, board, i in task.ends, task.counts.count(i)))
+        rows.append((kind, thing, columns, patch, board, i in task.ends))
         board += columns * columns
     return rows, board
 

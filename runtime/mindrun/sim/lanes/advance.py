@@ -84,10 +84,11 @@ def begin_job(t, s, jobs, p):
 def reset(t, s, p):
     """Everything of lane p that is not its world, its genome or its generator, as at the beginning of a run."""
     s.held[p], s.near[p], s.touching[p], s.faults[p] = -1, 0, 0, 0
-    s.tick[p], s.counts[p], s.ended[p] = 0, 0, -1
+    s.tick[p], s.ended[p] = 0, -1
     s.battery[p] = t.world[0].start
     s.heading[1, p], s.heading[0, p] = sine_cosine(s.body[2, p])
     s.lines[:, p] = 0.0
+    s.counts[:, p] = 0
     s.changes[:, p] = 0.0
     s.anchor[:, p] = np.nan
     for i in range(INERTIAL_TICKS):
@@ -112,8 +113,9 @@ def finish(t, s, jobs, p):
     job = s.job[p]
     for i in range(len(t.rewards)):
         jobs.lines[job, i] = s.lines[i, p]
-    jobs.counts[job], jobs.ticks[job], jobs.ended[job] = s.counts[p], s.tick[p], s.ended[p]
-    jobs.faults[job] = s.faults[p]
+    for i in range(len(t.events)):
+        jobs.counts[job, i] = s.counts[i, p]
+    jobs.ticks[job], jobs.ended[job], jobs.faults[job] = s.tick[p], s.ended[p], s.faults[p]
     close_space(t.library, s.handles[p], 1 + len(t.things))
     s.job[p] = -1
 
@@ -127,11 +129,12 @@ def move(s, a, b):
     for rows in (s.readings, s.before, s.measured, s.rings, s.genome, s.late, s.last, s.commands):
         for i in range(rows.shape[0]):
             rows[i, b] = rows[i, a]
-    for row in (s.held, s.counts, s.tick, s.ended, s.faults, s.job, s.near, s.touching, s.slot_count):
+    for row in (s.held, s.tick, s.ended, s.faults, s.job, s.near, s.touching, s.slot_count):
         row[b] = row[a]
     s.battery[b], s.random[b] = s.battery[a], s.random[a]
     s.board[b] = s.board[a]
-    for i in range(s.slot_boxes.shape[0]):
-        s.slot_boxes[i, b] = s.slot_boxes[i, a]
+    for rows in (s.slot_boxes, s.counts):
+        for i in range(rows.shape[0]):
+            rows[i, b] = rows[i, a]
     for i in range(s.handles.shape[1]):
         s.handles[a, i], s.handles[b, i] = s.handles[b, i], s.handles[a, i]

@@ -200,7 +200,7 @@ def settle(t, s, i, n, interrupt):
     event = t.events[i]
     for p in range(n):
         if s.events[i, p] > 0.0:
-            s.counts[p] += event.counts
+            s.counts[i, p] += 1
             if event.ends and interrupt and s.ended[p] < 0:
                 s.ended[p] = i
             if event.kind == REACH or event.kind == DELIVERY:
