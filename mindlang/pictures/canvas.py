@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from itertools import product
 
 import cv2
 import numpy as np
@@ -83,14 +84,29 @@ class Canvas:
         self._blend(alpha, self.places(points), wide, draw)
 
     def text(
-        self, x: float, y: float, text: str, size: float, colour: Colour, bold: bool = False, align: str = "left"
+        self,
+        x: float,
+        y: float,
+        text: str,
+        size: float,
+        colour: Colour,
+        bold: bool = False,
+        align: str = "left",
+        halo: Colour | None = None,
     ) -> float:
-        """Text with capitals of `size` pixels on the line that begins, is centred or ends in x, y; its width."""
+        """Text with capitals of `size` pixels on the line that begins, is centred or ends in x, y; its width.
+
+        A halo sets it off from what is drawn below it.
+        """
         font, scale, line = (cv2.FONT_HERSHEY_DUPLEX if bold else cv2.FONT_HERSHEY_SIMPLEX), *self._font(size)
         wide = text_width(text, size * self.pen, bold)
         start = {"left": 0.0, "centre": wide / 2, "right": wide}[align]
         column, row = self.places([x, y])[0] / 2**SHIFT
-        cv2.putText(self.image, text, (round(column - start), round(row)), font, scale, colour, line, cv2.LINE_AA)
+        left, low, far = round(column - start), round(row), round(1.5 * self.pen)
+        if halo is not None:
+            for aside, up in product((-far, 0, far), repeat=2):
+                cv2.putText(self.image, text, (left + aside, low + up), font, scale, halo, line, cv2.LINE_AA)
+        cv2.putText(self.image, text, (left, low), font, scale, colour, line, cv2.LINE_AA)
         return wide
 
     def _font(self, size: float) -> tuple[float, int]:

@@ -1,5 +1,6 @@
 """What stands around a picture: the run in words above it, its legend and its scale below."""
 
+from collections.abc import Sequence
 from typing import Any
 
 from mindrun.world import Item
@@ -9,40 +10,64 @@ from mindlang.pictures.canvas import Canvas, square, text_width
 from mindlang.pictures.path import LEAST, Path, draw_cross
 from mindlang.pictures.story import Story
 from mindlang.pictures.theme import Theme, mixed
-from mindlang.pictures.world import thing_colour
+from mindlang.pictures.world import thing_colours
 
 GAP = 22.0  # between two entries
-SMALL, LARGE = 11.0, 14.0
+SMALL, LARGE, SMALLEST = 11.0, 14.0, 5.0
+LINES, LINE, MARK = 2, 22.0, 26.0  # of the legend: how many, how high, and how wide what stands before a name
 
 
-def draw_title(canvas: Canvas, story: Story, found: dict[str, Any], theme: Theme, x: float, y: float) -> None:
-    """The task, and the facts of the run side by side, each below its name."""
+def draw_title(
+    canvas: Canvas, story: Story, found: dict[str, Any], theme: Theme, x: float, y: float, right: float
+) -> None:
+    """The task, and the facts of the run side by side up to `right`, each below its name."""
     canvas.text(x, y, story.task.name, 24, theme.ink, bold=True)
-    for name, value in _facts(story, found):
-        canvas.text(x, y + 25, name, SMALL, theme.faint)
-        canvas.text(x, y + 46, value, LARGE, theme.ink)
-        x += max(_width(canvas, name, SMALL), _width(canvas, value, LARGE)) + 1.6 * GAP
+    facts = _facts(story, found)
+    wide = [max(_width(canvas, name, SMALL), _width(canvas, value, LARGE)) + 1.6 * GAP for name, value in facts]
+    fit = min(1.0, (right - x) / (sum(wide) - 1.6 * GAP))  # smaller, where much is counted
+    for (name, value), width in zip(facts, wide, strict=True):
+        canvas.text(x, y + 25, name, fit * SMALL, theme.faint)
+        canvas.text(x, y + 46, value, fit * LARGE, theme.ink)
+        x += fit * width
 
 
 def _facts(story: Story, found: dict[str, Any]) -> list[tuple[str, str]]:
     seconds = found["ticks"] * story.graph.tick
     facts = [("in charge", found["master"]), ("seed", str(found["seed"])), ("score", score(found["score"], 1))]
-    if found["counted"]:
-        facts.append((" and ".join(found["counted"]), str(found["counts"])))
+    facts += [(event, str(times)) for event, times in found["by_event"].items()]
     facts.append(("ticks", f"{found['ticks']:,} of {found['of_ticks']:,} ({seconds:.0f} s)"))
     return [*facts, ("ended by", found["ended_by"] or "time")]
 
 
 def draw_legend(canvas: Canvas, story: Story, path: Path, theme: Theme, x: float, y: float, right: float) -> None:
-    """What the colours and marks mean, in lines that end before `right`."""
-    begin = x
-    for draw, name in _entries(canvas, story, path, theme):
-        wide = 26 + _width(canvas, name, SMALL) + GAP
-        if x + wide > right and x > begin:
-            x, y = begin, y + 22
-        draw(x, y - 4)
-        canvas.text(x + 26, y, name, SMALL, theme.ink)
-        x += wide
+    """What the colours and marks mean, in lines that end before `right`, smaller where they are many."""
+    entries = _entries(canvas, story, path, theme)
+    size, places = fitted(canvas, [name for _, name in entries], right - x)
+    for (draw, name), (along, line) in zip(entries, places, strict=True):
+        low = y + LINE * line
+        draw(x + along, low - 4)
+        canvas.text(x + along + MARK, low, name, size, theme.ink)
+
+
+def fitted(canvas: Canvas, names: Sequence[str], room: float) -> tuple[float, list[tuple[float, int]]]:
+    """The largest size at which so many names fit into the lines, and where each entry begins."""
+    size = SMALL
+    while True:
+        places = _places([_width(canvas, name, size) for name in names], room)
+        if places[-1][1] < LINES or size <= SMALLEST:
+            return size, places
+        size -= 0.5
+
+
+def _places(widths: Sequence[float], room: float) -> list[tuple[float, int]]:
+    """Where each name's entry begins and in which line, from 0."""
+    places, along, line = [], 0.0, 0
+    for width in widths:
+        if along and along + MARK + width > room:
+            along, line = 0.0, line + 1
+        places.append((along, line))
+        along += MARK + width + GAP
+    return places
 
 
 def _entries(canvas: Canvas, story: Story, path: Path, theme: Theme) -> list[Any]:
@@ -63,8 +88,7 @@ def _entries(canvas: Canvas, story: Story, path: Path, theme: Theme) -> list[Any
         if share >= LEAST
     ] or [(ramp, f"path, 0 to {seconds:.0f} s")]
     entries.append((lambda x, y: canvas.disc(x + 9, y, 4.5, theme.ink, width=1.6), "start"))
-    for thing in story.contents:
-        colour = thing_colour(thing.kind, theme)
+    for thing, colour in zip(story.contents, thing_colours(story.contents, theme), strict=True):
         is_item = isinstance(thing.kind, Item)
         entries.append((_dot(canvas, colour) if is_item else box(colour), thing.name))
     if len(story.boxes):

@@ -13,7 +13,7 @@ from mindlang.pictures.panel import Panel
 from mindlang.pictures.path import Path, draw_cross
 from mindlang.pictures.story import Story
 from mindlang.pictures.theme import NIGHT
-from mindlang.pictures.world import WALL, draw_floor, draw_items, draw_robot, draw_zones
+from mindlang.pictures.world import WALL, draw_floor, draw_items, draw_names, draw_robot, draw_zones
 
 WIDTH, HEIGHT = 1280, 720
 MINUTE = 60.0  # seconds that a whole run lasts, sped up
@@ -90,6 +90,7 @@ class Film:
         trail.draw(canvas, max(0, tick - past), tick, 2.0)
         draw_items(canvas, story, NIGHT, tick)
         draw_robot(canvas, story, NIGHT, tick)
+        draw_names(canvas, story, NIGHT, tick)
         recent = tick - FLASH * self.FPS * self.step
         for x, y, _ in story.body[story.collisions[(story.collisions > recent) & (story.collisions <= tick)]]:
             draw_cross(canvas, x, y, 9 / canvas.view.scale, NIGHT)
@@ -113,7 +114,7 @@ class Film:
             f"{tick * story.graph.tick:.1f} s",
             f"speed {self.speed:g}",
             f"score {story.lines[tick - 1].sum():,.1f}",
-            *([f"{' and '.join(self.found['counted'])} {story.counts[tick - 1]}"] if self.found["counted"] else []),
+            *(f"{event} {times}" for event, times in zip(self.found["counted"], story.counts[tick - 1], strict=True)),
             f"seed {self.found['seed']}",
         ]
         for text in said:

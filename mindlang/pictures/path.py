@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from mindlang.pictures.canvas import Canvas, square
 from mindlang.pictures.story import Story
 from mindlang.pictures.theme import Colour, Theme, mixed
-from mindlang.pictures.world import thing_colour
+from mindlang.pictures.world import thing_colours
 
 STEPS = 64  # shades of a path by time
 LEAST = 0.005  # of the run: a skill that was in control for less does not count
@@ -55,14 +55,18 @@ def _stretches(keys: NDArray[np.int64]) -> list[tuple[int, int]]:
     return list(pairwise([0, *(int(change) for change in changes), len(keys)])) if len(keys) else []
 
 
-def draw_marks(canvas: Canvas, story: Story, theme: Theme) -> None:
-    """Where the run began, and every collision."""
+def draw_start(canvas: Canvas, story: Story, theme: Theme) -> None:
+    """Where the run began."""
     unit = canvas.pen / canvas.view.scale
     x, y, _ = story.body[0]
     canvas.disc(x, y, 5 * unit, theme.floor)
     canvas.disc(x, y, 5 * unit, theme.ink, width=1.8)
+
+
+def draw_collisions(canvas: Canvas, story: Story, theme: Theme) -> None:
+    """Where the robot collided; over the robot, since a run may end there."""
     for x, y, _ in story.body[story.collisions]:
-        draw_cross(canvas, x, y, 5.5 * unit, theme)
+        draw_cross(canvas, x, y, 5.5 * canvas.pen / canvas.view.scale, theme)
 
 
 def draw_cross(canvas: Canvas, x: float, y: float, size: float, theme: Theme) -> None:
@@ -74,8 +78,7 @@ def draw_cross(canvas: Canvas, x: float, y: float, size: float, theme: Theme) ->
 
 def draw_former(canvas: Canvas, story: Story, theme: Theme) -> None:
     """Faintly, where things were before, numbered in their order where there are not too many."""
-    for number, thing in enumerate(story.contents):
-        colour = thing_colour(thing.kind, theme)
+    for number, (thing, colour) in enumerate(zip(story.contents, thing_colours(story.contents, theme), strict=True)):
         former = story.placements(number)[:-1]
         for order, (x, y, size) in enumerate(former, 1):
             if isinstance(thing.kind, Item):

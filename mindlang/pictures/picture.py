@@ -8,10 +8,10 @@ from mindrun.world import Arena
 
 from mindlang.pictures.canvas import Canvas, Image, View, blank, pasted
 from mindlang.pictures.caption import draw_legend, draw_scale, draw_title
-from mindlang.pictures.path import Path, draw_former, draw_marks
+from mindlang.pictures.path import Path, draw_collisions, draw_former, draw_start
 from mindlang.pictures.story import Story
 from mindlang.pictures.theme import PAPER
-from mindlang.pictures.world import WALL, draw_floor, draw_items, draw_robot, draw_zones
+from mindlang.pictures.world import WALL, draw_floor, draw_items, draw_names, draw_robot, draw_zones
 
 SIZE = 1000
 ABOVE, BELOW, SIDE = 96, 74, 28  # what stands around the world
@@ -26,7 +26,7 @@ def picture(story: Story, found: dict[str, Any]) -> Image:
     view = view_of(story, wide, high)
     pasted(page, _world(story, view, wide, high), FINE * SIDE, FINE * ABOVE)
     canvas = Canvas(page, View(0.0, 0.0, FINE), pen=FINE, down=True)
-    draw_title(canvas, story, found, PAPER, SIDE, 34)
+    draw_title(canvas, story, found, PAPER, SIDE, 34, SIZE - SIDE)
     draw_legend(canvas, story, Path.of(story, PAPER), PAPER, SIDE, SIZE - 46, SIZE - SIDE - 170)
     draw_scale(canvas, FINE / view.scale, PAPER, SIZE - SIDE, SIZE - 44)
     return cv2.resize(page, (SIZE, SIZE), interpolation=cv2.INTER_AREA).astype(np.uint8)
@@ -57,7 +57,9 @@ def _world(story: Story, view: View, width: int, height: int) -> Image:
     draw_former(canvas, story, PAPER)
     draw_zones(canvas, story, PAPER, story.ticks)
     Path.of(story, PAPER).draw(canvas, 0, story.ticks, 2.0)
-    draw_marks(canvas, story, PAPER)
+    draw_start(canvas, story, PAPER)
     draw_items(canvas, story, PAPER, story.ticks)
     draw_robot(canvas, story, PAPER, story.ticks)
+    draw_collisions(canvas, story, PAPER)
+    draw_names(canvas, story, PAPER, story.ticks)
     return image

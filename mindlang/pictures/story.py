@@ -21,7 +21,7 @@ JUMP = 0.5  # units: nothing moves that far in a tick but what reappears elsewhe
 class Story:
     """Row 0 of `body` [ticks + 1, 3], `things` [ticks + 1, things, 3] and `held` is the beginning.
 
-    `readings`, `influence`, `commands`, `lines` and `touching` have a row per tick.
+    `readings`, `influence`, `commands`, `lines`, `touching` and `counts` [ticks, counted events] have a row per tick.
     """
 
     cast: Cast
@@ -88,7 +88,6 @@ def tell(cast: Cast, rollout: Rollout, seed: int) -> Story:
     """The story of the run that `rollout` makes of a seed."""
     run = trace(rollout, seed)
     moments = list(run.moments)
-    counted = [cast.task.counts.count(event) for event in range(len(cast.task.events))]
     events = np.array([moment.events for moment in moments]).reshape(len(moments), -1)
     return Story(
         cast,
@@ -101,7 +100,7 @@ def tell(cast: Cast, rollout: Rollout, seed: int) -> Story:
         np.array([moment.commands for moment in moments]),
         np.array([moment.lines for moment in moments]).reshape(len(moments), -1),
         np.array([moment.touching for moment in moments]),
-        np.cumsum(events @ np.array(counted, np.int64)),
+        np.cumsum(events[:, list(cast.task.counts)], axis=0),
     )
 
 

@@ -11,6 +11,11 @@ def colour(code: str) -> Colour:
     return blue, green, red
 
 
+def colours(*codes: str) -> tuple[Colour, ...]:
+    """The colours of some codes."""
+    return tuple(colour(code) for code in codes)
+
+
 def mixed(first: Colour, second: Colour, share: float) -> Colour:
     """`first` with a share of `second`, 0 to 1."""
     share = min(1.0, max(0.0, share))
@@ -30,9 +35,9 @@ class Theme:
     rock_edge: Colour
     ink: Colour
     faint: Colour
-    item: Colour
-    zone: Colour
-    power: Colour
+    items: tuple[Colour, ...]  # one each, as long as they last
+    zones: tuple[Colour, ...]
+    powers: tuple[Colour, ...]
     robot: Colour
     ray: Colour
     crash: Colour
@@ -52,15 +57,15 @@ PAPER = Theme(
     rock_edge=colour("#8b919e"),
     ink=colour("#23272f"),
     faint=colour("#8a8f99"),
-    item=colour("#e8871e"),
-    zone=colour("#3a9d5d"),
-    power=colour("#8e5bd0"),
+    items=colours("#e8871e", "#d6409f", "#c9b200", "#8d5a2b"),
+    zones=colours("#3a9d5d", "#2a8fc7", "#93a80f", "#1fa596"),
+    powers=colours("#8e5bd0", "#c45bb4", "#5468d4", "#a3557a"),
     robot=colour("#23272f"),
     ray=colour("#e2555f"),
     crash=colour("#d62839"),
     early=colour("#a9d6f5"),
     late=colour("#123c7c"),
-    skills=tuple(map(colour, ("#2878c8", "#e0559b", "#14a39a", "#d9a404", "#7b5cd6", "#6b8e23", "#c0562f", "#5b6b7f"))),
+    skills=colours("#2878c8", "#e0559b", "#14a39a", "#d9a404", "#7b5cd6", "#6b8e23", "#c0562f", "#5b6b7f"),
     dark=colour("#dddad2"),
     glow=colour("#1f9d4d"),
 )
@@ -73,15 +78,15 @@ NIGHT = Theme(
     rock_edge=colour("#606b80"),
     ink=colour("#eceff4"),
     faint=colour("#8b94a5"),
-    item=colour("#ffa040"),
-    zone=colour("#4cc97a"),
-    power=colour("#b48cff"),
+    items=colours("#ffa040", "#ff7ac8", "#f2e04a", "#c98f5a"),
+    zones=colours("#4cc97a", "#56b8f0", "#c3d84a", "#4fd6c8"),
+    powers=colours("#b48cff", "#ea8fdc", "#8c9dff", "#d58aad"),
     robot=colour("#f4f6fa"),
     ray=colour("#ff6b74"),
     crash=colour("#ff4d5e"),
     early=colour("#1f3a5c"),
     late=colour("#6fb8ff"),
-    skills=tuple(map(colour, ("#5aa9f0", "#f07db8", "#3fcfc4", "#f2c744", "#a58bf5", "#a5c94c", "#f08a5d", "#93a4bb"))),
+    skills=colours("#5aa9f0", "#f07db8", "#3fcfc4", "#f2c744", "#a58bf5", "#a5c94c", "#f08a5d", "#93a4bb"),
     dark=colour("#262b34"),
     glow=colour("#39ff88"),
 )

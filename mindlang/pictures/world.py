@@ -1,18 +1,23 @@
-"""The world of a run: floor, walls, obstacles, things, and the robot with its rays and its claw."""
+"""The world of a run: floor, walls, obstacles, things and their names, and the robot with its rays and its claw."""
 
+from collections.abc import Iterable, Sequence
+from itertools import cycle
 from math import cos, sin
 
 import numpy as np
 from mindrun.actuators import Gripper
+from mindrun.graph import Thing
 from mindrun.sensors import RangeFinder
 from mindrun.world import Arena, Item, Power, Zone
+from numpy.typing import NDArray
 
-from mindlang.pictures.canvas import Canvas, square
+from mindlang.pictures.canvas import Canvas, square, text_width
 from mindlang.pictures.story import Story
 from mindlang.pictures.theme import Colour, Theme, mixed
 
 GRID = 10.0  # units
 WALL = 0.8
+NAME = 10.0  # pixels: the capitals of a thing's name
 
 
 def draw_floor(canvas: Canvas, story: Story, theme: Theme) -> None:
@@ -37,34 +42,50 @@ def _grid(canvas: Canvas, theme: Theme, half: float) -> None:
         canvas.line([(left, y), (right, y)], theme.grid)
 
 
-def thing_colour(kind: object, theme: Theme) -> Colour:
-    """The colour of an item, a zone or a power zone."""
-    match kind:
-        case Item():
-            return theme.item
-        case Zone():
-            return theme.zone
-        case Power():
-            return theme.power
-    return theme.faint
+def thing_colours(things: Sequence[Thing], theme: Theme) -> list[Colour]:
+    """A colour for each thing: items, zones and power zones have their own, which begin again when they are used up."""
+    left = {Item: cycle(theme.items), Zone: cycle(theme.zones), Power: cycle(theme.powers)}
+    return [next(left[type(thing.kind)]) for thing in things]
+
+
+def _each(story: Story, theme: Theme, tick: int) -> Iterable[tuple[Thing, Colour, NDArray[np.float64]]]:
+    """Every thing, its colour, and its place and size after a tick."""
+    return zip(story.contents, thing_colours(story.contents, theme), story.things[tick], strict=True)
 
 
 def draw_zones(canvas: Canvas, story: Story, theme: Theme, tick: int) -> None:
     """The zones as they are after a tick: below the path."""
-    for thing, (x, y, size) in zip(story.contents, story.things[tick], strict=True):
+    for thing, fill, (x, y, size) in _each(story, theme, tick):
         if not isinstance(thing.kind, Item):
-            fill = thing_colour(thing.kind, theme)
             canvas.polygon(square(x, y, size / 2), fill, 0.22)
             canvas.line(square(x, y, size / 2), fill, 1.6, closed=True)
 
 
 def draw_items(canvas: Canvas, story: Story, theme: Theme, tick: int) -> None:
     """The items as they are after a tick."""
-    for thing, (x, y, size) in zip(story.contents, story.things[tick], strict=True):
+    for thing, fill, (x, y, size) in _each(story, theme, tick):
         if isinstance(thing.kind, Item):
-            fill = thing_colour(thing.kind, theme)
             canvas.disc(x, y, size / 2, fill)
             canvas.disc(x, y, size / 2, mixed(fill, theme.ink, 0.45), width=1.2)
+
+
+def draw_names(canvas: Canvas, story: Story, theme: Theme, tick: int) -> None:
+    """The name of each thing in sight: below it, or above it where the robot or the lower edge is."""
+    pixel = 1 / canvas.view.scale
+    (height, width), (left, top) = canvas.image.shape[:2], (canvas.view.left, canvas.view.top)
+    right, low = left + width * pixel, top - height * pixel
+    robot, radius = story.body[tick, :2], story.graph.body.size / 2
+    high, gap = NAME * canvas.pen * pixel, 4 * canvas.pen * pixel
+    for thing, _, (x, y, size) in _each(story, theme, tick):
+        if not (left < x < right and low < y < top):
+            continue
+        half = text_width(thing.name, NAME * canvas.pen) * pixel / 2
+        middle = min(max(x, left + half), right - half)
+        line = y - size / 2 - gap - high
+        is_covered = abs(robot[0] - middle) < half + radius and abs(robot[1] - line - high / 2) < high / 2 + radius
+        if is_covered or line < low + gap:
+            line = y + size / 2 + gap
+        canvas.text(middle, line, thing.name, NAME, theme.ink, align="centre", halo=theme.floor)
 
 
 def draw_robot(canvas: Canvas, story: Story, theme: Theme, tick: int) -> None:

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from mindrun.graph import Task
+from numpy.typing import NDArray
 
 from mindlang.drawing import phrase
 
@@ -23,7 +24,7 @@ def events(task: Task) -> list[str]:
 
 
 def one(task: Task, scores: Scores) -> dict[str, Any]:
-    """The single run of `scores`; a sum that is not a finite number is None."""
+    """The single run of `scores`; a sum that is not a finite number is None, `counts` is the sum of `by_event`."""
     by_line: dict[str, float] = {}
     for reward, paid in zip(task.rewards, scores.by_line[0, 0], strict=False):
         by_line[reward.text] = by_line.get(reward.text, 0.0) + float(paid)
@@ -33,6 +34,7 @@ def one(task: Task, scores: Scores) -> dict[str, Any]:
         "by_line": {text: _number(paid) for text, paid in by_line.items()},
         "counts": int(scores.counts[0, 0]),
         "counted": [events(task)[event] for event in task.counts],
+        "by_event": {events(task)[event]: int(scores.by_event[0, 0, event]) for event in task.counts},
         "ticks": int(scores.ticks[0, 0]),
         "of_ticks": task.ticks,
         "ended_by": events(task)[ended] if ended >= 0 else None,
@@ -41,19 +43,22 @@ def one(task: Task, scores: Scores) -> dict[str, Any]:
 
 
 def many(task: Task, scores: Scores, seeds: Sequence[int], seconds: float) -> dict[str, Any]:
-    """All runs of one genome. `count_std` is that of the sample; the best and the worst run are named by their seed."""
-    totals, counts, ticks = scores.total[0], scores.counts[0], int(scores.ticks.sum())
+    """All runs of one genome; the best and the worst run are named by their seed.
+
+    A `std` is that of the sample, how far single runs are apart; a `standard_error` how far the mean may be off. One
+    run knows neither.
+    """
+    totals, ticks = scores.total[0], int(scores.ticks.sum())
     names = [*events(task), TIME]  # a run that lasts its time is ended by −1
     ended = np.bincount(scores.ended_by[0] % len(names), minlength=len(names))
     return {
         "runs": len(seeds),
-        "count_mean": float(counts.mean()),
-        "count_std": float(counts.std(ddof=1)) if len(counts) > 1 else 0.0,
+        **_spread("count_", scores.counts[0]),
         "counted": [names[event] for event in task.counts],
+        "by_event": {names[event]: _spread("", scores.by_event[0, :, event]) for event in task.counts},
         "runtime_mean": float(scores.ticks[0].mean() / task.ticks),
         "ended": {name: int(n) for name, n in zip(names, ended, strict=True) if n},
-        "score_mean": _number(totals.mean()),
-        "score_std": _number(np.std(totals, ddof=1)) if len(totals) > 1 and np.isfinite(totals).all() else None,
+        **_spread("score_", totals),
         "best_seed": int(seeds[int(totals.argmax())]),
         "worst_seed": int(seeds[int(totals.argmin())]),
         "faults": int(scores.faults.sum()),
@@ -63,9 +68,10 @@ def many(task: Task, scores: Scores, seeds: Sequence[int], seconds: float) -> di
     }
 
 
-def standard_error(deviation: float, runs: int) -> float:
-    """How far a mean of so many runs may be off."""
-    return deviation / sqrt(runs)
+def _spread(of: str, values: NDArray[Any]) -> dict[str, float | None]:
+    deviation = float(values.std(ddof=1)) if len(values) > 1 and np.isfinite(values).all() else None
+    error = None if deviation is None else deviation / sqrt(len(values))
+    return {f"{of}mean": _number(values.mean()), f"{of}std": deviation, f"{of}standard_error": error}
 
 
 def _number(value: float) -> float | None:

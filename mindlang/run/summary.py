@@ -7,7 +7,7 @@ from rich.console import Group, RenderableType
 from rich.text import Text
 
 from mindlang.figures import duration, rate, score
-from mindlang.run.outcome import TIME, standard_error
+from mindlang.run.outcome import TIME
 
 
 def run_summary(found: dict[str, Any]) -> RenderableType:
@@ -15,7 +15,7 @@ def run_summary(found: dict[str, Any]) -> RenderableType:
     ended = f"ended by {found['ended_by']}" if found["ended_by"] else "lasted its time"
     facts = _facts(
         ("seed", str(found["seed"])),
-        ("counted", _counted(found, f"{found['counts']} ×")),
+        *_counted({event: f"{times} × " for event, times in found["by_event"].items()}),
         ("ticks", f"{found['ticks']:,} of {found['of_ticks']:,}, {ended}"),
         ("faults", _faults(found)),
     )
@@ -27,22 +27,20 @@ def run_summary(found: dict[str, Any]) -> RenderableType:
 def bench_summary(found: dict[str, Any]) -> RenderableType:
     """Many runs: means with their standard errors, how they ended, how fast they were."""
     runs = found["runs"]
-    means = f"{found['count_mean']:.2f} ± {standard_error(found['count_std'], runs):.2f}"
-    earned = score(found["score_mean"])
-    if found["score_std"] is not None:
-        earned += f" ± {standard_error(found['score_std'], runs):.2f}"
+    cores = "core" if found["workers"] == 1 else "cores"
+    error = "; ± is the standard error of the mean" if runs > 1 else ""
     ended = ", ".join(
         f"{'lasted its time' if name == TIME else name}: {n / runs:.0%}" for name, n in found["ended"].items()
     )
     facts = _facts(
-        ("runs", f"{runs} from seed {found['seed']}"),
-        ("counted", _counted(found, f"{means}  ")),
-        ("score", earned),
+        ("runs", f"{runs} from seed {found['seed']}{error}"),
+        *_counted({event: f"{_mean(spread, '')}   " for event, spread in found["by_event"].items()}),
+        ("score", _mean(found, "score_")),
         ("run time", f"{found['runtime_mean']:.1%} of the task's ticks"),
         ("ended by", ended),
         ("best run", f"seed {found['best_seed']}"),
         ("worst run", f"seed {found['worst_seed']}"),
-        ("speed", f"{rate(found['ticks_per_second'])} on {found['workers']}, in {duration(found['seconds'])}"),
+        ("speed", f"{rate(found['ticks_per_second'])} on {found['workers']} {cores}, in {duration(found['seconds'])}"),
         ("faults", _faults(found)),
     )
     return Group(_title(found), facts)
@@ -52,8 +50,16 @@ def _title(found: dict[str, Any]) -> Text:
     return Text.assemble((found["task"], "bold"), f" with {found['master']} in charge")
 
 
-def _counted(found: dict[str, Any], count: str) -> str:
-    return f"{count} {' and '.join(found['counted'])}" if found["counted"] else ""
+def _mean(found: dict[str, Any], of: str) -> str:
+    error = found[f"{of}standard_error"]
+    return score(found[f"{of}mean"]) + (f" ± {error:.2f}" if error is not None else "")
+
+
+def _counted(counts: dict[str, str]) -> list[tuple[str, str]]:
+    """A row for each event, of which the first is named."""
+    width = max(map(len, counts.values()), default=0)
+    rows = [f"{count:>{width}}{event}" for event, count in counts.items()]
+    return [("" if i else "counted", row) for i, row in enumerate(rows)]
 
 
 def _faults(found: dict[str, Any]) -> str:

@@ -1,21 +1,26 @@
 """`mindc run --picture`: what its pixels show, and paths that cannot be written."""
 
 import json
+from itertools import pairwise
 from pathlib import Path
 
 import cv2
 import numpy as np
 import pytest
+from mindrun.graph import Thing
+from mindrun.world import Item
 
 from mindlang.compile import load
-from mindlang.pictures.canvas import Image
+from mindlang.pictures.canvas import Canvas, Image, View, blank
+from mindlang.pictures.caption import LINES, SMALLEST, fitted
 from mindlang.pictures.picture import ABOVE, BELOW, SIDE, SIZE, picture, view_of
 from mindlang.pictures.story import Story, tell
-from mindlang.pictures.theme import PAPER
+from mindlang.pictures.theme import PAPER, mixed
+from mindlang.pictures.world import thing_colours
 from mindlang.run.casting import cast
 from mindlang.run.outcome import one
 from mindlang.run.stage import NOBODY
-from tests.calling import Call
+from tests.calling import RULES, Call
 
 
 def told(file: Path, task: str, seed: int = 3) -> tuple[Story, Image]:
@@ -43,7 +48,7 @@ def test_the_robot_stands_where_the_run_ended(rules: Path) -> None:
     assert image.shape == (SIZE, SIZE, 3)
     x, y, angle = story.body[-1]
     assert near(pixel(story, image, x - 0.6 * np.cos(angle), y - 0.6 * np.sin(angle)), PAPER.robot)
-    assert near(pixel(story, image, *story.things[-1, 0, :2]), PAPER.item)
+    assert near(pixel(story, image, *story.things[-1, 0, :2]), PAPER.items[0])
 
 
 def test_obstacles_walls_and_the_start_are_there(rules: Path) -> None:
@@ -54,14 +59,53 @@ def test_obstacles_walls_and_the_start_are_there(rules: Path) -> None:
     assert near(pixel(story, image, 20.4, 7.0), PAPER.wall)
 
 
+def test_things_of_a_kind_are_told_apart(rules: Path) -> None:
+    """Each has a colour of its own, and its name stands below it."""
+    names = ("ball", "cube", "here", "there")
+    kinds = ("item size 2", "item size 2", "zone size 6", "zone size 6")
+    more = "".join(f"  contains {name} is {kind}\n" for name, kind in zip(names[1:], kinds[1:], strict=True))
+    rules.write_text(RULES.replace("  lasts 600 ticks\n", f"{more}  lasts 1 ticks\n"))
+    story, image = told(rules, "Roam")
+    assert [thing.name for thing in story.contents] == list(names)
+    colours = thing_colours(story.contents, PAPER)
+    assert len(set(colours)) == 4
+    pixels = [pixel(story, image, x, y) for x, y, _ in story.things[-1]]
+    for found, colour, kind in zip(pixels, colours, kinds, strict=True):
+        assert near(found, colour if "item" in kind else mixed(PAPER.floor, colour, 0.22))
+    for x, y, size in story.things[-1]:
+        below = [pixel(story, image, x + aside / 10, y - size / 2 - 0.55) for aside in range(-10, 10)]
+        assert any(near(found, PAPER.ink) for found in below)
+
+
+def test_more_things_than_colours_begin_again() -> None:
+    colours = thing_colours([Thing(f"thing_{i}", Item()) for i in range(9)], PAPER)
+    assert colours[8] == colours[4] == colours[0] == PAPER.items[0]
+
+
+def test_a_collision_that_ends_the_run_lies_over_the_robot(rules: Path) -> None:
+    rules.write_text(RULES.replace("influences Turn at 0.2", "influences Turn at 0"))
+    story, image = told(rules, "Roam")
+    assert list(story.collisions) == [story.ticks]
+    assert near(pixel(story, image, *story.body[-1, :2]), PAPER.crash)
+
+
+@pytest.mark.parametrize("names", [["a"], ["a", "bb", "ccc"] * 4, ["a_name_that_is_long"] * 20])
+def test_a_legend_stays_within_its_lines(names: list[str]) -> None:
+    canvas = Canvas(blank(400, 100, PAPER.page), View(0.0, 0.0, 1.0), down=True)
+    size, places = fitted(canvas, names, 400.0)
+    assert len(places) == len(names)
+    assert size == SMALLEST or max(line for _, line in places) < LINES
+    assert all(after > before for before, after in pairwise((line, along) for along, line in places))
+
+
 def test_what_is_told_is_what_is_scored(rules: Path) -> None:
     found = cast(str(rules), load(rules), "Chase", None)
     rollout = found.rollout()
     story, scores = tell(found, rollout, 3), rollout.score(NOBODY, [3])
     assert story.ticks == scores.ticks[0, 0]
-    assert story.counts[-1] == scores.counts[0, 0] > 0
+    assert story.counts[-1].sum() == scores.counts[0, 0] > 0
     assert np.array_equal(story.lines[-1], scores.by_line[0, 0])
-    assert len(story.placements(0)) == story.counts[-1] + 1
+    assert len(story.placements(0)) == story.counts[-1, 0] + 1
 
 
 def test_the_picture_is_a_png_and_the_result_is_printed(mindc: Call, rules: Path) -> None:

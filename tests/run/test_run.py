@@ -8,6 +8,7 @@ import subprocess
 import sys
 import time
 from pathlib import Path
+from statistics import mean, stdev
 
 import pytest
 from mindrun.sim.lanes.advance import advance
@@ -18,6 +19,8 @@ from tests.calling import RULES, Call
 
 RUN_KEYS = {"score", "by_line", "counts", "ticks", "ended_by", "seed", "task", "master"}
 BENCH_KEYS = {"runs", "count_mean", "count_std", "runtime_mean", "ended", "ticks", "seconds"}
+HALL = "task Chase in arena size 40\n  contains mat is zone size 12"
+TWO = RULES.replace("task Chase in plain", HALL).replace("  counts reach", "  counts reach of mat\n  counts reach", 1)
 
 
 def test_run_as_json_says_everything_and_adds_up(mindc: Call, rules: Path) -> None:
@@ -71,6 +74,32 @@ def test_bench_is_run_many_times(mindc: Call, rules: Path) -> None:
     ended = [run["ended_by"] or "time" for run in runs]
     assert found["ended"] == {name: ended.count(name) for name in set(ended)}
     assert found["best_seed"] == max(runs, key=lambda run: run["score"])["seed"]
+
+
+def test_every_counted_event_has_its_own_number(mindc: Call, rules: Path) -> None:
+    rules.write_text(TWO)
+    runs = [json.loads(mindc("run", rules, "--seed", seed, "--json").out) for seed in layouts(5, 6)]
+    found = json.loads(mindc("bench", rules, "--runs", 6, "--seed", 5, "--json").out)
+    events = ["reach of mat", "reach of ball"]
+    assert found["counted"] == list(found["by_event"]) == list(runs[0]["by_event"]) == events
+    for event in events:
+        each = [run["by_event"][event] for run in runs]
+        assert sum(each) > 0
+        assert found["by_event"][event]["mean"] == pytest.approx(mean(each))
+        assert found["by_event"][event]["std"] == pytest.approx(stdev(each))
+        assert found["by_event"][event]["standard_error"] == pytest.approx(stdev(each) / 6**0.5)
+    assert all(run["counts"] == sum(run["by_event"].values()) for run in runs)
+    assert found["score_standard_error"] == pytest.approx(stdev(run["score"] for run in runs) / 6**0.5)
+    said = [line.split() for line in mindc("run", rules, "--seed", layouts(5, 1)[0]).out.splitlines()]
+    first, second = (str(runs[0]["by_event"][event]) for event in events)
+    assert said[2:4] == [["counted", first, "×", *events[0].split()], [second, "×", *events[1].split()]]
+
+
+def test_from_one_run_nobody_knows_how_far_it_is_off(mindc: Call, rules: Path) -> None:
+    found = json.loads(mindc("bench", rules, "--runs", 1, "--json").out)
+    assert [value for name, value in found.items() if name.endswith(("_std", "_error"))] == [None] * 4
+    assert "±" not in mindc("bench", rules, "--runs", 1).out
+    assert "; ± is the standard error of the mean" in mindc("bench", rules, "--runs", 2).out
 
 
 def test_workers_change_nothing(mindc: Call, rules: Path) -> None:

@@ -34,7 +34,7 @@ def some_weights(graph: Graph, seed: int = 0) -> dict[str, np.ndarray]:
 def same(a: Scores, b: Scores) -> bool:
     return all(
         np.array_equal(getattr(a, name), getattr(b, name))
-        for name in ("total", "by_line", "counts", "ticks", "ended_by", "faults")
+        for name in ("total", "by_line", "counts", "by_event", "ticks", "ended_by", "faults")
     )
 
 

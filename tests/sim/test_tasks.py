@@ -266,3 +266,28 @@ task Test in plain
 
 def _left(m: Moment) -> float:
     return float(np.clip(0.9 + 4 * (float(m.readings[0]) - 0.5), 0, 1))
+
+
+@pytest.mark.parametrize("lanes", [1, 5])
+def test_every_event_is_counted_by_itself(lanes: int) -> None:
+    """However many lanes share a tile, and whichever end early: what a trace sees event by event is what is scored."""
+    task = """
+task Test in arena size 50
+  contains object is item size 2
+  contains home is zone size 6
+  contains plug is power size 6
+  contains rock is obstacle grid 25 size 2
+  lasts 3000 ticks
+  ends on collision
+  counts delivery of object
+  counts reach of plug
+  counts visit of patch size 6
+"""
+    one = rollout(task)
+    scores = Rollout(one.graph, {}, "Test", "Seek", lanes=lanes).score(np.zeros((1, 0), np.float32), range(12))
+    for seed in range(12):
+        seen = sum(moment.events for moment in trace(one, seed).moments)
+        assert np.array_equal(scores.by_event[0, seed], seen)
+    assert len(one.task.events) == 4
+    assert np.array_equal(scores.counts, scores.by_event[:, :, list(one.task.counts)].sum(axis=2))
+    assert (scores.by_event[0].max(axis=0) > 0).all()  # each of them happens
