@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from mindrun.errors import MindError
 from mindrun.sim.rollout import Rollout, Scores
-from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
+from rich.progress import BarColumn, Progress, TaskProgressColumn, TextColumn, TimeRemainingColumn
 
 from mindlang.run.casting import Cast, CastingError, cast
 from mindlang.simulator import make_ready
@@ -94,6 +94,6 @@ class Stage:
             talk.print(line, markup=False)
 
     def _progress(self) -> Progress:
-        columns = (TextColumn("{task.description}", markup=False), BarColumn(30), MofNCompleteColumn())
+        columns = (TextColumn("{task.description}", markup=False), BarColumn(30), TaskProgressColumn())
         hidden = self.quiet or not talk.is_terminal
         return Progress(*columns, TimeRemainingColumn(), console=talk, transient=True, disable=hidden)

@@ -1,15 +1,22 @@
 """What a user sees of a lesson while it is taught: a bar on a terminal, a line now and then elsewhere."""
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Protocol
 
 from mindrun.train.lesson import Record
-from rich.console import Console
-from rich.progress import BarColumn, Progress, TextColumn
+from mindrun.train.progress import read
+from mindrun.train.run_folder import Run
+from rich.console import Console, ConsoleOptions, RenderableType
+from rich.live import Live
+from rich.progress_bar import ProgressBar
+from rich.table import Table
+from rich.text import Text
 
 from mindlang.figures import duration, number, rate
 
 SECONDS = 5.0  # between two lines
+WIDE, NARROW = 20, 8  # columns of a bar, the space behind it with the narrowest
 
 
 class Watcher(Protocol):
@@ -32,26 +39,68 @@ class Silent:
         """Nothing."""
 
 
+@dataclass(frozen=True, slots=True)
+class Standing:
+    """Where a lesson stands after a generation: in words and, before them, in a few figures."""
+
+    where: str
+    briefly: str
+    best: str
+    reevaluated: str
+    rate: str
+    left: str
+
+    def text(self) -> str:
+        """All of it."""
+        return ", ".join((self.where, self.best, self.reevaluated, self.rate, self.left))
+
+    def shorter(self) -> Iterator[tuple[str, int]]:
+        """Ever shorter texts, each with the columns that its bar needs; how long it will take is in all of them."""
+        yield self.text(), NARROW
+        yield ", ".join((self.where, self.best, self.reevaluated, self.left)), NARROW
+        yield ", ".join((self.where, self.best, self.reevaluated, self.left)), 0
+        yield ", ".join((self.where, self.best, self.left)), 0
+        yield ", ".join((self.where, self.left)), 0
+        yield ", ".join((self.briefly, self.left)), 0
+
+
 @dataclass(slots=True)
 class Pace:
-    """How fast generations pass since this process took the lesson up at `began`."""
+    """How fast generations pass since this process took the lesson up at `began`; `generations` are of all attempts."""
 
     generations: int
     began: float
+    attempts: int = 1
+    reevaluated: float | None = None
     ticks: int = 0
     seen: int = 0
-    reevaluated: float | None = None
 
-    def text(self, record: Record, done: int, now: float) -> str:
-        """A generation as a line: where it is, its scores, the rate, the time left."""
+    @classmethod
+    def of(cls, run: Run, began: float) -> "Pace":
+        """The pace of a run that is taken up, which may have scored before."""
+        lesson = run.manifest.lesson
+        scores = [record["reevaluated"] for record in read(run.folder)]
+        known = next((score for score in reversed(scores) if score is not None), None)
+        return cls(lesson.generations * lesson.learner.attempts, began, lesson.learner.attempts, known)
+
+    def standing(self, record: Record, done: int, now: float) -> Standing:
+        """Where the lesson stands after a generation."""
         self.ticks += record.ticks
         self.seen += 1
         self.reevaluated = self.reevaluated if record.reevaluated is None else record.reevaluated
         seconds = max(now - self.began, 1e-9)
-        left = seconds / self.seen * (self.generations - done)
-        return (
-            f"generation {done} of {self.generations}, best {number(record.best)}, "
-            f"re-evaluated {number(self.reevaluated)}, {rate(self.ticks / seconds)}, {duration(left)} left"
+        one = self.generations // self.attempts
+        where, briefly = f"generation {record.generation} of {one}", f"{record.generation}/{one}"
+        if self.attempts > 1:
+            attempt = f"attempt {record.attempt}"
+            where, briefly = f"{attempt} of {self.attempts}, {where}", f"{attempt}, {briefly}"
+        return Standing(
+            where,
+            briefly,
+            f"best {number(record.best)}",
+            f"re-evaluated {number(self.reevaluated)}",
+            rate(self.ticks / seconds),
+            f"{duration(seconds / self.seen * (self.generations - done))} left",
         )
 
 
@@ -64,7 +113,7 @@ class Lines:
 
     def report(self, record: Record, done: int, now: float) -> None:
         """Print a line if the last one is long enough ago."""
-        text = self._pace.text(record, done, now)
+        text = self._pace.standing(record, done, now).text()
         if now >= self._due or done == self._pace.generations:
             self._console.print(f"{self._name}: {text}", markup=False)
             self._due = now + SECONDS
@@ -77,16 +126,41 @@ class Bar:
     """A progress bar that goes away when the lesson ends."""
 
     def __init__(self, console: Console, name: str, pace: Pace) -> None:
-        self._pace = pace
-        columns = (TextColumn("{task.description}", markup=False), BarColumn(20), TextColumn("{task.fields[text]}"))
-        self._progress = Progress(*columns, console=console, transient=True)
-        self._task = self._progress.add_task(name, total=pace.generations, text="the first generation …")
-        self._progress.start()
+        self._name, self._pace = name, pace
+        self._live = Live(self._line(None, 0), console=console, transient=True)
+        self._live.start()
 
     def report(self, record: Record, done: int, now: float) -> None:
         """Move the bar."""
-        self._progress.update(self._task, completed=done, text=self._pace.text(record, done, now))
+        self._live.update(self._line(self._pace.standing(record, done, now), done))
 
     def close(self) -> None:
         """Take the bar away; the cursor is back."""
-        self._progress.stop()
+        self._live.stop()
+
+    def _line(self, standing: Standing | None, done: int) -> RenderableType:
+        return Line(self._name, standing, done / self._pace.generations)
+
+
+@dataclass(frozen=True, slots=True)
+class Line:
+    """A lesson's name, how much of it is done, and as much of how it stands as the terminal has columns for."""
+
+    name: str
+    standing: Standing | None
+    share: float
+
+    def __rich_console__(self, console: Console, options: ConsoleOptions) -> Iterator[RenderableType]:
+        """The longest text that fits, and a bar in what it leaves; the last is wrapped rather than cut."""
+        texts = list(self.standing.shorter()) if self.standing else [("the first generation …", 0)]
+        text, room = texts[-1][0], 0
+        for text, least in texts:
+            room = options.max_width - len(self.name) - len(text) - 1
+            if room >= least:
+                break
+        if room < NARROW:
+            yield Text(f"{self.name} {text}", overflow="fold")
+            return
+        line = Table.grid(padding=(0, 1, 0, 0))
+        line.add_row(self.name, ProgressBar(1.0, self.share, width=min(WIDE, room - 1)), text)
+        yield line

@@ -82,11 +82,12 @@ class Rollout:
         self,
         genomes: NDArray[np.float32],
         seeds: Sequence[int],
-        ended: Callable[[int], None] = lambda runs: None,
+        ran: Callable[[float], None] = lambda runs: None,
     ) -> Scores:
         """Every genome [genomes, genome_length] on every seed; ValueError where a weight is not finite.
 
-        `ended` is told now and then, from any thread, how many more runs have ended. Ctrl-C stops all workers.
+        `ran` is told now and then, from any thread, how many more runs have been made, parts of them too. Ctrl-C stops
+        all workers.
         """
         if not np.isfinite(genomes).all():
             raise ValueError("a genome has weights that are not finite numbers")
@@ -95,11 +96,11 @@ class Rollout:
         shares = [np.arange(worker, len(jobs.genome), workers) for worker in range(workers)]
         stop = Event()
         if workers == 1:
-            parts = [self._run(jobs, shares[0], stop, ended)]
+            parts = [self._run(jobs, shares[0], stop, ran)]
         else:
             with ThreadPoolExecutor(workers) as pool:
                 try:
-                    parts = list(pool.map(lambda share: self._run(jobs, share, stop, ended), shares))
+                    parts = list(pool.map(lambda share: self._run(jobs, share, stop, ran), shares))
                 except BaseException:
                     stop.set()  # before the pool waits for its threads
                     raise
@@ -124,16 +125,16 @@ class Rollout:
         radius = float(self.tables.world[0]["radius"])
         return Tile(state, chipmunk.prepare(state.handles, state.floats, state.batch, radius, holds))
 
-    def _run(self, jobs: Jobs, share: NDArray[np.int64], stop: Event, ended: Callable[[int], None]) -> Jobs:
+    def _run(self, jobs: Jobs, share: NDArray[np.int64], stop: Event, ran: Callable[[float], None]) -> Jobs:
         lines, events = jobs.lines.shape[1], jobs.counts.shape[1]
         mine = _jobs(jobs.genomes, jobs.seeds, jobs.genome[share], jobs.seed[share], lines, events)
         tile = self.tile(lanes_for(len(share), self.lanes))
         self.fill(tile, mine)
-        told, working = 0, 1
+        told, working = 0.0, 1
         while working and not stop.is_set():
             working = self.advance(tile, mine, SLOW_SLICE if self.procedures.slow else SLICE)
-            done = int(mine.next[0]) - working
-            ended(done - told)
+            done = int(mine.next[0]) - working + float(tile.state.tick[:working].sum()) / self.task.ticks
+            ran(done - told)
             told = done
         return mine
 

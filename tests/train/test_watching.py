@@ -1,0 +1,80 @@
+"""What is seen of a lesson while it is taught, on terminals of any width."""
+
+from io import StringIO
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from mindrun.train.lesson import Record
+from rich.console import Console
+
+from mindlang.school.watching import Bar, Line, Lines, Pace, Standing
+
+SHOWN = {
+    200: "Follow ━━━━━━               attempt 2 of 2, generation 15 of 40, best 6.67, re-evaluated 5.97, "
+    "811 k ticks/s, 1 min 45 s left",
+    100: "Follow ━━━        attempt 2 of 2, generation 15 of 40, best 6.67, re-evaluated 5.97, 1 min 45 s left",
+    80: "Follow ━━╸       attempt 2 of 2, generation 15 of 40, best 6.67, 1 min 45 s left",
+    60: "Follow attempt 2 of 2, generation 15 of 40, 1 min 45 s left",
+    40: "Follow attempt 2, 15/40, 1 min 45 s left",
+}
+STANDING = Standing(
+    "attempt 2 of 2, generation 15 of 40", "attempt 2, 15/40", "best 6.67", "re-evaluated 5.97", "811 k ticks/s",
+    "1 min 45 s left",
+)  # fmt: skip
+
+
+def shown(line: Line, width: int) -> str:
+    out = StringIO()
+    Console(file=out, width=width, force_terminal=True, color_system=None).print(line)
+    return out.getvalue()
+
+
+def record(attempt: int, generation: int, reevaluated: float | None = None) -> Record:
+    return Record(attempt, generation, 6.67, 3.0, reevaluated, None, 1000, 1.0, 0)
+
+
+@pytest.mark.parametrize("width", SHOWN)
+def test_what_a_terminal_shows(width: int) -> None:
+    assert shown(Line("Follow", STANDING, 0.3), width).rstrip() == SHOWN[width]
+
+
+@given(st.text("Aabc+", min_size=1, max_size=60), st.integers(1, 10**6), st.integers(20, 220), st.booleans())
+def test_neither_the_name_nor_the_time_left_is_ever_cut(name: str, best: int, width: int, begun: bool) -> None:
+    left = "1 min 45 s left"
+    standing = Standing("generation 15 of 40", "15/40", f"best {best}", f"re-evaluated {best}", "1 ticks/s", left)
+    text = shown(Line(name, standing if begun else None, 0.5), width)
+    assert all(len(line) <= width for line in text.splitlines())
+    assert "".join(text.split()).startswith("".join(name.split()))
+    assert "".join(text.split()).endswith("1min45sleft" if begun else "thefirstgeneration…")
+
+
+def test_where_there_are_attempts_the_generation_is_one_of_them() -> None:
+    pace = Pace(80, 0.0, attempts=2)
+    assert pace.standing(record(2, 2), 42, 1.0).text().startswith("attempt 2 of 2, generation 2 of 40, best 6.67, ")
+    assert Pace(80, 0.0).standing(record(1, 42), 42, 1.0).where == "generation 42 of 80"
+
+
+def test_the_last_score_is_told_until_there_is_another() -> None:
+    pace = Pace(40, 0.0, reevaluated=5.97)  # as of a run that goes on
+    told = [pace.standing(record(1, n, score), n, 1.0).reevaluated for n, score in ((11, None), (20, 4.0), (21, None))]
+    assert told == ["re-evaluated 5.97", "re-evaluated 4.00", "re-evaluated 4.00"]
+
+
+def test_the_bar_goes_away_and_lines_stay() -> None:
+    out = StringIO()
+    console = Console(file=out, width=80, force_terminal=True, color_system=None)
+    bar = Bar(console, "Follow", Pace(40, 0.0))
+    bar.report(record(1, 20), 20, 1.0)
+    bar.close()
+    assert "generation 20 of 40" in out.getvalue()
+    assert out.getvalue().endswith("\x1b[1A\x1b[2K")  # one line up, and empty
+    out = StringIO()
+    lines = Lines(Console(file=out, width=200), "Follow", Pace(40, 0.0))
+    lines.report(record(1, 1, 5.0), 1, 0.5)
+    lines.report(record(1, 2), 2, 1.0)
+    lines.report(record(1, 40), 40, 2.0)
+    assert out.getvalue().splitlines() == [
+        "Follow: generation 1 of 40, best 6.67, re-evaluated 5.00, 2 k ticks/s, 20 s left",
+        "Follow: generation 40 of 40, best 6.67, re-evaluated 5.00, 2 k ticks/s, 0 s left",
+    ]
