@@ -16,7 +16,7 @@ COUNT = click.IntRange(min=1)
 
 @click.command(epilog=EXAMPLES)
 @click.argument("file")
-@click.option("--task", metavar="TASK", help="Default: the task on which the master is taught, else the first.")
+@click.option("--task", metavar="TASK", help="Default: that on which the master, or a skill below it, is taught.")
 @click.option("--runs", type=COUNT, default=200, show_default=True, help="How many layouts to run the task on.")
 @click.option("--seed", type=click.IntRange(0, 2**63 - 1), default=1, show_default=True, help="Draws the layouts.")
 @click.option("--workers", type=COUNT, help="How many cores to use (default: all). Changes nothing else.")

@@ -21,7 +21,7 @@ Examples:
 )
 @click.option("--master", metavar="SKILL", help="Who is in charge. Default: the mind's master.")
 @click.option("--run", "with_run", is_flag=True, help="Run a task, too, and count ticks without influence.")
-@click.option("--task", metavar="TASK", help="Of the run. Default: the task on which the master is taught.")
+@click.option("--task", metavar="TASK", help="Of the run. Default: the one that `mindc run` takes.")
 @click.option("--seed", type=click.IntRange(0, 2**64 - 1), default=1, help="Of the run. Default: 1.")
 @click.option("--json", "as_json", is_flag=True, help="Print one JSON document instead.")
 def command(

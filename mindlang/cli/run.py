@@ -31,7 +31,7 @@ class Speed(click.FloatRange):
 
 @click.command(epilog=EXAMPLES)
 @click.argument("file")
-@click.option("--task", metavar="TASK", help="Default: the task on which the master is taught, else the first.")
+@click.option("--task", metavar="TASK", help="Default: that on which the master, or a skill below it, is taught.")
 @click.option("--seed", type=SEED, help="The same seed gives the same run. Default: drawn, and printed.")
 @click.option("--master", metavar="SKILL", help="Who is in charge. Default: the master of the task's first lesson.")
 @click.option("--no-interruption", is_flag=True, help="Go on to the last tick, whatever would end the run.")

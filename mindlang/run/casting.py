@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Never
 
+from mindrun.default_task import default_task
 from mindrun.errors import MindError
 from mindrun.graph import Graph, Task
 from mindrun.weights import genes, reachable
@@ -29,12 +30,13 @@ class CastingError(MindError):
 
 @dataclass(frozen=True, slots=True)
 class Cast:
-    """A task, the master in charge of it, and a mind that is ready to run."""
+    """A task, the master in charge of it, and a mind that is ready to run; `note` says why it is this task."""
 
     task: Task
     master: str
     ready: Ready
     folder: Path
+    note: str = ""
 
     def rollout(self, interrupt: bool = True, workers: int = 1) -> Rollout:
         """The task under the master, in the simulator. Runs the text of the procedures' modules."""
@@ -54,24 +56,22 @@ class Cast:
 def cast(file: str, compiled: Compiled, task: str | None, master: str | None) -> Cast:
     """The task and the master of these names, or those meant without; CastingError where they cannot perform."""
     assert compiled.graph is not None
-    chosen = task_of(compiled.graph, task)
+    chosen, note = task_of(compiled.graph, task)
     leader = master_of(compiled.graph, chosen, master)
     ready = make_ready(compiled.graph, compiled.sources, leader)
     if ready.refusals:
         raise CastingError("\n".join(ready.refusals), f"mindc train {file} {' '.join(_missing(ready))}")
-    return Cast(chosen, leader, ready, compiled.sources[0].folder)
+    return Cast(chosen, leader, ready, compiled.sources[0].folder, note)
 
 
-def task_of(graph: Graph, name: str | None) -> Task:
-    """The task of that name; without one, that on which the mind's master is taught, else the first in the file."""
+def task_of(graph: Graph, name: str | None) -> tuple[Task, str]:
+    """The task of that name; without one, the mind's default, and why it is that one where this needs saying."""
     if not graph.tasks:
         raise CastingError("there is no task to run", "add one: task Go in plain")
     if name is None:
-        taught = (lesson.task for lesson in graph.lessons if lesson.master == graph.master)
-        name = next(taught, graph.tasks[0].name)
-    return next((task for task in graph.tasks if task.name == name), None) or _unknown(
-        "task", name, [task.name for task in graph.tasks]
-    )
+        return default_task(graph)
+    found = next((task for task in graph.tasks if task.name == name), None)
+    return found or _unknown("task", name, [task.name for task in graph.tasks]), ""
 
 
 def master_of(graph: Graph, task: Task, name: str | None) -> str:

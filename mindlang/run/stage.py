@@ -38,7 +38,7 @@ class Stage:
         compiled = load_compiled(file)
         try:
             found = cast(file, compiled, task, master)
-            self.say(*(f"note: {note}" for note in found.ready.notes))
+            self.say(*(f"note: {note}" for note in (*found.ready.notes, found.note) if note))
             rollout = found.rollout(interrupt, workers)
             make_ready(rollout, self.say)
         except CastingError as error:

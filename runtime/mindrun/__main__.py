@@ -110,7 +110,7 @@ def _options() -> argparse.Namespace:
     robot.add_argument("--record", type=Path, metavar="FILE", help="every reading, influence and command, per tick")
     robot.add_argument("--ticks", type=_count, default=0, metavar="N", help="end after so many ticks (default: never)")
     robot.add_argument("--dry", action="store_true", help="no hardware: a simulated world (needs the simulator)")
-    robot.add_argument("--task", metavar="TASK", help="with --dry: the task of that world (default: the last)")
+    robot.add_argument("--task", metavar="TASK", help="with --dry: the task of that world (default: the master's)")
     robot.add_argument("--seed", type=_count, default=1, help="with --dry: the layout of that world")
     robot.add_argument("-q", "--quiet", action="store_true", help="say nothing but errors")
     return parser.parse_args()

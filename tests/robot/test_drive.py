@@ -2,6 +2,7 @@
 
 import json
 import os
+import re
 import signal
 import subprocess
 import sys
@@ -216,6 +217,15 @@ def test_every_tool_explains_itself(tool: str) -> None:
     assert said.returncode == 0
     assert f"mindrun {tool}" in said.stdout
     assert "examples:" in said.stdout
+
+
+def test_a_dry_run_says_where_it_drives_and_what_came_of_it(bundle: Path) -> None:
+    seed = 2**64 - 1  # as `mindc bench` prints them
+    said = mindrun(bundle, "--dry", "--arm", "--ticks", 5, "--seed", seed)
+    assert said.returncode == 0, said.stderr
+    first, last, _ = said.stderr.splitlines()
+    assert first == f"in a simulated world: Play, seed {seed}; Ctrl-C ends it"
+    assert re.fullmatch(r"the simulated run: \d+ ticks(, ended by \w+)?(, \d+ × [\w ]+)*", last)
 
 
 def test_a_dry_run_ends_when_its_world_does(bundle: Path) -> None:

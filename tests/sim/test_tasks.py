@@ -291,3 +291,11 @@ task Test in arena size 50
     assert len(one.task.events) == 4
     assert np.array_equal(scores.counts, scores.by_event[:, :, list(one.task.counts)].sum(axis=2))
     assert (scores.by_event[0].max(axis=0) > 0).all()  # each of them happens
+
+
+def test_what_has_been_run_is_told_on_the_way() -> None:
+    """Also where all lanes end in the same tick."""
+    told: list[float] = []
+    task = "task Test in plain\n  contains object is item\n  lasts 2500 ticks\n"
+    rollout(task).score(np.zeros((1, 0), np.float32), range(8), told.append)
+    assert told == pytest.approx([3.2, 3.2, 1.6])

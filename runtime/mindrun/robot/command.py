@@ -2,12 +2,16 @@
 
 import argparse
 import sys
+from contextlib import suppress
 from dataclasses import replace
 from hashlib import sha256
 from pathlib import Path
+from typing import Any
 
 from mindrun.bundle import Bundle, read_bundle
+from mindrun.default_task import default_task
 from mindrun.errors import MindError
+from mindrun.robot.contract import DeviceError
 from mindrun.robot.drive import Wishes, drive
 from mindrun.robot.drivers.mock import MockActuator
 from mindrun.robot.identity import IdentityError, alone_on_robot, is_adopted
@@ -45,16 +49,33 @@ def _wired(options: argparse.Namespace, bundle: Bundle, wishes: Wishes) -> Loop:
 
 
 def _dry(options: argparse.Namespace, bundle: Bundle, wishes: Wishes) -> Loop:
-    from mindrun.robot.drivers.simulated import dry
+    from mindrun.robot.drivers.simulated import dry, status
     from mindrun.robot.world import simulated
 
     tasks = [task.name for task in bundle.graph.tasks]
-    task = options.task or (tasks[-1] if tasks else "")
+    task, why = options.task or "", ""
+    if tasks and options.task is None:
+        chosen, why = default_task(bundle.graph)
+        task = chosen.name
     if task not in tasks:
         raise MindError(f"this mind has no task {task}", f"it has {', '.join(tasks)}" if tasks else "")
+    tell = _quiet if options.quiet else _tell
+    if why:
+        tell(why)
     with simulated(options.bundle, task, options.seed, master=options.master or "") as socket:
         wiring = dry(bundle.graph, socket)
-        return drive(bundle, digest(options.bundle), wiring, wishes, _quiet if options.quiet else _tell)
+        tell(f"in a simulated world: {task}, seed {options.seed}; Ctrl-C ends it")
+        loop = drive(bundle, digest(options.bundle), wiring, wishes, tell)
+        with suppress(DeviceError):  # the run was as good without it
+            tell(_outcome(status(socket)))
+        return loop
+
+
+def _outcome(run: dict[str, Any]) -> str:
+    """How a simulated run went."""
+    ended = f", ended by {run['ended']}" if run["ended"] else ""
+    events = "".join(f", {times} × {event}" for event, times in run["events"].items())
+    return f"the simulated run: {run['tick']:,} ticks{ended}{events}"
 
 
 def digest(path: Path) -> str:

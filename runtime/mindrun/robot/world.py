@@ -28,6 +28,7 @@ from mindrun.graph import Graph
 from mindrun.robot.drivers.simulated import ANSWER, READ, REQUEST, STATUS, WRITE
 
 CLIENTS = 64
+SEEDS = 1 << 64
 CHUNK = 4096  # bytes of requests that one client may have answered before the others
 LINGER = 2.0  # seconds that the guardian has to bring a robot to neutral whose controller is gone
 PARENT_DIED = 1  # PR_SET_PDEATHSIG
@@ -74,7 +75,7 @@ class Scene:
         self.world.step(list(self.commands.values()))
         if self.again and self.world.ended:
             self.past[self.world.ended] += 1
-            self.world.begin(self.world.seed + 1)
+            self.world.begin((self.world.seed + 1) % SEEDS)
         self._sense()
 
     def answer(self, what: bytes, name: str, value: float) -> bytes:
@@ -288,7 +289,7 @@ def _options() -> argparse.Namespace:
 
 
 def _seed(text: str) -> int:
-    if not 0 <= int(text) < 1 << 63:
+    if not 0 <= int(text) < SEEDS:
         raise argparse.ArgumentTypeError(f"{text} is not a seed")
     return int(text)
 
