@@ -1,6 +1,9 @@
 // Starts `mindc lsp` and talks with it; asks for the arguments of an edit, and for the names of what it makes.
+const fs = require("fs");
+const os = require("os");
 const vscode = require("vscode");
 const { LanguageClient, TransportKind } = require("vscode-languageclient/node");
+const { program } = require("./program");
 
 let client;
 
@@ -9,6 +12,7 @@ async function activate(context) {
     vscode.commands.registerCommand("mind.editHierarchy", editHierarchy),
     vscode.commands.registerCommand("mind.restart", restart),
     vscode.workspace.onDidChangeConfiguration((event) => event.affectsConfiguration("mind.path") && restart()),
+    vscode.workspace.onDidGrantWorkspaceTrust(restart),
   );
   await start();
 }
@@ -23,7 +27,12 @@ async function restart() {
 }
 
 async function start() {
-  const command = vscode.workspace.getConfiguration("mind").get("path") || "mindc";
+  const command = program(vscode.workspace.getConfiguration("mind").get("path"), {
+    folders: (vscode.workspace.workspaceFolders ?? []).map((folder) => folder.uri.fsPath),
+    home: os.homedir(),
+    isTrusted: vscode.workspace.isTrusted,
+    exists: fs.existsSync,
+  });
   const server = { command, args: ["lsp"], transport: TransportKind.stdio };
   client = new LanguageClient("mind", "mind", server, {
     documentSelector: [{ language: "mind", scheme: "file" }, { language: "mind", scheme: "untitled" }],
@@ -32,7 +41,7 @@ async function start() {
   try {
     await client.start();
   } catch (error) {
-    const help = "pip install 'mindlang[lsp]', or say where mindc is: mind.path";
+    const help = "In the folder of mind: pip install '.[lsp]', or say where mindc is: mind.path";
     const choice = await vscode.window.showErrorMessage(`${command} lsp does not start. ${help}`, "Settings");
     if (choice) vscode.commands.executeCommand("workbench.action.openSettings", "mind.path");
   }

@@ -35,9 +35,10 @@ def command(
     as_json: bool,
     quiet: bool,
 ) -> None:
-    """Run a task of FILE on many layouts, with the weights that its skills were taught.
+    """Run a task of FILE on many layouts, for figures to trust.
 
-    Runs the Python code of the file's procedures. Each run has a seed of its own; `mindc run --seed` repeats it.
+    With the weights that its skills were taught. Runs the Python code of the file's procedures. Each run has a seed of
+    its own; `mindc run --seed` repeats it.
     """
     from mindrun.sim.rollout import cores
 

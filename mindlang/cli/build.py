@@ -35,10 +35,11 @@ Examples:
 @click.option("--json", "as_json", is_flag=True, help="Say what was built as one JSON document: --json")
 @click.option("-q", "--quiet", is_flag=True, help="Print nothing but errors: -q")
 def command(file: str, output: Path, master: str | None, robot: Path | None, as_json: bool, quiet: bool) -> None:
-    """Build a bundle of FILE: its hierarchy, the weights of every skill that can act, and the text of its procedures.
+    """Build a bundle of FILE, the one file that runs on a robot.
 
-    With --robot also what each sensor and actuator is wired to, checked here against FILE and not on the robot.
-    Refuses skills that have not been taught, or whose weights belong to another declaration.
+    It holds the hierarchy, the weights of every skill that can act, and the text of its procedures. With --robot also
+    what each sensor and actuator is wired to, checked here against FILE and not on the robot. Refuses skills that have
+    not been taught, or whose weights belong to another declaration.
     """
     from mindrun.bundle import write_bundle
     from mindrun.engine import procedure_sources

@@ -52,11 +52,12 @@ def command(
     as_json: bool,
     quiet: bool,
 ) -> None:
-    """Bring BUNDLE to HOST over ssh and rsync, verify it there, make it current in one step and start it as a service.
+    """Bring BUNDLE to HOST over ssh, and start it there as a service.
 
-    The service is not armed, that is it moves nothing, unless this very command says --arm-service. A release whose
-    service does not stay up is left again for the one before. Interrupted at any moment, the robot has the old release
-    or the new one, whole; the same command goes on.
+    It is copied with rsync, verified there, and made current in one step. The service is not armed, that is it moves
+    nothing, unless this very command says --arm-service. A release whose service does not stay up is left again for the
+    one before. Interrupted at any moment, the robot has the old release or the new one, whole; the same command goes
+    on.
     """
     from mindrun.errors import MindError
 

@@ -16,10 +16,11 @@ Examples:
 @click.argument("new")
 @click.option("--json", "as_json", is_flag=True, help="One JSON document instead: mindc diff a.mind b.mind --json")
 def command(old: str, new: str, as_json: bool) -> None:
-    """Show what changed in meaning from OLD to NEW, and which weights fit NEW: those of its lock, or else of OLD's.
+    """Show what changed in meaning from OLD to NEW.
 
-    Comments, spaces, the order of lines and other spellings of the same do not count. Standard input uses the files of
-    the working directory. Ends with 0 where nothing changed, with 1 where something did.
+    And which weights fit NEW: those of its lock, or else of OLD's. Comments, spaces, the order of lines and other
+    spellings of the same do not count. Standard input uses the files of the working directory. Ends with 0 where
+    nothing changed, with 1 where something did.
     """
     from mindlang.comparison import differences
     from mindlang.lock import lock_path

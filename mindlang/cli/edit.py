@@ -36,7 +36,10 @@ class Edits(Suggesting):
 
 @click.group(cls=Edits, epilog=EXAMPLES)
 def command() -> None:
-    """Edit a hierarchy in its source: print the diff, and with --write make it, source, locks and weights together."""
+    """Edit a hierarchy in its source.
+
+    Prints the diff; --write makes the edit: sources, locks and weights together. The file stands last or first.
+    """
 
 
 def _command(of: Edit) -> click.Command:
@@ -45,6 +48,7 @@ def _command(of: Edit) -> click.Command:
     def run(file: str, write: bool, anyway: bool, keep_weights: bool, verify: bool, as_json: bool, **said: Any) -> None:
         from mindlang.editing.command import Wishes, perform
 
+        said, file = _file_first(of, said, file)
         perform(of, said, file, Wishes(write, anyway, keep_weights, verify, as_json))
 
     parameters = [
@@ -66,6 +70,22 @@ def _command(of: Edit) -> click.Command:
         click.Option(["--json", "as_json"], is_flag=True, help="One JSON document instead."),
     ]  # fmt: skip
     return click.Command(of.name, params=parameters, callback=run, help=of.text, epilog=f"\b\n{of.example}")
+
+
+def _file_first(of: Edit, said: dict[str, Any], file: str) -> tuple[dict[str, Any], str]:
+    """The file stands last or, as in other commands, first: there it is where only the first word is one."""
+    words = [word for name, many in of.arguments for word in (said[name] if many else [said[name]])] + [file]
+    if _is_file(file) or file == "-" or not _is_file(words[0]):
+        return said, file
+    first, *words = words
+    single = {name: words.pop(0) for name, many in of.arguments if not many}
+    return said | single | {name: tuple(words) for name, many in of.arguments if many}, first
+
+
+def _is_file(word: str) -> bool:
+    from pathlib import Path
+
+    return word.endswith(".mind") or Path(word).is_file()
 
 
 def _option(option: Option) -> click.Option:

@@ -14,9 +14,10 @@ Examples:
 @click.argument("code", required=False)
 @click.option("--json", "as_json", is_flag=True, help="One JSON document instead: mindc explain comma --json")
 def command(code: str | None, as_json: bool) -> None:
-    """Say what a code of a diagnostic means, with a wrong example and a right one; without CODE list all codes.
+    """Say what a code of a diagnostic means; without CODE list all.
 
-    The code stands in brackets at the end of a message. Ends with 0, or with 2 where there is no such code.
+    With a wrong example and a right one. The code stands in brackets at the end of a message. Ends with 0, or with 2
+    where there is no such code.
     """
     from rich.text import Text
 

@@ -25,10 +25,11 @@ Examples:
 @click.option("--check", is_flag=True, help="Write nothing; end with 1 where a file is not as it should be.")
 @click.option("--diff", is_flag=True, help="Write nothing; print what would change, and end with 1 if anything would.")
 def command(files: tuple[str, ...], check: bool, diff: bool) -> None:
-    """Write files in the one way of the language: spaces and blank lines are set, nothing else is touched.
+    """Write files in the one way of the language.
 
-    Nothing is reordered or aligned, no comment and no meaning changes, and there are no options of taste. A file with
-    lines that cannot be read is reported and left as it is. `-` is standard input, and goes to standard output.
+    Spaces and blank lines are set, nothing else is touched: nothing is reordered or aligned, no comment and no meaning
+    changes, and there are no options of taste. A file with lines that cannot be read is reported and left as it is. `-`
+    is standard input, and goes to standard output.
     """
     sys.exit(max(_tidy(file, check, diff) for file in files))
 

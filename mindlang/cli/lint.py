@@ -28,7 +28,7 @@ FORMATS = ("text", "json", "github", "sarif")
 @click.option("--ignore", multiple=True, metavar="CODES", help="Not these rules: --ignore untaught-skill")
 @click.option("--format", "as_", type=click.Choice(FORMATS), default="text", show_default=True, help="Of the findings.")
 def command(files: tuple[str, ...], fix: bool, select: tuple[str, ...], ignore: tuple[str, ...], as_: str) -> None:
-    """Report everything that is wrong in files, and what compiles and is yet hardly meant.
+    """Report what is wrong in files, and what is hardly meant so.
 
     `mindc explain CODE` says why. `# noqa: CODE` at the end of a line silences it there. Ends with 0 when nothing was
     found, with 1 when something was, with 2 when a file cannot be read.

@@ -13,17 +13,21 @@ Examples:
 @click.command(epilog=EXAMPLES)
 @click.option("--stdio", is_flag=True, help="Talk on standard input and output, which it always does.")
 def command(stdio: bool) -> None:
-    """Serve an editor by the Language Server Protocol, on standard input and output.
+    """Serve an editor by the Language Server Protocol.
 
-    It checks as you type, explains, completes, finds, renames, formats and makes every edit of `mindc edit`. It never
-    runs a procedure.
+    It talks on standard input and output, checks as you type, explains, completes, finds, renames, formats and makes
+    every edit of `mindc edit`. It never runs a procedure.
     """
     from importlib.util import find_spec
 
     from mindlang.terminal import MISUSE, fail
 
     if find_spec("pygls") is None:
-        fail("The language server needs pygls, which is not installed.", "pip install 'mindlang[lsp]'", MISUSE)
+        fail(
+            "The language server needs pygls, which is not installed.",
+            "In the folder of mind: pip install '.[lsp]'",
+            MISUSE,
+        )
 
     from mindlang.server.serve import serve
 

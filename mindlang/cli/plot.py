@@ -28,10 +28,11 @@ PATH = click.Path(path_type=Path)
 @click.option("--json", "as_json", is_flag=True, help="Say what was drawn as one JSON document.")
 @click.option("-q", "--quiet", is_flag=True, help="Print nothing but results and errors.")
 def command(runs: tuple[Path, ...], output: Path, as_json: bool, quiet: bool) -> None:
-    """Draw how the skills of every RUN were learnt: the best of each generation, and the champion on fresh layouts.
+    """Draw how the skills of every RUN were learnt.
 
-    A RUN is the folder of a run, which may still go on, a folder with runs beneath it, or a log as .csv or .csv.gz with
-    the columns of progress.csv: attempt, generation, best, and where there are any reevaluated and verdict.
+    The best of each generation, and the champion on fresh layouts. A RUN is the folder of a run, which may still go on,
+    a folder with runs beneath it, or a log as .csv or .csv.gz with the columns of progress.csv: attempt, generation,
+    best, and where there are any reevaluated and verdict.
     """
     from importlib.util import find_spec
 
@@ -42,7 +43,11 @@ def command(runs: tuple[Path, ...], output: Path, as_json: bool, quiet: bool) ->
     from mindlang.terminal import MISUSE, fail, print_json, refuse_unwritable, write_picture
 
     if find_spec("matplotlib") is None:
-        fail("Curves are drawn with matplotlib, which is not installed.", "pip install 'mindlang[plot]'", MISUSE)
+        fail(
+            "Curves are drawn with matplotlib, which is not installed.",
+            "In the folder of mind: pip install '.[plot]'",
+            MISUSE,
+        )
     refuse_unwritable(output, ".svg", ".png")
     try:
         curves = load_curves(runs)

@@ -52,10 +52,10 @@ def command(
     as_json: bool,
     quiet: bool,
 ) -> None:
-    """Run a task of FILE once, with the weights that its skills were taught.
+    """Run a task of FILE once, in numbers and in pictures.
 
-    Runs the Python code of the file's procedures. Refuses skills that have not been taught, or whose weights belong to
-    another declaration.
+    With the weights that its skills were taught. Runs the Python code of the file's procedures. Refuses skills that
+    have not been taught, or whose weights belong to another declaration.
     """
     import secrets
 

@@ -12,7 +12,10 @@ Then an editor that knows YAML completes and checks a file that begins with:
 
 @click.command(epilog=EXAMPLES)
 def command() -> None:
-    """Print the JSON Schema of robot.yaml, with every driver that is installed and its options."""
+    """Print the JSON Schema of robot.yaml.
+
+    With every driver that is installed, and its options.
+    """
     from mindlang.terminal import print_json
     from mindlang.wiring.schema import schema
 

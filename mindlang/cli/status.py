@@ -30,10 +30,11 @@ Examples:
 )
 @click.option("--json", "as_json", is_flag=True, help="One JSON document instead: mindc status collect.mind --json")
 def command(file: str, accept: tuple[str, ...], as_json: bool) -> None:
-    """Show how every skill of FILE stands to its weights, and how these were made.
+    """Show how every skill of FILE stands to its weights.
 
-    A skill is trained, stale and why, untaught, or taught elsewhere: with another body, sensor, task or subskill than
-    the mind has now. Such a skill acts, and `mindc train` teaches it again, unless it is accepted.
+    And how these were made. A skill is trained, stale and why, untaught, or taught elsewhere: with another body,
+    sensor, task or subskill than the mind has now. Such a skill acts, and `mindc train` teaches it again, unless it is
+    accepted.
 
     Ends with 0 when every skill below the master can act, else with 1.
     """

@@ -50,10 +50,11 @@ def command(
     quiet: bool,
     **options: Any,
 ) -> int:
-    """Teach the skills of FILE, in the order of its curriculum: those named, or all without up-to-date weights.
+    """Teach the skills of FILE, in the order of its curriculum.
 
-    Weights are not up to date where the skill has changed, or the world in which it was taught: mindc status says so.
-    New weights that do worse than those of the lock, on common fresh layouts, do not take their place.
+    Those named, or all without up-to-date weights: where the skill has changed, or the world in which it was taught, as
+    mindc status says. New weights that do worse than those of the lock, on common fresh layouts, do not take their
+    place.
 
     Runs the Python code of the file's procedures. Every lesson gets a folder under runs/, from which it can go on after
     Ctrl-C, a crash or a power cut: with --resume, or by itself when the very same lesson is asked for with the same

@@ -67,10 +67,16 @@ def _show(edited: Edited, sentences: list[str], wishes: Wishes) -> None:
         sys.stdout.write(diff(edited))
     for line in sentences:
         talk.print(line, markup=False)
-    if not wishes.write:
-        locks = [path.name for path in changed_locks(edited)]
-        also = f", and changes {listed(locks, 'and')} as well" if locks else ""
-        talk.print(f"nothing has been written: --write makes this edit{also}", markup=False)
+    talk.print(_ending(edited, wishes.write), markup=False)
+
+
+def _ending(edited: Edited, is_written: bool) -> str:
+    """Which files are written, or would be."""
+    locks = [path.name for path in changed_locks(edited)]
+    if is_written:
+        return f"written: {listed([*(path.name for path in edited.texts), *locks], 'and')}"
+    also = f", and changes {listed(locks, 'and')} as well" if locks else ""
+    return f"nothing has been written: --write makes this edit{also}"
 
 
 def _refuse(diagnostic: Diagnostic, wishes: Wishes) -> None:

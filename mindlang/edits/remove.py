@@ -17,20 +17,29 @@ def remove(
 ) -> Change:
     """Remove a declaration or, with --from, a fact.
 
-    Nothing may name the declaration any more; the fact is said as it stands.
+    Nothing may name the declaration any more, which is said by its name alone, or as "sensor pulse"; the fact is said
+    as it stands.
 
     Example: mindc edit remove "rewards 0.01 * forward per tick" --from GoToObject --noun task collect.mind
     """
     words = " ".join(what).split()
     if from_:
         return _fact(words, project.declared(from_, noun or owner(" ".join(words))))
-    if len(words) != 2 or words[0] not in NOUNS:
-        hint = did_you_mean(words[0], NOUNS) if len(words) == 2 else ""
-        example = 'Write for example sensor pulse, or "reads pulse" --from Avoid.'
-        raise EditError(f"{' '.join(words)} is not a noun and a name.", hint or example)
-    declaration = project.find(words[1], words[0])
-    project.refuse_used(declaration.header.noun.text, words[1], [declaration])
+    declaration = _declaration(project, words, noun)
+    project.refuse_used(declaration.header.noun.text, declaration.header.name.text, [declaration])
     return Change(without_declarations([declaration]))
+
+
+def _declaration(project: Project, words: list[str], noun: str) -> Declaration:
+    """The declaration of a name, or of a noun and a name; EditError where there is none."""
+    match words:
+        case [name]:
+            return project.declared(name, noun)
+        case [of, name] if of in NOUNS:
+            return project.find(name, of)
+    hint = did_you_mean(words[0], NOUNS) if len(words) == 2 else ""
+    example = 'Write for example pulse, or "reads pulse" --from Avoid.'
+    raise EditError(f"{' '.join(words)} is neither a name nor a noun and a name.", hint or example)
 
 
 def _fact(words: list[str], declaration: Declaration) -> Change:

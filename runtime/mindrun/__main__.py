@@ -94,7 +94,7 @@ def drive(options: argparse.Namespace) -> int:
 def _options() -> argparse.Namespace:
     parser = argparse.ArgumentParser(
         "mindrun",
-        description="Say what a compiled mind holds, or run it on readings.",
+        description="Let a compiled mind drive its robot, say what it holds, or run it on readings.",
         epilog=EXAMPLES,
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )

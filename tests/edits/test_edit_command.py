@@ -67,3 +67,46 @@ def test_what_is_refused_as_json_is_one_document(mindc: Call, drive: Path) -> No
     said = mindc("edit", "connect", "Drive", "charge", drive, "--keep-weights", "--json", "--write")
     assert json.loads(said.out)["written"]
     assert (said.code, said.err) == (0, "")
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        ["rename", "Go", "Zo"],
+        ["rename", "Go", "Zo", "--noun", "skill"],
+        ["remove", "sensor", "unread"],
+        ["add", "sensor one is battery", "sensor two is sine period 2 s"],
+        ["extract", "Drive", "Both", "Avoid", "Go"],
+        ["split", "parts.mind", "Go", "Avoid"],
+    ],
+)
+def test_the_file_may_stand_first_or_last(mindc: Call, drive: Path, words: list[str]) -> None:
+    drive.write_text(MIND.replace("sensor eye", "sensor unread is battery\nsensor eye", 1))
+    last, first = mindc("edit", *words, drive), mindc("edit", words[0], drive, *words[1:])
+    assert last.code == 0, last.err
+    assert first == last
+
+
+def test_a_file_that_is_not_there_is_said_to_be_none(mindc: Call, drive: Path) -> None:
+    gone = drive.with_name("gone.mind")
+    for words in (["rename", gone, "Go", "Zo"], ["rename", "Go", "Zo", gone]):
+        said = mindc("edit", *words)
+        assert (said.code, said.out) == (2, "")
+        assert "gone.mind cannot be read" in said.err
+
+
+def test_what_is_written_is_said(mindc: Call, drive: Path) -> None:
+    assert mindc("edit", "rename", "Go", "Zo", drive).err.splitlines()[-1].startswith("nothing has been written: ")
+    said = mindc("edit", "rename", "Go", "Zo", drive, "--write")
+    assert said.err.splitlines()[-1] == f"written: {drive.name} and {drive.stem}.lock"
+
+
+def test_a_name_is_removed_by_itself_unless_two_have_it(mindc: Call, drive: Path) -> None:
+    drive.write_text(MIND.replace("sensor eye", "sensor unread is battery\nsensor eye", 1))
+    whole = mindc("edit", "remove", "sensor unread", drive)
+    assert "-sensor unread is battery" in whole.out
+    assert mindc("edit", "remove", "unread", drive) == whole
+    assert mindc("edit", "remove", "unread", "--noun", "sensor", drive) == whole
+    said = mindc("edit", "remove", "unraed", drive)
+    assert (said.code, said.out) == (1, "")
+    assert "Did you mean unread?" in said.err

@@ -138,3 +138,13 @@ def test_the_quick_commands_import_nothing_heavy(arguments: list[str]) -> None:
 
 def test_colours_only_on_a_terminal() -> None:
     assert "\x1b" not in process("check", WRONG, NO_COLOR="", FORCE_COLOR="").stderr
+
+
+@pytest.mark.parametrize("group", ["", "edit"])
+def test_no_one_line_help_is_cut_at_80_columns(mindc: Call, monkeypatch: pytest.MonkeyPatch, group: str) -> None:
+    monkeypatch.setenv("COLUMNS", "80")
+    said = mindc(*group.split(), "--help")
+    lines = said.out.partition("\nCommands:\n")[2].partition("\n\n")[0].splitlines()
+    assert len(lines) > 10
+    assert [line for line in lines if not line.endswith(".") or line.endswith("...")] == []
+    assert max(map(len, lines)) <= 80

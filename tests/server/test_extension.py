@@ -48,8 +48,35 @@ def test_a_folder_that_is_not_trusted_does_not_say_what_is_run() -> None:
 
 
 @pytest.mark.skipif(not shutil.which("node"), reason="there is no node")
-def test_its_script_can_be_read() -> None:
-    subprocess.run(["node", "--check", FOLDER / "extension.js"], check=True)
+@pytest.mark.parametrize("script", ["extension.js", "program.js"])
+def test_its_scripts_can_be_read(script: str) -> None:
+    subprocess.run(["node", "--check", FOLDER / script], check=True)
+
+
+OWN = "/work/robot/.venv/bin/mindc"
+
+
+@pytest.mark.skipif(not shutil.which("node"), reason="there is no node")
+@pytest.mark.parametrize(
+    ("setting", "there", "trusted", "run"),
+    [
+        ("mindc", [], True, "mindc"),
+        ("mindc", [OWN], True, OWN),
+        ("", [OWN.replace(".venv", "venv")], True, OWN.replace(".venv", "venv")),
+        ("mindc", [OWN], False, "mindc"),  # what lies in a folder that is not trusted is never run
+        ("${workspaceFolder}/.venv/bin/mindc", [OWN], True, OWN),
+        ("${workspaceFolder}/.venv/bin/mindc", [OWN], False, "mindc"),
+        ("~/bin/mindc", [OWN], False, "/home/me/bin/mindc"),
+        ("/opt/mindc", [OWN], True, "/opt/mindc"),
+        ("~other/mindc", [], True, "~other/mindc"),
+    ],
+)
+def test_which_mindc_serves(setting: str, there: list[str], trusted: bool, run: str) -> None:
+    world = f"folders: ['/work/robot', '/work/more'], home: '/home/me', isTrusted: {json.dumps(trusted)}"
+    call = f"program({json.dumps(setting)}, {{{world}, exists: (path) => {json.dumps(there)}.includes(path)}})"
+    script = f"console.log(require({json.dumps(str(FOLDER / 'program.js'))}).{call})"
+    said = subprocess.run(["node", "-e", script], capture_output=True, text=True, check=True)
+    assert said.stdout == f"{run}\n"
 
 
 @pytest.mark.slow
