@@ -17,6 +17,10 @@ from mindlang.proofs.recorded import Recorded
 
 NAMED = 3  # skills in a list, above which it says how many
 STEPS = 6  # skills of a path
+MEANS = {
+    "can be": "keeps still: there are readings for which it has influence, and passes none on",
+    "not excluded": "not ruled out: not proved to be impossible, and seen for no readings that were tried",
+}
 
 
 def report(proof: Proof, hashes: Hashes, run: Recorded | None) -> RenderableType:
@@ -29,6 +33,7 @@ def report(proof: Proof, hashes: Hashes, run: Recorded | None) -> RenderableType
         "",
         _heading("What each actuator can be sent", "the weights that are named, and the declaration"),
         _commands(proof, hashes),
+        *_legend(proof),
     ]
     if run is not None:
         parts += ["", _heading("What it was sent", run_of(run)), _run(proof, run)]
@@ -43,7 +48,7 @@ def _heading(title: str, rests: str) -> Text:
 
 
 def _table(*columns: str) -> Table:
-    table = Table(box=None, pad_edge=False, padding=(0, 2, 0, 2), header_style="dim")
+    table = Table(box=None, pad_edge=False, padding=(0, 2, 0, 0), header_style="dim")
     for column in columns:
         table.add_column(column)
     return table
@@ -88,6 +93,14 @@ def _neutral(found: OfActuator) -> str:
             assert found.tried
             return f"{value} where {some(found.tried.still)} keep{'s' * (len(found.tried.still) == 1)} still"
     return f"{value}, not ruled out"
+
+
+def _legend(proof: Proof) -> Iterator[Text]:
+    """What the words in the table mean, where it has them."""
+    answers = {found.neutral for found in proof.actuators}
+    for answer, words in MEANS.items():
+        if answer in answers:
+            yield Text(f"  {words}", "dim")
 
 
 def _rests(found: OfActuator, hashes: Hashes) -> str:

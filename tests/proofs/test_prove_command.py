@@ -24,6 +24,7 @@ actuator command seen neutral, where nothing influences it rests on
 left_wheel 0 to 1 0 to 1 0.5 where GoToObject+Avoid keeps still the weights of 6 skills
 right_wheel 0 to 1 0 to 1 0.5 where GoToObject+Avoid keeps still the weights of 6 skills
 claw 0 to 1 0 to 1 never the declaration alone
+  keeps still: there are readings for which it has influence, and passes none on
 """
 POWER = """\
 CollectWithPower in charge, for any readings from 0 to 1
@@ -39,6 +40,7 @@ actuator command seen neutral, where nothing influences it rests on
 left_wheel 0 to 1 0 to 1 0.5 where GoToObject+Avoid keeps still the weights of 9 skills
 right_wheel 0 to 1 0 to 1 0.5 where GoToObject+Avoid keeps still the weights of 9 skills
 claw 0 to 1 0 to 1 0 where CollectWithPower keeps still the weights of 9 skills
+  keeps still: there are readings for which it has influence, and passes none on
 
 Lines and skills
   CollectAndPower: not below CollectWithPower  rests on the declaration alone
@@ -189,3 +191,10 @@ def test_ten_thousand_skills(mindc: Call, tmp_path: Path) -> None:
     # whatever is not on the path, 4999 leaves, or 9 levels of which the deepest leaks least
     assert left["leak"]["share"] == pytest.approx(49.99 / 50.99)
     assert left["leak"]["worst"] == "S0"
+
+
+def test_words_that_a_table_uses_are_explained_below_it(mindc: Call) -> None:
+    said = mindc("prove", "examples/collect/ball.mind").out
+    assert "0.5, not ruled out" in said
+    assert "\n  not ruled out: not proved to be impossible, and seen for no readings that were tried\n" in said
+    assert "  keeps still: " not in said
