@@ -32,7 +32,7 @@ def command(code: str | None, as_json: bool) -> None:
     if word is not None and word not in known:
         fail(
             f"There is no code called {visible(word)}.",
-            did_you_mean(word, known) or "mindc explain lists them.",
+            did_you_mean(word, known) or "mindc explain lists them; those of a robot.yaml are in docs/robot-yaml.md.",
             MISUSE,
         )
     if as_json:
