@@ -18,10 +18,10 @@ Examples:
 @click.option("--write", is_flag=True, help="Remove them: mindc gc --write")
 @click.option("--json", "as_json", is_flag=True, help="One JSON document instead: mindc gc --json")
 def command(folder: Path, write: bool, as_json: bool) -> None:
-    """List the files of weights in FOLDER and below that no lock names, and with --write remove them.
+    """List the weights in FOLDER that no lock names.
 
-    `mindc train` and `mindc edit` never remove weights, so those that were replaced lie here until then. What a lock
-    of another branch or of a copy elsewhere names is not known here.
+    And in the folders below; --write removes them. `mindc train` and `mindc edit` never remove weights, so those that
+    were replaced lie here until then. What a lock of another branch or of a copy elsewhere names is not known here.
     """
     from mindlang.lock import LockError
     from mindlang.lock.garbage import remove, unnamed

@@ -58,9 +58,7 @@ def test_json_is_one_document(mindc: Call) -> None:
 def test_a_code_that_is_none_is_answered_by_one_that_is(mindc: Call) -> None:
     assert mindc("explain", "coma") == (2, "", "There is no code called coma.\n  Did you mean comma?\n")
     hint = "mindc explain lists them; those of a robot.yaml are in docs/robot-yaml.md."
-    assert mindc("explain", "xyzzy").err == f"There is no code called xyzzy.
-  {hint}
-"
+    assert mindc("explain", "xyzzy").err == f"There is no code called xyzzy.\n  {hint}\n"
 
 
 def test_the_explanations_are_in_the_wheel(tmp_path: Path) -> None:
