@@ -123,7 +123,7 @@ class School:
     @procedures_talk()
     def _watched(self, run: Run, rollout: Rollout) -> State:
         lesson = run.manifest.lesson
-        watcher = self._watcher(run, run.course(rollout.genome_length).generations)
+        watcher = self._watcher(run)
 
         def asked() -> None:
             watcher.close()
@@ -139,11 +139,10 @@ class School:
         finally:
             watcher.close()
 
-    def _watcher(self, run: Run, generations: int) -> Watcher:
-        pace = Pace(generations, perf_counter())
+    def _watcher(self, run: Run) -> Watcher:
         if self.quiet:
             return Silent()
-        return (Bar if talk.is_terminal else Lines)(talk, run.manifest.name, pace)
+        return (Bar if talk.is_terminal else Lines)(talk, run.manifest.name, Pace.of(run, perf_counter()))
 
     def _say(self, *lines: str) -> None:
         for line in () if self.quiet else lines:
@@ -158,7 +157,7 @@ def _refuse_frozen(book: Book, chosen: Sequence[Lesson]) -> None:
     """RunError where a lesson has nobody to teach."""
     for lesson in chosen:
         if not learners(book.graph, lesson):
-            hint = f"mindc edit unfreeze {lesson.skill} {book.source} --write"
+            hint = f"mindc edit unfreeze {lesson.skill} {book.shown} --write"
             raise RunError(f"{lesson.skill} is frozen", hint)
 
 

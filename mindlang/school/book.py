@@ -39,6 +39,12 @@ class Book:
         """Where the source stands, and the procedures beside it."""
         return self.source.parent
 
+    @property
+    def shown(self) -> Path:
+        """The file as it is called here: from the working directory, where it lies there or below."""
+        here = Path.cwd().resolve()
+        return self.source.relative_to(here) if self.source.is_relative_to(here) else self.source
+
     def keep_path(self, lesson: Lesson) -> Path:
         """The lock to which goes what a lesson teaches: that of the file in which the lesson stands.
 
@@ -95,9 +101,9 @@ def refuse_changed(book: Book, run: Run) -> None:
     same_learners = learners(book.graph, lesson) == run.manifest.learners  # one may have been frozen
     if not same_learners or fingerprint(book.graph, lesson, book.folder) != run.manifest.mind:
         raise RunError(
-            f"{book.source} has changed since this run of {lesson.skill} began, so it cannot go on",
+            f"{book.shown} has changed since this run of {lesson.skill} began, so it cannot go on",
             f"undo the change ({run.folder / 'source'} has it as it was), or begin anew: "
-            f"mindc train {book.source} {lesson.skill}",
+            f"mindc train {book.shown} {lesson.skill}",
         )
 
 
@@ -108,7 +114,7 @@ def _needed(book: Book, lesson: Lesson) -> dict[str, Weights]:
         first = [skill for skill in reversed(skills) if skill not in weights]
         raise RunError(
             f"{lesson.skill} cannot be taught yet: {listed(refusals, 'and')}",
-            f"first: mindc train {book.source} {' '.join(first)}",
+            f"first: mindc train {book.shown} {' '.join(first)}",
         )
     return weights
 

@@ -181,3 +181,19 @@ def interrupted(project: Path) -> tuple[str, str]:
     run = str(next(logs).parent)
     assert f"mindc train --resume {run.removeprefix(f'{project}/')}" in talk
     return run, whole["weights"]
+
+
+def test_files_are_called_as_they_are_from_here(project: Path) -> None:
+    source = project / "drive.mind"
+    source.write_text(MIND.replace("skill Go is mlp hidden 1\n", "skill Go is mlp hidden 1\n  stays frozen\n"))
+    frozen = mindc(project, "drive.mind", "Go")
+    assert frozen.stderr.splitlines()[-1] == "  mindc edit unfreeze Go drive.mind --write"
+    source.write_text(MIND)
+    assert mindc(project, "drive.mind", "Drive").stderr.splitlines()[-1].strip() == "first: mindc train drive.mind Go"
+
+
+def test_attempts_are_told_apart(project: Path) -> None:
+    done = mindc(project, "drive.mind", "Go", "--seed", "1", "--attempts", "2")
+    assert done.returncode == 0, done.stderr
+    assert "Go-on-Reach: attempt 1 of 2, generation 1 of 3, best " in done.stderr
+    assert "Go-on-Reach: attempt 2 of 2, generation 3 of 3, best " in done.stderr
