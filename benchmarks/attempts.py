@@ -39,7 +39,9 @@ def chosen(graph: Graph, curriculum: str, skills: list[str]) -> list[Lesson]:
 
 def main() -> None:
     """Teach, try, count."""
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = argparse.ArgumentParser(
+        allow_abbrev=False, description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
     parser.add_argument("skills", nargs="*", metavar="SKILL", choices=[*SUCCESS, []])
     parser.add_argument("--curriculum", default="Quick")
     parser.add_argument("--seeds", type=int, default=10)

@@ -22,7 +22,7 @@ def seconds(arguments: list[str]) -> float:
 
 def main() -> None:
     """Measure and print."""
-    parser = argparse.ArgumentParser(description=__doc__)
+    parser = argparse.ArgumentParser(allow_abbrev=False, description=__doc__)
     parser.add_argument("--runs", type=int, default=10)
     parser.add_argument("--json", action="store_true")
     options = parser.parse_args()

@@ -55,7 +55,7 @@ def mindc(folder: str, *arguments: str) -> Sequence[dict[str, Any]]:
 
 def main() -> None:
     """Teach, try, print."""
-    parser = argparse.ArgumentParser(description=__doc__)
+    parser = argparse.ArgumentParser(allow_abbrev=False, description=__doc__)
     parser.add_argument("--curriculum", default="Quick")
     parser.add_argument("--seeds", type=int, default=5)
     parser.add_argument("--first-seed", type=int, default=1)

@@ -34,7 +34,7 @@ def microseconds(engine: Engine, rng: np.random.Generator, ticks: int) -> float:
 
 def main() -> None:
     """Measure and print."""
-    parser = argparse.ArgumentParser(description=__doc__)
+    parser = argparse.ArgumentParser(allow_abbrev=False, description=__doc__)
     parser.add_argument("mind", nargs="?", type=Path, default=COLLECT)
     parser.add_argument("--ticks", type=int, default=5000)
     parser.add_argument("--json", action="store_true")

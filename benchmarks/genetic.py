@@ -30,7 +30,7 @@ def cost(individuals: int, weights: int) -> float:
 
 def main() -> None:
     """Measure and print."""
-    parser = argparse.ArgumentParser(description=__doc__)
+    parser = argparse.ArgumentParser(allow_abbrev=False, description=__doc__)
     parser.add_argument("--json", action="store_true")
     found = {f"{n} genomes of {w} weights": round(cost(n, w), 2) for n, w in SIZES}
     if parser.parse_args().json:

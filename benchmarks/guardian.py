@@ -56,7 +56,7 @@ def summary(times: list[float | None]) -> dict[str, float]:
 
 def main() -> None:
     """Measure and print."""
-    parser = argparse.ArgumentParser(description=__doc__)
+    parser = argparse.ArgumentParser(allow_abbrev=False, description=__doc__)
     parser.add_argument("--trials", type=int, default=30, help="of each kind")
     parser.add_argument("--json", action="store_true")
     options = parser.parse_args()

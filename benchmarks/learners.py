@@ -119,7 +119,9 @@ def settings(text: str) -> dict[str, float | int]:
 
 def main() -> None:
     """Compare."""
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = argparse.ArgumentParser(
+        allow_abbrev=False, description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
     parser.add_argument("--skill", default="GoToObject")
     parser.add_argument("--ticks", type=float, default=40e6)
     parser.add_argument("--seeds", type=int, default=3)

@@ -57,7 +57,7 @@ def prepared(graph: Graph, weights: dict[str, Any], skill: str, workers: int) ->
 
 def main() -> None:
     """Teach, try, print."""
-    parser = argparse.ArgumentParser(description=__doc__)
+    parser = argparse.ArgumentParser(allow_abbrev=False, description=__doc__)
     parser.add_argument("--skill", default="GoToObject")
     parser.add_argument("--seconds", type=float, default=60.0)
     parser.add_argument("--seeds", type=int, default=10)

@@ -68,7 +68,7 @@ def start(path: Path) -> float:
 
 def main() -> None:
     """Measure and print."""
-    parser = argparse.ArgumentParser(description=__doc__)
+    parser = argparse.ArgumentParser(allow_abbrev=False, description=__doc__)
     parser.add_argument("--ticks", type=int, default=TICKS, help="to record and replay (the issue: 1000000)")
     parser.add_argument("--json", action="store_true")
     options = parser.parse_args()

@@ -61,7 +61,7 @@ def measured(skills: int, folder: Path) -> dict[str, float]:
 
 def main() -> None:
     """Measure and print."""
-    parser = argparse.ArgumentParser(description=__doc__)
+    parser = argparse.ArgumentParser(allow_abbrev=False, description=__doc__)
     parser.add_argument("--skills", type=int, nargs="+", default=[1250, 2500, 5000, 10_000])
     parser.add_argument("--json", action="store_true")
     options = parser.parse_args()

@@ -37,7 +37,7 @@ def milliseconds(frames: list[Frame], rounds: int) -> list[float]:
 
 def main() -> None:
     """Measure and print."""
-    parser = argparse.ArgumentParser(description=__doc__)
+    parser = argparse.ArgumentParser(allow_abbrev=False, description=__doc__)
     parser.add_argument("--rounds", type=int, default=20)
     parser.add_argument("--threads", type=int, default=1, help="of OpenCV; a robot has other things to do")
     parser.add_argument("--json", action="store_true")

@@ -5,6 +5,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
+from mindrun.durable import descriptor_of
+from mindrun.errors import reason
 from mindrun.graph import Graph
 
 from mindlang.diagnostic import Diagnostic, Findings
@@ -15,6 +17,7 @@ from mindlang.source import LIMIT, Source, Span, decode
 from mindlang.syntax import File
 from mindlang.use import files, read
 
+STDIN = "<stdin>"
 NOTHING: Mapping[Path, str] = {}
 
 
@@ -51,11 +54,15 @@ def read_main(path: Path | str, texts: Mapping[Path, str] = NOTHING) -> Source |
         if resolved in texts:
             return Source(str(path), texts[resolved], resolved.parent)
         if str(path) == "-":
-            return Source("<stdin>", decode(sys.stdin.buffer.read(LIMIT + 1)), Path.cwd().resolve())
+            return Source(STDIN, decode(sys.stdin.buffer.read(LIMIT + 1)), Path.cwd().resolve())
+        if descriptor_of(Path(path)) is not None:
+            with Path(path).open("rb") as stream:  # that a shell has opened: <(git show HEAD:collect.mind)
+                return Source(str(path), decode(stream.read(LIMIT + 1)), Path.cwd().resolve())
         return read(Path(path), str(path))
     except (OSError, RuntimeError) as error:
-        why = getattr(error, "strerror", None) or error  # a loop of links is a RuntimeError
-        return Diagnostic("unreadable", f"{path} cannot be read: {why}.", None, "Is the path right?")
+        # a loop of links is a RuntimeError
+        name, hint = (STDIN, "") if str(path) == "-" else (path, "Is the path right?")
+        return Diagnostic("unreadable", f"{name} cannot be read: {reason(error)}.", None, hint)
     except ValueError as error:
         hint = f"A .mind file is UTF-8 text of at most {LIMIT >> 20} MiB."
         return Diagnostic("unreadable", f"{path} {error}.", None, hint)

@@ -7,16 +7,19 @@ found later is of a change that was interrupted: the files are put back.
 import json
 import os
 from base64 import b64decode, b64encode
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Collection, Mapping
 from contextlib import suppress
 from dataclasses import dataclass
 from hashlib import sha256
 from pathlib import Path
+from stat import S_ISREG
 
-from mindrun.durable import alone, spare, sync_folder, write
+from mindrun.durable import alone, exchange, spare, sync_folder, write
 from mindrun.errors import MindError
+from mindrun.regular import read_whole
 
 NAME = ".mind-edit"
+LARGEST = 1 << 28  # bytes of a file that is changed, and of a journal
 KINDS = (".mind", ".lock", ".npy")  # of files that mindc changes
 
 
@@ -42,16 +45,20 @@ def change(folder: Path, files: Mapping[Path, bytes], check: Callable[[], None] 
         if not _is_ours(folder, path):
             kinds = ", ".join(KINDS[:-1]) + f" and {KINDS[-1]}"
             raise JournalError(f"{path} cannot be changed together with others: it is a link, or none of {kinds}")
+    waiting = set[Path]()
     with alone(folder):
         try:
             _put_back(folder)
             check()
-            write(folder / NAME, _journal(folder, files))
+            were = {path: _get(path) for path in files}
+            write(folder / NAME, _journal(folder, files, were))
+            waiting.update(files)
             for path, data in files.items():
-                _set(path, data)
+                _change(path, data, were[path])
+                waiting.remove(path)
             _done(folder)
         except BaseException as error:
-            _undo(folder)
+            _undo(folder, waiting)
             if isinstance(error, OSError):
                 raise JournalError(f"{error.filename or folder} cannot be written: {error.strerror}") from error
             raise
@@ -66,11 +73,12 @@ def recover(folder: Path) -> bool:
 
 
 def _is_left(folder: Path) -> bool:
-    """Whether a journal lies in a folder; one of somebody else does not count."""
+    """Whether a journal lies in a folder; one of somebody else does not count, nor what is no file."""
     try:
-        return (folder / NAME).stat().st_uid == os.getuid()
+        found = (folder / NAME).lstat()
     except OSError:
         return False
+    return S_ISREG(found.st_mode) and found.st_uid == os.getuid()
 
 
 def _recovered(folder: Path) -> bool:
@@ -78,10 +86,14 @@ def _recovered(folder: Path) -> bool:
         return _put_back(folder)
 
 
-def _undo(folder: Path) -> None:
+def _undo(folder: Path, waiting: Collection[Path]) -> None:
     """Put back at once what a failed change has written; where that fails too, the journal stays."""
+    if not _is_left(folder):  # nothing had been written yet
+        with suppress(OSError):
+            spare(folder / NAME).unlink(missing_ok=True)
+        return
     try:
-        _put_back(folder)
+        _put_back(folder, waiting)
     except OSError as error:
         raise JournalError(
             f"{error.filename or folder} cannot be written: {error.strerror}",
@@ -89,43 +101,48 @@ def _undo(folder: Path) -> None:
         ) from error
 
 
-def _journal(folder: Path, files: Mapping[Path, bytes]) -> bytes:
+def _journal(folder: Path, files: Mapping[Path, bytes], were: Mapping[Path, bytes | None]) -> bytes:
     plain = {
-        path.relative_to(folder).as_posix(): {"was": _packed(_get(path)), "becomes": _hash(data)}
+        path.relative_to(folder).as_posix(): {"was": _packed(were[path]), "becomes": _hash(data)}
         for path, data in files.items()
     }
     return json.dumps(plain).encode()
 
 
-def _put_back(folder: Path) -> bool:
+def _put_back(folder: Path, waiting: Collection[Path] = ()) -> bool:
+    """Put back what a journal says, if there is one; of the `waiting` files what somebody else has written stays."""
     spare(folder / NAME).unlink(missing_ok=True)
     if (noted := _read(folder)) is None:
         return False
     names = ", ".join(path.name for path in noted if path.suffix != ".npy")
     for path, note in noted.items():
         now = _get(path)
-        if now != note.was and _hash(now) != note.becomes:
+        if now != note.was and _hash(now) != note.becomes and path not in waiting:
             raise JournalError(
                 f"{path} has been changed since an edit of {names} was interrupted",
                 f"keep them as they are by deleting {folder / NAME}, or get {path.name} back",
             )
     for path, note in noted.items():
         spare(path).unlink(missing_ok=True)
-        _set(path, note.was)
+        if _hash(_get(path)) == note.becomes:
+            _set(path, note.was)
     _done(folder)
     return True
 
 
 def _read(folder: Path) -> dict[Path, _Noted] | None:
     """The journal of a folder, if there is one; JournalError where it is none that mindc wrote."""
+    if not _is_left(folder):
+        return None
     try:
-        plain = json.loads((folder / NAME).read_bytes())
+        plain = json.loads(_get(folder / NAME) or b"")
         return {
             _inside(folder, path): _Noted(_unpacked(told["was"]), str(told["becomes"])) for path, told in plain.items()
         }
-    except FileNotFoundError:
-        return None
-    except (ValueError, TypeError, KeyError, AttributeError) as error:
+    except OSError as error:
+        raise JournalError(f"{folder / NAME} cannot be read: {error.strerror}", "delete it") from error
+    except (ValueError, TypeError, KeyError, AttributeError, RuntimeError) as error:
+        # a RuntimeError is of what nests too deep, or of links in a circle
         raise JournalError(f"{folder / NAME} is not what mindc wrote", "delete it") from error
 
 
@@ -152,15 +169,22 @@ def _done(folder: Path) -> None:
 
 def _get(path: Path) -> bytes | None:
     try:
-        return path.read_bytes()
+        return read_whole(path, LARGEST)
     except FileNotFoundError:
         return None
+
+
+def _change(path: Path, data: bytes, was: bytes | None) -> None:
+    """Write a file, unless somebody has written it since it `was` read."""
+    if data != was:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        exchange(path, data, was)
 
 
 def _set(path: Path, data: bytes | None) -> None:
     if data is None:
         path.unlink(missing_ok=True)
-    elif _get(path) != data:
+    else:
         path.parent.mkdir(parents=True, exist_ok=True)
         write(path, data)
 

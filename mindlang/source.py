@@ -6,6 +6,8 @@ from dataclasses import dataclass, field
 from functools import lru_cache
 from pathlib import Path
 
+from mindrun.regular import read_regular
+
 LIMIT = 1 << 20  # bytes
 BOM = b"\xef\xbb\xbf"
 SOURCES = 64  # whose line starts are remembered
@@ -63,7 +65,10 @@ def _line_starts(source: Source) -> list[int]:
 
 def encoded(path: Path, text: str) -> bytes:
     """The bytes of a text that is to be written to `path`; with a byte order mark if the file begins with one now."""
-    marked = path.exists() and path.read_bytes()[: len(BOM)] == BOM
+    try:
+        marked = read_regular(path, len(BOM)) == BOM
+    except FileNotFoundError:
+        marked = False
     return (BOM if marked else b"") + text.encode()
 
 

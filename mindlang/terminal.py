@@ -57,8 +57,14 @@ def fail(message: str, hint: str = "", code: int = FINDINGS) -> NoReturn:
 
 def print_json(value: object) -> None:
     """One JSON document on stdout."""
-    json.dump(value, sys.stdout, indent=2, ensure_ascii=False, allow_nan=False)
-    sys.stdout.write("\n")
+    print_document(json.dumps(value, indent=2, ensure_ascii=False, allow_nan=False) + "\n")
+
+
+def print_document(text: str) -> None:
+    """What programs read, on stdout: in UTF-8 on any terminal."""
+    from mindrun.streams import document
+
+    document(text)
 
 
 @contextmanager
@@ -70,24 +76,24 @@ def procedures_talk() -> Iterator[None]:
 
 def refuse_unwritable(path: Path | None, *suffixes: str) -> None:
     """End the program where no picture could be written to `path`, before any work is done."""
+    from mindrun.durable import refuse
+
     if path is None:
         return
     if path.suffix.lower() not in suffixes:
         fail(f"{path} must end in {' or '.join(suffixes)}", code=MISUSE)
-    if path.is_dir():
-        fail(f"{path} cannot be written: it is a folder", code=MISUSE)
-    if not path.parent.is_dir():
-        fail(f"{path} cannot be written: there is no folder {path.parent}", code=MISUSE)
-    if not os.access(path.parent, os.W_OK) or (path.exists() and not os.access(path, os.W_OK)):
-        fail(f"{path} cannot be written: permission denied", code=MISUSE)
+    try:
+        refuse(path)
+    except OSError as error:
+        fail(f"{path} cannot be written: {error.strerror}", code=MISUSE)
 
 
 def write_picture(path: Path, data: bytes) -> None:
     """Write a picture that is done; where that fails the program ends, and the old one is still there."""
-    from mindrun.durable import write
+    from mindrun.durable import write_out
 
     try:
-        write(path, data)
+        write_out(path, data)
     except OSError as error:
         fail(f"{path} cannot be written: {error.strerror}", code=MISUSE)
 

@@ -4,6 +4,9 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 
+from mindrun.errors import reason
+from mindrun.regular import read_regular
+
 from mindlang.diagnostic import Findings
 from mindlang.parse import parse
 from mindlang.source import LIMIT, Source, decode
@@ -31,8 +34,7 @@ def read(path: Path, name: str) -> Source:
     """The source at a path; OSError or ValueError says why it cannot be read."""
     if path.is_dir():
         raise ValueError("is a folder: name the files in it")
-    with path.open("rb") as file:
-        return Source(name, decode(file.read(LIMIT + 1)), path.resolve().parent)
+    return Source(name, decode(read_regular(path, LIMIT + 1)), path.resolve().parent)
 
 
 def files(source: Source, path: Path, findings: Findings, texts: Mapping[Path, str]) -> tuple[list[File], bool]:
@@ -87,9 +89,9 @@ def _read(target: Path, use: Use, project: _Project) -> None:
     try:
         text = project.texts.get(target)
         source = read(target, name) if text is None else Source(name, text, target.parent)
-    except OSError as error:
+    except (OSError, RuntimeError) as error:  # a loop of links is a RuntimeError
         hint = "The path is relative to the file in which it stands."
-        project.refuse("unreadable-use", use, f"{use.path} cannot be read: {error.strerror}.", hint)
+        project.refuse("unreadable-use", use, f"{use.path} cannot be read: {reason(error)}.", hint)
     except ValueError as error:
         project.refuse("unreadable-use", use, f"{use.path} {error}.", "Use a .mind file.")
     else:

@@ -7,6 +7,7 @@ from importlib import import_module
 from pkgutil import iter_modules
 
 import click
+from mindrun import streams
 
 from mindlang.terminal import FINDINGS, INTERRUPTED, MISUSE, OK, say
 
@@ -33,8 +34,8 @@ class Commands(Suggesting):
     """The modules of this package as commands; each defines a click command called `command`."""
 
     def list_commands(self, ctx: click.Context) -> list[str]:
-        """The names of all commands."""
-        return sorted(module.name for module in iter_modules(__path__))
+        """The names of all commands; what they share has a name that begins with _."""
+        return sorted(module.name for module in iter_modules(__path__) if not module.name.startswith("_"))
 
     def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:
         """The command of that name, imported now."""
@@ -57,9 +58,19 @@ def commands() -> None:
 def main() -> None:
     """Run one command; whatever happens ends in one message and an exit code, never in a traceback."""
     set_threshold(SELDOM)
+    streams.prepare()
+    code = _run()
+    if why := streams.finish():
+        say(why)
+        code = code or FINDINGS
+    sys.exit(code)
+
+
+def _run() -> int:
     try:
         code = commands.main(standalone_mode=False)
-        sys.stdout.flush()
+    except SystemExit as stop:
+        code = stop.code
     except click.exceptions.Exit as stop:
         code = stop.exit_code
     except click.ClickException as misuse:
@@ -67,26 +78,20 @@ def main() -> None:
         code = misuse.exit_code if isinstance(misuse, click.UsageError) else MISUSE
     except (click.Abort, KeyboardInterrupt):
         code = INTERRUPTED
-    except BrokenPipeError:  # the reader, `head` say, has seen enough
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-        code = OK
     except Exception as error:
         code = _unforeseen(error)
-    sys.exit(code if isinstance(code, int) else OK)
+    return code if isinstance(code, int) else OK
 
 
 def _unforeseen(error: Exception) -> int:
-    from mindrun.errors import MindError
+    from mindrun.errors import MindError, surroundings
 
     if os.environ.get("MIND_DEBUG"):
         raise error
-    match error:
-        case MindError():  # a procedure that fails in the middle of a run, say
-            say(str(error), error.hint)
-        case OSError():
-            say(f"{error.strerror or error}: {error.filename}" if error.filename else str(error))
-        case _:
-            say(
-                f"mindc failed: {type(error).__name__}: {error}", "Set MIND_DEBUG=1 to see where, and please report it."
-            )
+    if isinstance(error, MindError):  # a procedure that fails in the middle of a run, say
+        say(str(error), error.hint)
+    elif why := surroundings(error):
+        say(why)
+    else:
+        say(f"mindc failed: {type(error).__name__}: {error}", "Set MIND_DEBUG=1 to see where, and please report it.")
     return FINDINGS

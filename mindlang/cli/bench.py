@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import click
 
+from mindlang.cli._options import SEED, WORKERS, Whole
+
 EXAMPLES = """\b
 Examples:
   mindc bench collect.mind
@@ -11,15 +13,16 @@ Examples:
   mindc bench collect.mind --task Collect --no-interruption --json
   mindc bench collect.mind --task Collect --master Avoid --workers 1
 """
-COUNT = click.IntRange(min=1)
 
 
 @click.command(epilog=EXAMPLES)
 @click.argument("file")
 @click.option("--task", metavar="TASK", help="Default: that on which the master, or a skill below it, is taught.")
-@click.option("--runs", type=COUNT, default=200, show_default=True, help="How many layouts to run the task on.")
-@click.option("--seed", type=click.IntRange(0, 2**63 - 1), default=1, show_default=True, help="Draws the layouts.")
-@click.option("--workers", type=COUNT, help="How many cores to use (default: all). Changes nothing else.")
+@click.option(
+    "--runs", type=Whole(1, 10_000_000), default=200, show_default=True, help="How many layouts to run the task on."
+)
+@click.option("--seed", type=SEED, default=1, show_default=True, help="Draws the layouts.")
+@click.option("--workers", type=WORKERS, help="How many cores to use (default: all). Changes nothing else.")
 @click.option("--master", metavar="SKILL", help="Who is in charge. Default: the master of the task's first lesson.")
 @click.option("--no-interruption", is_flag=True, help="Go on to the last tick, whatever would end a run.")
 @click.option("--json", "as_json", is_flag=True, help="Print one JSON document instead.")
@@ -49,7 +52,7 @@ def command(
 
     stage = Stage(quiet)
     workers = workers or cores()
-    cast, rollout = stage.prepare(file, task, master, interrupt=not no_interruption, workers=workers)
+    cast, rollout = stage.prepare(file, task, master, interrupt=not no_interruption, workers=workers, runs=runs)
     seeds = layouts(seed, runs)
     scores, seconds = stage.score(rollout, seeds)
     found = {"task": cast.task.name, "master": cast.master, "seed": seed, "workers": workers}

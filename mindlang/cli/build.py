@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import sys
 from dataclasses import replace
-from hashlib import sha256
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import click
+
+from mindlang.cli._options import NewFile
 
 if TYPE_CHECKING:
     from mindrun.graph import Graph
@@ -27,7 +28,7 @@ Examples:
 
 @click.command(epilog=EXAMPLES)
 @click.argument("file")
-@click.option("-o", "--output", required=True, type=click.Path(path_type=Path), help="The bundle: -o collect.bundle")
+@click.option("-o", "--output", required=True, type=NewFile(), help="The bundle: -o collect.bundle")
 @click.option("--master", metavar="SKILL", help="Another skill in charge: --master Avoid")
 @click.option(
     "--robot", type=click.Path(path_type=Path), metavar="FILE", help="What it is wired to: --robot robot.yaml"
@@ -62,7 +63,7 @@ def command(file: str, output: Path, master: str | None, robot: Path | None, as_
                 say(refusal)
             fail(ready.refusals[-1], f"mindc train {file}")
         procedures = procedure_sources(ready.graph, compiled.sources[0].folder)
-        write_bundle(output, ready.graph, ready.weights, procedures, wiring)
+        digest = write_bundle(output, ready.graph, ready.weights, procedures, wiring)
     except MindError as error:
         fail(str(error), code=MISUSE)
     except OSError as error:
@@ -70,7 +71,7 @@ def command(file: str, output: Path, master: str | None, robot: Path | None, as_
     for note in ready.notes:
         say(f"note: {note}")
     if as_json:
-        print_json(_built(output, ready, wiring))
+        print_json(_built(output, digest, ready, wiring))
     elif not quiet:
         wired = f", wired to {wiring.robot}" if wiring else ""
         click.echo(f"{output}: {ready.graph.master} in charge, {len(ready.weights)} trained skills{wired}", err=True)
@@ -89,13 +90,13 @@ def _wiring(path: Path, graph: Graph) -> Wiring:
     return checked.wiring
 
 
-def _built(output: Path, ready: Ready, wiring: Wiring | None) -> dict[str, object]:
+def _built(output: Path, digest: str, ready: Ready, wiring: Wiring | None) -> dict[str, object]:
     from mindrun.bundle import fingerprint
 
     robot = {"robot": {"name": wiring.robot, "wiring": fingerprint(wiring)}} if wiring else {}
     return {
         "bundle": str(output),
-        "sha256": sha256(output.read_bytes()).hexdigest(),
+        "sha256": digest,
         "master": ready.graph.master,
         "skills": sorted(ready.weights),
         "notes": list(ready.notes),

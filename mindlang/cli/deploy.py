@@ -31,7 +31,7 @@ Examples:
 @click.option("--list", "as_list", is_flag=True, help="Show the releases that are there: --list")
 @click.option("--arm-service", is_flag=True, help="The service moves the robot, at every start: --arm-service")
 @click.option("--no-service", is_flag=True, help="No service runs it, an older one is removed: --no-service")
-@click.option("--keep", type=click.IntRange(2), default=3, show_default=True, help="Releases that stay: --keep 5")
+@click.option("--keep", type=click.IntRange(2, 1000), default=3, show_default=True, help="Releases that stay: --keep 5")
 @click.option(
     "--watch", type=click.IntRange(0, 60), default=5, show_default=True, help="Seconds to see it run: --watch 10"
 )

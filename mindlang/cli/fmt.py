@@ -58,25 +58,25 @@ def _tidy(file: str, check: bool, diff: bool) -> int:
 
 def _put(file: str, source: Source, check: bool, diff: bool) -> int:
     """The tidy text put where it belongs."""
-    from mindrun.durable import write
+    from mindrun.durable import rewrite
 
     from mindlang.format import formatted
     from mindlang.source import encoded
     from mindlang.splice import unified
-    from mindlang.terminal import FINDINGS, OK, fail
+    from mindlang.terminal import FINDINGS, OK, fail, print_document
 
     text = formatted(source.text)
     is_tidy = text == source.text
     match (diff, check, file):
         case True, _, _:
-            sys.stdout.write(unified(file.lstrip("/"), source.text, text))
+            print_document(unified(file.lstrip("/"), source.text, text))
         case _, True, _ if not is_tidy:
             click.echo(f"{file} is not tidy", err=True)
         case False, False, "-":
-            sys.stdout.buffer.write(text.encode())
+            print_document(text)
         case False, False, _ if not is_tidy:
             try:
-                write(Path(file).resolve(), encoded(Path(file), text))
+                rewrite(Path(file), encoded(Path(file), text), encoded(Path(file), source.text))
             except OSError as error:
                 fail(f"{file} cannot be written: {error.strerror}")
             click.echo(f"{file} is tidy now", err=True)

@@ -7,6 +7,8 @@ from typing import TYPE_CHECKING
 
 import click
 
+from mindlang.cli._options import NewFile
+
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
@@ -24,7 +26,7 @@ PATH = click.Path(path_type=Path)
 
 @click.command(epilog=EXAMPLES)
 @click.argument("runs", nargs=-1, required=True, metavar="RUN…", type=PATH)
-@click.option("-o", "--output", type=PATH, default="curves.svg", show_default=True, help="A .svg or a .png file.")
+@click.option("-o", "--output", type=NewFile(), default="curves.svg", show_default=True, help="A .svg or a .png file.")
 @click.option("--json", "as_json", is_flag=True, help="Say what was drawn as one JSON document.")
 @click.option("-q", "--quiet", is_flag=True, help="Print nothing but results and errors.")
 def command(runs: tuple[Path, ...], output: Path, as_json: bool, quiet: bool) -> None:

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import click
 
+from mindlang.cli._options import Number, Whole
+
 EXAMPLES = """\b
 Examples:
   mindc prove collect.mind
@@ -17,12 +19,16 @@ Examples:
 @click.command(epilog=EXAMPLES)
 @click.argument("file")
 @click.option(
-    "--leak", default=0.01, metavar="δ", help="What a learnt line sends where it should send 0. Default: 0.01."
+    "--leak",
+    type=Number(0, 1, min_open=True),
+    default=0.01,
+    metavar="δ",
+    help="What a learnt line sends where it should send 0. Default: 0.01.",
 )
 @click.option("--master", metavar="SKILL", help="Who is in charge. Default: the mind's master.")
 @click.option("--run", "with_run", is_flag=True, help="Run a task, too, and count ticks without influence.")
 @click.option("--task", metavar="TASK", help="Of the run. Default: the one that `mindc run` takes.")
-@click.option("--seed", type=click.IntRange(0, 2**64 - 1), default=1, help="Of the run. Default: 1.")
+@click.option("--seed", type=Whole(0, 2**64 - 1), default=1, help="Of the run. Default: 1.")
 @click.option("--json", "as_json", is_flag=True, help="Print one JSON document instead.")
 def command(
     file: str, leak: float, master: str | None, with_run: bool, task: str | None, seed: int, as_json: bool
@@ -35,8 +41,6 @@ def command(
 
     Runs no Python code of the file's procedures, except with --run.
     """
-    if not 0 < leak <= 1:
-        raise click.UsageError(f"--leak {leak:g} must be above 0, and at most 1.")
     if task is not None and not with_run:
         raise click.UsageError("--task is of the run: say --run, too.")
     from mindlang.proofs.command import Wishes, perform

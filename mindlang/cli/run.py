@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from math import isfinite
 from pathlib import Path
-from typing import Any
 
 import click
+
+from mindlang.cli._options import NewFile, Number, Whole
 
 EXAMPLES = """\b
 Examples:
@@ -16,28 +16,17 @@ Examples:
   mindc run collect.mind --task Collect --seed 3 --video run.mp4 --speed 4
   mindc run collect.mind --task Avoid --seed 3 --json
 """
-SEED = click.IntRange(0, 2**64 - 1)
-PATH = click.Path(path_type=Path)
-
-
-class Speed(click.FloatRange):
-    """A range in which "nan", of which no comparison holds, does not lie."""
-
-    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
-        """The number; as click does it, except for nan."""
-        number = super().convert(value, param, ctx)
-        return number if isfinite(number) else self.fail(f"{value} is not a number.", param, ctx)
 
 
 @click.command(epilog=EXAMPLES)
 @click.argument("file")
 @click.option("--task", metavar="TASK", help="Default: that on which the master, or a skill below it, is taught.")
-@click.option("--seed", type=SEED, help="The same seed gives the same run. Default: drawn, and printed.")
+@click.option("--seed", type=Whole(0, 2**64 - 1), help="The same seed gives the same run. Default: drawn, and printed.")
 @click.option("--master", metavar="SKILL", help="Who is in charge. Default: the master of the task's first lesson.")
 @click.option("--no-interruption", is_flag=True, help="Go on to the last tick, whatever would end the run.")
-@click.option("--picture", type=PATH, metavar="PATH.png", help="Draw the world and the path that the robot took.")
-@click.option("--video", type=PATH, metavar="PATH.mp4", help="Film the world and the influence in the hierarchy.")
-@click.option("--speed", type=Speed(0.01, 1000), help="Of the video. Default: a whole run takes a minute.")
+@click.option("--picture", type=NewFile(), metavar="PATH.png", help="Draw the world and the path that the robot took.")
+@click.option("--video", type=NewFile(), metavar="PATH.mp4", help="Film the world and the influence in the hierarchy.")
+@click.option("--speed", type=Number(0.01, 1000), help="Of the video. Default: a whole run takes a minute.")
 @click.option("--json", "as_json", is_flag=True, help="Print one JSON document instead.")
 @click.option("-q", "--quiet", is_flag=True, help="Print nothing but results and errors.")
 def command(

@@ -1,7 +1,5 @@
 """`mindc show`: the hierarchy of a mind, as a tree, as a drawing, as data."""
 
-import sys
-
 import click
 
 EXAMPLES = """\b
@@ -21,7 +19,7 @@ def command(file: str, as_dot: bool, as_json: bool) -> None:
     from mindrun.encoding import encode
 
     from mindlang.drawing import dot, tree
-    from mindlang.terminal import console, load_compiled, print_json
+    from mindlang.terminal import console, load_compiled, print_document, print_json
 
     if as_dot and as_json:
         raise click.UsageError("Choose one of --dot and --json.")
@@ -31,6 +29,6 @@ def command(file: str, as_dot: bool, as_json: bool) -> None:
     if as_json:
         print_json(encode(compiled.graph))
     elif as_dot:
-        sys.stdout.write(dot(compiled.mind) + "\n")
+        print_document(dot(compiled.mind) + "\n")
     else:
         console().print(tree(compiled.mind))

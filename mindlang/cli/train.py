@@ -7,6 +7,7 @@ from typing import Any
 
 import click
 
+from mindlang.cli._options import SEED, WORKERS, Number, Whole
 from mindlang.terminal import INTERRUPTED, MISUSE, OK, fail
 
 EXAMPLES = """\b
@@ -16,21 +17,20 @@ Examples:
   mindc train on_the_job.mind --scale 0.1 --attempts 3       a tenth of the generations, the best of three
   mindc train --resume runs/GoToObject/20260714T120000Z-1
 """
-COUNT = click.IntRange(min=1)
 
 
 @click.command(epilog=EXAMPLES)
 @click.argument("file", required=False)
 @click.argument("skills", nargs=-1, metavar="[SKILL]...")
 @click.option("--curriculum", metavar="NAME", help="Whose lessons to teach (default: the first in the file).")
-@click.option("--generations", type=COUNT, help="Instead of what the lesson says.")
-@click.option("--scale", type=click.FloatRange(0, min_open=True), default=1.0, help="Times so many generations.")
-@click.option("--population", type=click.IntRange(min=4), help="Genomes in a generation.")
-@click.option("--attempts", type=COUNT, help="Independent attempts, of which the best is kept.")
+@click.option("--generations", type=Whole(1, 10_000_000), help="Instead of what the lesson says.")
+@click.option("--scale", type=Number(0, 1000, min_open=True), default=1.0, help="Times so many generations.")
+@click.option("--population", type=Whole(4, 1_000_000), help="Genomes in a generation.")
+@click.option("--attempts", type=Whole(1, 10_000), help="Independent attempts, of which the best is kept.")
 @click.option("--from-scratch", is_flag=True, help="Forget the weights that the skill has.")
 @click.option("--force", is_flag=True, help="Teach what is up to date, too, and keep it even where it does worse.")
-@click.option("--seed", type=click.IntRange(0, 2**63 - 1), help="The same seed gives the same weights.")
-@click.option("--workers", type=COUNT, help="How many cores to use (default: all). Changes nothing else.")
+@click.option("--seed", type=SEED, help="The same seed gives the same weights.")
+@click.option("--workers", type=WORKERS, help="How many cores to use (default: all). Changes nothing else.")
 @click.option("--runs", type=click.Path(path_type=Path), default="runs", show_default=True, help="Where runs are kept.")
 @click.option("--resume", type=click.Path(path_type=Path), metavar="RUN", help="Go on with a run that was stopped.")
 @click.option("--json", "as_json", is_flag=True, help="Print one line of JSON per lesson.")

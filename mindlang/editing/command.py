@@ -12,7 +12,7 @@ from mindlang.editing.project import EditError, open_project
 from mindlang.editing.telling import broken, diff, told
 from mindlang.editing.writing import changed_locks, write
 from mindlang.report import as_data, print_report
-from mindlang.terminal import FINDINGS, MISUSE, console, fail, load_compiled, print_json, talk
+from mindlang.terminal import FINDINGS, MISUSE, console, fail, load_compiled, print_document, print_json, talk
 
 
 @dataclass(frozen=True, slots=True)
@@ -64,7 +64,7 @@ def _show(edited: Edited, sentences: list[str], wishes: Wishes) -> None:
         print_json({"diff": diff(edited), "written": wishes.write, "weights": sentences})
         return
     if not wishes.write:
-        sys.stdout.write(diff(edited))
+        print_document(diff(edited))
     for line in sentences:
         talk.print(line, markup=False)
     talk.print(_ending(edited, wishes.write), markup=False)

@@ -1,9 +1,13 @@
 """Minds that share files with the one that is edited: those that use one of its files, and its files by themselves."""
 
 from collections.abc import Collection, Iterable, Iterator
+from os.path import realpath
 from pathlib import Path
 
+from mindrun.regular import read_regular
+
 from mindlang.compile import Compiled, load
+from mindlang.source import LIMIT
 
 
 def neighbours(files: Collection[Path]) -> Iterator[Compiled]:
@@ -22,7 +26,7 @@ def neighbours(files: Collection[Path]) -> Iterator[Compiled]:
 
 def minds(files: Iterable[str]) -> dict[str, Compiled]:
     """Files compiled, each once, without those that are no minds by themselves and of which a mind makes use."""
-    names = {Path(file).resolve() if file != "-" else file: file for file in reversed(list(files))}
+    names = {realpath(file) if file != "-" else file: file for file in reversed(list(files))}
     found = {file: load(file) for file in reversed(names.values())}
     used = {source.path for each in found.values() for source in each.sources[1:]}
     return {file: each for file, each in found.items() if each.graph or not each.sources or not _is_part(each, used)}
@@ -37,6 +41,6 @@ def _is_part(compiled: Compiled, used: Collection[Path]) -> bool:
 def _uses(path: Path) -> bool:
     """Whether a file may use others: most of those that lie about need not be compiled."""
     try:
-        return b'use "' in path.read_bytes()
+        return b'use "' in read_regular(path, LIMIT)
     except OSError:
         return False

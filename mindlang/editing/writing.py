@@ -4,6 +4,7 @@ import os
 from contextlib import ExitStack
 from pathlib import Path
 
+from mindrun.regular import read_regular
 from mindrun.weights import to_npy
 
 from mindlang import journal
@@ -12,7 +13,7 @@ from mindlang.editing.follow import locks_of
 from mindlang.editing.project import EditError
 from mindlang.lock import lock_text
 from mindlang.lock.blobs import FOLDER, alone
-from mindlang.source import decode, encoded
+from mindlang.source import LIMIT, decode, encoded
 
 
 def write(edited: Edited) -> None:
@@ -53,6 +54,6 @@ def _refuse_changed(edited: Edited) -> None:
 
 def _read(path: Path) -> str | None:
     try:
-        return decode(path.read_bytes())
+        return decode(read_regular(path, LIMIT + 1))
     except (FileNotFoundError, ValueError):
         return None

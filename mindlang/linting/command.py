@@ -4,6 +4,8 @@ from collections.abc import Collection
 from dataclasses import dataclass
 from pathlib import Path
 
+from mindrun.regular import read_regular
+
 from mindlang import journal
 from mindlang.compile import Compiled, compile_source, load
 from mindlang.diagnostic import Diagnostic
@@ -44,8 +46,15 @@ def _mended(path: Path, compiled: Compiled, codes: Collection[str]) -> Linted:
     source, made = fixed(compiled.sources[0], lambda source: lint(again(source), codes))
     if not made or _breaks(path, source.text, again(source)):
         return Linted(tuple(lint(compiled, codes)), True, 0)
-    journal.change(path.parent, {path: encoded(path, source.text)})
+    journal.change(path.parent, {path: encoded(path, source.text)}, lambda: _refuse_changed(path, compiled.sources[0]))
     return Linted(tuple(lint(again(source), codes)), True, made)
+
+
+def _refuse_changed(path: Path, old: Source) -> None:
+    """JournalError where somebody has written the file since it was read."""
+    was = encoded(path, old.text)
+    if read_regular(path, len(was) + 1) != was:
+        raise journal.JournalError(f"{path.name} has been changed meanwhile", "Try again: nothing has been written.")
 
 
 def _breaks(path: Path, text: str, mended: Compiled) -> bool:

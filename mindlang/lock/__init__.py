@@ -14,6 +14,7 @@ from typing import Self
 
 from mindrun.durable import write
 from mindrun.errors import MindError
+from mindrun.regular import read_regular
 
 from mindlang.lock.training_world import HEADING, TrainingWorld, world_of
 
@@ -127,8 +128,7 @@ def lock_path(source: Path) -> Path:
 def read_lock(path: Path) -> dict[str, Entry]:
     """The entries of a lock by skill, none where there is no such file; LockError where a line cannot be read."""
     try:
-        with path.open("rb") as file:
-            text = file.read(LARGEST + 1).decode()
+        text = read_regular(path, LARGEST + 1).decode()
     except FileNotFoundError:
         return {}
     except OSError as error:

@@ -10,6 +10,7 @@ from mindrun import durable
 from mindrun.durable import write
 from mindrun.errors import WeightsError
 from mindrun.graph import Graph, Skill
+from mindrun.regular import read_whole
 from mindrun.weights import Weights, from_npy, reachable, to_npy, weights_of
 
 from mindlang.diagnostic import listed
@@ -18,6 +19,7 @@ from mindlang.lock.signature import signature
 from mindlang.lock.training_world import TrainingWorld
 
 FOLDER = "weights"
+LARGEST = 1 << 30  # bytes of the weights of a skill
 NOTHING: Lock = {}
 
 
@@ -28,7 +30,7 @@ def load_weights(entry: Entry, skill: Skill) -> Weights:
     try:
         if not path.resolve().is_relative_to(entry.folder.resolve()):
             raise LockError(f"{path} leads out of {entry.folder}")
-        data = path.read_bytes()
+        data = read_whole(path, LARGEST)
         if sha256(data).hexdigest() != entry.weights:
             raise LockError(f"{path}, the weights of {entry.skill}, is damaged: {remedy}")
         return weights_of(skill, {skill.name: from_npy(data)})

@@ -5,6 +5,8 @@ import re
 from collections.abc import Iterator
 from pathlib import Path
 
+from mindrun.regular import read_regular
+
 from mindlang.lock import LockError, read_lock
 from mindlang.lock.blobs import FOLDER, alone
 
@@ -50,4 +52,4 @@ def _unnamed(folder: Path) -> list[Path]:
 
 def is_of_a_mind(lock: Path) -> bool:
     """Whether a lock is one of ours: other tools have locks, too (poetry.lock)."""
-    return lock.with_suffix(".mind").exists() or lock.read_bytes()[:11] == b"# mind lock"
+    return lock.with_suffix(".mind").exists() or read_regular(lock, 11) == b"# mind lock"

@@ -6,6 +6,7 @@ from pathlib import Path as FilePath
 from typing import Any, ClassVar
 
 import cv2
+from mindrun.durable import destination, write
 from mindrun.world import Arena
 
 from mindlang.pictures.canvas import Canvas, Image, View, blank, pasted, text_width
@@ -53,7 +54,8 @@ class Film:
 
     def write(self, path: FilePath, wrote: Callable[[], None]) -> None:
         """Encode the film into `path`, which is only replaced when it is whole; `wrote` is told of each frame."""
-        spare = path.with_name(f".{path.stem}.part{path.suffix}")
+        place = destination(path)
+        spare = place.with_name(f".{place.stem}.part{place.suffix}")
         writer = cv2.VideoWriter(str(spare), cv2.VideoWriter.fourcc(*"mp4v"), self.FPS, (WIDTH, HEIGHT))
         try:
             if not writer.isOpened():
@@ -65,7 +67,7 @@ class Film:
             writer.release()
             if _frames_in(spare) != self.frames:
                 raise FilmError(f"{path} cannot be written whole: is the disk full?")
-            spare.replace(path)
+            write(place, spare.read_bytes())
         finally:
             writer.release()
             spare.unlink(missing_ok=True)

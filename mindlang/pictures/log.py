@@ -6,9 +6,11 @@ import os
 import zlib
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
+from io import BytesIO, StringIO
 from math import isfinite
 from pathlib import Path
 
+from mindrun.regular import read_whole
 from mindrun.train.errors import NotFoundError, RunError
 from mindrun.train.progress import LINES, TABLE, read
 from mindrun.train.run_folder import MANIFEST, open_run
@@ -16,6 +18,7 @@ from mindrun.train.run_folder import MANIFEST, open_run
 TABLES = (".csv", ".csv.gz")
 HINT = f"a run is a folder like runs/GoToObject/20260714T120000Z-1, a table ends in {' or '.join(TABLES)}"
 SCORES = ("best", "reevaluated", "verdict")
+LARGEST = 64 << 20  # bytes of a table
 NEEDED = ("attempt", "generation", "best")
 
 Records = Sequence[Mapping[str, float | None]]
@@ -77,8 +80,7 @@ def _from_run(folder: Path) -> Curve:
 
 def _from_table(path: Path) -> Curve:
     try:
-        with (gzip.open if path.suffix == ".gz" else open)(path, "rt", encoding="utf-8-sig", newline="") as file:
-            header, *rows = [row for row in csv.reader(file) if row] or [[]]
+        header, *rows = [row for row in csv.reader(StringIO(_text(path), newline="")) if row] or [[]]
     except (OSError, EOFError, zlib.error) as error:
         raise NotFoundError(f"{path} cannot be read: {getattr(error, 'strerror', None) or error}") from error
     except (UnicodeDecodeError, csv.Error) as error:
@@ -88,6 +90,16 @@ def _from_table(path: Path) -> Curve:
     if rows and len(rows[-1]) < len(header):
         rows.pop()  # of a run that is just writing it
     return _unless_empty(Curve(path.name.partition(".csv")[0], list(_records(path, header, rows)), path))
+
+
+def _text(path: Path) -> str:
+    """The text of a table, which may be packed; RunError where there is more of it than any run writes."""
+    data = read_whole(path, LARGEST)
+    if path.suffix == ".gz":
+        data = gzip.GzipFile(fileobj=BytesIO(data)).read(LARGEST + 1)
+    if len(data) > LARGEST:
+        raise RunError(f"{path} is larger than {LARGEST >> 20} MiB, and not the log of a run")
+    return data.decode("utf-8-sig")
 
 
 def _records(path: Path, header: list[str], rows: list[list[str]]) -> Iterator[dict[str, float | None]]:

@@ -12,6 +12,7 @@ from mindrun.errors import MindError
 from mindrun.sim.rollout import Rollout, Scores
 from rich.progress import BarColumn, Progress, TaskProgressColumn, TextColumn, TimeRemainingColumn
 
+from mindlang.estimate import refuse_too_many
 from mindlang.run.casting import Cast, CastingError, cast
 from mindlang.simulator import make_ready
 from mindlang.terminal import FINDINGS, MISUSE, fail, load_compiled, procedures_talk, say, talk, write_picture
@@ -32,13 +33,14 @@ class Stage:
 
     @procedures_talk()
     def prepare(
-        self, file: str, task: str | None, master: str | None, interrupt: bool, workers: int = 1
+        self, file: str, task: str | None, master: str | None, interrupt: bool, workers: int = 1, runs: int = 1
     ) -> tuple[Cast, Rollout]:
         """The cast of a run, in the simulator."""
         compiled = load_compiled(file)
         try:
             found = cast(file, compiled, task, master)
             self.say(*(f"note: {note}" for note in (*found.ready.notes, found.note) if note))
+            refuse_too_many(found.task, runs)
             rollout = found.rollout(interrupt, workers)
             make_ready(rollout, self.say)
         except CastingError as error:
@@ -47,7 +49,7 @@ class Stage:
                 say(line)
             fail(last, error.hint, MISUSE if error.misuse else FINDINGS)
         except MindError as error:
-            fail(str(error), code=MISUSE)
+            fail(str(error), error.hint, MISUSE)
         for skill, reason in rollout.procedures.slow.items():
             self.say(f"{skill} runs in Python, which is slow: {reason}")
         return found, rollout

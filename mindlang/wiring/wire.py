@@ -3,7 +3,9 @@
 from dataclasses import dataclass
 from pathlib import Path
 
+from mindrun.errors import reason
 from mindrun.graph import Graph
+from mindrun.regular import read_regular
 from mindrun.robot.wiring import Wiring
 
 from mindlang.diagnostic import Diagnostic, Findings, nearest
@@ -37,13 +39,12 @@ def load_wiring(path: Path, graph: Graph) -> Checked:
     try:
         if path.is_dir():
             raise ValueError("is a folder")
-        with path.open("rb") as file:
-            data = file.read(LIMIT + 1)
+        data = read_regular(path, LIMIT + 1)
         if len(data) > LIMIT:
             raise ValueError(f"is larger than {LIMIT >> 10} kB")
         return check_wiring(Source(str(path), decode(data), path.resolve().parent), graph)
     except (OSError, RuntimeError) as error:  # a loop of links is a RuntimeError
-        return _unreadable(f"{path} cannot be read: {getattr(error, 'strerror', None) or error}.", "Is the path right?")
+        return _unreadable(f"{path} cannot be read: {reason(error)}.", "Is the path right?")
     except ValueError as error:
         return _unreadable(f"{path} {error}.", f"A robot.yaml is UTF-8 text of at most {LIMIT >> 10} kB.")
 

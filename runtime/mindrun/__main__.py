@@ -9,19 +9,21 @@ import os
 import sys
 from collections.abc import Callable, Iterator
 from contextlib import redirect_stdout
-from math import nan
 from pathlib import Path
 from typing import Any
 
+from mindrun import arguments, streams
+from mindrun.arguments import SEED, new_file, real, whole
 from mindrun.bundle import read_bundle
 from mindrun.describe import contents, describe
 from mindrun.engine import Engine
-from mindrun.errors import MindError, ProcedureError, ReadingsError
+from mindrun.errors import MindError, ProcedureError, ReadingsError, surroundings
 from mindrun.readings import vector
 from mindrun.tools import run_tool, tools
 
 OK, FAILED, MISUSE, INTERRUPTED = 0, 1, 2, 130
 LONGEST = 1 << 20  # characters of one line of readings
+LAST = 2**63 - 1  # tick
 
 EXAMPLES = """examples:
   mindrun ball.bundle                                       on its robot, nothing moves yet
@@ -42,29 +44,33 @@ tools: mindrun adopt | calibrate | doctor | replay | report, each with --help"""
 
 def main() -> None:
     """Run the command line; whatever happens ends in one message and an exit code."""
-    if len(sys.argv) > 1 and sys.argv[1] in tools():
-        sys.exit(guarded(lambda: run_tool(sys.argv[1], sys.argv[2:])))
-    options = _options()
-    sys.exit(guarded(lambda: run(options)))
+    streams.prepare()
+    tool = len(sys.argv) > 1 and sys.argv[1] in tools()
+    code = guarded((lambda: run_tool(sys.argv[1], sys.argv[2:])) if tool else (lambda: run(_options())))
+    if why := streams.finish():
+        _say(why)
+        code = code or FAILED
+    sys.exit(code)
 
 
 def guarded(command: Callable[[], int]) -> int:
     """The exit code of a command, whatever happens in it."""
     try:
-        code = command()
-        sys.stdout.flush()
-        return code
+        return command()
+    except SystemExit as stop:
+        return stop.code if isinstance(stop.code, int) else OK
     except ProcedureError as error:
-        return _said(error, FAILED)
+        return _say(str(error), error.hint, FAILED)
     except MindError as error:
-        return _said(error, MISUSE)
-    except BrokenPipeError:  # the reader, `head` say, has seen enough
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-    except OSError as error:
-        return _said(error, FAILED)
+        return _say(str(error), error.hint, MISUSE)
     except KeyboardInterrupt:
         return INTERRUPTED
-    return OK
+    except Exception as error:
+        if os.environ.get("MIND_DEBUG"):
+            raise
+        if why := surroundings(error):
+            return _say(why)
+        return _say(f"failed: {type(error).__name__}: {error}", "Set MIND_DEBUG=1 to see where, and please report it.")
 
 
 def run(options: argparse.Namespace) -> int:
@@ -78,8 +84,10 @@ def run(options: argparse.Namespace) -> int:
         return drive(options)
     elif options.arm or options.record or options.ticks:
         raise MindError("this bundle is wired to no robot", "mindc build … --robot robot.yaml, or try it with --dry")
+    elif options.json:
+        streams.document(_json(contents(bundle), indent=2))
     else:
-        print(json.dumps(contents(bundle), indent=2, ensure_ascii=False) if options.json else describe(bundle))
+        print(describe(bundle))
     return OK
 
 
@@ -92,48 +100,33 @@ def drive(options: argparse.Namespace) -> int:
 
 
 def _options() -> argparse.Namespace:
-    parser = argparse.ArgumentParser(
-        "mindrun",
-        description="Let a compiled mind drive its robot, say what it holds, or run it on readings.",
-        epilog=EXAMPLES,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
-    )
+    about = "Let a compiled mind drive its robot, say what it holds, or run it on readings."
+    parser = arguments.parser("mindrun", about, EXAMPLES)
     parser.add_argument("bundle", type=Path, metavar="FILE.bundle", help="what `mindc build` wrote")
     parser.add_argument("--readings", metavar="FILE", help="JSON lines of readings by sensor name; - is standard input")
-    parser.add_argument("--fill", type=_share, metavar="X", help="what a sensor that a line leaves out reads")
+    parser.add_argument("--fill", type=real(0, 1), metavar="X", help="what a sensor that a line leaves out reads")
     parser.add_argument("--influence", action="store_true", help="print the influence of each skill too")
     parser.add_argument("--master", metavar="SKILL", help="the skill in charge (default: the mind's master)")
     parser.add_argument("--json", action="store_true", help="describe the bundle as one JSON document")
     parser.add_argument("--describe", action="store_true", help="say what the bundle holds, and move nothing")
     robot = parser.add_argument_group("on a robot")
     robot.add_argument("--arm", action="store_true", help="let the actuators move: without it they stay neutral")
-    robot.add_argument("--record", type=Path, metavar="FILE", help="every reading, influence and command, per tick")
-    robot.add_argument("--ticks", type=_count, default=0, metavar="N", help="end after so many ticks (default: never)")
+    robot.add_argument("--record", type=new_file, metavar="FILE", help="every reading, influence and command, per tick")
+    robot.add_argument(
+        "--ticks", type=whole(0, LAST), default=0, metavar="N", help="end after so many ticks (default: never)"
+    )
     robot.add_argument("--dry", action="store_true", help="no hardware: a simulated world (needs the simulator)")
     robot.add_argument("--task", metavar="TASK", help="with --dry: the task of that world (default: the master's)")
-    robot.add_argument("--seed", type=_count, default=1, help="with --dry: the layout of that world")
+    robot.add_argument("--seed", type=whole(0, SEED), default=1, help="with --dry: the layout of that world")
     robot.add_argument("-q", "--quiet", action="store_true", help="say nothing but errors")
     return parser.parse_args()
 
 
-def _share(text: str) -> float:
-    try:
-        value = float(text)
-    except ValueError:
-        value = nan
-    if not 0 <= value <= 1:
-        raise argparse.ArgumentTypeError(f"{text} is not a number from 0 to 1")
-    return value
-
-
-def _count(text: str) -> int:
-    if not text.isdecimal():
-        raise argparse.ArgumentTypeError(f"{text} is not a whole number")
-    return int(text)
-
-
 def _run(engine: Engine, options: argparse.Namespace) -> None:
-    """Print one line of commands per line of readings, each at once: a robot may be waiting for it."""
+    """Print one line of commands per line of readings, each at once: a robot may be waiting for it.
+
+    Where nobody takes them any more it ends.
+    """
     source = _source(options.readings)
     names = [actuator.name for actuator in engine.graph.actuators]
     skills = [skill.name for skill in engine.graph.skills]
@@ -146,7 +139,9 @@ def _run(engine: Engine, options: argparse.Namespace) -> None:
         line: dict[str, Any] = {"commands": dict(zip(names, commands.tolist(), strict=True))}
         if options.influence:
             line["influence"] = dict(zip(skills, engine.influence.tolist(), strict=True))
-        print(json.dumps(line, ensure_ascii=False), flush=True)
+        streams.document(_json(line))
+        if streams.lost():
+            break
     if engine.faults:
         what = "1 output was" if engine.faults == 1 else f"{engine.faults} outputs were"
         print(f"{what} not sent, because a number was not finite", file=sys.stderr)
@@ -181,9 +176,13 @@ def _object(text: str, where: str) -> dict[str, Any]:
     return value
 
 
-def _said(error: Exception, code: int) -> int:
-    print(f"mindrun: {error}", file=sys.stderr)
-    if hint := getattr(error, "hint", ""):
+def _json(value: object, indent: int | None = None) -> str:
+    return json.dumps(value, indent=indent, ensure_ascii=False) + "\n"
+
+
+def _say(message: str, hint: str = "", code: int = FAILED) -> int:
+    print(f"mindrun: {message}", file=sys.stderr)
+    if hint:
         print(f"  {hint}", file=sys.stderr)
     return code
 

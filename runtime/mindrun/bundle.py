@@ -12,10 +12,11 @@ from io import BytesIO
 from pathlib import Path
 from typing import Any, NoReturn
 
-from mindrun.durable import write
+from mindrun.durable import write_out
 from mindrun.encoding import decode, decode_wiring, encode
 from mindrun.errors import BundleError, WeightsError
 from mindrun.graph import Graph
+from mindrun.regular import read_regular
 from mindrun.robot.wiring import Wiring
 from mindrun.weights import Weights, from_npy, to_npy, weights_of
 
@@ -47,18 +48,21 @@ def write_bundle(
     weights: Mapping[str, Weights],
     procedures: Mapping[str, str],
     wiring: Wiring | None = None,
-) -> None:
-    """Write a mind to one file, which replaces an older one only when it is whole; the same mind, the same bytes."""
+) -> str:
+    """Write a mind to one file, which replaces an older one only when it is whole; the SHA-256 of its bytes.
+
+    The same mind has the same bytes.
+    """
     data = pack(Bundle(graph, dict(weights), dict(procedures), wiring))
     unpack(data)  # nothing is written that cannot be read
-    write(path, data)
+    write_out(path, data)
+    return sha256(data).hexdigest()
 
 
 def read_bundle(path: Path) -> Bundle:
     """Read a mind from a file; BundleError unless it is byte for byte what was written."""
     try:
-        with path.open("rb") as file:
-            data = file.read(LARGEST + 1)
+        data = read_regular(path, LARGEST + 1)
     except OSError as error:
         raise BundleError(f"cannot read {path}: {error.strerror}") from error
     try:

@@ -1,5 +1,10 @@
 """What can be wrong with what a mind is given: each error's text is one sentence for the user."""
 
+import errno
+import os
+
+OUR_OWN = ("mindlang", "mindrun")
+
 
 class MindError(Exception):
     """Something a user gave is wrong: the text says what, and `hint`, where there is one, what to do."""
@@ -23,3 +28,42 @@ class BundleError(MindError):
 
 class ReadingsError(MindError):
     """Readings that do not fit the mind's sensors."""
+
+
+def reason(error: Exception) -> str:
+    """Why something cannot be read or written, in the words of the system where those are all there is."""
+    if isinstance(error, OSError) and error.errno == errno.EBADF:
+        return "it is closed"
+    return getattr(error, "strerror", None) or str(error)
+
+
+def surroundings(error: Exception) -> str:
+    """What a user can do something about in an error that is none of ours: of the machine, files, installation."""
+    match error:
+        case OSError():
+            return _of_system(error)
+        case MemoryError():
+            return (
+                f"there is not enough memory for this ({error})"
+                if str(error)
+                else "there is not enough memory for this"
+            )
+        case RecursionError():
+            return "something here is nested too deep"
+        case UnicodeError():
+            return f"there is text that cannot be read or written in its encoding ({error})"
+        case ImportError() if (error.name or "").partition(".")[0] not in OUR_OWN:
+            return f"something that is needed is not installed, or cannot be loaded: {error}"
+        case RuntimeError() if "thread" in str(error):
+            return f"the system gives no more threads ({error})"
+    return ""
+
+
+def _of_system(error: OSError) -> str:
+    if error.filename is not None:
+        return f"{error.strerror}: {error.filename}"
+    try:
+        os.getcwd()  # noqa: PTH109
+    except OSError:
+        return "the folder in which this was started is gone"
+    return reason(error)

@@ -144,7 +144,7 @@ def test_what_was_changed_by_hand_since_is_not_overwritten(folder: Path) -> None
     with pytest.MonkeyPatch.context() as patch:
         replaced = count()
         failing(patch, lambda _, name: Crash() if name == "replace" and next(replaced) > 1 else None)
-        patch.setattr("mindlang.journal._undo", lambda folder: None)  # the process is gone
+        patch.setattr("mindlang.journal._undo", lambda *_: None)  # the process is gone
         with pytest.raises(Crash):
             change(folder, files(folder, OTHER))
     (folder / "a.lock").write_text("by hand")
@@ -187,7 +187,7 @@ def test_any_command_puts_back_what_an_edit_left(mindc: Call, rules: Path) -> No
     old = rules.read_text()
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr("mindlang.journal._done", lambda folder: Path("/nowhere").stat())
-        patch.setattr("mindlang.journal._undo", lambda folder: None)
+        patch.setattr("mindlang.journal._undo", lambda *_: None)
         assert mindc("edit", "rename", "Turn", "Spin", rules, "--write").code == 1
     assert rules.read_text() != old
     assert mindc("check", rules).code == 0
@@ -239,7 +239,7 @@ def test_what_is_taken_back_is_said(mindc: Call, rules: Path) -> None:
     edited = carry_out(project, rename(project, "Turn", "Spin"), keep_weights=False)
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr("mindlang.journal._done", lambda folder: (_ for _ in ()).throw(Crash()))
-        patch.setattr("mindlang.journal._undo", lambda folder: None)
+        patch.setattr("mindlang.journal._undo", lambda *_: None)
         with pytest.raises(Crash):
             write(edited)
     assert rules.read_text() != text

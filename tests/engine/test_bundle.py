@@ -119,7 +119,7 @@ def test_other_files_are_refused(tmp_path: Path, data: bytes) -> None:
 def test_a_missing_file_or_a_folder_is_refused(tmp_path: Path) -> None:
     with pytest.raises(BundleError, match="No such file"):
         read_bundle(tmp_path / "x.bundle")
-    with pytest.raises(BundleError, match="directory"):
+    with pytest.raises(BundleError, match="it is a folder"):
         read_bundle(tmp_path)
 
 

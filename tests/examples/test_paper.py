@@ -83,10 +83,10 @@ def test_another_plan_in_the_same_folder_is_refused(taught: Taught) -> None:
 @pytest.mark.parametrize(
     ("program", "arguments", "message"),
     [
-        ("teach.py", ("--attempts", "0"), "0 is not a number of at least 1"),
-        ("teach.py", ("--scale", "-1"), "-1 is not a number of at least 0.0"),
+        ("teach.py", ("--attempts", "0"), "0 is not a whole number from 1 to 10000"),
+        ("teach.py", ("--scale", "-1"), "-1 is not a number from 0 to 1000"),
         ("teach.py", ("other.mind",), "other.mind is none of collect.mind, "),
-        ("", ("--runs", "1"), "1 runs have no standard error"),
+        ("", ("--runs", "1"), "1 is not a whole number from 2 to 10000000"),
         ("", ("--folder", "/nowhere"), "/nowhere/collect.mind cannot be read"),
     ],
 )

@@ -35,7 +35,7 @@ def test_a_film_has_its_frames(mindc: Call, rules: Path) -> None:
 def test_a_speed_is_a_number(mindc: Call, rules: Path) -> None:
     said = mindc("run", rules, "--video", rules.with_name("run.mp4"), "--speed", "nan")
     assert (said.code, said.out) == (2, "")
-    assert "nan is not a number." in said.err
+    assert "'nan' is not a number from 0.01 to 1000." in said.err
 
 
 def test_a_name_and_its_number_fit_into_a_box() -> None:

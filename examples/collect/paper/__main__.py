@@ -9,6 +9,7 @@ from pathlib import Path
 from string import Template
 
 from figures import draw
+from mindrun.arguments import SEED, whole
 from mindrun.errors import MindError
 from plan import PLAN, read_plan
 from protocol import FOLDER, TABLES
@@ -19,22 +20,20 @@ TO = Path("runs/paper")  # where paper-train teaches
 
 def main() -> None:
     """Measure, draw, write."""
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = argparse.ArgumentParser(
+        allow_abbrev=False, description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
     parser.add_argument("--folder", type=Path, default=FOLDER, help="where the weights and logs lie")
     parser.add_argument("--out", type=Path, default=Path("build/paper"), help="where the report goes")
-    parser.add_argument("--runs", type=_several, default=1000, help="layouts that each row of a table is measured on")
-    parser.add_argument("--seed", type=int, default=1, help="draws the layouts")
+    parser.add_argument(
+        "--runs", type=whole(2, 10_000_000), default=1000, help="layouts that each row of a table is measured on"
+    )
+    parser.add_argument("--seed", type=whole(0, SEED), default=1, help="draws the layouts")
     options = parser.parse_args()
     try:
         report(options)
     except MindError as error:
         sys.exit(f"{error}. {error.hint}")
-
-
-def _several(text: str) -> int:
-    if (value := int(text)) < 2:
-        raise argparse.ArgumentTypeError(f"{text} runs have no standard error: take two or more")
-    return value
 
 
 def report(options: argparse.Namespace) -> None:

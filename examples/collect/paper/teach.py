@@ -6,14 +6,14 @@ may be stopped at any time: the same command goes on where it stood. Then: make 
 
 import argparse
 import sys
-from collections.abc import Callable, Iterable
+from collections.abc import Iterable
 from pathlib import Path
 from shutil import copyfile
 from time import perf_counter
-from typing import TypeVar
 
 from logs import Log, keep, logs_of
 from measure import compiled, rollout_of
+from mindrun.arguments import SEED, real, whole
 from mindrun.errors import MindError
 from mindrun.graph import Lesson
 from mindrun.sim.rollout import cores
@@ -26,8 +26,6 @@ from mindlang.run.stage import layouts
 from mindlang.school import School
 
 RUNS = 128  # of shipped champions, to see how fast this machine is; fewer would leave lanes empty
-
-N = TypeVar("N", int, float)
 
 
 def main() -> None:
@@ -50,14 +48,16 @@ def main() -> None:
 
 def arguments() -> argparse.ArgumentParser:
     """The command line."""
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = argparse.ArgumentParser(
+        allow_abbrev=False, description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
     parser.add_argument("files", nargs="*", type=_known, metavar="FILE", help="only these, in this order")
-    parser.add_argument("--attempts", type=_at_least(1), default=10, help="attempts of the lessons of collect.mind")
-    parser.add_argument("--others", type=_at_least(1), help="attempts of all other lessons (default: as many)")
-    parser.add_argument("--scale", type=_at_least(0.0), default=1.0, help="times the paper's generations")
-    parser.add_argument("--population", type=_at_least(4), help="instead of the 100 genomes that the files say")
-    parser.add_argument("--seed", type=_at_least(0), default=1)
-    parser.add_argument("--workers", type=_at_least(1), default=cores(), help="cores to use (default: all)")
+    parser.add_argument("--attempts", type=whole(1, 10_000), default=10, help="attempts of the lessons of collect.mind")
+    parser.add_argument("--others", type=whole(1, 10_000), help="attempts of all other lessons (default: as many)")
+    parser.add_argument("--scale", type=real(0, 1000), default=1.0, help="times the paper's generations")
+    parser.add_argument("--population", type=whole(4, 1_000_000), help="instead of the 100 genomes that the files say")
+    parser.add_argument("--seed", type=whole(0, SEED), default=1)
+    parser.add_argument("--workers", type=whole(1, 1024), default=cores(), help="cores to use (default: all)")
     parser.add_argument("--out", type=Path, default=Path("runs/paper"), help="where it is taught")
     parser.add_argument("--dry-run", action="store_true", help="only say how long it would take")
     return parser
@@ -67,16 +67,6 @@ def _known(file: str) -> str:
     if file not in FILES:
         raise argparse.ArgumentTypeError(f"{file} is none of {', '.join(FILES)}")
     return file
-
-
-def _at_least(least: N) -> Callable[[str], N]:
-    def number(text: str) -> N:
-        value = type(least)(text)
-        if not least <= value < float("inf"):
-            raise argparse.ArgumentTypeError(f"{text} is not a number of at least {least}")
-        return value
-
-    return number
 
 
 def refuse_other(plan: Plan, out: Path) -> None:

@@ -4,6 +4,7 @@ import sys
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from hashlib import sha256
+from io import StringIO
 from pathlib import Path
 from types import ModuleType
 from typing import Annotated, Any
@@ -11,9 +12,10 @@ from typing import Annotated, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from mindrun.errors import ProcedureError
+from mindrun.errors import ProcedureError, reason
 from mindrun.quantity import FUNCTION
 from mindrun.registry import kind
+from mindrun.regular import read_regular
 
 LONGEST = 1 << 20  # bytes of source
 
@@ -44,11 +46,11 @@ def module_source(procedure: Procedure, folder: Path) -> str:
     try:
         if not path.resolve().is_relative_to(folder.resolve()):
             raise ProcedureError(f"procedure from {procedure.from_}: {path} lies outside {folder}")
-        if path.stat().st_size > LONGEST:
+        if len(data := read_regular(path, LONGEST + 1)) > LONGEST:
             raise ProcedureError(f"procedure from {procedure.from_}: {path} is larger than 1 MiB")
-        return path.read_text(encoding="utf-8")
-    except (OSError, UnicodeError) as error:
-        raise ProcedureError(f"procedure from {procedure.from_}: cannot read {path} ({error})") from error
+        return StringIO(data.decode(), newline=None).read()
+    except (OSError, RuntimeError, UnicodeError) as error:  # a loop of links is a RuntimeError
+        raise ProcedureError(f"procedure from {procedure.from_}: cannot read {path} ({reason(error)})") from error
 
 
 def load(procedure: Procedure, sources: Mapping[str, str]) -> Callable[..., Any]:

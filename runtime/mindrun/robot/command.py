@@ -8,9 +8,10 @@ from hashlib import sha256
 from pathlib import Path
 from typing import Any
 
-from mindrun.bundle import Bundle, read_bundle
+from mindrun.bundle import LARGEST, Bundle, read_bundle
 from mindrun.default_task import default_task
 from mindrun.errors import MindError
+from mindrun.regular import read_whole
 from mindrun.robot.contract import DeviceError
 from mindrun.robot.drive import Wishes, drive
 from mindrun.robot.drivers.mock import MockActuator
@@ -80,7 +81,7 @@ def _outcome(run: dict[str, Any]) -> str:
 
 def digest(path: Path) -> str:
     """The SHA-256 of a bundle's file."""
-    return sha256(path.read_bytes()).hexdigest()
+    return sha256(read_whole(path, LARGEST)).hexdigest()
 
 
 def _summary(loop: Loop) -> str:

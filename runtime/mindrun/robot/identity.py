@@ -12,10 +12,13 @@ from hashlib import sha256
 from pathlib import Path
 
 from mindrun.bundle import fingerprint
-from mindrun.durable import write
-from mindrun.errors import MindError
+from mindrun.durable import destination, write
+from mindrun.errors import MindError, reason
 from mindrun.graph import Graph
+from mindrun.regular import read_regular
 from mindrun.robot.wiring import Wiring
+
+LONGEST = 4096  # bytes of what a robot says
 
 
 class IdentityError(MindError):
@@ -24,15 +27,20 @@ class IdentityError(MindError):
 
 def identity_file() -> Path:
     """Where the robot says it: `MIND_ROBOT`, or in the user's configuration."""
-    given = os.environ.get("MIND_ROBOT")
-    return Path(given) if given else Path.home() / ".config" / "mind" / "robot"
+    if given := os.environ.get("MIND_ROBOT"):
+        return Path(given)
+    try:
+        return Path.home() / ".config" / "mind" / "robot"
+    except RuntimeError as error:
+        hint = "say in MIND_ROBOT in which file this robot says which it is"
+        raise IdentityError("you have no home folder", hint) from error
 
 
 def adopt(wiring: Wiring, graph: Graph) -> Path:
     """This robot is wired so from now on; the file that says it."""
     path = identity_file()
     path.parent.mkdir(parents=True, exist_ok=True)
-    write(path, f"{wiring.robot} {identity(wiring, graph)}\n".encode())
+    write(destination(path), f"{wiring.robot} {identity(wiring, graph)}\n".encode())
     return path
 
 
@@ -46,11 +54,11 @@ def is_adopted(wiring: Wiring, graph: Graph) -> bool:
     """Whether this robot has adopted just this wiring; False where it has adopted none, IdentityError for another."""
     path = identity_file()
     try:
-        name, _, known = path.read_text(encoding="utf-8").strip().rpartition(" ")
+        name, _, known = read_regular(path, LONGEST).decode().strip().rpartition(" ")
     except FileNotFoundError:
         return False
     except (OSError, UnicodeDecodeError) as error:
-        raise IdentityError(f"{path} cannot be read: {error}") from error
+        raise IdentityError(f"{path} cannot be read: {reason(error)}") from error
     if known != identity(wiring, graph):
         raise IdentityError(
             f"this bundle is for {wiring.robot}, whose wiring or neutral commands are others than those of "

@@ -20,6 +20,7 @@ from numpy.typing import NDArray
 
 from mindrun.errors import MindError
 from mindrun.graph import Graph
+from mindrun.regular import open_regular
 
 FORMAT = "mind recording 1"
 LARGEST = 1 << 20  # bytes of the line
@@ -126,7 +127,7 @@ class Recorder:
 def read(path: Path) -> tuple[About, Iterator[NDArray[Any]]]:
     """What a recording is of, and its rows in parts; RecordingError where it is none, or a row is damaged."""
     try:
-        with path.open("rb") as file:
+        with open(open_regular(path), "rb") as file:  # noqa: PTH123
             about = _about(file.readline(LARGEST), path)
             return about, _rows(path, file.tell(), about)
     except OSError as error:
@@ -135,7 +136,7 @@ def read(path: Path) -> tuple[About, Iterator[NDArray[Any]]]:
 
 def _rows(path: Path, offset: int, about: About) -> Iterator[NDArray[Any]]:
     size, number = about.row.itemsize, 0
-    with path.open("rb") as file:
+    with open(open_regular(path), "rb") as file:  # noqa: PTH123
         file.seek(offset)
         while data := file.read(size * ROWS):
             rows = np.frombuffer(data[: len(data) // size * size], about.row)

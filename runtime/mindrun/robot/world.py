@@ -277,7 +277,9 @@ def _end_with_parent() -> None:
 
 
 def _options() -> argparse.Namespace:
-    parser = argparse.ArgumentParser("mindrun.robot.world", description="A simulated world, behind a socket.")
+    parser = argparse.ArgumentParser(
+        "mindrun.robot.world", description="A simulated world, behind a socket.", allow_abbrev=False
+    )
     parser.add_argument("bundle", type=Path, metavar="FILE.bundle")
     parser.add_argument("--task", required=True, help="the task whose world it is")
     parser.add_argument("--socket", required=True, type=Path, metavar="PATH")

@@ -1,8 +1,9 @@
 """What `mindrun` can do beside driving a robot, one file each: `options` adds its arguments, `run` does it."""
 
-import argparse
 from importlib import import_module
 from pkgutil import iter_modules
+
+from mindrun.arguments import parser
 
 
 def tools() -> list[str]:
@@ -14,10 +15,7 @@ def run_tool(name: str, words: list[str]) -> int:
     """Run a tool with these words of the command line; its exit code."""
     module = import_module(f"{__name__}.{name}")
     summary, _, rest = (module.__doc__ or "").partition("\n\n")
-    parser = argparse.ArgumentParser(
-        f"mindrun {name}", description=summary.strip(), epilog=rest.strip(),
-        formatter_class=argparse.RawDescriptionHelpFormatter,
-    )  # fmt: skip
-    module.options(parser)
-    code: int = module.run(parser.parse_args(words))
+    known = parser(f"mindrun {name}", summary.strip(), rest.strip())
+    module.options(known)
+    code: int = module.run(known.parse_args(words))
     return code

@@ -16,6 +16,7 @@ from statistics import median, pstdev
 from time import monotonic, sleep
 
 import mindrun.robot.drivers  # noqa: F401  every driver is known once this is imported
+from mindrun.arguments import real
 from mindrun.bundle import read_bundle
 from mindrun.errors import MindError
 from mindrun.robot.sampling import Sample, Sampler
@@ -30,7 +31,9 @@ def options(parser: argparse.ArgumentParser) -> None:
     """The arguments."""
     parser.add_argument("bundle", type=Path)
     parser.add_argument("sensor")
-    parser.add_argument("--seconds", type=_seconds, default=20.0, metavar="S", help="how long to watch (default: 20)")
+    parser.add_argument(
+        "--seconds", type=real(0, MOST), default=20.0, metavar="S", help="how long to watch (default: 20)"
+    )
 
 
 def run(options: argparse.Namespace) -> int:
@@ -45,12 +48,6 @@ def run(options: argparse.Namespace) -> int:
         return 1
     print("\n".join(lines(wire, good, has_scale)))
     return 0
-
-
-def _seconds(text: str) -> float:
-    if not text.replace(".", "", 1).isdecimal() or not float(text) <= MOST:
-        raise argparse.ArgumentTypeError(f"{text} is no number of seconds up to {MOST:g}")
-    return float(text)
 
 
 def _wire(path: Path, sensor: str) -> tuple[SensorWire, bool]:

@@ -13,6 +13,7 @@ from pathlib import Path
 from mindrun.bundle import read_bundle
 from mindrun.robot.command import digest
 from mindrun.robot.report import report
+from mindrun.streams import document
 
 
 def options(parser: argparse.ArgumentParser) -> None:
@@ -26,7 +27,7 @@ def run(options: argparse.Namespace) -> int:
     """0 where the robot keeps to what training had, else 1."""
     lines = report(options.recording, digest(options.bundle), read_bundle(options.bundle).graph)
     if options.json:
-        print(json.dumps({"lines": [asdict(line) for line in lines]}, indent=2))
+        document(json.dumps({"lines": [asdict(line) for line in lines]}, indent=2) + "\n")
     else:
         width = max((len(line.what) for line in lines), default=0)
         for line in lines:

@@ -85,7 +85,7 @@ def _plan(path: str) -> Plan:
 
 
 def _options() -> argparse.Namespace:
-    parser = argparse.ArgumentParser("guardian", description=__doc__)
+    parser = argparse.ArgumentParser("guardian", description=__doc__, allow_abbrev=False)
     parser.add_argument(
         "--neutral", metavar="FILE", help="bring all actuators of this bundle or plan to neutral, and end"
     )

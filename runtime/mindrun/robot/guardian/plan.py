@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING, Annotated, Any, NoReturn, Union, get_args, get
 from mindrun.errors import MindError
 from mindrun.quantity import RATIO, SECONDS, Quantity, Reference, fits
 from mindrun.registry import kinds, names
+from mindrun.regular import read_regular
 from mindrun.robot.contract import ActuatorDriver
 from mindrun.robot.guardian.frames import MOST
 
@@ -90,8 +91,7 @@ def from_json(text: str | bytes) -> Plan:
 def read_plan(path: Path) -> Plan:
     """The plan in a file, which may be a bundle with a wiring; MindError where there is none."""
     try:
-        with path.open("rb") as file:
-            data = file.read(LARGEST)
+        data = read_regular(path, LARGEST)
     except OSError as error:
         raise PlanError(f"cannot read {path}: {error.strerror}") from error
     return _of_bundle(path) if data.startswith(b"PK") else from_json(data)

@@ -29,9 +29,8 @@ def _own_cache() -> None:
 
 def _writable(name: str) -> Path:
     """A folder of that name in the user's cache; where none can be written, one for this process alone."""
-    given = Path(os.environ.get("XDG_CACHE_HOME", ""))
     try:
-        folder = (given if given.is_absolute() else Path.home() / ".cache") / "mind" / name
+        folder = _cache().absolute() / name  # numba would look for it anew from each working directory
         folder.mkdir(parents=True, exist_ok=True)
         with tempfile.TemporaryFile(dir=folder):
             return folder
@@ -41,8 +40,15 @@ def _writable(name: str) -> Path:
         return folder
 
 
-if "NUMBA_CACHE_DIR" not in os.environ:
-    _own_cache()
+def _cache() -> Path:
+    """Where a user wants such things kept; RuntimeError where there is no home."""
+    if given := os.environ.get("NUMBA_CACHE_DIR"):
+        return Path(given)
+    shared = Path(os.environ.get("XDG_CACHE_HOME", ""))  # of which a relative one does not count
+    return (shared if shared.is_absolute() else Path.home() / ".cache") / "mind"
+
+
+_own_cache()
 
 # Stages call each other compiled; only an `entry` can be called from Python, and takes twice as long to compile.
 Decorator = Callable[[Callable[..., Any]], Callable[..., Any]]

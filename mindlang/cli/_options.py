@@ -1,0 +1,60 @@
+"""What options may be: numbers that say both of their bounds, and files that are to be written."""
+
+from __future__ import annotations
+
+from math import isfinite, nan
+from pathlib import Path
+from typing import Any
+
+import click
+
+SHOWN = 20  # characters of what is refused
+
+
+class Whole(click.IntRange):
+    """A whole number from one bound to another."""
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
+        """The number; as click does it, with a sentence that says the bounds."""
+        try:
+            return super().convert(value, param, ctx)
+        except click.BadParameter:
+            self.fail(f"{_shortened(value)} is not a whole number from {self.min} to {self.max}.", param, ctx)
+
+
+class Number(click.FloatRange):
+    """A number from one bound to another; nan, of which no comparison holds, is none."""
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
+        """The number; as click does it, with a sentence that says the bounds."""
+        try:
+            number = super().convert(value, param, ctx)
+        except click.BadParameter:
+            number = nan
+        if isfinite(number):
+            return number
+        low = f"above {self.min:g}, and at most" if self.min_open else f"from {self.min:g} to"
+        return self.fail(f"{_shortened(value)} is not a number {low} {self.max:g}.", param, ctx)
+
+
+class NewFile(click.Path):
+    """The path of a file that is to be written."""
+
+    def __init__(self) -> None:
+        super().__init__(path_type=Path)
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
+        """The path, unless it has no name or is that of a folder."""
+        text = str(value)
+        if "\0" in text or text.endswith("/") or Path(text).name in ("", ".."):
+            self.fail(f"{text!r} names no file.", param, ctx)
+        return Path(text)
+
+
+SEED = Whole(0, 2**63 - 1)
+WORKERS = Whole(1, 1024)
+
+
+def _shortened(value: object) -> str:
+    text = str(value)
+    return repr(text if len(text) <= SHOWN else f"{text[:SHOWN]}…")

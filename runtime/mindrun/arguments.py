@@ -1,0 +1,56 @@
+"""What the command lines of mindrun share: parsers that take no half-said option, and types that say their bounds."""
+
+import argparse
+from collections.abc import Callable
+from math import isfinite
+from pathlib import Path
+
+SEED = 2**63 - 1  # the largest
+SHOWN = 20  # characters of what is refused
+
+
+def parser(program: str, about: str | None, examples: str | None = None) -> argparse.ArgumentParser:
+    """A parser that knows options by their whole names alone: `--a` must not arm a robot."""
+    return argparse.ArgumentParser(
+        program, description=about, epilog=examples, allow_abbrev=False,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )  # fmt: skip
+
+
+def whole(least: int, most: int) -> Callable[[str], int]:
+    """A whole number in a range."""
+
+    def convert(text: str) -> int:
+        if text.isascii() and text.isdigit() and len(text) <= SHOWN and least <= int(text) <= most:
+            return int(text)
+        raise argparse.ArgumentTypeError(f"{shortened(text)} is not a whole number from {least} to {most}")
+
+    return convert
+
+
+def real(least: float, most: float, above: bool = False) -> Callable[[str], float]:
+    """A number in a range; with `above` one that is not its least."""
+
+    def convert(text: str) -> float:
+        try:
+            value = float(text)
+        except ValueError:
+            value = float("nan")
+        if isfinite(value) and least <= value <= most and not (above and value == least):
+            return value + 0.0  # there is no -0
+        bounds = f"above {least:g}, at most {most:g}" if above else f"from {least:g} to {most:g}"
+        raise argparse.ArgumentTypeError(f"{shortened(text)} is not a number {bounds}")
+
+    return convert
+
+
+def new_file(text: str) -> Path:
+    """The path of a file that is to be written."""
+    if text.endswith("/") or Path(text).name in ("", ".."):
+        raise argparse.ArgumentTypeError(f"{text!r} names no file")
+    return Path(text)
+
+
+def shortened(text: str) -> str:
+    """What a user has written, as much of it as a sentence can bear."""
+    return text if 0 < len(text) <= SHOWN else f"{text[:SHOWN]}…" if text else "nothing"

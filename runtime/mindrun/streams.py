@@ -1,0 +1,111 @@
+"""The standard streams, such that no program ends by them: there, in any encoding, and never an exception.
+
+What cannot be told on standard error is dropped, since it must not change what is done. What standard output does not
+take is dropped as well, and remembered: a document that is not whole is no success.
+"""
+
+import os
+import sys
+from io import BufferedWriter, FileIO, TextIOWrapper
+from select import select
+from typing import Any, TextIO
+
+from mindrun.errors import reason
+
+OUTPUT, ERRORS = 1, 2
+SIZES = "COLUMNS", "LINES"  # of the terminal, as the environment may say them
+WIDEST = 9999
+
+
+class Output(FileIO):
+    """Standard output; `failure` is the first error of it."""
+
+    failure: OSError | None = None
+
+    def write(self, data: Any) -> int:
+        """All of it, or as if."""
+        if self.failure is None:
+            try:
+                while (written := super().write(data)) is None:  # a terminal that another program left not blocking
+                    select([], [self], [])
+                return written
+            except OSError as error:
+                self.failure = error
+        return memoryview(data).nbytes
+
+
+class Errors(FileIO):
+    """Standard error."""
+
+    def write(self, data: Any) -> int:
+        """All of it, or as if."""
+        try:
+            written = super().write(data)
+        except OSError:
+            written = None
+        return memoryview(data).nbytes if written is None else written
+
+
+def prepare() -> None:
+    """Set the streams up, once, before anything is read or printed; those that somebody has redirected stay."""
+    for number in range(3):
+        _occupy(number)
+    if sys.stdin is None:
+        sys.stdin = open(0, encoding="utf-8", closefd=False)  # noqa: SIM115
+    if sys.stdout is sys.__stdout__:
+        sys.stdout = _text(Output(OUTPUT, "w", closefd=False), sys.__stdout__)
+    if sys.stderr is sys.__stderr__:
+        sys.stderr = _text(Errors(ERRORS, "w", closefd=False), sys.__stderr__)
+    for name in SIZES:
+        if not _is_size(os.environ.get(name, "80")):
+            del os.environ[name]
+
+
+def lost() -> OSError | None:
+    """Why standard output has not taken everything, if it has not; BrokenPipeError where its reader is gone."""
+    raw = getattr(getattr(sys.stdout, "buffer", None), "raw", None)
+    return raw.failure if isinstance(raw, Output) else None
+
+
+def finish() -> str:
+    """Write out what is left; why standard output is not whole, or nothing.
+
+    A reader that is gone, `head` say, has seen enough: that is no reason.
+    """
+    sys.stdout.flush()
+    failure = lost()
+    if failure is None or isinstance(failure, BrokenPipeError):
+        return ""
+    return f"standard output cannot be written: {reason(failure)}"
+
+
+def document(text: str) -> None:
+    """Print what programs read: it is UTF-8, whatever the terminal is."""
+    sys.stdout.flush()
+    sys.stdout.buffer.write(text.encode("utf-8", "backslashreplace"))
+    sys.stdout.buffer.flush()
+
+
+def _occupy(number: int) -> None:
+    """Let nothing else get the number of a closed stream; reading and writing it still fail, but telling does not."""
+    try:
+        os.fstat(number)
+    except OSError:
+        descriptor = os.open(os.devnull, os.O_RDONLY if number == OUTPUT else os.O_WRONLY)
+        os.dup2(descriptor, number)
+        if descriptor != number:
+            os.close(descriptor)
+        os.set_inheritable(number, True)
+
+
+def _text(raw: FileIO, old: TextIO | None) -> TextIOWrapper:
+    """As Python has it, but for what the encoding does not know: that is spelt out."""
+    encoding = old.encoding if old else "utf-8"
+    by_line, through = (getattr(old, name, False) for name in ("line_buffering", "write_through"))
+    return TextIOWrapper(
+        BufferedWriter(raw), encoding, "backslashreplace", line_buffering=by_line, write_through=through
+    )
+
+
+def _is_size(text: str) -> bool:
+    return text.isascii() and text.isdigit() and 0 < int(text[:5]) <= WIDEST

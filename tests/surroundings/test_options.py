@@ -1,0 +1,205 @@
+"""Values of options and arguments that nobody would think of: each ends in a sentence, none in a foreign exception."""
+
+import ast
+from argparse import Action, ArgumentParser
+from collections.abc import Iterator
+from importlib import import_module
+from io import StringIO
+from pathlib import Path
+
+import click
+import pytest
+from mindrun import __main__ as mindrun
+from mindrun.arguments import parser
+from mindrun.bundle import write_bundle
+from mindrun.tools import tools
+
+from mindlang import estimate
+from mindlang.cli import commands
+from mindlang.compile import load
+from tests.calling import Call, write_rules
+from tests.project.sources import ROOT, modules, tree
+
+LONG = "99999999999999999999"
+NUMBERS = (
+    *("0", "-0", "-1", "1.5", "1e3", "0x10", "1_000_000_000_000", "٣٣٣", "²", LONG, f"-{LONG}", "18446744073709551616"),
+    *("1e308", "-1e308", "1e-320", "1e400", "nan", "-nan", "inf", "-inf", "9" * 5000, f"0.{'9' * 5000}"),
+)
+WORDS = ("", " ", "-", "--", "/", "..", "a/", "~", "%s{0}", "$(touch x)", "caf\udce9", "\x1b[2J", "a\nb", "x" * 5000)
+HOSTILE = NUMBERS + WORDS
+FEW = "nan", "9" * 5000, "", LONG  # of all, in the plain suite
+LOG = "attempt,generation,best\n1,1,0.5\n"
+
+Case = tuple[tuple[str, ...], click.Parameter]
+
+
+def _commands() -> Iterator[tuple[tuple[str, ...], click.Command]]:
+    context = click.Context(commands)
+    for name in commands.list_commands(context):
+        command = commands.get_command(context, name)
+        assert command
+        if isinstance(command, click.Group):
+            for inner in command.list_commands(context):
+                found = command.get_command(context, inner)
+                assert found
+                yield (name, inner), found
+        elif name != "lsp":  # which has no values, and waits for an editor
+            yield (name,), command
+
+
+CASES: list[Case] = [
+    (words, each) for words, command in _commands() for each in command.params if not getattr(each, "is_flag", False)
+]  # fmt: skip
+
+
+@pytest.fixture
+def _still(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    """Nothing is computed or sent anywhere: it is about what comes before."""
+
+    def stopped(*_: object) -> None:
+        raise KeyboardInterrupt
+
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setenv("PATH", "")
+    monkeypatch.setattr("mindlang.run.stage.Stage.score", stopped)
+    monkeypatch.setattr("mindlang.school.train", stopped)
+    write_rules(tmp_path)
+    (tmp_path / "log.csv").write_text(LOG)
+
+
+def _call(words: tuple[str, ...], of: click.Parameter, value: str) -> list[str]:
+    """A command line in which one parameter has that value, and all others are fine."""
+    command = commands
+    for word in words:
+        command = command.get_command(click.Context(command), word)  # type: ignore[attr-defined]
+    fine = {"file": "rules.mind", "files": "rules.mind", "old": "rules.mind", "new": "rules.mind", "runs": "log.csv"}
+    line = []
+    for each in command.params:
+        if isinstance(each, click.Argument):
+            line.append(value if each is of else fine.get(each.name or "", "Turn"))
+        elif each is of or each.required:
+            line.insert(0, f"{each.opts[0]}={value}" if each.opts[0].startswith("--") else f"{each.opts[0]}{value}")
+    return [*words, *line[:-1], *line[-1:]] if value != "--" else [*words, *line]
+
+
+def _checked(mindc: Call, case: Case, values: tuple[str, ...]) -> None:
+    for value in values:
+        if case[0] == ("gc",) and value == "/":  # which would be looked through
+            continue
+        line = _call(*case, value)
+        said = mindc(*line)
+        assert said.code in (0, 1, 2, 130), line
+        assert "Traceback" not in said.err, line
+        assert "mindc failed" not in said.err, (line, said.err)
+
+
+@pytest.mark.usefixtures("_still")
+@pytest.mark.parametrize("case", CASES, ids=lambda case: f"{' '.join(case[0])} {case[1].name}")
+def test_no_value_is_a_fault_of_ours(mindc: Call, case: Case) -> None:
+    _checked(mindc, case, FEW)
+
+
+@pytest.mark.slow
+@pytest.mark.usefixtures("_still")
+@pytest.mark.parametrize("case", CASES, ids=lambda case: f"{' '.join(case[0])} {case[1].name}")
+def test_no_value_of_many_is_a_fault_of_ours(mindc: Call, case: Case) -> None:
+    _checked(mindc, case, HOSTILE)
+
+
+def test_there_are_a_thousand_values() -> None:
+    assert len(CASES) * len(HOSTILE) > 1000
+
+
+def test_every_number_has_two_bounds_which_help_says() -> None:
+    for words, each in CASES:
+        if isinstance(each.type, click.types.IntParamType | click.types.FloatParamType):
+            assert getattr(each.type, "min", None) is not None, (words, each.name)
+            assert getattr(each.type, "max", None) is not None, (words, each.name)
+
+
+@pytest.mark.parametrize(
+    ("words", "bounds"),
+    [
+        ("train rules.mind --generations 0", "from 1 to 10000000"),
+        ("train rules.mind --scale inf", "above 0, and at most 1000"),
+        ("train rules.mind --population 2000000000", "from 4 to 1000000"),
+        ("bench rules.mind --runs 99999999999999999999", "from 1 to 10000000"),
+        ("run rules.mind --speed nan", "from 0.01 to 1000"),
+        ("prove rules.mind --leak 2", "above 0, and at most 1"),
+    ],
+)
+def test_the_message_says_the_bounds(mindc: Call, words: str, bounds: str) -> None:
+    said = mindc(*words.split())
+    assert said.code == 2
+    assert bounds in said.err
+    assert bounds.split()[-1] in mindc(*words.split()[:1], "--help").out
+
+
+def _tools() -> Iterator[tuple[str, ArgumentParser]]:
+    for name in tools():
+        known = parser(name, None)
+        import_module(f"mindrun.tools.{name}").options(known)
+        yield name, known
+
+
+def _actions() -> Iterator[tuple[str, Action]]:
+    for name, known in _tools():
+        yield from ((name, action) for action in known._actions if action.nargs != 0)
+
+
+MINDRUN = [["--readings"], ["--fill"], ["--master"], ["--record"], ["--ticks"], ["--task"], ["--seed"]]
+
+
+@pytest.mark.parametrize("value", [value for value in HOSTILE if value.isprintable() or value.isspace()])
+def test_mindrun_takes_no_offence(
+    tmp_path: Path, value: str, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr("sys.stdin", StringIO())
+    path, graph = tmp_path / "b.bundle", load(write_rules(tmp_path)).graph
+    assert graph
+    write_bundle(path, graph, {}, {})
+    lines = [[path, f"{option}={value}"] for [option] in MINDRUN]
+    lines += [
+        [path, "--readings", "none", f"--master={value}"],
+        [path, "--dry", "--ticks=x", f"--seed={value}"],
+        [value],
+    ]
+    lines += [
+        [name, *([path] if action.dest != "bundle" else []), f"{action.option_strings[0]}={value}"]
+        if action.option_strings
+        else [name, value, value]
+        for name, action in _actions()
+    ]
+    for line in lines:
+        monkeypatch.setattr("sys.argv", ["mindrun", *map(str, line)])
+        with pytest.raises(SystemExit) as stop:
+            mindrun.main()
+        assert stop.value.code in (0, 1, 2), line
+        assert "failed:" not in capsys.readouterr().err, line
+
+
+def test_no_option_can_be_half_said() -> None:
+    """`--a` must not arm a robot."""
+    files = modules(ROOT / "mindlang", ROOT / "runtime", ROOT / "examples", ROOT / "benchmarks")
+    calls = [
+        (path, node)
+        for path in files
+        for node in ast.walk(tree(path))
+        if isinstance(node, ast.Call) and getattr(node.func, "attr", "") == "ArgumentParser"
+    ]
+    assert len(calls) > 10
+    for path, call in calls:
+        said = {word.arg: getattr(word.value, "value", None) for word in call.keywords}
+        assert said.get("allow_abbrev") is False, path
+
+
+def test_what_no_memory_could_hold_is_refused_before_it_begins(
+    mindc: Call, rules: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(estimate, "available", lambda: 1 << 20)
+    said = mindc("bench", rules, "--runs", 1_000_000)
+    assert (said.code, said.out) == (2, "")
+    assert "1,000,000 runs take about" in said.err
+    assert "1 MiB" in said.err
+    assert int(said.err.split("--runs ")[1].split()[0]) > 100

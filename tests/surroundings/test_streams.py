@@ -1,0 +1,130 @@
+"""Standard streams that are closed, full, broken or of another encoding: no command ends by them."""
+
+import json
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+from mindrun import __main__ as mindrun_main
+from mindrun.bundle import write_bundle
+
+from mindlang.cli import main as mindc_main
+from mindlang.compile import load
+from tests.calling import write_rules
+from tests.surroundings.streams import CLOSED, FULL, GONE, Ended, ended
+
+MINDC = """\
+check F | check missing.mind | check - | lint F | lint F --format json | lint F --format sarif | lint F --format github
+show F | show F --json | show F --dot | status F | status F --json | diff F F | diff F F --json | schema | fmt -
+explain | explain comma | explain --json | prove F | prove F --json | build F -o F.bundle --json | fmt F --diff
+edit rename Turn Spin F | edit rename Turn Spin F --json | plot L -o L.svg --json | train F | deploy F.none host
+--help | --version | check --help | chekc"""
+MINDRUN = """\
+B | B --json | B --readings R | B --readings - | B --arm | --help | --ar | missing | doctor | doctor --help
+replay B B | report B B --json | adopt B | calibrate B x"""
+COMMANDS = [
+    f"{program} {words.strip()}"
+    for program, lines in (("mindc", MINDC), ("mindrun", MINDRUN))
+    for words in lines.replace("\n", "|").split("|")
+]
+FEW = ["mindc show F", "mindc schema", "mindc lint F", "mindrun B --readings R", "mindrun doctor"]  # in the plain suite
+ALL = [pytest.param(command, marks=pytest.mark.slow) for command in COMMANDS if command not in FEW]
+LOG = "attempt,generation,best\n1,1,0.5\n1,2,0.7\n"
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A folder with what the commands are about."""
+    folder = tmp_path_factory.mktemp("streams")
+    path = write_rules(folder)
+    text = path.read_text().replace("Roam", "Röam").replace(" is rule", "  is rule", 1)
+    path.write_text(text.replace("Röam", "Roam"))
+    graph = load(path).graph
+    assert graph
+    write_bundle(folder / "b.bundle", graph, {}, {})
+    (folder / "log.csv").write_text(LOG)
+    (folder / "readings").write_text('{"ball_bearing": 0.5, "feeler": [1, 1, 1]}\n' * 2000)
+    return folder
+
+
+def called(command: str, folder: Path, **streams: str) -> Ended:
+    program, *words = command.split()
+    names = {"F": "rules.mind", "L": "log.csv", "B": "b.bundle", "R": "readings"}
+    for short, name in names.items():
+        words = [word.replace(short, str(folder / name)) if word.startswith(short) else word for word in words]
+    main = mindc_main if program == "mindc" else mindrun_main.main
+    return ended(main, words, **streams)
+
+
+@pytest.mark.parametrize("command", FEW + ALL)
+def test_no_stream_ends_a_command(folder: Path, command: str) -> None:
+    fine = called(command, folder)
+    assert fine.code in (0, 1, 2)
+    assert b"Traceback" not in fine.err
+    assert b"failed:" not in fine.err
+    for stderr in (CLOSED, FULL, GONE):
+        assert called(command, folder, stderr=stderr)[:2] == fine[:2]
+    for stdout in (CLOSED, FULL):
+        said = called(command, folder, stdout=stdout)
+        assert said.code == (fine.code or 1 if fine.out else fine.code)
+        assert said.err.startswith(fine.err)
+        assert (b"standard output cannot be written: " in said.err) == bool(fine.out)
+        assert said.err.count(b"\n") == fine.err.count(b"\n") + bool(fine.out)
+    said = called(command, folder, stdout=GONE)
+    assert (said.code, said.err) == (fine.code, fine.err), "who has read enough is no reason to fail"
+    if "-" not in command.split():
+        assert called(command, folder, stdin=CLOSED) == fine
+    assert called(command, folder, stdin=CLOSED, stdout=CLOSED, stderr=CLOSED).code in (1, 2, fine.code)
+
+
+@pytest.mark.parametrize("command", FEW + ALL)
+@pytest.mark.parametrize("encoding", ["ascii", pytest.param("cp437", marks=pytest.mark.slow)])
+def test_every_encoding_will_do(folder: Path, command: str, encoding: str) -> None:
+    fine, said = called(command, folder), called(command, folder, encoding=encoding)
+    assert said.code == fine.code
+    assert b"Traceback" not in said.err
+    assert len(said.err.splitlines()) == len(fine.err.splitlines())
+    if "--json" in command or "--dot" in command or "--diff" in command or "schema" in command or "-" in command:
+        assert said.out == fine.out or "help" in command, "what programs read is UTF-8"
+    assert len(said.out.splitlines()) == len(fine.out.splitlines())
+
+
+def test_json_of_a_name_that_is_no_text_is_json(folder: Path) -> None:
+    for encoding in ("utf-8", "ascii"):
+        said = ended(mindc_main, ["check", "--json", "caf\udce9.mind"], encoding=encoding)
+        assert said.code == 2
+        assert json.loads(said.out)["files"][0]["file"] == "caf\udce9.mind"
+
+
+def test_what_nobody_reads_any_more_is_not_computed(folder: Path) -> None:
+    said = called("mindrun B --readings R", folder, stdout=GONE)
+    assert (said.code, said.err) == (0, b"")
+
+
+@pytest.mark.parametrize("redirected", [">&-", ">/dev/full", "2>&-", "<&-", ">&- 2>&- <&-", "2>/dev/full >/dev/full"])
+@pytest.mark.parametrize("module", ["mindc", "mindrun"])
+def test_as_a_shell_does_it(folder: Path, module: str, redirected: str) -> None:
+    program = {"mindc": "from mindlang.cli import main", "mindrun": "from mindrun.__main__ import main"}[module]
+    words = {"mindc": f"show {folder}/rules.mind", "mindrun": f"{folder}/b.bundle"}[module]
+    line = f"exec {sys.executable} -c '{program}; main()' {words} {redirected}"
+    done = subprocess.run(line, shell=True, capture_output=True, text=True, stdin=subprocess.DEVNULL)
+    lost = redirected.startswith(">") or redirected.endswith(">/dev/full")
+    assert done.returncode == (1 if lost else 0)
+    assert done.stderr.count("\n") == (lost and "2>" not in redirected)
+
+
+def test_the_folder_that_is_gone_is_told(folder: Path, tmp_path: Path) -> None:
+    def vanish() -> None:
+        here = tmp_path / "here"
+        here.mkdir()
+        __import__("os").chdir(here)
+        here.rmdir()
+
+    for words in (["check", folder / "rules.mind"], ["show", folder / "rules.mind"], ["--help"]):
+        assert ended(mindc_main, words, first=vanish).code == 0
+        (tmp_path / "here").mkdir(exist_ok=True)
+        (tmp_path / "here").rmdir()
+    said = ended(mindc_main, ["check", "rules.mind"], first=vanish)
+    assert said.code in (1, 2)
+    assert said.err == b"the folder in which this was started is gone\n"
