@@ -1,11 +1,13 @@
 """Every fault of every kind of sensor, whenever it comes: what was declared happens within two ticks."""
 
 from itertools import product
+from math import inf, isnan, nan
 
 import numpy as np
 import pytest
+from mindrun.robot.wiring import SensorWire, reading
 
-from tests.robot.faults import FAULTS, SENSORS, Robot, good, robot
+from tests.robot.faults import FAULTS, SENSORS, TICK, Robot, Scripted, good, robot
 
 NEUTRAL = np.array([0.5, 0.5, 0.0], np.float32)
 PHASES = {"start": 0, "running": 7, "stopping": 18}
@@ -107,3 +109,36 @@ def test_what_begins_and_ends_is_told() -> None:
     for _ in range(4):
         of.tick()
     assert told == ["sense the bus does not answer; is it wired?", "sense is fine again"]
+
+
+@pytest.mark.parametrize(("missed", "stops"), [(0, False), (2, False), (3, True), (50, True)])
+def test_three_ticks_that_were_missed_in_a_row_are_neutral_once(missed: int, stops: bool) -> None:
+    of = robot("bearing", [good])
+    of.tick()
+    of.loop.pace.clock.now += (1.5 + missed) * TICK  # type: ignore[attr-defined]
+    of.tick()
+    of.tick()
+    assert [moves(commands) for commands in of.sent.commands] == [True, not stops, True]
+    assert of.loop.pace.missed == missed
+
+
+@pytest.mark.parametrize(("ticks", "stops"), [(1.9, False), (2.1, True)])
+def test_thoughts_that_took_two_ticks_are_not_sent(ticks: float, stops: bool) -> None:
+    of = robot("bearing", [good])
+    think = of.loop.engine.tick
+
+    def slowly(readings: np.ndarray) -> np.ndarray:
+        of.loop.pace.clock.now += ticks * TICK  # type: ignore[attr-defined]
+        return think(readings)
+
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(of.loop.engine, "tick", slowly)
+        of.tick()
+    of.tick()
+    assert [moves(commands) for commands in of.sent.commands] == [not stops, True]
+
+
+@pytest.mark.parametrize(("raw", "ends"), [(nan, (0, 1)), (inf, (0, 1)), (-inf, (1, 0)), (1e308, (0, 1e-300))])
+def test_what_is_no_number_is_no_reading(raw: float, ends: tuple[float, float]) -> None:
+    """max(0, min(1, NaN)) is 1: free sight, or full speed. What overflows is no number either."""
+    assert isnan(reading(SensorWire("sense", Scripted(1, []), *ends), raw))

@@ -55,6 +55,13 @@ def test_it_is_computed_again_bit_for_bit(day: Path) -> None:
     assert (found.ticks, found.differs) == (TICKS, None)
 
 
+def test_a_recording_that_says_its_first_tick_again_was_begun_anew_there(day: Path) -> None:
+    data = day.read_bytes()
+    day.write_bytes(data + data[data.index(b"\n") + 1 :])
+    found = replay(day, BUNDLE, Engine(graph("range_finder"), {}))
+    assert (found.ticks, found.differs) == (2 * TICKS, None)
+
+
 def test_the_first_tick_that_differs_is_said(day: Path) -> None:
     about, _ = read(day)
     data = bytearray(day.read_bytes())
@@ -116,6 +123,27 @@ def test_the_report_holds_it_against_the_contract(day: Path) -> None:
     assert not lines["ticks at neutral"].kept
     assert (lines["sense lost"].declared, lines["sense lost"].kept) == ("0.0%", False)
     assert lines["sense delay"].kept
+
+
+def test_rows_reach_the_file_once_a_second_and_no_sooner(day: Path) -> None:
+    """A slow card must not hold each tick, and a power cut takes no more than a second or two."""
+    about = read(day)[0]
+    with Recorder(day.with_name("more.rec"), about) as recorder:
+        rows = []
+        for tick, time in enumerate((10.0, 10.5, 10.75, 11.0, 11.5, 12.5)):
+            recorder.write(tick=tick, time=time)
+            _, _, rest = day.with_name("more.rec").read_bytes().partition(b"\n")
+            assert len(rest) % about.row.itemsize == 0
+            rows.append(len(rest) // about.row.itemsize)
+    assert rows == [1, 1, 1, 4, 4, 6]
+
+
+def test_a_tick_has_64_bits(day: Path) -> None:
+    about, path = read(day)[0], day.with_name("years.rec")
+    with Recorder(path, about) as recorder:
+        for tick in (2**32 - 1, 2**32, 2**63):
+            recorder.write(tick=tick, time=1.0)
+    assert [int(row["tick"]) for rows in read(path)[1] for row in rows] == [2**32 - 1, 2**32, 2**63]
 
 
 def test_a_full_disk_is_told_with_the_name_of_the_file(day: Path) -> None:

@@ -10,7 +10,7 @@ from mindrun.robot.guardian.frames import MOST, FrameError, Reader, pack, size
 SHARES = st.floats(0, 1, width=32)
 
 
-@given(st.lists(SHARES, min_size=1, max_size=9), st.booleans(), st.integers(0, 2**32 - 1), st.integers(0, 2**62))
+@given(st.lists(SHARES, min_size=1, max_size=9), st.booleans(), st.integers(0, 2**64 - 1), st.integers(0, 2**62))
 def test_a_frame_is_read_as_it_was_written(commands: list[float], armed: bool, number: int, sent: int) -> None:
     frame = Reader(len(commands)).feed(pack(number, sent, armed, commands))[0]
     assert (frame.commands, frame.armed, frame.number, frame.sent) == (tuple(commands), armed, number, sent / 1e9)
@@ -49,6 +49,13 @@ def test_a_command_that_is_no_share_is_refused(value: float) -> None:
 def test_numbers_must_rise(numbers: tuple[int, ...]) -> None:
     with pytest.raises(FrameError, match="number"):
         Reader(1).feed(b"".join(pack(number, 0, True, (0.5,)) for number in numbers))
+
+
+def test_no_robot_drives_for_so_long_that_numbers_run_out() -> None:
+    """At a thousand ticks a second 32 bits end after 49.7 days."""
+    reader = Reader(1)
+    for number in (2**32 - 1, 2**32, 2**63):
+        assert [frame.number for frame in reader.feed(pack(number, 0, True, (0.5,)))] == [number]
 
 
 def test_the_number_of_commands_must_be_that_of_the_actuators() -> None:

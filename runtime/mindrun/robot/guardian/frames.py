@@ -6,8 +6,8 @@ from math import inf, isfinite
 from struct import Struct
 from zlib import crc32
 
-MAGIC, VERSION = b"MIND", 1
-HEAD = Struct("<4sBBHIq")  # magic, version, armed, how many commands, number, when it was sent
+MAGIC, VERSION = b"MIND", 2
+HEAD = Struct("<4sBBHQq")  # magic, version, armed, how many commands, number, when it was sent
 CHECK = Struct("<I")
 MOST = 1000  # commands: a write of up to 4096 bytes is atomic
 

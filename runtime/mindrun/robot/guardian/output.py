@@ -31,7 +31,7 @@ class Output:
         self._settled = settled
         self._clock = clock
         self._wanted = Wanted(rest, True, clock())
-        self._waiting: float | None = clock()  # since when a wanted value has not been acknowledged
+        self._waiting: float | None = clock()  # since when nothing has been acknowledged that should have been
         self._closing = False
         self._change = Condition()
         self._thread = Thread(target=self._run, name=name, daemon=True)
@@ -57,7 +57,7 @@ class Output:
             return self._wanted.neutral and self._waiting is None
 
     def late(self, now: float) -> float:
-        """For how long the device has not acknowledged what is wanted."""
+        """For how long the device has acknowledged nothing, though something was wanted; one that is slow answers."""
         with self._change:
             return 0.0 if self._waiting is None else now - self._waiting
 
@@ -79,7 +79,7 @@ class Output:
             return wanted
         with self._change:
             if self._wanted is not wanted:
-                self._waiting = self._wanted.given
+                self._waiting, self.error = self._clock(), ""
                 return wanted
             self._waiting, self.error = None, ""
         if wanted.neutral:
