@@ -4,7 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING, Any
-from unicodedata import category, combining, east_asian_width
+from unicodedata import combining, east_asian_width
+
+from mindrun.visible import visible
 
 from mindlang.diagnostic import Diagnostic
 from mindlang.source import Span
@@ -89,19 +91,6 @@ def _excerpt(span: Span, mark: str, style: str) -> Iterator[Segment]:
     yield f"{'…' if first else ''}{visible(shown)}{'…' if first + WIDE < len(line) else ''}\n", ""
     yield f"  {' ' * len(number)} | {' ' * (_cells(indent) + bool(first))}", "dim"
     yield f"{mark * max(1, _cells(marked))}\n", style
-
-
-def visible(text: str) -> str:
-    """Text that does to a terminal only what it seems to: control and direction characters are spelt out."""
-    return "".join(_visible(character) for character in text)
-
-
-def _visible(character: str) -> str:
-    if character == "\t":
-        return "    "
-    if category(character) in {"Cc", "Cf", "Cs", "Co", "Cn", "Zl", "Zp"}:
-        return f"\\u{ord(character):04x}"
-    return character
 
 
 def _cells(text: str) -> int:

@@ -40,9 +40,8 @@ def console(stderr: bool = False) -> Console:
 
 def say(message: str, hint: str = "") -> None:
     """Print a message and what to do about it on stderr."""
+    from mindrun.visible import visible
     from rich.text import Text
-
-    from mindlang.report import visible
 
     console(stderr=True).print(Text(visible(message), "red"))
     if hint:

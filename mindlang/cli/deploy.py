@@ -131,8 +131,9 @@ def _do(
 
 
 def _list(robot: Robot, as_json: bool) -> None:
+    from mindrun.visible import visible
+
     from mindlang.deploying.state import look
-    from mindlang.report import visible
     from mindlang.terminal import print_json
 
     state = look(robot)

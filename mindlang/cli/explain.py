@@ -19,12 +19,12 @@ def command(code: str | None, as_json: bool) -> None:
     With a wrong example and a right one. The code stands in brackets at the end of a message. Ends with 0, or with 2
     where there is no such code.
     """
+    from mindrun.visible import visible
     from rich.text import Text
 
     from mindlang.diagnostic import did_you_mean
     from mindlang.explaining.explanation import explanations
     from mindlang.explaining.show import as_data, contents, page
-    from mindlang.report import visible
     from mindlang.terminal import MISUSE, console, fail, print_json
 
     known = explanations()

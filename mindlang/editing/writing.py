@@ -4,8 +4,8 @@ import os
 from contextlib import ExitStack
 from pathlib import Path
 
+from mindrun.npy import to_npy
 from mindrun.regular import read_regular
-from mindrun.weights import to_npy
 
 from mindlang import journal
 from mindlang.editing.carry_out import Edited

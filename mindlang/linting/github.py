@@ -2,8 +2,9 @@
 
 from collections.abc import Iterable, Iterator
 
+from mindrun.visible import visible
+
 from mindlang.diagnostic import Diagnostic
-from mindlang.report import visible
 from mindlang.source import Span
 
 

@@ -10,8 +10,9 @@ from mindrun import durable
 from mindrun.durable import write
 from mindrun.errors import WeightsError
 from mindrun.graph import Graph, Skill
+from mindrun.npy import to_npy
 from mindrun.regular import read_whole
-from mindrun.weights import Weights, from_npy, reachable, to_npy, weights_of
+from mindrun.weights import Weights, reachable, read_weights, weights_of
 
 from mindlang.diagnostic import listed
 from mindlang.lock import Entry, Lock, LockError, Taught, read_lock, write_lock
@@ -19,7 +20,7 @@ from mindlang.lock.signature import signature
 from mindlang.lock.training_world import TrainingWorld
 
 FOLDER = "weights"
-LARGEST = 1 << 30  # bytes of the weights of a skill
+LARGEST = 1 << 27  # bytes of the weights of a skill; a bundle cannot hold more than half of that
 NOTHING: Lock = {}
 
 
@@ -33,7 +34,7 @@ def load_weights(entry: Entry, skill: Skill) -> Weights:
         data = read_whole(path, LARGEST)
         if sha256(data).hexdigest() != entry.weights:
             raise LockError(f"{path}, the weights of {entry.skill}, is damaged: {remedy}")
-        return weights_of(skill, {skill.name: from_npy(data)})
+        return weights_of(skill, {skill.name: read_weights(data)})
     except OSError as error:
         raise LockError(f"{path}, the weights of {entry.skill}, cannot be read: {error.strerror}; {remedy}") from error
     except WeightsError as error:

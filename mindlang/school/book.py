@@ -98,13 +98,22 @@ def begin(book: Book, lesson: Lesson, seed: int, runs: Path, now: datetime) -> R
 def refuse_changed(book: Book, run: Run) -> None:
     """RunError where the run was begun with a mind that differs in something the lesson depends on."""
     lesson = run.manifest.lesson
-    same_learners = learners(book.graph, lesson) == run.manifest.learners  # one may have been frozen
-    if not same_learners or fingerprint(book.graph, lesson, book.folder) != run.manifest.mind:
+    if (
+        not _is_named(book.graph, lesson)
+        or learners(book.graph, lesson) != run.manifest.learners  # one may have been frozen
+        or fingerprint(book.graph, lesson, book.folder) != run.manifest.mind
+    ):
         raise RunError(
             f"{book.shown} has changed since this run of {lesson.skill} began, so it cannot go on",
             f"undo the change ({run.folder / 'source'} has it as it was), or begin anew: "
             f"mindc train {book.shown} {lesson.skill}",
         )
+
+
+def _is_named(graph: Graph, lesson: Lesson) -> bool:
+    """Whether there still are the skills and the task of a lesson."""
+    skills, tasks = {skill.name for skill in graph.skills}, {task.name for task in graph.tasks}
+    return {lesson.skill, lesson.master} <= skills and lesson.task in tasks
 
 
 def _needed(book: Book, lesson: Lesson) -> dict[str, Weights]:

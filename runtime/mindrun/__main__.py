@@ -20,6 +20,7 @@ from mindrun.engine import Engine
 from mindrun.errors import MindError, ProcedureError, ReadingsError, surroundings
 from mindrun.readings import vector
 from mindrun.tools import run_tool, tools
+from mindrun.visible import visible
 
 OK, FAILED, MISUSE, INTERRUPTED = 0, 1, 2, 130
 LONGEST = 1 << 20  # characters of one line of readings
@@ -181,9 +182,9 @@ def _json(value: object, indent: int | None = None) -> str:
 
 
 def _say(message: str, hint: str = "", code: int = FAILED) -> int:
-    print(f"mindrun: {message}", file=sys.stderr)
+    print(f"mindrun: {visible(message)}", file=sys.stderr)
     if hint:
-        print(f"  {hint}", file=sys.stderr)
+        print(f"  {visible(hint)}", file=sys.stderr)
     return code
 
 

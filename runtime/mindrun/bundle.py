@@ -4,26 +4,29 @@ It ends in the SHA-256 of all bytes before; the manifest has those of its member
 """
 
 import json
-import zipfile
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from hashlib import sha256
-from io import BytesIO
 from pathlib import Path
-from typing import Any, NoReturn
+from typing import Any
 
+from mindrun.archive import read_archive, write_archive
 from mindrun.durable import write_out
 from mindrun.encoding import decode, decode_wiring, encode
 from mindrun.errors import BundleError, WeightsError
 from mindrun.graph import Graph
+from mindrun.npy import to_npy
+from mindrun.plain_data import parsed
 from mindrun.regular import read_regular
 from mindrun.robot.wiring import Wiring
-from mindrun.weights import Weights, from_npy, to_npy, weights_of
+from mindrun.weights import Weights, genes, read_weights, weights_of
 
 # A mindrun that knows nothing of wirings refuses a bundle that has one.
 FORMAT, WIRED = "mind bundle 1", "mind bundle 2"
-WIRING = "wiring.json"
+MANIFEST, GRAPH, WIRING = "manifest.json", "graph.json", "wiring.json"
+WEIGHTS, MODULES = "weights/", "procedures/"
 LARGEST = 64 << 20  # bytes; nothing is compressed, so this also limits what is read
+LONGEST = 16 << 20  # bytes of JSON, which takes up to twenty times as much memory
 DIGEST = 64
 
 
@@ -73,24 +76,9 @@ def read_bundle(path: Path) -> Bundle:
 
 def pack(bundle: Bundle) -> bytes:
     """A bundle as bytes."""
-    members = {"graph.json": _json(encode(bundle.graph))}
-    members |= {f"weights/{skill}.npy": to_npy(weights) for skill, weights in bundle.weights.items()}
-    members |= {_module_member(module): text.encode() for module, text in bundle.procedures.items()}
-    if bundle.wiring:
-        members[WIRING] = _json(encode(bundle.wiring))
-    manifest = {
-        "format": WIRED if bundle.wiring else FORMAT,
-        "master": bundle.graph.master,
-        "members": {name: sha256(content).hexdigest() for name, content in members.items()},
-        "skills": sorted(bundle.weights),
-        "procedures": sorted(bundle.procedures),
-    } | ({"wiring": fingerprint(bundle.wiring)} if bundle.wiring else {})
-    file = BytesIO()
-    with zipfile.ZipFile(file, "w", zipfile.ZIP_STORED) as archive:
-        for name, content in [("manifest.json", _json(manifest)), *sorted(members.items())]:
-            archive.writestr(_entry(name), content)
-        archive.comment = bytes(DIGEST)
-    data = file.getvalue()[:-DIGEST]
+    members = _members(bundle)
+    files = [(MANIFEST, _json(_manifest(bundle, members))), *sorted(members.items())]
+    data = write_archive(files, comment=bytes(DIGEST))[:-DIGEST]
     data += sha256(data).hexdigest().encode()
     if len(data) > LARGEST:
         raise BundleError(f"a bundle cannot be larger than {LARGEST >> 20} MiB")
@@ -106,68 +94,82 @@ def unpack(data: bytes) -> Bundle:
     if sha256(data[:-DIGEST]).hexdigest().encode() != data[-DIGEST:]:
         raise BundleError("this bundle is damaged: build or copy it again")
     try:
-        return _bundle(_members(data))
-    except (zipfile.BadZipFile, WeightsError, ValueError, LookupError, TypeError, RuntimeError, EOFError) as error:
-        raise BundleError(f"this is not a bundle that this version can read ({error})") from error
+        return _bundle(read_archive(data))
+    except (ValueError, WeightsError) as error:
+        raise BundleError(f"this is not a bundle that this version can read: {error}") from error
 
 
-def _members(data: bytes) -> dict[str, bytes]:
-    """The zip's files; those that are compressed are refused unread."""
-    with zipfile.ZipFile(BytesIO(data)) as archive:
-        entries = archive.infolist()
-        if any(entry.compress_type != zipfile.ZIP_STORED for entry in entries):
-            raise BundleError("this bundle was packed by something else: build it again")
-        if sum(entry.file_size for entry in entries) > len(data):
-            raise BundleError("this bundle claims to hold more than it does")
-        return {entry.filename: archive.read(entry) for entry in entries}
+def _members(bundle: Bundle) -> dict[str, bytes]:
+    """The files of a bundle by name, without its manifest."""
+    members = {GRAPH: _json(encode(bundle.graph))}
+    members |= {f"{WEIGHTS}{skill}.npy": to_npy(weights) for skill, weights in bundle.weights.items()}
+    members |= {f"{MODULES}{module.replace('.', '/')}.py": text.encode() for module, text in bundle.procedures.items()}
+    return members | ({WIRING: _json(encode(bundle.wiring))} if bundle.wiring else {})
+
+
+def _manifest(bundle: Bundle, members: Mapping[str, bytes]) -> dict[str, Any]:
+    """What the manifest says of a bundle and its files: nothing that does not follow from them."""
+    return {
+        "format": WIRED if bundle.wiring else FORMAT,
+        "master": bundle.graph.master,
+        "members": {name: sha256(content).hexdigest() for name, content in members.items()},
+        "skills": sorted(bundle.weights),
+        "procedures": sorted(bundle.procedures),
+    } | ({"wiring": fingerprint(bundle.wiring)} if bundle.wiring else {})
 
 
 def _bundle(members: dict[str, bytes]) -> Bundle:
-    manifest = _parsed(members.pop("manifest.json"))
-    if manifest["format"] not in (FORMAT, WIRED):
-        raise BundleError(
-            f"this is a {manifest['format']!r}, this mindrun reads {FORMAT!r} and {WIRED!r}: "
-            "build it again, or install the mindrun of the mindc that built it"
-        )
-    if manifest["members"] != {name: sha256(content).hexdigest() for name, content in members.items()}:
+    """The bundle of these files; BundleError or ValueError where they are none."""
+    manifest = parsed(members.pop(MANIFEST, b""))
+    if not isinstance(manifest, dict) or manifest.get("format") not in (FORMAT, WIRED):
+        raise BundleError(_foreign(manifest))
+    graph = decode(_document(members, GRAPH))
+    weights = {name: read_weights(content) for name, content in _below(members, WEIGHTS, ".npy")}
+    procedures = {name.replace("/", "."): content.decode() for name, content in _below(members, MODULES, ".py")}
+    wiring = decode_wiring(_document(members, WIRING), graph) if manifest["format"] == WIRED else None
+    bundle = Bundle(graph, weights, procedures, wiring)
+    known = 1 + len(weights) + len(procedures) + (wiring is not None)
+    if manifest != _manifest(bundle, members) or len(members) != known:
         raise BundleError("this bundle's files are not those of its manifest")
-    graph = decode(_parsed(members["graph.json"]))
-    weights = {skill: from_npy(members[f"weights/{skill}.npy"]) for skill in manifest["skills"]}
-    for skill in graph.skills:
-        if skill.name in weights:
-            weights_of(skill, weights)
-    procedures = {module: members[_module_member(module)].decode() for module in manifest["procedures"]}
-    return Bundle(graph, weights, procedures, _wiring(manifest, members, graph))
+    _refuse_strangers(bundle)
+    return bundle
 
 
-def _wiring(manifest: Any, members: dict[str, bytes], graph: Graph) -> Wiring | None:
-    """What is wired to what, where the bundle is for a robot."""
-    if manifest["format"] == FORMAT:
-        return None
-    wiring = decode_wiring(_parsed(members[WIRING]), graph)
-    if manifest["wiring"] != fingerprint(wiring):
-        raise BundleError("this bundle's wiring is not that of its manifest")
-    return wiring
+def _refuse_strangers(bundle: Bundle) -> None:
+    """BundleError where there are weights of nobody, or a module of no name; WeightsError where some do not fit."""
+    skills = {skill.name: skill for skill in bundle.graph.skills if genes(skill)}
+    for name in bundle.weights:
+        if name not in skills:
+            raise BundleError(f"this bundle has weights of {name!r:.60}, which is no skill of it that learns")
+        weights_of(skills[name], bundle.weights)
+    for module in bundle.procedures:
+        if not all(part.isidentifier() for part in module.split(".")):
+            raise BundleError(f"this bundle has a module {module!r:.60}, which is no name")
 
 
-def _entry(name: str) -> zipfile.ZipInfo:
-    entry = zipfile.ZipInfo(name)  # of 1980: the day of writing is no part of a mind
-    entry.create_system = 3
-    entry.external_attr = 0o644 << 16
-    return entry
+def _below(members: Mapping[str, bytes], folder: str, suffix: str) -> Iterator[tuple[str, bytes]]:
+    """The files in a folder of a bundle, by their names without folder and suffix."""
+    for name, content in members.items():
+        if name.startswith(folder) and name.endswith(suffix):
+            yield name[len(folder) : -len(suffix)], content
 
 
-def _module_member(module: str) -> str:
-    return f"procedures/{module.replace('.', '/')}.py"
+def _document(members: Mapping[str, bytes], name: str) -> Any:
+    if name not in members:
+        raise BundleError(f"this bundle has no {name}")
+    return parsed(members[name], LONGEST)
+
+
+def _foreign(manifest: object) -> str:
+    """Why a bundle with such a manifest cannot be read."""
+    version = manifest.get("format") if isinstance(manifest, dict) else None
+    if not isinstance(version, str) or not version.startswith("mind bundle"):
+        return "this is not a bundle"
+    return (
+        f"this is a {version!r:.40}, this mindrun reads {FORMAT!r} and {WIRED!r}: "
+        "build it again, or install the mindrun of the mindc that built it"
+    )
 
 
 def _json(value: Any) -> bytes:
     return json.dumps(value, ensure_ascii=False, allow_nan=False, sort_keys=True, separators=(",", ":")).encode()
-
-
-def _parsed(data: bytes) -> Any:
-    return json.loads(data, parse_constant=_no_number)
-
-
-def _no_number(text: str) -> NoReturn:
-    raise BundleError(f"{text} is not a number that a bundle can hold")

@@ -16,6 +16,9 @@ from mindrun.robot.wiring import Wiring, flaws
 from mindrun.sound import flaw
 
 T = TypeVar("T")
+_known_hints: dict[type[Any], dict[str, Any]] = {}  # of each class that was decoded
+
+LARGEST = 2**53 - 1  # of a whole number: what any reader of JSON takes
 
 DRIVERS: Mapping[Any, str] = {SensorDriver: "sensor driver", ActuatorDriver: "actuator driver"}  # nouns of the registry
 
@@ -73,10 +76,14 @@ def _decode(hint: Any, data: Any, where: str) -> Any:
 
 
 def _decode_plain(hint: Any, data: Any, where: str) -> Any:
-    if hint is float and type(data) is int and abs(data) < 2**53:
+    if type(data) is int and abs(data) > LARGEST:
+        raise BundleError(f"this is damaged: {where} is no number that can be")
+    if hint is float and type(data) is int:
         data = float(data)
     if type(data) is not hint or (hint is float and not isfinite(data)):
         raise BundleError(f"this is damaged: {where} is not a {hint.__name__}")
+    if hint is str and not data.isprintable():
+        raise BundleError(f"this is damaged: {where} cannot be {data!r:.60}")
     return data
 
 
@@ -115,14 +122,20 @@ def _decode_tuple(hints: tuple[Any, ...], data: Any, where: str) -> tuple[Any, .
 
 
 def _decode_fields(cls: type[Any], data: Any, where: str) -> Any:
-    hints = get_type_hints(cls, include_extras=True)
-    expected = {"is", *hints} if cls in names() else set(hints)
-    if not isinstance(data, Mapping) or set(data) != expected or data.get("is") != names().get(cls):
+    hints, name = _hints(cls), names().get(cls)
+    expected = hints.keys() | ({"is"} if name else set())
+    if not isinstance(data, Mapping) or data.keys() != expected or data.get("is") != name:
         raise BundleError(f"this is damaged: {where} is not a {cls.__name__}")
     return cls(**{name: _decode(hint, data[name], f"{where}.{name}") for name, hint in hints.items()})
 
 
+def _hints(cls: type[Any]) -> dict[str, Any]:
+    if cls not in _known_hints:
+        _known_hints[cls] = get_type_hints(cls, include_extras=True)
+    return _known_hints[cls]
+
+
 def _in_range(meaning: Quantity | Reference, value: Any, where: str) -> Any:
     if not fits(meaning, value):
-        raise BundleError(f"this is damaged: {where} cannot be {value}")
+        raise BundleError(f"this is damaged: {where} cannot be {value!r:.60}")
     return value

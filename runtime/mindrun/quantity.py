@@ -40,6 +40,8 @@ def fits(meaning: Quantity | Reference, value: object) -> bool:
             return low <= value <= high
         case Reference(words=words), str():
             return not words or value in words
+        case _, tuple():
+            return all(fits(meaning, each) for each in value)
     return True
 
 

@@ -1,6 +1,6 @@
 """Kinds of the language, found by name: frozen dataclasses whose fields are their `.mind` arguments."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import MISSING, dataclass, fields
 from typing import Annotated, Any, TypeVar, get_args, get_origin, get_type_hints
 
@@ -9,6 +9,7 @@ from mindrun.quantity import Quantity, Reference, Span
 T = TypeVar("T")
 
 _kinds: dict[str, dict[str, type[Any]]] = {}
+_names: dict[type[Any], str] = {}
 _arguments: dict[Any, tuple["Argument", ...]] = {}  # of each kind that was asked for
 
 
@@ -33,6 +34,7 @@ def kind(noun: str, name: str) -> Callable[[type[T]], type[T]]:
 
     def register(cls: type[T]) -> type[T]:
         _kinds.setdefault(noun, {})[name] = cls
+        _names[cls] = name
         return cls
 
     return register
@@ -43,9 +45,9 @@ def kinds(noun: str) -> dict[str, type[Any]]:
     return _kinds.get(noun, {})
 
 
-def names() -> dict[type[Any], str]:
+def names() -> Mapping[type[Any], str]:
     """The name of every registered kind."""
-    return {cls: name for known in _kinds.values() for name, cls in known.items()}
+    return _names
 
 
 def arguments(cls: type[Any]) -> tuple[Argument, ...]:

@@ -1,11 +1,17 @@
 """Whether a graph holds together: the promises that the types of `mindrun.graph` cannot make."""
 
-from collections.abc import Iterator
+import re
+from collections.abc import Container, Iterator
 
 from mindrun.expression import OPERATORS, is_sound, leaves
 from mindrun.functions import Rule
-from mindrun.graph import Graph, Program, Skill, Task
+from mindrun.graph import Graph, Lesson, Program, Skill, Task
+from mindrun.quantity import THING
+from mindrun.registry import arguments
 from mindrun.sensors import Derivative, RangeFinder
+
+NAME = re.compile(r"[^\W\d_]\w*([+.]\w+)*")
+SHORTEST, LONGEST = 1e-9, 1e9  # seconds of a tick
 
 
 def flaw(graph: Graph) -> str | None:
@@ -14,24 +20,42 @@ def flaw(graph: Graph) -> str | None:
 
 
 def _flaws(graph: Graph) -> Iterator[str]:
-    if graph.tick <= 0:
-        yield "its tick is not above zero"
-    for noun in (graph.sensors + graph.memories, graph.actuators, graph.skills, graph.tasks):
-        names = [part.name for part in noun]
-        if len(set(names)) < len(names) or not all(map(str.strip, names)):
-            yield f"names are missing or doubled among {', '.join(names)}"
+    """What is wrong, in an order in which each may build upon what was right before."""
+    if not SHORTEST <= graph.tick <= LONGEST:
+        yield f"its tick cannot be {graph.tick:g} s"
+    yield from _name_flaws(graph)
     yield from _sense_flaws(graph)
-    skills = {skill.name for skill in graph.skills}
-    if graph.master not in skills:
-        yield f"its master {graph.master} is not one of its skills"
+    width = graph.width
     for number, skill in enumerate(graph.skills):
-        yield from (f"skill {skill.name} {what}" for what in _skill_flaws(graph, number, skill))
+        yield from (f"skill {skill.name} {what}" for what in _skill_flaws(graph, number, skill, width))
     for task in graph.tasks:
-        yield from (f"task {task.name} {what}" for what in _task_flaws(graph, task))
-    tasks = {task.name for task in graph.tasks}
+        yield from (f"task {task.name} {what}" for what in _task_flaws(task, width))
+    skills, tasks = {skill.name for skill in graph.skills}, {task.name for task in graph.tasks}
     for lesson in graph.lessons:
+        yield from lesson_flaws(lesson)
         if not ({lesson.skill, lesson.master} <= skills and lesson.task in tasks):
             yield f"the lesson of {lesson.skill} names what is not there"
+
+
+def _name_flaws(graph: Graph) -> Iterator[str]:
+    """Names are those that a source can have, so that they can be told; no two of a kind are the same."""
+    for noun in (graph.sensors + graph.memories, graph.actuators, graph.skills, graph.tasks):
+        names: set[str] = set()
+        for part in noun:
+            if not NAME.fullmatch(part.name) or part.name in names:
+                yield f"there cannot be a part called {part.name!r:.60}" + " twice" * (part.name in names)
+            names.add(part.name)
+    if graph.master not in {skill.name for skill in graph.skills}:
+        yield f"its master {graph.master!r:.60} is not one of its skills"
+
+
+def lesson_flaws(lesson: Lesson) -> Iterator[str]:
+    """What is wrong with a lesson by itself."""
+    for name in (lesson.curriculum, lesson.skill, lesson.task, lesson.master):
+        if not NAME.fullmatch(name):
+            yield f"a lesson cannot name {name!r:.60}"
+    if lesson.generations < 1:
+        yield f"the lesson of {lesson.skill} has no generation"
 
 
 def _sense_flaws(graph: Graph) -> Iterator[str]:
@@ -49,43 +73,58 @@ def _sense_flaws(graph: Graph) -> Iterator[str]:
         if sensor.width != width or sensor.start != start or sensor.width < 1:
             yield f"sensor {sensor.name} has not the readings of its kind"
         start += sensor.width
-    yield from (f"sensor {name} is the derivative of itself" for name in _circular(graph))
+    ending = depths(graph)
+    yield from (f"sensor {each.name} is the derivative of itself" for each in graph.sensors if each.name not in ending)
     if [memory.start for memory in graph.memories] != list(range(start, start + len(graph.memories))):
         yield "the readings of its memories do not follow those of its sensors"
 
 
-def _circular(graph: Graph) -> Iterator[str]:
-    """The sensors whose chain of derivatives never ends."""
+def depths(graph: Graph) -> dict[str, int]:
+    """How many derivatives stand between a sensor and what is measured; without those whose chain never ends."""
     sources = {sensor.name: sensor.kind.of for sensor in graph.sensors if isinstance(sensor.kind, Derivative)}
+    known: dict[str, int] = {}
     for name in sources:
-        source = name
-        for _ in sources:
-            source = sources.get(source, "")
-        if source in sources:
-            yield name
+        chain: dict[str, None] = {}
+        while name in sources and name not in known and name not in chain:
+            chain[name] = None
+            name = sources[name]
+        if name not in chain:
+            for depth, each in enumerate(reversed(chain), known.get(name, 0) + 1):
+                known[each] = depth
+    return {sensor.name: 0 for sensor in graph.sensors if sensor.name not in sources} | known
 
 
-def _skill_flaws(graph: Graph, number: int, skill: Skill) -> Iterator[str]:
+def _skill_flaws(graph: Graph, number: int, skill: Skill, width: int) -> Iterator[str]:
     """A skill reads what there is, and influences only skills after it: parents come first."""
     targets = {
         "skill": range(number + 1, len(graph.skills)),
         "actuator": range(len(graph.actuators)),
         "memory": range(len(graph.memories)),
     }
-    if not all(0 <= index < graph.width for index in skill.inputs):
+    if not all(0 <= index < width for index in skill.inputs):
         yield "reads what is not there"
     if not all(edge.target in targets.get(edge.to, ()) for edge in skill.edges):
         yield "sends to what is not there"
     outputs = [edge.output for edge in skill.edges if edge.output is not None]
     if outputs != list(range(len(outputs))) or (outputs and isinstance(skill.function, Rule)):
         yield "has outputs that are not its function's"
-    if not all(_computes(edge.value, set(skill.inputs)) for edge in skill.edges if edge.output is None):
+    readings = set(skill.inputs)
+    if not all(_computes(edge.value, readings) for edge in skill.edges if edge.output is None):
         yield "has an expression that cannot be computed"
 
 
-def _task_flaws(graph: Graph, task: Task) -> Iterator[str]:
-    """A task names its own measures and events, and readings that exist."""
-    events, readings = range(len(task.events)), set(range(graph.width))
+def _task_flaws(task: Task, width: int) -> Iterator[str]:
+    """A task names its own things, measures and events, and readings that exist."""
+    if task.ticks < 1:
+        yield "does not last"
+    things = [thing.name for thing in task.things]
+    if len(set(things)) < len(things) or not all(map(NAME.fullmatch, things)):
+        yield "contains what has no name of its own"
+    if any(min(thing.kind.size.first, thing.kind.size.last) < 0 for thing in task.things):
+        yield "contains what is smaller than nothing"
+    if not set(_things_named(task)) <= set(things):
+        yield "names a thing that is not there"
+    events, readings = range(len(task.events)), range(width)
     named = [*task.ends, *task.counts, *(reward.on for reward in task.rewards if reward.on is not None)]
     if not all(event in events for event in named):
         yield "names an event that is not there"
@@ -95,17 +134,23 @@ def _task_flaws(graph: Graph, task: Task) -> Iterator[str]:
             yield "has a reward that cannot be computed"
         if reward.when and reward.when.compare not in ("<", "<=", ">", ">="):
             yield "has a condition that cannot be computed"
-        if reward.each and not (reward.each[0] >= 0 and 0 < reward.each[1] <= graph.width - reward.each[0]):
+        if reward.each and not (reward.each[0] >= 0 and 0 < reward.each[1] <= width - reward.each[0]):
             yield "rewards readings that are not there"
 
 
-def _computes(program: Program, readings: set[int], measures: int = 0, each: bool = False) -> bool:
+def _things_named(task: Task) -> Iterator[str]:
+    """The things that the events and measures of a task are about."""
+    for part in (*task.events, *task.measures):
+        yield from (getattr(part, argument.field) for argument in arguments(type(part)) if argument.type == THING)
+
+
+def _computes(program: Program, readings: Container[int], measures: int = 0, each: bool = False) -> bool:
     """Whether a program has a value, and uses only these readings, measures and, in a loop, the reading at hand."""
     words = {*OPERATORS, "negate", "number", "reading", "measure"} | ({"each"} if each else set())
     return (
         is_sound(program)
         and {word for word, _ in program} <= words
         and all(isinstance(operand, int) for word, operand in program if word != "number")
-        and leaves(program, "reading") <= readings
-        and leaves(program, "measure") <= set(range(measures))
+        and all(index in readings for index in leaves(program, "reading"))
+        and all(index in range(measures) for index in leaves(program, "measure"))
     )

@@ -1,16 +1,15 @@
 """Virtual sensors: the readings that the engine computes from other readings and from the time."""
 
-from collections.abc import Mapping
 from dataclasses import dataclass
 from math import floor, pi
 
 import numpy as np
 from numpy.typing import NDArray
 
-from mindrun.errors import BundleError
-from mindrun.graph import Graph, Sensor
+from mindrun.graph import Graph
 from mindrun.portable import sine
 from mindrun.sensors import Bearing, Derivative, Sine
+from mindrun.sound import depths
 
 _HALF, _ONE, _NAN = np.float32(0.5), np.float32(1.0), np.float32(np.nan)
 
@@ -58,7 +57,8 @@ def virtual_sensors(graph: Graph) -> tuple[Wave | Change, ...]:
     places = {memory.name: slice(memory.start, memory.start + 1) for memory in graph.memories}
     places |= {sensor.name: slice(sensor.start, sensor.start + sensor.width) for sensor in graph.sensors}
     sensors = {sensor.name: sensor for sensor in graph.sensors}
-    ordered = sorted(graph.sensors, key=lambda sensor: _depth(sensor, sensors))
+    found_at = depths(graph)
+    ordered = sorted(graph.sensors, key=lambda sensor: found_at[sensor.name])
     found: list[Wave | Change] = []
     for sensor in ordered:
         match sensor.kind:
@@ -69,13 +69,3 @@ def virtual_sensors(graph: Graph) -> tuple[Wave | Change, ...]:
                 turns = of in sensors and isinstance(sensors[of].kind, Bearing)
                 found.append(Change(places[sensor.name], places[of], gain, np.float32(dead_zone), turns))
     return tuple(found)
-
-
-def _depth(sensor: Sensor, sensors: Mapping[str, Sensor]) -> int:
-    """How many derivatives stand between a sensor and what it derives from."""
-    depth, seen = 0, sensor
-    while isinstance(seen.kind, Derivative) and seen.kind.of in sensors:
-        depth, seen = depth + 1, sensors[seen.kind.of]
-        if depth > len(sensors):
-            raise BundleError(f"sensor {sensor.name} is the derivative of itself")
-    return depth

@@ -1,7 +1,6 @@
 """A skill's trained numbers: one flat float32 vector, the genome."""
 
 from collections.abc import Iterable, Mapping
-from io import BytesIO
 
 import numpy as np
 from numpy.typing import NDArray
@@ -9,6 +8,7 @@ from numpy.typing import NDArray
 from mindrun.errors import WeightsError
 from mindrun.functions import genome_length
 from mindrun.graph import Graph, Lesson, Skill
+from mindrun.npy import from_npy
 
 Weights = NDArray[np.float32]  # of one skill: [genes]
 NONE = np.zeros(0, np.float32)
@@ -63,25 +63,9 @@ def parts(graph: Graph, names: Iterable[str], genome: Weights) -> dict[str, Weig
     return dict(zip(names, np.split(genome, ends[:-1]), strict=True))
 
 
-def to_npy(weights: Weights) -> bytes:
-    """A genome as the bytes of a .npy file."""
-    file = BytesIO()
-    np.save(file, weights.astype("<f4"), allow_pickle=False)
-    return file.getvalue()
-
-
-def from_npy(data: bytes) -> Weights:
+def read_weights(data: bytes) -> Weights:
     """The genome in the bytes of a .npy file; WeightsError unless it is exactly one vector of finite float32."""
-    file = BytesIO(data)
     try:
-        version = np.lib.format.read_magic(file)
-        shape, _, dtype = np.lib.format.read_array_header_1_0(file)
-    except (ValueError, EOFError) as error:
-        raise WeightsError("these weights are damaged") from error
-    values = data[file.tell() :]
-    if version != (1, 0) or dtype != np.dtype("<f4") or len(shape) != 1 or len(values) != 4 * shape[0]:
-        raise WeightsError("these weights are damaged")
-    weights = np.frombuffer(values, "<f4").astype(np.float32)
-    if not np.isfinite(weights).all():
-        raise WeightsError("these weights are not finite")
-    return weights
+        return from_npy(data)
+    except ValueError as error:
+        raise WeightsError(str(error)) from error

@@ -97,10 +97,13 @@ def read_by(graph: Graph, master: str) -> Set[str]:
     """The physical sensors that `master`, or a skill that it can influence, reads, even as a derivative."""
     sensors = {sensor.name: sensor for sensor in graph.sensors}
     inputs = {index for skill in reachable(graph, master) for index in skill.inputs}
-    found = {s.name for s in graph.sensors if inputs & set(range(s.start, s.start + s.width))}
-    for _ in graph.sensors:  # a derivative can be of a derivative, at most so many times
-        kinds = [sensors[name].kind for name in found]
-        found |= {kind.of for kind in kinds if isinstance(kind, Derivative) and kind.of in sensors}
+    waiting = [s.name for s in graph.sensors if not inputs.isdisjoint(range(s.start, s.start + s.width))]
+    found = set(waiting)
+    while waiting:
+        match sensors[waiting.pop()].kind:
+            case Derivative(of=of) if of in sensors and of not in found:
+                found.add(of)
+                waiting.append(of)
     return found & physical(graph).keys()
 
 
@@ -108,9 +111,10 @@ def flaws(wiring: Wiring, graph: Graph) -> Iterator[str]:
     """Why a robot that is wired so cannot have this mind."""
     sensors, actuators = physical(graph), {actuator.name: actuator.kind for actuator in graph.actuators}
     wired = [wire.sensor for wire in wiring.sensors]
+    known = set(wired)
     if not wiring.robot or not wiring.robot.isprintable():
         yield "its robot has no name that can be printed"
-    if wired != [name for name in sensors if name in wired] or not read_by(graph, graph.master) <= set(wired):
+    if wired != [name for name in sensors if name in known] or not read_by(graph, graph.master) <= known:
         yield "its sensors are not those of the mind"
     if [wire.actuator for wire in wiring.actuators] != list(actuators):
         yield "its actuators are not those of the mind"

@@ -7,6 +7,7 @@ that. It is read only after that hash is right, so a truncated or altered file i
 import json
 from dataclasses import dataclass
 from hashlib import sha256
+from math import prod
 from pathlib import Path
 from typing import Any
 
@@ -14,6 +15,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mindrun.durable import sync_folder, write_beside
+from mindrun.plain_data import is_whole, parsed
+from mindrun.regular import read_whole
 from mindrun.train.errors import RunError
 from mindrun.train.genetic import Population
 from mindrun.train.lesson import State
@@ -21,6 +24,21 @@ from mindrun.train.lesson import State
 NAME, PREVIOUS = "checkpoint", "checkpoint.previous"
 MAGIC = b"mind checkpoint 4\n"
 DIGEST = 32
+LARGEST = 1 << 32  # bytes of a file
+MOST = 2**53  # of any count
+
+Arrays = dict[str, NDArray[Any]]
+TYPES = {  # of each array in the order of the file: what its numbers are, and how many dimensions it has
+    "genomes": ("<f4", 2),
+    "scores": ("<f8", 1),
+    "champion": ("<f4", 2),
+    "rival": ("<f4", 2),
+    "champions": ("<f4", 2),
+    "lengths": ("<i8", 1),
+    "verdicts": ("<f8", 2),
+    "floats": ("<f8", 1),
+    "counts": ("<i8", 1),
+}
 
 
 @dataclass(frozen=True, slots=True)
@@ -55,7 +73,7 @@ def load(folder: Path, run: str) -> Found | None:
 
 def pack(state: State, run: str) -> bytes:
     """A state as bytes."""
-    arrays: dict[str, NDArray[Any]] = {
+    arrays: Arrays = {
         "genomes": state.population.genomes,
         "scores": state.population.scores,
         "champion": state.champion,
@@ -79,27 +97,63 @@ def _counts(state: State) -> tuple[int, ...]:
 
 
 def unpack(data: bytes, run: str) -> State | None:
-    """The state in these bytes; None where they are damaged or of another run."""
+    """The state in these bytes; None where they are damaged, of another run, or of no run at all."""
     body, digest = data[:-DIGEST], data[-DIGEST:]
     if not body.startswith(MAGIC) or sha256(body).digest() != digest:
         return None
     header, _, rest = body[len(MAGIC) :].partition(b"\n")
-    meaning = json.loads(header)
-    if meaning["run"] != run:
+    try:
+        meaning = parsed(header)
+    except ValueError:
         return None
-    return _state(_arrays(meaning["arrays"], rest))
+    if not isinstance(meaning, dict) or meaning.keys() != {"run", "arrays"} or meaning["run"] != run:
+        return None
+    arrays = _arrays(meaning["arrays"], rest)
+    return _state(arrays) if arrays and _hold_together(arrays) else None
 
 
-def _arrays(shapes: dict[str, tuple[str, list[int]]], data: bytes) -> dict[str, NDArray[Any]]:
+def _arrays(shapes: object, data: bytes) -> Arrays:
+    """The arrays of these shapes that follow one another in the bytes; none where they are not just these."""
+    if not isinstance(shapes, dict) or tuple(shapes) != tuple(TYPES):
+        return {}
     arrays, start = {}, 0
-    for name, (dtype, shape) in shapes.items():
-        count = int(np.prod(shape))
-        arrays[name] = np.frombuffer(data, np.dtype(dtype), count, start).reshape(shape).copy()
-        start += arrays[name].nbytes
-    return arrays
+    for name, (dtype, dimensions) in TYPES.items():
+        match shapes[name]:
+            case [str(found), [*shape]] if found == dtype and len(shape) == dimensions and all(map(is_whole, shape)):
+                size = prod(shape) * np.dtype(dtype).itemsize
+            case _:
+                return {}
+        if start + size > len(data):
+            return {}
+        arrays[name] = np.frombuffer(data[start : start + size], dtype).reshape(shape).copy()
+        start += size
+    return arrays if start == len(data) else {}
 
 
-def _state(arrays: dict[str, NDArray[Any]]) -> State:
+def _hold_together(arrays: Arrays) -> bool:
+    """Whether arrays are as large as each other says, and their numbers such as a run has."""
+    population, weights = arrays["genomes"].shape
+    ended = len(arrays["champions"])
+    fit = (
+        arrays["scores"].shape == (population,)
+        and all(arrays[name].shape[1] == weights for name in ("champion", "rival", "champions"))
+        and max(len(arrays["champion"]), len(arrays["rival"])) <= 1
+        and (arrays["lengths"].shape, arrays["verdicts"].shape) == ((ended,), (ended, 2))
+        and (arrays["floats"].shape, arrays["counts"].shape) == ((2,), (7,))
+    )
+    if not fit:
+        return False
+    attempt, generation, *_, told_apart = arrays["counts"].tolist()
+    return bool(
+        all(np.isfinite(arrays[name]).all() for name in ("genomes", "champion", "rival", "champions"))
+        and not any(np.isnan(arrays[name]).any() for name in ("scores", "verdicts", "floats"))
+        and all(((arrays[name] >= 0) & (arrays[name] <= MOST)).all() for name in ("lengths", "counts"))
+        and (attempt, generation > 0) == (ended, population > 0)
+        and told_apart <= 1
+    )
+
+
+def _state(arrays: Arrays) -> State:
     attempt, generation, since, generations, ticks, faults, told_apart = (int(count) for count in arrays["counts"])
     best, seconds = (float(number) for number in arrays["floats"])
     population = Population(arrays["genomes"], arrays["scores"], generation)
@@ -110,6 +164,6 @@ def _state(arrays: dict[str, NDArray[Any]]) -> State:
 
 def _read(path: Path, run: str) -> State | None:
     try:
-        return unpack(path.read_bytes(), run)
+        return unpack(read_whole(path, LARGEST), run)
     except FileNotFoundError:
         return None

@@ -147,6 +147,19 @@ def begin(course: Course) -> State:
     return State(0, nobody(empty.shape[1]), course.start, empty, 0, *ended, -inf, 0, 0, 0.0, 0, False)
 
 
+def could_be(course: Course, state: State) -> bool:
+    """Whether a state that was read is one to which a run of this course could have come."""
+    individuals, weights = state.population.genomes.shape
+    generation = state.population.generation
+    return (
+        weights == course.start.shape[1]
+        and individuals in (0, course.lesson.learner.population)
+        and state.attempt <= course.lesson.learner.attempts
+        and state.since <= generation < max(1, course.lesson.generations)
+        and not (state.lengths > course.lesson.generations).any()
+    )
+
+
 def teach(course: Course, scorer: Scorer, state: State, clock: Clock) -> Iterator[tuple[State, Record]]:
     """The state and the record after each generation that is left; who iterates may stop after any of them."""
     while state.attempt < course.lesson.learner.attempts:

@@ -3,7 +3,7 @@
 import json
 import platform
 from collections.abc import Mapping
-from dataclasses import asdict, dataclass, replace
+from dataclasses import asdict, dataclass, fields, replace
 from hashlib import sha256
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
@@ -16,10 +16,13 @@ from mindrun.errors import BundleError
 from mindrun.functions import Procedure
 from mindrun.functions.procedure import module_source
 from mindrun.graph import Graph, Lesson
+from mindrun.plain_data import is_whole, parsed
+from mindrun.sound import lesson_flaws
 from mindrun.train.errors import RunError
 from mindrun.weights import Weights, reachable
 
 FORMAT = 2
+LAST = 2**63 - 1  # seed
 
 
 @dataclass(frozen=True, slots=True)
@@ -109,14 +112,32 @@ def to_json(manifest: Manifest) -> bytes:
 def from_json(data: bytes) -> Manifest:
     """The manifest in these bytes; RunError where they are not one."""
     try:
-        plain: dict[str, Any] = json.loads(data)
-        if plain.pop("format") != FORMAT:
+        plain = parsed(data, len(data))
+        if isinstance(plain, dict) and plain.get("format") != FORMAT:
             raise RunError("the run was made by another version of mindc", "resume it with that version")
-        lesson = decode_part(Lesson, plain.pop("lesson"), "lesson")
-        learners, command = tuple(plain.pop("learners")), tuple(plain.pop("command"))
-        return Manifest(lesson=lesson, learners=learners, command=command, **plain)
-    except (ValueError, TypeError, KeyError, AttributeError, BundleError) as error:
+        return _manifest(plain)
+    except (ValueError, BundleError) as error:
         raise RunError("the run's manifest is damaged", "start the lesson again without --resume") from error
+
+
+def _manifest(plain: Any) -> Manifest:
+    """The manifest that this data is; ValueError or BundleError where it is none."""
+    if not isinstance(plain, dict) or plain.keys() != {"format", *(field.name for field in fields(Manifest))}:
+        raise ValueError("it has other parts")
+    lesson = decode_part(Lesson, plain["lesson"], "lesson")
+    texts = [plain[name] for name in ("mind", "source", "started", "processor")]
+    tables = [plain[name] for name in ("weights", "sources", "versions")]
+    lists = [plain[name] for name in ("learners", "command")]
+    texts += [text for each in lists if isinstance(each, list) for text in each]
+    texts += [text for each in tables if isinstance(each, dict) for pair in each.items() for text in pair]
+    if not all(isinstance(each, list) for each in lists) or not all(isinstance(each, dict) for each in tables):
+        raise ValueError("it has parts of another form")
+    if not all(isinstance(text, str) and "\0" not in text for text in texts) or not is_whole(plain["seed"], high=LAST):
+        raise ValueError("it has parts of another kind")
+    for found in lesson_flaws(lesson):
+        raise ValueError(found)
+    given = {name: value for name, value in plain.items() if name != "format"}
+    return Manifest(**given | {"lesson": lesson} | {name: tuple(plain[name]) for name in ("learners", "command")})
 
 
 def _sha256(data: bytes) -> str:

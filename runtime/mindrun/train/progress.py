@@ -9,10 +9,18 @@ from pathlib import Path
 from types import TracebackType
 
 from mindrun import durable
+from mindrun.plain_data import is_whole, parsed
+from mindrun.regular import read_whole
+from mindrun.train.errors import RunError
 from mindrun.train.lesson import Record, State
 
 LINES, TABLE = "progress.jsonl", "progress.csv"
+Logged = dict[str, float | None]  # a generation: as Record, None where a score is not finite
+COUNTED = "attempt", "generation"
 COLUMNS = tuple(field.name for field in fields(Record))
+LARGEST = 1 << 28  # bytes of the log
+LONGEST = 1 << 12  # bytes of a line
+MOST = 2**53
 
 
 class Progress:
@@ -44,22 +52,36 @@ class Progress:
         os.close(self._table)
 
 
-def read(folder: Path) -> list[dict[str, float | None]]:
+def read(folder: Path) -> list[Logged]:
     """The whole lines of a run's log; what follows a line that a crash damaged is left out."""
-    path = folder / LINES
-    lines = path.read_bytes().split(b"\n")[:-1] if path.exists() else []
+    try:
+        lines = read_whole(folder / LINES, LARGEST).split(b"\n")[:-1]
+    except FileNotFoundError:
+        return []
+    except OSError as error:
+        raise RunError(
+            f"cannot read {folder / LINES}: {error.strerror}", "move it away: it is but the log of the run"
+        ) from error
     return list(takewhile(bool, map(_record, lines)))
 
 
-def _record(line: bytes) -> dict[str, float | None]:
+def _record(line: bytes) -> Logged:
+    """The generation that a line says; an empty one where it says none."""
     try:
-        record: dict[str, float | None] = json.loads(line)
+        record = parsed(line, LONGEST)
     except ValueError:
         return {}
-    return record if isinstance(record, dict) and tuple(record) == COLUMNS else {}
+    if not isinstance(record, dict) or tuple(record) != COLUMNS:
+        return {}
+    counted = all(is_whole(record[name], 1) for name in COUNTED)
+    return record if counted and all(map(_is_plain, record.values())) else {}
 
 
-def _is_behind(record: dict[str, float | None], state: State) -> bool:
+def _is_plain(value: object) -> bool:
+    return value is None or is_whole(value, -MOST, MOST) or (isinstance(value, float) and isfinite(value))
+
+
+def _is_behind(record: Logged, state: State) -> bool:
     attempt, generation = int(record["attempt"] or 0) - 1, int(record["generation"] or 0)
     return (attempt, generation) <= (state.attempt, state.population.generation)
 
@@ -68,7 +90,7 @@ def _plain(value: float | None) -> float | None:
     return value if value is not None and isfinite(value) else None
 
 
-def _line(record: dict[str, float | None]) -> bytes:
+def _line(record: Logged) -> bytes:
     return json.dumps(record).encode() + b"\n"
 
 

@@ -7,20 +7,24 @@ from io import BytesIO
 from itertools import count
 from pathlib import Path
 from typing import Any
-from zipfile import BadZipFile
 
 import numpy as np
 
 from mindrun import durable
+from mindrun.archive import read_archive, write_archive
+from mindrun.npy import from_npy, to_npy
+from mindrun.plain_data import parsed
+from mindrun.regular import read_whole
 from mindrun.train import checkpoint
 from mindrun.train.errors import NotFoundError, RunError
 from mindrun.train.genetic import Genomes
 from mindrun.train.lesson import Course
 from mindrun.train.manifest import Manifest, from_json, hashes, to_json
-from mindrun.weights import Weights, to_npy
+from mindrun.weights import Weights
 
 MANIFEST, SOURCES, START, WEIGHTS = "manifest.json", "source", "start.npz", "weights.npy"
 CHAMPIONS, RESULT = "champions.npy", "result.json"
+LARGEST = 1 << 27  # bytes of a manifest, a result, or the weights of all skills
 
 
 @dataclass(frozen=True, slots=True)
@@ -32,12 +36,18 @@ class Run:
     weights: Mapping[str, Weights]
 
     def course(self, genome_length: int) -> Course:
-        """What the run teaches, beginning from the learners' weights unless they have none or start from scratch."""
+        """What the run teaches, beginning from the learners' weights unless they have none or start from scratch.
+
+        RunError where these are not the weights of such a genome.
+        """
         lesson = self.manifest.lesson
         known = [self.weights[skill] for skill in self.manifest.learners if skill in self.weights]
         if lesson.from_scratch or len(known) < len(self.manifest.learners):
             return Course(lesson, self.manifest.seed, np.empty((0, genome_length), np.float32))
-        return Course(lesson, self.manifest.seed, np.concatenate(known)[None])
+        start = np.concatenate([*known, np.zeros(0, np.float32)])[None]
+        if start.shape[1] != genome_length:
+            raise _damaged(self.folder / START)
+        return Course(lesson, self.manifest.seed, start)
 
 
 def create(runs: Path, manifest: Manifest, sources: Mapping[str, str], weights: Mapping[str, Weights]) -> Run:
@@ -73,15 +83,17 @@ def unfinished(runs: Path, manifest: Manifest) -> Run | None:
 def open_run(folder: Path) -> Run:
     """The run in a folder; RunError where there is none or a part of it is damaged."""
     try:
-        manifest = from_json((folder / MANIFEST).read_bytes())
-        weights = _unpacked((folder / START).read_bytes())
+        manifest = from_json(read_whole(folder / MANIFEST, LARGEST))
+        weights = _unpacked(read_whole(folder / START, LARGEST))
     except OSError as error:
         raise NotFoundError(
             f"{folder} is not a run: {error.strerror} ({error.filename})",
             f"a run is a folder with a {MANIFEST}, like runs/GoToObject/20260714T120000Z-1",
         ) from error
+    except ValueError as error:
+        raise _damaged(folder / START) from error
     if hashes(weights) != manifest.weights:
-        raise RunError(f"{folder / START} is damaged", "start the lesson again without --resume")
+        raise _damaged(folder / START)
     return Run(folder, manifest, weights)
 
 
@@ -105,10 +117,10 @@ def keep_result(folder: Path, result: Mapping[str, Any]) -> None:
 def read_result(folder: Path) -> dict[str, Any] | None:
     """What came of the run; None while it is not finished."""
     try:
-        result: dict[str, Any] = json.loads((folder / RESULT).read_bytes())
+        result = parsed(read_whole(folder / RESULT, LARGEST), LARGEST)
     except (OSError, ValueError):
         return None
-    return result
+    return result if isinstance(result, dict) else None
 
 
 def _unused(parent: Path, name: str) -> Path:
@@ -124,14 +136,13 @@ def _unused(parent: Path, name: str) -> Path:
 
 
 def _packed(weights: Mapping[str, Weights]) -> bytes:
-    file = BytesIO()
-    np.savez(file, allow_pickle=False, **{skill: np.asarray(array) for skill, array in sorted(weights.items())})
-    return file.getvalue()
+    return write_archive((f"{skill}.npy", to_npy(array)) for skill, array in sorted(weights.items()))
 
 
 def _unpacked(data: bytes) -> dict[str, Weights]:
-    try:
-        with np.load(BytesIO(data), allow_pickle=False) as file:
-            return {skill: file[skill] for skill in file.files}
-    except (ValueError, BadZipFile, EOFError, KeyError, OSError):
-        return {}
+    """The weights by skill in these bytes; ValueError where they are not whole."""
+    return {name.removesuffix(".npy"): from_npy(content) for name, content in read_archive(data).items()}
+
+
+def _damaged(path: Path) -> RunError:
+    return RunError(f"{path} is damaged", "start the lesson again without --resume")

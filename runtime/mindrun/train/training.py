@@ -9,7 +9,7 @@ from mindrun.train import checkpoint
 from mindrun.train.claim import claim
 from mindrun.train.errors import RunError
 from mindrun.train.genetic import Genomes
-from mindrun.train.lesson import Clock, Course, Record, Scorer, State, begin, teach
+from mindrun.train.lesson import Clock, Course, Record, Scorer, State, begin, could_be, teach
 from mindrun.train.progress import Progress
 from mindrun.train.run_folder import Run, keep_champions, keep_weights
 
@@ -62,6 +62,11 @@ def _standing(run: Run, course: Course, watch: Watch) -> State:
     found = checkpoint.load(run.folder, run.manifest.identity)
     if found is None:
         return begin(course)
+    if not could_be(course, found.state):
+        raise RunError(
+            f"{run.folder / checkpoint.NAME} is damaged: no run of this lesson comes to where it stands",
+            "start the lesson again without --resume",
+        )
     if found.warning:
         watch.warn(found.warning)
     return found.state

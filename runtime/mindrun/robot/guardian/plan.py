@@ -129,7 +129,7 @@ def _decode(hint: Any, data: Any, where: str) -> Any:
         return _decode_driver(data, where)
     if is_dataclass(hint):
         return _decode_fields(hint, data, where)
-    if hint is float and type(data) is int:
+    if hint is float and type(data) is int and abs(data) < 2**53:
         data = float(data)
     if type(data) is not hint or (hint is float and not isfinite(data)):
         raise ValueError(f"{where} cannot be {data!r:.40}")

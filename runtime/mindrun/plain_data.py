@@ -1,0 +1,35 @@
+"""JSON that comes from outside: whoever wrote it, reading it ends in a value or in one error with words."""
+
+import json
+from typing import Any, NoReturn
+
+
+def parsed(data: bytes | str, most: int = 1 << 20) -> Any:
+    """The value of a JSON text; ValueError where it is none, longer than `most`, nested too deep, or not finite.
+
+    What has this value may still be of any kind and size: who asks says what must stand there.
+    """
+    if len(data) > most:
+        raise ValueError(f"it is larger than {most / (1 << 20):g} MiB")
+    try:
+        return json.loads(data, parse_constant=_no_number)
+    except RecursionError as error:
+        raise ValueError("it is nested too deep") from error
+
+
+def is_whole(value: object, low: int = 0, high: int = (1 << 53) - 1) -> bool:
+    """Whether a value is a whole number, no bool, within these bounds."""
+    return type(value) is int and low <= value <= high
+
+
+def are_names(value: object) -> bool:
+    """Whether a value is a list of texts, each other than the others, that a terminal can show."""
+    return (
+        isinstance(value, list)
+        and all(isinstance(name, str) and name.isprintable() for name in value)
+        and len(set(value)) == len(value)
+    )
+
+
+def _no_number(text: str) -> NoReturn:
+    raise ValueError(f"{text} is no number")

@@ -1,0 +1,16 @@
+"""Text from outside, shown on a terminal."""
+
+from unicodedata import category
+
+
+def visible(text: str) -> str:
+    """Text that does to a terminal only what it seems to: control and direction characters are spelt out."""
+    return "".join(_visible(character) for character in text)
+
+
+def _visible(character: str) -> str:
+    if character == "\t":
+        return "    "
+    if category(character) in {"Cc", "Cf", "Cs", "Co", "Cn", "Zl", "Zp"}:
+        return f"\\u{ord(character):04x}"
+    return character
