@@ -16,27 +16,24 @@ EXAMPLES = """\b
 Examples:
   mindc status collect.mind
   mindc status collect.mind --json
-  mindc status collect.mind --accept Avoid --accept Collect
+  mindc status collect.mind Avoid Collect
+  mindc status collect.mind --accept Avoid Collect
 """
 
 
 @click.command(epilog=EXAMPLES)
 @click.argument("file")
-@click.option(
-    "--accept",
-    multiple=True,
-    metavar="SKILL",
-    help="Say that its weights will do in the mind as it is now: --accept Avoid",
-)
+@click.argument("skills", nargs=-1, metavar="[SKILL]...")
+@click.option("--accept", is_flag=True, help="Their weights will do in the mind as it is now: --accept Avoid Collect")
 @click.option("--json", "as_json", is_flag=True, help="One JSON document instead: mindc status collect.mind --json")
-def command(file: str, accept: tuple[str, ...], as_json: bool) -> None:
-    """Show how every skill of FILE stands to its weights.
+def command(file: str, skills: tuple[str, ...], accept: bool, as_json: bool) -> None:
+    """Show how every skill of FILE, or each SKILL, stands to its weights.
 
     And how these were made. A skill is trained, stale and why, untaught, or taught elsewhere: with another body,
     sensor, task or subskill than the mind has now. Such a skill acts, and `mindc train` teaches it again, unless it is
     accepted.
 
-    Ends with 0 when every skill below the master can act, else with 1.
+    Ends with 0 when every skill that is shown, of those below the master, can act, else with 1.
     """
     from mindlang.lock.report import as_data, report, rows
     from mindlang.terminal import FINDINGS, OK, console, load_compiled, print_json
@@ -44,9 +41,10 @@ def command(file: str, accept: tuple[str, ...], as_json: bool) -> None:
     compiled = load_compiled(file)
     assert compiled.graph is not None
     sources = [source.path for source in compiled.sources]
+    _refuse_unknown(compiled.graph, skills)
     if accept:
-        _accept(compiled.graph, sources, accept)
-    found = rows(compiled.graph, sources)
+        _accept(compiled.graph, sources, skills)
+    found = [row for row in rows(compiled.graph, sources) if not skills or row.skill in skills]
     if as_json:
         print_json({"skills": [as_data(row) for row in found]})
     else:
@@ -54,16 +52,23 @@ def command(file: str, accept: tuple[str, ...], as_json: bool) -> None:
     sys.exit(OK if all(row.is_fine for row in found if row.is_needed) else FINDINGS)
 
 
-def _accept(graph: Graph, sources: Sequence[Path], skills: Sequence[str]) -> None:
+def _refuse_unknown(graph: Graph, skills: Sequence[str]) -> None:
     from mindlang.diagnostic import did_you_mean
-    from mindlang.lock import LockError
-    from mindlang.lock.accept import accept
     from mindlang.terminal import MISUSE, fail
 
     known = [skill.name for skill in graph.skills]
     for skill in skills:
         if skill not in known:
             fail(f"There is no skill {skill}.", did_you_mean(skill, known), MISUSE)
+
+
+def _accept(graph: Graph, sources: Sequence[Path], skills: Sequence[str]) -> None:
+    from mindlang.lock import LockError
+    from mindlang.lock.accept import accept
+    from mindlang.terminal import MISUSE, fail
+
+    if not skills:
+        fail("--accept needs the skills whose weights will do.", "Name them: --accept Avoid Collect", MISUSE)
     try:
         accept(graph, sources, skills)
     except LockError as error:

@@ -101,7 +101,7 @@ def test_what_a_person_accepts_is_not_taught_again(mindc: Call, drive: Path) -> 
     old = weights(drive)
     rows = json.loads(mindc("status", drive, "--json").out)["skills"]
     assert {row["skill"]: row["status"] for row in rows} == {"Drive": "taught elsewhere", "Go": "taught elsewhere"}
-    said = mindc("status", drive, "--accept", "Go", "--accept", "Drive")
+    said = mindc("status", drive, "--accept", "Go", "Drive")
     assert said.code == 0, said.err
     assert "accepted by a person" in said.out
     assert "nothing to do" in mindc("train", drive).err
@@ -115,6 +115,15 @@ def test_what_cannot_be_accepted(mindc: Call, drive: Path) -> None:
     assert (said.code, said.err.splitlines()) == (2, ["There is no skill Gone.", "  Did you mean Go?"])
     said = mindc("status", drive, "--accept", "Go")
     assert (said.code, said.err.splitlines()) == (1, ["Go has no weights that fit, and none can be accepted."])
+    said = mindc("status", drive, "--accept")
+    assert said.code == 2
+    assert said.err.startswith("--accept needs the skills whose weights will do.")
+
+
+def test_status_shows_the_skills_that_are_named(mindc: Call, drive: Path) -> None:
+    rows = json.loads(mindc("status", drive, "Go", "--json").out)["skills"]
+    assert [row["skill"] for row in rows] == ["Go"]
+    assert mindc("status", drive, "Gone").code == 2
 
 
 def test_an_old_lock_says_that_it_does_not_know(mindc: Call, drive: Path) -> None:
@@ -126,7 +135,7 @@ def test_an_old_lock_says_that_it_does_not_know(mindc: Call, drive: Path) -> Non
     assert said.code == 0
     assert said.out.count("taught in a world that the lock does not know") == 2
     assert "nothing to do" in mindc("train", drive).err, "what nobody knows is no reason"
-    assert mindc("status", drive, "--accept", "Go", "--accept", "Drive").code == 0
+    assert mindc("status", drive, "--accept", "Go", "Drive").code == 0
     assert "does not know" not in mindc("status", drive).out
 
 
