@@ -1,0 +1,46 @@
+"""The rooms that are tried: their files, and the tests nearest to them, the quickest first."""
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True, slots=True)
+class Room:
+    """`files` are patterns below the repository's root, `but` those of them that are left out.
+
+    With `interpreted` the lanes run in Python: to compile each mutant would take minutes.
+    """
+
+    files: tuple[str, ...]
+    tests: tuple[str, ...]
+    but: tuple[str, ...] = ()
+    interpreted: bool = False
+
+
+R = "runtime/mindrun/"
+ROOMS = {
+    "engine": Room(
+        tuple(f"{R}{name}.py" for name in ("engine", "virtual", "expression", "sigmoid", "portable", "functions/mlp")),
+        ("tests/engine/test_influence.py", "tests/engine/test_sound.py", "tests/engine/test_bits.py"),
+    ),
+    "think": Room((f"{R}think.py",), ("tests/engine/test_influence.py", "tests/engine/test_bits.py")),
+    "lanes": Room(
+        (f"{R}sim/lanes/*.py", f"{R}sim/place.py"),
+        ("tests/sim/test_random_worlds.py", "tests/sim/test_lanes.py"),
+        but=(f"{R}sim/lanes/vector.py", f"{R}sim/lanes/arithmetic.py", f"{R}sim/lanes/stages.py"),
+        interpreted=True,
+    ),
+    "train": Room(
+        tuple(f"{R}train/{name}.py" for name in ("genetic", "lesson", "seeds", "training", "checkpoint", "progress")),
+        (
+            "tests/train/test_genetic.py",
+            "tests/train/test_lesson.py",
+            "tests/train/test_checkpoint.py",
+            "tests/train/test_run_folder.py",
+        ),
+    ),
+    "lock": Room(("mindlang/lock/*.py",), ("tests/lock", "tests/edits/test_weights.py")),
+    "bundle": Room((f"{R}bundle.py", f"{R}encoding.py", f"{R}sound.py", f"{R}weights.py"), ("tests/engine",)),
+    "recording": Room((f"{R}robot/recording.py", f"{R}robot/replay.py"), ("tests/robot/test_recording.py",)),
+    "guardian": Room((f"{R}robot/guardian/*.py",), ("tests/robot/guardian",)),
+    "proofs": Room(("mindlang/proofs/*.py",), ("tests/proofs",)),
+}
