@@ -8,14 +8,25 @@ from mindrun.actuators import Gripper, Servo, Wheel
 from mindrun.functions import Function, Mlp, Rule
 from mindrun.graph import Actuator, Edge, Graph, Memory, Program, Sensor, Skill
 from mindrun.memory import Cell
-from mindrun.sensors import Battery, Bearing, Derivative, RangeFinder, Sine
+from mindrun.sensors import Battery, Bearing, Contact, Derivative, Held, Inertial, Inside, RangeFinder, Sine
 from mindrun.weights import genes
 from mindrun.world import Disc
 from numpy.typing import NDArray
 
 SHARES = st.floats(0, 1, width=32)
 EYES = 10
-WORLDLY = [RangeFinder(at=tuple(map(float, range(EYES)))), Bearing("object"), Battery()]
+WORLDLY = [
+    RangeFinder(at=tuple(map(float, range(EYES)))),
+    RangeFinder(at=tuple(map(float, range(EYES))), noise=0.1, lost=0.2, every=3, delay=2, dead_zone=0.0),
+    Bearing("object"),
+    Bearing("object", range=5.0, dead_zone=0.1, lost=0.5, delay=1),
+    Contact("object", every=2),
+    Held("object", lost=0.1),
+    Inside("home", delay=3),
+    Inertial(2.0, dead_zone=0.05, noise=0.2),
+    Battery(),
+    Battery(0.5, 0.01, 0.02, lost=0.5),
+]
 ACTUATORS = [Wheel("left", 0.5), Wheel("right", 0.5, delay=2), Gripper(0.0), Servo(0.3)]
 SCALES = [0.1, 0.3, 0.3, 1.0, 10.0, 1e4, 1e20, 3e38]
 
@@ -44,10 +55,40 @@ def random_graph(draw: st.DrawFn, fewest_hidden: int = 0) -> Graph:
     return Graph(1 / 60, Disc(), "S0", sensors, memories, actuators, tuple(skills), (), ())
 
 
+def doubling(levels: int, last: tuple[Edge, ...], value: float = 1.0) -> tuple[Skill, ...]:
+    """Pairs of rules that both influence both of the next pair, so that influence doubles; the last pair sends `last`.
+
+    At 129 levels and more a float32 does not hold it.
+    """
+    first = tuple(Edge("skill", target, None, (("number", value),)) for target in (1, 2))
+    skills = [Skill("S0", Rule(), (), first)]
+    for level in range(levels):
+        below = tuple(Edge("skill", 2 * level + side, None, (("number", 1.0),)) for side in (3, 4))
+        edges = below if level < levels - 1 else last
+        skills += [Skill(f"S{2 * level + side}", Rule(), (), edges) for side in (1, 2)]
+    return tuple(skills)
+
+
+@st.composite
+def overflowing_graph(draw: st.DrawFn) -> Graph:
+    """A hierarchy so deep that influence overflows, or nearly does; what it sends last may be 0, where inf becomes NaN."""
+    ends = [("actuator", i) for i in range(len(ACTUATORS))] + [("memory", 0)]
+    chosen = draw(st.lists(st.sampled_from(ends), unique=True, min_size=1))
+    last = tuple(Edge(to, i, None, (("number", draw(st.sampled_from([0.0, 0.3, 1.0]))),)) for to, i in chosen)
+    top = draw(st.sampled_from([1.0, 0.3, 0.001]))
+    skills = doubling(draw(st.integers(125, 140)), last, top)
+    last_pair = len(skills)
+    under = Skill("Under", Rule(), (), (Edge("actuator", 0, None, (("number", 0.5),)),))
+    passing = (Edge("skill", last_pair, None, (("number", draw(st.sampled_from([0.0, 1.0]))),)),)
+    skills = (*skills[:-1], Skill(skills[-1].name, Rule(), (), (*skills[-1].edges, *passing)), under)
+    actuators = tuple(Actuator(f"a{i}", kind) for i, kind in enumerate(ACTUATORS))
+    return Graph(1 / 60, Disc(), "S0", (), (Memory("m0", Cell(0.5, 0.5), 0),), actuators, skills, (), ())
+
+
 @st.composite
 def random_case(draw: st.DrawFn, ticks: int = 6) -> Case:
     """A hierarchy, weights that may be huge, and readings that may be anything."""
-    graph = draw(random_graph())
+    graph = draw(overflowing_graph() if draw(st.integers(0, 15)) == 0 else random_graph())
     rng = np.random.default_rng(draw(st.integers(0, 2**32 - 1)))
     # more often above zero than below: most skills then have influence
     weights = {skill.name: draw(st.sampled_from(SCALES)) * rng.uniform(-0.7, 1, genes(skill)) for skill in graph.skills}

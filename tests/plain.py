@@ -27,12 +27,12 @@ class Plain:
             self.fill()
             self.spread()
             self.before, self.t = self.readings, self.t + 1
-            means = [mean(c, i) for c, i in zip(self.com["memory"], self.total["memory"], strict=True)]
+            means = self.means("memory")
             for i, memory in enumerate(self.graph.memories):
                 self.cells[i] = f(memory.kind.decay) * self.cells[i]
                 if means[i] is not None:
                     self.cells[i] = self.cells[i] + f(1 - memory.kind.decay) * means[i]
-            means = [mean(c, i) for c, i in zip(self.com["actuator"], self.total["actuator"], strict=True)]
+            means = self.means("actuator")
             neutral = [f(actuator.kind.neutral) for actuator in self.graph.actuators]
             return [n if m is None else m for m, n in zip(means, neutral, strict=True)]
 
@@ -88,6 +88,15 @@ class Plain:
                     self.com[edge.to][edge.target] += clamp(value) * own
                     self.total[edge.to][edge.target] += own
 
+    def means(self, noun):
+        """Equation 3 for the actuators or the memories; None where nothing drives, or the sums overflowed: a fault."""
+        found = []
+        for com, total in zip(self.com[noun], self.total[noun], strict=True):
+            sound = math.isfinite(com / total)
+            self.faults += total != 0 and not sound
+            found.append(clamp(com / total) if total != 0 and sound else None)
+        return found
+
     def outputs(self, skill, inputs):
         """The internal function's outputs."""
         if not isinstance(skill.function, Mlp):
@@ -130,11 +139,6 @@ def clamp(v):
     """Into 0..1."""
     v = v if v > 0 else f(0)
     return v if v < 1 else f(1)
-
-
-def mean(com, total):
-    """Equation 3, or None where nothing drives."""
-    return clamp(com / total) if total > 0 and math.isfinite(com / total) else None
 
 
 def postfix(program, readings):

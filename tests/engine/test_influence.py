@@ -1,15 +1,19 @@
 """Equations 2, 3 and 6, neutral, memory, and numbers that must not get through."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from mindrun.engine import Engine
 from mindrun.errors import MindError, ReadingsError, WeightsError
 from mindrun.functions import Mlp
 from mindrun.functions.mlp import weight_count
-from mindrun.graph import Edge
+from mindrun.graph import Edge, Sensor
 from mindrun.memory import Cell
+from mindrun.sensors import Battery, Derivative
 from mindrun.weights import genes
 
+from tests.hierarchies import doubling
 from tests.minds import CLAW, always, mind, rule, skill
 
 STEER = (("actuator", 0), ("actuator", 1))
@@ -119,3 +123,29 @@ def test_weights_are_checked(weights: dict[str, np.ndarray], message: str) -> No
 def test_readings_have_the_width_of_the_mind() -> None:
     with pytest.raises(ReadingsError, match="has 1 readings"):
         Engine(mind(rule("Go", always("actuator", 0, 1.0))), {}).tick([0.0, 1.0])
+
+
+@pytest.mark.parametrize(("levels", "sent"), [(129, 1.0), (140, 1.0), (140, 0.0)])
+def test_influence_that_overflows_drives_nothing(levels: int, sent: float) -> None:
+    """Also where it then meets a 0: inf · 0 is no number."""
+    engine = Engine(mind(*doubling(levels, (always("actuator", 0, sent),))), {})
+    assert engine.tick([0.0]).tolist() == [0.5, 0.5]
+    assert engine.faults == 1
+
+
+def test_influence_that_is_large_drives_as_any_other() -> None:
+    engine = Engine(mind(*doubling(120, (always("actuator", 0, 0.75),))), {})
+    assert engine.tick([0.0]).tolist() == [0.75, 0.5]
+    assert engine.faults == 0
+
+
+@pytest.mark.parametrize(("change", "seen"), [(0.25, 0.75), (-0.25, 0.25), (0.125, 0.5), (0.0, 0.5)])
+def test_a_dead_zone_ends_where_it_says(change: float, seen: float) -> None:
+    """What is as far from 0.5 as the dead zone is wide is seen."""
+    of = Sensor("r0", Battery(), 0, 1)
+    derived = Sensor("d", Derivative("r0", range=0.5, dead_zone=0.25), 1, 1)
+    graph = replace(mind(rule("Top")), tick=1.0, sensors=(of, derived))
+    engine = Engine(graph, {})
+    engine.tick([0.5, 0.0])
+    engine.tick([0.5 + change, 0.0])
+    assert engine.readings[1] == seen

@@ -4,9 +4,25 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from mindrun.train.lesson import Course, Record, State, begin, is_better, teach
+from mindrun.train.genetic import Population
+from mindrun.train.lesson import (
+    CANDIDATES,
+    EVERY,
+    FRESH,
+    VERDICT,
+    Course,
+    Record,
+    State,
+    begin,
+    generation,
+    is_better,
+    judge,
+    mark,
+    teach,
+    try_again,
+)
 
-from tests.train.climbing import LENGTH, Faulty, Flat, Sphere, lesson
+from tests.train.climbing import LENGTH, Faulty, Flat, Results, Sphere, lesson
 
 UNKNOWN = np.empty((0, LENGTH), np.float32)
 
@@ -110,3 +126,132 @@ def test_every_attempt_leaves_its_champion_and_its_verdict() -> None:
     best = int(state.verdicts[:, 0].argmax())
     assert state.kept.tobytes() == state.champions[best].tobytes()
     assert state.reevaluated == state.verdicts[best, 1]
+
+
+class Told(Sphere):
+    """A sphere that remembers on which seeds it was asked to score how many genomes."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        object.__setattr__(self, "asked", [])
+
+    def score(self, genomes: np.ndarray, seeds: np.ndarray) -> Results:
+        self.asked.append((len(genomes), [int(seed) for seed in seeds]))
+        return super().score(genomes, seeds)
+
+
+def test_nothing_is_chosen_and_reported_on_the_same_layouts() -> None:
+    """Each generation, each trial on fresh ones and the verdict have layouts that no other has."""
+    told = Told()
+    _, records = taught(Course(lesson(25), 1, UNKNOWN), told)
+    tried = [record.generation for record in records if record.reevaluated is not None]
+    assert tried == [1, EVERY, 2 * EVERY, 25]
+    again = [seeds for count, seeds in told.asked if count <= CANDIDATES + 2 and len(seeds) == FRESH]
+    verdicts = [seeds for count, seeds in told.asked if len(seeds) == 2 * VERDICT]
+    assert (len(again), len(verdicts), len(told.asked)) == (4, 1, 30)
+    seeds = [seed for _, asked in told.asked for seed in asked]
+    assert len(set(seeds)) == len(seeds)
+
+
+def test_all_attempts_have_their_verdict_on_the_same_layouts() -> None:
+    told = Told()
+    taught(Course(lesson(3, attempts=3), 1, UNKNOWN), told)
+    verdicts = [seeds for _, seeds in told.asked if len(seeds) == 2 * VERDICT]
+    assert len(verdicts) == 3
+    assert verdicts[0] == verdicts[1] == verdicts[2]
+
+
+def test_one_half_of_a_verdict_decides_and_the_other_is_reported() -> None:
+    """The attempt that is kept is not the one whose reported score is the best."""
+    state = begin(Course(lesson(5), 1, UNKNOWN))
+    genomes = np.arange(3 * LENGTH, dtype=np.float32).reshape(3, LENGTH)
+    verdicts = np.array([[1.0, 9.0], [3.0, 2.0], [3.0, 5.0]])
+    ended = replace(state, champions=genomes, lengths=np.array([7, 8, 9]), verdicts=verdicts)
+    assert ended.kept.tobytes() == genomes[1].tobytes()
+    assert ended.kept_after == 8
+    assert ended.reevaluated == 2.0
+
+
+class Listed(Sphere):
+    """Scores by the first weight; faults where the second is above zero, only on the seeds given."""
+
+    def __init__(self, faulty_on: range = range(2**64 - 1)) -> None:
+        super().__init__()
+        object.__setattr__(self, "faulty_on", faulty_on)
+
+    def score(self, genomes: np.ndarray, seeds: np.ndarray) -> Results:
+        total = np.repeat(genomes[:, :1].astype(np.float64), len(seeds), axis=1)
+        faults = (genomes[:, 1:2] > 0) & np.array([int(seed) in self.faulty_on for seed in seeds])
+        return Results(total, np.ones(total.shape, np.int64), faults.astype(np.int64))
+
+
+def genomes_of(*firsts: float, faulty: float = 0.0) -> np.ndarray:
+    genomes = np.zeros((len(firsts), LENGTH), np.float32)
+    genomes[:, 0], genomes[:, 1] = firsts, faulty
+    return genomes
+
+
+def test_a_fault_makes_a_genome_worst_whatever_it_scored() -> None:
+    marks = mark(Listed(range(3, 4)), np.concatenate([genomes_of(5.0), genomes_of(9.0, faulty=1.0)]), [3, 4, 5])
+    assert marks.scores.tolist() == [5.0, -np.inf]
+    assert marks.each.tolist() == [[5.0] * 3, [-np.inf, 9.0, 9.0]]
+    assert marks.faults == 1
+    assert marks.ticks == 6
+
+
+def test_a_fault_in_its_verdict_makes_an_attempt_the_worst() -> None:
+    course = Course(lesson(5), 1, UNKNOWN)
+    state = replace(begin(course), champion=genomes_of(9.0, faulty=1.0))
+    ended, said = judge(course, Listed(), state)
+    assert said == -np.inf
+    assert ended.verdicts.tolist() == [[-np.inf, -np.inf]]
+    assert ended.ticks == 2 * VERDICT
+    assert ended.faults == 2 * VERDICT
+
+
+def tried(champion: np.ndarray, rival: np.ndarray, *scored: float) -> tuple[State, float]:
+    genomes = genomes_of(*scored)
+    state = begin(Course(lesson(5), 1, UNKNOWN))
+    state = replace(state, population=Population(genomes, genomes[:, 0].astype(np.float64), 12))
+    return try_again(replace(state, champion=champion, rival=rival, since=3), Listed(), np.arange(FRESH))
+
+
+def test_the_best_on_fresh_layouts_becomes_champion_but_never_the_rival() -> None:
+    state, score = tried(genomes_of(4.0), genomes_of(9.0), 1.0, 5.0, 3.0)
+    assert (state.champion[0, 0], score) == (5.0, 5.0)
+    assert (state.rival[0, 0], state.since) == (9.0, 3)
+    assert state.ticks == FRESH * 5
+
+
+def test_a_champion_that_is_best_stays_and_is_a_better_rival() -> None:
+    state, score = tried(genomes_of(6.0), genomes_of(2.0), 1.0, 5.0)
+    assert (state.champion[0, 0], score) == (6.0, 6.0)
+    assert (state.rival[0, 0], state.since) == (6.0, 12)
+
+
+def test_only_the_best_of_a_generation_are_tried_again() -> None:
+    told = Told()
+    genomes = genomes_of(*range(10))
+    state = begin(Course(lesson(5), 1, UNKNOWN))
+    state = replace(state, population=Population(genomes, -genomes[:, 0].astype(np.float64), 12))
+    try_again(state, told, np.arange(FRESH, dtype=np.uint64))
+    assert [count for count, _ in told.asked] == [CANDIDATES]
+
+
+def test_a_record_tells_of_its_generation_alone() -> None:
+    course = Course(lesson(30), 1, UNKNOWN)
+    state, first = generation(course, Sphere(noise=0.0), begin(course))
+    scores = state.population.scores
+    assert (first.best, first.mean) == (scores.max(), scores.mean())
+    assert first.ticks == 100 * (20 * course.lesson.learner.layouts + CANDIDATES * FRESH)
+    assert first.generation == state.generations == state.population.generation == 1
+    after, second = generation(course, Sphere(noise=0.0), state)
+    assert second.reevaluated is None
+    assert second.ticks == 100 * 20 * course.lesson.learner.layouts
+    assert after.best == max(first.best, second.best)
+
+
+def test_whether_there_was_anything_to_learn_from() -> None:
+    assert not taught(Course(lesson(3), 1, UNKNOWN), Flat())[0].told_apart
+    assert not taught(Course(lesson(3), 1, UNKNOWN), Faulty(above=-1e9))[0].told_apart
+    assert taught(Course(lesson(3), 1, UNKNOWN), Sphere())[0].told_apart

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mindrun.graph import Lesson
-from mindrun.train.genetic import Genomes, Population, Scores, ask, nobody, order, tell, worst_if_nan
+from mindrun.train.genetic import Genomes, Population, Scores, ask, nobody, order, tell
 from mindrun.train.seeds import Purpose, Seeds, breeding, layouts
 
 EVERY = 10  # generations between two re-evaluations
@@ -235,9 +235,8 @@ def are_different(scores: Scores) -> bool:
 def judge(course: Course, scorer: Scorer, state: State) -> tuple[State, float]:
     """The end of an attempt: its champion tried on layouts common to all attempts; its score on the second half."""
     seeds = layouts(course.seed, 0, course.lesson.generations, 2 * VERDICT, Purpose.VERDICT)
-    results = scorer.score(state.champion, seeds)
-    totals = worst_if_nan(results.total[0])
-    verdict = totals.reshape(2, VERDICT).mean(axis=1)
+    marks = mark(scorer, state.champion, seeds)
+    verdict = marks.each[0].reshape(2, VERDICT).mean(axis=1)
     ended = replace(
         state,
         attempt=state.attempt + 1,
@@ -248,7 +247,8 @@ def judge(course: Course, scorer: Scorer, state: State) -> tuple[State, float]:
         champions=np.concatenate([state.champions, state.champion]),
         lengths=np.append(state.lengths, state.population.generation),
         verdicts=np.concatenate([state.verdicts, verdict[None]]),
-        ticks=state.ticks + int(results.ticks.sum()),
+        ticks=state.ticks + marks.ticks,
+        faults=state.faults + marks.faults,
     )
     return ended, float(verdict[1])
 

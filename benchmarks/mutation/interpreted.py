@@ -1,0 +1,145 @@
+"""The lanes in plain Python, as a plugin for pytest: what is compiled elsewhere is read as it stands, with the same bits.
+
+To compile a mutant takes minutes, to interpret it none. Numba's types differ from Python's in one way that matters: a
+number with a point is a float64 there, whatever stands beside it, so each becomes one here. Rows of tables become
+objects, intrinsics a line of numpy or of ctypes.
+"""
+
+import ast
+import ctypes
+import importlib.abc
+import importlib.machinery
+import sys
+from collections.abc import Callable, Sequence
+from types import ModuleType
+from typing import Any
+
+import numba
+import numba.extending
+import numpy as np
+
+ROOM = "mindrun.sim."
+VECTOR = f"{ROOM}lanes.vector"
+WIDE = 16
+F = np.float32
+
+
+class Doubles(ast.NodeTransformer):
+    """Every number with a point becomes a name for that float64."""
+
+    def __init__(self) -> None:
+        self.values: dict[str, np.float64] = {}
+
+    def visit_Constant(self, node: ast.Constant) -> ast.expr:
+        if not isinstance(node.value, float):
+            return node
+        name = f"double_{len(self.values)}"
+        self.values[name] = np.float64(node.value)
+        return ast.copy_location(ast.Name(name, ast.Load()), node)
+
+
+class Loader(importlib.machinery.SourceFileLoader):
+    """Loads a module of the lanes with its numbers as numba has them."""
+
+    def exec_module(self, module: ModuleType) -> None:
+        doubles = Doubles()
+        tree = doubles.visit(ast.parse(self.get_data(self.path)))
+        vars(module).update(doubles.values)
+        exec(compile(ast.fix_missing_locations(tree), self.path, "exec"), vars(module))
+
+
+class Finder(importlib.abc.MetaPathFinder):
+    """Finds what is compiled elsewhere: the lanes, and places; for vectors what stands for them below."""
+
+    def find_spec(self, name: str, path: Sequence[str] | None, target: ModuleType | None = None) -> Any:
+        if not name.startswith(f"{ROOM}lanes.") and name != f"{ROOM}place":
+            return None
+        spec = importlib.machinery.PathFinder.find_spec(name, path)
+        if spec and spec.origin:
+            spec.loader = Vectors() if name == VECTOR else Loader(name, spec.origin)
+        return spec
+
+
+class Vectors(importlib.abc.Loader):
+    """In place of `lanes.vector`: sixteen lanes are an array of sixteen."""
+
+    def create_module(self, spec: Any) -> ModuleType | None:
+        return None
+
+    def exec_module(self, module: ModuleType) -> None:
+        from mindrun.sigmoid import sigmoid
+
+        vars(module).update(
+            WIDE=WIDE,
+            splat=lambda value: np.full(WIDE, value, F),
+            load=lambda array, row, lane: array[row, lane : lane + WIDE].copy(),
+            store=_store,
+            HIGHEST=lambda a, b: np.where(a > b, a, b),
+            LOWEST=lambda a, b: np.where(a < b, a, b),
+            where_ordered=lambda low, high, yes, no: np.where(low <= high, yes, no),
+            sigmoids=sigmoid,
+        )
+
+
+def _store(array: Any, row: int, lane: int, value: Any) -> None:
+    array[row, lane : lane + WIDE] = value
+
+
+class Row:
+    """A row of a table: its columns as Python's numbers where they are whole, as numpy's where they are not."""
+
+    def __init__(self, record: np.void) -> None:
+        for name in record.dtype.names or ():
+            value = record[name]
+            setattr(self, name, int(value) if isinstance(value, np.integer) else value)
+
+    def __getitem__(self, name: str) -> Any:
+        return getattr(self, name)
+
+
+def call(address: Any, *arguments: Any) -> int:
+    """A C function called with whole numbers, pointers and doubles, as `chipmunk.call` does."""
+    kinds = [ctypes.c_double if isinstance(a, float) else ctypes.c_uint64 for a in arguments]
+    function = ctypes.CFUNCTYPE(ctypes.c_uint64, *kinds)(int(address))
+    given = [float(a) if kind is ctypes.c_double else int(a) for a, kind in zip(arguments, kinds, strict=True)]
+    return int(function(*given))
+
+
+def _as_it_is(*given: Any, **options: Any) -> Any:
+    """In place of numba's decorators: the function itself, where numpy says nothing about overflows."""
+    if not given:
+        return _as_it_is
+    return np.errstate(all="ignore")(given[0]) if options.get("quiet") else given[0]
+
+
+def _quiet(function: Callable[..., Any]) -> Callable[..., Any]:
+    def run(*given: Any) -> Any:
+        with np.errstate(all="ignore"):
+            return function(*given)
+
+    return run
+
+
+def _install() -> None:
+    numba.njit = lambda *given, **options: given[0] if given else _as_it_is
+    sys.meta_path.insert(0, Finder())
+    from mindrun.sim import chipmunk, rollout
+    from mindrun.sim.lanes import advance, stages
+
+    chipmunk.call = call
+    build, tables = rollout.build, rollout.Tables
+
+    def build_rows(*given: Any) -> Any:
+        found, sizes = build(*given)
+        return tables(*([Row(row) for row in part] if part.dtype.names else part for part in found)), sizes
+
+    rollout.build = build_rows
+    for module in (advance, stages):
+        for name in ("advance", "fill", "before", "after", "run_skills", "wake", "send"):
+            for place in (module, rollout, sys.modules.get(f"{ROOM}slow")):
+                found = vars(place).get(name) if place else None
+                if callable(found) and getattr(found, "__name__", "") == name and found.__module__ == module.__name__:
+                    setattr(place, name, _quiet(found))
+
+
+_install()
