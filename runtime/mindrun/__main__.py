@@ -45,12 +45,13 @@ tools: mindrun adopt | calibrate | doctor | replay | report, each with --help"""
 
 def main() -> None:
     """Run the command line; whatever happens ends in one message and an exit code."""
-    streams.prepare()
+    streams.prepare(streams.Printable)
     tool = len(sys.argv) > 1 and sys.argv[1] in tools()
     code = guarded((lambda: run_tool(sys.argv[1], sys.argv[2:])) if tool else (lambda: run(_options())))
     if why := streams.finish():
         _say(why)
         code = code or FAILED
+    streams.last_words()
     sys.exit(code)
 
 
@@ -96,6 +97,7 @@ def drive(options: argparse.Namespace) -> int:
     """Drive the robot, or a simulated one."""
     from mindrun.robot.command import run as run_robot
 
+    streams.tell_aside()
     with redirect_stdout(sys.stderr):  # a procedure may print
         return run_robot(options)
 

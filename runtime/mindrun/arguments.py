@@ -5,7 +5,7 @@ from collections.abc import Callable
 from math import isfinite
 from pathlib import Path
 
-SEED = 2**63 - 1  # the largest
+SEED = 2**64 - 1  # the largest of a layout
 SHOWN = 20  # characters of what is refused
 
 

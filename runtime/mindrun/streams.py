@@ -6,15 +6,18 @@ take is dropped as well, and remembered: a document that is not whole is no succ
 
 import os
 import sys
-from io import BufferedWriter, FileIO, TextIOWrapper
+from io import BufferedWriter, FileIO, RawIOBase, TextIOWrapper
 from select import select
 from typing import Any, TextIO
 
 from mindrun.errors import reason
+from mindrun.teller import Teller
+from mindrun.visible import visible
 
 OUTPUT, ERRORS = 1, 2
 SIZES = "COLUMNS", "LINES"  # of the terminal, as the environment may say them
 WIDEST = 9999
+LAST_WORDS = 1.0  # seconds in which what has been told aside must be taken
 
 
 class Output(FileIO):
@@ -46,24 +49,62 @@ class Errors(FileIO):
         return memoryview(data).nbytes if written is None else written
 
 
-def prepare() -> None:
+class Aside(RawIOBase):
+    """Standard error of a program that must not wait for who reads it: a thread of its own writes."""
+
+    def __init__(self) -> None:
+        self.teller = Teller(ERRORS)
+
+    def writable(self) -> bool:
+        """It is."""
+        return True
+
+    def write(self, data: Any) -> int:
+        """All of it, or as if."""
+        self.teller.write(bytes(data))
+        return memoryview(data).nbytes
+
+
+class Printable(TextIOWrapper):
+    """A stream for text in which others' names stand: no terminal obeys them."""
+
+    def write(self, text: str) -> int:
+        """The text, with what cannot be printed spelt out."""
+        shown = text if text.isprintable() else "\n".join(map(visible, text.split("\n")))
+        return super().write(shown)
+
+
+def prepare(kind: type[TextIOWrapper] = TextIOWrapper) -> None:
     """Set the streams up, once, before anything is read or printed; those that somebody has redirected stay."""
     for number in range(3):
         _occupy(number)
     if sys.stdin is None:
         sys.stdin = open(0, encoding="utf-8", closefd=False)  # noqa: SIM115
     if sys.stdout is sys.__stdout__:
-        sys.stdout = _text(Output(OUTPUT, "w", closefd=False), sys.__stdout__)
+        sys.stdout = _text(kind, Output(OUTPUT, "w", closefd=False), sys.__stdout__)
     if sys.stderr is sys.__stderr__:
-        sys.stderr = _text(Errors(ERRORS, "w", closefd=False), sys.__stderr__)
+        sys.stderr = _text(kind, Errors(ERRORS, "w", closefd=False), sys.__stderr__)
     for name in SIZES:
         if not _is_size(os.environ.get(name, "80")):
             del os.environ[name]
 
 
+def tell_aside() -> None:
+    """Let nothing wait for standard error from now on: a robot drives on where its terminal is paused, or gone."""
+    if isinstance(_raw(sys.stderr), Errors):
+        sys.stderr = _text(Printable, Aside(), sys.stderr)
+
+
+def last_words() -> None:
+    """Let be taken what has been told aside, for a moment."""
+    if isinstance(raw := _raw(sys.stderr), Aside):
+        sys.stderr.flush()
+        raw.teller.flush(LAST_WORDS)
+
+
 def lost() -> OSError | None:
     """Why standard output has not taken everything, if it has not; BrokenPipeError where its reader is gone."""
-    raw = getattr(getattr(sys.stdout, "buffer", None), "raw", None)
+    raw = _raw(sys.stdout)
     return raw.failure if isinstance(raw, Output) else None
 
 
@@ -86,6 +127,13 @@ def document(text: str) -> None:
     sys.stdout.buffer.flush()
 
 
+def draw(text: str) -> None:
+    """Write on a terminal what it is to obey: back to the beginning of the line, say."""
+    sys.stderr.flush()
+    sys.stderr.buffer.write(text.encode(sys.stderr.encoding, "backslashreplace"))
+    sys.stderr.buffer.flush()
+
+
 def _occupy(number: int) -> None:
     """Let nothing else get the number of a closed stream; reading and writing it still fail, but telling does not."""
     try:
@@ -98,13 +146,15 @@ def _occupy(number: int) -> None:
         os.set_inheritable(number, True)
 
 
-def _text(raw: FileIO, old: TextIO | None) -> TextIOWrapper:
+def _raw(stream: TextIO) -> Any:
+    return getattr(getattr(stream, "buffer", None), "raw", None)
+
+
+def _text(kind: type[TextIOWrapper], raw: RawIOBase, old: TextIO | None) -> TextIOWrapper:
     """As Python has it, but for what the encoding does not know: that is spelt out."""
     encoding = old.encoding if old else "utf-8"
-    by_line, through = (getattr(old, name, False) for name in ("line_buffering", "write_through"))
-    return TextIOWrapper(
-        BufferedWriter(raw), encoding, "backslashreplace", line_buffering=by_line, write_through=through
-    )
+    at_once = any(getattr(old, name, False) for name in ("line_buffering", "write_through"))  # PYTHONUNBUFFERED
+    return kind(BufferedWriter(raw), encoding, "backslashreplace", line_buffering=at_once)
 
 
 def _is_size(text: str) -> bool:

@@ -5,41 +5,18 @@ import os
 import re
 import signal
 import subprocess
-import sys
 from pathlib import Path
 from time import sleep
 
 import pytest
 from mindrun.bundle import write_bundle
-from mindrun.robot.drivers.mock import MockActuator, MockSensor
 from mindrun.robot.recording import read
-from mindrun.robot.wiring import ActuatorWire, SensorWire, Wiring
 
+from tests.robot.driving import MINDRUN, NAME, children, mindrun, wiring
 from tests.robot.faults import MIND, SENSORS, graph
 from tests.sim.minds import compile_text
 
-MINDRUN = (sys.executable, "-m", "mindrun")
 NEUTRAL = [0.5, 0.5, 0.0]
-
-
-def wiring(value: float = 0.6) -> Wiring:
-    actuators = ("left_wheel", "right_wheel", "claw")
-    sensor = SensorWire("sense", MockSensor(value), 0.0, 1.0)
-    return Wiring("mock", (sensor,), tuple(ActuatorWire(name, MockActuator()) for name in actuators))
-
-
-@pytest.fixture
-def bundle(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """A bundle that this robot is wired for."""
-    monkeypatch.setenv("MIND_ROBOT", str(tmp_path / "robot" / "identity"))
-    path = tmp_path / "mind.bundle"
-    write_bundle(path, graph("bearing"), {}, {}, wiring())
-    assert mindrun("adopt", path).returncode == 0
-    return path
-
-
-def mindrun(*words: object) -> subprocess.CompletedProcess[str]:
-    return subprocess.run([*MINDRUN, *map(str, words)], capture_output=True, text=True, check=False, timeout=60)
 
 
 def test_it_drives_records_and_is_replayed(bundle: Path, tmp_path: Path) -> None:
@@ -88,7 +65,7 @@ def test_a_bundle_for_another_wiring_moves_nothing(bundle: Path, tmp_path: Path)
     write_bundle(other, graph("bearing"), {}, {}, wiring(0.7))
     said = mindrun(other, "--arm", "--ticks", 3, "--record", day)
     assert (said.returncode, day.exists()) == (2, False)
-    assert "whose wiring or neutral commands are others than those of mock" in said.stderr
+    assert f"whose wiring or neutral commands are others than those of {NAME}" in said.stderr
     assert mindrun(other, "--ticks", 3).returncode == 2, "a guardian writes neutral, and that is another's motion"
     (tmp_path / "robot" / "identity").unlink()
     said = mindrun(bundle, "--arm", "--ticks", 3)
@@ -240,9 +217,3 @@ def test_a_dry_run_ends_when_its_world_does(bundle: Path) -> None:
     assert process.returncode == 2
     assert "does not come to neutral" in err
     assert "guardian holds every actuator" in err
-
-
-def children(pid: int, what: str) -> list[int]:
-    """The processes that a process has started, and whose command line has these words."""
-    said = subprocess.run(["ps", "-o", "pid=,args=", "--ppid", str(pid)], capture_output=True, text=True, check=False)
-    return [int(line.split()[0]) for line in said.stdout.splitlines() if what in line]

@@ -12,10 +12,11 @@ from mindrun.bundle import LARGEST, Bundle, read_bundle
 from mindrun.default_task import default_task
 from mindrun.errors import MindError
 from mindrun.regular import read_whole
+from mindrun.robot.alone import alone
 from mindrun.robot.contract import DeviceError
 from mindrun.robot.drive import Wishes, drive
 from mindrun.robot.drivers.mock import MockActuator
-from mindrun.robot.identity import IdentityError, alone_on_robot, is_adopted
+from mindrun.robot.identity import IdentityError, is_adopted
 from mindrun.robot.loop import Loop
 from mindrun.robot.wiring import still
 
@@ -45,7 +46,7 @@ def _wired(options: argparse.Namespace, bundle: Bundle, wishes: Wishes) -> Loop:
         wiring = replace(wiring, actuators=tuple(replace(wire, driver=MockActuator()) for wire in wiring.actuators))
     if not wishes.armed:
         wiring = replace(wiring, sensors=tuple(map(still, wiring.sensors)))
-    with alone_on_robot() as held:
+    with alone(wiring) as held:
         return drive(bundle, digest(options.bundle), wiring, wishes, tell, held)
 
 

@@ -59,7 +59,13 @@ class SensorDriver(Protocol):
 
 
 class ActuatorDriver(Protocol):
-    """How an actuator is wired."""
+    """How an actuator is wired; `device` is what only one process may drive, named as others would name it.
+
+    It is empty where there is none. A sensor's driver that moves something says it, too.
+    """
+
+    @property
+    def device(self) -> str: ...
 
     def open(self) -> ActuatorDevice:
         """The device; DeviceError where it cannot be opened, with the line that installs what is missing."""

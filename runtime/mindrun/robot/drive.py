@@ -1,12 +1,10 @@
 """A bundle in charge of its robot: opened, run until somebody says stop, and brought to neutral whatever happens."""
 
-import signal
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import AbstractContextManager, ExitStack, contextmanager, nullcontext
 from dataclasses import dataclass
 from pathlib import Path
 from time import monotonic, sleep
-from types import FrameType
 
 import mindrun.robot.drivers  # noqa: F401  every driver is known once this is imported
 from mindrun.bundle import Bundle
@@ -21,10 +19,12 @@ from mindrun.robot.pace import Pace
 from mindrun.robot.recording import About, Recorder
 from mindrun.robot.sampling import Sampler
 from mindrun.robot.senses import Senses
+from mindrun.robot.stopping import Stop, stopping
 from mindrun.robot.wiring import Wiring, read_by
 
-SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 PATIENCE = 10.0  # seconds for every sensor to have been measured once
+GRACE = 2.0  # seconds, or ticks where these are longer, in which a tick has to end once a signal has come
+LETTING_GO = 1.0  # seconds for all sensors to be closed
 
 
 class DriveError(MindError):
@@ -45,28 +45,31 @@ class Wishes:
 
 
 def drive(
-    bundle: Bundle, digest: str, wiring: Wiring, wishes: Wishes, tell: Callable[[str], None], held: int | None = None
+    bundle: Bundle, digest: str, wiring: Wiring, wishes: Wishes, tell: Callable[[str], None], held: Sequence[int] = ()
 ) -> Loop:
     """Run a mind on a robot until a signal comes or the ticks are over; the loop as it ended.
 
-    `tell` gets sentences for people; the guardian inherits the descriptor `held`. MindError where something fails; then
-    every actuator is at neutral, too.
+    `tell` gets sentences for people; the guardian inherits the descriptors `held`. MindError where something fails;
+    then every actuator is at neutral, too.
     """
     graph = bundle.graph
     engine = Engine(graph, bundle.weights, bundle.procedures, wishes.master)
     _refuse_blind(graph, wishes.master or graph.master, wiring)
     neutrals = {actuator.name: actuator.kind.neutral for actuator in graph.actuators}
     with ExitStack() as stack:
-        stop = stack.enter_context(_stopping())
+        stop = stack.enter_context(stopping(GRACE * max(1.0, graph.tick)))
         about = About.of(graph, digest, wishes.master or graph.master, tuple(wire.sensor for wire in wiring.sensors))
         recorder = stack.enter_context(_recorder(wishes.record, about))
         samplers = stack.enter_context(_sampling(wiring))
-        inherited = () if held is None else (held,)
-        guardian = stack.enter_context(Guardian(plan_of(graph.tick, neutrals, wiring), inherited=inherited))
+        guardian = stack.enter_context(Guardian(plan_of(graph.tick, neutrals, wiring), inherited=held))
         loop = Loop(engine, Senses(graph, samplers), guardian, Pace(graph.tick), wishes.armed, recorder, tell)
         _wait(samplers, guardian, loop, stop)
         notify("READY=1")
-        loop.run(lambda tick: _goes_on(tick, wishes.ticks, stop))
+        try:
+            if not stop:
+                loop.run(lambda tick: _goes_on(tick, wishes.ticks, stop))
+        finally:
+            stop.in_order()
         return loop
 
 
@@ -88,35 +91,17 @@ def _refuse_blind(graph: Graph, master: str, wiring: Wiring) -> None:
         raise DriveError(f"{master} reads {', '.join(sorted(missing))}, which is not wired", "add it to robot.yaml")
 
 
-def _goes_on(tick: Tick, ticks: int, stop: list[int]) -> bool:
+def _goes_on(tick: Tick, ticks: int, stop: Stop) -> bool:
     notify("WATCHDOG=1")
     return not stop and (not ticks or tick.number + 1 < ticks)
 
 
-def _wait(samplers: list[Sampler], guardian: Guardian, loop: Loop, stop: list[int]) -> None:
+def _wait(samplers: list[Sampler], guardian: Guardian, loop: Loop, stop: Stop) -> None:
     """Until every sensor has been measured once, or for some seconds; the guardian hears all the while, unarmed."""
     until = monotonic() + PATIENCE
     while monotonic() < until and not stop and not all(sampler.latest for sampler in samplers):
         guardian.send(loop.neutral.tolist(), False)
         sleep(loop.pace.tick)
-
-
-@contextmanager
-def _stopping() -> Iterator[list[int]]:
-    """Signals that have come: the loop ends after the tick in which one does, and at once with the second."""
-    came: list[int] = []
-
-    def note(number: int, _frame: FrameType | None) -> None:
-        came.append(number)
-        if len(came) > 1:  # what hangs in a procedure hears no other way
-            raise KeyboardInterrupt
-
-    before = {number: signal.signal(number, note) for number in SIGNALS}
-    try:
-        yield came
-    finally:
-        for number, handler in before.items():
-            signal.signal(number, handler)
 
 
 @contextmanager
@@ -127,5 +112,8 @@ def _sampling(wiring: Wiring) -> Iterator[list[Sampler]]:
     try:
         yield samplers
     finally:
+        until = monotonic() + LETTING_GO
         for sampler in samplers:
-            sampler.stop()
+            sampler.stop(0.0)
+        for sampler in samplers:  # together: each may hang
+            sampler.stop(max(0.0, until - monotonic()))

@@ -1,13 +1,10 @@
-"""Which robot this is: a bundle that was built for another one moves nothing here, and two never drive it at once.
+"""Which robot this is: a bundle that was built for another one moves nothing here.
 
 A file of the robot's own says it in one line, which `mindrun adopt` writes: its name, and a SHA-256 of its wiring and
 of what its mind takes for neutral.
 """
 
-import fcntl
 import os
-from collections.abc import Iterator
-from contextlib import contextmanager
 from hashlib import sha256
 from pathlib import Path
 
@@ -22,7 +19,7 @@ LONGEST = 4096  # bytes of what a robot says
 
 
 class IdentityError(MindError):
-    """A bundle for another robot, a robot that has not said which it is, or one that is driven already."""
+    """A bundle for another robot, or a robot that has not said which it is."""
 
 
 def identity_file() -> Path:
@@ -66,24 +63,3 @@ def is_adopted(wiring: Wiring, graph: Graph) -> bool:
             "build it for this robot; or, where this robot has been wired anew, adopt it: mindrun adopt --help",
         )
     return True
-
-
-@contextmanager
-def alone_on_robot() -> Iterator[int]:
-    """Let one controller drive this robot: a descriptor that its guardian holds as well, for as long as it lives."""
-    path = identity_file().with_name("running")
-    path.parent.mkdir(parents=True, exist_ok=True)
-    descriptor = os.open(path, os.O_RDWR | os.O_CREAT, 0o600)
-    try:
-        try:
-            fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
-        except OSError:
-            who = os.read(descriptor, 20).decode(errors="replace").strip()
-            raise IdentityError(
-                f"this robot is driven already, by process {who}", "end that first: systemctl --user stop mind"
-            ) from None
-        os.ftruncate(descriptor, 0)
-        os.pwrite(descriptor, f"{os.getpid()}\n".encode(), 0)
-        yield descriptor
-    finally:
-        os.close(descriptor)

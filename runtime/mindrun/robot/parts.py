@@ -100,6 +100,11 @@ def open_bus(number: int) -> Bus:
     return LinuxBus(smbus, smbus2.i2c_msg)
 
 
+def on_bus(number: int, address: int) -> str:
+    """What a part is called that only one process may drive."""
+    return f"/dev/i2c-{number} {address:#04x}"
+
+
 @dataclass(slots=True)
 class Wire:
     """One part on an I2C bus. Every transfer is tried up to `TRIES` times and ends, in an answer or a DeviceError."""

@@ -22,6 +22,8 @@ from mindrun.errors import MindError
 from mindrun.robot.sampling import Sample, Sampler
 from mindrun.robot.wiring import SensorWire, reading, still
 from mindrun.sensors import Bearing, RangeFinder
+from mindrun.streams import draw
+from mindrun.visible import visible
 
 MOST = 3600.0  # seconds
 REST = 10  # values that follow one another, over which noise is measured
@@ -88,7 +90,7 @@ def _show(wire: SensorWire, sample: Sample) -> None:
     if not sys.stderr.isatty():
         return
     pairs = (f"{'-' if raw is None else f'{raw:.3g}'} → {reading(wire, raw):.2f}" for raw in sample.values)
-    print(f"\r\033[K{sample.fault or '  '.join(pairs)}"[:160], end="", file=sys.stderr, flush=True)
+    draw(f"\r\033[K{visible(sample.fault or '  '.join(pairs))}"[:160])
 
 
 @dataclass(frozen=True, slots=True)

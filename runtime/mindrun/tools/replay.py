@@ -13,6 +13,7 @@ from mindrun.engine import Engine
 from mindrun.robot.command import digest
 from mindrun.robot.recording import read
 from mindrun.robot.replay import replay
+from mindrun.streams import draw
 
 
 def options(parser: argparse.ArgumentParser) -> None:
@@ -37,4 +38,4 @@ def run(options: argparse.Namespace) -> int:
 
 def _told(ticks: int) -> None:
     if sys.stderr.isatty():
-        print(f"\r{ticks:,} ticks", end="", file=sys.stderr, flush=True)
+        draw(f"\r{ticks:,} ticks")

@@ -12,7 +12,7 @@ from mindrun.robot import eye
 from mindrun.robot.contract import DeviceError
 from mindrun.robot.drivers.pca9685 import Pca9685
 from mindrun.robot.eye import Eye, Joint, Sight
-from mindrun.robot.parts import ADDRESS, BUS, CHANNEL, DEGREES, METRES, MICROSECONDS, PATH
+from mindrun.robot.parts import ADDRESS, BUS, CHANNEL, DEGREES, METRES, MICROSECONDS, PATH, on_bus
 from mindrun.robot.tracker import Look, Neck, distance
 
 MEASURE = Reference("measure", ("bearing", "elevation", "distance"))
@@ -92,7 +92,7 @@ class BallTracker:
 
     `camera` is a path: /dev/video0, or a film. With `pan` and `tilt`, channels of a PCA9685 servo card, it turns after
     the ball and back to the middle when it has lost it; each servo does `travel` degrees between its pulses, negative
-    where the longest one turns it to the right, or down. The servos turn as soon as the robot is started.
+    where the longest one turns it to the right, or down. The servos turn only where the robot is armed.
     """
 
     measure: Annotated[str, MEASURE] = "bearing"
@@ -134,6 +134,11 @@ class BallTracker:
     def camera_alone(self) -> "BallTracker":
         """This, whatever is measured: those who share a camera."""
         return replace(self, measure="bearing")
+
+    @property
+    def device(self) -> str:
+        """What only one process may drive: the card of its neck's servos."""
+        return "" if self.pan is None and self.tilt is None else on_bus(self.bus, self.address)
 
     @property
     def motionless(self) -> "BallTracker":

@@ -9,7 +9,7 @@ from typing import Annotated
 from mindrun.quantity import Quantity
 from mindrun.registry import kind
 from mindrun.robot.contract import DeviceError
-from mindrun.robot.parts import ADDRESS, BUS, Wire, share
+from mindrun.robot.parts import ADDRESS, BUS, Wire, on_bus, share
 
 MOTOR = Quantity("a motor of the board", {"": 1.0}, low=1, high=2, whole=True)
 SPEED, FREQUENCY, DIRECTION = 0x82, 0x84, 0xAA
@@ -108,6 +108,11 @@ class GroveMotor:
     motor: Annotated[int, MOTOR]
     bus: Annotated[int, BUS] = 1
     address: Annotated[int, ADDRESS] = 0x0F
+
+    @property
+    def device(self) -> str:
+        """What only one process may drive."""
+        return on_bus(self.bus, self.address)
 
     def open(self) -> MotorDevice:
         """The motor; the first that is opened stops both."""

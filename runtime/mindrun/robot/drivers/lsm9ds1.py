@@ -144,7 +144,7 @@ class Motion:
 
     Wheels that roll shake the body; one at rest reads the sensor's noise alone, under 0.05, whichever way it leans:
     gravity and all that is constant fall out, since only the deviation from the mean over `window` counts. How much is
-    full speed depends on wheels and floor: look once, and set `high` to it. An LSM9DS1, fixed to the body: SDA and SCL
+    full speed depends on wheels and floor: look once, and write it as `to`. An LSM9DS1, fixed to the body: SDA and SCL
     to GPIO 2 and 3, 3.3 V.
     """
 

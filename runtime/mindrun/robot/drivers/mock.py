@@ -62,6 +62,8 @@ class MockSensor:
 class MockActuator:
     """An actuator that moves nothing."""
 
+    device = ""
+
     def open(self) -> MockActuatorDevice:
         """The device."""
         return MockActuatorDevice()

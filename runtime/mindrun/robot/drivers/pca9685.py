@@ -5,7 +5,7 @@ from time import sleep
 from typing import Annotated
 
 from mindrun.registry import kind
-from mindrun.robot.parts import ADDRESS, BUS, CHANNEL, MICROSECONDS, Wire, share
+from mindrun.robot.parts import ADDRESS, BUS, CHANNEL, MICROSECONDS, Wire, on_bus, share
 
 MODE1, MODE2, LED0, ALL_OFF_HIGH, PRESCALE = 0x00, 0x01, 0x06, 0xFD, 0xFE  # table 4
 RESTART, AUTO_INCREMENT, SLEEP = 0x80, 0x20, 0x10  # bits of MODE1, table 5
@@ -79,6 +79,11 @@ class Pca9685:
     longest: Annotated[float, MICROSECONDS] = 2000.0
     bus: Annotated[int, BUS] = 1
     address: Annotated[int, ADDRESS] = 0x40
+
+    @property
+    def device(self) -> str:
+        """What only one process may drive."""
+        return on_bus(self.bus, self.address)
 
     def open(self) -> ServoDevice:
         """The servo, which does not move until it is commanded."""

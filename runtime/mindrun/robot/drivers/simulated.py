@@ -161,6 +161,11 @@ class SimulatedActuator:
     socket: Annotated[str, TEXT]
     actuator: Annotated[str, TEXT]
 
+    @property
+    def device(self) -> str:
+        """What only one process may drive."""
+        return f"{self.socket} {self.actuator}"
+
     def open(self) -> SimulatedActuatorDevice:
         """The actuator, which does not move until it is commanded; DeviceError where the world has none such."""
         if self.actuator not in status(self.socket)["commands"]:

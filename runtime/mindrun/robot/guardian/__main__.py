@@ -10,8 +10,8 @@ from pathlib import Path
 from mindrun.errors import MindError
 from mindrun.robot.guardian.plan import DRIVERS, LARGEST, Plan, from_json, read_plan
 from mindrun.robot.guardian.process import Process
-from mindrun.robot.guardian.teller import Teller
 from mindrun.robot.guardian.urgent import be_urgent, import_little, wake_on_signals
+from mindrun.teller import Teller
 
 OK, FAILED, USAGE, UNAVAILABLE, BROKEN = 0, 1, 64, 69, 70  # as in sysexits.h
 INPUT, OUTPUT, ERRORS = 0, 1, 2

@@ -13,6 +13,7 @@ from time import monotonic, monotonic_ns
 from types import TracebackType
 
 from mindrun.errors import MindError
+from mindrun.robot.children import keep_from_children, keep_no_longer
 from mindrun.robot.guardian.frames import pack
 from mindrun.robot.guardian.guard import LATCHED, NEUTRAL
 from mindrun.robot.guardian.plan import Plan, to_json
@@ -20,6 +21,7 @@ from mindrun.robot.guardian.plan import Plan, to_json
 # -P: a file of the user's folder that is named like a module must not be imported.
 PROGRAM = (sys.executable, "-P", "-m", "mindrun.robot.guardian")
 PIPE = 4096  # bytes that can wait in the pipe
+CHILD = 70  # exit code of a forked process that took itself for the controller
 HANGS = 0.5  # seconds in which the guardian has not once read all that was there
 
 
@@ -43,6 +45,7 @@ class Guardian:
         self._number = 0
         self._said = b""
         self._read_at = monotonic()
+        self._controller = os.getpid()
         # A session of its own: no key of a terminal reaches it, neither Ctrl-C nor Ctrl-Z.
         self._process = subprocess.Popen(
             [*program],
@@ -55,6 +58,7 @@ class Guardian:
         assert self._process.stdin
         assert self._process.stdout
         self._input, self._output = self._process.stdin, self._process.stdout
+        keep_from_children(self._let_go)
         try:
             self._start()
         except BaseException:
@@ -71,6 +75,7 @@ class Guardian:
 
         GuardianError where the guardian has latched, hangs or is gone; then another has tried to bring all to neutral.
         """
+        self._end_in_children()
         self._listen()
         if self.state == LATCHED:
             raise GuardianError(f"the guardian holds every actuator at neutral: {self.why}", "start the robot again")
@@ -85,6 +90,7 @@ class Guardian:
 
     def close(self) -> None:
         """End the frames and wait until every actuator is at neutral; GuardianError where one is not in time."""
+        self._end_in_children()
         with suppress(OSError):
             self._input.close()
         try:
@@ -96,6 +102,7 @@ class Guardian:
             ) from None
         finally:
             self._output.close()
+            keep_no_longer(self._let_go)
 
     def __enter__(self) -> "Guardian":
         return self
@@ -160,6 +167,16 @@ class Guardian:
         except (OSError, subprocess.TimeoutExpired):
             return "nothing brought the actuators to neutral"
         return "another has brought the actuators to neutral" if done.returncode == 0 else "an actuator may still move"
+
+    def _let_go(self) -> None:
+        """In a forked process: neither speak to the guardian nor hear it, nor keep it alive."""
+        self._input.close()
+        self._output.close()
+
+    def _end_in_children(self) -> None:
+        """End a process that a procedure has forked and that has come back from it: it is no controller."""
+        if os.getpid() != self._controller:
+            os._exit(CHILD)
 
     def _abandon(self) -> None:
         """It never was of use: let it end by itself if it does, since that is at neutral, or make it end."""

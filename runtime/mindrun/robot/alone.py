@@ -1,0 +1,98 @@
+"""One robot has one driver: who drives holds its name and its devices, and so does the guardian, while it lives.
+
+What is held are addresses of this computer's kernel (abstract sockets), no files: none can be deleted, moved or said to
+be elsewhere, they are the same for every user, and they are free once no process has them any more, however it ended.
+"""
+
+import errno
+import fcntl
+import os
+import socket
+import struct
+from collections.abc import Iterator
+from contextlib import ExitStack, contextmanager, suppress
+from hashlib import sha256
+from itertools import chain
+
+from mindrun.errors import MindError
+from mindrun.robot.children import keep_from_children, keep_no_longer
+from mindrun.robot.wiring import Wiring
+
+PREFIX = b"\0mind "  # an address that begins with a zero is in no folder
+STREAMS = 3  # descriptors below this are standard input, output and error, whether they are there or not
+PEER = struct.Struct("3i")  # process, user, group
+
+
+class DrivenError(MindError):
+    """Another process drives this robot, or one of its devices."""
+
+
+@contextmanager
+def alone(wiring: Wiring) -> Iterator[tuple[int, ...]]:
+    """Let no other process drive what is wired; descriptors that the guardian has to hold as well.
+
+    DrivenError where one does already.
+    """
+    with ExitStack() as stack:
+        yield tuple(stack.enter_context(_held(what)) for what in claims(wiring))
+
+
+def claims(wiring: Wiring) -> tuple[str, ...]:
+    """What only one may drive: the devices that move something, and the robot of that name."""
+    drivers = [wire.driver for wire in wiring.actuators], [wire.driver for wire in wiring.sensors]
+    devices = {getattr(driver, "device", "") for driver in chain(*drivers)} - {""}
+    return (*sorted(devices), f"robot {wiring.robot}")
+
+
+@contextmanager
+def _held(what: str) -> Iterator[int]:
+    address = PREFIX + sha256(what.encode()).hexdigest().encode()
+    with socket.socket(socket.AF_UNIX) as listener:
+        try:
+            listener.bind(address)
+            listener.listen()  # so that others are told who it is
+        except OSError as error:
+            if error.errno != errno.EADDRINUSE:
+                raise
+            raise _driven(what, _holder(address)) from None
+        descriptor = fcntl.fcntl(listener, fcntl.F_DUPFD_CLOEXEC, STREAMS)
+
+    def close() -> None:
+        os.close(descriptor)
+
+    keep_from_children(close)
+    try:
+        yield descriptor
+    finally:
+        keep_no_longer(close)
+        close()
+
+
+def _holder(address: bytes) -> int:
+    """The process that holds an address, or did when its guardian began; 0 where that cannot be known."""
+    with suppress(OSError), socket.socket(socket.AF_UNIX) as caller:
+        caller.setblocking(False)
+        caller.connect(address)
+        return int(PEER.unpack(caller.getsockopt(socket.SOL_SOCKET, socket.SO_PEERCRED, PEER.size))[0])
+    return 0
+
+
+def _driven(what: str, process: int) -> DrivenError:
+    which = "this robot" if what.startswith("robot ") else f"the device at {what}"
+    if process and not _lives(process):
+        return DrivenError(
+            f"{which} is held by the guardian of process {process}, which has ended: an actuator is not at neutral yet",
+            "cut the actuators' power if that does not change",
+        )
+    who = f"process {process}" if process else "another process"
+    return DrivenError(f"{which} is driven already, by {who}", "end that first: systemctl --user stop mind")
+
+
+def _lives(process: int) -> bool:
+    try:
+        os.kill(process, 0)
+    except ProcessLookupError:
+        return False
+    except OSError:  # another user's
+        pass
+    return True

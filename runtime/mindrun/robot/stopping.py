@@ -1,0 +1,61 @@
+"""How a robot is told to stop: a signal, after whose tick the loop ends. A tick that does not end is interrupted."""
+
+import os
+import signal
+from collections.abc import Iterator
+from contextlib import contextmanager
+from types import FrameType
+
+SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
+INTERRUPTED = 130
+TRIES = 5  # to interrupt what hangs, or to end in order, before the process is ended as it is
+
+
+class Stop:
+    """True once a signal has come. From then on all has to end within `grace` seconds, or is interrupted.
+
+    The guardian has every actuator at neutral meanwhile, since it hears nothing, and when this process has ended.
+    """
+
+    def __init__(self, grace: float) -> None:
+        self._grace = grace
+        self._came = False
+        self._in_order = False
+        self._tries = 0
+
+    def __bool__(self) -> bool:
+        return self._came
+
+    def in_order(self) -> None:
+        """The loop has ended by itself: what follows takes its time, and is not interrupted."""
+        self._in_order = True
+
+    def note(self, _number: int, _frame: FrameType | None) -> None:
+        """A signal came: the second interrupts at once."""
+        if self._came:
+            raise KeyboardInterrupt
+        self._came = True
+        signal.setitimer(signal.ITIMER_REAL, self._grace, self._grace)
+
+    def hurry(self, _number: int, _frame: FrameType | None) -> None:
+        """It takes too long."""
+        self._tries += 1
+        if self._tries >= TRIES:  # a procedure that catches everything, or a disk that does not answer
+            os._exit(INTERRUPTED)
+        if not self._in_order:
+            self._in_order = True
+            raise KeyboardInterrupt
+
+
+@contextmanager
+def stopping(grace: float) -> Iterator[Stop]:
+    """Hear the signals that end programs, and let them end this one in order."""
+    stop = Stop(grace)
+    handlers = dict.fromkeys(SIGNALS, stop.note) | {signal.SIGALRM: stop.hurry}
+    before = {number: signal.signal(number, handler) for number, handler in handlers.items()}
+    try:
+        yield stop
+    finally:
+        signal.setitimer(signal.ITIMER_REAL, 0.0)
+        for number, handler in before.items():
+            signal.signal(number, handler)

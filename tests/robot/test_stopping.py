@@ -1,0 +1,79 @@
+"""A signal ends a robot, whatever hangs; what ends in order is not interrupted."""
+
+import signal
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from tests.robot.driving import begun, mindrun, until, write_procedure
+
+HANGS = "import time\nbegan = time.monotonic()\ndef f(sense, pulse):\n    {}\n    return 0.9\n"
+LATER = "if time.monotonic() - began > 3:\n        while True: {}"
+
+
+@pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGHUP, signal.SIGINT])
+@pytest.mark.parametrize("hang", ["pass", "time.sleep(3600)"])
+def test_one_signal_ends_a_procedure_that_hangs(
+    bundle: Path, tmp_path: Path, number: signal.Signals, hang: str
+) -> None:
+    write_procedure(bundle, HANGS.format(LATER.format(hang)))
+    process = begun(bundle, tmp_path / "day.rec", stderr=subprocess.PIPE)
+    size = -1
+
+    def hangs() -> bool:
+        nonlocal size
+        before, size = size, (tmp_path / "day.rec").stat().st_size
+        return before == size
+
+    until(hangs, process)
+    process.send_signal(number)
+    _, err = process.communicate(timeout=60)
+    assert process.returncode in (0, 130), err  # 0: it did not hang yet
+    assert "Traceback" not in err
+    assert mindrun("replay", tmp_path / "day.rec", bundle).returncode == 0, "what was recorded is whole"
+
+
+def python(lines: str) -> subprocess.CompletedProcess[str]:
+    before = "import os, signal, time\nfrom mindrun.robot.stopping import *\n"
+    return subprocess.run([sys.executable, "-c", before + lines], capture_output=True, text=True, timeout=60)
+
+
+def test_what_catches_everything_is_ended_as_it_is() -> None:
+    done = python("""
+with stopping(0.05) as stop:
+    os.kill(os.getpid(), signal.SIGTERM)
+    while True:
+        try:
+            time.sleep(1)
+        except BaseException:
+            print("caught", flush=True)
+""")
+    assert (done.returncode, done.stdout) == (130, "caught\n")
+
+
+def test_what_ends_in_order_is_not_interrupted_but_does_not_last_for_ever() -> None:
+    done = python("""
+with stopping(0.2) as stop:
+    os.kill(os.getpid(), signal.SIGTERM)
+    assert stop
+    stop.in_order()
+    time.sleep(0.5)
+    print("still here", flush=True)
+    time.sleep(60)
+""")
+    assert (done.returncode, done.stdout) == (130, "still here\n")
+
+
+def test_afterwards_signals_are_what_they_were() -> None:
+    done = python("""
+with stopping(0.1) as stop:
+    assert not stop
+    os.kill(os.getpid(), signal.SIGTERM)
+    assert stop
+time.sleep(0.3)
+print("alive", flush=True)
+os.kill(os.getpid(), signal.SIGTERM)
+""")
+    assert (done.returncode, done.stdout) == (-signal.SIGTERM, "alive\n")
