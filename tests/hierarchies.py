@@ -71,7 +71,7 @@ def doubling(levels: int, last: tuple[Edge, ...], value: float = 1.0) -> tuple[S
 
 @st.composite
 def overflowing_graph(draw: st.DrawFn) -> Graph:
-    """A hierarchy so deep that influence overflows, or nearly does; what it sends last may be 0, where inf becomes NaN."""
+    """A hierarchy in which influence overflows, or nearly does; what it sends last may be 0, where inf becomes NaN."""
     ends = [("actuator", i) for i in range(len(ACTUATORS))] + [("memory", 0)]
     chosen = draw(st.lists(st.sampled_from(ends), unique=True, min_size=1))
     last = tuple(Edge(to, i, None, (("number", draw(st.sampled_from([0.0, 0.3, 1.0]))),)) for to, i in chosen)

@@ -1,4 +1,4 @@
-"""The lanes in plain Python, as a plugin for pytest: what is compiled elsewhere is read as it stands, with the same bits.
+"""The lanes in plain Python, as a plugin for pytest: the same bits, and nothing is compiled.
 
 To compile a mutant takes minutes, to interpret it none. Numba's types differ from Python's in one way that matters: a
 number with a point is a float64 there, whatever stands beside it, so each becomes one here. Rows of tables become
@@ -105,11 +105,9 @@ def call(address: Any, *arguments: Any) -> int:
     return int(function(*given))
 
 
-def _as_it_is(*given: Any, **options: Any) -> Any:
-    """In place of numba's decorators: the function itself, where numpy says nothing about overflows."""
-    if not given:
-        return _as_it_is
-    return np.errstate(all="ignore")(given[0]) if options.get("quiet") else given[0]
+def _plain(*given: Any, **options: Any) -> Any:
+    """In place of numba's decorator: the function as it stands."""
+    return given[0] if given else _plain
 
 
 def _quiet(function: Callable[..., Any]) -> Callable[..., Any]:
@@ -121,7 +119,7 @@ def _quiet(function: Callable[..., Any]) -> Callable[..., Any]:
 
 
 def _install() -> None:
-    numba.njit = lambda *given, **options: given[0] if given else _as_it_is
+    numba.njit = _plain
     sys.meta_path.insert(0, Finder())
     from mindrun.sim import chipmunk, rollout
     from mindrun.sim.lanes import advance, stages

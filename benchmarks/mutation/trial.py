@@ -6,7 +6,7 @@ import signal
 import sys
 import traceback
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from time import monotonic, sleep
@@ -18,6 +18,8 @@ COPIED = ("benchmarks", "docs", "editors", "examples", "grammar", "mindlang", "r
 COPIED += ("README.md", "Makefile", "LICENSE")
 LOOK = 0.05  # seconds between two looks at whether a process has ended
 PASSED, BROKEN = 0, 70  # exit codes
+OPTIONS = ("-x", "-q", "-p", "no:cacheprovider", "-p", "no:xdist", "--hypothesis-seed=0")
+OPTIONS += ("-W", "ignore::pytest.PytestAssertRewriteWarning")  # of Hypothesis, which has been imported
 
 
 @contextmanager
@@ -60,10 +62,8 @@ def run_tests(folder: Path, tests: tuple[str, ...], interpreted: bool, seconds: 
         done, code = os.waitpid(child, os.WNOHANG)
         status = code if done else None
         sleep(LOOK)
-    try:
+    with suppress(ProcessLookupError):
         os.killpg(child, signal.SIGKILL)  # whatever it has started goes with it
-    except ProcessLookupError:
-        pass
     if status is None:
         os.waitpid(child, 0)
         return None
