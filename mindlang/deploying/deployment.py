@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import tempfile
 from collections.abc import Callable
+from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass
 from datetime import datetime
 from pathlib import Path
@@ -11,7 +12,7 @@ from pathlib import Path
 from mindrun.bundle import Bundle
 
 from mindlang.deploying.release import Release, make_release
-from mindlang.deploying.robot import Event, Robot
+from mindlang.deploying.robot import Robot, Told
 from mindlang.deploying.state import State, check_able, look
 from mindlang.deploying.unit import ARMED, SERVICE
 
@@ -51,10 +52,9 @@ def deploy(
     robot: Robot, path: Path, bundle: Bundle, settings: Settings, now: datetime, tell: Tell, try_only: bool = False
 ) -> Outcome:
     """Bring a bundle to a robot; with `try_only` say only what would be done."""
-    with tempfile.TemporaryDirectory(prefix="mind-release-") as folder:
+    with tempfile.TemporaryDirectory(prefix="mind-release-") as folder, _alone(robot, settings, try_only):
         release = make_release(path, bundle, Path(folder))
-        state = look(robot)
-        check_able(state, settings.service)
+        state = _looked(robot, tell)
         if state.has(release.fingerprint):
             name = state.current
             tell(f"{robot.host} has this release already: {name}")
@@ -68,9 +68,23 @@ def deploy(
 
 def roll_back(robot: Robot, settings: Settings, tell: Tell, try_only: bool = False) -> Outcome:
     """Go back to the release before the current one, which is then left for good."""
+    with _alone(robot, settings, try_only):
+        state = _looked(robot, tell)
+        return _switch(robot, state, state.before(), settings, tell, try_only, left=state.current)
+
+
+def _alone(robot: Robot, settings: Settings, try_only: bool) -> AbstractContextManager[None]:
+    """A robot that can do it, and no other deployment to it meanwhile; who changes nothing there need not wait."""
+    check_able(look(robot), settings.service)
+    return nullcontext() if try_only else robot.held()
+
+
+def _looked(robot: Robot, tell: Tell) -> State:
+    """The state of a robot; what somebody has deleted there is told."""
     state = look(robot)
-    check_able(state, settings.service)
-    return _switch(robot, state, state.before(), settings, tell, try_only, left=state.current)
+    if state.is_gone():
+        tell(f"the current release, {state.current}, has been deleted on {robot.host}")
+    return state
 
 
 def _bring(robot: Robot, release: Release, name: str, tell: Tell) -> None:
@@ -102,7 +116,7 @@ def _manner(settings: Settings) -> str:
             return "with a service that is not armed"
 
 
-def _note(event: Event) -> str:
+def _note(event: Told) -> str:
     match event:
         case "unlingering", user:
             return f"the service waits for a login: on the robot, sudo loginctl enable-linger {user}"

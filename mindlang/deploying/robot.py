@@ -8,16 +8,20 @@ import shutil
 import subprocess
 import tempfile
 from collections.abc import Iterator, Sequence
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from importlib.resources import files
 from pathlib import Path
+from threading import Event, Thread
+from typing import IO
 
 from mindlang.deploying.errors import DeployError
 
 UNREACHABLE = 255  # ssh's own exit code
 SCRIPTS = ("robot.sh", "switch.sh")
-Event = tuple[str, str]
+BEAT = 5.0  # seconds; after thirty without one the robot is free again
+Told = tuple[str, str]  # an event, and its detail
+HELD: Told = ("held", "")
 
 
 @dataclass(frozen=True, slots=True)
@@ -27,10 +31,10 @@ class Robot:
     host: str
     options: tuple[str, ...]
 
-    def ask(self, verb: str, *words: str) -> list[Event]:
+    def ask(self, verb: str, *words: str) -> list[Told]:
         """Let the robot do one verb; what it told, or DeployError with its reason."""
         done = subprocess.run(
-            ["ssh", *self.options, "--", self.host, "sh -s"],  # no word of anybody: the login shell may be any
+            self._shell,
             input=script(verb, words),
             stdout=subprocess.PIPE,  # stderr is the user's: ssh asks and explains there
         )
@@ -38,6 +42,31 @@ class Robot:
         if done.returncode:
             raise _refusal(self.host, done.returncode, told)
         return told
+
+    @contextmanager
+    def held(self) -> Iterator[None]:
+        """The robot for this deployment alone: another one waits, and is refused after a minute."""
+        with subprocess.Popen(self._shell, bufsize=0, stdin=subprocess.PIPE, stdout=subprocess.PIPE) as process:
+            assert process.stdin is not None
+            assert process.stdout is not None
+            with suppress(BrokenPipeError):  # it has ended, and its exit code says why
+                process.stdin.write(script("hold", ()))
+            told = list(_until_held(process.stdout))
+            if told[-1:] != [HELD]:
+                raise _refusal(self.host, process.wait(), told)
+            ended = Event()
+            beating = Thread(target=_beat, args=(process.stdin, ended), daemon=True)
+            beating.start()
+            try:
+                yield
+            finally:
+                ended.set()
+                beating.join()
+
+    @property
+    def _shell(self) -> list[str]:
+        """What runs a script there: no word of anybody, since the login shell may be any."""
+        return ["ssh", *self.options, "--", self.host, "sh -s"]
 
     def copy(self, folder: Path, to: str) -> None:
         """Make the robot's folder `to`, which is relative to its home, the same as `folder`."""
@@ -49,6 +78,22 @@ class Robot:
                 f"The copy to {self.host} broke off, what is current there stays (rsync ended with {done.returncode}).",
                 "The same command goes on where it stopped.",
             )
+
+
+def _until_held(said: IO[bytes]) -> Iterator[Told]:
+    """What the robot tells until it is held, or ends."""
+    for line in said:
+        for event in events(line):
+            yield event
+            if event == HELD:
+                return
+
+
+def _beat(there: IO[bytes], ended: Event) -> None:
+    """Let the robot hear now and then that this deployment goes on; the end of its input says that it does not."""
+    with suppress(OSError):
+        while not ended.wait(BEAT):
+            there.write(b".")
 
 
 @contextmanager
@@ -73,7 +118,7 @@ def script(verb: str, words: Sequence[str]) -> bytes:
     return f"{text}\n{{ {call}; exit; }}\n".encode()
 
 
-def events(said: bytes) -> Iterator[Event]:
+def events(said: bytes) -> Iterator[Told]:
     """What the script told; a greeting of the login shell is nothing of it."""
     for line in said.decode(errors="replace").splitlines():
         event, tab, detail = line.partition("\t")
@@ -81,7 +126,7 @@ def events(said: bytes) -> Iterator[Event]:
             yield event, detail
 
 
-def _refusal(host: str, code: int, told: Sequence[Event]) -> DeployError:
+def _refusal(host: str, code: int, told: Sequence[Told]) -> DeployError:
     """Why the robot did not do it, with what its service wrote last."""
     last = dict(told)
     if code == UNREACHABLE:

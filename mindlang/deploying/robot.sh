@@ -10,16 +10,26 @@ trap '' HUP PIPE
 mind=$HOME/mind
 units=$HOME/.config/systemd/user
 unit=mind.service
+patience=60
 
 main() {
     verb=$1
     shift
     if [ "$verb" != look ]; then
         mkdir -p "$mind/releases" "$mind/incoming"
-        exec 9>"$mind/lock"
-        flock -w 60 9 || refuse 'another deployment is under way'
+        case $verb in
+        hold) exec 9>"$mind/deploying" ;; # from the first step to the last
+        *) exec 9>"$mind/lock" ;;         # what has begun and goes on without its workstation
+        esac
+        flock -w "$patience" 9 || refuse 'another deployment is under way'
     fi
     "$verb" "$@"
+}
+
+# Let no other deployment begin until the workstation ends, or nothing has been heard of it for a while.
+hold() {
+    tell held ''
+    while [ "$(timeout 30 head -c 1)" ]; do :; done
 }
 
 tell() { # EVENT DETAIL
@@ -33,6 +43,15 @@ refuse() { # WHY
 
 current() {
     basename "$(readlink "$mind/current" || :)"
+}
+
+# Whether a name is that of a release: what else somebody keeps there is not ours.
+named() { # NAME
+    case $1 in
+    *[!0-9a-fTZ-]*) false ;;
+    ????????T??????Z-????????) ;;
+    *) false ;;
+    esac
 }
 
 whole() { # RELEASE: every byte is what its name stands for
@@ -53,13 +72,13 @@ look() {
     systemctl --user show-environment >/dev/null 2>&1 || tell lacks 'systemctl --user'
     tell current "$(current)"
     for folder in "$mind"/releases/*/; do
-        [ -d "$folder" ] || continue
         name=$(basename "$folder")
+        named "$name" && [ -d "$folder" ] || continue
         state=damaged
         ! whole "$name" || state=whole
         [ "$name" = "$(current)" ] || [ -e "$folder/WAS" ] || state=unused
         [ ! -e "$folder/LEFT" ] || state=left
-        tell release "$name $state $(cat "$folder/release.json" 2>/dev/null || echo '{}')"
+        tell release "$name $state $(head -c 4096 "$folder/release.json" 2>/dev/null | tr '\n\t' '  ')"
     done
 }
 

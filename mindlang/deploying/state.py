@@ -2,16 +2,22 @@
 
 from __future__ import annotations
 
-import json
+import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 from datetime import UTC, datetime, timedelta
 
+from mindrun.plain_data import parsed
+
 from mindlang.deploying.errors import DeployError
-from mindlang.deploying.robot import Event, Robot
+from mindlang.deploying.robot import Robot, Told
 
 MOMENT = "%Y%m%dT%H%M%SZ"
+RELEASE = re.compile(r"(\d{8}T\d{6}Z)-[0-9a-f]{8}", re.ASCII)
+LAST_YEAR = 9999  # after which no release could be named
+TOLD = re.compile(r"(?P<name>\S+) (?P<state>\S+) (?P<made_of>.*)")
 SYSTEMD = "systemctl --user"
+MADE_OF = "bundle", "sha256", "master"
 
 
 @dataclass(frozen=True, slots=True)
@@ -20,7 +26,7 @@ class Deployed:
 
     name: str
     state: str
-    made_of: dict[str, object]
+    made_of: dict[str, str]
 
 
 @dataclass(frozen=True, slots=True)
@@ -43,13 +49,25 @@ class State:
             raise DeployError("There is no whole release before the current one.", "mindc deploy HOST --list")
         return older[-1]
 
+    def is_gone(self) -> bool:
+        """Whether somebody has deleted the current release on the robot."""
+        return bool(self.current) and self.current not in {each.name for each in self.releases}
+
     def moment(self, now: datetime) -> str:
         """A time for a new release, later than those there: the clocks of two workstations differ."""
-        newest = max((each.name.partition("-")[0] for each in self.releases), default="")
-        moment = now.astimezone(UTC).strftime(MOMENT)
-        if moment > newest:
-            return moment
-        return (datetime.strptime(newest, MOMENT) + timedelta(seconds=1)).strftime(MOMENT)
+        names = [self.current, *(each.name for each in self.releases)]
+        known = [moment + timedelta(seconds=1) for name in names if (moment := moment_of(name))]
+        return max([now.astimezone(UTC), *known]).strftime(MOMENT)
+
+
+def moment_of(release: str) -> datetime | None:
+    """When a release was made, by its name; None where that is no name of a release, or of no time."""
+    found = RELEASE.fullmatch(release)
+    try:
+        moment = datetime.strptime(found[1], MOMENT).replace(tzinfo=UTC) if found else None
+    except ValueError:
+        return None
+    return moment if moment and moment.year < LAST_YEAR else None
 
 
 def look(robot: Robot) -> State:
@@ -57,12 +75,16 @@ def look(robot: Robot) -> State:
     return state_of(robot.ask("look"))
 
 
-def state_of(told: Sequence[Event]) -> State:
+def state_of(told: Sequence[Told]) -> State:
     """The state that the robot told."""
-    releases = []
-    for name, state, made_of in (detail.split(" ", 2) for event, detail in told if event == "release"):
-        releases.append(Deployed(name, state, _parsed(made_of)))
-    current = "".join(detail for event, detail in told if event == "current")
+    found = (TOLD.fullmatch(detail) for event, detail in told if event == "release")
+    releases = [
+        Deployed(each["name"], each["state"], _made_of(each["made_of"]))
+        for each in found
+        if each and moment_of(each["name"])
+    ]
+    named = "".join(detail for event, detail in told if event == "current")
+    current = named if moment_of(named) else ""
     lacks = tuple(detail for event, detail in told if event == "lacks")
     return State(current, tuple(sorted(releases, key=lambda each: each.name)), lacks)
 
@@ -78,9 +100,12 @@ def check_able(state: State, with_service: bool) -> None:
         raise DeployError("The robot has no systemd for its user.", "--no-service deploys without a service.")
 
 
-def _parsed(text: str) -> dict[str, object]:
+def _made_of(text: str) -> dict[str, str]:
+    """What a release says of itself; nothing where it does not say it as it was written."""
     try:
-        value = json.loads(text)
+        said = parsed(text)
     except ValueError:
         return {}
-    return value if isinstance(value, dict) else {}
+    if not isinstance(said, dict):
+        return {}
+    return {word: said[word] for word in MADE_OF if isinstance(said.get(word), str)}

@@ -2,8 +2,10 @@
 # Make a release the current one. The service stops before, under the wiring that it was started with, and starts after.
 switch() { # RELEASE SERVICE KEEP SECONDS BACK LEFT; SERVICE is a file of the release, or none
     release=$1 service=$2 seconds=$4
+    counted "$3" && counted "$4" || refuse "it cannot keep $3 releases or watch for $4 seconds"
     whole "$release" || refuse "$release is damaged"
     before=$(current)
+    [ -d "$mind/releases/$before" ] || before= # somebody has deleted it
     armed=no
     ! cmp -s "$units/$unit" "$mind/current/mind-armed.service" || armed=yes
     [ -z "$before" ] || [ "$before" = "$release" ] || : >"$mind/releases/$before/WAS"
@@ -12,12 +14,18 @@ switch() { # RELEASE SERVICE KEEP SECONDS BACK LEFT; SERVICE is a file of the re
         start 0 || :
         refuse 'the new release cannot be made the current one'
     fi
-    [ -z "$6" ] || : >"$mind/releases/$6/LEFT"
+    [ -z "$6" ] || [ ! -d "$mind/releases/$6" ] || : >"$mind/releases/$6/LEFT"
     tell current "$release"
     if ! start "$seconds"; then
         failed "$5"
     fi
     [ -n "$6" ] || prune "$3" || : # what is left lying there harms nothing
+}
+
+counted() { # NUMBER, which sh can compare
+    case $1 in
+    '' | ?????* | *[!0-9]*) false ;;
+    esac
 }
 
 stop() {
@@ -94,7 +102,7 @@ prune() { # KEEP
     now=$(current)
     kept=1
     ls -1r "$mind/releases" | while read -r name; do
-        if [ "$name" = "$now" ]; then
+        if [ "$name" = "$now" ] || ! named "$name"; then
             continue
         elif [ -e "$mind/releases/$name/WAS" ] && [ ! -e "$mind/releases/$name/LEFT" ] && [ "$kept" -lt "$1" ]; then
             kept=$((kept + 1))

@@ -1,5 +1,6 @@
 """What is recorded is computed again, bit for bit; what is damaged or foreign is refused."""
 
+import json
 from pathlib import Path
 
 import numpy as np
@@ -114,6 +115,58 @@ def test_what_is_no_recording(tmp_path: Path, data: bytes) -> None:
         read(tmp_path / "x.rec")
     with pytest.raises(RecordingError, match="cannot read"):
         read(tmp_path / "none.rec")
+
+
+def test_no_bit_of_the_first_line_can_flip(day: Path) -> None:
+    data = day.read_bytes()
+    end = data.index(b"\n")
+    for place in range(8 * end):
+        flipped = bytearray(data)
+        flipped[place // 8] ^= 1 << place % 8
+        day.write_bytes(flipped)
+        with pytest.raises(RecordingError, match=r"is damaged|is no recording"):
+            read(day)
+
+
+def test_a_recording_of_an_older_version_is_read(day: Path) -> None:
+    line, _, rows = day.read_bytes().partition(b"\n")
+    said = json.loads(line)
+    del said["check"]
+    day.write_bytes(json.dumps(said | {"format": "mind recording 1"}).encode() + b"\n" + rows)
+    assert replay(day, BUNDLE, Engine(graph("range_finder"), {})).ticks == TICKS
+
+
+@pytest.mark.parametrize(
+    ("name", "value"),
+    [
+        ("readings", -1), ("readings", 10**9), ("readings", 4.0), ("readings", True), ("tick", 0), ("tick", "1"),
+        ("tick", 10**400), ("sensors", "abc"), ("sensors", ["a", "a"]), ("sensors", [1]), ("skills", ["\x1b[2J"]),
+        ("actuators", None), ("master", 7), ("bundle", ""), ("bundle", "AB" * 32),
+    ],
+)  # fmt: skip
+def test_what_a_first_line_cannot_say(day: Path, name: str, value: object) -> None:
+    line, _, rows = day.read_bytes().partition(b"\n")
+    said = json.loads(line) | {"format": "mind recording 1", name: value}
+    day.write_bytes(json.dumps(said).encode() + b"\n" + rows)
+    with pytest.raises(RecordingError, match="is no recording"):
+        read(day)
+
+
+@pytest.mark.parametrize(
+    ("name", "value"),
+    [("readings", 5), ("tick", 0.5), ("actuators", ["left_wheel"]), ("skills", ["Stay"]), ("sensors", ["pulse"])],
+)
+def test_other_columns_than_those_of_the_bundle_are_refused(day: Path, name: str, value: object) -> None:
+    line, _, rows = day.read_bytes().partition(b"\n")
+    said = json.loads(line) | {"format": "mind recording 1", name: value}
+    day.write_bytes(json.dumps(said).encode() + b"\n" + rows)
+    for refuses in (lambda: replay(day, BUNDLE, Engine(graph("range_finder"), {})), lambda: _reported(day)):
+        with pytest.raises(RecordingError, match="other columns"):
+            refuses()
+
+
+def _reported(day: Path) -> object:
+    return report(day, BUNDLE, graph("range_finder"))
 
 
 def test_the_report_holds_it_against_the_contract(day: Path) -> None:

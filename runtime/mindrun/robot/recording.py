@@ -1,11 +1,12 @@
 """What happened, tick by tick: everything that is needed to compute it again, in a file that survives a power cut.
 
-A line of JSON says what the columns are; then rows of fixed size follow, each with a checksum. A row that was cut off
-at the end is no row.
+A line of JSON says what the columns are; then rows of fixed size follow. Line and rows have checksums; the line of an
+older version has none. A row that was cut off at the end is no row.
 """
 
 import json
 import os
+import re
 import zlib
 from collections.abc import Iterator
 from contextlib import suppress
@@ -20,11 +21,16 @@ from numpy.typing import NDArray
 
 from mindrun.errors import MindError
 from mindrun.graph import Graph
+from mindrun.plain_data import are_names, is_whole, parsed
+from mindrun.readings import physical
 from mindrun.regular import open_regular
+from mindrun.sound import LONGEST, SHORTEST
 
-FORMAT = "mind recording 1"
+FORMAT, UNSEALED = "mind recording 2", "mind recording 1"
 LARGEST = 1 << 20  # bytes of the line
-ROWS = 4096  # read at once
+READ = 1 << 22  # bytes of rows at once, or one row where that is more
+CHECK = b', "check": "'  # the checksum of the line before it, which is the last that it says
+SHA256 = re.compile("[0-9a-f]{64}")
 
 
 class RecordingError(MindError):
@@ -50,13 +56,18 @@ class About:
         skills = tuple(skill.name for skill in graph.skills)
         return cls(bundle, master, graph.tick, sensors, actuators, skills, graph.width)
 
-    def refuse_another(self, bundle: str) -> None:
-        """RecordingError where the recording was made with another bundle than that of this SHA-256."""
+    def refuse_another(self, bundle: str, graph: Graph) -> None:
+        """RecordingError unless the recording was made with the bundle of this SHA-256, which has this graph."""
         if self.bundle != bundle:
             raise RecordingError(
                 f"this was recorded with another bundle ({self.bundle[:8]}…, not {bundle[:8]}…)",
                 "take the bundle that was running",
             )
+        if (
+            self != About.of(graph, bundle, self.master, self.sensors)
+            or not set(self.sensors) <= physical(graph).keys()
+        ):
+            raise RecordingError("this has other columns than its bundle: it was recorded by something else")
 
     @property
     def row(self) -> np.dtype[Any]:
@@ -80,7 +91,7 @@ class Recorder:
         self._ending = Event()
         self._syncing = Thread(target=self._sync, args=(every,), name="recording", daemon=True)
         self._syncing.start()
-        self._file.write(json.dumps({"format": FORMAT, **_plain(about)}).encode() + b"\n")
+        self._file.write(_line(about))
         self._every, self._flushed = every, 0.0
 
     def write(self, **columns: Any) -> None:
@@ -138,7 +149,7 @@ def _rows(path: Path, offset: int, about: About) -> Iterator[NDArray[Any]]:
     size, number = about.row.itemsize, 0
     with open(open_regular(path), "rb") as file:  # noqa: PTH123
         file.seek(offset)
-        while data := file.read(size * ROWS):
+        while data := file.read(size * max(1, READ // size)):
             rows = np.frombuffer(data[: len(data) // size * size], about.row)
             for row in rows:
                 _check(row, path, number)
@@ -153,17 +164,38 @@ def _check(row: Any, path: Path, number: int) -> None:
         raise RecordingError(f"{path} is damaged at row {number}")
 
 
+def _line(about: About) -> bytes:
+    said = json.dumps({"format": FORMAT, **{name: getattr(about, name) for name in About.__slots__}}).encode()[:-1]
+    return _sealed(said + CHECK)
+
+
 def _about(line: bytes, path: Path) -> About:
     try:
-        plain = json.loads(line)
-        if plain.pop("format") != FORMAT:
-            raise ValueError
-        sensors, actuators, skills = (tuple(map(str, plain[name])) for name in ("sensors", "actuators", "skills"))
-        tick, readings = float(plain["tick"]), int(plain["readings"])
-        return About(str(plain["bundle"]), str(plain["master"]), tick, sensors, actuators, skills, readings)
-    except (ValueError, TypeError, KeyError, AttributeError, RecursionError) as error:
-        raise RecordingError(f"{path} is no recording of this mindrun") from error
+        plain = parsed(line, LARGEST)
+        if not isinstance(plain, dict) or plain.get("format") not in (FORMAT, UNSEALED):
+            raise ValueError("it is of another form")
+        if plain["format"] == FORMAT and line != _sealed(line):
+            raise RecordingError(f"{path} is damaged in its first line")
+        return _typed({name: plain.get(name) for name in About.__slots__})
+    except ValueError as error:
+        raise RecordingError(f"{path} is no recording of this mindrun: {error}") from error
 
 
-def _plain(about: About) -> dict[str, Any]:
-    return {name: getattr(about, name) for name in About.__slots__}
+def _sealed(line: bytes) -> bytes:
+    """The line with the checksum of what it says before that."""
+    said = line.rpartition(CHECK)[0]
+    return said + CHECK + f"{zlib.crc32(said):08x}".encode() + b'"}\n'
+
+
+def _typed(plain: dict[str, Any]) -> About:
+    """What a recording is of, from plain data; ValueError where that is none."""
+    lists = [plain[name] for name in ("sensors", "actuators", "skills")]
+    if not all(map(are_names, lists)) or not are_names([plain["master"]]):
+        raise ValueError("its columns have no names")
+    if not isinstance(plain["bundle"], str) or not SHA256.fullmatch(plain["bundle"]):
+        raise ValueError("it does not say of which bundle it is")
+    if type(plain["tick"]) not in (int, float) or not SHORTEST <= plain["tick"] <= LONGEST:
+        raise ValueError("it does not say how long a tick is")
+    if not is_whole(plain["readings"], high=LARGEST):
+        raise ValueError("it does not say how many readings there are")
+    return About(**plain | {name: tuple(plain[name]) for name in ("sensors", "actuators", "skills")})

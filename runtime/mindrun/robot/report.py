@@ -30,14 +30,15 @@ def report(path: Path, bundle: str, graph: Graph) -> list[Line]:
     RecordingError where it cannot be read, holds nothing, or was made with another bundle than that of this SHA-256.
     """
     about, parts = read(path)
-    about.refuse_another(bundle)
+    about.refuse_another(bundle, graph)
     rows = np.concatenate(list(parts) or [np.zeros(0, about.row)])
     if not len(rows):
         raise RecordingError(f"{path} has no tick in it")
     sensors = {sensor.name: sensor for sensor in graph.sensors}
-    lines = [*_tick(rows, graph.tick)]
-    for number, name in enumerate(about.sensors):
-        lines += _sensor(rows, number, sensors[name], graph.tick)
+    with np.errstate(all="ignore"):  # a recording may hold any number
+        lines = [*_tick(rows, graph.tick)]
+        for number, name in enumerate(about.sensors):
+            lines += _sensor(rows, number, sensors[name], graph.tick)
     return lines
 
 
