@@ -76,11 +76,11 @@ def sends(*edges: Edge) -> Callable[[Graph], Graph]:
 
 
 FLAWED: list[tuple[Callable[[Graph], Graph], str]] = [
-    (lambda g: replace(g, tick=0.0), "its tick is not above zero"),
-    (lambda g: replace(g, master="Nobody"), "its master Nobody is not one of its skills"),
-    (with_skill(1, name="Top"), "names are missing or doubled"),
-    (with_skill(1, name=" "), "names are missing or doubled"),
-    (with_sensor(0, name="m0"), "names are missing or doubled"),
+    (lambda g: replace(g, tick=0.0), "its tick cannot be 0 s"),
+    (lambda g: replace(g, master="Nobody"), "its master 'Nobody' is not one of its skills"),
+    (with_skill(1, name="Top"), "there cannot be a part called 'Top' twice"),
+    (with_skill(1, name=" "), "there cannot be a part called ' '"),
+    (with_sensor(0, name="m0"), "there cannot be a part called 'm0' twice"),
     (with_sensor(1, start=1), "sensor change has not the readings of its kind"),
     (with_sensor(0, start=1), "sensor eyes has not the readings of its kind"),
     (with_sensor(0, width=3), "sensor eyes has not the readings of its kind"),
