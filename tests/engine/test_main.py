@@ -117,7 +117,8 @@ def test_a_procedure_that_fails_is_a_failed_run(tmp_path: Path) -> None:
     write_bundle(path, mind(go), {}, {"claw": "def grip(r): return 1 / r"})
     said = mindrun(path, "--readings", "-", text='{"r0": 0}')
     assert said.returncode == 1
-    assert said.stderr == "mindrun: procedure claw.grip fails for [0.0]: ZeroDivisionError: float division by zero\n"
+    failed = "procedure claw.grip fails for [0.0] in claw.py, line 1: ZeroDivisionError: float division by zero"
+    assert said.stderr == f"mindrun: {failed}\n"
 
 
 def test_what_a_procedure_prints_is_no_command(tmp_path: Path) -> None:

@@ -59,7 +59,7 @@ def test_a_call_that_fails_says_so(tmp_path: Path, text: str, message: str) -> N
     ("text", "name", "message"),
     [
         ("def grip(: pass", "claw.grip", "SyntaxError"),
-        ("raise SystemExit", "claw.grip", "its module fails"),
+        ("raise SystemExit\ndef grip(a, b): pass", "claw.grip", "its module fails"),
         ("", "claw.grip", "has no such function"),
         ("grip = 3", "claw.grip", "has no such function"),
         ("", "paw.grip", "cannot read"),

@@ -1,8 +1,13 @@
 """A procedure gives the same run compiled, in Python between the stages, and as the rule that says the same."""
 
+import ast
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
+import pytest
+from mindrun.errors import ProcedureError
+from mindrun.functions import computes
 from mindrun.sim.rollout import Rollout
 from mindrun.sim.trace import trace
 
@@ -60,3 +65,56 @@ def test_slow_procedures_score_like_compiled_ones_in_many_lanes(tmp_path: Path) 
     ]
     assert len(np.unique(scores[0].total)) == 7
     assert np.array_equal(scores[0].total, scores[1].total)
+
+
+TALK = "def wheels(slow, quick, odd, ahead):\n    {}\n    return 0.25 + slow * 0.7, 0.95 - slow * 0.6, 0.2 + quick\n"
+FAILING = {
+    "raises": "if slow < 0.5: raise ValueError('no')",
+    "asserts": "assert slow >= 0.5",
+    "divides": "slow = 1 / (slow < 0.5)",
+    "domain": "import math; slow = math.sqrt(slow - 0.5)",
+    "index": "slow = (slow, quick)[int(slow * 1000)]",
+    "slow": "if [slow][0] < 0.5: raise ValueError('no')",
+    "leaves": "if [slow][0] < 0.5: raise GeneratorExit('no')",
+}
+
+
+@pytest.mark.parametrize("name", FAILING)
+def test_what_fails_ends_the_run_as_it_does_on_the_robot(tmp_path: Path, name: str) -> None:
+    (tmp_path / "fails.py").write_text(TALK.format(FAILING[name]))
+    graph = compile_text(mind("fails"))
+    source, failed = TALK.format(FAILING[name]), r"procedure fails.wheels fails for \[.*\] in fails.py, line 2: "
+    for workers, lanes in [(1, 16), (3, 2)]:
+        rollout = Rollout(graph, {}, "Drift", "Drift", procedures=tmp_path, workers=workers, lanes=lanes)
+        with pytest.raises(ProcedureError, match=failed) as error:
+            rollout.score(np.zeros((1, 0), np.float32), range(20))
+        given = np.array(ast.literal_eval(str(error.value).split("for ")[1].split(" in fails")[0]), np.float32)
+        with pytest.raises(ProcedureError) as there:
+            computes(graph.skills[0].function, 4, 3, np.zeros(0, np.float32), {"fails": source})(given)
+        assert str(there.value) == str(error.value)
+
+
+REMEMBERS = "SEEN = []\n\n\n" + TALK.format("SEEN.append(slow); slow = sum(SEEN) / len(SEEN)")
+DRAWS = "import random\nDICE = random.Random(7)\n\n\n" + TALK.format("slow = DICE.random()")
+
+
+@pytest.mark.parametrize("source", [REMEMBERS, DRAWS])
+def test_what_a_procedure_remembers_is_of_its_run(tmp_path: Path, source: str) -> None:
+    (tmp_path / "own.py").write_text(source)
+    graph, none = compile_text(mind("own")), np.zeros((1, 0), np.float32)
+    found = [
+        Rollout(graph, {}, "Drift", "Drift", procedures=tmp_path, workers=workers, lanes=lanes).score(none, range(9))
+        for workers, lanes in [(1, 1), (1, 4), (2, 3)]
+    ]
+    assert len(np.unique(found[0].total)) == 9
+    for other in found[1:]:
+        assert np.array_equal(found[0].total, other.total)
+
+
+def test_a_procedure_without_outputs_is_never_called(tmp_path: Path) -> None:
+    (tmp_path / "idle.py").write_text("def wheels(*given):\n    raise ValueError\n")
+    graph = compile_text(mind("idle"))
+    edges = tuple(replace(edge, output=None, value=(("number", 0.5),)) for edge in graph.skills[0].edges)
+    graph = replace(graph, skills=(replace(graph.skills[0], edges=edges),))
+    rollout = Rollout(graph, {}, "Drift", "Drift", procedures=tmp_path)
+    assert rollout.score(np.zeros((1, 0), np.float32), [1]).ticks[0, 0] > 0

@@ -3,16 +3,20 @@
 import sys
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from functools import lru_cache
 from hashlib import sha256
 from io import StringIO
 from pathlib import Path
-from types import ModuleType
+from traceback import walk_tb
+from types import CodeType, ModuleType
 from typing import Annotated, Any
+from warnings import catch_warnings
 
 import numpy as np
 from numpy.typing import NDArray
 
 from mindrun.errors import ProcedureError, reason
+from mindrun.functions.procedure_text import examine, file_of
 from mindrun.quantity import FUNCTION
 from mindrun.registry import kind
 from mindrun.regular import read_regular
@@ -48,7 +52,7 @@ def module_source(procedure: Procedure, folder: Path) -> str:
             raise ProcedureError(f"procedure from {procedure.from_}: {path} lies outside {folder}")
         if len(data := read_regular(path, LONGEST + 1)) > LONGEST:
             raise ProcedureError(f"procedure from {procedure.from_}: {path} is larger than 1 MiB")
-        return StringIO(data.decode(), newline=None).read()
+        return StringIO(data.decode("utf-8-sig"), newline=None).read()
     except (OSError, RuntimeError, UnicodeError) as error:  # a loop of links is a RuntimeError
         raise ProcedureError(f"procedure from {procedure.from_}: cannot read {path} ({reason(error)})") from error
 
@@ -58,16 +62,26 @@ def load(procedure: Procedure, sources: Mapping[str, str]) -> Callable[..., Any]
     source = sources.get(procedure.module)
     if source is None:
         raise ProcedureError(f"procedure from {procedure.from_}: there is no module {procedure.module}")
-    module = ModuleType(f"_mind_{procedure.module.replace('.', '_')}_{sha256(source.encode()).hexdigest()[:12]}")
-    sys.modules[module.__name__] = module  # dataclasses and numba look their module up
+    examine(procedure.from_, source)
+    path, digest = file_of(procedure.from_), sha256(source.encode()).hexdigest()[:12]
+    module = ModuleType(f"_mind_{procedure.module.replace('.', '_')}_{digest}")
+    sys.modules[module.__name__] = module  # dataclasses look their module up
     try:
-        exec(compile(source, f"{procedure.module.replace('.', '/')}.py", "exec"), module.__dict__)
-    except (Exception, SystemExit) as error:
-        raise ProcedureError(f"procedure from {procedure.from_}: its module fails, {_said(error)}") from error
+        exec(_code(source, path), module.__dict__)
+    except KeyboardInterrupt:
+        raise
+    except BaseException as error:
+        raise ProcedureError(f"procedure from {procedure.from_}: its module fails{_said(error, path)}") from error
     function = getattr(module, procedure.from_.rpartition(".")[2], None)
     if not callable(function):
         raise ProcedureError(f"procedure from {procedure.from_}: its module has no such function")
     return function  # type: ignore[no-any-return]
+
+
+@lru_cache(64)
+def _code(source: str, path: str) -> CodeType:
+    with catch_warnings(action="ignore"):
+        return compile(source, path, "exec")
 
 
 def call(
@@ -79,12 +93,22 @@ def call(
     try:
         answer = function(*inputs.tolist())
         values = np.array([float(v) for v in (answer if isinstance(answer, tuple | list) else (answer,))])
-    except (Exception, SystemExit) as error:
-        raise ProcedureError(f"procedure {procedure.from_} fails for {inputs.tolist()}: {_said(error)}") from error
+    except KeyboardInterrupt:
+        raise
+    except BaseException as error:
+        said = _said(error, file_of(procedure.from_))
+        raise ProcedureError(f"procedure {procedure.from_} fails for {inputs.tolist()}{said}") from error
     if len(values) != outputs:
         raise ProcedureError(f"procedure {procedure.from_} returned {len(values)} values instead of {outputs}")
     return values.astype(np.float32)
 
 
-def _said(error: BaseException) -> str:
-    return f"{type(error).__name__}: {error}"
+def _said(error: BaseException, path: str) -> str:
+    """Where in the module an error arose, where it did, and what it says."""
+    lines = [line for frame, line in walk_tb(error.__traceback__) if frame.f_code.co_filename == path]
+    where = f" in {path}, line {lines[-1]}" if lines else ""
+    try:
+        text = str(error)
+    except Exception:  # an exception of the user's may fail even here
+        text = ""
+    return f"{where}: {type(error).__name__}: {text}"

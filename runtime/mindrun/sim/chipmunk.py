@@ -21,7 +21,7 @@ ffi, lib = _chipmunk.ffi, _chipmunk.lib
 ITERATIONS = 8
 FRICTION = 0.2  # Box2D's default; elasticity is 0 in both engines
 WALL = 1.0  # half the thickness of a wall, outside the arena
-HASH_CELL, HASH_COUNT = 20.0, 20
+HASH_COUNT = 20
 
 # The functions in use. Their addresses travel in a table: compiled code that held them could not be cached.
 FUNCTIONS = (
@@ -98,7 +98,7 @@ def open_space(t, s, p):
     c, world, things = t.library, t.world[0], len(t.things)
     space = call(c[SPACE_NEW])
     call(c[SPACE_ITERATIONS], space, ITERATIONS)
-    call(c[SPACE_HASH], space, HASH_CELL, HASH_COUNT)
+    call(c[SPACE_HASH], space, world.cell, HASH_COUNT)
     static = call(c[SPACE_STATIC], space)
     shape = 3 + things
     for b in range(s.boxes.shape[0] // 3):

@@ -13,6 +13,9 @@ REACH, DELIVERY, VISIT, COLLISION, EXHAUSTION = range(5)
 NUMBER, READING, EACH, MEASURE, ADD, SUBTRACT, MULTIPLY, DIVIDE, NEGATE = range(9)
 LESS, LESS_EQUAL, GREATER, GREATER_EQUAL = range(4)
 
+GOING_ON, LOST = -1, -2  # of a run that no event has ended: on its way or out of time, or beyond FAR
+FAR = 1e9  # units from the origin, and radians: nothing is there, and a little further Chipmunk never comes back
+
 FORCE, TORQUE, FORCE_X, FORCE_Y = range(4)  # rows of what pushes a body
 
 OPERATIONS = {name: code for code, name in enumerate(("number", "reading", "each", "measure", *"+-*/", "negate"))}
@@ -47,5 +50,5 @@ REWARD = _row(
 WORLD = _row(
     dt="f8", linear="f8", angular="f8", mass="f8", moment="f8", mass_inv="f8", moment_inv="f8", radius="f8",
     half="f8", ticks="i8", start="f8", drain="f8", charge="f8", rays="i8", near="f8", master="i8",
-    claw="f8", battery="i8",
+    claw="f8", battery="i8", cell="f8",
 )  # fmt: skip

@@ -1,6 +1,7 @@
-"""Procedures inside the lanes: a Python function compiled by numba and called through its address.
+"""Procedures inside the lanes: formulas are compiled, and called through their addresses.
 
-A procedure that numba cannot compile still runs, in Python, between the two halves of every tick.
+Any other procedure runs in Python, between the two halves of every tick. Where a compiled one fails it says in which
+lane, the run stops, and Python is asked for the reason: the same call fails on the robot.
 """
 
 from collections.abc import Callable
@@ -14,84 +15,75 @@ from numba import types
 from numba.core import cgutils
 from numba.extending import intrinsic
 from numba.np.unsafe.ndarray import to_fixed_tuple
+from numpy.typing import NDArray
 
+from mindrun.errors import ProcedureError
 from mindrun.functions import Procedure
+from mindrun.functions.procedure import call as ask
 from mindrun.functions.procedure import load, module_source
 from mindrun.graph import Graph, Skill
+from mindrun.sim.exact import exactly
+from mindrun.sim.formulas import NoFormulaError, formula
 from mindrun.sim.lanes.arithmetic import F, compiled
 from mindrun.weights import reachable
 
-# inputs, how many, outputs, how many, lanes, the distance between rows in floats
-SIGNATURE = types.void(types.CPointer(types.float32), types.CPointer(types.float32), types.intp, types.intp)
+# the lane in which it fails or −1; inputs, outputs, lanes, the distance between rows in floats
+SIGNATURE = types.intp(types.CPointer(types.float32), types.CPointer(types.float32), types.intp, types.intp)
 
 
 @intrinsic
 def call_address(typingctx, address, inputs, outputs, lanes, stride):
     """Call a C function with the type of SIGNATURE that stands at an address."""
-    signature = types.void(types.uint64, types.uintp, types.uintp, types.intp, types.intp)
+    signature = types.intp(types.uint64, types.uintp, types.uintp, types.intp, types.intp)
 
     def generate(context, builder, _signature, arguments):
         address, inputs, outputs, lanes, stride = arguments
         pointer = cgutils.voidptr_t
         whole = context.get_value_type(types.intp)
-        function_type = ir.FunctionType(ir.VoidType(), [pointer, pointer, whole, whole])
+        function_type = ir.FunctionType(whole, [pointer, pointer, whole, whole])
         function = builder.inttoptr(address, function_type.as_pointer())
         given = [builder.inttoptr(inputs, pointer), builder.inttoptr(outputs, pointer), lanes, stride]
-        builder.call(function, given)
-        return context.get_dummy_value()
+        return builder.call(function, given)
 
     return signature, generate
 
 
 @compiled
-def call(address, gathered, inputs, hidden, outputs, n):
-    """Run a compiled procedure over the gathered inputs; its outputs are the first rows of `hidden`."""
-    call_address(address, gathered.ctypes.data, hidden.ctypes.data, n, gathered.shape[1])
+def call(address, gathered, hidden, n):
+    """Run a compiled procedure over the gathered inputs; its outputs are the first rows of `hidden`.
+
+    The first lane in which it fails, or −1.
+    """
+    return call_address(address, gathered.ctypes.data, hidden.ctypes.data, n, gathered.shape[1])
 
 
-class NotCompilableError(Exception):
-    """Numba cannot compile a procedure; it runs in Python."""
-
-
-def compile_procedure(function: Callable[..., Any], inputs: int, outputs: int) -> Any:
-    """A C function (keep it alive; `.address`) that runs the procedure in every lane. Raises NotCompilableError."""
-    given = (types.float64,) * inputs
+def compile_formula(function: Callable[..., Any], inputs: int, outputs: int) -> Any:
+    """A C function (keep it alive; `.address`) that runs a formula in every lane. NoFormulaError where numba cannot."""
     try:
-        scalar = numba.njit(error_model="numpy", nogil=True)(function)
-        scalar.compile(given)
-        result = scalar.overloads[given].signature.return_type
-        single = isinstance(result, types.Number | types.Boolean)
-        if outputs != (1 if single else getattr(result, "count", None)):
-            raise NotCompilableError(f"it returns {result}, not {outputs} numbers")
-        return numba.cfunc(SIGNATURE)(_looped(scalar, inputs, outputs, single))
-    except NotCompilableError:
-        raise
+        return numba.cfunc(SIGNATURE)(_looped(exactly(function), inputs, outputs))
     except Exception as error:  # numba fails in many ways, and whatever it cannot compile runs in Python
-        raise NotCompilableError(str(error).splitlines()[0]) from error
+        raise NoFormulaError(str(error).split("\n")[0]) from error
 
 
-def _looped(scalar: Any, inputs: int, outputs: int, single: bool) -> Callable[..., None]:
-    def one(source, target, lanes, stride):
-        values = numba.carray(source, (inputs, stride))
-        results = numba.carray(target, (1, stride))
-        given = np.empty(inputs)
-        for k in range(lanes):
-            for j in range(inputs):
-                given[j] = values[j, k]
-            results[0, k] = F(scalar(*to_fixed_tuple(given, inputs)))
-
-    def several(source, target, lanes, stride):
+def _looped(one: Any, inputs: int, outputs: int) -> Callable[..., int]:
+    def loop(source, target, lanes, stride):
         values = numba.carray(source, (inputs, stride))
         results = numba.carray(target, (outputs, stride))
-        given = np.empty(inputs)
+        given, wrong = np.empty(inputs), np.zeros(1, np.int64)
         for k in range(lanes):
+            sound = True
             for j in range(inputs):
                 given[j] = values[j, k]
-            result = scalar(*to_fixed_tuple(given, inputs))
-            for q, value in enumerate(result):
-                results[q, k] = F(value)
+                sound = sound and given[j] - given[j] == 0.0
+            if sound:  # nobody is asked for what is not sent
+                result = one(wrong, *to_fixed_tuple(given, inputs))
+                if wrong[0]:
+                    return k
+                for q, value in enumerate(result):
+                    results[q, k] = F(value)
+        return -1
 
-    return one if single else several
+    return loop
 
 
 class Procedures:
@@ -103,19 +95,41 @@ class Procedures:
     def __init__(self, graph: Graph, master: str, folder: Path | None) -> None:
         self.addresses: dict[str, int] = {}
         self.slow: dict[str, str] = {}
-        self.functions: dict[str, Callable[..., Any]] = {}
         self._kept: list[Any] = []
-        for skill in reachable(graph, master):
-            if isinstance(skill.function, Procedure):
-                self._prepare(skill, skill.function, folder or Path())
+        skills = [skill for skill in reachable(graph, master) if isinstance(skill.function, Procedure)]
+        self._skills = {skill.name: skill for skill in skills}
+        self._sources = {of.module: module_source(of, folder or Path()) for of in map(_procedure, skills)}
+        for skill in skills:
+            self._prepare(skill)
 
-    def _prepare(self, skill: Skill, procedure: Procedure, folder: Path) -> None:
-        function = load(procedure, {procedure.module: module_source(procedure, folder)})
-        self.functions[skill.name] = function
+    def function(self, skill: str) -> Callable[..., Any]:
+        """The function of a skill, in a module of its own that remembers nothing."""
+        return load(_procedure(self._skills[skill]), self._sources)
+
+    def explain(self, skill: str, inputs: NDArray[np.float32]) -> ProcedureError:
+        """Why a compiled procedure failed: what Python says of the same inputs."""
+        procedure = _procedure(self._skills[skill])
         try:
-            compiled_one = compile_procedure(function, len(skill.inputs), skill.outputs)
-        except NotCompilableError as error:
+            ask(procedure, self.function(skill), self._skills[skill].outputs, inputs)
+        except ProcedureError as error:
+            return error
+        said = f"procedure {procedure.from_} fails for {inputs.tolist()} where it is compiled, and not in Python"
+        return ProcedureError(said, "please report this")
+
+    def _prepare(self, skill: Skill) -> None:
+        function, procedure = self.function(skill.name), _procedure(skill)
+        if skill.outputs == 0:  # it is never called
+            return
+        try:
+            plain = formula(function, self._sources[procedure.module], len(skill.inputs), skill.outputs)
+            found = compile_formula(plain, len(skill.inputs), skill.outputs)
+        except NoFormulaError as error:
             self.slow[skill.name] = str(error)
         else:
-            self._kept.append(compiled_one)
-            self.addresses[skill.name] = compiled_one.address
+            self._kept.append(found)
+            self.addresses[skill.name] = found.address
+
+
+def _procedure(skill: Skill) -> Procedure:
+    assert isinstance(skill.function, Procedure)
+    return skill.function

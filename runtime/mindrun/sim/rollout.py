@@ -2,7 +2,6 @@
 
 import os
 from collections.abc import Callable, Mapping, Sequence
-from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from pathlib import Path
 from threading import Event
@@ -16,9 +15,10 @@ from mindrun.sim import chipmunk
 from mindrun.sim.codes import ITEM
 from mindrun.sim.lanes.advance import advance, fill
 from mindrun.sim.procedures import Procedures
-from mindrun.sim.slow import advance_slowly
+from mindrun.sim.slow import Memories, advance_slowly
 from mindrun.sim.state import Jobs, State, empty_state
 from mindrun.sim.tables import Sizes, Tables, build, genome_length
+from mindrun.sim.threads import in_threads
 
 Array = NDArray[Any]
 LANES = 256
@@ -31,7 +31,8 @@ class Scores:
 
     `total` is −∞ where a reward was not a number; `by_line` [genomes, seeds, lines] sums each reward line; `counts` are
     all events that the task counts together, `by_event` [genomes, seeds, events] each event of the task; `ended_by` is
-    an index into these, −1 where the run lasted its time; `faults` counts values that were not sent.
+    an index into these, −1 where the run lasted its time, −2 where the robot was beyond all places (FAR); `faults`
+    counts values that were not sent, and such a flight.
     """
 
     total: NDArray[np.float64]
@@ -45,9 +46,10 @@ class Scores:
 
 @dataclass(frozen=True, slots=True)
 class Tile:
-    """Some lanes that run together, and what must outlive them."""
+    """Some lanes that run together, what their procedures remember, and what must outlive them."""
 
     state: State
+    memories: Memories
     kept: Any
 
 
@@ -95,15 +97,7 @@ class Rollout:
         workers = max(1, min(self.workers, len(jobs.genome)))
         shares = [np.arange(worker, len(jobs.genome), workers) for worker in range(workers)]
         stop = Event()
-        if workers == 1:
-            parts = [self._run(jobs, shares[0], stop, ran)]
-        else:
-            with ThreadPoolExecutor(workers) as pool:
-                try:
-                    parts = list(pool.map(lambda share: self._run(jobs, share, stop, ran), shares))
-                except BaseException:
-                    stop.set()  # before the pool waits for its threads
-                    raise
+        parts = in_threads(lambda share: self._run(jobs, share, stop, ran), shares, stop)
         return _scores(parts, shares, (len(genomes), len(seeds)), self.task.counts)
 
     def jobs(self, genomes: NDArray[np.float32], seeds: NDArray[np.uint64]) -> Jobs:
@@ -123,7 +117,8 @@ class Rollout:
         state = empty_state(self.tables, self.sizes, lanes)
         holds = [float(thing["hold"]) if thing["kind"] == ITEM else None for thing in self.tables.things]
         radius = float(self.tables.world[0]["radius"])
-        return Tile(state, chipmunk.prepare(state.handles, state.floats, state.batch, radius, holds))
+        kept = chipmunk.prepare(state.handles, state.floats, state.batch, radius, holds)
+        return Tile(state, Memories(self.procedures), kept)
 
     def _run(self, jobs: Jobs, share: NDArray[np.int64], stop: Event, ran: Callable[[float], None]) -> Jobs:
         lines, events = jobs.lines.shape[1], jobs.counts.shape[1]
@@ -143,10 +138,16 @@ class Rollout:
         fill(self.tables, tile.state, jobs, len(tile.state.tick))
 
     def advance(self, tile: Tile, jobs: Jobs, ticks: int) -> int:
-        """Run so many ticks; how many lanes are still at work."""
+        """Run so many ticks; how many lanes are still at work. ProcedureError where a procedure fails."""
         if self.procedures.slow:
-            return advance_slowly(self.graph, self.procedures, self.tables, tile.state, jobs, ticks, self.interrupt)
-        return int(advance(self.tables, tile.state, jobs, ticks, self.interrupt))
+            advance_slowly(self.graph, tile.memories, self.tables, tile.state, jobs, ticks, self.interrupt)
+        else:
+            advance(self.tables, tile.state, jobs, ticks, self.interrupt)
+        if (failed := int(tile.state.failed[0])) >= 0:
+            skill, column = self.tables.skills[failed], int(tile.state.failed[1])
+            inputs = tile.state.gathered[: int(skill["inputs"]), column]
+            raise self.procedures.explain(self.graph.skills[int(skill["index"])].name, inputs)
+        return int(jobs.lanes[0])
 
 
 def cores() -> int:

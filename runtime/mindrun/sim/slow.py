@@ -1,5 +1,9 @@
 """Ticks with procedures that run in Python: the compiled stages one by one, and the procedures between them."""
 
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from typing import Any
+
 import numpy as np
 
 from mindrun.functions import Procedure
@@ -11,25 +15,50 @@ from mindrun.sim.state import Jobs, State
 from mindrun.sim.tables import Tables
 
 
+@dataclass(frozen=True, slots=True)
+class Memories:
+    """The procedures of every run that goes on: each has modules of its own, as on a robot that has just started.
+
+    What a procedure remembers is of its run alone, whatever runs beside it, before it or after it.
+    """
+
+    procedures: Procedures
+    functions: dict[tuple[str, int], Callable[..., Any]] = field(default_factory=dict)
+
+    def of(self, skill: str, job: int) -> Callable[..., Any]:
+        """The function of a skill in a run."""
+        key = skill, job
+        if key not in self.functions:
+            self.functions[key] = self.procedures.function(skill)
+        return self.functions[key]
+
+    def forget(self, but: set[int]) -> None:
+        """Forget the runs that are over."""
+        for key in [key for key in self.functions if key[1] not in but]:
+            del self.functions[key]
+
+
 def advance_slowly(
-    graph: Graph, procedures: Procedures, tables: Tables, state: State, jobs: Jobs, ticks: int, interrupt: bool
-) -> int:
-    """As `lanes.advance`, for a mind of which numba cannot compile every procedure."""
+    graph: Graph, memories: Memories, tables: Tables, state: State, jobs: Jobs, ticks: int, interrupt: bool
+) -> None:
+    """As `lanes.advance`, for a mind whose procedures are not all compiled."""
     for _ in range(ticks):
         if jobs.lanes[0] == 0:
             break
         before(tables, state, jobs)
         for i in range(len(tables.skills)):
             name = graph.skills[int(tables.skills[i]["index"])].name
-            if name in procedures.slow:
-                _run(graph, procedures, name, tables, state, int(jobs.lanes[0]), i)
+            if name in memories.procedures.slow:
+                _run(graph, memories, name, tables, state, int(jobs.lanes[0]), i)
             else:
                 run_skills(tables, state, jobs.lanes[0], i, i + 1)
+                if state.failed[0] >= 0:
+                    return
         after(tables, state, jobs, interrupt)
-    return int(jobs.lanes[0])
+    memories.forget(set(state.job[: jobs.lanes[0]].tolist()))
 
 
-def _run(graph: Graph, procedures: Procedures, name: str, tables: Tables, state: State, lanes: int, i: int) -> None:
+def _run(graph: Graph, memories: Memories, name: str, tables: Tables, state: State, lanes: int, i: int) -> None:
     count = wake(tables, state, lanes, i)
     if count == 0:
         return
@@ -39,7 +68,6 @@ def _run(graph: Graph, procedures: Procedures, name: str, tables: Tables, state:
     for k in range(count):
         inputs = state.gathered[: skill["inputs"], k]
         if np.isfinite(inputs).all():
-            state.hidden[: skill["outputs"], k] = call(
-                function, procedures.functions[name], int(skill["outputs"]), inputs
-            )
+            plain = memories.of(name, int(state.job[state.active[k]]))
+            state.hidden[: skill["outputs"], k] = call(function, plain, int(skill["outputs"]), inputs)
     send(tables, state, i, 0, count, lanes)

@@ -44,9 +44,10 @@ class State(NamedTuple):
     lines: Array  # float64: the sum of each reward line
     counts: Array  # [events] int64: how often each happened in this run
     tick: Array
-    ended: Array  # the event that ended the run, −1 while it goes on or where it ran its time
+    ended: Array  # the event that ended the run, or GOING_ON, or LOST
     faults: Array
     job: Array
+    failed: Array  # [2]: the skill whose procedure failed, −1 where none did, and the column of `gathered`
     # contact
     near: Array  # ticks for which Chipmunk still steps this lane
     touching: Array
@@ -121,6 +122,7 @@ def empty_state(tables: Tables, sizes: Sizes, lanes: int) -> State:
         **{name: np.zeros(lanes, np.int64) for name in numbers},
         **{name: np.zeros(lanes) for name in ("battery", "gap", "paid", "limit")},
         **{name: np.zeros(whole, np.float32) for name in ("sound", "values", "sent")},
+        failed=np.full(2, -1, np.int64),
         random=np.zeros(lanes, np.uint64),
         board=np.zeros((lanes, max(1, sizes.patches)), np.uint8),
         slot_most=np.zeros(1, np.int64),

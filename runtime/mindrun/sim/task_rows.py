@@ -30,6 +30,8 @@ from mindrun.sim.codes import (
 from mindrun.sim.programs import Programs
 
 Array = NDArray[Any]
+CELL = 20.0  # units: the side of a cell of Chipmunk's hash, in which what is large takes only so many
+CELLS, WALL_CELLS = 4, 64
 
 
 def things_of(task: Task) -> list[Thing]:
@@ -154,9 +156,14 @@ def world_row(graph: Graph, task: Task, rays: int, used: Sequence[Sensor], maste
     drained = any(isinstance(event, events.Exhaustion) for event in task.events)
     powered = drained or any(isinstance(s.kind, sensors.Battery) for s in used)
     claw = next((a.kind.reach for a in graph.actuators if isinstance(a.kind, actuators.Gripper)), 1.5)
+    solid = [
+        max(t.kind.size.first, t.kind.size.last) for t in task.things if isinstance(t.kind, world.Item | world.Obstacle)
+    ]
+    spread = 0.0 if half == inf else 2 * half / WALL_CELLS
+    cell = max([CELL, spread, *(size / CELLS for size in (body.size, *sizes, *solid))])
     row = (
         dt, 1.0 / (1.0 + dt * body.linear_damping), 1.0 / (1.0 + dt * body.angular_damping), mass, moment,
         1.0 / mass, 1.0 / moment, radius, half, task.ticks, battery.start, battery.drain, battery.charge,
-        rays, near, master, claw, powered,
+        rays, near, master, claw, powered, cell,
     )  # fmt: skip
     return np.array([row], WORLD)

@@ -3,26 +3,27 @@
 import numpy as np
 
 from mindrun.sim.chipmunk import close_space
-from mindrun.sim.codes import INERTIAL_TICKS, VISIT
+from mindrun.sim.codes import GOING_ON, INERTIAL_TICKS, LOST, VISIT
 from mindrun.sim.lanes.act import act
 from mindrun.sim.lanes.arithmetic import compiled, entry, sine_cosine
 from mindrun.sim.lanes.judge import judge, patch_of
 from mindrun.sim.lanes.sense import sense
-from mindrun.sim.lanes.step import step
+from mindrun.sim.lanes.step import is_lost, step
 from mindrun.sim.lanes.think import begin, think
 from mindrun.sim.place import draw
 
 
 @entry
 def advance(t, s, jobs, ticks, interrupt):
-    """Run all lanes for so many ticks, or until every job is done; returns how many lanes are still at work."""
+    """Run all lanes for so many ticks, until every job is done, or until a procedure fails."""
     for _ in range(ticks):
         if jobs.lanes[0] == 0:
             break
         before(t, s, jobs)
         think(t, s, jobs.lanes[0], 0, len(t.skills))
+        if s.failed[0] >= 0:
+            break
         after(t, s, jobs, interrupt)
-    return jobs.lanes[0]
 
 
 @compiled
@@ -44,7 +45,10 @@ def after(t, s, jobs, interrupt):
     jobs.clock[0] = clock + 1
     p = n - 1
     while p >= 0:
-        if s.ended[p] >= 0 or s.tick[p] >= t.world[0].ticks:
+        if is_lost(s.body, p):
+            s.faults[p] += 1
+            s.ended[p] = LOST
+        if s.ended[p] != GOING_ON or s.tick[p] >= t.world[0].ticks:
             finish(t, s, jobs, p)
             if not begin_job(t, s, jobs, p):
                 last = jobs.lanes[0] - 1
@@ -84,7 +88,7 @@ def begin_job(t, s, jobs, p):
 def reset(t, s, p):
     """Everything of lane p that is not its world, its genome or its generator, as at the beginning of a run."""
     s.held[p], s.near[p], s.touching[p], s.faults[p] = -1, 0, 0, 0
-    s.tick[p], s.ended[p] = 0, -1
+    s.tick[p], s.ended[p] = 0, GOING_ON
     s.battery[p] = t.world[0].start
     s.heading[1, p], s.heading[0, p] = sine_cosine(s.body[2, p])
     s.lines[:, p] = 0.0

@@ -1,7 +1,7 @@
 """Step: one tick of physics. Free flight is plain arithmetic in Chipmunk's order; Chipmunk steps what could touch."""
 
 from mindrun.sim.chipmunk import open_space, push_body, step_space
-from mindrun.sim.codes import FORCE, FORCE_X, FORCE_Y, TORQUE, WHEEL_LEFT, WHEEL_RIGHT
+from mindrun.sim.codes import FAR, FORCE, FORCE_X, FORCE_Y, TORQUE, WHEEL_LEFT, WHEEL_RIGHT
 from mindrun.sim.lanes.act import carry
 from mindrun.sim.lanes.arithmetic import compiled, sine_cosine
 from mindrun.sim.lanes.sense import SLACK
@@ -83,7 +83,10 @@ def fly(body, push, near, dt, mass_inv, moment_inv, n):
 
 @compiled
 def find_near(t, s, n):
-    """Count down `near`, and begin anew where the robot or what it holds could touch something after this tick."""
+    """Count down `near`, and begin anew where the robot or what it holds could touch something after this tick.
+
+    A robot that would leave all places flies there alone.
+    """
     world = t.world[0]
     reach = world.radius + MARGIN
     gap = s.gap
@@ -101,6 +104,20 @@ def find_near(t, s, n):
         leap = (x - s.anchor[0, p]) ** 2 + (y - s.anchor[1, p]) ** 2 > SLACK * SLACK  # away from the boxes it knows
         if leap or gap[p] < reach:
             s.near[p] = LINGER
+        if not within(x, y, s.body[2, p] + s.body[5, p] * world.dt):
+            s.near[p] = 0
+
+
+@compiled
+def within(x, y, angle):
+    """Whether Chipmunk can say anything of such a place; not where it is no number."""
+    return abs(x) <= FAR and abs(y) <= FAR and abs(angle) <= FAR
+
+
+@compiled
+def is_lost(body, p):
+    """Whether lane p's robot is where no world is."""
+    return not within(body[0, p], body[1, p], body[2, p])
 
 
 @compiled

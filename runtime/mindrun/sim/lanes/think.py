@@ -19,15 +19,21 @@ def begin(t, s, n):
 
 @compiled
 def think(t, s, n, first, last):
-    """Run the skills first..last of the table: each only in the lanes where it has influence."""
+    """Run the skills first..last of the table: each only in the lanes where it has influence.
+
+    It ends where a procedure fails: `failed` then says which, and for whose inputs.
+    """
     for i in range(first, last):
         count = wake(t, s, n, i)
         if count > 0:
             skill, out = t.skills[i], 0
             if skill.kind == MLP:
                 out = perceive(t, s, skill, count)
-            elif skill.kind == PROCEDURE:
-                call(skill.address, s.gathered, skill.inputs, s.hidden, skill.outputs, count)
+            elif skill.kind == PROCEDURE and skill.outputs > 0:
+                s.failed[1] = call(skill.address, s.gathered, s.hidden, count)
+                if s.failed[1] >= 0:
+                    s.failed[0] = i
+                    return
             send(t, s, i, out, count, n)
 
 
