@@ -5,6 +5,7 @@ import sys
 from gc import set_threshold
 from importlib import import_module
 from pkgutil import iter_modules
+from threading import active_count
 
 import click
 from mindrun import streams
@@ -63,6 +64,8 @@ def main() -> None:
     if why := streams.finish():
         say(why)
         code = code or FINDINGS
+    if code == INTERRUPTED and active_count() > 1:  # the simulator's threads would be waited for
+        os._exit(code)
     sys.exit(code)
 
 

@@ -15,7 +15,7 @@ from mindlang.drawing import phrase
 if TYPE_CHECKING:
     from mindrun.sim.rollout import Scores
 
-TIME = "time"
+TIME, FLIGHT = "time", "flight out of bounds"  # beyond 1e9 units, or nowhere
 
 
 def events(task: Task) -> list[str]:
@@ -37,7 +37,7 @@ def one(task: Task, scores: Scores) -> dict[str, Any]:
         "by_event": {events(task)[event]: int(scores.by_event[0, 0, event]) for event in task.counts},
         "ticks": int(scores.ticks[0, 0]),
         "of_ticks": task.ticks,
-        "ended_by": events(task)[ended] if ended >= 0 else None,
+        "ended_by": [*events(task), FLIGHT, None][ended],
         "faults": int(scores.faults[0, 0]),
     }
 
@@ -49,7 +49,7 @@ def many(task: Task, scores: Scores, seeds: Sequence[int], seconds: float) -> di
     run knows neither.
     """
     totals, ticks = scores.total[0], int(scores.ticks.sum())
-    names = [*events(task), TIME]  # a run that lasts its time is ended by −1
+    names = [*events(task), FLIGHT, TIME]  # by −2 and −1
     ended = np.bincount(scores.ended_by[0] % len(names), minlength=len(names))
     return {
         "runs": len(seeds),
