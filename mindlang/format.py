@@ -10,7 +10,7 @@ from functools import lru_cache
 from typing import Any
 
 from mindlang import syntax
-from mindlang.parse import code_of
+from mindlang.parse import BLANKS, code_of
 from mindlang.parse.shape import SHAPES, grammar, pieces, said, shape_of
 from mindlang.source import Source
 from mindlang.syntax import NOUNS, SETTINGS
@@ -50,33 +50,34 @@ class _Line:
 
 def formatted(text: str) -> str:
     """The text as it should be written; one that cannot be read keeps the words of its bad lines as they are."""
-    lines = [_line(line.removesuffix("\r")) for line in text.split("\n")]
+    lines = [_line(line) for line in text.split("\n")]
     end = "\r\n" if "\r\n" in text else "\n"
     return "".join(f"{line}{end}" for line in _set_off(list(_indented(lines))))
 
 
 def _line(text: str) -> _Line:
     code = code_of(text)
-    return _Line(_spaced(code.strip(" \t")), text[len(code) :].strip(), text[:1] in (" ", "\t"))
+    return _Line(_spaced(code.lstrip(" \t").rstrip(BLANKS)), text[len(code) :].strip(), text[:1] in (" ", "\t"))
 
 
 def _indented(lines: list[_Line]) -> Iterator[tuple[_Line, str]]:
     """Each line with what stands before it: a comment goes with what it leads, or else keeps to what it closes."""
     in_declaration = False
-    leads_fact = _leads_fact(lines)
-    for line, leads in zip(lines, leads_fact, strict=True):
+    for line, following in zip(lines, _said_next(lines), strict=True):
         if line.code:
             in_declaration = line.is_fact or line.first in NOUNS
+        leads = following is not None and following.is_fact
         is_in = line.is_fact if line.code else leads or (line.is_indented and in_declaration)
         yield line, INDENT if is_in and not line.is_blank else ""
 
 
-def _leads_fact(lines: list[_Line]) -> list[bool]:
-    """Whether the next line that says something is a fact."""
-    found, leads = [], False
+def _said_next(lines: list[_Line]) -> list[_Line | None]:
+    """For each line the next that says something, which may be itself."""
+    found: list[_Line | None] = []
+    following: _Line | None = None
     for line in reversed(lines):
-        leads = line.is_fact if line.code else leads
-        found.append(leads)
+        following = line if line.code else following
+        found.append(following)
     return found[::-1]
 
 
@@ -84,23 +85,22 @@ def _set_off(lines: list[tuple[_Line, str]]) -> Iterator[str]:
     """The lines with single blank ones: none at the ends or below a header, one around what owns facts."""
     above: tuple[_Line, str] | None = None
     blank = False
-    for number, (line, indent) in enumerate(lines):
+    for (line, indent), following in zip(lines, _said_next([line for line, _ in lines]), strict=True):
         if line.is_blank:
             blank = True
             continue
         is_first = above and above[0].opens and indent
-        if above and not is_first and (blank or _is_set_off(above, lines[number:])):
+        if above and not is_first and (blank or (not indent and _is_set_off(above, following))):
             yield ""
         yield f"{indent}{line}"
         above, blank = (line, indent), False
 
 
-def _is_set_off(above: tuple[_Line, str], rest: list[tuple[_Line, str]]) -> bool:
-    """Whether a declaration begins right here, with the comments that lead it, and owns facts or follows some."""
-    if rest[0][1] or (above[0].comment and not above[0].code and not above[1]):
+def _is_set_off(above: tuple[_Line, str], following: _Line | None) -> bool:
+    """Whether a declaration begins here, with the comments that lead it, and owns facts or follows some."""
+    if following is None or (above[0].comment and not above[0].code and not above[1]):
         return False
-    said_next = next((line for line, _ in rest if line.code), None)
-    return said_next is not None and (said_next.opens or bool(above[1]))
+    return following.opens or bool(above[1])
 
 
 def _spaced(code: str) -> str:

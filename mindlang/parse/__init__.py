@@ -3,6 +3,7 @@
 import re
 from collections.abc import Iterator
 from dataclasses import dataclass, field
+from functools import lru_cache
 
 from mindlang import syntax
 from mindlang.diagnostic import Findings, nearest
@@ -13,6 +14,8 @@ from mindlang.syntax import NOUNS, SETTINGS, VERBS
 
 NESTING = 64
 MOST = 1000  # unreadable lines, after which this is no mind
+
+BLANKS = " \t\r"  # at the end of a line, and of its code where a comment follows
 
 _CODE = re.compile(r'(?:"[^"]*"|[^#])*')
 _HEADER = re.compile(r"\s*(\w+)\s+(\w[\w.+]*)")
@@ -65,7 +68,7 @@ def code_of(line: str) -> str:
 def _lines(source: Source, findings: Findings) -> Iterator[syntax.Line | _Unread]:
     offset = 0
     for text in source.text.split("\n"):
-        code = code_of(text.removesuffix("\r")).rstrip(" \t")
+        code = code_of(text).rstrip(BLANKS)
         if code:
             span = Span(source, offset, offset + len(code))
             if len(findings.diagnostics) > MOST:
@@ -95,11 +98,17 @@ def _line(span: Span, code: str, findings: Findings) -> Iterator[syntax.Line | _
 def _saved(code: str, span: Span) -> syntax.Header | _Unread:
     """The header that a malformed line was meant to be, so that its name is known and its facts have a home."""
     found = _HEADER.match(code)
-    noun = nearest(found[1], (*NOUNS, *VERBS, *SETTINGS)) if found else None
+    noun = _meant(found[1]) if found else None
     if not found or noun not in NOUNS:
         return _Unread()
     nouns, names = (Span(span.source, span.start + found.start(i), span.start + found.end(i)) for i in (1, 2))
     return syntax.Header(syntax.Name(noun, nouns), syntax.Name(proper(noun, found[2]), names), None, span)
+
+
+@lru_cache(1024)
+def _meant(word: str) -> str | None:
+    """The word with which a line was meant to begin."""
+    return nearest(word, (*NOUNS, *VERBS, *SETTINGS))
 
 
 def _depth(code: str) -> int:

@@ -49,7 +49,7 @@ OPENINGS = (
     Mistake("odd-character", rf"^\s*(?P<here>{_UNSEEN})",
         "There is an invisible character here.", "Delete it; it often comes along when text is copied from a page.",
         "\u200btick 1/60 s"),
-    Mistake("merge-mark", r"^(?P<here><{7}|={7}|>{7}|\|{7})", "This mark is left over from merging two versions.",
+    Mistake("merge-mark", r"^\s*(?P<here><{7}|={7}|>{7}|\|{7})", "This mark is left over from merging two versions.",
         "Keep one of the versions, and take the marks out.", "<<<<<<< HEAD"),
     Mistake("comment", r"""^\s*(?P<here>//|;|--(?!-)|%|/\*|\*/|<!--|\"{3}|'{3})""", "A comment begins with #.",
         "Write # instead of {here}.", "// the left one"),
