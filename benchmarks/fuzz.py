@@ -48,7 +48,7 @@ PARTS = {
 Part = Callable[["Place", Compiled, str, Random], None]
 
 
-class Unsound(Exception):
+class UnsoundError(Exception):
     """Something that must hold of every case, and does not."""
 
 
@@ -68,9 +68,9 @@ class Place:
 
 
 def must(holds: bool, what: str) -> None:
-    """Unsound, with what does not hold."""
+    """UnsoundError, with what does not hold."""
     if not holds:
-        raise Unsound(what)
+        raise UnsoundError(what)
 
 
 def check(place: Place, case: int, text: str) -> str:

@@ -80,8 +80,8 @@ ODD = (
     ),
 )
 WORDS = (
-    *("is", "in", "at", "on", "per", "tick", "for", "each", "when", "under", "from", "scratch", "with", "subskills", "to"),
-    *("by", "of", "toward", "over", "frozen", "s", "deg", "ticks", "generations", "true", "None", "self", "and", "not"),
+    *("is", "in", "at", "on", "per", "tick", "for", "each", "when", "under", "from", "scratch", "with", "subskills"),
+    *("to", "by", "of", "toward", "over", "frozen", "s", "deg", "ticks", "generations", "true", "None", "self", "not"),
     *("Go", "Go+Stop", "ball", "left_wheel", "eye", "mood", "sensor.x", "A", "a", "_a", "a_", "A_b", "module.function"),
     *NOUNS, *VERBS, *SETTINGS,
 )  # fmt: skip

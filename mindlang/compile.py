@@ -13,7 +13,7 @@ from mindlang.diagnostic import Diagnostic, Findings
 from mindlang.lower import lower
 from mindlang.model import Mind
 from mindlang.resolve import resolve
-from mindlang.source import LIMIT, Source, Span, decode
+from mindlang.source import LIMIT, Source, Span, decode, within
 from mindlang.syntax import File
 from mindlang.use import files, read
 
@@ -52,7 +52,7 @@ def read_main(path: Path | str, texts: Mapping[Path, str] = NOTHING) -> Source |
     try:
         resolved = Path(path).resolve()
         if resolved in texts:
-            return Source(str(path), texts[resolved], resolved.parent)
+            return Source(str(path), within(texts[resolved]), resolved.parent)
         if str(path) == "-":
             return Source(STDIN, decode(sys.stdin.buffer.read(LIMIT + 1)), Path.cwd().resolve())
         if descriptor_of(Path(path)) is not None:

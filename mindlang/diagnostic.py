@@ -3,9 +3,12 @@
 from collections.abc import Iterable
 from dataclasses import dataclass, field
 from difflib import get_close_matches
+from itertools import chain
 
 from mindlang.source import Span
 from mindlang.splice import Splice
+
+MOST = 100  # diagnostics that are read
 
 
 @dataclass(frozen=True, slots=True)
@@ -51,9 +54,9 @@ class Findings:
         """Collect an error."""
         self.diagnostics.append(Diagnostic(code, message, span, hint, labels))
 
-    def suggest(self, word: str, known: Iterable[str]) -> str:
+    def suggest(self, word: str, *known: Iterable[str]) -> str:
         """`did_you_mean` for the first hundred diagnostics: comparing names takes time, and nobody reads more."""
-        return did_you_mean(word, known) if len(self.diagnostics) < 100 else ""
+        return did_you_mean(word, chain(*known)) if len(self.diagnostics) < MOST else ""
 
 
 def nearest(word: str, known: Iterable[str]) -> str | None:

@@ -8,14 +8,13 @@ from unicodedata import combining, east_asian_width
 
 from mindrun.visible import visible
 
-from mindlang.diagnostic import Diagnostic
+from mindlang.diagnostic import MOST, Diagnostic
 from mindlang.source import Span
 
 if TYPE_CHECKING:
     from rich.console import Console
 
 WIDE = 100  # columns of an excerpt
-MOST = 100  # diagnostics printed
 
 Segment = tuple[str, str]  # text and style
 

@@ -9,6 +9,7 @@ from pathlib import Path
 from mindrun.regular import read_regular
 
 LIMIT = 1 << 20  # bytes
+LARGE = f"is larger than {LIMIT >> 20} MiB"
 BOM = b"\xef\xbb\xbf"
 SOURCES = 64  # whose line starts are remembered
 
@@ -54,7 +55,7 @@ class Span:
     @property
     def column(self) -> int:
         """The column at which it starts, counted from 1."""
-        return self.start - self.source.text.rfind("\n", 0, self.start)
+        return self.start - _line_starts(self.source)[self.line - 1] + 1
 
 
 @lru_cache(SOURCES)
@@ -72,10 +73,17 @@ def encoded(path: Path, text: str) -> bytes:
     return (BOM if marked else b"") + text.encode()
 
 
+def within(text: str) -> str:
+    """A text that no file has yet, if it is no larger than one may be; else ValueError says so as `decode` does."""
+    if len(text) > LIMIT or (not text.isascii() and len(text.encode("utf-8", "surrogatepass")) > LIMIT):
+        raise ValueError(LARGE)
+    return text
+
+
 def decode(data: bytes) -> str:
     """The text of a source file; ValueError says in the user's words why the bytes are none."""
     if len(data) > LIMIT:
-        raise ValueError("is larger than 1 MiB")
+        raise ValueError(LARGE)
     if b"\0" in data:
         raise ValueError("is a binary file")
     try:

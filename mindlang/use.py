@@ -9,7 +9,7 @@ from mindrun.regular import read_regular
 
 from mindlang.diagnostic import Findings
 from mindlang.parse import parse
-from mindlang.source import LIMIT, Source, decode
+from mindlang.source import LIMIT, Source, decode, within
 from mindlang.syntax import File, Use
 
 DEEP = 64
@@ -88,7 +88,7 @@ def _read(target: Path, use: Use, project: _Project) -> None:
     name = Path(use.span.source.name).parent.joinpath(use.path).as_posix()
     try:
         text = project.texts.get(target)
-        source = read(target, name) if text is None else Source(name, text, target.parent)
+        source = read(target, name) if text is None else Source(name, within(text), target.parent)
     except (OSError, RuntimeError) as error:  # a loop of links is a RuntimeError
         hint = "The path is relative to the file in which it stands."
         project.refuse("unreadable-use", use, f"{use.path} cannot be read: {reason(error)}.", hint)

@@ -4,10 +4,8 @@ from collections.abc import Collection, Iterable, Iterator
 from os.path import realpath
 from pathlib import Path
 
-from mindrun.regular import read_regular
-
 from mindlang.compile import Compiled, load
-from mindlang.source import LIMIT
+from mindlang.nearby import above, as_many, beside, text_of
 
 
 def neighbours(files: Collection[Path]) -> Iterator[Compiled]:
@@ -16,9 +14,10 @@ def neighbours(files: Collection[Path]) -> Iterator[Compiled]:
     A file is used from its own folder or one above, so it is there that they can be.
     """
     main, *_ = files
-    folders = {folder for file in files for folder in file.parents}
-    for path in sorted(path for folder in folders for path in folder.glob("*.mind")):
-        if path != main and path.is_file() and (path in files or _uses(path)):
+    folders = dict.fromkeys(folder for file in files for folder in above(file))
+    paths = (path for folder in folders for path in beside(folder) if path != main)
+    for path, text in sorted(as_many((path, text_of(path)) for path in paths)):
+        if path in files or 'use "' in text:  # most of those that lie about need not be compiled
             compiled = load(path)
             if compiled.graph and not {source.path for source in compiled.sources}.isdisjoint(files):
                 yield compiled
@@ -36,11 +35,3 @@ def _is_part(compiled: Compiled, used: Collection[Path]) -> bool:
     """Whether a file is one of those `used`, or a mind beside it or above uses it."""
     path = compiled.sources[0].path
     return path in used or next(neighbours([path]), None) is not None
-
-
-def _uses(path: Path) -> bool:
-    """Whether a file may use others: most of those that lie about need not be compiled."""
-    try:
-        return b'use "' in read_regular(path, LIMIT)
-    except OSError:
-        return False

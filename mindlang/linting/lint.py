@@ -4,13 +4,14 @@ import re
 from collections.abc import Collection, Iterator
 
 from mindlang.compile import Compiled
-from mindlang.diagnostic import Diagnostic
+from mindlang.diagnostic import Diagnostic, Findings
 from mindlang.editing.neighbours import neighbours
+from mindlang.editing.references import mentions
 from mindlang.linting.rule import Rule, all_rules
 from mindlang.linting.study import Finding, study
+from mindlang.resolve.names import gather
 
 _NOQA = re.compile(r"#\s*noqa(?:\s*:\s*(?P<codes>[\w-]+(?:[ ,]+[\w-]+)*))?\s*$", re.IGNORECASE)
-_WORD = re.compile(r"[A-Za-z]\w*(?:\+[A-Z]\w*)*")
 
 
 def lint(compiled: Compiled, codes: Collection[str] | None = None) -> list[Diagnostic]:
@@ -34,10 +35,14 @@ def lint(compiled: Compiled, codes: Collection[str] | None = None) -> list[Diagn
 
 
 def _named_elsewhere(compiled: Compiled) -> set[str]:
-    """Every name that stands in a file of another mind that uses this one."""
-    own = [source.path for source in compiled.sources]
-    files = (file for mind in neighbours(own) if mind.mind for file in mind.mind.files if file.source.path not in own)
-    return {word for file in files for word in _WORD.findall(file.source.text)}
+    """Every name of this mind's that stands in a file of another mind that uses it: not what that declares for itself.
+
+    Minds that only use the same files have no say.
+    """
+    main, own = compiled.sources[0].path, {source.path for source in compiled.sources}
+    users = (user.mind for user in neighbours([main]) if user.mind)
+    found = (each for user in users for each in mentions(user.files, gather(user.files, Findings())))
+    return {each.name.text for each in found if not each.is_own and each.name.span.source.path not in own}
 
 
 def _diagnostic(rule: Rule, of: Finding) -> Diagnostic:

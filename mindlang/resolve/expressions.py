@@ -90,13 +90,13 @@ def _unknown(term: Phrase, visible: Visible, findings: Findings) -> None:
         hint = f"Add the line reads {name}; an expression after at sees the inputs of its own skill."
         findings.error("not-an-input", term.span, f"The skill does not read {name}.", hint)
     elif visible.measures:
-        hint = findings.suggest(name, [*visible.readings, *kinds("measure")])
+        hint = findings.suggest(name, visible.readings, kinds("measure"))
         if name in kinds("event"):
             hint = f"{name} is an event, which is rewarded when it happens: rewards 1 on {term.span.text}."
         hint = hint or "A reward is made of sensors, memories and measures such as forward or progress toward X."
         findings.error("unknown-measure", term.kind.span, f"There is no reading or measure called {name}.", hint)
     else:
-        hint = findings.suggest(name, [*visible.readings, *(visible.elsewhere or ())])
+        hint = findings.suggest(name, visible.readings, visible.elsewhere or ())
         if name in kinds("measure"):
             hint = f"{name} is a measure, which only rewards have; after at stand the inputs of the skill."
         hint = hint or "An expression after at is made of numbers and the inputs of its skill."

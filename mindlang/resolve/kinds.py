@@ -152,9 +152,8 @@ def _check_thing(name: Name, about: Set[str], kind: str, scope: Scope, findings:
     if scope.things is None:
         return
     if name.text not in scope.things:
-        hint = (
-            did_you_mean(name.text, scope.things) or f"Add contains {name.text} is {listed(sorted(about))} to the task."
-        )
+        add = f"Add contains {name.text} is {listed(sorted(about))} to the task."
+        hint = findings.suggest(name.text, scope.things) or add
         findings.error("unknown-thing", name.span, f"There is nothing called {name.text} in {scope.place}.", hint)
     elif not scope.things[name.text] & about and scope.things[name.text] <= set(kinds("content")):
         is_ = listed(a(kind) for kind in sorted(scope.things[name.text]))

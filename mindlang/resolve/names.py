@@ -4,6 +4,8 @@ import re
 import unicodedata
 from collections.abc import Iterable, Iterator, Sequence, Set
 from dataclasses import dataclass, replace
+from functools import cached_property
+from itertools import chain, islice
 
 from mindlang.diagnostic import Findings, Label, a, listed
 from mindlang.source import Span
@@ -20,7 +22,7 @@ DOES = {
 }
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Names:
     """Declarations by noun and name, in the order of the sources.
 
@@ -53,18 +55,19 @@ class Names:
         if other:
             hint = f"There is {a(other)} of that name, but {DOES[other]}."
         else:
-            hint = self._thing(name.text, nouns) or findings.suggest(name.text, self.of(*nouns)) or self._offer(nouns)
+            known = (self.table.get(noun, {}) for noun in nouns)
+            hint = self._thing(name.text, nouns) or findings.suggest(name.text, *known) or self._offer(nouns)
             hint += _foreign_letter(name.text)
         findings.error(f"unknown-{nouns[0]}", name.span, f"There is no {wanted} called {name.text}.", hint)
         return None
 
     def _thing(self, name: str, nouns: Sequence[str]) -> str:
-        if "sensor" in nouns and any(name in things_of(task) for _, task in self.declarations("task")):
+        if "sensor" in nouns and name in self._all_things:
             return f"{name} is a thing of a task; what the robot knows of it is a sensor, such as bearing of {name}."
         return ""
 
     def _offer(self, nouns: Sequence[str]) -> str:
-        known = self.of(*nouns)
+        known = [*islice(chain.from_iterable(self.table.get(noun, {}) for noun in nouns), 9)]
         if not known:
             return f"Declare it: {nouns[0]} NAME {'in' if nouns[0] == 'task' else 'is'} KIND."
         more = ", …" if len(known) > 8 else ""
@@ -72,8 +75,12 @@ class Names:
 
     def things(self) -> dict[str, set[str]] | None:
         """The things that some task contains, with the kinds that they are of; None where this is not known."""
-        if not all(task.whole for _, task in self.declarations("task")) or not self.of("task"):
+        if not all(task.whole for _, task in self.declarations("task")) or not self.table.get("task"):
             return None
+        return self._all_things
+
+    @cached_property
+    def _all_things(self) -> dict[str, set[str]]:
         found: dict[str, set[str]] = {}
         for _, task in self.declarations("task"):
             for name, kinds in things_of(task).items():

@@ -14,10 +14,12 @@ from mindlang.syntax import Contains, Declaration, Drives, Influences, Reads, Te
 
 
 def card(view: View, noun: str, name: str) -> str:
-    """Everything about a name."""
+    """Everything about a name; nothing where another declaration has it already."""
     if noun == "thing":
         return _thing(view, name)
-    declaration = view.names.table[noun][name]
+    declaration = view.names.table.get(noun, {}).get(name)
+    if declaration is None:
+        return ""
     parts = [f"```mind\n{declaration.header.span.text.strip()}\n```", leading(declaration)]
     match noun:
         case "skill":

@@ -112,7 +112,7 @@ async def edited(ls: MindServer, *arguments: Any) -> types.Location | None:
     uri, name, said, fresh = (*arguments, "", "", {}, "")[: max(4, len(arguments))][:4]
     path = ls.session.wire.path(str(uri))
     try:
-        outcome, edit = ls.outcome(path, str(name), dict(said or {}))
+        outcome, edit = ls.outcome(path, str(name), said if isinstance(said, dict) else {})
     except MindError as error:
         ls.say(f"{error} {error.hint}".strip(), types.MessageType.Error)
         return None

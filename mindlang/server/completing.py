@@ -3,15 +3,19 @@
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import islice
 from pathlib import Path
 
 from mindlang.editing.project import OWNERS
+from mindlang.nearby import below
 from mindlang.server.facts import FACTS
 from mindlang.server.offers import Offer, arguments_of, kinds_of, words
 from mindlang.server.procedures import functions
 from mindlang.server.sentence import Line
 from mindlang.server.view import View, declaration_at
 from mindlang.syntax import NOUNS, SETTINGS
+
+MOST = 200  # files that are offered
 
 _PARTIAL = re.compile(r"(?:[A-Z]\w*(?:\+(?:[A-Z]\w*)?)*|[a-z_]\w*(?:\.\w*)*)?\Z")
 _PIECE = re.compile(r'"[^"]*"|[A-Za-z_][\w.]*(?:\+[A-Z]\w*)*|[0-9./]+|%|[<>]=?|\S')
@@ -76,5 +80,5 @@ def _header(line: Line, noun: str, rest: Sequence[str]) -> list[Offer]:
 
 def _paths(path: Path) -> list[Offer]:
     """The files that a file can use: those beside it and below."""
-    found = sorted(other for other in path.parent.rglob("*.mind") if other != path) if path.parent.is_dir() else []
-    return [Offer(other.relative_to(path.parent).as_posix(), "file") for other in found[:200]]
+    found = (other for other in below(path.parent) if other != path)
+    return [Offer(other.relative_to(path.parent).as_posix(), "file") for other in islice(found, MOST)]

@@ -3,10 +3,13 @@
 import re
 from collections.abc import Iterator
 from dataclasses import dataclass, field
+from itertools import chain
 from pathlib import Path
 
 from mindlang.compile import Compiled, load
+from mindlang.nearby import above, as_many, beside, text_of
 from mindlang.server.view import View, view
+from mindlang.source import within
 
 _MASTER = re.compile(r"^[ \t]*master\b", re.MULTILINE)
 _USE = re.compile(r'^[ \t]*use[ \t]+"', re.MULTILINE)
@@ -60,25 +63,28 @@ class Desk:
         return known
 
     def text(self, path: Path) -> str:
-        """The text of a file as it is now; nothing where it cannot be read."""
-        if path in self.texts:
-            return self.texts[path]
+        """The text of a file as it is now; nothing where it is too large, or cannot be read."""
+        text = self.texts.get(path)
+        if text is None:
+            return text_of(path)
         try:
-            return path.read_text(encoding="utf-8-sig", errors="replace") if path.is_file() else ""
-        except OSError:
+            return within(text)
+        except ValueError:
             return ""
 
-    def around(self, path: Path) -> Iterator[Path]:
-        """The `.mind` files that may use a file: the open ones, those beside it, and those in the folders above."""
-        above = [folder for folder in path.parents if folder != folder.parent]
-        open_ = [other for other in self.texts if other.parent in above]
-        beside = [other for folder in above for other in sorted(folder.glob("*.mind"))]
-        yield from (other for other in dict.fromkeys([*open_, *beside]) if other != path)
+    def around(self, *paths: Path) -> Iterator[tuple[Path, str]]:
+        """The `.mind` files that may use one of these, with their texts: the open ones, those beside and those above.
+
+        As many as an editor can wait for.
+        """
+        folders = dict.fromkeys(folder for path in paths for folder in above(path))
+        open_ = (other for other in self.texts if other.parent in folders)
+        others = dict.fromkeys(chain(open_, chain.from_iterable(map(beside, folders))))
+        yield from as_many((other, self.text(other)) for other in others if [other] != [*paths])
 
     def _users(self, path: Path) -> list[Path]:
         """Those around that may be minds and may use a file."""
-        texts = ((other, self.text(other)) for other in self.around(path))
-        return [other for other, text in texts if _USE.search(text) and _MASTER.search(text)]
+        return [other for other, text in self.around(path) if _USE.search(text) and _MASTER.search(text)]
 
     def _is_now(self, known: View, stamps: dict[Path, Stamp]) -> bool:
         """Whether a view is of the files as they are."""

@@ -32,7 +32,8 @@ def hover(view: View, path: Path, offset: int) -> Hover | None:
     if file is None:
         return None
     if mention := view.mention_at(path, offset):
-        return Hover(card(view, mention.noun, mention.name.text), mention.name.span)
+        text = card(view, mention.noun, mention.name.text)
+        return Hover(text, mention.name.span) if text else None
     return _kind(view, file, offset) or _word(view, file, offset)
 
 

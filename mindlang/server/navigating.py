@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from mindlang.editing.references import Mention, introductions
+from mindlang.nearby import text_of
 from mindlang.server.desk import Desk
 from mindlang.server.tree import path_to
 from mindlang.server.view import View
@@ -35,7 +36,7 @@ def definitions(view: View, path: Path, offset: int) -> list[Span]:
     used = (setting for setting in file.settings if isinstance(setting, Use))
     for use in used:
         if use.span.start <= offset <= use.span.end:
-            return _start_of((use.span.source.folder / use.path).resolve())
+            return _start_of(use.span.source.folder / use.path)
     return _procedure(file, offset)
 
 
@@ -63,8 +64,8 @@ def highlights(view: View, path: Path, offset: int) -> list[Span]:
 def sharing(desk: Desk, view: View) -> Iterator[View]:
     """Other minds that have one of a mind's files among their own."""
     own = set(view.paths)
-    for path in dict.fromkeys(other for file in view.paths for other in desk.around(file)):
-        if path != view.main and (path in own or 'use "' in desk.text(path)):
+    for path, text in desk.around(*view.paths):
+        if path != view.main and (path in own or 'use "' in text):
             other = desk.mind(path)
             if not own.isdisjoint(other.paths):
                 yield other
@@ -95,7 +96,11 @@ def _places(view: View, mention: Mention) -> Iterator[Span]:
 
 
 def _start_of(path: Path) -> list[Span]:
-    return [Span(Source(str(path), "", path.parent), 0, 0)] if path.is_file() else []
+    try:
+        found = path.resolve()
+        return [Span(Source(str(found), "", found.parent), 0, 0)] if found.is_file() else []
+    except (OSError, RuntimeError, ValueError):  # a loop of links, a name too long
+        return []
 
 
 def _procedure(file: File, offset: int) -> list[Span]:
@@ -104,7 +109,7 @@ def _procedure(file: File, offset: int) -> list[Span]:
         case [*_, Phrase(kind=Name(text="procedure")), Argument(value=Name(text=name)), Name()]:
             module, _, function = name.rpartition(".")
             path = file.source.folder.joinpath(*module.split(".")).with_suffix(".py")
-            text = path.read_text(encoding="utf-8", errors="replace") if module and path.is_file() else ""
+            text = text_of(path)
             found = re.search(rf"^(?:async )?def (?P<name>{re.escape(function)})\b", text, re.MULTILINE)
             source = Source(str(path), text, path.parent)
             return [Span(source, *found.span("name"))] if found else _start_of(path)

@@ -3,8 +3,9 @@
 import re
 from bisect import bisect_right
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, lru_cache
 
+RULERS = 16  # of texts that are remembered
 _LINE_END = re.compile(r"\r\n|\n|\r")
 
 
@@ -27,11 +28,7 @@ class Ruler:
         start, end = self.starts[line], self._end(line)
         if self._is_plain:
             return min(start + max(column, 0), end)
-        for offset in range(start, end):
-            if column <= 0:
-                return offset
-            column -= self._width(self.text[offset])
-        return end
+        return start + self._characters(self.text[start:end], max(column, 0))
 
     def place(self, offset: int) -> tuple[int, int]:
         """The line and the column of an offset."""
@@ -40,7 +37,7 @@ class Ruler:
         start = self.starts[line]
         if self._is_plain:
             return line, offset - start
-        return line, sum(map(self._width, self.text[start:offset]))
+        return line, self._units(self.text[start:offset])
 
     @cached_property
     def _is_plain(self) -> bool:
@@ -54,10 +51,22 @@ class Ruler:
         end = self.starts[line + 1]
         return end - (2 if self.text[end - 2 : end] == "\r\n" else 1)
 
-    def _width(self, character: str) -> int:
-        match self.encoding:
-            case "utf-8":
-                return len(character.encode("utf-8", "surrogatepass"))
-            case "utf-32":
-                return 1
-        return 2 if ord(character) > 0xFFFF else 1
+    def _units(self, text: str) -> int:
+        """How many columns a text takes."""
+        if self.encoding == "utf-8":
+            return len(text.encode("utf-8", "surrogatepass"))
+        return len(text.encode("utf-16-le", "surrogatepass")) // 2
+
+    def _characters(self, text: str, columns: int) -> int:
+        """How many characters begin before a column; one that is cut by it does."""
+        low, high = 0, len(text)
+        while low < high:
+            middle = (low + high) // 2
+            low, high = (middle + 1, high) if self._units(text[:middle]) < columns else (low, middle)
+        return low
+
+
+@lru_cache(RULERS)
+def ruler(text: str, encoding: str) -> Ruler:
+    """The ruler of a text."""
+    return Ruler(text, encoding)

@@ -1,9 +1,13 @@
 """`mindc lsp`: a server with everything that it can do, on standard input and output."""
 
 import logging
+import sys
+
+from pygls.exceptions import JsonRpcException
 
 from mindlang.server import commands, questions, texts
-from mindlang.server.server import FAILED, MindServer
+from mindlang.server.frames import Frames
+from mindlang.server.server import MindServer
 
 
 def make() -> MindServer:
@@ -16,13 +20,15 @@ def make() -> MindServer:
 
 def serve() -> int:
     """Serve until the editor says that it is over, or is gone; how the program ends."""
-    logging.getLogger("pygls.protocol.json_rpc").addFilter(_is_fault)
+    for name in ("pygls.server", "pygls.protocol.json_rpc"):
+        logging.getLogger(name).addFilter(_is_fault)
     server = make()
-    server.start_io()
+    with open(sys.stdout.fileno(), "wb", closefd=False) as answers:  # which pygls closes
+        server.start_io(Frames(sys.stdin.buffer), answers)  # type: ignore[arg-type]  # the methods that pygls calls
     return 0 if server.protocol._shutdown else 1
 
 
 def _is_fault(record: logging.LogRecord) -> bool:
-    """Whether something is worth a line in the editor's log: a refusal that the user has been told is not."""
+    """Whether something is worth a line in the editor's log: a refusal that the editor has been told is not."""
     error = record.exc_info[1] if record.exc_info else None
-    return getattr(error, "code", None) != FAILED
+    return not isinstance(error, JsonRpcException) and not str(record.msg).startswith("Unable to ")

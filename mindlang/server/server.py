@@ -7,10 +7,11 @@ from typing import Any
 
 from lsprotocol import types
 from mindrun.errors import MindError
-from pygls.exceptions import JsonRpcException
+from pygls.exceptions import FeatureRequestError, JsonRpcException
 from pygls.lsp.server import LanguageServer
 
 from mindlang.server.changing import Outcome, perform
+from mindlang.server.protocol import NO_JSON, MindProtocol
 from mindlang.server.session import Session
 
 PAUSE = 0.15  # seconds without typing, after which a text is checked
@@ -21,7 +22,8 @@ class MindServer(LanguageServer):
     """The server of one editor."""
 
     def __init__(self) -> None:
-        super().__init__("mindc", version("mindlang"), text_document_sync_kind=types.TextDocumentSyncKind.Full)
+        sync = types.TextDocumentSyncKind.Full
+        super().__init__("mindc", version("mindlang"), text_document_sync_kind=sync, protocol_cls=MindProtocol)
         self.session = Session()
         self._due: asyncio.TimerHandle | None = None
 
@@ -37,6 +39,19 @@ class MindServer(LanguageServer):
             self._due.cancel()
         for news in self.session.news():
             self.text_document_publish_diagnostics(news)
+
+    def report_server_error(self, error: Exception, source: Any) -> None:
+        """Tell the editor of what is no answer to a request: a message that is no JSON, or a fault of ours."""
+        match error:
+            case ValueError() | RecursionError() if source is JsonRpcException:
+                self._protocol.refuse(None, NO_JSON, "A message is one JSON object.")
+            case _ if source is not FeatureRequestError:
+                self.say(f"mindc failed: {error}. Please report it.", types.MessageType.Error)
+
+    @property
+    def _protocol(self) -> MindProtocol:
+        assert isinstance(self.protocol, MindProtocol)
+        return self.protocol
 
     def say(self, message: str, type_: types.MessageType = types.MessageType.Info) -> None:
         """Show the user a message."""

@@ -15,6 +15,7 @@ from mindlang.server.wire import Wire
 
 Report = tuple[int | None, list[types.Diagnostic]]
 MOST = 8  # edits whose locks are looked after
+TOLD = 1000  # findings in a file
 
 
 @dataclass
@@ -62,7 +63,7 @@ class Session:
                 path = each.span.source.path if each.span else main
                 place = (each.span.start, each.span.end) if each.span else (0, 0)
                 found.setdefault(path, {}).setdefault((*place, each.code, each.message), each)
-        return {path: list(each.values()) for path, each in found.items()}
+        return {path: _first(path, list(each.values())) for path, each in found.items()}
 
     def follow(self, following: Following | None) -> None:
         """Let locks follow an edit once its files are saved."""
@@ -78,3 +79,11 @@ class Session:
                     yield f"{listed((lock.name for lock in locks), 'and')} has followed: no weights are lost"
             except MindError as error:
                 yield f"{error}. The locks have not followed; mindc status says which weights no longer fit."
+
+
+def _first(path: Path, found: list[Diagnostic]) -> list[Diagnostic]:
+    """The first findings of a file, and how many more there are: nobody reads them all, and editors wait for them."""
+    if len(found) <= TOLD:
+        return found
+    more = Diagnostic("", f"There are {len(found) - TOLD} more findings in {path.name}.", severity="warning")
+    return [*found[:TOLD], more]

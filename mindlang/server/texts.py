@@ -45,9 +45,10 @@ def opened(ls: MindServer, params: types.DidOpenTextDocumentParams) -> None:
 
 def changed(ls: MindServer, params: types.DidChangeTextDocumentParams) -> None:
     """A file has another text: look at it when the user pauses."""
-    document = ls.workspace.get_text_document(params.text_document.uri)
-    ls.session.set(params.text_document.uri, params.text_document.version, document.source)
-    ls.check_soon()
+    if params.content_changes:  # each is the whole text
+        document = params.text_document
+        ls.session.set(document.uri, document.version, params.content_changes[-1].text)
+        ls.check_soon()
 
 
 def saved(ls: MindServer, params: types.DidSaveTextDocumentParams) -> None:

@@ -9,7 +9,7 @@ from lsprotocol import types
 from pygls.uris import from_fs_path, to_fs_path
 
 from mindlang.diagnostic import Diagnostic
-from mindlang.server.positions import Ruler
+from mindlang.server.positions import ruler
 from mindlang.source import Source, Span
 from mindlang.splice import Splice
 
@@ -26,8 +26,12 @@ class Wire:
 
     def path(self, uri: str) -> Path:
         """The path that a URI stands for; one that is no file has a path where no file is."""
-        name = to_fs_path(uri)
-        return Path(name).resolve() if name else Path("/", ".untitled", quote(uri, safe=""))
+        try:
+            name = to_fs_path(uri)
+            path = Path(name).resolve() if name else None
+        except (OSError, RuntimeError, ValueError):  # a loop of links, a null byte, a port that is no number
+            path = None
+        return path or Path("/", ".untitled", quote(uri, safe="", errors="replace"))
 
     def uri(self, path: Path) -> str:
         """The URI of a file."""
@@ -35,12 +39,12 @@ class Wire:
 
     def offset(self, text: str, position: types.Position) -> int:
         """The offset of a position."""
-        return Ruler(text, self.encoding).offset(position.line, position.character)
+        return ruler(text, self.encoding).offset(position.line, position.character)
 
     def range(self, span: Span) -> types.Range:
         """A span as a range."""
-        ruler = Ruler(span.source.text, self.encoding)
-        start, end = ruler.place(span.start), ruler.place(span.end)
+        of = ruler(span.source.text, self.encoding)
+        start, end = of.place(span.start), of.place(span.end)
         return types.Range(types.Position(*start), types.Position(*end))
 
     def whole(self, text: str) -> types.Range:
@@ -60,7 +64,7 @@ class Wire:
             self.range(found.span) if found.span else empty,
             f"{found.message}\n{found.hint}".strip(),
             SEVERITIES.get(found.severity, types.DiagnosticSeverity.Information),
-            code=found.code,
+            code=found.code or None,
             source="mindc",
             tags=[types.DiagnosticTag.Unnecessary] if is_removed else None,
             related_information=[

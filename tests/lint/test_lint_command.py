@@ -104,6 +104,21 @@ def test_what_another_mind_reads_is_of_use(mindc: Call, file: Path) -> None:
     assert file.read_text() == UNREAD
 
 
+def test_what_minds_beside_declare_for_themselves_says_nothing_of_this_one(mindc: Call, tmp_path: Path) -> None:
+    os.chdir(tmp_path)
+    Path("body.mind").write_text("".join(line for line in RULES.splitlines(True)[2:5]))
+    own = "".join(line for line in UNREAD.splitlines(True) if not line.startswith(("body", "actuator")))
+    Path("a.mind").write_text(f'use "body.mind"\n{own}')
+    alone = mindc("lint", "a.mind")
+    assert "Nobody reads pulse" in alone.out
+    Path("copy.mind").write_text(Path("a.mind").read_text())  # a variant, as everybody makes one
+    Path("c.mind").write_text(Path("a.mind").read_text().replace("  reads ball_bearing", "  reads pulse", 1))
+    assert mindc("lint", "a.mind").out == alone.out
+    Path("d.mind").write_text('use "a.mind"\nmaster Roam\n# pulse is read by nobody here\n')
+    assert mindc("check", "d.mind").code == 0
+    assert mindc("lint", "a.mind").out == alone.out
+
+
 def test_a_fix_that_would_break_another_mind_is_not_made(mindc: Call, file: Path) -> None:
     Path("parts.mind").write_text("sensor extra is sine period 1 s\n")
     file.write_text(f'use "parts.mind"\n{RULES}')

@@ -112,6 +112,14 @@ def test_hover(drive) -> None:
     assert hover(editor, path, "# Two skills", 5) == ""
 
 
+def test_a_second_declaration_of_a_name_has_nothing_to_say(drive) -> None:
+    editor, path = drive
+    editor.change(path, f"{MIND}\nmemory eye is cell\nskill Go is rule\n  reads eye\n")
+    assert [*codes(editor.settle(path))] == ["duplicate-name", "duplicate-name"]
+    assert hover(editor, path, "memory eye", 8) == ""
+    assert hover(editor, path, "skill Go is rule\n  reads eye", 28)
+
+
 def test_completion_in_a_line_that_is_being_written(drive) -> None:
     editor, path = drive
     text = MIND.replace("  influences Go\n", "  influences Go\n  reads m\n", 1)

@@ -1,0 +1,223 @@
+"""What every command takes for files twice and four times as long, in many shapes: python -m benchmarks.doubling.
+
+Printed are the milliseconds for LINES, twice and four times as many, and the last over the one before: 2 is linear,
+4 is quadratic. Those from 2.4 on are marked.
+"""
+
+import argparse
+import gc
+import time
+from collections.abc import Callable, Mapping
+from contextlib import suppress
+from io import StringIO
+from pathlib import Path
+from tempfile import TemporaryDirectory
+
+from mindrun.encoding import encode
+from rich.console import Console
+
+from benchmarks.shapes import SHAPES
+from mindlang.comparison import differences
+from mindlang.compile import Compiled, compile_source
+from mindlang.drawing import dot, tree
+from mindlang.editing.carry_out import carry_out
+from mindlang.editing.catalog import edit
+from mindlang.editing.project import EditError, open_project
+from mindlang.editing.telling import diff, told
+from mindlang.format import formatted
+from mindlang.linting.fixing import fixed
+from mindlang.linting.lint import lint
+from mindlang.lock.report import report, rows
+from mindlang.proofs.proof import prove
+from mindlang.report import as_data, print_report
+from mindlang.server.changing import perform
+from mindlang.server.completing import complete
+from mindlang.server.hovering import hover
+from mindlang.server.mending import all_mended, mendings
+from mindlang.server.navigating import definitions, highlights, references, symbols
+from mindlang.server.overview import everything
+from mindlang.server.proposals import proposals
+from mindlang.server.selection import Selection
+from mindlang.server.session import Session
+from mindlang.server.tidying import tidied
+from mindlang.source import Source
+from mindlang.splice import unified
+
+LINEAR = 2.4
+
+
+class Case:
+    """A text as the main file of a folder of its own, compiled once."""
+
+    def __init__(self, folder: Path, text: str) -> None:
+        self.path, self.text = folder.resolve() / "mind.mind", text
+        self.path.write_text(text, encoding="utf-8")
+        self.compiled = self.compile(text)
+
+    def compile(self, text: str) -> Compiled:
+        """A text compiled as this file."""
+        return compile_source(Source("mind.mind", text, self.path.parent), self.path)
+
+    def session(self) -> Session:
+        """An editor that has the file open, and has been told what is found in it."""
+        session = Session()
+        session.set(self.path.as_uri(), 1, self.text)
+        list(session.news())
+        return session
+
+
+def _lint(case: Case) -> None:
+    lint(case.compiled)
+
+
+def _fix(case: Case) -> None:
+    fixed(case.compiled.sources[0], lambda source: lint(case.compile(source.text)))
+
+
+def _check(case: Case) -> None:
+    print_report(case.compile(case.text).diagnostics, Console(file=StringIO()))
+
+
+def _json(case: Case) -> None:
+    [as_data(each) for each in case.compiled.diagnostics]
+
+
+def _show(case: Case) -> None:
+    if case.compiled.mind:
+        Console(file=StringIO()).print(tree(case.compiled.mind))
+        dot(case.compiled.mind)
+        encode(case.compiled.graph)
+
+
+def _status(case: Case) -> None:
+    if case.compiled.graph:
+        Console(file=StringIO()).print(report(rows(case.compiled.graph, [case.path])))
+
+
+def _prove(case: Case) -> None:
+    if case.compiled.graph:
+        with suppress(KeyError):  # weights that are not there
+            prove(case.compiled.graph, {}, 0.01)
+
+
+def _diff(case: Case) -> None:
+    """Against the same with half of the numbers others."""
+    other = case.compile(case.text.replace("1", "2"))
+    if case.compiled.mind and other.mind:
+        differences(case.compiled.mind, other.mind)
+
+
+def _fmt(case: Case) -> None:
+    unified("mind.mind", case.text, formatted(case.text))
+
+
+def _edits(*names: str) -> Callable[[Case], None]:
+    said: Mapping[str, dict[str, object]] = {
+        "rename": {"old": "eye", "new": "other", "noun": "sensor"},
+        "remove": {"what": ("sensor", "s1")},
+        "encapsulate": {"skill": "Go", "new": "Above", "reads": ("eye",)},
+        "connect": {"skill": "Go", "target": "mood"},
+        "add": {"lines": ("sensor new is battery",)},
+    }
+
+    def made(case: Case) -> None:
+        if case.compiled.graph:
+            project = open_project(case.compiled)
+            for name in names:
+                with suppress(EditError):
+                    edited = carry_out(project, edit(name).function(project, **said[name]), keep_weights=False)
+                    told(edited)
+                    diff(edited)
+
+    return made
+
+
+def _opened(case: Case) -> None:
+    case.session()
+
+
+def _asked(case: Case) -> None:
+    """Every question at the first declaration, in the middle and at the end."""
+    desk = case.session().desk
+    view = desk.view(case.path)
+    for offset in (case.text.find("eye") + 1, len(case.text) // 2, len(case.text)):
+        hover(view, case.path, offset)
+        complete(view, case.path, case.text, offset)
+        definitions(view, case.path, offset)
+        references(desk, view, case.path, offset, with_declaration=True)
+        highlights(view, case.path, offset)
+
+
+def _acted(case: Case) -> None:
+    """What an editor can do about all that is found, and at the master."""
+    session = case.session()
+    desk, wire = session.desk, session.wire
+    view = desk.view(case.path)
+    for each in mendings(view, case.path, 0, len(case.text)):
+        wire.workspace_edit(each.splices, {}, plain=True)
+    all_mended(view, case.path, desk.texts)
+    if case.compiled.graph:
+        at = max(case.text.find("skill Go"), 0)
+        proposals(Selection(open_project(case.compiled), case.path, at, at))
+        with suppress(EditError):
+            outcome = perform(desk, case.path, "rename", {"old": "eye", "new": "other", "noun": "sensor"})
+            wire.workspace_edit(outcome.change.splices, {}, plain=True)
+
+
+def _outlined(case: Case) -> None:
+    session = case.session()
+    if file := session.desk.view(case.path).file(case.path):
+        for symbol in symbols(file):
+            session.wire.range(symbol.whole)
+    everything(session.desk, [case.path.parent], "g")
+    for splice in tidied(Source("mind.mind", case.text, case.path.parent)):
+        session.wire.text_edit(splice)
+
+
+COMMANDS: Mapping[str, Callable[[Case], None]] = {
+    "check": _check,
+    "check --json": _json,
+    "lint": _lint,
+    "lint --fix": _fix,
+    "fmt": _fmt,
+    "show": _show,
+    "status": _status,
+    "prove": _prove,
+    "diff": _diff,
+    "edit": _edits("rename", "remove", "encapsulate", "connect", "add"),
+    "lsp: open": _opened,
+    "lsp: ask": _asked,
+    "lsp: act": _acted,
+    "lsp: outline": _outlined,
+}
+
+
+def seconds(command: str, shape: str, lines: int) -> float:
+    """What a command takes of the processor for a shape of so many lines."""
+    with TemporaryDirectory() as folder:
+        case = Case(Path(folder), SHAPES[shape](lines))
+        gc.collect()
+        begin = time.process_time()
+        COMMANDS[command](case)
+        return time.process_time() - begin
+
+
+def main() -> None:
+    """Measure and print."""
+    parser = argparse.ArgumentParser(allow_abbrev=False, description=__doc__)
+    parser.add_argument("--lines", type=int, default=1000)
+    parser.add_argument("--only", default="", help="shapes whose names hold this")
+    parser.add_argument("--all", action="store_true", help="also what is linear, or takes less than 50 ms")
+    options = parser.parse_args()
+    for shape in SHAPES:
+        for command in COMMANDS if options.only in shape else ():
+            taken = [seconds(command, shape, factor * options.lines) for factor in (1, 2, 4)]
+            ratio = taken[2] / max(taken[1], 1e-3)
+            is_slow = ratio > LINEAR and taken[2] > 0.05
+            if options.all or is_slow:
+                figures = "".join(f"{1000 * each:10.0f}" for each in taken)
+                print(f"{shape:32}{command:14}{figures}{ratio:8.1f}{' !' * is_slow}", flush=True)
+
+
+if __name__ == "__main__":
+    main()

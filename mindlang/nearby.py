@@ -1,0 +1,62 @@
+"""The files of a kind in a folder, below it, and in the folders above: never more than one can wait for.
+
+What stands there is somebody else's and may be anything: a million files, loops of links, pipes, devices. So folders
+are looked through up to so many entries, links to folders are not followed, and texts are read as sources are.
+"""
+
+import os
+from collections.abc import Iterable, Iterator
+from itertools import islice
+from pathlib import Path
+
+from mindrun.regular import read_regular
+
+from mindlang.source import LIMIT, decode
+
+ENTRIES = 20_000  # of a folder, or of all folders below one, that are looked at
+FILES = 500  # files that are read of all those around one
+CHARACTERS = 8 << 20  # of all of them together
+HIDDEN = ("node_modules", "build", "dist", "runs")
+
+
+def beside(folder: Path, suffix: str = ".mind") -> list[Path]:
+    """The files in a folder whose names end so, in order; none where it cannot be read."""
+    try:
+        with os.scandir(folder) as entries:
+            return sorted(folder / entry.name for entry in islice(entries, ENTRIES) if entry.name.endswith(suffix))
+    except (OSError, ValueError):
+        return []
+
+
+def below(folder: Path, suffix: str = ".mind") -> Iterator[Path]:
+    """The files in a folder and in those below it, but for hidden ones and those in which nobody writes."""
+    left = ENTRIES
+    for at, folders, files in os.walk(folder):
+        folders[:] = sorted(name for name in folders if not name.startswith(".") and name not in HIDDEN)
+        yield from (Path(at, name) for name in sorted(files)[:left] if name.endswith(suffix))
+        left -= len(folders) + len(files)
+        if left <= 0:
+            return
+
+
+def above(path: Path) -> list[Path]:
+    """The folders from which a file can be used: its own and those above, but for the root of everything."""
+    return [folder for folder in path.parents if folder != folder.parent]
+
+
+def text_of(path: Path) -> str:
+    """The text of a source file; nothing where it cannot be one."""
+    try:
+        return decode(read_regular(path, LIMIT + 1))
+    except (OSError, RuntimeError, ValueError):  # a loop of links is a RuntimeError
+        return ""
+
+
+def as_many(texts: Iterable[tuple[Path, str]]) -> Iterator[tuple[Path, str]]:
+    """Files with their texts, as many of them as one can wait for."""
+    left = CHARACTERS
+    for path, text in islice(texts, FILES):
+        left -= len(text)
+        if left < 0:
+            return
+        yield path, text
