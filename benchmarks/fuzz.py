@@ -16,6 +16,8 @@ from pathlib import Path
 from random import Random
 from tempfile import TemporaryDirectory
 
+from mindrun.visible import visible
+
 from benchmarks.sources import source
 from mindlang.comparison import differences
 from mindlang.compile import Compiled, compile_source
@@ -24,7 +26,7 @@ from mindlang.linting.lint import lint
 from mindlang.lock.report import rows
 from mindlang.lock.status import NotLearning, status
 from mindlang.proofs.proof import prove
-from mindlang.report import as_data, plain, visible
+from mindlang.report import as_data, plain
 from mindlang.server.completing import complete
 from mindlang.server.desk import Desk
 from mindlang.server.hovering import hover

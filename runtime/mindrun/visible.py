@@ -5,7 +5,7 @@ from unicodedata import category
 
 def visible(text: str) -> str:
     """Text that does to a terminal only what it seems to: control and direction characters are spelt out."""
-    return "".join(_visible(character) for character in text)
+    return text if text.isascii() and text.isprintable() else "".join(map(_visible, text))
 
 
 def _visible(character: str) -> str:
