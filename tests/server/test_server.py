@@ -95,7 +95,7 @@ def test_hover(drive) -> None:
     card = hover(editor, path, "skill Drive", 7)
     for line in ("reads ball_bearing, eye (3)", "influences Go, Avoid, Grab at 1", "the master"):
         assert line in card
-    assert "trained" in card
+    assert "taught elsewhere" in card
     assert "School: teaches Drive on Roam for 3 generations" in card
     assert "place: Drive → Go" in hover(editor, path, "influences Go", 12)
     assert "to the ball" in hover(editor, path, "influences Go", 12)
