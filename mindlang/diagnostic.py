@@ -59,6 +59,11 @@ class Findings:
         return did_you_mean(word, chain(*known)) if len(self.diagnostics) < MOST else ""
 
 
+def errors(diagnostics: Iterable[Diagnostic]) -> list[Diagnostic]:
+    """Those of them that are errors."""
+    return [diagnostic for diagnostic in diagnostics if diagnostic.severity == "error"]
+
+
 def nearest(word: str, known: Iterable[str]) -> str | None:
     """The known word that is most like `word`, if one is."""
     by_lower = {name.lower(): name for name in known}

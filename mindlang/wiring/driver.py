@@ -7,7 +7,7 @@ from typing import Any
 from mindrun.errors import MindError
 from mindrun.quantity import Quantity, Reference
 
-from mindlang.diagnostic import Findings, listed, nearest
+from mindlang.diagnostic import Findings, errors, listed, nearest
 from mindlang.source import Span
 from mindlang.wiring.nodes import Entry, Scalar, Table, shortened, tell
 from mindlang.wiring.options import DRIVER, Option, driver_options, drivers, own_options
@@ -40,7 +40,7 @@ class Wired:
 
 def wired(noun: str, name: Scalar, table: Table, findings: Findings) -> Wired | None:
     """What a table says, its keys and values checked; None after reporting why there is no driver."""
-    before = len(findings.diagnostics)
+    before = len(errors(findings.diagnostics))
     cls = _class(noun, name, table, findings)
     if cls is None:
         return None
@@ -52,7 +52,7 @@ def wired(noun: str, name: Scalar, table: Table, findings: Findings) -> Wired | 
     others = [entry for entry in table.entries if entry.key.text not in {DRIVER, *its, *ENDS}]
     values, own_values = by_option(table.entries, its, findings), by_option(others, own, findings)
     said = [entry for entry in table.entries if entry.key.text not in {DRIVER, *ENDS}]
-    if len(findings.diagnostics) > before or len(said) > len(values) + len(own_values) or not table.whole:
+    if len(errors(findings.diagnostics)) > before or len(said) > len(values) + len(own_values) or not table.whole:
         return None
     driver = _made(cls, values, entry.value, findings)
     return None if driver is None else Wired(name, table, noun, driver, own_values)
@@ -116,6 +116,6 @@ def _made(cls: type[Any], values: Mapping[str, Any], name: Scalar, findings: Fin
     try:
         return cls(**values)
     except (MindError, ValueError) as error:
-        hint = getattr(error, "hint", "") or f"Look at the options of {name.text} in docs/robot-yaml.md."
+        hint = getattr(error, "hint", "") or f"Look at the options of {name.text} in docs/drivers.md."
         tell(findings, "impossible-driver", name.span, f"{name.text} cannot be wired so: {error}.", hint)
         return None

@@ -55,6 +55,11 @@ def tell(findings: Findings, code: str, span: Span, message: str, hint: str, *la
     findings.diagnostics.append(Diagnostic(code, message, span, hint, labels))
 
 
+def warn(findings: Findings, code: str, span: Span, message: str, hint: str, *labels: Label) -> None:
+    """Collect a warning: the wiring is taken as it is."""
+    findings.diagnostics.append(Diagnostic(code, message, span, hint, labels, "warning"))
+
+
 def shortened(text: str) -> str:
     """What was written, if it is not too long for a message."""
     return text if len(text) <= 40 else f"{text[:39]}…"

@@ -106,7 +106,9 @@ def _value(option: Option) -> dict[str, Any]:
     if not option.shape.endswith("s"):
         return one
     count = {"minItems": option.count, "maxItems": option.count} if option.count else {"minItems": 1}
-    return {"type": "array", "items": one, **count}
+    several = {"type": "array", "items": one, **count}
+    single = option.shape == "numbers" and option.count in (None, 1)
+    return {"anyOf": [one, several]} if single else several
 
 
 def _number(quantity: Quantity) -> dict[str, Any]:

@@ -6,9 +6,10 @@ from mindrun.robot.parts import PIN
 from mindrun.robot.wiring import SensorWire
 from mindrun.sensors import Bearing, RangeFinder
 
-from mindlang.diagnostic import Findings, Label
+from mindlang.diagnostic import Findings, Label, errors
+from mindlang.wiring.direction import check_direction
 from mindlang.wiring.driver import Wired
-from mindlang.wiring.nodes import Items, tell
+from mindlang.wiring.nodes import tell
 from mindlang.wiring.options import driver_options
 from mindlang.wiring.tables import is_empty
 from mindlang.wiring.values import first_line, number
@@ -20,7 +21,7 @@ TURN = 360.0  # degrees
 
 def sensor_wire(wired: Wired, sensor: Sensor, findings: Findings) -> SensorWire | None:
     """The wire of a sensor, or None after reporting why it cannot be wired so."""
-    before = len(findings.diagnostics)
+    before = len(errors(findings.diagnostics))
     low, high = (_end(wired, index, findings) for index in (0, 1))
     if low is None or high is None:
         return None
@@ -33,7 +34,10 @@ def sensor_wire(wired: Wired, sensor: Sensor, findings: Findings) -> SensorWire 
         hint = f"Only of an odd number one stands in the middle: write {wire.median - 1} or {wire.median + 1}."
         tell(findings, "not-odd", wired.span("median"), f"{wire.median} is an even number.", hint)
     _check_times(wired, wire, findings)
-    return wire if len(findings.diagnostics) == before else None
+    if len(errors(findings.diagnostics)) > before:
+        return None
+    check_direction(wired, wire, sensor, findings)
+    return wire
 
 
 def nothing(sensor: Sensor) -> tuple[float, float]:
@@ -73,9 +77,9 @@ def _check_readings(wired: Wired, sensor: Sensor, findings: Findings) -> None:
         tell(findings, "wrong-width", wired.span(*lists, "driver"), message, hint)
         return
     for option in driver_options(type(wired.driver)):
-        entry = wired.entry(option.key)
-        if option.type is PIN and entry and isinstance(entry.value, Items) and len(entry.value.items) != count:
-            message = f"{option.key} has {len(entry.value.items)} pins, for {_many(count)}."
+        entry, pins = wired.entry(option.key), getattr(wired.driver, option.field)
+        if option.type is PIN and entry and isinstance(pins, tuple) and len(pins) != count:
+            message = f"{option.key} has {len(pins)} pin{'s' * (len(pins) != 1)}, for {_many(count)}."
             hint = f"List {count}, in the order of the readings."
             tell(findings, "wrong-count", first_line(entry.value.span), message, hint)
 

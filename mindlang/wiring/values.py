@@ -58,7 +58,10 @@ def _parsed(digits: str) -> float:
 
 
 def numbers(node: Node, quantity: Quantity, count: int | None, findings: Findings) -> tuple[float | int, ...] | None:
-    """A list of numbers."""
+    """A list of numbers; where there may be any number of them, or one, a single one needs no brackets."""
+    if isinstance(node, Scalar) and count in (None, 1) and AMOUNT.fullmatch(node.text):
+        one = number(node, quantity, findings)
+        return None if one is None else (one,)
     if not isinstance(node, Items):
         example = node.span.text if isinstance(node, Scalar) and AMOUNT.fullmatch(node.text) else "1"
         hint = f"Write [{', '.join([shortened(example)] * (count or 1))}]."

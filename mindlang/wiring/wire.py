@@ -8,7 +8,7 @@ from mindrun.graph import Graph
 from mindrun.regular import read_regular
 from mindrun.robot.wiring import Wiring
 
-from mindlang.diagnostic import Diagnostic, Findings, nearest
+from mindlang.diagnostic import Diagnostic, Findings, errors, nearest
 from mindlang.source import Source, decode
 from mindlang.wiring.claims import check_claims
 from mindlang.wiring.nodes import Entry, Node, tell
@@ -59,7 +59,7 @@ def check_wiring(source: Source, graph: Graph) -> Checked:
     node = read(source, findings)
     wiring = _wiring(node, graph, findings) if node else None
     found = sorted(findings.diagnostics, key=lambda diagnostic: diagnostic.span.start if diagnostic.span else -1)
-    return Checked(None if found else wiring, tuple(found))
+    return Checked(None if errors(found) else wiring, tuple(found))
 
 
 def _wiring(node: Node, graph: Graph, findings: Findings) -> Wiring | None:

@@ -12,13 +12,14 @@ from contextlib import redirect_stdout
 from pathlib import Path
 from typing import Any
 
-from mindrun import arguments, streams
+from mindrun import VERSION, arguments, streams
 from mindrun.arguments import SEED, new_file, real, whole
 from mindrun.bundle import read_bundle
 from mindrun.describe import contents, describe
 from mindrun.engine import Engine
 from mindrun.errors import MindError, ProcedureError, ReadingsError, surroundings
 from mindrun.readings import vector
+from mindrun.robot.wiring import read_by
 from mindrun.tools import run_tool, tools
 from mindrun.visible import visible
 
@@ -106,6 +107,7 @@ def _options() -> argparse.Namespace:
     about = "Let a compiled mind drive its robot, say what it holds, or run it on readings."
     parser = arguments.parser("mindrun", about, EXAMPLES)
     parser.add_argument("bundle", type=Path, metavar="FILE.bundle", help="what `mindc build` wrote")
+    parser.add_argument("--version", action="version", version=f"mindrun, version {VERSION}", help="say which it is")
     parser.add_argument("--readings", metavar="FILE", help="JSON lines of readings by sensor name; - is standard input")
     parser.add_argument("--fill", type=real(0, 1), metavar="X", help="what a sensor that a line leaves out reads")
     parser.add_argument("--influence", action="store_true", help="print the influence of each skill too")
@@ -133,10 +135,11 @@ def _run(engine: Engine, options: argparse.Namespace) -> None:
     source = _source(options.readings)
     names = [actuator.name for actuator in engine.graph.actuators]
     skills = [skill.name for skill in engine.graph.skills]
+    needed = read_by(engine.graph, options.master or engine.graph.master)
     for number, given in _lines(options.readings):
         try:
             with redirect_stdout(sys.stderr):
-                commands = engine.tick(vector(engine.graph, given, options.fill))
+                commands = engine.tick(vector(engine.graph, given, options.fill, needed))
         except ReadingsError as error:
             raise ReadingsError(f"{source}, line {number}: {error}") from error
         line: dict[str, Any] = {"commands": dict(zip(names, commands.tolist(), strict=True))}

@@ -1,6 +1,6 @@
 """Readings by sensor name, as people and other programs write them, to the vector that the engine takes."""
 
-from collections.abc import Mapping
+from collections.abc import Container, Mapping
 from difflib import get_close_matches
 from typing import Any
 
@@ -17,10 +17,13 @@ def physical(graph: Graph) -> dict[str, Sensor]:
     return {sensor.name: sensor for sensor in graph.sensors if not isinstance(sensor.kind, Derivative | Sine)}
 
 
-def vector(graph: Graph, given: Mapping[str, Any], fill: float | None = None) -> NDArray[np.float32]:
+def vector(
+    graph: Graph, given: Mapping[str, Any], fill: float | None = None, needed: Container[str] | None = None
+) -> NDArray[np.float32]:
     """Readings [graph.width] from `{"proximity": [1, 0.5], "battery": 0.4}`; a missing sensor reads `fill`.
 
-    NaN stands for a reading that failed. Raises ReadingsError for anything else that is not a number in 0..1.
+    One that is not `needed`, since nobody reads it, may be missing anyway. NaN stands for a reading that failed. Raises
+    ReadingsError for anything else that is not a number in 0..1.
     """
     sensors = physical(graph)
     for name in given:
@@ -28,6 +31,8 @@ def vector(graph: Graph, given: Mapping[str, Any], fill: float | None = None) ->
             raise ReadingsError(_unknown(graph, name))
     readings = np.zeros(graph.width, np.float32)
     for name, sensor in sensors.items():
+        if name not in given and needed is not None and name not in needed:
+            continue
         if name not in given and fill is None:
             raise ReadingsError(f"there is no reading of sensor {name} (--fill 0.5 would set it)")
         values = given.get(name, [fill] * sensor.width)

@@ -3,17 +3,21 @@
 import json
 import subprocess
 import sys
+import tomllib
 from pathlib import Path
 
 import numpy as np
 import pytest
+from mindrun import VERSION
 from mindrun.bundle import write_bundle
 from mindrun.functions import Mlp, Procedure
 from mindrun.graph import Edge
 from mindrun.memory import Cell
 from mindrun.weights import genes
 
+from mindlang.compile import load
 from tests.minds import always, mind, rule, skill
+from tests.project.sources import ROOT
 
 
 @pytest.fixture
@@ -134,3 +138,38 @@ def test_help_has_an_example_for_every_option() -> None:
     said = mindrun("--help").stdout
     for option in ("--json", "--readings", "--fill", "--influence", "--master"):
         assert said.count(option) >= 2, option
+
+
+def test_what_nobody_reads_need_not_be_given(tmp_path: Path) -> None:
+    """And what the master or a skill below it reads, as a derivative too, has to."""
+    text = """\
+tick 1/10 s
+master Go
+body Robot is disc
+actuator wheel is wheel side left neutral 0.5
+sensor eyes is range_finder at 0 90 deg
+sensor charge is battery
+sensor spare is inertial
+sensor drain is derivative of charge
+skill Go is rule
+  reads drain
+  drives wheel at drain
+skill Look is rule
+  reads eyes
+  drives wheel at eyes
+"""
+    (tmp_path / "any.mind").write_text(text.replace("at eyes", "at 0.25"))
+    found = load(tmp_path / "any.mind")
+    assert found.graph, found.diagnostics
+    write_bundle(tmp_path / "a.bundle", found.graph, {}, {})
+    run = (tmp_path / "a.bundle", "--readings", "-")
+    assert mindrun(*run, text='{"charge": 0.5}').stdout == '{"commands": {"wheel": 0.5}}\n'
+    assert mindrun(*run, text='{"charge": 0.5, "eyes": [0, 1]}').returncode == 0
+    assert "there is no reading of sensor charge" in mindrun(*run, text='{"eyes": [1, 1]}').stderr
+    assert "there is no reading of sensor eyes" in mindrun(*run, "--master", "Look", text='{"charge": 0.5}').stderr
+
+
+def test_its_version_is_that_of_its_packages() -> None:
+    for path in (ROOT / "pyproject.toml", ROOT / "runtime" / "pyproject.toml"):
+        assert tomllib.loads(path.read_text(encoding="utf-8"))["project"]["version"] == VERSION
+    assert mindrun("--version").stdout == f"mindrun, version {VERSION}\n"

@@ -11,6 +11,7 @@ from time import sleep
 import pytest
 from mindrun.bundle import write_bundle
 from mindrun.robot.recording import read
+from mindrun.tools.doctor import machine
 
 from tests.robot.driving import MINDRUN, NAME, children, mindrun, wiring
 from tests.robot.faults import MIND, SENSORS, graph
@@ -176,6 +177,14 @@ def test_doctor_says_what_answers(bundle: Path) -> None:
     assert rows["sense"].startswith("ok   sense")
     assert "mock reads 0.6" in rows["sense"]
     assert "mock, left alone" in rows["claw"]
+
+
+def test_what_is_not_there_is_neither_fine_nor_a_fault(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("mindrun.tools.doctor.find_spec", lambda package: None)
+    marks = {finding.what: (finding.mark.strip(), finding.words) for finding in machine()}
+    assert marks["machine"][0] == "ok"
+    assert marks["lgpio"] == ("-", "not installed: sudo apt install python3-lgpio")
+    assert marks["numpy"][0] == "NOT"
 
 
 def test_calibrate_prints_lines_for_the_wiring(bundle: Path) -> None:

@@ -59,8 +59,12 @@ def _dry(options: argparse.Namespace, bundle: Bundle, wishes: Wishes) -> Loop:
     if tasks and options.task is None:
         chosen, why = default_task(bundle.graph)
         task = chosen.name
+    if not tasks:
+        raise MindError(
+            "this mind has no task, and so no world to be simulated in", "add one: task Play in arena size 40"
+        )
     if task not in tasks:
-        raise MindError(f"this mind has no task {task}", f"it has {', '.join(tasks)}" if tasks else "")
+        raise MindError(f"this mind has no task {task or 'without a name'}", f"it has {', '.join(tasks)}")
     tell = _quiet if options.quiet else _tell
     if why:
         tell(why)

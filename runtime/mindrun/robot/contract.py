@@ -42,7 +42,11 @@ class ActuatorDevice(Protocol):
 
 
 class SensorDriver(Protocol):
-    """How a sensor is wired: `unit` and number of its values; those that are `usual`ly the readings 0 and 1."""
+    """How a sensor is wired: `unit` and number of its values; those that are `usual`ly the readings 0 and 1.
+
+    It may have more: the values that are `possible`; that which means that something is `near` (0 m where it measures
+    metres); the same sensor `motionless`.
+    """
 
     @property
     def unit(self) -> str: ...

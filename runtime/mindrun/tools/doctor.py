@@ -32,12 +32,15 @@ PACKAGES = {  # that drivers may need, and the line that installs each
 }
 
 
+FINE, ABSENT, WRONG = "ok ", "-  ", "NOT"  # what is absent is no fault before something needs it
+
+
 @dataclass(frozen=True, slots=True)
 class Finding:
-    """What was looked at, whether it is fine, and what there is to say or do."""
+    """What was looked at, how it is, and what there is to say or do."""
 
     what: str
-    fine: bool
+    mark: str
     words: str
 
 
@@ -51,29 +54,31 @@ def run(options: argparse.Namespace) -> int:
     findings = [*machine()]
     if options.bundle:
         wiring = read_bundle(options.bundle).wiring
-        findings += wired(wiring) if wiring else [Finding("bundle", False, "it is wired to no robot")]
+        findings += wired(wiring) if wiring else [Finding("bundle", WRONG, "it is wired to no robot")]
     width = max(len(finding.what) for finding in findings)
     for finding in findings:
-        print(f"{'ok ' if finding.fine else 'NOT'}  {finding.what:<{width}}  {finding.words}")
-    return 0 if all(finding.fine for finding in findings) else 1
+        print(f"{finding.mark}  {finding.what:<{width}}  {finding.words}")
+    return 1 if any(finding.mark == WRONG for finding in findings) else 0
 
 
 def machine() -> Iterator[Finding]:
-    """The machine, and what is installed; a package that is missing is no fault before something needs it."""
+    """The machine, and what is installed and connected."""
     system = f"{platform.machine()}, {platform.platform(terse=True)}, Python {platform.python_version()}"
-    yield Finding("machine", True, system)
+    yield Finding("machine", FINE, system)
     for package, line in PACKAGES.items():
-        there = find_spec(package) is not None
-        yield Finding(package, there or package != "numpy", "installed" if there else f"not installed: {line}")
+        if find_spec(package) is not None:
+            yield Finding(package, FINE, "installed")
+        else:
+            yield Finding(package, WRONG if package == "numpy" else ABSENT, f"not installed: {line}")
     for device in ("i2c-1", "gpiochip0", "video0"):
         path = Path("/dev") / device
         if path.exists():
             may = os.access(path, os.R_OK | os.W_OK)
             group = "gpio" if "gpio" in device else "video" if "video" in device else "i2c"
             words = "you may use it" if may else f"you may not use it: sudo usermod -aG {group} $USER, and log in again"
-            yield Finding(str(path), may, words)
+            yield Finding(str(path), FINE if may else WRONG, words)
         else:
-            yield Finding(str(path), True, "not there")
+            yield Finding(str(path), ABSENT, "not there")
 
 
 def wired(wiring: Wiring) -> Iterator[Finding]:
@@ -82,13 +87,13 @@ def wired(wiring: Wiring) -> Iterator[Finding]:
         sample = answered(wire)
         kind = names()[type(wire.driver)]
         if sample is None:
-            yield Finding(wire.sensor, False, f"{kind} has not answered within {PATIENCE:g} s")
+            yield Finding(wire.sensor, WRONG, f"{kind} has not answered within {PATIENCE:g} s")
         else:
             values = " ".join("-" if value is None else f"{value:.3g}" for value in sample.values)
             words = sample.fault or f"{kind} reads {values} {wire.driver.unit}".rstrip()
-            yield Finding(wire.sensor, not sample.fault, words)
+            yield Finding(wire.sensor, WRONG if sample.fault else FINE, words)
     for end in wiring.actuators:
-        yield Finding(end.actuator, True, f"{names()[type(end.driver)]}, left alone")
+        yield Finding(end.actuator, FINE, f"{names()[type(end.driver)]}, left alone")
 
 
 def answered(wire: SensorWire) -> Sample | None:

@@ -155,6 +155,29 @@ def test_a_guardian_that_dies_or_hangs_is_replaced_by_neutral(log: Path, name: s
         assert all_at_rest(log)
 
 
+def test_a_guardian_that_is_killed_before_the_end_is_replaced_by_neutral_too(log: Path) -> None:
+    """No frame is sent any more that would show that it is gone."""
+    guardian = Guardian(PLAN, program=LOGGED)
+    drive(guardian, log)
+    os.kill(guardian.pid, signal.SIGKILL)
+    with pytest.raises(GuardianError, match="is gone: another has brought"):
+        guardian.close()
+    assert all_at_rest(log)
+
+
+@pytest.mark.parametrize("name", ["SIGTERM", "SIGINT", "SIGHUP"])
+def test_what_brings_to_neutral_is_not_ended_before(log: Path, tmp_path: Path, name: str) -> None:
+    plan = tmp_path / "plan.json"
+    plan.write_text(to_json(PLAN))
+    with patient({"MIND_MANNERS": "fine tired fine"}):
+        process = subprocess.Popen([*LOGGED, "--neutral", str(plan), "--within", "20"])
+    while {write.channel for write in writes(log)} != {0, 2}:
+        time.sleep(0.005)
+    process.send_signal(signal.Signals[name])
+    assert process.wait(30) == 0
+    assert all_at_rest(log)
+
+
 @pytest.mark.parametrize("manner", ["fails", "exits"])
 def test_one_that_fails_keeps_no_other_from_neutral(log: Path, manner: str) -> None:
     def until_latched(guardian: Guardian) -> None:

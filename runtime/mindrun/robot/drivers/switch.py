@@ -29,7 +29,7 @@ class SwitchDevice:
 @kind("sensor driver", "switch")
 @dataclass(frozen=True, slots=True)
 class Switch:
-    """A switch or a bumper: 1 while it is closed, else 0.
+    """A switch or a bumper: 1 while it is closed, else 0; for a range finder `from: 1` and `to: 0`.
 
     It connects `pin` (a GPIO number) to ground; with `pull` "down", to 3.3 V.
     """
@@ -41,6 +41,7 @@ class Switch:
     readings = 1
     usual = (0.0, 1.0)
     possible = (0.0, 1.0)
+    near = 1.0
 
     def open(self) -> SwitchDevice:
         """The switch."""

@@ -67,6 +67,7 @@ def guard(plan: Plan, report: Teller, status: Teller) -> int:
 
 def bring(process: Process, report: Teller, seconds: float) -> int:
     """Bring all that can be opened to neutral; whether that was all, and in time."""
+    wake_on_signals(process.wake)  # whoever tells it to end is told that it does, when it is done
     wrong = process.open()
     if not process.settle(seconds):
         wrong.append(f"not everything was at neutral after {seconds:g} s")

@@ -41,8 +41,9 @@ class Guardian:
         self.state, self.why = NEUTRAL, "started"
         self._plan = f"{to_json(plan)}\n".encode()
         self._patience = patience
-        self._program = program
+        self._program, self._inherited = program, inherited
         self._number = 0
+        self._rescued = False
         self._said = b""
         self._read_at = monotonic()
         self._controller = os.getpid()
@@ -89,12 +90,16 @@ class Guardian:
         self._number += 1
 
     def close(self) -> None:
-        """End the frames and wait until every actuator is at neutral; GuardianError where one is not in time."""
+        """End the frames and wait until every actuator is at neutral; GuardianError where one is not in time.
+
+        So it is where the guardian has been killed; then another has tried.
+        """
         self._end_in_children()
         with suppress(OSError):
             self._input.close()
         try:
-            self._process.wait(self._patience)
+            if self._process.wait(self._patience) < 0 and not self._rescued:
+                raise GuardianError(f"the guardian is gone: {self._rescue(hangs=False)}")
         except subprocess.TimeoutExpired:
             raise GuardianError(
                 f"an actuator is not at neutral after {self._patience:g} s; process {self.pid} goes on trying",
@@ -158,15 +163,29 @@ class Guardian:
 
     def _rescue(self, hangs: bool) -> str:
         """Bring the actuators to neutral in place of a guardian that no longer can; what came of it."""
+        self._rescued = True
         if hangs:
             self._process.kill()
         if self._process.wait() == 0:
             return "it was told to end, with every actuator at neutral"
         try:
-            done = subprocess.run([*self._program, "--neutral", "-"], input=self._plan, timeout=self._patience)
-        except (OSError, subprocess.TimeoutExpired):
-            return "nothing brought the actuators to neutral"
-        return "another has brought the actuators to neutral" if done.returncode == 0 else "an actuator may still move"
+            code = self._replacement().wait(self._patience)
+        except (OSError, subprocess.TimeoutExpired):  # it may still come to it
+            return "nothing has brought the actuators to neutral yet"
+        return "another has brought the actuators to neutral" if code == 0 else "an actuator may still move"
+
+    def _replacement(self) -> "subprocess.Popen[bytes]":
+        """Another, which brings everything to neutral and ends, whatever becomes of this process meanwhile."""
+        with open(os.memfd_create("plan"), "w+b", buffering=0) as plan:  # noqa: PTH123  whole before there is a reader
+            plan.write(self._plan)
+            plan.seek(0)
+            return subprocess.Popen(
+                [*self._program, "--neutral", "-"],
+                stdin=plan,
+                stdout=subprocess.DEVNULL,
+                start_new_session=True,
+                pass_fds=self._inherited,
+            )
 
     def _let_go(self) -> None:
         """In a forked process: neither speak to the guardian nor hear it, nor keep it alive."""
