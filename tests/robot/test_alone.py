@@ -125,7 +125,7 @@ def f(sense, pulse):
     return 0.9
 """
 RAISES = RETURNS.replace("os.fork()", "assert os.fork()")
-BY_C = RETURNS.replace("os.fork()", "import ctypes; ctypes.CDLL(None).fork()")
+BY_C = RETURNS.replace("os.fork()", "import ctypes; ctypes.PyDLL(None).fork()")  # PyDLL: it comes back with the GIL
 STAYS = """
 import os, time
 children = []
