@@ -14,12 +14,17 @@ sys.path.insert(0, str(Path(__file__).parents[1]))
 from mindrun.robot.guardian.client import Guardian
 
 from tests.robot.guardian.driven import PLAN, TICK
-from tests.robot.guardian.scenes import HANGS, KILLS, hang, kill, robot
+from tests.robot.guardian.scenes import HANGS, KILLS, LOSSES, hang, kill, lose, robot
 
 
 def kills(folder: Path, trials: int, rng: random.Random) -> dict[str, list[float | None]]:
     """Seconds to neutral after each kill."""
     return {number.name: [kill(folder, number, rng) for _ in range(trials)] for number in KILLS}
+
+
+def losses(folder: Path, trials: int, rng: random.Random) -> dict[str, list[float | None]]:
+    """Seconds to neutral after the guardian itself was killed or stopped."""
+    return {f"its {number.name}": [lose(folder, number, rng) for _ in range(trials)] for number in LOSSES}
 
 
 def hangs(folder: Path, trials: int, rng: random.Random) -> dict[str, list[float | None]]:
@@ -62,7 +67,8 @@ def main() -> None:
     options = parser.parse_args()
     rng = random.Random(1)
     with tempfile.TemporaryDirectory() as name:
-        times = kills(Path(name), options.trials, rng) | hangs(Path(name), options.trials, rng) | starts(options.trials)
+        scenes = [scene(Path(name), options.trials, rng) for scene in (kills, losses, hangs)]
+    times = {what: found for scene in scenes for what, found in scene.items()} | starts(options.trials)
     found = {what: summary(each) for what, each in times.items()}
     if options.json:
         print(json.dumps(found))
@@ -70,7 +76,7 @@ def main() -> None:
     print(f"a tick is {TICK * 1e3:g} ms")
     for what, each in found.items():
         print(
-            "{:8} {trials:4} trials, median {median:5.1f} ms, max {max:5.1f} ms, {missed} missed".format(what, **each)
+            "{:11} {trials:4} trials, median {median:5.1f} ms, max {max:5.1f} ms, {missed} missed".format(what, **each)
         )
 
 

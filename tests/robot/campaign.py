@@ -14,12 +14,13 @@ import sys
 import tempfile
 import time
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Callable, Collection, Iterator
 from contextlib import suppress
 from dataclasses import dataclass, field
 from pathlib import Path
 
 from mindrun.bundle import write_bundle
+from mindrun.robot.guardian.client import REPLACEMENTS
 from mindrun.robot.identity import adopt
 
 from tests.robot.devices import Devices, devices
@@ -40,8 +41,8 @@ class Round:
     home: Path
     controllers: list["subprocess.Popen[bytes]"] = field(default_factory=list)
     guardians: dict[int, int] = field(default_factory=dict)  # process: that which started it
-    sent: list[tuple[str, str]] = field(default_factory=list)  # signal, to whom
-    killed: set[int] = field(default_factory=set)
+    sent: list[tuple[str, str, int]] = field(default_factory=list)  # signal, to whom
+    lost: set[int] = field(default_factory=set)  # killed, or a guardian that was stopped, which its controller kills
     rescued: bool = False
 
     def processes(self) -> list[int]:
@@ -61,16 +62,18 @@ class Round:
             os.kill(pid, number)
         except ProcessLookupError:
             return
-        self.sent.append((number.name, "guardian" if pid in self.guardians else "controller"))
-        if number == signal.SIGKILL:
-            self.killed |= {pid}
+        self.sent.append((number.name, "guardian" if pid in self.guardians else "controller", pid))
+        if number == signal.SIGKILL or (number == signal.SIGSTOP and pid in self.guardians):
+            self.lost |= {pid}
 
     @property
     def nobody_left(self) -> bool:
-        """Whether a guardian was killed, and with it its controller, or the one that was to do its work."""
+        """Whether a guardian was lost, and with it its controller, or all that were to do its work."""
         own = {process.pid for process in self.controllers}
-        victims = Counter(parent for pid, parent in self.guardians.items() if pid in self.killed)
-        return any(times + (parent in self.killed or parent not in own) > 1 for parent, times in victims.items())
+        victims = Counter(parent for pid, parent in self.guardians.items() if pid in self.lost)
+        return any(
+            parent in self.lost or parent not in own or times > REPLACEMENTS for parent, times in victims.items()
+        )
 
     def _is_ours(self, process: Path) -> bool:
         try:
@@ -97,9 +100,9 @@ def play(folder: Path, rng: random.Random) -> tuple[Round, Devices]:
         with patient({"MIND_ROBOT": str(home / "identity")}):
             adopt(wiring, graph("bearing"))
             _happen(round_, bundle, rng)
-        _end(round_)
+        _end(round_, found)
         if not found.at_rest:
-            assert round_.nobody_left, f"an actuator moves on after {round_.sent}"
+            assert round_.nobody_left, f"an actuator moves on after {round_.sent} of {round_.guardians}"
             round_.rescued = True
             subprocess.run([*NEUTRAL, bundle], check=True, timeout=PATIENCE)
         assert found.at_rest, "an actuator moves on"
@@ -121,15 +124,24 @@ def _happen(round_: Round, bundle: Path, rng: random.Random) -> None:
         time.sleep(rng.choice((0.0, 0.01, 0.1, 1.0)) * rng.random())
 
 
-def _end(round_: Round) -> None:
-    """Let go on what was stopped, and tell all controllers to end: they, and what they have started, have to."""
-    until, told = time.monotonic() + PATIENCE, set[int]()
-    while there := round_.processes():
+def _end(round_: Round, found: Devices) -> None:
+    """Tell all controllers to end; where one lives it brings all to neutral, whatever its guardian does."""
+    own = {process.pid for process in round_.controllers}
+    _wait(round_, own.intersection, {*own})
+    if not own & round_.lost and len(round_.lost) < 2:
+        assert found.at_rest, f"an actuator moves on after {round_.sent} of {round_.guardians}"
+    _wait(round_, set, set())
+
+
+def _wait(round_: Round, whom: Callable[[Collection[int]], Collection[int]], told: set[int]) -> None:
+    """Until those have ended, which are let go on where they were stopped, and told to end."""
+    until = time.monotonic() + PATIENCE
+    while there := whom(round_.processes()):
         for pid in there:
             _send(pid, signal.SIGCONT)
-        for pid in {process.pid for process in round_.controllers}.intersection(there) - told:
+        for pid in told.intersection(there):
             _send(pid, signal.SIGTERM)
-            told.add(pid)
+            told.remove(pid)
         assert time.monotonic() < until, "a process does not end"
         time.sleep(0.05)
 
@@ -159,7 +171,7 @@ def main() -> None:
     sent: Counter[tuple[str, str]] = Counter()
     drove = rescued = moved = number = 0
     for number, round_, found in rounds(options.signals, options.seed):
-        sent.update(round_.sent)
+        sent.update((name, whom) for name, whom, _ in round_.sent)
         drove += len(found.drivers)
         moved += bool(found.drivers)
         rescued += round_.rescued

@@ -20,6 +20,7 @@ from tests.robot.guardian.driven import LOGGED, PLAN, TICK
 
 NEUTRALS = (0.5, 0.5, 1.0)  # as the devices count
 KILLS = (signal.SIGKILL, signal.SIGTERM, signal.SIGSEGV)
+LOSSES = (signal.SIGKILL, signal.SIGSTOP)  # of a guardian
 HANGS = ("stop", "loop", "read")
 HANG = 0.15  # seconds that one lasts
 DRIVEN = Path(__file__).with_name("driven.py")
@@ -117,6 +118,17 @@ def kill(folder: Path, number: signal.Signals, rng: random.Random) -> float | No
         time.sleep(rng.uniform(0, 0.1))
         begin = time.monotonic()
         found.process.send_signal(number)
+        found.end()
+    return at_rest(found.log, begin)
+
+
+def lose(folder: Path, number: signal.Signals, rng: random.Random) -> float | None:
+    """Kill or stop a guardian at a random moment: after how long another had brought all to neutral, for good."""
+    with robot(folder) as found:
+        until_it_moves(found.log)
+        time.sleep(rng.uniform(0, 0.1))
+        begin = time.monotonic()
+        os.kill(found.guardian, number)
         found.end()
     return at_rest(found.log, begin)
 

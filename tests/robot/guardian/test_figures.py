@@ -7,11 +7,12 @@ from pathlib import Path
 import pytest
 
 from tests.robot.guardian.driven import TICK
-from tests.robot.guardian.scenes import HANGS, KILLS, NEUTRALS, hang, kill, robot, start
+from tests.robot.guardian.scenes import HANGS, KILLS, LOSSES, NEUTRALS, hang, kill, lose, robot, start
 
 pytestmark = pytest.mark.slow
 
 AT_ONCE = 0.05  # seconds after a death
+REPLACED = 2.0  # seconds after a guardian was killed or stopped
 IN_TIME = 2 * TICK + 0.01  # seconds after the beginning of a hang
 
 
@@ -28,6 +29,12 @@ def test_500_kills(tmp_path: Path) -> None:
     for number in KILLS:
         times = [kill(tmp_path, number, rng) for _ in range(167)]
         assert max(told(number.name, times)) <= AT_ONCE
+
+
+def test_100_guardians_that_are_lost(tmp_path: Path) -> None:
+    rng = random.Random(1)
+    for number in LOSSES:
+        assert max(told(f"lost by {number.name}", [lose(tmp_path, number, rng) for _ in range(50)])) <= REPLACED
 
 
 def test_500_hangs(tmp_path: Path) -> None:

@@ -155,10 +155,30 @@ def test_a_guardian_that_dies_or_hangs_is_replaced_by_neutral(log: Path, name: s
         assert all_at_rest(log)
 
 
-def test_a_guardian_that_is_killed_before_the_end_is_replaced_by_neutral_too(log: Path) -> None:
-    """No frame is sent any more that would show that it is gone."""
+@pytest.mark.parametrize(("name", "words"), [("SIGKILL", "is gone"), ("SIGSTOP", "hangs")])
+def test_a_guardian_that_is_lost_before_the_end_is_replaced_by_neutral_too(log: Path, name: str, words: str) -> None:
+    """No tick is sent any more that would show it."""
     guardian = Guardian(PLAN, program=LOGGED)
     drive(guardian, log)
+    os.kill(guardian.pid, signal.Signals[name])
+    with pytest.raises(GuardianError, match=f"{words}: another has brought"):
+        guardian.close()
+    assert all_at_rest(log)
+
+
+def test_what_replaces_a_guardian_is_replaced_too(log: Path) -> None:
+    with patient({"MIND_MANNERS": "fine fine fine"}):
+        guardian = Guardian(PLAN, program=LOGGED)
+    drive(guardian, log)
+    begin, replace = guardian._replacement, iter((True, True, False))
+
+    def killed() -> "subprocess.Popen[bytes]":
+        another = begin()
+        if next(replace):
+            another.kill()
+        return another
+
+    guardian._replacement = killed  # type: ignore[method-assign]
     os.kill(guardian.pid, signal.SIGKILL)
     with pytest.raises(GuardianError, match="is gone: another has brought"):
         guardian.close()

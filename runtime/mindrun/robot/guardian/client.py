@@ -9,19 +9,22 @@ from collections.abc import Iterable, Sequence
 from contextlib import suppress
 from select import select
 from termios import FIONREAD
-from time import monotonic, monotonic_ns
+from time import monotonic, monotonic_ns, sleep
 from types import TracebackType
 
 from mindrun.errors import MindError
 from mindrun.robot.children import keep_from_children, keep_no_longer
 from mindrun.robot.guardian.frames import pack
-from mindrun.robot.guardian.guard import LATCHED, NEUTRAL
+from mindrun.robot.guardian.guard import FOLLOWING, LATCHED, NEUTRAL
 from mindrun.robot.guardian.plan import Plan, to_json
 
 # -P: a file of the user's folder that is named like a module must not be imported.
 PROGRAM = (sys.executable, "-P", "-m", "mindrun.robot.guardian")
 PIPE = 4096  # bytes that can wait in the pipe
 CHILD = 70  # exit code of a forked process that took itself for the controller
+REPLACEMENTS = 3  # of a guardian, where these are killed as well
+KILLED = -1
+SOON = 0.002  # seconds
 HANGS = 0.5  # seconds in which the guardian has not once read all that was there
 
 
@@ -40,6 +43,7 @@ class Guardian:
     ) -> None:
         self.state, self.why = NEUTRAL, "started"
         self._plan = f"{to_json(plan)}\n".encode()
+        self._rest = tuple(channel.neutral for channel in plan.channels)
         self._patience = patience
         self._program, self._inherited = program, inherited
         self._number = 0
@@ -92,12 +96,15 @@ class Guardian:
     def close(self) -> None:
         """End the frames and wait until every actuator is at neutral; GuardianError where one is not in time.
 
-        So it is where the guardian has been killed; then another has tried.
+        So it is where the guardian has been killed, or hangs; then another has tried.
         """
         self._end_in_children()
+        hangs = self.state in (NEUTRAL, FOLLOWING) and not self._hears()
         with suppress(OSError):
             self._input.close()
         try:
+            if hangs:
+                raise GuardianError(f"the guardian hangs: {self._rescue(hangs=True)}")
             if self._process.wait(self._patience) < 0 and not self._rescued:
                 raise GuardianError(f"the guardian is gone: {self._rescue(hangs=False)}")
         except subprocess.TimeoutExpired:
@@ -143,12 +150,30 @@ class Guardian:
     def _see_it_read(self) -> None:
         """BlockingIOError where what was sent before has not been read for long."""
         now = monotonic()
-        unread = array("i", [0])
-        fcntl.ioctl(self._input, FIONREAD, unread)
-        if not unread[0]:
+        if not self._unread():
             self._read_at = now
         elif now - self._read_at > HANGS:
             raise BlockingIOError
+
+    def _hears(self) -> bool:
+        """Whether a last frame is read, which lets everything rest; a guardian that is gone is another matter."""
+        try:
+            os.write(self._input.fileno(), pack(self._number, monotonic_ns(), False, self._rest))
+            self._read_at = monotonic()
+            while self._unread() and self._process.poll() is None:
+                sleep(SOON)
+                self._see_it_read()
+        except BlockingIOError:
+            return False
+        except OSError:
+            return True
+        return True
+
+    def _unread(self) -> int:
+        """How many bytes wait in the pipe."""
+        unread = array("i", [0])
+        fcntl.ioctl(self._input, FIONREAD, unread)
+        return unread[0]
 
     def _listen(self) -> bool:
         """Hear what the guardian has said since; False where it will say no more."""
@@ -169,7 +194,8 @@ class Guardian:
         if self._process.wait() == 0:
             return "it was told to end, with every actuator at neutral"
         try:
-            code = self._replacement().wait(self._patience)
+            codes = (self._replacement().wait(self._patience) for _ in range(REPLACEMENTS))
+            code = next((code for code in codes if code >= 0), KILLED)
         except (OSError, subprocess.TimeoutExpired):  # it may still come to it
             return "nothing has brought the actuators to neutral yet"
         return "another has brought the actuators to neutral" if code == 0 else "an actuator may still move"

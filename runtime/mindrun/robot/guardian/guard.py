@@ -12,6 +12,7 @@ from mindrun.robot.guardian.frames import Frame
 from mindrun.robot.guardian.plan import Channel, Plan
 
 NEUTRAL, FOLLOWING, LATCHED = "neutral", "following", "latched"
+NOT_ARMED = "not armed"  # why it is at neutral where the controller wants just that
 SILENCE = 2  # ticks, after which the controller hangs, or an actuator does not answer
 FAILURES = 3  # of actuators: the third latches
 
@@ -58,7 +59,7 @@ class Guard:
         if frame.sent > now + self._plan.tick:
             return self.broken("a frame from the future")
         if not frame.armed:
-            return self._neutral("not armed") if self.state == FOLLOWING else None
+            return self._neutral(NOT_ARMED) if self.state == FOLLOWING else None
         if self.state == NEUTRAL:
             if not settled:
                 return None

@@ -8,7 +8,7 @@ from select import select
 from time import monotonic
 
 from mindrun.robot.guardian.frames import FrameError, Reader
-from mindrun.robot.guardian.guard import FOLLOWING, LATCHED, NEUTRAL, Guard, Move, Order, Rest
+from mindrun.robot.guardian.guard import FOLLOWING, LATCHED, NEUTRAL, NOT_ARMED, Guard, Move, Order, Rest
 from mindrun.robot.guardian.output import Output
 from mindrun.robot.guardian.plan import Plan
 
@@ -131,7 +131,8 @@ class Process:
                     output.move(value)
             case Rest():
                 self.rest()
-                self._report(f"all actuators to neutral: {self.guard.why}")
+                if self.guard.why != NOT_ARMED:  # the controller has said why
+                    self._report(f"all actuators to neutral: {self.guard.why}")
 
     def _complain(self, now: float) -> None:
         """Say once a second which actuator is not at neutral but should be."""
