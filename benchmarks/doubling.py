@@ -1,13 +1,14 @@
 """What every command takes for files twice and four times as long, in many shapes: python -m benchmarks.doubling.
 
-Printed are the milliseconds for LINES, twice and four times as many, and the last over the one before: 2 is linear,
-4 is quadratic. Those from 2.4 on are marked.
+Printed are the milliseconds for LINES, twice and four times as many, and how much more the second doubling adds than
+the first: 2 is linear, 4 is quadratic. Only what is above 2.4 is printed.
 """
 
 import argparse
 import gc
+import sys
 import time
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
 from io import StringIO
 from pathlib import Path
@@ -41,7 +42,7 @@ from mindlang.server.selection import Selection
 from mindlang.server.session import Session
 from mindlang.server.tidying import tidied
 from mindlang.source import Source
-from mindlang.splice import unified
+from mindlang.unified import unified
 
 LINEAR = 2.4
 
@@ -202,21 +203,47 @@ def seconds(command: str, shape: str, lines: int) -> float:
         return time.process_time() - begin
 
 
+def calls(command: str, shape: str, lines: int) -> int:
+    """How many functions a command calls for a shape of so many lines: its work, on any machine."""
+    number = 0
+
+    def count(_: object, event: str, __: object) -> None:
+        nonlocal number
+        number += event in ("call", "c_call")
+
+    with TemporaryDirectory() as folder:
+        case = Case(Path(folder), SHAPES[shape](lines))
+        COMMANDS[command](case)  # what is remembered from now on
+        sys.setprofile(count)
+        try:
+            COMMANDS[command](case)
+        finally:
+            sys.setprofile(None)
+    return number
+
+
+def growth(figures: Sequence[float]) -> float:
+    """How much more the second doubling adds than the first: 2 where it is linear, 4 where it is quadratic."""
+    first, second, third = figures
+    return (third - second) / max(second - first, third / 100)
+
+
 def main() -> None:
     """Measure and print."""
     parser = argparse.ArgumentParser(allow_abbrev=False, description=__doc__)
     parser.add_argument("--lines", type=int, default=1000)
     parser.add_argument("--only", default="", help="shapes whose names hold this")
-    parser.add_argument("--all", action="store_true", help="also what is linear, or takes less than 50 ms")
+    parser.add_argument("--calls", action="store_true", help="count calls of functions instead of milliseconds")
+    parser.add_argument("--all", action="store_true", help="also what is linear")
     options = parser.parse_args()
     for shape in SHAPES:
         for command in COMMANDS if options.only in shape else ():
-            taken = [seconds(command, shape, factor * options.lines) for factor in (1, 2, 4)]
-            ratio = taken[2] / max(taken[1], 1e-3)
-            is_slow = ratio > LINEAR and taken[2] > 0.05
+            measure = calls if options.calls else lambda *of: 1000 * seconds(*of)
+            taken = [measure(command, shape, factor * options.lines) for factor in (1, 2, 4)]
+            is_slow = growth(taken) > LINEAR and taken[2] > 50
             if options.all or is_slow:
-                figures = "".join(f"{1000 * each:10.0f}" for each in taken)
-                print(f"{shape:32}{command:14}{figures}{ratio:8.1f}{' !' * is_slow}", flush=True)
+                figures = "".join(f"{each:10.0f}" for each in taken)
+                print(f"{shape:32}{command:14}{figures}{growth(taken):8.1f}{' !' * is_slow}", flush=True)
 
 
 if __name__ == "__main__":

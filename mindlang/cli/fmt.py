@@ -62,8 +62,8 @@ def _put(file: str, source: Source, check: bool, diff: bool) -> int:
 
     from mindlang.format import formatted
     from mindlang.source import encoded
-    from mindlang.splice import unified
     from mindlang.terminal import FINDINGS, OK, fail, print_document
+    from mindlang.unified import unified
 
     text = formatted(source.text)
     is_tidy = text == source.text

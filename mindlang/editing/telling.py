@@ -11,7 +11,7 @@ from mindlang.editing.carry_out import Beside, Edited
 from mindlang.editing.follow import Locks, merged
 from mindlang.lock.arrange import arrange
 from mindlang.lock.status import Stale, Status, Trained, Untaught, status
-from mindlang.splice import unified
+from mindlang.unified import unified
 
 Statuses = Mapping[str, Status]
 

@@ -221,7 +221,7 @@ MISTAKES = (
         "drives left_wheel,"),
     Mistake("comma", r"(?P<here>[,;])", "A list has no commas or semicolons.", "Separate values by spaces.",
         "sensor eyes is range_finder at 0, 90 deg"),
-    Mistake("quotes", r"""^\s*(?!use\b).*?(?P<here>["'`“”„‘’«»]+)""", "Names stand without quotes.",
+    Mistake("quotes", r"""^(?!\s*use\b).*?(?P<here>["'`“”„‘’«»]+)""", "Names stand without quotes.",
         "Leave the quotes out.", "reads 'moving'"),
     Mistake("continuation", r"(?P<here>\\)\s*$", "A line does not go on in the next one.",
         "Write all of it on one line.", "drives claw at holding - \\"),

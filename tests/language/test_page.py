@@ -13,7 +13,8 @@ from mindlang.editing.page import declare, text_of, without_declarations
 from mindlang.editing.project import EditError
 from mindlang.parse import parse
 from mindlang.source import Source, Span
-from mindlang.splice import Splice, spliced, unified
+from mindlang.splice import Splice, spliced
+from mindlang.unified import unified
 
 lines = st.lists(
     st.sampled_from(["", " ", "# a", "  # b", "skill A is rule", "  reads x", "\u2028", "\f", "ä"]), max_size=9
@@ -66,9 +67,12 @@ def test_lines_are_those_of_the_text(source: Source, data: st.DataObject) -> Non
     assert known in (there, there[:-1])
 
 
+@pytest.mark.parametrize("short", [0, 3, 400])
 @given(sources(), sources())
-def test_a_diff_makes_the_new_text_of_the_old_one(old: Source, new: Source) -> None:
-    diff = unified("any", old.text, new.text)
+def test_a_diff_makes_the_new_text_of_the_old_one(short: int, old: Source, new: Source) -> None:
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr("mindlang.unified.SHORT", short)
+        diff = unified("any", old.text, new.text)
     assert (diff == "") == (old.text == new.text)
     assert patched(old.text, diff) == new.text
 
@@ -102,6 +106,13 @@ def test_a_diff_counts_from_the_first_line_of_a_long_file() -> None:
         "@@ -498,6 +498,7 @@\n 498\n 499\n 500\n+new\n 501\n 502\n 503\n"
         "@@ -996,5 +997,4 @@\n 996\n 997\n 998\n-999\n 1000\n"
     )
+
+
+def test_a_long_diff_is_of_the_lines_that_differ() -> None:
+    old = "".join(f"{number}\n" for number in range(5000))
+    new = old.replace("7\n", "seven\n")
+    diff = unified("long.mind", old, new).splitlines()[2:]
+    assert sum(line.startswith("-") for line in diff) == sum(line.startswith("+") for line in diff) == 500
 
 
 def test_a_line_ends_only_where_the_compiler_says() -> None:
