@@ -9,7 +9,8 @@ from hashlib import sha256
 from pathlib import Path
 
 import mindrun
-from mindrun.bundle import Bundle
+from mindrun.bundle import LARGEST, Bundle
+from mindrun.regular import read_whole
 
 from mindlang.deploying.unit import ARMED, SERVICE, unit
 
@@ -31,7 +32,7 @@ class Release:
 
 def make_release(path: Path, bundle: Bundle, folder: Path) -> Release:
     """Lay a release out in an empty folder. The same bundle and the same mindrun have the same fingerprint."""
-    data = path.read_bytes()
+    data = read_whole(path, LARGEST)
     made_of = {"bundle": path.name, "sha256": sha256(data).hexdigest(), "master": bundle.graph.master}
     files = {
         "mind.bundle": data,  # never by its own name: no text of a user becomes a path on the robot

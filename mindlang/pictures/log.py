@@ -10,9 +10,10 @@ from io import BytesIO, StringIO
 from math import isfinite
 from pathlib import Path
 
+from mindrun.plain_data import is_whole
 from mindrun.regular import read_whole
 from mindrun.train.errors import NotFoundError, RunError
-from mindrun.train.progress import LINES, TABLE, read
+from mindrun.train.progress import COUNTED, LINES, TABLE, read
 from mindrun.train.run_folder import MANIFEST, open_run
 
 TABLES = (".csv", ".csv.gz")
@@ -107,7 +108,10 @@ def _records(path: Path, header: list[str], rows: list[list[str]]) -> Iterator[d
         try:
             cells = dict(zip(header, row, strict=True))
             scores = {name: float(cells[name]) if cells[name] else None for name in SCORES if name in cells}
-            yield {"attempt": int(cells["attempt"]), "generation": int(cells["generation"])} | scores
+            counts = {name: int(cells[name]) for name in COUNTED}
+            if not all(map(is_whole, counts.values())):
+                raise ValueError("it has no number")
+            yield counts | scores
         except ValueError as error:
             raise RunError(f"{path}, line {line}: not a generation of a log") from error
 

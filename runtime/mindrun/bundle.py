@@ -26,7 +26,7 @@ FORMAT, WIRED = "mind bundle 1", "mind bundle 2"
 MANIFEST, GRAPH, WIRING = "manifest.json", "graph.json", "wiring.json"
 WEIGHTS, MODULES = "weights/", "procedures/"
 LARGEST = 64 << 20  # bytes; nothing is compressed, so this also limits what is read
-LONGEST = 16 << 20  # bytes of JSON, which takes up to twenty times as much memory
+LONGEST = 4 << 20  # bytes of JSON: it takes up to twenty times as much memory, and half a second for each million
 DIGEST = 64
 
 

@@ -1,6 +1,7 @@
 """JSON that comes from outside: whoever wrote it, reading it ends in a value or in one error with words."""
 
 import json
+from math import isfinite
 from typing import Any, NoReturn
 
 
@@ -12,7 +13,7 @@ def parsed(data: bytes | str, most: int = 1 << 20) -> Any:
     if len(data) > most:
         raise ValueError(f"it is larger than {most / (1 << 20):g} MiB")
     try:
-        return json.loads(data, parse_constant=_no_number)
+        return json.loads(data, parse_float=_finite, parse_constant=_no_number)
     except RecursionError as error:
         raise ValueError("it is nested too deep") from error
 
@@ -31,5 +32,11 @@ def are_names(value: object) -> bool:
     )
 
 
+def _finite(text: str) -> float:
+    if not isfinite(value := float(text)):
+        _no_number(text)
+    return value
+
+
 def _no_number(text: str) -> NoReturn:
-    raise ValueError(f"{text} is no number")
+    raise ValueError(f"{text:.40} is no number")

@@ -65,7 +65,7 @@ FILES = {
     "a module called ..": (with_file("procedures/../a.py", b""), "which is no name"),
     "a module that is no text": (with_file("procedures/parts/claw.py", b"\xff"), "this version can read"),
     "a deep graph": (with_file("graph.json", b"[" * 100_000), "nested too deep"),
-    "a large graph": (with_file("graph.json", b" " * (17 << 20)), "larger than 16 MiB"),
+    "a large graph": (with_file("graph.json", b" " * (5 << 20)), "larger than 4 MiB"),
     "a number of many digits": (with_file("graph.json", b"9" * 5000), "this version can read"),
     "a field more": (graph(lambda tree: tree.update(more=1)), "graph is not a Graph"),
     "a field of a kind more": (graph(lambda tree: tree["actuators"][0]["kind"].update(more=1)), "is not a Wheel"),

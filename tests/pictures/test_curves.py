@@ -144,6 +144,7 @@ def test_the_picture_lies_where_one_stands(
         (("header.csv",), 1, "header.csv has no generations yet"),
         (("other.csv",), 1, "other.csv is not the log of a run: it has no column attempt"),
         (("wrong.csv",), 1, "wrong.csv, line 3: not a generation of a log"),
+        (("huge.csv",), 1, "huge.csv, line 2: not a generation of a log"),
         (("torn.csv.gz",), 2, "torn.csv.gz cannot be read: "),
         (("bytes.csv",), 1, "bytes.csv is not a table of text"),
         (("Climb.csv", "-o", "curves.jpg"), 2, "curves.jpg must end in .svg or .png"),
@@ -168,6 +169,7 @@ def test_what_cannot_be_drawn_is_said(
     Path("header.csv").write_text("attempt,generation,best\n")
     Path("other.csv").write_text("name,price\nnut,1\n")
     Path("wrong.csv").write_text("attempt,generation,best\n1,1,2.0\n1,two,2.0\n")
+    Path("huge.csv").write_text(f"attempt,generation,best\n1,1{'0' * 400},2.0\n")
     Path("torn.csv.gz").write_bytes(gzip.compress(LOG.encode())[:-12])
     Path("bytes.csv").write_bytes(b"\xff\xfe\x00")
     before = sorted(tmp_path.iterdir())

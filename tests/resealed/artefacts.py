@@ -60,7 +60,7 @@ class Artefact:
 # Bundles
 
 
-NAMES = "", "/x", "../x", "weights/.npy", "a" * 999, "\x1b", "graph.json"
+NAMES = "/x", "../x", "weights/.npy", "a" * 999, "\x1b", "graph.json"
 
 
 def tampered_bundle(rng: Random) -> dict[str, bytes]:
