@@ -166,6 +166,17 @@ def test_a_guardian_that_is_lost_before_the_end_is_replaced_by_neutral_too(log: 
     assert all_at_rest(log)
 
 
+def test_a_device_that_cannot_be_opened_at_first_is_brought_to_neutral_too(log: Path, tmp_path: Path) -> None:
+    plan = tmp_path / "plan.json"
+    plan.write_text(to_json(PLAN))
+    with patient({"MIND_MANNERS": "fine missing fine fine"}):  # the fourth to be opened is the second, once more
+        neutrals = {"MIND_NEUTRALS": "0.5 0.5 1.0 0.5"}
+        with patient(neutrals):
+            done = subprocess.run([*LOGGED, "--neutral", str(plan), "--within", "20"], capture_output=True)
+    assert done.returncode == 0
+    assert {(write.channel, write.value) for write in writes(log)} >= {(0, 0.5), (2, 1.0), (3, 0.5)}
+
+
 def test_what_replaces_a_guardian_is_replaced_too(log: Path) -> None:
     with patient({"MIND_MANNERS": "fine fine fine"}):
         guardian = Guardian(PLAN, program=LOGGED)
@@ -275,7 +286,7 @@ def test_neutral_once(log: Path, tmp_path: Path, manners: str, code: int) -> Non
     plan = tmp_path / "plan.json"
     plan.write_text(to_json(PLAN))
     with patient({"MIND_MANNERS": manners}):
-        within = "0.5" if "stuck" in manners else "20"
+        within = "20" if manners == "fine fine fine" else "0.5"
         done = subprocess.run([*LOGGED, "--neutral", str(plan), "--within", within], capture_output=True)
     assert done.returncode == code
     assert {w.channel for w in writes(log) if w.neutral} == {c for c, m in enumerate(manners.split()) if m == "fine"}

@@ -6,6 +6,7 @@ With `--neutral FILE`, bring them to neutral once, and end: for systemd, after t
 import argparse
 import os
 from pathlib import Path
+from time import monotonic, sleep
 
 from mindrun.errors import MindError
 from mindrun.robot.guardian.plan import DRIVERS, LARGEST, Plan, from_json, read_plan
@@ -15,6 +16,7 @@ from mindrun.teller import Teller
 
 OK, FAILED, USAGE, UNAVAILABLE, BROKEN = 0, 1, 64, 69, 70  # as in sysexits.h
 INPUT, OUTPUT, ERRORS = 0, 1, 2
+AGAIN = 0.05  # seconds between two tries to open what could not be
 
 
 def main() -> None:
@@ -68,8 +70,10 @@ def guard(plan: Plan, report: Teller, status: Teller) -> int:
 def bring(process: Process, report: Teller, seconds: float) -> int:
     """Bring all that can be opened to neutral; whether that was all, and in time."""
     wake_on_signals(process.wake)  # whoever tells it to end is told that it does, when it is done
-    wrong = process.open()
-    if not process.settle(seconds):
+    until = monotonic() + seconds
+    while (wrong := process.open()) and monotonic() < until:  # a bus that is busy is free again
+        sleep(AGAIN)
+    if not process.settle(max(until - monotonic(), AGAIN)):
         wrong.append(f"not everything was at neutral after {seconds:g} s")
     process.close()
     for line in wrong:

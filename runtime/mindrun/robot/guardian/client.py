@@ -188,11 +188,15 @@ class Guardian:
 
     def _rescue(self, hangs: bool) -> str:
         """Bring the actuators to neutral in place of a guardian that no longer can; what came of it."""
-        self._rescued = True
         if hangs:
             self._process.kill()
         if self._process.wait() == 0:
             return "it was told to end, with every actuator at neutral"
+        done = self._replaced()
+        self._rescued = True  # not before: a signal may have interrupted it, and then it is tried again
+        return done
+
+    def _replaced(self) -> str:
         try:
             codes = (self._replacement().wait(self._patience) for _ in range(REPLACEMENTS))
             code = next((code for code in codes if code >= 0), KILLED)

@@ -43,9 +43,14 @@ class Process:
         self._told = 0.0
 
     def open(self) -> list[str]:
-        """Open every device, each at neutral before the next, and say which cannot be opened, and why."""
+        """Open every device, each at neutral before the next, and say which cannot be opened, and why.
+
+        Called again, it tries those anew that could not.
+        """
         wrong = []
         for channel, output in zip(self._plan.channels, self.outputs, strict=True):
+            if output in self._opened:
+                continue
             try:
                 output.start(channel.driver.open())
             except Exception as error:
