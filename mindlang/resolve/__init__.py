@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 from typing import TypeVar
 
-from mindrun.quantity import SECONDS
+from mindrun.quantity import TICK
 from mindrun.sensors import Battery
 from mindrun.world import Disc
 
@@ -54,7 +54,7 @@ def _tick(files: Sequence[File], findings: Findings) -> float:
     """The tick in seconds, on which all files agree."""
     first: tuple[float, Span] | None = None
     for setting in (setting for file in files for setting in _settings(file, Tick)):
-        seconds = convert(setting.amount, SECONDS, findings)
+        seconds = convert(setting.amount, TICK, findings)
         if seconds and first and seconds != first[0]:
             label = Label(first[1], "first said here")
             findings.error(

@@ -1,6 +1,6 @@
 """Amounts as written → numbers: units converted, ranges and whole numbers checked."""
 
-from math import ceil, floor, inf, isfinite
+from math import ceil, floor, isfinite
 
 from mindrun.quantity import Quantity, Span
 
@@ -23,14 +23,14 @@ def convert(amount: Amount, quantity: Quantity, findings: Findings, unit: str = 
     if quantity.whole and not value.is_integer():
         near = [bound for bound in (floor(value), ceil(value)) if quantity.low <= bound <= quantity.high]
         fit = listed(f"{bound} {amount.unit}".strip() for bound in near) if near else ""
-        hint = f"Here stands {quantity.name}: write {fit}." if fit else _bounds(quantity)
+        hint = f"Here stands {quantity.name}: write {fit}." if fit else _bounds(quantity, written)
         findings.error("not-whole", amount.span, f"{amount.span.text} is not a whole number.", hint)
         return None
     if not quantity.low <= value <= quantity.high:
         message = f"{amount.span.text[:40]} is too {'small' if value < quantity.low else 'large'}."
         percent = f" {amount.span.text} percent are {amount.span.text}%."
         is_percent = not written and "%" in quantity.units and quantity.high < value <= 100 * quantity.high
-        findings.error("out-of-range", amount.span, message, _bounds(quantity) + percent * is_percent)
+        findings.error("out-of-range", amount.span, message, _bounds(quantity, written) + percent * is_percent)
         return None
     return int(value) if quantity.whole else value
 
@@ -44,10 +44,11 @@ def _wrong_unit(amount: Amount, quantity: Quantity, findings: Findings) -> None:
     findings.error("wrong-unit", amount.span, message, f"{hint}" if units else f"{hint} {_bounds(quantity)}")
 
 
-def _bounds(quantity: Quantity) -> str:
-    low = "more than 0" if 0 < quantity.low < 1e-6 else f"at least {quantity.low:.15g}"
-    high = f" and at most {quantity.high:.15g}" if quantity.high != inf else ""
-    return f"Write {low}{high}."
+def _bounds(quantity: Quantity, unit: str = "") -> str:
+    """Between what an amount in a unit may be; in the first of its units where that does not fit."""
+    unit = unit if unit in quantity.units else next(iter(quantity.units))
+    low, high = (f"{bound / quantity.units[unit]:.12g}" for bound in (quantity.low, quantity.high))
+    return f"Write at least {low} and at most {f'{high} {unit}'.strip()}.".replace(" %", "%")
 
 
 def one(value: Value, quantity: Quantity, findings: Findings) -> float | int | None:
@@ -96,7 +97,7 @@ def span(value: Value, quantity: Quantity, findings: Findings) -> Span | None:
         return None if number is None else Span(number, number)
     unit = value.last.unit
     first, last = (convert(amount, quantity, findings, unit) for amount in (value.first, value.last))
-    step = Quantity(f"the step of a schedule, {quantity.name}", quantity.units, low=1e-9)
+    step = Quantity(f"the step of a schedule, {quantity.name}", quantity.units, low=1e-9, high=quantity.high)
     by = convert(value.by, step, findings, unit) if value.by else None
     if first is None or last is None or (value.by and by is None):
         return None

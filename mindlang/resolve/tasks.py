@@ -17,7 +17,8 @@ from mindlang.resolve.parts import refuse_facts
 from mindlang.resolve.quantities import convert
 from mindlang.syntax import Contains, Counts, Declaration, Ends, Fact, Lasts, Phrase, Rewards
 
-LASTS = replace(TICKS, low=1.0, high=1e9)
+LONGEST = 10_000_000  # ticks of a run
+LASTS = replace(TICKS, low=1.0, high=LONGEST)
 MOST_OBSTACLES = 2500  # in one world
 
 F = TypeVar("F", bound=Fact)
@@ -108,8 +109,9 @@ def _ticks(declaration: Declaration, tick: float, findings: Findings) -> int:
         findings.error("repeated-fact", again.span, "The task already says how long it lasts.", "Leave one out.", first)
     amount = lasts[0].amount
     if amount.unit == "s":
-        seconds = convert(amount, SECONDS, findings)
-        return max(1, round(seconds / tick)) if seconds else 1
+        # What would be a single tick, or none, was surely meant otherwise.
+        seconds = convert(amount, replace(SECONDS, low=1.5 * tick, high=LONGEST * tick), findings)
+        return round(seconds / tick) if seconds else 1
     return int(convert(amount, LASTS, findings) or 1)
 
 

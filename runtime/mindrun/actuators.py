@@ -3,10 +3,11 @@
 from dataclasses import dataclass
 from typing import Annotated
 
-from mindrun.quantity import LENGTH, NUMBER, RATIO, TICKS, Reference
+from mindrun.quantity import LENGTH, RATIO, TICKS, Quantity, Reference
 from mindrun.registry import kind
 
 SIDE = Reference("side", ("left", "right"))
+THRUST = Quantity("a force", {"": 1.0}, low=-1e6, high=1e6)
 
 
 @kind("actuator", "wheel")
@@ -19,7 +20,7 @@ class Wheel:
 
     side: Annotated[str, SIDE]
     neutral: Annotated[float, RATIO]
-    thrust: Annotated[float, NUMBER] = 80.0
+    thrust: Annotated[float, THRUST] = 80.0
     delay: Annotated[int, TICKS] = 0
 
 

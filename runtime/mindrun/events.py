@@ -6,7 +6,7 @@ from typing import Annotated
 from mindrun.quantity import THING, Quantity, Reference
 from mindrun.registry import kind
 
-PATCH = Quantity("a length in world units", {"": 1.0}, low=0.1)
+PATCH = Quantity("a length in world units", {"": 1.0}, low=0.1, high=1e5)
 
 
 @kind("event", "reach")

@@ -3,10 +3,11 @@
 from dataclasses import dataclass, replace
 from typing import Annotated
 
-from mindrun.quantity import COUNT, GENERATIONS, POSITIVE, RATIO, Quantity
+from mindrun.quantity import COUNT, GENERATIONS, RATIO, Quantity
 from mindrun.registry import kind
 
 OCTAVES = Quantity("a whole number up to 8", {"": 1.0}, low=0, high=8, whole=True)
+SPREAD = Quantity("a number above zero", {"": 1.0}, low=1e-6, high=1000.0)
 PATIENCE = replace(GENERATIONS, low=0)
 POPULATION = Quantity("a whole number of at least 4", {"": 1.0}, low=4, high=100_000, whole=True)
 
@@ -27,7 +28,7 @@ class Genetic:
     attempts: Annotated[int, COUNT] = 1
     layouts: Annotated[int, COUNT] = 2
     elite: Annotated[float, RATIO] = 0.1
-    mutation: Annotated[float, POSITIVE] = 0.5
+    mutation: Annotated[float, SPREAD] = 0.5
     mutated: Annotated[float, RATIO] = 0.1
     octaves: Annotated[int, OCTAVES] = 0
     patience: Annotated[int, PATIENCE] = 0

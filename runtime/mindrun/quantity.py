@@ -45,13 +45,15 @@ def fits(meaning: Quantity | Reference, value: object) -> bool:
     return True
 
 
-NUMBER = Quantity("a number", {"": 1.0})
-LENGTH = Quantity("a length in world units", {"": 1.0}, low=0.0)
-POSITIVE = Quantity("a number above zero", {"": 1.0}, low=1e-9)
-ANGLE = Quantity("an angle", {"deg": pi / 180})
-SECONDS = Quantity("a time", {"s": 1.0}, low=1e-9)
+# Every number has bounds, far beyond any robot and far from where arithmetic or Chipmunk would give up.
+NUMBER = Quantity("a number", {"": 1.0}, low=-1e9, high=1e9)
+LENGTH = Quantity("a length in world units", {"": 1.0}, low=0.0, high=1e5)
+POSITIVE = Quantity("a number above zero", {"": 1.0}, low=1e-6, high=1e6)
+ANGLE = Quantity("an angle", {"deg": pi / 180}, low=-20 * pi, high=20 * pi)
+SECONDS = Quantity("a time", {"s": 1.0}, low=1e-6, high=1e9)
+TICK = Quantity("the length of a tick", {"s": 1.0}, low=1e-5, high=1000.0)
 TICKS = Quantity("a number of ticks", {"ticks": 1.0}, low=0, high=1000, whole=True)
-GENERATIONS = Quantity("a number of generations", {"generations": 1.0}, low=1, whole=True)
+GENERATIONS = Quantity("a number of generations", {"generations": 1.0}, low=1, high=10_000_000, whole=True)
 RATIO = Quantity("a share between 0 and 1", {"": 1.0, "%": 0.01}, low=0.0, high=1.0)
 COUNT = Quantity("a whole number", {"": 1.0}, low=1, high=1000, whole=True)
 

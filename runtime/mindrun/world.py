@@ -3,10 +3,13 @@
 from dataclasses import dataclass
 from typing import Annotated
 
-from mindrun.quantity import LENGTH, POSITIVE, Quantity, Span
+from mindrun.quantity import LENGTH, Quantity, Span
 from mindrun.registry import kind
 
-DAMPING = Quantity("a damping", {"": 1.0}, low=0.0)
+DIAMETER = Quantity("a length in world units", {"": 1.0}, low=0.01, high=1000.0)
+SIDE = Quantity("a length in world units", {"": 1.0}, low=0.01, high=1e5)
+DENSITY = Quantity("a density", {"": 1.0}, low=1e-3, high=1e6)
+DAMPING = Quantity("a damping", {"": 1.0}, low=0.0, high=1e6)
 MANY = Quantity("a whole number", {"": 1.0}, low=0, high=1000, whole=True)
 
 
@@ -15,8 +18,8 @@ MANY = Quantity("a whole number", {"": 1.0}, low=0, high=1000, whole=True)
 class Disc:
     """A round body of diameter `size`; every tick of length dt its velocity is divided by 1 + dt·damping."""
 
-    size: Annotated[float, POSITIVE] = 2.0
-    density: Annotated[float, POSITIVE] = 2.0
+    size: Annotated[float, DIAMETER] = 2.0
+    density: Annotated[float, DENSITY] = 2.0
     linear_damping: Annotated[float, DAMPING] = 5.0
     angular_damping: Annotated[float, DAMPING] = 20.0
 
@@ -32,7 +35,7 @@ class Plain:
 class Arena:
     """A square world of side `size` with walls; the robot starts anywhere in it."""
 
-    size: Annotated[float, POSITIVE] = 100.0
+    size: Annotated[float, SIDE] = 100.0
 
 
 ONE = Span(1.0, 1.0)
