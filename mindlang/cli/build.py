@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from mindrun.graph import Graph
     from mindrun.robot.wiring import Wiring
 
+    from mindlang.compile import Compiled
     from mindlang.lock.ready import Ready
 
 EXAMPLES = """\b
@@ -55,6 +56,7 @@ def command(file: str, output: Path, master: str | None, robot: Path | None, as_
     skills = [skill.name for skill in compiled.graph.skills]
     if master is not None and master not in skills:
         fail(f"There is no skill {master}.", did_you_mean(master, skills), MISUSE)
+    _refuse_procedures(compiled, master)
     wiring = _wiring(robot, replace(compiled.graph, master=master or compiled.graph.master)) if robot else None
     try:
         ready = make_ready(compiled.graph, compiled.sources, master)
@@ -75,6 +77,18 @@ def command(file: str, output: Path, master: str | None, robot: Path | None, as_
     elif not quiet:
         wired = f", wired to {wiring.robot}" if wiring else ""
         click.echo(f"{output}: {ready.graph.master} in charge, {len(ready.weights)} trained skills{wired}", err=True)
+
+
+def _refuse_procedures(compiled: Compiled, master: str | None) -> None:
+    """End the program where a procedure cannot be what its skill needs."""
+    from mindlang.procedures import mistakes
+    from mindlang.report import print_report
+    from mindlang.terminal import FINDINGS, console
+
+    assert compiled.graph is not None
+    if found := mistakes(compiled, master or compiled.graph.master):
+        print_report(found, console(stderr=True))
+        sys.exit(FINDINGS)
 
 
 def _wiring(path: Path, graph: Graph) -> Wiring:

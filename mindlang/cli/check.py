@@ -19,20 +19,23 @@ def command(files: tuple[str, ...], as_json: bool) -> None:
     """Read files, and report everything that is wrong in them.
 
     A file that is no whole mind is read with those that use it, where they are given as well.
+    Of procedures the text is read, and nothing is run.
     Ends with 0 when nothing is wrong, with 1 when something is, with 2 when a file cannot be read.
     """
     from mindlang.editing.neighbours import minds
+    from mindlang.procedures import mistakes
     from mindlang.report import as_data, print_report
     from mindlang.terminal import FINDINGS, MISUSE, OK, console, print_json, take_back
 
     for file in files:
         take_back(file)
     compiled = minds(files)
-    found = [diagnostic for result in compiled.values() for diagnostic in result.diagnostics]
+    each = {file: (*result.diagnostics, *mistakes(result)) for file, result in compiled.items()}
+    found = [diagnostic for diagnostics in each.values() for diagnostic in diagnostics]
     if as_json:
         print_json(
             {
-                "files": [{"file": file, "ok": result.graph is not None} for file, result in compiled.items()],
+                "files": [{"file": file, "ok": bool(compiled[file].graph) and not each[file]} for file in compiled],
                 "diagnostics": [as_data(diagnostic) for diagnostic in found],
             }
         )

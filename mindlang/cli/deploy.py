@@ -104,13 +104,14 @@ def _checked(path: Path, settings: Settings) -> Bundle:
     from mindrun.bundle import read_bundle
     from mindrun.errors import BundleError
 
-    from mindlang.deploying.checks import check_wired
+    from mindlang.deploying.checks import check_procedures, check_wired
     from mindlang.terminal import MISUSE, fail
 
     try:
         bundle = read_bundle(path)
     except BundleError as error:
         fail(str(error), error.hint or "mindc build writes one.", MISUSE)
+    check_procedures(bundle)
     if settings.service:
         check_wired(bundle)
     return bundle

@@ -6,6 +6,11 @@ import re
 import shutil
 from typing import TYPE_CHECKING
 
+from mindrun.errors import ProcedureError
+from mindrun.functions import Procedure
+from mindrun.functions.procedure_text import fit
+from mindrun.weights import reachable
+
 from mindlang.deploying.errors import DeployError
 
 if TYPE_CHECKING:
@@ -37,3 +42,14 @@ def check_wired(bundle: Bundle) -> None:
             "This bundle does not say how the robot is wired, so no service can run it.",
             "Build it with its robot.yaml, or use --no-service to bring it there all the same.",
         )
+
+
+def check_procedures(bundle: Bundle) -> None:
+    """Refuse procedures of which the text says that they could not run."""
+    for skill in reachable(bundle.graph, bundle.graph.master):
+        if isinstance(skill.function, Procedure):
+            try:
+                source = bundle.procedures.get(skill.function.module, "")
+                fit(skill.function.from_, source, len(skill.inputs), skill.outputs)
+            except ProcedureError as error:
+                raise DeployError(f"{error}.", error.hint or "Mend it, and build the bundle anew.") from error

@@ -22,7 +22,8 @@ MADE = {
 PASSED_ON = {"code", "mistake.code", "rule.code"}  # codes that are made elsewhere
 NEEDED = {"no-tick", "no-master", "no-body"}  # in a table of what every mind needs
 # What no small mind shows: files that are not there or too many, locks and edits.
-WITHOUT_EXAMPLES = {"unreadable", "use-too-deep", "too-many-mistakes", "impossible-edit", "damaged-lock"}
+FILES = {"unreadable", "use-too-deep", "too-many-mistakes", "faulty-procedure"}
+WITHOUT_EXAMPLES = FILES | {"impossible-edit", "damaged-lock"}
 
 
 def emitted() -> set[str]:

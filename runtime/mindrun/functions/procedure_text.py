@@ -72,14 +72,14 @@ def fit(from_: str, source: str, inputs: int, outputs: int) -> None:
     if inputs < shape.least or (shape.most is not None and inputs > shape.most):
         takes = "any number of" if shape.most is None else f"{shape.most}" if shape.most == shape.least else ""
         takes = takes or f"{shape.least} to {shape.most}"
-        message = f"takes {takes} numbers, and the skill reads {inputs}"
+        message = f"takes {takes} number{'' if takes == '1' else 's'}, and the skill reads {inputs}"
         hint = (
             "Each reading is an argument of its own, those of a wide sensor one after the other; *readings takes all."
         )
         raise _fault(from_, message, shape.line, hint)
     for line, count in shape.returned:
         if count != outputs:
-            message = f"returns {count} numbers, and {outputs} lines of the skill take one"
+            message = f"returns {count} values, and the skill needs {outputs}"
             hint = "Return one number for each line drives or influences without at, in their order."
             raise _fault(from_, message, line, hint)
 
