@@ -40,6 +40,8 @@ SOUND = b"{'descr': '<f4', 'fortran_order': False, 'shape': (1,), }"
 STRANGE = {
     "nothing": b"",
     "only its magic": b"\x93NUMPY",
+    "another magic": b"X" + saved(np.ones(1, np.float32))[1:],
+    "a version that it is not": saved(np.ones(1, np.float32)).replace(b"NUMPY\x01", b"NUMPY\x02"),
     "version 2": saved(np.ones(1, np.float32), (2, 0)),
     "float64": saved(np.ones(1)),
     "big-endian": saved(np.ones(1, ">f4")),
