@@ -6,7 +6,7 @@ from math import isclose
 
 from mindrun.events import Collision, Delivery, Event, Exhaustion
 from mindrun.sensors import Battery, Bearing, Contact, Derivative, Held, Inside, RangeFinder, Sine
-from mindrun.world import Arena, Obstacle, Power
+from mindrun.world import STAYS, Arena, Item, Obstacle, Power
 
 from mindlang.linting.intervals import SHARE, Interval, interval
 from mindlang.linting.study import Study
@@ -21,6 +21,7 @@ class World:
     things: frozenset[str]
     is_solid: bool
     charges: bool
+    fleeting: frozenset[str]  # items that are gone as soon as they are reached
 
     def constant(self, name: str) -> float | None:
         """What a sensor always reads in this world; None where that varies, or nobody knows."""
@@ -75,6 +76,8 @@ class World:
                 return "there is nothing to collide with", hint
             case Delivery() if not self.study.can_hold:
                 return "no skill that a master reaches drives a gripper", "Let a skill drive one."
+            case Delivery(of) if of in self.fleeting:
+                return f"{of} is gone when it is reached, before the claw can take it", "Write reached stays."
             case Exhaustion() if all(kind.start and not kind.drain for kind in sensors if isinstance(kind, Battery)):
                 return "the battery does not drain", "Give it a drain above 0."
         return None
@@ -83,13 +86,14 @@ class World:
 def world(study: Study, task: Task) -> World:
     """The world of a task."""
     is_solid = isinstance(task.scene, Arena) or any(isinstance(thing.kind, Obstacle) for thing in task.things)
-    return World(study, _named([task]), is_solid, _charges([task]))
+    fleeting = {thing.name for thing in task.things if isinstance(thing.kind, Item) and thing.kind.reached != STAYS}
+    return World(study, _named([task]), is_solid, _charges([task]), frozenset(fleeting))
 
 
 def any_world(study: Study) -> World:
     """A world in which there is everything that any task has."""
     tasks = study.mind.tasks
-    return World(study, _named(tasks), is_solid=True, charges=not tasks or _charges(tasks))
+    return World(study, _named(tasks), is_solid=True, charges=not tasks or _charges(tasks), fleeting=frozenset())
 
 
 def _named(tasks: Iterable[Task]) -> frozenset[str]:

@@ -79,7 +79,7 @@ def draw_cross(canvas: Canvas, x: float, y: float, size: float, theme: Theme) ->
 def draw_former(canvas: Canvas, story: Story, theme: Theme) -> None:
     """Faintly, where things were before, numbered in their order where there are not too many."""
     for number, (thing, colour) in enumerate(zip(story.contents, thing_colours(story.contents, theme), strict=True)):
-        former = story.placements(number)[:-1]
+        former = story.former(number)
         for order, (x, y, size) in enumerate(former, 1):
             if isinstance(thing.kind, Item):
                 canvas.disc(x, y, size / 2, colour, 0.16)

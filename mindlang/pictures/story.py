@@ -68,6 +68,11 @@ class Story:
         placed: Floats = track[np.concatenate([[True], jumps])]
         return placed
 
+    def former(self, thing: int) -> Floats:
+        """The places and sizes [n, 3] that a thing had and has no more: it has moved since, or vanished."""
+        placed = self.placements(thing)
+        return placed[:-1] if np.isfinite(self.things[-1, thing, 0]) else placed
+
     def movers(self) -> list[Skill]:
         """The skills under the master that drive a wheel."""
         wheels = {i for i, actuator in enumerate(self.graph.actuators) if isinstance(actuator.kind, Wheel)}

@@ -49,8 +49,9 @@ def thing_colours(things: Sequence[Thing], theme: Theme) -> list[Colour]:
 
 
 def _each(story: Story, theme: Theme, tick: int) -> Iterable[tuple[Thing, Colour, NDArray[np.float64]]]:
-    """Every thing, its colour, and its place and size after a tick."""
-    return zip(story.contents, thing_colours(story.contents, theme), story.things[tick], strict=True)
+    """Every thing that has not vanished, its colour, and its place and size after a tick."""
+    each = zip(story.contents, thing_colours(story.contents, theme), story.things[tick], strict=True)
+    return (found for found in each if np.isfinite(found[2][0]))
 
 
 def draw_zones(canvas: Canvas, story: Story, theme: Theme, tick: int) -> None:

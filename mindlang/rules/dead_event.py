@@ -1,7 +1,8 @@
 """An event that ends a task or is counted in it, and can never happen.
 
 In a plain scene without obstacles there is nothing to collide with, without a claw that closes nothing is delivered,
-and a battery without drain never runs out. The task goes on to the end of its time, and the count stays 0.
+nor is what moves away as soon as it is reached, and a battery without drain never runs out. The task goes on to the end
+of its time, and the count stays 0.
 """
 
 from mindlang.diagnostic import Fix

@@ -1,17 +1,15 @@
 """A thing of a task that nothing is about.
 
 No sensor tells the robot of it, and no reward, event or count depends on it, so it might as well not be there.
-Obstacles are of use by standing in the way, a power by charging the battery, and a zone by taking what is delivered.
+Obstacles are of use by standing in the way, a power by charging the battery, and a zone by taking the task's items.
 """
 
-from mindrun.events import Delivery
 from mindrun.sensors import Battery
-from mindrun.world import Content, Obstacle, Power, Zone
+from mindrun.world import Content, Item, Obstacle, Power, Zone
 
 from mindlang.diagnostic import Fix
 from mindlang.editing.page import without_fact
 from mindlang.linting.study import Finding, Found, Study
-from mindlang.model import Task
 from mindlang.syntax import Contains
 
 ELSEWHERE = True
@@ -34,7 +32,7 @@ def check(study: Study) -> Found:
     sensed, named = {*study.senses.values()}, _named(study)
     charges = any(isinstance(kind, Battery) for kind in study.sensors.values())
     for task in study.mind.tasks:
-        delivers = any(isinstance(event, Delivery) for event in _events(task))
+        delivers = any(isinstance(thing.kind, Item) for thing in task.things)
         facts = {fact.name.text: fact for fact in task.declaration.facts if isinstance(fact, Contains)}
         for thing in task.things:
             is_known = thing.name in sensed or (task.name, thing.name) in named
@@ -51,10 +49,6 @@ def _named(study: Study) -> set[tuple[str, str]]:
     own = {id(fact.name) for fact in facts if isinstance(fact, Contains)}
     about = (mention for mention in study.mentions if mention.noun == "thing" and id(mention.name) not in own)
     return {(mention.by.header.name.text, mention.name.text) for mention in about if mention.by}
-
-
-def _events(task: Task) -> list[object]:
-    return [*task.ends, *task.counts, *(reward.on for reward in task.rewards)]
 
 
 def _is_of_use(kind: Content, charges: bool, delivers: bool) -> bool:

@@ -16,13 +16,16 @@ from mindrun.encoding import decode, decode_wiring, encode
 from mindrun.errors import BundleError, WeightsError
 from mindrun.graph import Graph
 from mindrun.npy import to_npy
+from mindrun.older import brought_along
 from mindrun.plain_data import parsed
 from mindrun.regular import read_regular
 from mindrun.robot.wiring import Wiring
 from mindrun.weights import Weights, genes, read_weights, weights_of
 
-# A mindrun that knows nothing of wirings refuses a bundle that has one.
-FORMAT, WIRED = "mind bundle 1", "mind bundle 2"
+# A mindrun that knows nothing of wirings refuses a bundle that has one, and one that knows nothing of what becomes of
+# things those of which the tasks say it.
+FORMAT, WIRED = "mind bundle 3", "mind bundle 4"
+OLDER = {"mind bundle 1": FORMAT, "mind bundle 2": WIRED}
 MANIFEST, GRAPH, WIRING = "manifest.json", "graph.json", "wiring.json"
 WEIGHTS, MODULES = "weights/", "procedures/"
 LARGEST = 64 << 20  # bytes; nothing is compressed, so this also limits what is read
@@ -121,9 +124,13 @@ def _manifest(bundle: Bundle, members: Mapping[str, bytes]) -> dict[str, Any]:
 def _bundle(members: dict[str, bytes]) -> Bundle:
     """The bundle of these files; BundleError or ValueError where they are none."""
     manifest = parsed(members.pop(MANIFEST, b""))
-    if not isinstance(manifest, dict) or manifest.get("format") not in (FORMAT, WIRED):
+    if not isinstance(manifest, dict) or manifest.get("format") not in (FORMAT, WIRED, *OLDER):
         raise BundleError(_foreign(manifest))
-    graph = decode(_document(members, GRAPH))
+    data = _document(members, GRAPH)
+    if manifest["format"] in OLDER:
+        data = brought_along(data)
+        manifest = manifest | {"format": OLDER[manifest["format"]]}
+    graph = decode(data)
     weights = {name: read_weights(content) for name, content in _below(members, WEIGHTS, ".npy")}
     procedures = {name.replace("/", "."): content.decode() for name, content in _below(members, MODULES, ".py")}
     wiring = decode_wiring(_document(members, WIRING), graph) if manifest["format"] == WIRED else None
@@ -166,7 +173,7 @@ def _foreign(manifest: object) -> str:
     if not isinstance(version, str) or not version.startswith("mind bundle"):
         return "this is not a bundle"
     return (
-        f"this is a {version!r:.40}, this mindrun reads {FORMAT!r} and {WIRED!r}: "
+        f"this is a {version!r:.40}, this mindrun reads those up to {WIRED!r}: "
         "build it again, or install the mindrun of the mindc that built it"
     )
 

@@ -12,7 +12,7 @@ PATCH = Quantity("a length in world units", {"": 1.0}, low=0.1, high=1e5)
 @kind("event", "reach")
 @dataclass(frozen=True, slots=True)
 class Reach:
-    """An item comes into the claw's reach, or the robot's centre inside a zone; the thing then reappears elsewhere."""
+    """An item comes into the claw's reach, or the robot's centre into a zone or power: once until it has left again."""
 
     of: Annotated[str, THING]
 
@@ -20,7 +20,7 @@ class Reach:
 @kind("event", "delivery")
 @dataclass(frozen=True, slots=True)
 class Delivery:
-    """An item is released in, or carried into, a zone; it then reappears elsewhere."""
+    """The middle of an item that the claw holds comes into a zone: once until it has left all zones again."""
 
     of: Annotated[str, THING]
 

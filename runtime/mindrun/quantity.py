@@ -26,7 +26,7 @@ class Reference:
 
 @dataclass(frozen=True, slots=True)
 class Span:
-    """`5` (first = last), `4 to 8` (drawn uniformly), or `3 to 1 by 0.1` (a schedule, one step per success)."""
+    """`5` (first = last), `4 to 8` (drawn uniformly), or `3 to 1 by 0.1` (a schedule, one step each time it moves)."""
 
     first: float
     last: float

@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 from typing import Annotated
 
-from mindrun.quantity import LENGTH, Quantity, Span
+from mindrun.quantity import LENGTH, Quantity, Reference, Span
 from mindrun.registry import kind
 
 DIAMETER = Quantity("a length in world units", {"": 1.0}, low=0.01, high=1000.0)
@@ -40,33 +40,47 @@ class Arena:
 
 ONE = Span(1.0, 1.0)
 NEAR = Span(-1.0, -1.0)  # a plain scene: 10 to 40; an arena: at least 10
+STAYS, MOVES, VANISHES = OUTCOMES = ("stays", "moves", "vanishes")
+OUTCOME = Reference("outcome", OUTCOMES)
 
 
 @kind("content", "item")
 @dataclass(frozen=True, slots=True)
 class Item:
-    """A disc of diameter `size` that the claw can take. `away` is its distance from the robot when it is placed."""
+    """A disc of diameter `size` that the claw can take. `away` is its distance from the robot when it is placed.
+
+    When it is `reached` or `delivered` it stays as it is (in the claw, where that holds it), moves elsewhere with the
+    next size of its schedule, or vanishes for the rest of the run.
+    """
 
     size: Annotated[Span, LENGTH] = ONE
     away: Annotated[Span, LENGTH] = NEAR
+    reached: Annotated[str, OUTCOME] = STAYS
+    delivered: Annotated[str, OUTCOME] = MOVES
 
 
 @kind("content", "zone")
 @dataclass(frozen=True, slots=True)
 class Zone:
-    """A square of side `size` on the floor; items are delivered into it."""
+    """A square of side `size` on the floor; items are delivered into it.
+
+    When it is `reached` it stays where it is, moves elsewhere with the next size of its schedule, or vanishes for the
+    rest of the run.
+    """
 
     size: Annotated[Span, LENGTH] = ONE
     away: Annotated[Span, LENGTH] = NEAR
+    reached: Annotated[str, OUTCOME] = STAYS
 
 
 @kind("content", "power")
 @dataclass(frozen=True, slots=True)
 class Power:
-    """A square of side `size` on the floor in which the battery charges."""
+    """A square of side `size` on the floor in which the battery charges. `reached` is as for a zone."""
 
     size: Annotated[Span, LENGTH] = ONE
     away: Annotated[Span, LENGTH] = NEAR
+    reached: Annotated[str, OUTCOME] = STAYS
 
 
 @kind("content", "obstacle")

@@ -237,6 +237,9 @@ TEXTS = [
     ("is disc", "is disc size 3", "taught with body size 2, now 3"),
     ("of ball_bearing", "of near", "taught with ball_drift of ball_bearing, now near"),
     ("size 2\n  contains bin", "size 3 to 1 by 0.5\n  contains bin", "taught with ball size 2, now 3 to 1 by 0.5"),
+    ("ball is item size 2", "ball is item size 2 reached moves", "taught with ball reached stays, now moves"),
+    ("ball is item size 2", "ball is item size 2 delivered stays", "taught with ball delivered moves, now stays"),
+    ("bin is zone size 8", "bin is zone size 8 reached vanishes", "taught with bin reached stays, now vanishes"),
     ("  contains dock is power size 4\n", "", "its task has changed: no longer contains dock"),
     ("rewards 10 on", "rewards 5 on", "its task has changed: rewards 10 on reach of ball, now 5"),
     (
@@ -295,6 +298,25 @@ def test_what_changes_nothing_is_not_noticed(old: str, new: str) -> None:
     state = status(compiled(MIND.replace(old, new)), LOCK)["Top"]
     assert isinstance(state, Trained)
     assert state.changes == ()
+
+
+def test_worlds_of_before_things_said_what_becomes_of_them_are_read_as_they_were() -> None:
+    """A thing moved where its reach or delivery was rewarded. The same file means something else now: that is told."""
+    old = {name: replace(entry, worlds=tuple(map(_without_outcomes, entry.worlds))) for name, entry in LOCK.items()}
+    state = status(GRAPH, old)["Top"]
+    assert isinstance(state, Trained)
+    assert state.changes == ("taught with ball reached moves, now stays",)
+    migrated = compiled(MIND.replace("ball is item size 2", "ball is item size 2 reached moves"))
+    state = status(migrated, old)["Top"]
+    assert isinstance(state, Trained)
+    assert state.changes == ()
+
+
+def _without_outcomes(world: TrainingWorld) -> TrainingWorld:
+    words = {"reached", "delivered"}
+    things = {subject: fact for subject, fact in world.facts.items() if subject.startswith("thing ")}
+    plain = {subject: {k: v for k, v in fact.items() if k not in words} for subject, fact in things.items()}
+    return TrainingWorld({**world.facts, **plain})
 
 
 @pytest.mark.parametrize("actuator", ["wheel side left neutral 0.6", "gripper neutral 0.9"])

@@ -92,7 +92,7 @@ task Test in arena size 60
 def test_a_schedule_shrinks_with_every_success() -> None:
     task = """
 task Test in plain
-  contains object is item size 3 to 2.5 by 0.1
+  contains object is item size 3 to 2.5 by 0.1 reached moves
   lasts 5000 ticks
   rewards 10 on reach of object
   counts reach of object
@@ -101,20 +101,6 @@ task Test in plain
     sizes = [run[0].things[0, 2], *(m.things[0, 2] for m in run if m.events[0])]
     assert len(sizes) > 8
     assert np.allclose(sizes, np.maximum(2.5, 3 - 0.1 * np.arange(len(sizes))))
-
-
-def test_what_is_not_asked_for_stays_where_it_is() -> None:
-    """Reaching an item makes it appear elsewhere only in a task that speaks of reaching it."""
-    task = """
-task Test in arena size 60
-  contains object is item size 1
-  contains home is zone size 6
-  lasts 400 ticks
-  rewards 1 on delivery of object
-"""
-    run = moments(task.replace("delivery of object", "collision"))
-    assert any(m.readings[4] == 1 for m in run)
-    assert len({tuple(m.things[1]) for m in run}) == 1
 
 
 def test_the_battery_drains_and_charges_in_a_power_zone() -> None:

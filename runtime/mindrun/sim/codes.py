@@ -8,6 +8,7 @@ RANGE, BEARING, CONTACT, HELD, INSIDE, INERTIAL, BATTERY, DERIVATIVE, SINE = ran
 WHEEL_LEFT, WHEEL_RIGHT, GRIPPER, SERVO = range(4)
 MLP, RULE, PROCEDURE = range(3)
 ITEM, ZONE, POWER = range(3)
+STAYS, MOVES, VANISHES = range(3)
 PROGRESS, ADVANCE, RETREAT, FORWARD, CHANGE = range(5)
 REACH, DELIVERY, VISIT, COLLISION, EXHAUSTION = range(5)
 NUMBER, READING, EACH, MEASURE, ADD, SUBTRACT, MULTIPLY, DIVIDE, NEGATE = range(9)
@@ -30,7 +31,7 @@ def _row(**columns: str) -> np.dtype[Any]:
 SENSOR = _row(
     kind="i8", start="i8", width="i8", thing="i8", source="i8", ray="i8", before="i8", turns="i8",
     range="f8", dead_zone="f4", gain="f4", period="f8",
-    is_rough="i8", noise="f4", lost="f4", blank="f4", every="i8", delay="i8", held="i8", ring="i8",
+    is_rough="i8", is_aside="i8", noise="f4", lost="f4", blank="f4", every="i8", delay="i8", held="i8", ring="i8",
 )  # fmt: skip
 SKILL = _row(
     kind="i8", index="i8", input="i8", inputs="i8", outputs="i8", hidden="i8", width="i8", weights="i8", own="i8",
@@ -40,7 +41,10 @@ EDGE = _row(to_skill="i8", target="i8", output="i8", code="i8", length="i8")
 CODE = _row(op="i8", arg="i8", value="f8")
 ACTUATOR = _row(kind="i8", thrust="f8", neutral="f4", reach="f8", delay="i8", ring="i8")
 MEMORY = _row(row="i8", decay="f4", rest="f4", start="f4")
-THING = _row(kind="i8", first="f8", last="f8", by="f8", low="f8", high="f8", hold="f8", drawn="i8")
+THING = _row(
+    kind="i8", first="f8", last="f8", by="f8", low="f8", high="f8", hold="f8", drawn="i8",
+    reached="i8", delivered="i8", is_reached="i8", is_delivered="i8",
+)  # fmt: skip
 OBSTACLE = _row(first="f8", last="f8", grid="f8", jitter="f8", lines="i8", count="i8", low="f8", high="f8")
 MEASURES = _row(kind="i8", thing="i8", beyond="f8", over="i8", ring="i8")
 EVENT = _row(kind="i8", thing="i8", columns="i8", patch="f8", board="i8", ends="i8")

@@ -87,13 +87,36 @@ def _function(skill: Skill) -> tuple[int, int, int]:
             return RULE, 0, 0
 
 
-def used_sensors(graph: Graph, reached: Sequence[Skill], task: Task) -> list[Sensor]:
-    """The sensors that a reached skill or a reward reads, and what those derive from; sources first."""
-    rows = {row for skill in reached for row in skill.inputs}
+@dataclass(frozen=True, slots=True)
+class Used:
+    """The sensors that are measured: those that `skills` depend on, and those `aside` that only rewards do.
+
+    Sources stand before what derives from them.
+    """
+
+    skills: list[Sensor]
+    aside: list[Sensor]
+
+
+def used_sensors(graph: Graph, reached: Sequence[Skill], task: Task) -> Used:
+    """The sensors that a reached skill or a reward reads."""
+    skills = _measured(graph, {row for skill in reached for row in skill.inputs})
+    rewards = _measured(graph, _rewarded(task))
+    return Used(skills, [sensor for sensor in rewards if sensor not in skills])
+
+
+def _rewarded(task: Task) -> set[int]:
+    """The readings that rewards depend on."""
+    rows: set[int] = set()
     for reward in task.rewards:
         programs = [reward.amount] + ([reward.when.left, reward.when.right] if reward.when else [])
         rows |= {int(value) for program in programs for name, value in program if name == "reading"}
         rows |= set(range(reward.each[0], sum(reward.each))) if reward.each else set()
+    return rows
+
+
+def _measured(graph: Graph, rows: set[int]) -> list[Sensor]:
+    """The sensors that have these readings, and what those derive from; sources first."""
     by_name = {sensor.name: sensor for sensor in graph.sensors}
     ordered: dict[str, Sensor] = {}
     for sensor in graph.sensors:
@@ -121,8 +144,11 @@ class Sensed:
     rings: int
 
 
-def sensor_rows(graph: Graph, used: Sequence[Sensor], task: Task) -> Sensed:
-    """What the table of sensors says of those that are used."""
+def sensor_rows(graph: Graph, used: Used, task: Task) -> Sensed:
+    """What the table of sensors says of those that are used.
+
+    What is measured aside draws its noise from a generator of its own: a reward changes nothing in the world.
+    """
     things = {thing.name: i for i, thing in enumerate(things_of(task))}
     starts = {m.name: m.start for m in graph.memories} | {s.name: s.start for s in graph.sensors}
     circular = {s.name for s in graph.sensors if isinstance(s.kind, sensors.Bearing)}
@@ -130,12 +156,12 @@ def sensor_rows(graph: Graph, used: Sequence[Sensor], task: Task) -> Sensed:
     angles: list[float] = []
     ray_row: list[int] = []
     before = held = ring = 0
-    for sensor in used:
+    for is_aside, sensor in [(False, s) for s in used.skills] + [(True, s) for s in used.aside]:
         code, thing, source, reach, dead_zone, gain, period = _sensor(sensor, graph, things, starts)
         turns = isinstance(sensor.kind, sensors.Derivative) and sensor.kind.of in circular
         rows.append((
             code, sensor.start, sensor.width, thing, source, len(angles), before, turns, reach, dead_zone, gain, period,
-            *_roughness(sensor), held, ring,
+            *_roughness(sensor, is_aside), held, ring,
         ))  # fmt: skip
         if isinstance(sensor.kind, sensors.Physical):
             held += sensor.width
@@ -149,11 +175,11 @@ def sensor_rows(graph: Graph, used: Sequence[Sensor], task: Task) -> Sensed:
     return Sensed(rows, directions, np.array(ray_row, np.int64), before, held, ring)
 
 
-def _roughness(sensor: Sensor) -> tuple[bool, float, float, float, int, int]:
-    """(whether there is any, noise, lost, what is read then or −1 for the same as before, every, delay)."""
+def _roughness(sensor: Sensor, is_aside: bool) -> tuple[bool, bool, float, float, float, int, int]:
+    """(whether there is any, is_aside, noise, lost, what is read then or −1 for the same as before, every, delay)."""
     kind = sensor.kind
     if not isinstance(kind, sensors.Physical):
-        return False, 0.0, 0.0, 0.0, 1, 0
+        return False, is_aside, 0.0, 0.0, 0.0, 1, 0
     match kind:
         case sensors.RangeFinder():
             blank = 1.0
@@ -164,7 +190,7 @@ def _roughness(sensor: Sensor) -> tuple[bool, float, float, float, int, int]:
         case _:
             blank = 0.0
     is_rough = kind.noise > 0 or kind.lost > 0 or kind.every > 1 or kind.delay > 0
-    return is_rough, kind.noise, kind.lost, blank, max(1, kind.every), kind.delay
+    return is_rough, is_aside, kind.noise, kind.lost, blank, max(1, kind.every), kind.delay
 
 
 def _sensor(

@@ -122,7 +122,7 @@ def put(t, s, i, p):
 
 @compiled
 def succeed(t, s, i, p):
-    """Thing i has been reached or delivered: it takes the next step of its schedule and reappears elsewhere."""
+    """Thing i moves: it takes the next step of its schedule and appears elsewhere, let go and not yet reached."""
     thing = t.things[i]
     size = s.things[4 * i + 2, p]
     if thing.drawn:
@@ -132,6 +132,19 @@ def succeed(t, s, i, p):
     elif thing.first < thing.last:
         size = min(thing.last, size + thing.by)
     s.things[4 * i + 2, p] = size
-    if s.held[p] == i:
-        s.held[p] = -1
+    forget(s, i, p)
     put(t, s, i, p)
+
+
+@compiled
+def vanish(s, i, p):
+    """Thing i is nowhere for the rest of the run: a place that is no number is in nobody's reach or way."""
+    forget(s, i, p)
+    s.things[4 * i, p], s.things[4 * i + 1, p] = np.nan, np.nan
+
+
+@compiled
+def forget(s, i, p):
+    """Thing i is let go, and where it has been reached or delivered does not count any more."""
+    s.held[p] = -1 if s.held[p] == i else s.held[p]
+    s.reached[i, p], s.delivered[i, p] = 0, 0

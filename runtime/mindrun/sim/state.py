@@ -21,8 +21,11 @@ class State(NamedTuple):
     boxes: Array  # [3·boxes] float64: x, y, half side of each
     things: Array  # [4·things] float64: x, y, size, distance to the robot when the tick began
     held: Array  # the thing that the claw holds, or −1
+    reached: Array  # [things] uint8: bit 0 while it is in reach, bit 1 if it was in the tick before
+    delivered: Array  # [things] uint8: the same of items that were carried into a zone and have not left
     battery: Array
     random: Array  # uint64
+    aside: Array  # uint64: the generator of what no skill reads
     # the mind
     readings: Array  # [readings] float32
     before: Array  # [derivatives] float32: what they read in the tick before
@@ -123,7 +126,8 @@ def empty_state(tables: Tables, sizes: Sizes, lanes: int) -> State:
         **{name: np.zeros(lanes) for name in ("battery", "gap", "paid", "limit")},
         **{name: np.zeros(whole, np.float32) for name in ("sound", "values", "sent")},
         failed=np.full(2, -1, np.int64),
-        random=np.zeros(lanes, np.uint64),
+        **{name: np.zeros(lanes, np.uint64) for name in ("random", "aside")},
+        **{name: np.zeros((max(1, things), whole), np.uint8) for name in ("reached", "delivered")},
         board=np.zeros((lanes, max(1, sizes.patches)), np.uint8),
         slot_most=np.zeros(1, np.int64),
         happened=np.zeros(max(1, events), np.int64),

@@ -99,7 +99,9 @@ def build(
     noticed, patches = event_rows(task)
     driven, delays = actuator_rows(graph)
     tables = Tables(
-        world=world_row(graph, task, len(sensed.ray_row), used, [s.name for s in graph.skills].index(master)),
+        world=world_row(
+            graph, task, len(sensed.ray_row), [*used.skills, *used.aside], [s.name for s in graph.skills].index(master)
+        ),
         sensors=np.array(sensed.rows, SENSOR),
         rays=sensed.rays,
         ray_row=sensed.ray_row,

@@ -23,6 +23,7 @@ from mindrun.sim.codes import (
     PROGRESS,
     REACH,
     RETREAT,
+    STAYS,
     VISIT,
     WORLD,
     ZONE,
@@ -58,13 +59,21 @@ def _lines(task: Task, obstacle: world.Obstacle) -> int:
 def thing_rows(graph: Graph, task: Task) -> list[Any]:
     """Rows of THING, the items, zones and powers in the order of the source."""
     rows = []
+    asked = {(type(event), event.of) for event in task.events if isinstance(event, events.Reach | events.Delivery)}
     for thing in things_of(task):
         kind = thing.kind
+        assert not isinstance(kind, world.Obstacle)
         code = {world.Item: ITEM, world.Zone: ZONE, world.Power: POWER}[type(kind)]
         size, away = kind.size, kind.away
         drawn = size.by is None and size.first != size.last
         hold = graph.body.size / 2 + max(size.first, size.last) / 2
-        rows.append((code, size.first, size.last, size.by or 0.0, *_away(away, task, 10.0), hold, drawn))
+        reached = world.OUTCOMES.index(kind.reached)
+        delivered = world.OUTCOMES.index(kind.delivered) if isinstance(kind, world.Item) else STAYS
+        rows.append((
+            code, size.first, size.last, size.by or 0.0, *_away(away, task, 10.0), hold, drawn, reached, delivered,
+            reached != STAYS or (events.Reach, thing.name) in asked,
+            delivered != STAYS or (events.Delivery, thing.name) in asked,
+        ))  # fmt: skip
     return rows
 
 

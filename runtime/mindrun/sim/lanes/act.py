@@ -1,4 +1,4 @@
-"""Act: the commands that the influence makes (Eq. 3), their delays, the memory cells, and the claw."""
+"""Act: the commands that the influence makes (Eq. 3), their delays, and the claw; the memory cells when all is done."""
 
 from mindrun.sim.codes import GRIPPER, ITEM
 from mindrun.sim.lanes.arithmetic import HALF, ONE, ZERO, F, clamp, compiled, finite
@@ -9,7 +9,7 @@ UNDRIVEN = F(-1)
 
 @compiled
 def act(t, s, n, clock):
-    """Commands as they act in this tick, memory for the next one, and what the claw holds."""
+    """Commands as they act in this tick, and what the claw holds."""
     sinks = s.sums.shape[0] // 2
     for i in range(len(t.actuators)):
         actuator = t.actuators[i]
@@ -18,6 +18,12 @@ def act(t, s, n, clock):
             wait(s.commands[i], s.late[actuator.ring + clock % actuator.delay], n)
         if actuator.kind == GRIPPER:
             grip(s.commands[i], s.held, s.body, s.heading, s.things, t.things, t.world[0].radius, actuator.reach, n)
+
+
+@compiled
+def recall(t, s, n):
+    """The memory cells as they are read in the next tick: a reward of this one has them as its skills had."""
+    sinks = s.sums.shape[0] // 2
     for i in range(len(t.memories)):
         memory = t.memories[i]
         sink = len(t.actuators) + i

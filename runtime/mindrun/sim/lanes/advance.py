@@ -4,13 +4,15 @@ import numpy as np
 
 from mindrun.sim.chipmunk import close_space
 from mindrun.sim.codes import GOING_ON, INERTIAL_TICKS, LOST, VISIT
-from mindrun.sim.lanes.act import act
+from mindrun.sim.lanes.act import act, recall
 from mindrun.sim.lanes.arithmetic import compiled, entry, sine_cosine
 from mindrun.sim.lanes.judge import judge, patch_of
 from mindrun.sim.lanes.sense import sense
 from mindrun.sim.lanes.step import is_lost, step
 from mindrun.sim.lanes.think import begin, think
 from mindrun.sim.place import draw
+
+ASIDE = np.uint64(0xD1B54A32D192ED03)  # what no skill reads draws from a generator of its own
 
 
 @entry
@@ -35,12 +37,16 @@ def before(t, s, jobs):
 
 @compiled
 def after(t, s, jobs, interrupt):
-    """The second half of a tick: act, step, judge; lanes whose run is over write their result and begin the next."""
+    """The second half of a tick: act, step, judge, recall.
+
+    Lanes whose run is over write their result and begin the next.
+    """
     n, clock = jobs.lanes[0], jobs.clock[0]
     act(t, s, n, clock)
     s.was[:, :n] = s.body[:2, :n]
     step(t, s, n)
     judge(t, s, n, clock, interrupt)
+    recall(t, s, n)
     s.last[:, :n] = s.commands[:, :n]
     jobs.clock[0] = clock + 1
     p = n - 1
@@ -76,6 +82,7 @@ def begin_job(t, s, jobs, p):
     jobs.next[0] = job + 1
     s.job[p] = job
     s.random[p] = jobs.seeds[jobs.seed[job]]
+    s.aside[p] = s.random[p] ^ ASIDE
     draw(t, s, p)
     genome = jobs.genomes[jobs.genome[job]]
     for i in range(len(genome)):
@@ -93,6 +100,7 @@ def reset(t, s, p):
     s.heading[1, p], s.heading[0, p] = sine_cosine(s.body[2, p])
     s.lines[:, p] = 0.0
     s.counts[:, p] = 0
+    s.reached[:, p], s.delivered[:, p] = 0, 0
     s.changes[:, p] = 0.0
     s.anchor[:, p] = np.nan
     for i in range(INERTIAL_TICKS):
@@ -135,9 +143,12 @@ def move(s, a, b):
             rows[i, b] = rows[i, a]
     for row in (s.held, s.tick, s.ended, s.faults, s.job, s.near, s.touching, s.slot_count):
         row[b] = row[a]
-    s.battery[b], s.random[b] = s.battery[a], s.random[a]
+    s.battery[b], s.random[b], s.aside[b] = s.battery[a], s.random[a], s.aside[a]
     s.board[b] = s.board[a]
     for rows in (s.slot_boxes, s.counts):
+        for i in range(rows.shape[0]):
+            rows[i, b] = rows[i, a]
+    for rows in (s.reached, s.delivered):
         for i in range(rows.shape[0]):
             rows[i, b] = rows[i, a]
     for i in range(s.handles.shape[1]):

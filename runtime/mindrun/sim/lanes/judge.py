@@ -1,4 +1,4 @@
-"""Judge: measures and events of the tick, the rewards they earn, and what has been reached appears elsewhere."""
+"""Judge: measures and events of the tick, the rewards they earn, and what becomes of what was reached."""
 
 import numpy as np
 
@@ -11,7 +11,6 @@ from mindrun.sim.codes import (
     FORWARD,
     GREATER,
     INERTIAL_TICKS,
-    ITEM,
     LESS,
     LESS_EQUAL,
     POWER,
@@ -20,12 +19,11 @@ from mindrun.sim.codes import (
     VISIT,
     WHEEL_LEFT,
     WHEEL_RIGHT,
-    ZONE,
 )
 from mindrun.sim.lanes.arithmetic import compiled
 from mindrun.sim.lanes.evaluate import evaluate
-from mindrun.sim.lanes.sense import in_claw, inside
-from mindrun.sim.place import succeed
+from mindrun.sim.lanes.reach import BEGUN, become, meet
+from mindrun.sim.lanes.sense import inside
 
 
 @compiled
@@ -41,6 +39,7 @@ def judge(t, s, n, clock, interrupt):
             progress(s.measures[i], s.body, s.things, measure.thing, measure.kind, n)
     if t.world[0].battery:
         drain(t, s, n)
+    meet(t, s, n)
     for i in range(len(t.events)):
         s.happened[i] = notice(t, s, t.events[i], s.events[i], n)
     for i in range(len(t.rewards)):
@@ -48,6 +47,7 @@ def judge(t, s, n, clock, interrupt):
     for i in range(len(t.events)):
         if s.happened[i] > 0:
             settle(t, s, i, n, interrupt)
+    become(t, s, n)
     oldest = clock % INERTIAL_TICKS
     for p in range(n):
         s.tick[p] += 1
@@ -56,7 +56,7 @@ def judge(t, s, n, clock, interrupt):
 
 @compiled
 def progress(out, body, things, i, kind, n):
-    """The distance to thing i that this tick closed, or its positive or negative part."""
+    """The distance to thing i that this tick closed, or its positive or negative part; 0 where it has vanished."""
     for p in range(n):
         dx, dy = things[4 * i, p] - body[0, p], things[4 * i + 1, p] - body[1, p]
         closed = things[4 * i + 3, p] - np.sqrt(dx * dx + dy * dy)
@@ -64,7 +64,7 @@ def progress(out, body, things, i, kind, n):
             closed = closed if closed > 0.0 else 0.0
         elif kind == RETREAT:
             closed = -closed if closed < 0.0 else 0.0
-        out[p] = closed
+        out[p] = 0.0 if np.isnan(closed) else closed
 
 
 @compiled
@@ -119,15 +119,10 @@ def notice(t, s, event, out, n):
     count = 0
     for p in range(n):
         happened = False
-        if kind == REACH and t.things[i].kind == ITEM:
-            happened = in_claw(s.body, s.heading, s.things, world.radius, world.claw, i, p)
-        elif kind == REACH:
-            happened = inside(s.things, i, s.body[0, p], s.body[1, p], p)
+        if kind == REACH:
+            happened = s.reached[i, p] == BEGUN
         elif kind == DELIVERY:
-            if s.held[p] == i:
-                for z in range(len(t.things)):
-                    if t.things[z].kind == ZONE and inside(s.things, z, s.things[4 * i, p], s.things[4 * i + 1, p], p):
-                        happened = True
+            happened = s.delivered[i, p] == BEGUN
         elif kind == VISIT:
             patch = patch_of(s.body, world.half, event.patch, event.columns, p)
             happened = s.board[p, event.board + patch] == 0
@@ -196,12 +191,10 @@ def only_when(paid, left, right, compare, n):
 
 @compiled
 def settle(t, s, i, n, interrupt):
-    """Count an event, end the runs that it ends, and let what was reached or delivered appear elsewhere."""
+    """Count an event, and end the runs that it ends."""
     event = t.events[i]
     for p in range(n):
         if s.events[i, p] > 0.0:
             s.counts[i, p] += 1
             if event.ends and interrupt and s.ended[p] < 0:
                 s.ended[p] = i
-            if event.kind == REACH or event.kind == DELIVERY:
-                succeed(t, s, event.thing, p)

@@ -74,9 +74,10 @@ def sense(t, s, n, clock):
 def roughen(s, sensor, k, n):
     """Reading k of a sensor as it is measured: now and then, with noise, sometimes not at all, and seen later."""
     out, measured = s.readings[sensor.start + k], s.measured[sensor.held + k]
+    random = s.aside if sensor.is_aside else s.random
     for p in range(n):
         if s.tick[p] % sensor.every == 0:
-            measured[p] = measure(s.random, sensor, out[p], measured[p] if s.tick[p] > 0 else out[p], p)
+            measured[p] = measure(random, sensor, out[p], measured[p] if s.tick[p] > 0 else out[p], p)
         out[p] = measured[p]
     first = sensor.ring + k * sensor.delay
     for p in range(n if sensor.delay > 0 else 0):

@@ -1,0 +1,73 @@
+"""`mindc migrate`: files of an older mindc say in the words of this one what they meant."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import click
+
+if TYPE_CHECKING:
+    from mindlang.source import Source
+
+EXAMPLES = """\b
+Examples:
+  mindc migrate collect.mind            the diff
+  mindc migrate *.mind --write          make it
+"""
+
+
+@click.command(epilog=EXAMPLES)
+@click.argument("files", nargs=-1, required=True, metavar="FILE…")
+@click.option("--write", is_flag=True, help="Change the files: mindc migrate collect.mind --write")
+def command(files: tuple[str, ...], write: bool) -> None:
+    """Bring files of an older mindc along, and print the diff.
+
+    A thing used to move elsewhere when it was reached or delivered if any line of its task rewarded, counted or ended
+    on that. Now it says so itself: `reached moves`, `delivered stays`. Only for files that were written before; what
+    things say already stays. `-` is standard input; with --write it goes to standard output.
+    """
+    sys.exit(max([_migrate(file, write) for file in files]))
+
+
+def _migrate(file: str, write: bool) -> int:
+    """Migrate one file; how the program would end if it were the only one."""
+    from mindlang.compile import read_main
+    from mindlang.diagnostic import Findings
+    from mindlang.migration import migrated
+    from mindlang.report import print_report
+    from mindlang.source import Source
+    from mindlang.splice import unified
+    from mindlang.terminal import FINDINGS, MISUSE, OK, console, print_document, take_back
+
+    take_back(file)
+    source = read_main(file)
+    if not isinstance(source, Source):
+        print_report([source], console(stderr=True))
+        return MISUSE
+    findings = Findings()
+    text = migrated(source, findings)
+    print_report(findings.diagnostics, console(stderr=True))
+    if findings.diagnostics:
+        return FINDINGS
+    is_piped = write and file == "-"
+    print_document(text if is_piped else unified(file.lstrip("/"), source.text, text))
+    if text == source.text:
+        click.echo(f"{file} needs nothing", err=True)
+    elif write and not is_piped:
+        _write(file, source, text)
+    return OK
+
+
+def _write(file: str, source: Source, text: str) -> None:
+    from mindrun.durable import rewrite
+
+    from mindlang.source import encoded
+    from mindlang.terminal import fail
+
+    try:
+        rewrite(Path(file), encoded(Path(file), text), encoded(Path(file), source.text))
+    except OSError as error:
+        fail(f"{file} cannot be written: {error.strerror}")
+    click.echo(f"{file} is written", err=True)

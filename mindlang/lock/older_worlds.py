@@ -1,0 +1,26 @@
+"""Worlds of locks from before things said what becomes of them, brought along as far as they know it."""
+
+from collections.abc import Mapping
+from typing import Any
+
+from mindrun.world import MOVES
+
+EVENTS = {"reached": "reach", "delivered": "delivery"}
+
+
+def brought_along(facts: Mapping[str, Any]) -> dict[str, Any]:
+    """The facts of a world; a thing moved where a reward or an end of its task named it.
+
+    What was only counted is not known, so nothing is said of that.
+    """
+    named = {*facts.get("task", {}).get("ends", ())}
+    named |= {reason.removeprefix("on ").partition(" when ")[0] for _, reason in facts["rewards"]}
+    return {subject: _said(subject, fact, named) for subject, fact in facts.items()}
+
+
+def _said(subject: str, fact: Any, named: set[str]) -> Any:
+    noun, _, name = subject.partition(" ")
+    if noun != "thing":
+        return fact
+    outcomes = {field: MOVES for field, event in EVENTS.items() if f"{event} of {name}" in named}
+    return outcomes | fact  # what it says itself counts

@@ -1,0 +1,48 @@
+"""Files of before things said what becomes of them, brought along: a thing moved where a line of its task named it."""
+
+from collections.abc import Iterator
+
+from mindrun.world import MOVES, STAYS
+
+from mindlang.diagnostic import Findings
+from mindlang.parse import parse
+from mindlang.source import Source
+from mindlang.splice import Splice, spliced
+from mindlang.syntax import Contains, Counts, Declaration, Ends, Name, Phrase, Rewards
+
+PLACED = ("item", "zone", "power")  # the kinds that had places of their own
+
+
+def migrated(source: Source, findings: Findings) -> str:
+    """The text of a file with every thing saying what became of it; what it says already stays as it is."""
+    declarations = parse(source, findings).declarations
+    return spliced(source, [splice for declaration in declarations for splice in _splices(source, declaration)])
+
+
+def _splices(source: Source, declaration: Declaration) -> Iterator[Splice]:
+    """What the things of a task have to say."""
+    named = {_named(event) for event in _events(declaration)}
+    things = [fact for fact in declaration.facts if isinstance(fact, Contains)]
+    has_zone = any(fact.phrase.kind.text == "zone" for fact in things)
+    for fact in things:
+        thing, phrase = fact.name.text, fact.phrase
+        said = {argument.key.text for argument in phrase.arguments}
+        if phrase.kind.text not in PLACED or said & {"reached", "delivered"}:
+            continue  # it says already what becomes of it
+        if ("reach", thing) in named:
+            yield Splice(source, phrase.span.end, phrase.span.end, f" reached {MOVES}")
+        elif phrase.kind.text == "item" and has_zone and ("delivery", thing) not in named:
+            yield Splice(source, phrase.span.end, phrase.span.end, f" delivered {STAYS}")
+
+
+def _events(declaration: Declaration) -> Iterator[Phrase]:
+    for fact in declaration.facts:
+        match fact:
+            case Ends(event) | Counts(event) | Rewards(on=Phrase() as event):
+                yield event
+
+
+def _named(event: Phrase) -> tuple[str, str]:
+    """An event's kind, and the thing that it is of."""
+    of = (argument.value for argument in event.arguments if argument.key.text == "of")
+    return event.kind.text, next((value.text for value in of if isinstance(value, Name)), "")

@@ -1,0 +1,54 @@
+"""A thing whose reach is rewarded or counted, and that does not say what becomes of it then.
+
+It stays where it is, and is reached again only after the robot has left it. Files of before things said so meant
+`reached moves`: there a thing appeared elsewhere as soon as a line of its task named its reach. `mindc migrate` brings
+such a file along.
+"""
+
+from mindrun.events import Reach
+
+from mindlang.diagnostic import Fix
+from mindlang.linting.study import Finding, Found, Study
+from mindlang.model import Task
+from mindlang.splice import Splice
+from mindlang.syntax import Contains
+
+GOOD = (
+    """
+sensor dock_bearing is bearing of dock
+task Dock in plain
+  contains dock is zone size 5 reached stays
+  lasts 9 s
+  rewards 10 on reach of dock
+""",
+    """
+sensor dock_bearing is bearing of dock
+task Dock in plain
+  contains dock is zone size 5
+  lasts 9 s
+  ends on reach of dock
+  rewards 10 on reach of dock
+""",
+)
+BAD = (GOOD[0].replace(" reached stays", ""),)
+
+
+def check(study: Study) -> Found:
+    """Things that are reached for a reward or a count, and leave open what follows."""
+    for task in study.mind.tasks:
+        reached = _reached(task)
+        for fact in task.declaration.facts:
+            match fact:
+                case Contains(name, phrase) if name.text in reached and not any(
+                    argument.key.text == "reached" for argument in phrase.arguments
+                ):
+                    end = phrase.span.end
+                    fix = Fix("Say reached moves", (Splice(phrase.span.source, end, end, " reached moves"),), False)
+                    hint = "Write reached stays, or reached moves to have it appear elsewhere as it once did."
+                    yield Finding(name.span, f"{name.text} stays where it is when it is reached.", hint, fix=fix)
+
+
+def _reached(task: Task) -> set[str]:
+    """The things whose reach is rewarded or counted and does not end the run."""
+    events = [*task.counts, *(reward.on for reward in task.rewards)]
+    return {event.of for event in events if isinstance(event, Reach) and event not in task.ends}

@@ -1,0 +1,32 @@
+"""Graphs of older bundles, brought along: what has got words of its own since is said in them."""
+
+from typing import Any
+
+from mindrun.world import MOVES, STAYS
+
+
+def brought_along(graph: Any) -> Any:
+    """The data of a graph from before things said what becomes of them: one moved where a line of its task named it.
+
+    Data that is no graph stays as it is: who decodes it says what is wrong.
+    """
+    try:
+        return graph | {"tasks": [_task(task) for task in graph["tasks"]]}
+    except (TypeError, LookupError):
+        return graph
+
+
+def _task(task: Any) -> Any:
+    named = {(event["is"], event["of"]) for event in task["events"] if event["is"] in ("reach", "delivery")}
+    return task | {"things": [thing | {"kind": thing["kind"] | _outcomes(thing, named)} for thing in task["things"]]}
+
+
+def _outcomes(thing: Any, named: set[Any]) -> dict[str, str]:
+    """What became of a thing."""
+    name, kind = thing["name"], thing["kind"]["is"]
+    outcomes = {}
+    if kind in ("item", "zone", "power"):
+        outcomes["reached"] = MOVES if ("reach", name) in named else STAYS
+    if kind == "item":
+        outcomes["delivered"] = MOVES if ("delivery", name) in named else STAYS
+    return outcomes

@@ -1,0 +1,58 @@
+"""Reach: which things are reached and delivered in this tick, and what becomes of them.
+
+Nothing here depends on whether a line of the task names the event: what measures changes nothing.
+"""
+
+from mindrun.sim.codes import ITEM, MOVES, STAYS, VANISHES, ZONE
+from mindrun.sim.lanes.arithmetic import compiled
+from mindrun.sim.lanes.sense import in_claw, inside
+from mindrun.sim.place import succeed, vanish
+
+BEGUN = 1  # in this tick and not in the one before
+
+
+@compiled
+def meet(t, s, n):
+    """Note which things are in reach and which are delivered, those of which anything depends on it."""
+    world = t.world[0]
+    for i in range(len(t.things)):
+        thing = t.things[i]
+        if thing.is_reached and thing.kind == ITEM:
+            for p in range(n):
+                now = in_claw(s.body, s.heading, s.things, world.radius, world.claw, i, p)
+                s.reached[i, p] = (s.reached[i, p] & 1) << 1 | (1 if now else 0)
+        elif thing.is_reached:
+            for p in range(n):
+                now = inside(s.things, i, s.body[0, p], s.body[1, p], p)
+                s.reached[i, p] = (s.reached[i, p] & 1) << 1 | (1 if now else 0)
+        if thing.is_delivered:
+            for p in range(n):
+                was = s.delivered[i, p] & 1
+                now = (was == 1 or s.held[p] == i) and in_zone(t, s.things, i, p)
+                s.delivered[i, p] = was << 1 | (1 if now else 0)
+
+
+@compiled
+def in_zone(t, things, i, p):
+    """Whether the middle of thing i is inside any zone."""
+    for z in range(len(t.things)):
+        if t.things[z].kind == ZONE and inside(things, z, things[4 * i, p], things[4 * i + 1, p], p):
+            return True
+    return False
+
+
+@compiled
+def become(t, s, n):
+    """What has been reached or delivered moves or vanishes where its kind says so; once, where it was both."""
+    for i in range(len(t.things)):
+        thing = t.things[i]
+        if thing.reached == STAYS and thing.delivered == STAYS:
+            continue
+        for p in range(n):
+            outcome = thing.reached if s.reached[i, p] == BEGUN else STAYS
+            if s.delivered[i, p] == BEGUN:
+                outcome = max(outcome, thing.delivered)
+            if outcome == MOVES:
+                succeed(t, s, i, p)
+            elif outcome == VANISHES:
+                vanish(s, i, p)
