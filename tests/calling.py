@@ -32,7 +32,7 @@ skill Roam is rule
   influences Turn at 0.2
 
 task Chase in plain
-  contains ball is item size 2
+  contains ball is item size 2 reached moves
   lasts 1200 ticks
   rewards 10 on reach of ball
   rewards 0.001 * progress toward ball per tick
@@ -40,7 +40,7 @@ task Chase in plain
 
 task Roam in arena size 40
   contains rock is obstacle grid 10 size 2 to 3
-  contains ball is item size 2
+  contains ball is item size 2 reached moves
   lasts 600 ticks
   ends on collision
   rewards -5 on collision

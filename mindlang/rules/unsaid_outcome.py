@@ -1,4 +1,4 @@
-"""A thing whose reach is rewarded or counted, and that does not say what becomes of it then.
+"""A thing that is reached for a reward or a count without a word on what follows.
 
 It stays where it is, and is reached again only after the robot has left it. Files of before things said so meant
 `reached moves`: there a thing appeared elsewhere as soon as a line of its task named its reach. `mindc migrate` brings

@@ -162,7 +162,7 @@ def _task(rng: Random, name: str) -> list[str]:
     rewards = [rng.choice(lines) for lines in rng.sample(REWARDS, rng.randint(1, 3))]
     facts = [
         *things,
-        "contains ball is item size 2",
+        "contains ball is item size 2 reached moves",
         "lasts 600 ticks",
         "ends on collision",
         *rewards,

@@ -47,7 +47,7 @@ skill Grab is rule
   drives claw at 1
 
 task Roam in plain
-  contains ball is item size 2
+  contains ball is item size 2 reached moves
   lasts 60 ticks
   rewards 10 on reach of ball
 

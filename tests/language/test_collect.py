@@ -126,7 +126,7 @@ def test_the_task_avoid(graph: Graph) -> None:
 
 
 def test_a_schedule_and_the_lessons(graph: Graph) -> None:
-    assert graph.tasks[0].things[0].kind == Item(size=Span(3, 1, 0.1))
+    assert graph.tasks[0].things[0].kind == Item(size=Span(3, 1, 0.1), reached="moves")
     assert [lesson.master for lesson in graph.lessons[:6]] == [lesson.skill for lesson in graph.lessons[:6]]
     assert [lesson.generations for lesson in graph.lessons[:6]] == [1000, 1000, 1000, 1500, 1500, 1500]
 

@@ -19,7 +19,7 @@ from tests.calling import RULES, Call
 
 RUN_KEYS = {"score", "by_line", "counts", "ticks", "ended_by", "seed", "task", "master"}
 BENCH_KEYS = {"runs", "count_mean", "count_std", "runtime_mean", "ended", "ticks", "seconds"}
-HALL = "task Chase in arena size 40\n  contains mat is zone size 12"
+HALL = "task Chase in arena size 40\n  contains mat is zone size 12 reached moves"
 TWO = RULES.replace("task Chase in plain", HALL).replace("  counts reach", "  counts reach of mat\n  counts reach", 1)
 
 

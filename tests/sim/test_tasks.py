@@ -125,7 +125,7 @@ task Test in arena size 40
 def test_patches_are_visited_once() -> None:
     task = """
 task Test in arena size 40
-  contains object is item size 1
+  contains object is item size 1 reached moves
   lasts 3000 ticks
   rewards 10 on visit of patch size 4
   rewards 1 on reach of object

@@ -28,7 +28,7 @@ skill Drive is mlp hidden 1
   influences Go
   drives left_wheel
 task Reach in plain
-  contains object is item size 3
+  contains object is item size 3 reached moves
   lasts 100 ticks
   rewards 10 on reach of object
   rewards progress toward object per tick
