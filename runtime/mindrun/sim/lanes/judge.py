@@ -39,7 +39,7 @@ def judge(t, s, n, clock, interrupt):
             progress(s.measures[i], s.body, s.things, measure.thing, measure.kind, n)
     if t.world[0].battery:
         drain(t, s, n)
-    meet(t, s, n)
+    begun = meet(t, s, n)
     for i in range(len(t.events)):
         s.happened[i] = notice(t, s, t.events[i], s.events[i], n)
     for i in range(len(t.rewards)):
@@ -47,7 +47,8 @@ def judge(t, s, n, clock, interrupt):
     for i in range(len(t.events)):
         if s.happened[i] > 0:
             settle(t, s, i, n, interrupt)
-    become(t, s, n)
+    if begun > 0:
+        become(t, s, n)
     oldest = clock % INERTIAL_TICKS
     for p in range(n):
         s.tick[p] += 1

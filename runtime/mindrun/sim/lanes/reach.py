@@ -13,23 +13,32 @@ BEGUN = 1  # in this tick and not in the one before
 
 @compiled
 def meet(t, s, n):
-    """Note which things are in reach and which are delivered, those of which anything depends on it."""
-    world = t.world[0]
+    """Note which things are in reach and which are delivered, those of which anything depends on it.
+
+    How many begin to be so, in all lanes.
+    """
+    world, begun = t.world[0], 0
     for i in range(len(t.things)):
         thing = t.things[i]
         if thing.is_reached and thing.kind == ITEM:
             for p in range(n):
                 now = in_claw(s.body, s.heading, s.things, world.radius, world.claw, i, p)
-                s.reached[i, p] = (s.reached[i, p] & 1) << 1 | (1 if now else 0)
+                begun += note(s.reached, i, p, now)
         elif thing.is_reached:
             for p in range(n):
-                now = inside(s.things, i, s.body[0, p], s.body[1, p], p)
-                s.reached[i, p] = (s.reached[i, p] & 1) << 1 | (1 if now else 0)
+                begun += note(s.reached, i, p, inside(s.things, i, s.body[0, p], s.body[1, p], p))
         if thing.is_delivered:
             for p in range(n):
-                was = s.delivered[i, p] & 1
-                now = (was == 1 or s.held[p] == i) and in_zone(t, s.things, i, p)
-                s.delivered[i, p] = was << 1 | (1 if now else 0)
+                was = s.delivered[i, p] & 1 == 1
+                begun += note(s.delivered, i, p, (was or s.held[p] == i) and in_zone(t, s.things, i, p))
+    return begun
+
+
+@compiled
+def note(rows, i, p, now):
+    """One more tick of thing i; 1 where it begins to be so."""
+    rows[i, p] = (rows[i, p] & 1) << 1 | (1 if now else 0)
+    return 1 if rows[i, p] == BEGUN else 0
 
 
 @compiled
