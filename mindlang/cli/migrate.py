@@ -38,8 +38,8 @@ def _migrate(file: str, write: bool) -> int:
     from mindlang.migration import migrated
     from mindlang.report import print_report
     from mindlang.source import Source
-    from mindlang.splice import unified
     from mindlang.terminal import FINDINGS, MISUSE, OK, console, print_document, take_back
+    from mindlang.unified import unified
 
     take_back(file)
     source = read_main(file)
