@@ -1,13 +1,21 @@
 """How much memory something will take, held against what there is before it begins."""
 
+from __future__ import annotations
+
 import resource
 from contextlib import suppress
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from mindrun.errors import MindError
 from mindrun.graph import Task
 
+if TYPE_CHECKING:
+    from mindrun.sim.rollout import Rollout
+    from mindrun.sim.tables import Sizes
+
 RUN, ENTRY = 512, 64  # bytes that a run takes, and each of its rewards and events
+LANE, COPIES = 2048, 6
 LIMITS = "/sys/fs/cgroup/memory.max", "/sys/fs/cgroup/memory/memory.limit_in_bytes"  # of a container
 
 
@@ -22,6 +30,39 @@ def refuse_too_many(task: Task, runs: int) -> None:
 def bytes_for(task: Task) -> int:
     """What the results of one run take while many are gathered."""
     return RUN + ENTRY * (len(task.rewards) + len(task.events))
+
+
+def refuse_too_large(rollout: Rollout, genomes: int, layouts: int) -> None:
+    """MindError where so many genomes on so many layouts each cannot be run at once."""
+    needed, there = bytes_of(rollout, genomes, layouts), available()
+    if there is not None and needed > there:
+        message = f"{rollout.task.name} takes about {_said(needed)} of memory, and there are {_said(there)}"
+        raise MindError(message, f"Most of it is for {_largest(rollout.sizes)}.")
+
+
+def bytes_of(rollout: Rollout, genomes: int, layouts: int) -> int:
+    """What a rollout takes: its lanes, and the genomes with their parents and copies of both."""
+    lanes = min(genomes * layouts, rollout.workers * rollout.lanes)
+    rays, things = len(rollout.tables.ray_row), len(rollout.tables.things)
+    each = LANE + 4 * rays + 48 * things + sum(_parts(rollout.sizes).values())
+    return lanes * each + COPIES * genomes * 4 * rollout.genome_length
+
+
+def _parts(sizes: Sizes) -> dict[str, int]:
+    """What takes the memory of a lane, in bytes."""
+    return {
+        "the weights": 4 * sizes.genome,
+        "the neurons of its widest layer": 8 * sizes.width,
+        "the readings": 4 * (sizes.readings + sizes.inputs + sizes.before + sizes.rough + sizes.rings),
+        "the patches to visit": sizes.patches,
+        "the obstacles": (24 + 16 + 8 + 8) * sizes.boxes,
+        "what waits and changes": 4 * sizes.delays + 16 * sizes.changes + 8 * sizes.depth + 12 * sizes.skills,
+    }
+
+
+def _largest(sizes: Sizes) -> str:
+    parts = _parts(sizes)
+    return max(parts, key=lambda part: parts[part])
 
 
 def available() -> int | None:

@@ -10,6 +10,7 @@ from mindlang.resolve.kinds import Scope, make
 from mindlang.resolve.names import Names
 from mindlang.syntax import Declaration, Fact
 
+MOST_READINGS = 20_000
 ONE_LINE = "All that there is to say of it stands in its one line; set the fact below the skill or task it belongs to."
 
 
@@ -58,6 +59,10 @@ def widths(sensors: tuple[Part[Any], ...], findings: Findings) -> dict[str, int]
             chain[last] = None
         found.update(dict.fromkeys(chain, found.get(last, 1)))
         done.update(chain)
+    if (readings := sum(found.values())) > MOST_READINGS:
+        widest = max(sensors, key=lambda sensor: found[sensor.name])
+        message = f"With these {found[widest.name]} the mind has {readings} readings."
+        findings.error("too-many-readings", widest.span, message, f"A mind takes {MOST_READINGS}: leave some out.")
     return found
 
 

@@ -19,7 +19,7 @@ from mindlang.syntax import Contains, Counts, Declaration, Ends, Fact, Lasts, Ph
 
 LONGEST = 10_000_000  # ticks of a run
 LASTS = replace(TICKS, low=1.0, high=LONGEST)
-MOST_OBSTACLES = 2500  # in one world
+MOST_OBSTACLES, MOST_THINGS = 2500, 100  # in one world
 
 F = TypeVar("F", bound=Fact)
 
@@ -71,6 +71,7 @@ def _facts(declaration: Declaration, form: type[F]) -> Iterator[F]:
 
 def _things(declaration: Declaration, scene: Any, scope: Scope, findings: Findings) -> tuple[model.Part[Any], ...]:
     found: dict[str, model.Part[Any]] = {}
+    obstacles = 0
     for fact in _facts(declaration, Contains):
         name = fact.name.text
         kind = make("content", fact.phrase, scope, findings)
@@ -78,12 +79,32 @@ def _things(declaration: Declaration, scene: Any, scope: Scope, findings: Findin
             first = Label(found[name].span, "first said here")
             message = f"The task already contains something called {name}."
             findings.error("duplicate-thing", fact.name.span, message, "Give one of the two another name.", first)
-        _check_obstacles(kind, scene, fact.phrase, findings)
+        _check_obstacles(kind, scene, obstacles, fact.phrase, findings)
+        obstacles += _obstacles(kind, scene)
         found.setdefault(name, model.Part(name, kind, fact.name.span))
+    _check_things(tuple(found.values()), findings)
     return tuple(found.values())
 
 
-def _check_obstacles(kind: Any, scene: Any, phrase: Phrase, findings: Findings) -> None:
+def _check_things(things: tuple[model.Part[Any], ...], findings: Findings) -> None:
+    """A world looks at all of its things in every tick, and has so many."""
+    apart = [thing for thing in things if not isinstance(thing.kind, Obstacle)]
+    if len(apart) > MOST_THINGS:
+        hint = f"A world takes {MOST_THINGS} beside its obstacles: leave some out."
+        findings.error("too-many-things", apart[MOST_THINGS].span, f"That is thing number {MOST_THINGS + 1}.", hint)
+
+
+def _obstacles(kind: Any, scene: Any) -> int:
+    """How many obstacles a line makes; as if there were few where an error says otherwise."""
+    match kind, scene:
+        case Obstacle(grid=grid), Arena(size=size) if grid:
+            return min(grid_lines(size, grid) ** 2, MOST_OBSTACLES)
+        case Obstacle(count=count), _:
+            return count
+    return 0
+
+
+def _check_obstacles(kind: Any, scene: Any, before: int, phrase: Phrase, findings: Findings) -> None:
     """A grid needs the borders of an arena, and a world has room for so many obstacles."""
     match kind, scene:
         case Obstacle(grid=grid), Plain() if grid:
@@ -92,6 +113,9 @@ def _check_obstacles(kind: Any, scene: Any, phrase: Phrase, findings: Findings) 
         case Obstacle(grid=grid), Arena(size=size) if grid and grid_lines(size, grid) ** 2 > MOST_OBSTACLES:
             message = f"That is a grid of {grid_lines(size, grid) ** 2} obstacles."
             findings.error("too-many-obstacles", phrase.span, message, f"A world takes {MOST_OBSTACLES}: space it out.")
+        case Obstacle(), _ if before <= MOST_OBSTACLES < before + _obstacles(kind, scene):
+            message = f"With those above, that makes {before + _obstacles(kind, scene)} obstacles."
+            findings.error("too-many-obstacles", phrase.span, message, f"A world takes {MOST_OBSTACLES} in all.")
         case Obstacle(grid=0.0, count=0), _:
             findings.error("no-obstacles", phrase.span, "That makes no obstacle.", "Add grid 20, or count 10.")
 

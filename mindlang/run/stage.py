@@ -12,7 +12,7 @@ from mindrun.errors import MindError
 from mindrun.sim.rollout import Rollout, Scores
 from rich.progress import BarColumn, Progress, TaskProgressColumn, TextColumn, TimeRemainingColumn
 
-from mindlang.estimate import refuse_too_many
+from mindlang.estimate import refuse_too_large, refuse_too_many
 from mindlang.run.casting import Cast, CastingError, cast
 from mindlang.simulator import make_ready
 from mindlang.terminal import FINDINGS, MISUSE, fail, load_compiled, procedures_talk, say, talk, write_picture
@@ -42,6 +42,7 @@ class Stage:
             self.say(*(f"note: {note}" for note in (*found.ready.notes, found.note) if note))
             refuse_too_many(found.task, runs)
             rollout = found.rollout(interrupt, workers)
+            refuse_too_large(rollout, 1, runs)
             make_ready(rollout, self.say)
         except CastingError as error:
             *first, last = str(error).split("\n")

@@ -1,0 +1,96 @@
+"""What would take more memory than there is is refused before it begins; the estimate is near the truth."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from mindrun.graph import Graph
+from mindrun.sim.rollout import Rollout
+from mindrun.sim.state import empty_state
+
+from mindlang import estimate
+from mindlang.compile import load
+from mindlang.estimate import bytes_of
+from tests.calling import Call
+
+MIND = """
+tick 1/60 s
+master Go
+body Robot is disc size 2
+actuator left_wheel is wheel side left neutral 0.5{delay}
+sensor eyes is range_finder at {angles} deg
+skill Go is mlp hidden {hidden}
+  reads eyes
+  drives left_wheel
+task Roam in arena size {arena}
+  contains rock is obstacle count {count}
+  lasts 60 s
+  counts visit of patch size {patch}
+  rewards 1 on visit of patch size {patch}
+curriculum School is genetic population 20
+  teaches Go on Roam for 5 generations
+"""
+SMALL = {"delay": "", "angles": "0", "hidden": 1, "arena": 50, "count": 10, "patch": 4}
+LARGE = (
+    {},
+    {"delay": " delay 900 ticks"},
+    {"angles": " ".join(map(str, range(300)))},
+    {"hidden": "3 width 200"},
+    {"count": 1000},
+    {"patch": 0.1},
+)
+
+
+def graph_of(folder: Path, **said: object) -> Graph:
+    path = folder / "m.mind"
+    path.write_text(MIND.format(**SMALL | said))
+    graph = load(path).graph
+    assert graph
+    return graph
+
+
+@pytest.mark.parametrize("said", LARGE, ids=str)
+def test_the_estimate_is_near_what_the_lanes_take(tmp_path: Path, said: dict[str, object]) -> None:
+    rollout = Rollout(graph_of(tmp_path, **said), {}, "Roam", "Go", ["Go"], lanes=64)
+    taken = sum(array.nbytes for array in empty_state(rollout.tables, rollout.sizes, 64))
+    assert 0.8 * taken < bytes_of(rollout, 64, 1) - estimate.COPIES * 64 * 4 * rollout.genome_length < 2 * taken + 2**20
+
+
+@pytest.mark.parametrize(
+    ("said", "what"),
+    [
+        ({"angles": " ".join(map(str, np.arange(0, 300, 0.06)))}, "the weights"),
+        ({"hidden": "16 width 1000"}, "the weights"),
+        ({"patch": 0.1, "arena": 100_000}, "the patches to visit"),
+    ],
+    ids=["angles", "layers", "patches"],
+)
+def test_a_lesson_that_fits_no_memory_is_refused(
+    mindc: Call, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, said: dict[str, object], what: str
+) -> None:
+    monkeypatch.setattr(estimate, "available", lambda: 1 << 30)
+    graph_of(tmp_path, **said)
+    ended = mindc("train", tmp_path / "m.mind", "--runs", tmp_path / "runs", "--seed", 1)
+    assert ended.code == 1
+    assert "Roam takes about" in ended.err
+    assert what in ended.err
+
+
+@pytest.mark.parametrize(
+    ("line", "code"),
+    [
+        ("\n".join(f"  contains rock{i} is obstacle count 1000" for i in range(3)), "too-many-obstacles"),
+        ("\n".join(f"  contains ball{i} is item" for i in range(101)), "too-many-things"),
+    ],
+)
+def test_a_world_takes_so_much(mindc: Call, tmp_path: Path, line: str, code: str) -> None:
+    graph_of(tmp_path)
+    path = tmp_path / "m.mind"
+    path.write_text(path.read_text().replace("  lasts 60 s", f"{line}\n  lasts 60 s"))
+    assert f"[{code}]" in mindc("check", path).err
+
+
+def test_a_mind_takes_so_many_readings(mindc: Call, tmp_path: Path) -> None:
+    path = tmp_path / "m.mind"
+    path.write_text(MIND.format(**SMALL | {"angles": " ".join(["0.5"] * 20_001)}))
+    assert "[too-many-readings]" in mindc("check", path).err
