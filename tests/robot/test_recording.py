@@ -78,6 +78,25 @@ def test_the_first_tick_that_differs_is_said(day: Path) -> None:
     assert found.differs[1] == "right_wheel is 0.899999976 and was 0.900000036"
 
 
+def test_influence_that_differs_is_said_where_the_commands_do_not(day: Path) -> None:
+    about, _ = read(day)
+    data = bytearray(day.read_bytes())
+    offset = data.index(b"\n") + 1 + 7 * about.row.itemsize
+    row = np.frombuffer(bytes(data[offset : offset + about.row.itemsize]), about.row).copy()
+    row["influence"][0, 0] = 0.5
+    data[offset : offset + about.row.itemsize] = resealed(row)
+    day.write_bytes(data)
+    found = replay(day, BUNDLE, Engine(graph("range_finder"), {}))
+    assert (found.ticks, found.differs) == (7, (7, f"{about.skills[0]} is 1 and was 0.5"))
+
+
+def test_a_recording_without_a_tick_proves_nothing(day: Path) -> None:
+    data = day.read_bytes()
+    day.write_bytes(data[: data.index(b"\n") + 1])
+    with pytest.raises(RecordingError, match="has no tick in it"):
+        replay(day, BUNDLE, Engine(graph("range_finder"), {}))
+
+
 def resealed(row: np.ndarray) -> bytes:
     """The row with a checksum that fits."""
     import zlib

@@ -38,7 +38,7 @@ def means(total, weight, neutral, out, faults, n):
     A mean that is no finite number, because sums overflowed, is a fault and gives `neutral` too.
     """
     for p in range(n):
-        driven = weight[p] > ZERO
+        driven = weight[p] != ZERO  # NaN too, where influence overflowed
         value = total[p] / (weight[p] if driven else ONE)
         sound = finite(value)
         out[p] = clamp(value) if driven & sound else neutral

@@ -54,7 +54,7 @@ def awake(influence, active, n, own):
     count = 0
     for p in range(n):
         active[count] = p
-        count += 1 if influence[p] > ZERO else 0
+        count += 1 if influence[p] != ZERO else 0  # NaN too, which becomes a fault further down
     if own and count > 0:
         for p in range(n):
             active[p] = p
@@ -169,7 +169,7 @@ def check(values, sound, sent, active, faults, influence, n):
         broken += 0 if fine else 1
     if broken > 0:
         for k in range(n):
-            faults[active[k]] += 1 if sent[k] < ZERO and influence[active[k]] > ZERO else 0
+            faults[active[k]] += 1 if sent[k] < ZERO and influence[active[k]] != ZERO else 0
 
 
 @compiled

@@ -1,0 +1,327 @@
+"""A world computed the slow and obvious way, with pymunk's own classes: what the lanes are held against."""
+
+import math
+from collections import deque
+
+import numpy as np
+import pymunk
+from mindrun import actuators, events, measures, sensors, world
+from mindrun.portable import cosine, sine
+
+from tests.plain import f, postfix
+from tests.sim.plain import CATCH
+
+TRAIL = 20
+
+
+class PlainWorld:
+    """One run of a task, followed moment by moment. What has just been placed anew is taken from the lanes."""
+
+    def __init__(self, graph, task, run, battery):
+        self.graph, self.task, self.runs_down = graph, task, battery
+        self.things = [thing for thing in task.things if not isinstance(thing.kind, world.Obstacle)]
+        self.places, self.boxes = run.things.copy(), run.boxes
+        self.half = task.scene.size / 2 if isinstance(task.scene, world.Arena) else math.inf
+        self.radius = graph.body.size / 2
+        self.x, self.y, self.angle = (float(v) for v in run.begin)
+        self.held, self.t, self.touched = -1, 0, False
+        self.cell = next((s.kind for s in graph.sensors if isinstance(s.kind, sensors.Battery)), sensors.Battery())
+        self.charge = self.cell.start
+        self.trail = deque([(self.x, self.y)] * TRAIL, TRAIL)
+        self.commands = [a.kind.neutral for a in graph.actuators]
+        self.late = [deque([f(a.kind.neutral)] * a.kind.delay) for a in graph.actuators]
+        self.turns = {i: deque() for i, m in enumerate(task.measures) if isinstance(m, measures.Change)}
+        self.visited = [{self.patch(event)} for event in task.events]
+        self.lines = [np.float64(0)] * len(task.rewards)
+        self.history = {}
+        self.body = PlainBody(self)
+
+    def patch(self, event):
+        """Where the robot is on an event's board, if it has one."""
+        if not isinstance(event, events.Visit):
+            return None
+        columns = math.ceil(self.task.scene.size / event.size)
+        return tuple(min(columns - 1, max(0, int((v + self.half) / event.size))) for v in (self.x, self.y))
+
+    def true(self, sensor):
+        """A physical sensor's readings as they are: a list of (least, most), and what is read where one is lost."""
+        kind = sensor.kind
+        names = [thing.name for thing in self.things]
+        i = names.index(kind.of) if getattr(kind, "of", None) in names else -1
+        match kind:
+            case sensors.RangeFinder():
+                return [self.ray(self.angle + at, kind) for at in kind.at], 1.0
+            case sensors.Battery():
+                return [(float(f(self.charge)),) * 2], None
+            case sensors.Bearing():
+                return [self.bearing(i, kind)], 0.5
+            case sensors.Contact():
+                value = i >= 0 and self.in_claw(i, self.reach())
+            case sensors.Held():
+                value = self.held == i and i >= 0
+            case sensors.Inside():
+                value = i >= 0 and self.inside(i, self.x, self.y)
+            case sensors.Inertial():
+                moved = math.dist((self.x, self.y), self.trail[0]) / (TRAIL * self.graph.tick * kind.range)
+                return [zoned(min(1.0, moved), kind.dead_zone, 0.0)], 0.0
+        return [(float(value),) * 2], 0.0
+
+    def bearing(self, i, kind):
+        """Least and most of a bearing; (0, 1) where it may be either side of the seam."""
+        if i < 0 or (kind.range and math.dist(self.places[i][:2], (self.x, self.y)) > kind.range):
+            return 0.5, 0.5
+        dx, dy = self.places[i][0] - self.x, self.places[i][1] - self.y
+        c, s = math.cos(self.angle), math.sin(self.angle)
+        ahead, aside = c * dx + s * dy, c * dy - s * dx
+        if math.hypot(ahead, aside) < 1e-4 or (ahead < 0 and abs(aside) < 1e-4):
+            return 0.0, 1.0
+        return zoned(0.5 - math.atan2(aside, ahead) / (2 * math.pi), kind.dead_zone, 0.5)
+
+    def ray(self, angle, kind):
+        """Least and most of what a range finder reads: what it grazes may be met or missed."""
+        near, far = (self.distance(angle, more) for more in (1e-3, -1e-3))
+        least, most = (min(1.0, max(0.0, (d - self.radius) / kind.range)) for d in (near, far))
+        return zoned(least, kind.dead_zone, 0.0)[0], zoned(most, kind.dead_zone, 0.0)[1]
+
+    def distance(self, angle, more):
+        """How far a ray goes among boxes that are `more` larger; one that the robot's centre is in is not seen."""
+        c, s = math.cos(angle), math.sin(angle)
+        found = math.inf
+        for sign in (-1, 1):
+            for position, direction in ((self.x, c), (self.y, s)):
+                if direction * sign > 1e-12:
+                    found = min(found, (sign * self.half - position) / direction)
+        for x, y, half in self.boxes:
+            enter, leave = -math.inf, math.inf
+            for low, high, direction in (
+                (x - half - more - self.x, x + half + more - self.x, c),
+                (y - half - more - self.y, y + half + more - self.y, s),
+            ):
+                if abs(direction) > 1e-12:
+                    one, other = low / direction, high / direction
+                    enter, leave = max(enter, min(one, other)), min(leave, max(one, other))
+                elif low > 0 or high < 0:
+                    leave = -1.0
+            if 0 <= enter <= leave:
+                found = min(found, enter)
+        return found
+
+    def reach(self):
+        """How far the claw reaches."""
+        return next((a.kind.reach for a in self.graph.actuators if isinstance(a.kind, actuators.Gripper)), 1.5)
+
+    def in_claw(self, i, reach):
+        """Whether a thing is ahead of the claw's place on the rim, and near enough."""
+        dx, dy = self.places[i][0] - self.x, self.places[i][1] - self.y
+        c, s = cosine(self.angle), sine(self.angle)
+        ahead, aside = c * dx + s * dy - self.radius, c * dy - s * dx
+        return ahead >= 0 and ahead**2 + aside**2 <= (reach + self.places[i][2] / 2) ** 2
+
+    def inside(self, i, x, y):
+        """Whether a point is in the square of a thing."""
+        return max(abs(self.places[i][0] - x), abs(self.places[i][1] - y)) <= self.places[i][2] / 2
+
+    def seen(self, sensor):
+        """For each reading of a sensor the (least, most) that it may be now: late, seldom, noisy, lost."""
+        kind, (true, blank) = sensor.kind, self.true(sensor)
+        past = self.history.setdefault(sensor.name, [])
+        past.append(true)
+        at = max(0, self.t - kind.delay) // max(1, kind.every) * max(1, kind.every)
+        # a battery that could not be read says what it said before
+        known = past[: at + 1] if blank is None and kind.lost else [past[at]]
+        found = []
+        for k in range(sensor.width):
+            spans = [(max(0.0, ticks[k][0] - kind.noise), min(1.0, ticks[k][1] + kind.noise)) for ticks in known]
+            found.append([*spans, (blank, blank)] if kind.lost and blank is not None else spans)
+        return found
+
+    def act(self, wanted):
+        """The commands that act in this tick, of those that the hierarchy wants."""
+        now = []
+        for command, late in zip(wanted, self.late, strict=True):
+            late.append(command)
+            now.append(late.popleft())
+        for actuator, command in zip(self.graph.actuators, now, strict=True):
+            if isinstance(actuator.kind, actuators.Gripper):
+                if command <= 0.5:
+                    self.held = -1
+                elif self.held < 0:
+                    items = [i for i, thing in enumerate(self.things) if isinstance(thing.kind, world.Item)]
+                    self.held = next((i for i in items if self.in_claw(i, actuator.kind.reach)), -1)
+        self.last, self.commands = self.commands, [float(c) for c in now]
+        return now
+
+    def step(self):
+        """One tick of physics, the battery, and what is carried."""
+        self.was = self.x, self.y
+        self.far = [math.sqrt((p[0] - self.x) ** 2 + (p[1] - self.y) ** 2) for p in self.places]
+        self.trail.append(self.was)
+        state = self.body.step(self.commands, cosine(self.angle), sine(self.angle), self.held, self.places)
+        self.x, self.y, self.angle = state[:3]
+        if self.held >= 0:
+            hold = self.radius + self.body.largest[self.held] / 2
+            self.places[self.held][:2] = self.x + cosine(self.angle) * hold, self.y + sine(self.angle) * hold
+        powered = [i for i, thing in enumerate(self.things) if isinstance(thing.kind, world.Power)]
+        if self.runs_down:
+            charged = any(self.inside(i, self.x, self.y) for i in powered)
+            self.charge += self.cell.charge if charged else -self.cell.drain
+            self.charge = min(1.0, max(0.0, self.charge))
+        return state
+
+    def happened(self):
+        """Whether each event of the task did."""
+        names = [thing.name for thing in self.things]
+        zones = [i for i, thing in enumerate(self.things) if isinstance(thing.kind, world.Zone)]
+        began, self.touched = self.body.touches and not self.touched, self.body.touches
+        found = []
+        for event, visited in zip(self.task.events, self.visited, strict=True):
+            i = names.index(event.of) if getattr(event, "of", None) in names else -1
+            match event:
+                case events.Reach() if isinstance(self.things[i].kind, world.Item):
+                    found.append(self.in_claw(i, self.reach()))
+                case events.Reach():
+                    found.append(self.inside(i, self.x, self.y))
+                case events.Delivery():
+                    found.append(self.held == i and any(self.inside(z, *self.places[i][:2]) for z in zones))
+                case events.Visit():
+                    found.append(self.patch(event) not in visited)
+                    visited.add(self.patch(event))
+                case events.Collision():
+                    found.append(began)
+                case events.Exhaustion():
+                    found.append(self.charge == 0)
+        return found
+
+    def measured(self):
+        """The task's measures."""
+        names = [thing.name for thing in self.things]
+        closed = [far - math.sqrt((p[0] - self.x) ** 2 + (p[1] - self.y) ** 2)
+                  for far, p in zip(self.far, self.places, strict=True)]  # fmt: skip
+        found = []
+        for i, measure in enumerate(self.task.measures):
+            match measure:
+                case measures.Forward():
+                    dx, dy = self.x - self.was[0], self.y - self.was[1]
+                    found.append(float(dx * cosine(self.angle) + dy * sine(self.angle) > 1e-6))
+                case measures.Progress(toward=of):
+                    found.append(closed[names.index(of)])
+                case measures.Advance(toward=of):
+                    found.append(max(0.0, closed[names.index(of)]))
+                case measures.Retreat(from_=of):
+                    found.append(max(0.0, -closed[names.index(of)]))
+                case measures.Change(beyond=beyond, over=over):
+                    found.append(self.thrust_changed(self.turns[i], beyond, over))
+        return found
+
+    def thrust_changed(self, ticks, beyond, over):
+        """ΣΔ of both sides."""
+        sides = dict.fromkeys(("left", "right"), 0.0)
+        for actuator, now, before in zip(self.graph.actuators, self.commands, self.last, strict=True):
+            if isinstance(actuator.kind, actuators.Wheel):
+                sides[actuator.kind.side] += abs(now - float(f(before)))
+        ticks.append(sides)
+        while len(ticks) > over:
+            ticks.popleft()
+        return sum(max(0.0, sum(tick[side] for tick in ticks) - beyond) for side in sides)
+
+    def reward(self, happened, readings):
+        """Add what each line pays."""
+        found = self.measured()
+        for i, line in enumerate(self.task.rewards):
+            if line.on is not None and not happened[line.on]:
+                continue
+            rows = range(line.each[0], sum(line.each)) if line.each else [0]
+            for row in rows:
+                value = self.value(line.amount, readings, found, row)
+                if line.when is None or COMPARES[line.when.compare](
+                    self.value(line.when.left, readings, found, row), self.value(line.when.right, readings, found, row)
+                ):
+                    self.lines[i] = self.lines[i] + value
+        self.t += 1
+
+    def value(self, program, readings, found, row):
+        """A reward's program as one over readings alone."""
+        words = {"measure": lambda i: ("number", found[i]), "each": lambda i: ("reading", row)}
+        return postfix([words.get(word, lambda i, word=word: (word, i))(i) for word, i in program], readings)
+
+
+COMPARES = {
+    "<": lambda a, b: a < b,
+    "<=": lambda a, b: a <= b,
+    ">": lambda a, b: a > b,
+    ">=": lambda a, b: a >= b,
+}
+
+
+def zoned(value, dead_zone, otherwise):
+    """(least, most) of a reading around its dead zone; both where rounding decides."""
+    off = abs(value - otherwise) - dead_zone
+    low, high = value - 2e-6, value + 2e-6
+    if off < -1e-6:
+        return otherwise, otherwise
+    return (low, high) if off > 1e-6 else (min(low, otherwise), max(high, otherwise))
+
+
+class PlainBody:
+    """The robot in a Space of its own that is stepped in every tick."""
+
+    def __init__(self, of):
+        graph = of.graph
+        body, dt = graph.body, graph.tick
+        self.dt, self.radius, self.wheels = dt, of.radius, [a.kind for a in graph.actuators]
+        self.linear, self.angular = 1 / (1 + dt * body.linear_damping), 1 / (1 + dt * body.angular_damping)
+        self.space = pymunk.Space()
+        self.space.iterations = 8
+        self.space.use_spatial_hash(20.0, 20)
+        for x, y, h in of.boxes:
+            self.box(x - h, y - h, x + h, y + h)
+        if of.half < math.inf:
+            a, b = of.half, of.half + 2
+            for sides in ((-b, -b, -a, b), (a, -b, b, b), (-b, -b, b, -a), (-b, a, b, b)):
+                self.box(*sides)
+        mass = body.density * math.pi * self.radius**2
+        self.body = pymunk.Body(mass, mass * self.radius**2 / 2)
+        self.body.position, self.body.angle = (of.x, of.y), of.angle
+        self.circle(self.radius, 0.0)
+        spans = [thing.kind.size for thing in of.things]
+        self.largest = [max(span.first, span.last) for span in spans]
+        self.items = {
+            i: self.circle(1.0, self.radius + self.largest[i] / 2)
+            for i, thing in enumerate(of.things)
+            if isinstance(thing.kind, world.Item)
+        }
+        self.touches = False
+
+    def box(self, left, low, right, high):
+        """Something solid."""
+        shape = pymunk.Poly(self.space.static_body, [(left, low), (right, low), (right, high), (left, high)])
+        shape.friction = 1.0
+        self.space.add(shape)
+
+    def circle(self, radius, ahead):
+        """A part of the robot."""
+        shape = pymunk.Circle(self.body, radius, (ahead, 0.0))
+        shape.friction = CATCH
+        self.space.add(*([] if self.body in self.space.bodies else [self.body]), shape)
+        return shape
+
+    def step(self, commands, c, s, held, places):
+        """x, y, angle and their velocities a tick later."""
+        for i, item in self.items.items():
+            item.sensor = i != held
+            if i == held:
+                item.unsafe_set_radius(places[i][2] / 2)
+        body, force, torque = self.body, 0.0, 0.0
+        for kind, command in zip(self.wheels, commands, strict=True):
+            if isinstance(kind, actuators.Wheel):
+                push = (2.0 * command - 1.0) * kind.thrust
+                force += push
+                torque += (-self.radius if kind.side == "left" else self.radius) * push
+        body.velocity = (body.velocity.x * self.linear, body.velocity.y * self.linear)
+        body.angular_velocity *= self.angular
+        body.force, body.torque = (force * c, force * s), torque
+        self.space.step(self.dt)
+        contacts = []
+        body.each_arbiter(lambda arbiter: contacts.append(arbiter))
+        self.touches = bool(contacts)
+        return (*body.position, body.angle, *body.velocity, body.angular_velocity)

@@ -1,0 +1,126 @@
+"""Hypothesis strategies for whole worlds: any hierarchy in any body, among anything, judged in any way."""
+
+from dataclasses import replace
+
+from hypothesis import strategies as st
+from mindrun.actuators import Gripper, Servo, Wheel
+from mindrun.events import Collision, Delivery, Event, Exhaustion, Reach, Visit
+from mindrun.graph import Actuator, Condition, Graph, Program, Reward, Task, Thing
+from mindrun.measures import Advance, Change, Forward, Measure, Progress, Retreat
+from mindrun.quantity import Span
+from mindrun.world import Arena, Disc, Item, Obstacle, Plain, Power, Scene, Zone
+
+from tests.hierarchies import random_graph
+
+SIZES = st.sampled_from([Span(1.0, 1.0), Span(2.0, 5.0), Span(4.0, 1.0, 0.75), Span(1.0, 3.0, 0.75)])
+WIDE = st.sampled_from([Span(8.0, 8.0), Span(4.0, 12.0), Span(14.0, 6.0, 2.0)])
+AWAY = st.sampled_from([Span(-1.0, -1.0), Span(0.0, 3.0), Span(0.0, 6.0), Span(2.0, 12.0)])
+NEUTRAL = st.sampled_from([0.0, 0.4, 0.5, 0.9, 1.0])
+DELAY = st.sampled_from([0, 0, 1, 2, 5])
+WHEELS = st.builds(
+    Wheel, st.sampled_from(["left", "right"]), NEUTRAL, st.sampled_from([80.0, 80.0, 200.0, 15.0, -60.0]), DELAY
+)
+CLAWS = st.builds(Gripper, st.sampled_from([0.0, 0.5, 0.9, 1.0]), st.sampled_from([1.5, 4.0]), DELAY)
+BODIES = st.builds(
+    Disc,
+    st.sampled_from([2.0, 2.0, 0.7, 3.0]),
+    st.sampled_from([2.0, 0.5]),
+    st.sampled_from([5.0, 0.0]),
+    st.sampled_from([20.0, 1.0]),
+)
+
+
+@st.composite
+def random_world(draw: st.DrawFn, most: int = 40) -> Graph:
+    """A hierarchy with one task, World, in which what may happen happens often: all is large, and near."""
+    graph = draw(random_graph())
+    actuators = tuple(
+        Actuator(a.name, draw(WHEELS | WHEELS | CLAWS | st.builds(Servo, NEUTRAL))) for a in graph.actuators
+    )
+    graph = replace(graph, tick=draw(st.sampled_from([1 / 60, 1 / 30, 0.1])), body=draw(BODIES), actuators=actuators)
+    scene: Scene = draw(st.sampled_from([Plain(), Arena(20.0), Arena(33.0)]))
+    things = draw(_things(scene))
+    measures, events = draw(_measures(things)), draw(_events(scene, things))
+    rewards = tuple(draw(_rewards(graph, len(measures), len(events))) for _ in range(draw(st.integers(1, 4))))
+    some = st.lists(st.sampled_from(range(len(events))), unique=True, max_size=3) if events else st.just([])
+    ticks = draw(st.integers(1, most))
+    task = Task("World", scene, things, ticks, measures, events, tuple(draw(some)), rewards, tuple(draw(some)))
+    return replace(graph, tasks=(task,))
+
+
+@st.composite
+def _things(draw: st.DrawFn, scene: Scene) -> tuple[Thing, ...]:
+    """Items, zones and powers, some of them not there; obstacles on a grid or loose."""
+    things = []
+    for name, kind, size in (
+        ("object", Item, SIZES),
+        ("home", Zone, WIDE),
+        ("coin", Item, SIZES),
+        ("plug", Power, WIDE),
+        ("den", Zone, WIDE),
+    ):
+        if draw(st.integers(0, 2)):
+            things.append(Thing(name, kind(draw(size), draw(AWAY))))
+    grid = isinstance(scene, Arena) and draw(st.booleans())
+    sizes = draw(st.sampled_from([Span(1.0, 1.0), Span(1.0, 3.0)]))
+    if grid:
+        things.append(
+            Thing("rock", Obstacle(sizes, draw(st.sampled_from([7.0, 11.0])), draw(st.sampled_from([0.0, 1.5]))))
+        )
+    if draw(st.booleans()):
+        things.append(Thing("stone", Obstacle(sizes, count=draw(st.integers(0, 5)), away=draw(AWAY))))
+    return tuple(draw(st.permutations(things)))
+
+
+@st.composite
+def _measures(draw: st.DrawFn, things: tuple[Thing, ...]) -> tuple[Measure, ...]:
+    named = [thing.name for thing in things if not isinstance(thing.kind, Obstacle)]
+    measures: list[Measure] = [Forward(), Change("thrust", 0.2, 4), Change("thrust", 0.0, 1)]
+    for name in named:
+        measures += [Progress(name), Advance(name), Retreat(name)]
+    return tuple(draw(st.lists(st.sampled_from(measures), unique=True, min_size=1, max_size=4)))
+
+
+@st.composite
+def _events(draw: st.DrawFn, scene: Scene, things: tuple[Thing, ...]) -> tuple[Event, ...]:
+    events: list[Event] = [Collision(), Exhaustion()]
+    for thing in things:
+        if not isinstance(thing.kind, Obstacle):
+            events.append(Reach(thing.name))
+        if isinstance(thing.kind, Item):
+            events.append(Delivery(thing.name))
+    if isinstance(scene, Arena):
+        events += [Visit("patch", 2.0), Visit("patch", 7.0)]
+    return tuple(draw(st.lists(st.sampled_from(events), unique=True, max_size=5)))
+
+
+@st.composite
+def _rewards(draw: st.DrawFn, graph: Graph, measures: int, events: int) -> Reward:
+    """An amount per tick or on an event, for each reading of a sensor or once, always or when a condition holds."""
+    each = None
+    if graph.sensors and draw(st.integers(0, 3)) == 0:
+        sensor = draw(st.sampled_from(graph.sensors))
+        each = sensor.start, sensor.width
+    programs = _programs(graph.width, measures, each is not None)
+    on = draw(st.integers(0, events - 1)) if events and draw(st.booleans()) else None
+    when = None
+    if draw(st.booleans()):
+        when = Condition(draw(programs), draw(st.sampled_from(["<", "<=", ">", ">="])), draw(programs))
+    return Reward("", draw(programs), on, each, when)
+
+
+def _programs(readings: int, measures: int, in_loop: bool) -> st.SearchStrategy[Program]:
+    leaves = [st.sampled_from([0.0, 0.5, 1.0, -2.0]).map(lambda x: (("number", x),))]
+    leaves.append(st.integers(0, measures - 1).map(lambda i: (("measure", i),)))
+    if readings:
+        leaves.append(st.integers(0, readings - 1).map(lambda i: (("reading", i),)))
+    if in_loop:
+        leaves.append(st.just((("each", 0),)))
+    return st.recursive(
+        st.one_of(leaves),
+        lambda part: st.one_of(
+            st.tuples(part, part, st.sampled_from("+-*/")).map(lambda p: (*p[0], *p[1], (p[2], 0))),
+            part.map(lambda p: (*p, ("negate", 0))),
+        ),
+        max_leaves=4,
+    )
