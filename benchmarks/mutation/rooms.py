@@ -20,7 +20,7 @@ R = "runtime/mindrun/"
 ROOMS = {
     "engine": Room(
         tuple(f"{R}{name}.py" for name in ("engine", "virtual", "expression", "sigmoid", "portable", "functions/mlp")),
-        ("tests/engine/test_influence.py", "tests/engine/test_sound.py", "tests/engine/test_bits.py"),
+        tuple(f"tests/engine/test_{name}.py" for name in ("influence", "sound", "procedure", "bits")),
     ),
     "think": Room((f"{R}think.py",), ("tests/engine/test_influence.py", "tests/engine/test_bits.py")),
     "lanes": Room(

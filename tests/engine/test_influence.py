@@ -11,6 +11,7 @@ from mindrun.functions.mlp import weight_count
 from mindrun.graph import Edge, Sensor
 from mindrun.memory import Cell
 from mindrun.sensors import Battery, Derivative
+from mindrun.virtual import Wave
 from mindrun.weights import genes
 
 from tests.hierarchies import doubling
@@ -149,3 +150,12 @@ def test_a_dead_zone_ends_where_it_says(change: float, seen: float) -> None:
     engine.tick([0.5, 0.0])
     engine.tick([0.5 + change, 0.0])
     assert engine.readings[1] == seen
+
+
+def test_a_wave_is_as_exact_after_a_year_as_in_the_first_second() -> None:
+    wave = Wave(slice(0, 1), 3.0)
+    first = [wave.read(tick, np.zeros(1, np.float32), None) for tick in range(3)]
+    for tick in (3 * 10**9, 3 * 10**12):
+        assert [wave.read(tick + k, np.zeros(1, np.float32), None) for k in range(3)] == pytest.approx(first, abs=1e-3)
+    far = [wave.read(3 * 10**6 + k, np.zeros(1, np.float32), None) for k in range(3)]
+    assert far == pytest.approx(first, abs=1e-7)

@@ -3,7 +3,7 @@
 from pathlib import Path
 
 import pytest
-from mindrun.engine import Engine
+from mindrun.engine import Engine, procedure_sources
 from mindrun.errors import ProcedureError
 from mindrun.functions import Procedure
 
@@ -80,3 +80,11 @@ def test_a_link_does_not_lead_out(tmp_path: Path) -> None:
     (inside / "claw.py").symlink_to(tmp_path / "secret.py")
     with pytest.raises(ProcedureError, match="lies outside"):
         Engine(mind(skill("Go", Procedure("claw.f"), (0,), ("actuator", 0))), {}, inside)
+
+
+def test_the_procedures_of_a_mind_are_those_below_its_master(tmp_path: Path) -> None:
+    for name in ("claw", "arm"):
+        (tmp_path / f"{name}.py").write_text(f"def grip(a): return a  # {name}\n")
+    both = mind(skill("Go", Procedure("claw.grip"), (0,), ("skill", 1)), skill("On", Procedure("arm.grip"), (0,)))
+    assert set(procedure_sources(both, tmp_path)) == {"claw", "arm"}
+    assert procedure_sources(both, tmp_path, "On") == {"arm": "def grip(a): return a  # arm\n"}

@@ -3,6 +3,7 @@
 from dataclasses import replace
 
 import numpy as np
+import pymunk
 import pytest
 from mindrun.actuators import Gripper, Wheel
 from mindrun.engine import Engine
@@ -134,7 +135,7 @@ def test_lanes_that_close_ranks_keep_what_waits() -> None:
 @pytest.mark.parametrize("away", [1, 2, 3, 4, 5, 7])
 def test_a_contact_that_was_left_is_forgotten_as_chipmunk_forgets(away: int) -> None:
     """A robot that slides along rocks and comes back after some ticks: as if Chipmunk had stepped all the time."""
-    assert LINGER > 3
+    assert pymunk.Space().collision_persistence < LINGER
     push = mind(rule("Top"), actuators=wheels(0.9, 0.75))
     things = (Thing("rock", Obstacle(Span(1.0, 3.0), grid=3.5, jitter=0.5)),)
     wave = replace(push.sensors[0], kind=Sine((4 + 3 * away) / 60))

@@ -45,6 +45,13 @@ def test_a_finished_run_has_everything(tmp_path: Path) -> None:
     json.loads((run.folder / "manifest.json").read_text())
 
 
+def test_a_run_leaves_no_file_open(tmp_path: Path) -> None:
+    train(made(tmp_path), Sphere(), unwatched())
+    before = len(list(Path("/proc/self/fd").iterdir()))
+    train(made(tmp_path), Sphere(), unwatched())
+    assert len(list(Path("/proc/self/fd").iterdir())) == before
+
+
 def test_lines_after_the_checkpoint_are_dropped_and_written_again(tmp_path: Path) -> None:
     run = made(tmp_path)
     train(run, Sphere(), unwatched(stop_after=3))

@@ -4,11 +4,12 @@ from collections.abc import Iterator
 from itertools import groupby
 from math import nan
 
+import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from mindrun.robot.drivers.mock import MockActuator
-from mindrun.robot.guardian.frames import pack
+from mindrun.robot.guardian.frames import Frame, pack
 from mindrun.robot.guardian.guard import FAILURES, FOLLOWING, LATCHED, NEUTRAL
 from mindrun.robot.guardian.plan import Channel
 
@@ -79,6 +80,13 @@ def test_frames_that_waited_too_long_are_no_sign_of_life(moving: Faked) -> None:
     assert (moving.last, moving.state) == (REST, NEUTRAL)
     moving.frame(0.875, 1.0, age=2 * TICK)
     assert moving.state == NEUTRAL
+
+
+def test_a_frame_that_is_as_old_as_the_limit_is_too_old(moving: Faked) -> None:
+    guard = moving.process.guard
+    frame = Frame(99, 4096.0, True, (0.25, 0.25))
+    assert guard.frame(frame, 4096.0 + guard.limit, True) is None
+    assert guard.frame(frame, np.nextafter(4096.0 + guard.limit, 0.0), True) is not None
 
 
 def test_of_frames_that_come_together_the_newest_counts(moving: Faked) -> None:
