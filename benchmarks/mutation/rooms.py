@@ -25,7 +25,7 @@ ROOMS = {
     "think": Room((f"{R}think.py",), ("tests/engine/test_influence.py", "tests/engine/test_bits.py")),
     "lanes": Room(
         (f"{R}sim/lanes/*.py", f"{R}sim/place.py"),
-        ("tests/sim/test_random_worlds.py", "tests/sim/test_lanes.py"),
+        ("tests/sim/test_lanes.py", "tests/sim/test_random_worlds.py"),
         but=(f"{R}sim/lanes/vector.py", f"{R}sim/lanes/arithmetic.py", f"{R}sim/lanes/stages.py"),
         interpreted=True,
     ),
@@ -38,9 +38,18 @@ ROOMS = {
             "tests/train/test_run_folder.py",
         ),
     ),
-    "lock": Room(("mindlang/lock/*.py",), ("tests/lock", "tests/edits/test_weights.py")),
-    "bundle": Room((f"{R}bundle.py", f"{R}encoding.py", f"{R}sound.py", f"{R}weights.py"), ("tests/engine",)),
+    "lock": Room(
+        ("mindlang/lock/*.py",),
+        tuple(f"tests/lock/test_{name}.py" for name in ("signature", "lock", "worlds", "trained", "status_command")),
+    ),
+    "bundle": Room(
+        (f"{R}bundle.py", f"{R}encoding.py", f"{R}sound.py", f"{R}weights.py"),
+        tuple(f"tests/engine/test_{name}.py" for name in ("sound", "npy", "influence", "bundle", "resealed_bundle")),
+    ),
     "recording": Room((f"{R}robot/recording.py", f"{R}robot/replay.py"), ("tests/robot/test_recording.py",)),
-    "guardian": Room((f"{R}robot/guardian/*.py",), ("tests/robot/guardian",)),
-    "proofs": Room(("mindlang/proofs/*.py",), ("tests/proofs",)),
+    "guardian": Room(
+        (f"{R}robot/guardian/*.py",),
+        tuple(f"tests/robot/guardian/test_{name}.py" for name in ("frames", "guard", "plan", "process")),
+    ),
+    "proofs": Room(("mindlang/proofs/*.py",), tuple(f"tests/proofs/test_{name}.py" for name in ("paths", "bounds"))),
 }

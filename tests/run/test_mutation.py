@@ -21,7 +21,8 @@ def share(values, total, most=1):
     return min(total, most) if total > 1 else total
 """
 EXPECTED = {
-    "most=2", "total < 0", "total > 0", "total <= 1", "and (not values)", "if total <= 0:", "if not values:", "or values",
+    "most=2", "total < 0", "total > 0", "total <= 1", "and (not values)", "if total <= 0:", "if not values:",
+    "or values",
     "return 1.5", "    return\n", "pass", "in ():", "value / 2", "2 + 1", "value * 3", "+= value * 2\n", "- 2\n",
     "+= value - 1\n", "+= 2 - 1\n", "min(most, total)", "total >= 1", "total > 2", "return min(total, most)\n",
     "return total",

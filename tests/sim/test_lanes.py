@@ -1,6 +1,8 @@
 """What the lanes do where random worlds seldom go: sums that overflow, an item behind, ends, ties, contacts left."""
 
+from collections.abc import Callable
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 import pymunk
@@ -44,10 +46,15 @@ def test_influence_that_overflows_is_a_fault_here_too(levels: int, sent: float) 
     assert (engine.faults > 0) == (levels >= (128 if sent else 129))
 
 
+def as_python(function: Callable[..., Any]) -> Callable[..., Any]:
+    """A function of the lanes before it is compiled: what is compiled cannot be called from here."""
+    return getattr(function, "py_func", function)
+
+
 def at(x: float, y: float, size: float, heading: float = 0.0) -> bool:
     """Whether a thing there is in the claw of a robot of radius 1 in the origin, whose reach is 1.5."""
     body, things = np.zeros((6, 1)), np.array([[x], [y], [size], [0.0]])
-    return bool(in_claw(body, np.array([[np.cos(heading)], [np.sin(heading)]]), things, 1.0, 1.5, 0, 0))
+    return bool(as_python(in_claw)(body, np.array([[np.cos(heading)], [np.sin(heading)]]), things, 1.0, 1.5, 0, 0))
 
 
 def test_the_claw_takes_what_is_ahead_of_it() -> None:
@@ -202,7 +209,6 @@ def test_the_numbers_of_a_world_are_splitmix64() -> None:
     """Seeded by the layout: what the algorithm's authors give for seed 1234567."""
     random = np.array([1234567], np.uint64)
     with np.errstate(over="ignore"):
-        drawn = [uniform.py_func(random, 0, 0.0, 1.0) if hasattr(uniform, "py_func") else uniform(random, 0, 0.0, 1.0)
-                 for _ in range(3)]  # fmt: skip
+        drawn = [as_python(uniform)(random, 0, 0.0, 1.0) for _ in range(3)]
     expected = [6457827717110365317, 3203168211198807973, 9817491932198370423]
     assert drawn == [(number >> 11) * 2.0**-53 for number in expected]

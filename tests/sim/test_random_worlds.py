@@ -106,9 +106,9 @@ def test_a_result_is_the_same_in_any_company(graph: Graph, scale: float, seed: i
         return Rollout(graph, weights, "World", graph.master, learners, **options)
 
     genomes = (scale * rng.uniform(-0.7, 1, (3, rollout().genome_length))).astype(np.float32)
-    seeds = rng.integers(0, 2**63, 6).tolist()
+    seeds = rng.integers(0, 2**63, 5).tolist()
     alone = rollout(lanes=1).score(genomes, seeds)
-    for options in ({"lanes": 4}, {"lanes": 16}, {"lanes": 3, "workers": 2}):
+    for options in ({"lanes": 16}, {"lanes": 3, "workers": 2}):
         assert same(alone, rollout(**options).score(genomes, seeds)), options
     order = rng.permutation(3)
     assert np.array_equal(alone.total[order], rollout(lanes=5).score(genomes[order], seeds).total, equal_nan=True)
