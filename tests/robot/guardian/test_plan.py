@@ -37,6 +37,13 @@ def test_a_plan_comes_back(tmp_path: Path) -> None:
     assert read_plan(tmp_path / "plan.json") == PLAN
 
 
+@pytest.mark.parametrize("trim", [-1.0, 1.0])
+def test_a_trim_is_a_share_of_the_travel_either_way(trim: float) -> None:
+    assert from_json(changed(("channels", 0, "trim"), trim)).channels[0].trim == trim
+    with pytest.raises(PlanError, match="trim"):
+        from_json(changed(("channels", 0, "trim"), 1.5 * trim))
+
+
 def test_a_plan_is_a_wiring_with_the_neutrals_of_the_mind() -> None:
     wire = ActuatorWire("wheel", MockActuator(), trim=-0.1, low=0.2, high=0.9, slew=3.0, reversed=True)
     assert plan_of(0.05, {"wheel": 0.5, "other": 1}, Wiring("r", (), (wire,))).channels == PLAN.channels[:1]
