@@ -9,6 +9,7 @@ from mindlang.source import Span
 from mindlang.splice import Splice
 
 MOST = 100  # diagnostics that are read
+COMPARED = 50_000  # names that are held against words
 
 
 @dataclass(frozen=True, slots=True)
@@ -49,14 +50,19 @@ class Findings:
     """Where a stage of the compiler collects what it finds."""
 
     diagnostics: list[Diagnostic] = field(default_factory=list)
+    comparisons: int = COMPARED  # of names, which are left
 
     def error(self, code: str, span: Span, message: str, hint: str = "", *labels: Label) -> None:
         """Collect an error."""
         self.diagnostics.append(Diagnostic(code, message, span, hint, labels))
 
     def suggest(self, word: str, *known: Iterable[str]) -> str:
-        """`did_you_mean` for the first hundred diagnostics: comparing names takes time, and nobody reads more."""
-        return did_you_mean(word, chain(*known)) if len(self.diagnostics) < MOST else ""
+        """`did_you_mean` for the first diagnostics: comparing names takes time, and nobody reads more."""
+        if len(self.diagnostics) >= MOST or self.comparisons <= 0:
+            return ""
+        names = [*chain(*known)]
+        self.comparisons -= len(names)
+        return did_you_mean(word, names)
 
 
 def errors(diagnostics: Iterable[Diagnostic]) -> list[Diagnostic]:

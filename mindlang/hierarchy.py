@@ -57,6 +57,21 @@ def reached(skills: Mapping[str, Skill], master: str) -> set[str]:
     return found
 
 
+def above(skills: Iterable[Skill], names: Iterable[str]) -> set[str]:
+    """The names of the skills that influence some of these, straight or through others, and these themselves."""
+    parents: dict[str, list[str]] = {}
+    for skill in skills:
+        for name in skill.subskills:
+            parents.setdefault(name, []).append(skill.name)
+    found = {*names}
+    waiting = [*found]
+    while waiting:
+        new = [name for name in parents.get(waiting.pop(), ()) if name not in found]
+        found.update(new)
+        waiting += new
+    return found
+
+
 def check_cycles(skills: tuple[Skill, ...], findings: Findings) -> None:
     """Report a cycle of influence with its whole path."""
     if len(in_order(skills)) == len(skills):

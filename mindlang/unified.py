@@ -8,7 +8,7 @@ from io import StringIO
 from typing import Literal
 
 CONTEXT = 3  # lines around a change
-SHORT = 400  # lines that difflib compares; it may take as long as the square of their number
+SHORT = 100  # lines that difflib compares; it may take as long as the square of their number
 MARGIN = 100  # lines over which difflib may slide a change that begins or ends as what is beside it
 
 Opcode = tuple[Literal["replace", "delete", "insert", "equal"], int, int, int, int]

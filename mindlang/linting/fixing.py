@@ -1,5 +1,6 @@
 """Fixes made: splices of the source, as many as do not overlap, until none is left."""
 
+from bisect import bisect_right, insort
 from collections.abc import Callable, Iterable
 
 from mindlang.diagnostic import Diagnostic
@@ -7,6 +8,7 @@ from mindlang.source import Source
 from mindlang.splice import Splice, spliced
 
 ROUNDS = 100  # a fix may make room for another
+CHARACTERS = 4 << 20  # that are looked at in all rounds: what is left of a long file is for the next time
 
 
 def fixed(source: Source, look: Callable[[Source], Iterable[Diagnostic]]) -> tuple[Source, int]:
@@ -14,7 +16,7 @@ def fixed(source: Source, look: Callable[[Source], Iterable[Diagnostic]]) -> tup
     from dataclasses import replace
 
     made = 0
-    for _ in range(ROUNDS):
+    for _ in range(min(ROUNDS, CHARACTERS // max(len(source.text), 1) + 1)):
         splices, number = _first(source, look(source))
         if not number:
             break
@@ -25,15 +27,22 @@ def fixed(source: Source, look: Callable[[Source], Iterable[Diagnostic]]) -> tup
 
 def _first(source: Source, found: Iterable[Diagnostic]) -> tuple[list[Splice], int]:
     """The splices of the fixes that keep clear of one another."""
-    chosen: list[Splice] = []
+    chosen: list[Splice] = []  # in order
     number = 0
     for fix in (each.fix for each in found if each.fix and each.fix.is_safe):
         own = [splice for splice in fix.splices if splice.source is source]
-        if len(own) == len(fix.splices) and not any(_touch(a, b) for a in own for b in chosen):
-            chosen += own
+        if len(own) == len(fix.splices) and not any(_touches(splice, chosen) for splice in own):
+            for splice in own:
+                insort(chosen, splice, key=_start)
             number += 1
     return chosen, number
 
 
-def _touch(a: Splice, b: Splice) -> bool:
-    return a.start <= b.end and b.start <= a.end
+def _touches(splice: Splice, chosen: list[Splice]) -> bool:
+    """Whether a splice meets one of those that are chosen, which are in order and clear of one another."""
+    place = bisect_right(chosen, splice.end, key=_start)
+    return place > 0 and chosen[place - 1].end >= splice.start
+
+
+def _start(splice: Splice) -> int:
+    return splice.start

@@ -1,12 +1,13 @@
 """What a skill could be connected to, replaced by, or taught on."""
 
 from collections.abc import Iterator
+from itertools import islice
 from typing import Any
 
 from mindrun.weights import genes
 
 from mindlang.editing.project import Project
-from mindlang.hierarchy import reached
+from mindlang.hierarchy import above, reached
 from mindlang.syntax import Declaration, Drives, Influences, Reads
 
 MOST = 6  # of each sort; the command line and the editor's own dialogue know them all
@@ -34,8 +35,14 @@ def replacements(project: Project, skill: str) -> list[str]:
     """Skills that are not above it; those that drive other actuators are refused by the edit itself."""
     skills = {known.name: known for known in project.mind.skills}
     parents = {name for name, known in skills.items() if skill in known.subskills}
-    others = (name for name in skills if name != skill and not (parents - {name}) & reached(skills, name))
-    return list(others)[: 8 * MOST]
+    higher = above(skills.values(), parents)
+    others = (
+        name
+        for name in skills
+        if name != skill
+        and (name not in higher or (name in parents and not (parents - {name}) & reached(skills, name)))
+    )
+    return [*islice(others, 8 * MOST)]
 
 
 def lesson(project: Project, skill: str) -> dict[str, Any]:
@@ -52,5 +59,5 @@ def lesson(project: Project, skill: str) -> dict[str, Any]:
 def _below(project: Project, skill: str) -> list[str]:
     """The skills that a skill could influence without a circle, and does not."""
     skills = {known.name: known for known in project.mind.skills}
-    own = skills[skill].subskills
-    return [name for name in skills if name not in own and skill not in reached(skills, name)]
+    not_below = {*skills[skill].subskills, *above(skills.values(), [skill])}
+    return [name for name in skills if name not in not_below]
