@@ -61,11 +61,11 @@ ROUND = """
 tick 1/60 s
 master Round
 body Robot is disc
-actuator left_wheel is wheel side left neutral 0.5
-actuator right_wheel is wheel side right neutral 0.5
+actuator left_wheel is wheel side left neutral 0.5 thrust 300
+actuator right_wheel is wheel side right neutral 0.5 thrust 300
 skill Round is rule
   drives left_wheel at 1
-  drives right_wheel at 0.9
+  drives right_wheel at 0.8
 """
 BASE = "  rewards forward per tick\n"
 MEASURING = (
@@ -174,7 +174,7 @@ def test_lanes_that_close_ranks_keep_what_was_reached(lanes: int) -> None:
 def test_what_stays_is_reached_anew_after_it_was_left() -> None:
     """The robot circles, in and out of the zone: as many events as times that it comes in."""
     of = compile_text(f"""{ROUND}task Test in arena size 24
-  contains plug is power size 8
+  contains plug is power size 8 reached stays
   lasts {TICKS} ticks
   counts reach of plug
 """)
