@@ -13,7 +13,7 @@ from mindrun.train.errors import RunError
 from mindrun.train.genetic import Population
 from mindrun.train.lesson import State
 from mindrun.train.progress import LINES, read
-from mindrun.train.run_folder import MANIFEST, RESULT, Run, create, open_run, read_result
+from mindrun.train.run_folder import MANIFEST, RESULT, Run, create, open_run, read_result, unfinished
 from mindrun.train.training import train
 
 from mindlang.compile import load
@@ -45,6 +45,15 @@ def test_a_pipe_is_not_waited_for(run: Run, name: str) -> None:
     os.mkfifo(run.folder / name)
     with pytest.raises(RunError, match="pipe"):
         train(open_run(run.folder), Sphere(), unwatched())
+
+
+def test_who_looks_for_a_run_to_go_on_with_passes_strange_ones_by(run: Run, tmp_path: Path) -> None:
+    assert unfinished(tmp_path, run.manifest) is not None
+    (run.folder / checkpoint.NAME).unlink()
+    os.mkfifo(run.folder / checkpoint.NAME)
+    (run.folder.parent / "a file").touch()
+    (run.folder.parent / "a folder").mkdir()
+    assert unfinished(tmp_path, run.manifest) is None
 
 
 @pytest.mark.parametrize("name", ["attempt", "generation", "best", "ticks"])

@@ -167,3 +167,5 @@ def _read(path: Path, run: str) -> State | None:
         return unpack(read_whole(path, LARGEST), run)
     except FileNotFoundError:
         return None
+    except OSError as error:
+        raise RunError(f"cannot read {path}: {error.strerror}", "start the lesson again without --resume") from error
