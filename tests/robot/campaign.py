@@ -99,7 +99,7 @@ def play(folder: Path, rng: random.Random) -> tuple[Round, Devices]:
         write_bundle(bundle, graph("bearing"), {}, {}, wiring)
         with patient({"MIND_ROBOT": str(home / "identity")}):
             adopt(wiring, graph("bearing"))
-            _happen(round_, bundle, rng)
+            _happen(round_, found, bundle, rng)
         _end(round_, found)
         if not found.at_rest:
             assert round_.nobody_left, f"an actuator moves on after {round_.sent} of {round_.guardians}"
@@ -110,18 +110,27 @@ def play(folder: Path, rng: random.Random) -> tuple[Round, Devices]:
     return round_, found
 
 
-def _happen(round_: Round, bundle: Path, rng: random.Random) -> None:
+def _happen(round_: Round, found: Devices, bundle: Path, rng: random.Random) -> None:
     for _ in range(rng.choice((1, 1, 2, 3))):
         command = [*MINDRUN, bundle, "--arm", "--quiet"]
         round_.controllers.append(subprocess.Popen(command, stderr=subprocess.DEVNULL, start_new_session=True))
         time.sleep(rng.choice((0.0, 0.3)))
-    time.sleep(rng.uniform(0.0, 4.0))
-    for _ in range(rng.randint(2, 6)):
+    if rng.random() < 0.8:
+        _until_it_moves(found, round_)
+    time.sleep(rng.uniform(0.0, 0.5))
+    for _ in range(rng.randint(3, 8)):
         if rng.random() < 0.1:
             shutil.rmtree(round_.home, ignore_errors=True)
         if there := round_.processes():
             round_.signal(rng.choice(there), rng.choice(SIGNALS))
         time.sleep(rng.choice((0.0, 0.01, 0.1, 1.0)) * rng.random())
+
+
+def _until_it_moves(found: Devices, round_: Round) -> None:
+    until = time.monotonic() + PATIENCE
+    while not found.drivers and round_.processes():
+        assert time.monotonic() < until, "it never moves"
+        time.sleep(0.05)
 
 
 def _end(round_: Round, found: Devices) -> None:
