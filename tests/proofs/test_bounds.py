@@ -205,3 +205,32 @@ def test_the_sigmoid_falls_less_than_the_margin() -> None:
         found = sigmoid(np.sort(-arguments if begin < 0 else arguments))
         assert float((np.maximum.accumulate(found) - found).max()) < float(DIP)
         assert 0 <= found.min() <= found.max() <= 1
+
+
+def averaged(value: float, weights: np.ndarray) -> Graph:
+    """So many skills with this influence each that all drive one wheel at the same value."""
+    top = rule("Top", *(always("skill", i + 1, float(w)) for i, w in enumerate(weights)))
+    return mind(top, *(rule(f"S{i}", always("actuator", 0, value)) for i in range(len(weights))))
+
+
+def test_a_mean_that_rounds_beyond_all_that_is_averaged_lies_inside() -> None:
+    """What is bounded is what the engine computes in float32, not what a mean is."""
+    rng = np.random.default_rng(1)
+    beyond = 0
+    for _ in range(150):
+        graph = averaged(float(np.float32(rng.uniform(0.1, 0.9))), rng.random(int(rng.integers(2, 9)), np.float32))
+        command = float(Engine(graph, {}).tick([0.0])[0])
+        sent = graph.skills[1].edges[0].value[0][1]
+        bound = reach(graph, {}).actuators[0].command
+        assert bound
+        assert bound.low <= command <= bound.high
+        assert bound.high - bound.low < 1e-5
+        beyond += command != sent
+    assert beyond > 10
+
+
+def test_a_mean_of_nothing_but_ones_or_noughts_is_exact() -> None:
+    for value in (0.0, 1.0):
+        bound = reach(averaged(value, np.full(3, 0.3, np.float32)), {}).actuators[0].command
+        assert bound
+        assert (bound.low, bound.high) == (value, value)
