@@ -17,6 +17,12 @@ class Room:
 
 
 R = "runtime/mindrun/"
+QUICK_TASKS = (
+    "test_the_change_of_thrust",
+    "test_conditions_and_loops_in_rewards",
+    "test_a_delay_shifts_the_commands",
+    "test_a_reading_that_is_not_a_number_reaches_no_actuator",
+)
 ROOMS = {
     "engine": Room(
         tuple(f"{R}{name}.py" for name in ("engine", "virtual", "expression", "sigmoid", "portable", "functions/mlp")),
@@ -25,7 +31,11 @@ ROOMS = {
     "think": Room((f"{R}think.py",), ("tests/engine/test_influence.py", "tests/engine/test_bits.py")),
     "lanes": Room(
         (f"{R}sim/lanes/*.py", f"{R}sim/place.py"),
-        ("tests/sim/test_lanes.py", "tests/sim/test_random_worlds.py"),
+        (
+            "tests/sim/test_lanes.py",
+            *(f"tests/sim/test_tasks.py::{name}" for name in QUICK_TASKS),
+            "tests/sim/test_random_worlds.py",
+        ),
         but=(f"{R}sim/lanes/vector.py", f"{R}sim/lanes/arithmetic.py", f"{R}sim/lanes/stages.py"),
         interpreted=True,
     ),
