@@ -191,6 +191,22 @@ def test_everything_is_placed_clear_of_everything(scene: Plain | Arena) -> None:
     assert max(places) <= 27.0
 
 
+def test_things_of_any_size_stand_beside_each_other() -> None:
+    """The small and the large, as close as they come."""
+    sizes = (0.5, 9.0, 1.0, 7.0, 2.0)
+    things = tuple(Thing(f"t{i}", Zone(Span(size, size), Span(6.0, 14.0))) for i, size in enumerate(sizes))
+    graph = replace(mind(rule("Top")), tasks=(task(1, things=things),))
+    closest = np.inf
+    for seed in range(40):
+        places = trace(Rollout(graph, {}, "World", "Top"), seed).things
+        for i, a in enumerate(places):
+            for b in places[i + 1 :]:
+                gap = np.abs(a[:2] - b[:2]).max() - (a[2] + b[2]) / 2
+                assert gap >= 0
+                closest = min(closest, gap)
+    assert closest < 0.2
+
+
 def test_a_grid_stands_on_its_crossings() -> None:
     """Strictly inside the arena, each off by no more than the jitter along both axes."""
     for jitter in (0.0, 1.0):
