@@ -70,6 +70,21 @@ with stopping(0.2) as stop:
     assert (done.returncode, done.stdout) == (130, "still here\n")
 
 
+def test_what_follows_an_interruption_is_not_interrupted_again() -> None:
+    done = python("""
+with stopping(0.5):
+    try:
+        for _ in range(2):
+            os.kill(os.getpid(), signal.SIGTERM)
+    except KeyboardInterrupt:
+        for _ in range(3):
+            os.kill(os.getpid(), signal.SIGTERM)
+        time.sleep(0.8)
+        print("at neutral", flush=True)
+""")
+    assert (done.returncode, done.stdout) == (0, "at neutral\n"), done.stderr
+
+
 def test_afterwards_signals_are_what_they_were() -> None:
     done = python("""
 with stopping(0.1) as stop:

@@ -31,17 +31,21 @@ class Stop:
         self._in_order = True
 
     def note(self, _number: int, _frame: FrameType | None) -> None:
-        """A signal came: the second interrupts at once."""
-        if self._came:
-            raise KeyboardInterrupt
-        self._came = True
-        signal.setitimer(signal.ITIMER_REAL, self._grace, self._grace)
+        """A signal came: the second interrupts at once, but not what brings everything to neutral afterwards."""
+        if not self._came:
+            self._came = True
+            signal.setitimer(signal.ITIMER_REAL, self._grace, self._grace)
+        else:
+            self._interrupt()
 
     def hurry(self, _number: int, _frame: FrameType | None) -> None:
         """It takes too long."""
         self._tries += 1
         if self._tries >= TRIES:  # a procedure that catches everything, or a disk that does not answer
             os._exit(INTERRUPTED)
+        self._interrupt()
+
+    def _interrupt(self) -> None:
         if not self._in_order:
             self._in_order = True
             raise KeyboardInterrupt
