@@ -10,10 +10,10 @@ import pytest
 from mindrun.actuators import Gripper, Wheel
 from mindrun.engine import Engine
 from mindrun.events import Reach, Visit
-from mindrun.graph import Actuator, Edge, Reward, Task, Thing
+from mindrun.graph import Actuator, Edge, Reward, Sensor, Task, Thing
 from mindrun.memory import Cell
 from mindrun.quantity import Span
-from mindrun.sensors import Bearing, Sine
+from mindrun.sensors import Bearing, Derivative, RangeFinder, Sine
 from mindrun.sim.lanes.sense import in_claw
 from mindrun.sim.lanes.step import LINGER
 from mindrun.sim.place import uniform
@@ -154,6 +154,17 @@ def test_a_contact_that_was_left_is_forgotten_as_chipmunk_forgets(away: int) -> 
     )
     graph = replace(push, sensors=(wave,), skills=(drive,), tasks=(task(400, scene=Arena(20.0), things=things),))
     follow(Rollout(graph, {}, "World", "Top"), Engine(graph, {}), away)
+
+
+def test_each_reading_of_a_wide_sensor_has_a_derivative_of_its_own() -> None:
+    eyes = Sensor("eyes", RangeFinder(at=(0.0, 1.0, 3.0)), 0, 3)
+    change = Sensor("change", Derivative("eyes", 4.0), 3, 3)
+    again = Sensor("again", Derivative("change", 40.0), 6, 3)
+    drive = rule("Top", Edge("actuator", 0, None, (("reading", 4), ("reading", 8), ("+", 0))), reads=tuple(range(9)))
+    things = (Thing("rock", Obstacle(Span(1.0, 3.0), grid=5.0, jitter=0.5)),)
+    base = mind(drive, actuators=wheels(0.9, 0.7))
+    graph = replace(base, sensors=(eyes, change, again), tasks=(task(60, scene=Arena(20.0), things=things),))
+    follow(Rollout(graph, {}, "World", "Top"), Engine(graph, {}), 2)
 
 
 @pytest.mark.parametrize("scene", [Plain(), Arena(60.0)])
