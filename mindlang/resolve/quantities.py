@@ -47,8 +47,13 @@ def _wrong_unit(amount: Amount, quantity: Quantity, findings: Findings) -> None:
 def _bounds(quantity: Quantity, unit: str = "") -> str:
     """Between what an amount in a unit may be; in the first of its units where that does not fit."""
     unit = unit if unit in quantity.units else next(iter(quantity.units))
-    low, high = (f"{bound / quantity.units[unit]:.12g}" for bound in (quantity.low, quantity.high))
+    low, high = (_plain(bound / quantity.units[unit]) for bound in (quantity.low, quantity.high))
     return f"Write at least {low} and at most {f'{high} {unit}'.strip()}.".replace(" %", "%")
+
+
+def _plain(number: float) -> str:
+    """A number as it can be written: without an exponent."""
+    return f"{number:.9f}".rstrip("0").rstrip(".")
 
 
 def one(value: Value, quantity: Quantity, findings: Findings) -> float | int | None:
