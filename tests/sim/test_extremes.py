@@ -87,6 +87,7 @@ def test_every_number_of_every_kind_has_two_bounds() -> None:
     assert [(noun, name, key) for noun, name, key, of in found if not -inf < of.low < of.high < inf] == []
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("seed", range(1, 7))
 def test_a_robot_that_flies_for_ever_ends_its_run(seed: int) -> None:
     text = MIND.format(**PLAIN | {"density": 0.001, "damping": 0, "thrust": 10**6, "other": 10**6, "ticks": 200_000})
