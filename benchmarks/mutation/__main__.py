@@ -110,7 +110,8 @@ def show(outcome: Outcome) -> None:
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """1 where something was not noticed in more than a tenth of a room."""
-    parser = argparse.ArgumentParser(prog="mutation", description=__doc__.split("\n", 1)[0])
+    about = __doc__.split("\n", 1)[0]
+    parser = argparse.ArgumentParser(prog="mutation", description=about, allow_abbrev=False)
     parser.add_argument("rooms", nargs="*", metavar="ROOM", help=f"of {', '.join(ROOMS)}; all of them where none")
     parser.add_argument("--sample", type=int, default=30, help="mutants of a room (30)")
     parser.add_argument("--seed", type=int, default=1, help="which ones (1)")

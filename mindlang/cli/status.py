@@ -27,11 +27,11 @@ Examples:
 @click.option("--accept", is_flag=True, help="Their weights will do in the mind as it is now: --accept Avoid Collect")
 @click.option("--json", "as_json", is_flag=True, help="One JSON document instead: mindc status collect.mind --json")
 def command(file: str, skills: tuple[str, ...], accept: bool, as_json: bool) -> None:
-    """Show how every skill of FILE, or each SKILL, stands to its weights.
+    """Show how every skill of FILE stands to its weights.
 
-    And how these were made. A skill is trained, stale and why, untaught, or taught elsewhere: with another body,
-    sensor, task or subskill than the mind has now. Such a skill acts, and `mindc train` teaches it again, unless it is
-    accepted.
+    Or each SKILL alone; and how these were made. A skill is trained, stale and why, untaught, or taught elsewhere: with
+    another body, sensor, task or subskill than the mind has now. Such a skill acts, and `mindc train` teaches it again,
+    unless it is accepted.
 
     Ends with 0 when every skill that is shown, of those below the master, can act, else with 1.
     """

@@ -32,8 +32,9 @@ Extent = tuple[Line, Line]  # the first and the last line
 
 
 def instead(span: Span, text: str) -> Splice:
-    """Another text for a span."""
-    return Splice(span.source, span.start, span.end, text)
+    """Another text for a span; `at-eye` becomes `at 0`, not a name."""
+    is_glued = span.source.text[span.start - 1 : span.start].isalnum() and text[:1].isalnum()
+    return Splice(span.source, span.start, span.end, f" {text}" if is_glued else text)
 
 
 def instead_of_line(fact: Fact, texts: Iterable[str]) -> Splice:

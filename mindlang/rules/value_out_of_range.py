@@ -19,6 +19,7 @@ GOOD = (f"{READS}  drives left_wheel at 2 * (1 - eye)\n", f"{READS}  drives left
 BAD = (
     f"{READS}  drives left_wheel at 1 + eye\n",
     f"{READS}  drives left_wheel at -eye\n",
+    f"{READS}  drives left_wheel at-eye\n",
     f"{READS}  drives left_wheel at 20\n",
 )
 

@@ -33,7 +33,7 @@ def emitted() -> set[str]:
         if isinstance(node, ast.Call) and _name(node.func) in EMITTERS and node.args:
             match node.args[0]:
                 case ast.Constant(value=str(code)):
-                    found.add(code)
+                    found |= {code} - {""}  # how many more there are
                 case made if ast.unparse(made) in MADE:
                     found |= MADE[ast.unparse(made)]
                 case other if isinstance(other, ast.JoinedStr):

@@ -116,11 +116,7 @@ def _flip_weights(source: Path) -> None:
     blob.write_bytes(blob.read_bytes()[:-1] + b"!")
 
 
-def _lose_procedure(source: Path) -> None:
-    (source.parent / "claw.py").unlink()
-
-
-@pytest.mark.parametrize("damage", [_cut_lock, _flip_weights, _lose_procedure])
+@pytest.mark.parametrize("damage", [_cut_lock, _flip_weights])
 def test_what_is_damaged_is_unreadable_input(source: Path, damage) -> None:
     damage(source)
     out = source.with_suffix(".bundle")
@@ -128,6 +124,17 @@ def test_what_is_damaged_is_unreadable_input(source: Path, damage) -> None:
     said = build(source, "-o", out)
     assert said.returncode == 2
     assert len(said.stderr.splitlines()) == 1
+    assert out.read_text() == "old"
+
+
+def test_a_procedure_that_is_gone_is_told_where_it_stands(source: Path) -> None:
+    (source.parent / "claw.py").unlink()
+    out = source.with_suffix(".bundle")
+    out.write_text("old")
+    said = build(source, "-o", out)
+    assert said.returncode == 1
+    assert "[faulty-procedure]" in said.stderr
+    assert "skill Grip is procedure from claw.grip" in said.stderr
     assert out.read_text() == "old"
 
 
@@ -143,5 +150,5 @@ def test_wrong_usage(source: Path) -> None:
 
 
 def test_building_runs_no_procedure(source: Path) -> None:
-    (source.parent / "claw.py").write_text("raise SystemExit('it ran')")
+    (source.parent / "claw.py").write_text("def grip(battery):\n    return 0.5\n\nraise SystemExit('it ran')\n")
     assert build(source, "-o", source.with_suffix(".bundle")).returncode == 0

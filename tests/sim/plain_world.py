@@ -25,6 +25,7 @@ class PlainWorld:
         self.radius = graph.body.size / 2
         self.x, self.y, self.angle = (float(v) for v in run.begin)
         self.held, self.t, self.touched = -1, 0, False
+        self.reached, self.delivered, self.changed = set(), set(), set()
         self.cell = next((s.kind for s in graph.sensors if isinstance(s.kind, sensors.Battery)), sensors.Battery())
         self.charge = self.cell.start
         self.trail = deque([(self.x, self.y)] * TRAIL, TRAIL)
@@ -68,7 +69,11 @@ class PlainWorld:
 
     def bearing(self, i, kind):
         """Least and most of a bearing; (0, 1) where it may be either side of the seam."""
-        if i < 0 or (kind.range and math.dist(self.places[i][:2], (self.x, self.y)) > kind.range):
+        if (
+            i < 0
+            or math.isnan(self.places[i][0])
+            or (kind.range and math.dist(self.places[i][:2], (self.x, self.y)) > kind.range)
+        ):
             return 0.5, 0.5
         dx, dy = self.places[i][0] - self.x, self.places[i][1] - self.y
         c, s = math.cos(self.angle), math.sin(self.angle)
@@ -78,8 +83,8 @@ class PlainWorld:
         return zoned(0.5 - math.atan2(aside, ahead) / (2 * math.pi), kind.dead_zone, 0.5)
 
     def ray(self, angle, kind):
-        """Least and most of what a range finder reads: what it grazes may be met or missed."""
-        near, far = (self.distance(angle, more) for more in (1e-3, -1e-3))
+        """Least and most of what a range finder reads: what it grazes, or stands in by a hair, may be met or missed."""
+        near, far = sorted(self.distance(angle, more) for more in (1e-3, -1e-3))
         least, most = (min(1.0, max(0.0, (d - self.radius) / kind.range)) for d in (near, far))
         return zoned(least, kind.dead_zone, 0.0)[0], zoned(most, kind.dead_zone, 0.0)[1]
 
@@ -171,18 +176,16 @@ class PlainWorld:
     def happened(self):
         """Whether each event of the task did."""
         names = [thing.name for thing in self.things]
-        zones = [i for i, thing in enumerate(self.things) if isinstance(thing.kind, world.Zone)]
+        reached, delivered = self.begin()
         began, self.touched = self.body.touches and not self.touched, self.body.touches
         found = []
         for event, visited in zip(self.task.events, self.visited, strict=True):
             i = names.index(event.of) if getattr(event, "of", None) in names else -1
             match event:
-                case events.Reach() if isinstance(self.things[i].kind, world.Item):
-                    found.append(self.in_claw(i, self.reach()))
                 case events.Reach():
-                    found.append(self.inside(i, self.x, self.y))
+                    found.append(i in reached)
                 case events.Delivery():
-                    found.append(self.held == i and any(self.inside(z, *self.places[i][:2]) for z in zones))
+                    found.append(i in delivered)
                 case events.Visit():
                     found.append(self.patch(event) not in visited)
                     visited.add(self.patch(event))
@@ -192,11 +195,29 @@ class PlainWorld:
                     found.append(self.charge == 0)
         return found
 
+    def begin(self):
+        """What begins to be in reach, and what to be delivered; `changed` is what moves or vanishes by it."""
+        kinds = [thing.kind for thing in self.things]
+        zones = [i for i, kind in enumerate(kinds) if isinstance(kind, world.Zone)]
+        reached = {
+            i
+            for i, kind in enumerate(kinds)
+            if (self.in_claw(i, self.reach()) if isinstance(kind, world.Item) else self.inside(i, self.x, self.y))
+        }
+        carried = {self.held, *self.delivered} - {-1}
+        delivered = {i for i in carried if any(self.inside(z, *self.places[i][:2]) for z in zones)}
+        new = reached - self.reached, delivered - self.delivered
+        self.changed = {i for i in new[0] if kinds[i].reached != "stays"}
+        self.changed |= {i for i in new[1] if kinds[i].delivered != "stays"}
+        self.reached, self.delivered = reached - self.changed, delivered - self.changed
+        return new
+
     def measured(self):
         """The task's measures."""
         names = [thing.name for thing in self.things]
         closed = [far - math.sqrt((p[0] - self.x) ** 2 + (p[1] - self.y) ** 2)
                   for far, p in zip(self.far, self.places, strict=True)]  # fmt: skip
+        closed = [0.0 if math.isnan(way) else way for way in closed]  # of what has vanished
         found = []
         for i, measure in enumerate(self.task.measures):
             match measure:

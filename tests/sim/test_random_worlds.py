@@ -39,6 +39,8 @@ def follow(rollout: Rollout, engine: Engine, seed: int) -> None:
     plain = PlainWorld(graph, task, run, bool(rollout.tables.world[0]["battery"]))
     used = {int(row["start"]) for row in rollout.tables.sensors}
     counts = np.zeros(len(task.events), np.int64)
+    cells = [memory.start for memory in graph.memories]
+    known = np.array([memory.kind.start for memory in graph.memories], np.float32)
     ended = -1
     for moment in run.moments:
         assert ended < 0
@@ -52,9 +54,12 @@ def follow(rollout: Rollout, engine: Engine, seed: int) -> None:
         assert happened == moment.events.astype(bool).tolist()
         assert plain.touched == moment.touching
         with np.errstate(all="ignore"):
-            plain.reward(happened, moment.readings)
+            readings = moment.readings.copy()
+            readings[cells] = known  # a reward reads what the skills have read
+            plain.reward(happened, readings)
+        known = moment.readings[cells]
         assert np.array_equal(plain.lines, moment.lines, equal_nan=True)
-        hold_things(plain, happened, moment)
+        hold_things(plain, moment)
         counts += np.array(happened, np.int64)
         ended = next((i for i, it in enumerate(happened) if it and i in task.ends), -1)
         for i in np.flatnonzero(happened):
@@ -81,15 +86,14 @@ def hold_mind(engine: Engine, used: set[int], moment: Moment) -> None:
     assert engine.influence.tobytes() == moment.influence.tobytes()
 
 
-def hold_things(plain: PlainWorld, happened: list[bool], moment: Moment) -> None:
-    """Only what was reached or delivered is somewhere else."""
-    names = [thing.name for thing in plain.things]
-    moved = {getattr(e, "of", "") for e, it in zip(plain.task.events, happened, strict=True) if it}
-    for i, name in enumerate(names):
-        if name not in moved:
-            assert np.array_equal(plain.places[i], moment.things[i])
-    if not moved & {names[plain.held]} if plain.held >= 0 else True:
-        assert plain.held == moment.held
+def hold_things(plain: PlainWorld, moment: Moment) -> None:
+    """What was reached or delivered moves or vanishes where it says so, and nothing else does."""
+    for i, thing in enumerate(plain.things):
+        if i not in plain.changed:
+            assert np.array_equal(plain.places[i], moment.things[i], equal_nan=True)
+        elif "moves" not in {thing.kind.reached, getattr(thing.kind, "delivered", "")}:
+            assert np.isnan(moment.things[i][:2]).all(), "it has vanished"
+    assert moment.held == (-1 if plain.held in plain.changed else plain.held)
     plain.places, plain.held = moment.things.copy(), moment.held
     assert plain.charge == moment.battery
 

@@ -1,6 +1,6 @@
 """Hypothesis strategies for whole worlds: any hierarchy in any body, among anything, judged in any way."""
 
-from dataclasses import replace
+from dataclasses import fields, replace
 
 from hypothesis import strategies as st
 from mindrun.actuators import Gripper, Servo, Wheel
@@ -16,6 +16,7 @@ SIZES = st.sampled_from([Span(1.0, 1.0), Span(2.0, 5.0), Span(4.0, 1.0, 0.75), S
 WIDE = st.sampled_from([Span(8.0, 8.0), Span(4.0, 12.0), Span(14.0, 6.0, 2.0)])
 AWAY = st.sampled_from([Span(-1.0, -1.0), Span(0.0, 3.0), Span(0.0, 6.0), Span(2.0, 12.0)])
 NEUTRAL = st.sampled_from([0.0, 0.4, 0.5, 0.9, 1.0])
+OUTCOMES = st.sampled_from(["stays", "moves", "moves", "vanishes"])
 DELAY = st.sampled_from([0, 0, 1, 2, 5])
 WHEELS = st.builds(
     Wheel, st.sampled_from(["left", "right"]), NEUTRAL, st.sampled_from([80.0, 80.0, 200.0, 15.0, -60.0]), DELAY
@@ -60,7 +61,8 @@ def _things(draw: st.DrawFn, scene: Scene) -> tuple[Thing, ...]:
         ("den", Zone, WIDE),
     ):
         if draw(st.integers(0, 2)):
-            things.append(Thing(name, kind(draw(size), draw(AWAY))))
+            outcomes = {field.name: draw(OUTCOMES) for field in fields(kind) if field.name in ("reached", "delivered")}
+            things.append(Thing(name, kind(size=draw(size), away=draw(AWAY), **outcomes)))
     grid = isinstance(scene, Arena) and draw(st.booleans())
     sizes = draw(st.sampled_from([Span(1.0, 1.0), Span(1.0, 3.0)]))
     if grid:
