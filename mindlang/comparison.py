@@ -6,6 +6,7 @@ from difflib import SequenceMatcher
 from typing import Any
 
 from mindlang.diagnostic import Findings
+from mindlang.format import spaced
 from mindlang.model import Lesson, Mind, Part, Skill, Task
 from mindlang.resolve.kinds import Scope, make
 from mindlang.resolve.names import Names
@@ -150,7 +151,7 @@ def _parts(header: Header, of: Any) -> tuple[Any, dict[Forms, Sequence[Any]]]:
 
 
 def _written(node: Any) -> str:
-    return " ".join(node.span.text.split())
+    return spaced(node.span.text)
 
 
 def _meaning(node: Any) -> Any:

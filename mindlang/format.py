@@ -57,7 +57,7 @@ def formatted(text: str) -> str:
 
 def _line(text: str) -> _Line:
     code = code_of(text)
-    return _Line(_spaced(code.lstrip(" \t").rstrip(BLANKS)), text[len(code) :].strip(), text[:1] in (" ", "\t"))
+    return _Line(spaced(code.lstrip(" \t").rstrip(BLANKS)), text[len(code) :].strip(), text[:1] in (" ", "\t"))
 
 
 def _indented(lines: list[_Line]) -> Iterator[tuple[_Line, str]]:
@@ -103,7 +103,7 @@ def _is_set_off(above: tuple[_Line, str], following: _Line | None) -> bool:
     return following.opens or bool(above[1])
 
 
-def _spaced(code: str) -> str:
+def spaced(code: str) -> str:
     """A line with its words one space apart; as it is where it cannot be read."""
     if not code:
         return ""

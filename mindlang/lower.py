@@ -7,6 +7,7 @@ from mindrun import graph
 
 from mindlang import model
 from mindlang.diagnostic import Findings
+from mindlang.format import spaced
 from mindlang.hierarchy import in_order
 from mindlang.resolve.parts import widths
 from mindlang.syntax import Operator
@@ -101,7 +102,7 @@ def _reward(
     reward: model.Reward, events: dict[Any, int], measures: dict[Any, int], places: Mapping[str, tuple[int, int]]
 ) -> graph.Reward:
     return graph.Reward(
-        " ".join(reward.fact.span.text.split()),
+        spaced(reward.fact.span.text),
         _program(reward.amount, places, measures),
         None if reward.on is None else _index(reward.on, events),
         None if reward.each is None else places[reward.each],

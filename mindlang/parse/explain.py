@@ -137,7 +137,7 @@ def _keys() -> frozenset[str]:
 
 
 def _common(mistakes: Sequence[Mistake], code: str, line: Span) -> Diagnostic | None:
-    if len(code) > LONG:
+    if len(code.strip()) > LONG:
         return None
     for mistake in mistakes:
         if found := re.search(mistake.pattern, code):

@@ -8,6 +8,8 @@ from typing import Any
 
 import pytest
 
+from mindlang.comparison import differences
+from mindlang.compile import compile_source
 from mindlang.diagnostic import Findings
 from mindlang.format import formatted
 from mindlang.parse import parse
@@ -110,3 +112,32 @@ def test_cases(title: str, before: str, after: str) -> None:
 
 def test_nothing_is_nothing() -> None:
     assert formatted("") == formatted("\n\n") == formatted(" \r\n") == ""
+
+
+GLUED = """
+tick 1/60s
+master Go
+body Robot is disc
+actuator left_wheel is wheel side left neutral 0.5
+sensor eye is range_finder at 0deg
+skill Go is mlp
+  reads eye
+  drives left_wheel
+task Course in arena
+  lasts 20ticks
+  rewards forward*2 per tick when eye >0.5
+curriculum School is genetic
+  teaches Go on Course for 10generations
+"""
+
+
+def test_blanks_alone_make_no_difference() -> None:
+    """What is glued means what it means with its blanks: in the graph, in a diff, and in a message."""
+    glued, spaced = (compile_source(Source("test.mind", text)) for text in (GLUED, formatted(GLUED)))
+    assert glued.mind, glued.diagnostics
+    assert spaced.mind
+    assert glued.graph == spaced.graph
+    assert not differences(glued.mind, spaced.mind)
+    bad = [f"{blanks}] {'9' * 397}\n" for blanks in ("", "  ")]  # a longer line is no common mistake
+    codes = [compile_source(Source("test.mind", text)).diagnostics[0].code for text in bad]
+    assert codes == ["braces", "braces"]
