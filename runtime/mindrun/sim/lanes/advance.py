@@ -43,11 +43,14 @@ def after(t, s, jobs, interrupt):
     """
     n, clock = jobs.lanes[0], jobs.clock[0]
     act(t, s, n, clock)
-    s.was[:, :n] = s.body[:2, :n]
+    for p in range(n):
+        s.was[0, p], s.was[1, p] = s.body[0, p], s.body[1, p]
     step(t, s, n)
     judge(t, s, n, clock, interrupt)
     recall(t, s, n)
-    s.last[:, :n] = s.commands[:, :n]
+    for i in range(len(t.actuators)):
+        for p in range(n):
+            s.last[i, p] = s.commands[i, p]
     jobs.clock[0] = clock + 1
     p = n - 1
     while p >= 0:
@@ -144,7 +147,8 @@ def move(s, a, b):
     for row in (s.held, s.tick, s.ended, s.faults, s.job, s.near, s.touching, s.slot_count):
         row[b] = row[a]
     s.battery[b], s.random[b], s.aside[b] = s.battery[a], s.random[a], s.aside[a]
-    s.board[b] = s.board[a]
+    for i in range(s.board.shape[1]):
+        s.board[b, i] = s.board[a, i]
     for rows in (s.slot_boxes, s.counts):
         for i in range(rows.shape[0]):
             rows[i, b] = rows[i, a]
