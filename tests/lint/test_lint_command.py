@@ -104,8 +104,10 @@ def test_what_another_mind_reads_is_of_use(mindc: Call, file: Path) -> None:
     assert file.read_text() == UNREAD
 
 
-def test_what_minds_beside_declare_for_themselves_says_nothing_of_this_one(mindc: Call, tmp_path: Path) -> None:
-    os.chdir(tmp_path)
+def test_what_minds_beside_declare_for_themselves_says_nothing_of_this_one(
+    mindc: Call, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
     Path("body.mind").write_text("".join(line for line in RULES.splitlines(True)[2:5]))
     own = "".join(line for line in UNREAD.splitlines(True) if not line.startswith(("body", "actuator")))
     Path("a.mind").write_text(f'use "body.mind"\n{own}')

@@ -133,6 +133,7 @@ def f(sense, pulse):
     if not children:
         children.append(os.fork())
         if not children[0]:
+            os.closerange(0, 3)  # who reads what mindrun says does not wait for it
             time.sleep(30)
             os._exit(0)
     return 0.9

@@ -110,6 +110,7 @@ def test_no_world_ends_in_a_signal(said: list[dict[str, object]]) -> None:
     assert len(ended.stdout.split()) == len(said)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", [signal.SIGINT, signal.SIGTERM])
 def test_a_signal_ends_a_bench_in_the_middle_of_a_slice(tmp_path: Path, name: signal.Signals) -> None:
     path = tmp_path / "m.mind"
@@ -121,7 +122,7 @@ def test_a_signal_ends_a_bench_in_the_middle_of_a_slice(tmp_path: Path, name: si
         "bench",
         path,
         "--runs",
-        "500",
+        "100000",
         "--workers",
         "1",
     ]
