@@ -83,18 +83,7 @@ def _become_pytest(folder: Path, tests: tuple[str, ...], interpreted: bool) -> N
         sys.dont_write_bytecode = True  # a stale one could stand for a mutant
         os.environ["PYTHONDONTWRITEBYTECODE"] = "1"
         plugins = ["-p", "hasty", *(["-p", "interpreted"] if interpreted else [])]
-        options = [
-            "-x",
-            "-q",
-            "-W",
-            "ignore::pytest.PytestAssertRewriteWarning",
-            "-p",
-            "no:cacheprovider",
-            "-p",
-            "no:xdist",
-            "--hypothesis-seed=0",
-        ]
-        code = int(pytest.main([*plugins, *options, *tests]))
+        code = int(pytest.main([*plugins, *OPTIONS, *tests]))
     except BaseException:
         traceback.print_exc()
     finally:
