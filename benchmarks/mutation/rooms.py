@@ -50,7 +50,10 @@ ROOMS = {
     ),
     "lock": Room(
         ("mindlang/lock/*.py",),
-        tuple(f"tests/lock/test_{name}.py" for name in ("signature", "lock", "worlds", "trained", "status_command")),
+        tuple(
+            f"tests/lock/test_{name}.py"
+            for name in ("signature", "lock", "worlds", "trained", "garbage", "status_command")
+        ),
     ),
     "bundle": Room(
         (f"{R}bundle.py", f"{R}encoding.py", f"{R}sound.py", f"{R}weights.py"),
@@ -61,5 +64,8 @@ ROOMS = {
         (f"{R}robot/guardian/*.py",),
         tuple(f"tests/robot/guardian/test_{name}.py" for name in ("frames", "guard", "plan", "process")),
     ),
-    "proofs": Room(("mindlang/proofs/*.py",), tuple(f"tests/proofs/test_{name}.py" for name in ("paths", "bounds"))),
+    "proofs": Room(
+        ("mindlang/proofs/*.py",),
+        tuple(f"tests/proofs/test_{name}.py" for name in ("paths", "bounds", "prove_command")),
+    ),
 }

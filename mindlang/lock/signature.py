@@ -38,7 +38,7 @@ def differences(old: Signature, new: Signature, derived: bool) -> tuple[str, ...
 def reordered(entry: Entry, graph: Graph) -> tuple[str, ...]:
     """The sensors that a skill reads whose readings stand in another order than in the world it was last taught in."""
     kinds = {sensor.name: sensor.kind for sensor in graph.sensors}
-    read = [name for name, _, width in (text.partition(":") for text in entry.signature.reads) if width]
+    read = [text.partition(":")[0] for text in entry.signature.reads]
     facts = entry.worlds[-1].facts if entry.worlds else {}
     return tuple(
         f"the readings of {name} stand in another order"

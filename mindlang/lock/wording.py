@@ -10,7 +10,7 @@ from mindrun.registry import arguments, kinds
 PRECEDENCE = {"+": 1, "-": 1, "*": 2, "/": 2}
 TIGHTEST = 4
 
-Leaf = Callable[[str, float | int], str]
+Leaf = Callable[[str, float], str]
 
 
 def infix(program: Program, leaf: Leaf) -> str:

@@ -158,6 +158,15 @@ def test_weights_that_another_lock_names_stay(tmp_path: Path) -> None:
     assert trained_weights(graph, read_lock(tmp_path / "a.lock"), ["Go"])[0]["Go"].tobytes() == old.tobytes()
 
 
+def test_weights_that_cannot_be_written_are_told_by_name(tmp_path: Path) -> None:
+    weights = {skill.name: np.ones(genes(skill), np.float32) for skill in example().skills if genes(skill)}
+    (tmp_path / FOLDER).write_text("in the way")
+    learnt = {name: weights[name] for name in ("Go", "Top")}
+    with pytest.raises(LockError, match="the weights of Go and Top cannot be written: "):
+        record(tmp_path / "a.lock", example(), learnt, TAUGHT, {})
+    assert not (tmp_path / "a.lock").exists()
+
+
 def test_a_damaged_lock_is_not_overwritten(tmp_path: Path) -> None:
     path = tmp_path / "a.lock"
     path.write_text("damaged")

@@ -335,6 +335,15 @@ def test_a_claw_of_another_reach_is_noticed_by_a_skill_that_has_none() -> None:
     assert state.changes == ("taught with a claw's reach of 1.5, now 3",)
 
 
+@pytest.mark.parametrize("of", ["unread", "slope"])
+def test_what_a_derivative_is_of_is_known_through_any_number_of_them(of: str) -> None:
+    text = MIND.replace("derivative of ball_bearing", f"derivative of {of}")
+    text += "\nsensor slope is derivative of bend\nsensor bend is derivative of unread\n"
+    state = status(compiled(text.replace("start 0.9", "start 0.5")), taught(compiled(text)))["Top"]
+    assert isinstance(state, Trained)
+    assert state.changes == ("taught with unread start 0.9, now 0.5",)
+
+
 def test_readings_in_another_order_are_other_readings() -> None:
     """The weights of an angle would get what another angle sees."""
     states = status(compiled(MIND.replace("0 30 330 deg", "30 0 330 deg")), LOCK)

@@ -3,11 +3,8 @@
 import json
 from pathlib import Path
 
-import numpy as np
 import pytest
-from mindrun.weights import genes
 
-from mindlang.compile import load
 from mindlang.lock import lock_path, read_lock
 from mindlang.lock.blobs import blob
 from tests.calling import Call
@@ -93,81 +90,3 @@ def test_train_is_like_make(mindc: Call, drive: Path) -> None:
     assert [json.loads(line)["skill"] for line in taught.out.splitlines()] == ["Go", "Drive"]
     assert "nothing to do" in mindc("train", drive, *small).err
     assert "taught elsewhere" not in mindc("status", drive).out
-
-
-def test_what_a_person_accepts_is_not_taught_again(mindc: Call, drive: Path) -> None:
-    teach(drive)
-    drive.write_text(drive.read_text().replace("thrust 80", "thrust 70"))
-    old = weights(drive)
-    rows = json.loads(mindc("status", drive, "--json").out)["skills"]
-    assert {row["skill"]: row["status"] for row in rows} == {"Drive": "taught elsewhere", "Go": "taught elsewhere"}
-    said = mindc("status", drive, "--accept", "Go", "Drive")
-    assert said.code == 0, said.err
-    assert "accepted by a person" in said.out
-    assert "nothing to do" in mindc("train", drive).err
-    assert weights(drive) == old
-    drive.write_text(drive.read_text().replace("thrust 70", "thrust 60"))
-    assert "taught with left_wheel thrust 70, now 60" in mindc("status", drive).out
-
-
-def test_what_cannot_be_accepted(mindc: Call, drive: Path) -> None:
-    said = mindc("status", drive, "--accept", "Gone")
-    assert (said.code, said.err.splitlines()) == (2, ["There is no skill Gone.", "  Did you mean Go?"])
-    said = mindc("status", drive, "--accept", "Go")
-    assert (said.code, said.err.splitlines()) == (1, ["Go has no weights that fit, and none can be accepted."])
-    said = mindc("status", drive, "--accept")
-    assert said.code == 2
-    assert said.err.startswith("--accept needs the skills whose weights will do.")
-
-
-def test_status_shows_the_skills_that_are_named(mindc: Call, drive: Path) -> None:
-    rows = json.loads(mindc("status", drive, "Go", "--json").out)["skills"]
-    assert [row["skill"] for row in rows] == ["Go"]
-    assert mindc("status", drive, "Gone").code == 2
-
-
-def test_an_old_lock_says_that_it_does_not_know(mindc: Call, drive: Path) -> None:
-    teach(drive)
-    text = lock_path(drive).read_text()
-    lines = [line.partition(" | taught in ")[0] for line in text.partition("\n\n")[0].splitlines()]
-    lock_path(drive).write_text("\n".join([lines[0].replace("lock 2", "lock 1"), *lines[1:], ""]))
-    said = mindc("status", drive)
-    assert said.code == 0
-    assert said.out.count("taught in a world that the lock does not know") == 2
-    assert "nothing to do" in mindc("train", drive).err, "what nobody knows is no reason"
-    assert mindc("status", drive, "--accept", "Go", "Drive").code == 0
-    assert "does not know" not in mindc("status", drive).out
-
-
-def test_gc_removes_what_no_lock_names(mindc: Call, drive: Path) -> None:
-    teach(drive)
-    old = weights(drive)
-    teach(drive, seed=2)
-    graph = load(drive).graph
-    assert graph
-    assert any(genes(skill) for skill in graph.skills)
-    stray = drive.parent / "weights" / "notes.npy"
-    np.save(stray, np.zeros(3))
-    (drive.parent / "poetry.lock").write_text("no lock of ours")
-    listed = mindc("gc", drive.parent, "--json")
-    found = json.loads(listed.out)
-    assert str(blob(drive.parent, old)) in found["files"]
-    assert (len(found["files"]), found["removed"]) == (2, False)
-    assert blob(drive.parent, old).exists()
-    assert mindc("gc", drive.parent, "--write").code == 0
-    assert not blob(drive.parent, old).exists()
-    assert blob(drive.parent, weights(drive)).exists()
-    assert stray.exists()
-    assert mindc("gc", drive.parent).err.startswith("nothing to remove")
-
-
-def test_gc_removes_nothing_where_a_lock_is_damaged_or_missing(mindc: Call, drive: Path) -> None:
-    teach(drive)
-    kept = blob(drive.parent, weights(drive))
-    lock_path(drive).write_text("?")
-    said = mindc("gc", drive.parent, "--write")
-    assert (said.code, kept.exists()) == (1, True)
-    assert "drive.lock is damaged" in said.err
-    lock_path(drive).unlink()
-    assert mindc("gc", drive.parent, "--write").code == 0
-    assert kept.exists()

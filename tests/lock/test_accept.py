@@ -1,0 +1,65 @@
+"""`mindc status --accept`: a person says that weights will do in another world."""
+
+import json
+from pathlib import Path
+
+import pytest
+
+from mindlang.lock import lock_path, read_lock
+from tests.calling import Call
+from tests.edits.taught import teach, write_mind
+from tests.train.test_train_command import MIND
+
+
+@pytest.fixture
+def drive(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    monkeypatch.chdir(tmp_path)
+    return write_mind(tmp_path, MIND)
+
+
+def weights(path: Path, skill: str = "Go") -> str:
+    return read_lock(lock_path(path))[skill].weights
+
+
+def test_what_a_person_accepts_is_not_taught_again(mindc: Call, drive: Path) -> None:
+    teach(drive)
+    drive.write_text(drive.read_text().replace("thrust 80", "thrust 70"))
+    old = weights(drive)
+    rows = json.loads(mindc("status", drive, "--json").out)["skills"]
+    assert {row["skill"]: row["status"] for row in rows} == {"Drive": "taught elsewhere", "Go": "taught elsewhere"}
+    said = mindc("status", drive, "--accept", "Go", "Drive")
+    assert said.code == 0, said.err
+    assert "accepted by a person" in said.out
+    assert "nothing to do" in mindc("train", drive).err
+    assert weights(drive) == old
+    drive.write_text(drive.read_text().replace("thrust 70", "thrust 60"))
+    assert "taught with left_wheel thrust 70, now 60" in mindc("status", drive).out
+
+
+def test_what_cannot_be_accepted(mindc: Call, drive: Path) -> None:
+    said = mindc("status", drive, "--accept", "Gone")
+    assert (said.code, said.err.splitlines()) == (2, ["There is no skill Gone.", "  Did you mean Go?"])
+    said = mindc("status", drive, "--accept", "Go")
+    assert (said.code, said.err.splitlines()) == (1, ["Go has no weights that fit, and none can be accepted."])
+    said = mindc("status", drive, "--accept")
+    assert said.code == 2
+    assert said.err.startswith("--accept needs the skills whose weights will do.")
+
+
+def test_status_shows_the_skills_that_are_named(mindc: Call, drive: Path) -> None:
+    rows = json.loads(mindc("status", drive, "Go", "--json").out)["skills"]
+    assert [row["skill"] for row in rows] == ["Go"]
+    assert mindc("status", drive, "Gone").code == 2
+
+
+def test_an_old_lock_says_that_it_does_not_know(mindc: Call, drive: Path) -> None:
+    teach(drive)
+    text = lock_path(drive).read_text()
+    lines = [line.partition(" | taught in ")[0] for line in text.partition("\n\n")[0].splitlines()]
+    lock_path(drive).write_text("\n".join([lines[0].replace("lock 2", "lock 1"), *lines[1:], ""]))
+    said = mindc("status", drive)
+    assert said.code == 0
+    assert said.out.count("taught in a world that the lock does not know") == 2
+    assert "nothing to do" in mindc("train", drive).err, "what nobody knows is no reason"
+    assert mindc("status", drive, "--accept", "Go", "Drive").code == 0
+    assert "does not know" not in mindc("status", drive).out
