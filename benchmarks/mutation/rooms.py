@@ -18,6 +18,8 @@ class Room:
 
 R = "runtime/mindrun/"
 QUICK_TASKS = (
+    "test_carrying_and_delivering",
+    "test_a_schedule_shrinks_with_every_success",
     "test_the_change_of_thrust",
     "test_conditions_and_loops_in_rewards",
     "test_a_delay_shifts_the_commands",
@@ -34,7 +36,10 @@ ROOMS = {
         (
             "tests/sim/test_lanes.py",
             *(f"tests/sim/test_tasks.py::{name}" for name in QUICK_TASKS),
+            "tests/sim/test_order.py",
+            "tests/sim/test_full_worlds.py",
             "tests/sim/test_random_worlds.py",
+            "tests/sim/test_outcomes.py",
         ),
         but=(f"{R}sim/lanes/vector.py", f"{R}sim/lanes/arithmetic.py", f"{R}sim/lanes/stages.py"),
         interpreted=True,

@@ -122,6 +122,11 @@ class PlainWorld:
         ahead, aside = c * dx + s * dy - self.radius, c * dy - s * dx
         return ahead >= 0 and ahead**2 + aside**2 <= (reach + self.places[i][2] / 2) ** 2
 
+    def away(self, place):
+        """How far the robot is from a place."""
+        dx, dy = place[0] - self.x, place[1] - self.y
+        return math.sqrt(dx * dx + dy * dy)  # a square by ** may differ in the last bit
+
     def inside(self, i, x, y):
         """Whether a point is in the square of a thing."""
         return max(abs(self.places[i][0] - x), abs(self.places[i][1] - y)) <= self.places[i][2] / 2
@@ -159,7 +164,7 @@ class PlainWorld:
     def step(self):
         """One tick of physics, the battery, and what is carried."""
         self.was = self.x, self.y
-        self.far = [math.sqrt((p[0] - self.x) ** 2 + (p[1] - self.y) ** 2) for p in self.places]
+        self.far = [self.away(place) for place in self.places]
         self.trail.append(self.was)
         state = self.body.step(self.commands, cosine(self.angle), sine(self.angle), self.held, self.places)
         self.x, self.y, self.angle = state[:3]
@@ -215,8 +220,7 @@ class PlainWorld:
     def measured(self):
         """The task's measures."""
         names = [thing.name for thing in self.things]
-        closed = [far - math.sqrt((p[0] - self.x) ** 2 + (p[1] - self.y) ** 2)
-                  for far, p in zip(self.far, self.places, strict=True)]  # fmt: skip
+        closed = [far - self.away(place) for far, place in zip(self.far, self.places, strict=True)]
         closed = [0.0 if math.isnan(way) else way for way in closed]  # of what has vanished
         found = []
         for i, measure in enumerate(self.task.measures):

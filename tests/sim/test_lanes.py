@@ -23,7 +23,7 @@ from mindrun.world import Arena, Item, Obstacle, Plain, Power, Zone
 
 from tests.hierarchies import doubling
 from tests.minds import CLAW, always, mind, rule
-from tests.sim.test_random_worlds import follow
+from tests.sim.following import follow
 
 NOBODY = np.zeros((1, 0), np.float32)
 
