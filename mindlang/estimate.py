@@ -1,4 +1,4 @@
-"""How much memory something will take, held against what there is before it begins."""
+"""How much memory and time something will take, held against what there is before it begins."""
 
 from __future__ import annotations
 
@@ -16,6 +16,8 @@ if TYPE_CHECKING:
 
 RUN, ENTRY = 512, 64  # bytes that a run takes, and each of its rewards and events
 LANE, COPIES = 2048, 6
+FASTEST = 20_000_000  # agent-ticks in a second and worker, which no lesson reaches
+YEAR = 366 * 24 * 3600  # seconds; nobody waits for longer
 LIMITS = "/sys/fs/cgroup/memory.max", "/sys/fs/cgroup/memory/memory.limit_in_bytes"  # of a container
 
 
@@ -38,6 +40,14 @@ def refuse_too_large(rollout: Rollout, genomes: int, layouts: int) -> None:
     if there is not None and needed > there:
         message = f"{rollout.task.name} takes about {_said(needed)} of memory, and there are {_said(there)}"
         raise MindError(message, f"Most of it is for {_largest(rollout.sizes)}.")
+
+
+def refuse_too_long(rollout: Rollout, runs: int) -> None:
+    """MindError where so many runs of a task could take more than a year, however fast the machine is."""
+    years = runs * rollout.task.ticks // (FASTEST * rollout.workers) // YEAR
+    if years:
+        message = f"{runs:,} runs of {rollout.task.name} take up to {years:,} year{'s' * (years > 1)} and more"
+        raise MindError(message, f"A run lasts up to {rollout.task.ticks:,} ticks.")
 
 
 def bytes_of(rollout: Rollout, genomes: int, layouts: int) -> int:

@@ -17,7 +17,7 @@ from mindrun.train.run_folder import Run, keep_result, open_run, read_result
 from mindrun.train.training import Watch, train
 from mindrun.weights import learners
 
-from mindlang.estimate import refuse_too_large
+from mindlang.estimate import refuse_too_large, refuse_too_long
 from mindlang.lock import LockError
 from mindlang.school.book import Book, begin, open_book, refuse_changed
 from mindlang.school.interruption import Interruption
@@ -118,7 +118,9 @@ class School:
             procedures=book.folder,
             workers=self.workers or cores(),
         )
-        refuse_too_large(rollout, lesson.learner.population, lesson.learner.layouts)
+        learner = lesson.learner
+        refuse_too_large(rollout, learner.population, learner.layouts)
+        refuse_too_long(rollout, learner.population * learner.layouts * lesson.generations)
         make_ready(rollout, self._say)  # before the clock of the lesson starts
         return rollout
 

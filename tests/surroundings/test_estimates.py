@@ -76,6 +76,16 @@ def test_a_lesson_that_fits_no_memory_is_refused(
     assert what in ended.err
 
 
+def test_what_would_take_years_is_refused(mindc: Call, tmp_path: Path) -> None:
+    graph_of(tmp_path)
+    path, runs = tmp_path / "m.mind", tmp_path / "runs"
+    path.write_text(path.read_text().replace("lasts 60 s", "lasts 10000000 ticks"))
+    ended = mindc("train", path, "--runs", runs, "--seed", 1, "--generations", 10_000_000, "--population", 10_000)
+    assert ended.code == 1
+    assert "years and more" in ended.err
+    assert "A run lasts up to 10,000,000 ticks." in ended.err
+
+
 @pytest.mark.parametrize(
     ("line", "code"),
     [
