@@ -52,7 +52,7 @@ def deploy(
     robot: Robot, path: Path, bundle: Bundle, settings: Settings, now: datetime, tell: Tell, try_only: bool = False
 ) -> Outcome:
     """Bring a bundle to a robot; with `try_only` say only what would be done."""
-    with tempfile.TemporaryDirectory(prefix="mind-release-") as folder, _alone(robot, settings, try_only):
+    with tempfile.TemporaryDirectory(prefix="mind-release-") as folder, _alone(robot, settings, tell, try_only):
         release = make_release(path, bundle, Path(folder))
         state = _looked(robot, tell)
         if state.has(release.fingerprint):
@@ -68,15 +68,17 @@ def deploy(
 
 def roll_back(robot: Robot, settings: Settings, tell: Tell, try_only: bool = False) -> Outcome:
     """Go back to the release before the current one, which is then left for good."""
-    with _alone(robot, settings, try_only):
+    with _alone(robot, settings, tell, try_only):
         state = _looked(robot, tell)
         return _switch(robot, state, state.before(), settings, tell, try_only, left=state.current)
 
 
-def _alone(robot: Robot, settings: Settings, try_only: bool) -> AbstractContextManager[None]:
+def _alone(robot: Robot, settings: Settings, tell: Tell, try_only: bool) -> AbstractContextManager[None]:
     """A robot that can do it, and no other deployment to it meanwhile; who changes nothing there need not wait."""
     check_able(look(robot), settings.service)
-    return nullcontext() if try_only else robot.held()
+    if try_only:
+        return nullcontext()
+    return robot.held(lambda: tell("another deployment to this robot is under way: waiting for up to a minute"))
 
 
 def _looked(robot: Robot, tell: Tell) -> State:

@@ -7,7 +7,7 @@ import shlex
 import shutil
 import subprocess
 import tempfile
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from importlib.resources import files
@@ -22,6 +22,7 @@ SCRIPTS = ("robot.sh", "switch.sh")
 BEAT = 5.0  # seconds; after thirty without one the robot is free again
 Told = tuple[str, str]  # an event, and its detail
 HELD: Told = ("held", "")
+WAITING: Told = ("waiting", "")
 
 
 @dataclass(frozen=True, slots=True)
@@ -44,14 +45,18 @@ class Robot:
         return told
 
     @contextmanager
-    def held(self) -> Iterator[None]:
-        """The robot for this deployment alone: another one waits, and is refused after a minute."""
+    def held(self, waits: Callable[[], None]) -> Iterator[None]:
+        """The robot for this deployment alone: another one `waits`, and is refused after a minute."""
         with subprocess.Popen(self._shell, bufsize=0, stdin=subprocess.PIPE, stdout=subprocess.PIPE) as process:
             assert process.stdin is not None
             assert process.stdout is not None
             with suppress(BrokenPipeError):  # it has ended, and its exit code says why
                 process.stdin.write(script("hold", ()))
-            told = list(_until_held(process.stdout))
+            told = []
+            for event in _until_held(process.stdout):
+                told.append(event)
+                if event == WAITING:
+                    waits()
             if told[-1:] != [HELD]:
                 raise _refusal(self.host, process.wait(), told)
             ended = Event()

@@ -18,7 +18,10 @@ main() {
     if [ "$verb" != look ]; then
         mkdir -p "$mind/releases" "$mind/incoming"
         case $verb in
-        hold) exec 9>"$mind/deploying" ;; # from the first step to the last
+        hold) # from the first step to the last
+            exec 9>"$mind/deploying"
+            flock -n 9 || tell waiting ''
+            ;;
         *) exec 9>"$mind/lock" ;;         # what has begun and goes on without its workstation
         esac
         flock -w "$patience" 9 || refuse 'another deployment is under way'

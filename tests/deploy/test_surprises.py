@@ -92,6 +92,7 @@ def test_who_waits_too_long_is_refused_in_words(
     finally:
         holder.communicate()
     assert said.code == 1
+    assert "waiting for up to a minute" in said.out + said.err
     assert "another deployment is under way" in said.err
     assert "Nothing has changed there" in said.err
     assert robot.releases() == [old]
