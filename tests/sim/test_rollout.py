@@ -47,13 +47,13 @@ def test_lanes_workers_and_order_change_nothing(collect: Graph, task: str, learn
     def rollout(**options: int) -> Rollout:
         return Rollout(collect, weights, task, master, [learner], **options)
 
-    genomes = rng.normal(0.2, 1.0, (13, rollout().genome_length)).astype(np.float32)
-    seeds = [3, 4, 5]
+    genomes = rng.normal(0.2, 1.0, (7, rollout().genome_length)).astype(np.float32)
+    seeds = [3, 4]
     first = rollout(lanes=64).score(genomes, seeds)
-    assert len(np.unique(first.total)) > 5
+    assert len(np.unique(first.total)) > 3
     assert same(first, rollout(lanes=1).score(genomes, seeds))
     assert same(first, rollout(lanes=7, workers=2).score(genomes, seeds))
-    order = rng.permutation(13)
+    order = rng.permutation(7)
     again = rollout(lanes=16, workers=2).score(genomes[order], seeds)
     assert np.array_equal(first.total[order], again.total)
     assert np.array_equal(first.by_line[order], again.by_line)
