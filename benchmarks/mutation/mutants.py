@@ -137,7 +137,7 @@ def _changes(node: ast.AST) -> Iterator[ast.AST]:
             yield _with(node, test=ast.UnaryOp(ast.Not(), test))
         case ast.For():
             yield _with(node, iter=ast.Tuple([], ast.Load()))
-        case ast.Return(value=ast.expr()):
+        case ast.Return(value=ast.expr() as value) if not (isinstance(value, ast.Constant) and value.value is None):
             yield ast.Return(None)
         case ast.Expr() | ast.AugAssign() | ast.Continue() | ast.Break():
             yield ast.Pass()

@@ -62,12 +62,15 @@ ROOMS = {
     ),
     "bundle": Room(
         (f"{R}bundle.py", f"{R}encoding.py", f"{R}sound.py", f"{R}weights.py"),
-        tuple(f"tests/engine/test_{name}.py" for name in ("sound", "npy", "influence", "bundle", "resealed_bundle")),
+        tuple(
+            f"tests/engine/test_{name}.py"
+            for name in ("sound", "npy", "older", "resealed_bundle", "weights", "bundle", "encoding", "influence")
+        ),
     ),
     "recording": Room((f"{R}robot/recording.py", f"{R}robot/replay.py"), ("tests/robot/test_recording.py",)),
     "guardian": Room(
         (f"{R}robot/guardian/*.py",),
-        tuple(f"tests/robot/guardian/test_{name}.py" for name in ("frames", "guard", "plan", "process")),
+        tuple(f"tests/robot/guardian/test_{name}.py" for name in ("frames", "guard", "plan", "output", "process")),
     ),
     "proofs": Room(
         ("mindlang/proofs/*.py",),

@@ -2,7 +2,7 @@
 
 from math import ceil, floor, isfinite
 
-from mindrun.quantity import Quantity, Span
+from mindrun.quantity import LEAST_STEP, Quantity, Span
 
 from mindlang.diagnostic import Findings, listed
 from mindlang.syntax import Amount, Numbers, Range, Value
@@ -102,7 +102,7 @@ def span(value: Value, quantity: Quantity, findings: Findings) -> Span | None:
         return None if number is None else Span(number, number)
     unit = value.last.unit
     first, last = (convert(amount, quantity, findings, unit) for amount in (value.first, value.last))
-    step = Quantity(f"the step of a schedule, {quantity.name}", quantity.units, low=1e-9, high=quantity.high)
+    step = Quantity(f"the step of a schedule, {quantity.name}", quantity.units, low=LEAST_STEP, high=quantity.high)
     by = convert(value.by, step, findings, unit) if value.by else None
     if first is None or last is None or (value.by and by is None):
         return None

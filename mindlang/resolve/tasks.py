@@ -6,7 +6,7 @@ from typing import Any, TypeVar
 
 from mindrun.events import Delivery, Exhaustion, Visit
 from mindrun.quantity import SECONDS, TICKS
-from mindrun.world import Arena, Obstacle, Plain, Zone, grid_lines
+from mindrun.world import MOST_OBSTACLES, MOST_THINGS, Arena, Obstacle, Plain, Zone, obstacle_count
 
 from mindlang import model, syntax
 from mindlang.diagnostic import Findings, Label
@@ -19,7 +19,6 @@ from mindlang.syntax import Contains, Counts, Declaration, Ends, Fact, Lasts, Ph
 
 LONGEST = 10_000_000  # ticks of a run
 LASTS = replace(TICKS, low=1.0, high=LONGEST)
-MOST_OBSTACLES, MOST_THINGS = 2500, 100  # in one world
 
 F = TypeVar("F", bound=Fact)
 
@@ -96,12 +95,7 @@ def _check_things(things: tuple[model.Part[Any], ...], findings: Findings) -> No
 
 def _obstacles(kind: Any, scene: Any) -> int:
     """How many obstacles a line makes; as if there were few where an error says otherwise."""
-    match kind, scene:
-        case Obstacle(grid=grid), Arena(size=size) if grid:
-            return min(grid_lines(size, grid) ** 2, MOST_OBSTACLES)
-        case Obstacle(count=count), _:
-            return count
-    return 0
+    return min(obstacle_count(kind, scene), MOST_OBSTACLES) if isinstance(kind, Obstacle) else 0
 
 
 def _check_obstacles(kind: Any, scene: Any, before: int, phrase: Phrase, findings: Findings) -> None:
@@ -110,8 +104,8 @@ def _check_obstacles(kind: Any, scene: Any, before: int, phrase: Phrase, finding
         case Obstacle(grid=grid), Plain() if grid:
             hint = "Write in arena size 100, or count 10 instead of the grid."
             findings.error("endless-grid", phrase.span, "In a plain scene a grid of obstacles would never end.", hint)
-        case Obstacle(grid=grid), Arena(size=size) if grid and grid_lines(size, grid) ** 2 > MOST_OBSTACLES:
-            message = f"That is a grid of {grid_lines(size, grid) ** 2} obstacles."
+        case Obstacle(), Arena() if (made := obstacle_count(kind, scene)) > MOST_OBSTACLES:
+            message = f"That is a grid of {made} obstacles."
             findings.error("too-many-obstacles", phrase.span, message, f"A world takes {MOST_OBSTACLES}: space it out.")
         case Obstacle(), _ if before <= MOST_OBSTACLES < before + _obstacles(kind, scene):
             message = f"With those above, that makes {before + _obstacles(kind, scene)} obstacles."

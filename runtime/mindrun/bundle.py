@@ -18,7 +18,7 @@ from mindrun.graph import Graph
 from mindrun.npy import to_npy
 from mindrun.older import brought_along
 from mindrun.plain_data import parsed
-from mindrun.regular import read_regular
+from mindrun.regular import read_whole
 from mindrun.robot.wiring import Wiring
 from mindrun.weights import Weights, genes, read_weights, weights_of
 
@@ -68,7 +68,7 @@ def write_bundle(
 def read_bundle(path: Path) -> Bundle:
     """Read a mind from a file; BundleError unless it is byte for byte what was written."""
     try:
-        data = read_regular(path, LARGEST + 1)
+        data = read_whole(path, LARGEST)
     except OSError as error:
         raise BundleError(f"cannot read {path}: {error.strerror}") from error
     try:
@@ -179,4 +179,4 @@ def _foreign(manifest: object) -> str:
 
 
 def _json(value: Any) -> bytes:
-    return json.dumps(value, ensure_ascii=False, allow_nan=False, sort_keys=True, separators=(",", ":")).encode()
+    return json.dumps(value, ensure_ascii=False, sort_keys=True, separators=(",", ":")).encode()

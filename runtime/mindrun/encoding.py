@@ -18,6 +18,7 @@ from mindrun.sound import flaw
 T = TypeVar("T")
 _known_hints: dict[type[Any], dict[str, Any]] = {}  # of each class that was decoded
 
+PLAIN = (bool, int, float, str)
 LARGEST = 2**53 - 1  # of a whole number: what any reader of JSON takes
 
 DRIVERS: Mapping[Any, str] = {SensorDriver: "sensor driver", ActuatorDriver: "actuator driver"}  # nouns of the registry
@@ -70,9 +71,7 @@ def _decode(hint: Any, data: Any, where: str) -> Any:
         return _decode_tuple(parts, data, where)
     if hint in DRIVERS:
         return _decode_driver(DRIVERS[hint], data, where)
-    if isinstance(hint, type) and is_dataclass(hint):
-        return _decode_fields(hint, data, where)
-    return _decode_plain(hint, data, where)
+    return (_decode_plain if hint in PLAIN else _decode_fields)(hint, data, where)
 
 
 def _decode_plain(hint: Any, data: Any, where: str) -> Any:
@@ -114,7 +113,7 @@ def _decode_driver(noun: str, data: Any, where: str) -> Any:
 def _decode_tuple(hints: tuple[Any, ...], data: Any, where: str) -> tuple[Any, ...]:
     if not isinstance(data, list):
         raise BundleError(f"this is damaged: {where} is not a list")
-    if hints[-1] is Ellipsis:
+    if Ellipsis in hints:
         hints = hints[:1] * len(data)
     if len(hints) != len(data):
         raise BundleError(f"this is damaged: {where} has {len(data)} entries")

@@ -33,6 +33,10 @@ class Span:
     by: float | None = None
 
 
+UNSAID = Span(-1.0, -1.0)  # in place of lengths that nobody has given
+LEAST_STEP = 1e-9  # of a schedule
+
+
 def fits(meaning: Quantity | Reference, value: object) -> bool:
     """Whether a stored value is what its argument may be: `neutral` is a share, a wheel's side left or right."""
     match meaning, value:
@@ -40,6 +44,9 @@ def fits(meaning: Quantity | Reference, value: object) -> bool:
             return low <= value <= high
         case Reference(words=words), str():
             return not words or value in words
+        case Quantity(low=low, high=high), Span(first, last, by) if value != UNSAID:
+            is_one = first <= last if by is None else LEAST_STEP <= by <= high
+            return is_one and low <= min(first, last) and max(first, last) <= high
         case _, tuple():
             return all(fits(meaning, each) for each in value)
     return True

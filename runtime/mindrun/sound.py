@@ -3,12 +3,14 @@
 import re
 from collections.abc import Container, Iterator
 
+from mindrun.events import Visit
 from mindrun.expression import OPERATORS, is_sound, leaves
 from mindrun.functions import Rule
 from mindrun.graph import Graph, Lesson, Program, Skill, Task
-from mindrun.quantity import THING
+from mindrun.quantity import THING, UNSAID
 from mindrun.registry import arguments
 from mindrun.sensors import Derivative, RangeFinder
+from mindrun.world import MOST_OBSTACLES, MOST_THINGS, Obstacle, Plain, obstacle_count
 
 NAME = re.compile(r"[^\W\d_]\w*([+.]\w+)*")
 SHORTEST, LONGEST = 1e-9, 1e9  # seconds of a tick
@@ -80,18 +82,19 @@ def _sense_flaws(graph: Graph) -> Iterator[str]:
 
 
 def depths(graph: Graph) -> dict[str, int]:
-    """How many derivatives stand between a sensor and what is measured; without those whose chain never ends."""
+    """How many derivatives stand between a sensor or memory and what is measured; without those that never end."""
     sources = {sensor.name: sensor.kind.of for sensor in graph.sensors if isinstance(sensor.kind, Derivative)}
-    known: dict[str, int] = {}
-    for name in sources:
-        chain: dict[str, None] = {}
-        while name in sources and name not in known and name not in chain:
-            chain[name] = None
-            name = sources[name]
-        if name not in chain:
-            for depth, each in enumerate(reversed(chain), known.get(name, 0) + 1):
-                known[each] = depth
-    return {sensor.name: 0 for sensor in graph.sensors if sensor.name not in sources} | known
+    derived: dict[str, list[str]] = {}
+    for name, source in sources.items():
+        derived.setdefault(source, []).append(name)
+    known = {sensor.name: 0 for sensor in graph.sensors if sensor.name not in sources}
+    known |= {source: 0 for source in derived if source not in sources}
+    waiting = list(known)
+    while waiting:
+        name = waiting.pop()
+        known |= dict.fromkeys(derived.get(name, ()), known[name] + 1)
+        waiting += derived.get(name, ())
+    return known
 
 
 def _skill_flaws(graph: Graph, number: int, skill: Skill, width: int) -> Iterator[str]:
@@ -120,10 +123,11 @@ def _task_flaws(task: Task, width: int) -> Iterator[str]:
     things = [thing.name for thing in task.things]
     if len(set(things)) < len(things) or not all(map(NAME.fullmatch, things)):
         yield "contains what has no name of its own"
-    if any(min(thing.kind.size.first, thing.kind.size.last) < 0 for thing in task.things):
-        yield "contains what is smaller than nothing"
-    if not set(_things_named(task)) <= set(things):
+    if any(thing.kind.size == UNSAID for thing in task.things):
+        yield "contains what has no size"
+    if not set(_things_named(task)) <= {thing.name for thing in task.things if not isinstance(thing.kind, Obstacle)}:
         yield "names a thing that is not there"
+    yield from _world_flaws(task)
     events, readings = range(len(task.events)), range(width)
     named = [*task.ends, *task.counts, *(reward.on for reward in task.rewards if reward.on is not None)]
     if not all(event in events for event in named):
@@ -136,6 +140,17 @@ def _task_flaws(task: Task, width: int) -> Iterator[str]:
             yield "has a condition that cannot be computed"
         if reward.each and not (reward.each[0] >= 0 and 0 < reward.each[1] <= width - reward.each[0]):
             yield "rewards readings that are not there"
+
+
+def _world_flaws(task: Task) -> Iterator[str]:
+    """A world has no more than it can look at, and only one with walls has patches."""
+    solid = [thing.kind for thing in task.things if isinstance(thing.kind, Obstacle)]
+    if len(task.things) - len(solid) > MOST_THINGS:
+        yield f"contains more than {MOST_THINGS} things"
+    if sum(obstacle_count(kind, task.scene) for kind in solid) > MOST_OBSTACLES:
+        yield f"contains more than {MOST_OBSTACLES} obstacles"
+    if isinstance(task.scene, Plain) and any(isinstance(event, Visit) for event in task.events):
+        yield "has patches without an arena"
 
 
 def _things_named(task: Task) -> Iterator[str]:

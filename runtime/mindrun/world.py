@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 from typing import Annotated
 
-from mindrun.quantity import LENGTH, Quantity, Reference, Span
+from mindrun.quantity import LENGTH, UNSAID, Quantity, Reference, Span
 from mindrun.registry import kind
 
 DIAMETER = Quantity("a length in world units", {"": 1.0}, low=0.01, high=1000.0)
@@ -39,7 +39,7 @@ class Arena:
 
 
 ONE = Span(1.0, 1.0)
-NEAR = Span(-1.0, -1.0)  # a plain scene: 10 to 40; an arena: at least 10
+NEAR = UNSAID  # a plain scene: 10 to 40; an arena: at least 10
 STAYS, MOVES, VANISHES = OUTCOMES = ("stays", "moves", "vanishes")
 OUTCOME = Reference("outcome", OUTCOMES)
 
@@ -98,10 +98,20 @@ class Obstacle:
     away: Annotated[Span, LENGTH] = NEAR
 
 
-def grid_lines(size: float, spacing: float) -> int:
-    """How many lines of a grid of that spacing cross an arena, none on its walls."""
-    return max(0, round(size / spacing) - 1)
-
-
 Content = Item | Zone | Power | Obstacle
 Scene = Plain | Arena
+
+MOST_OBSTACLES, MOST_THINGS = 2500, 100  # in one world, which looks at all of its things in every tick
+ENDLESS = 1e9  # lines of a grid, far more than can be
+
+
+def grid_lines(obstacle: Obstacle, scene: Scene) -> int:
+    """How many lines of an obstacle's grid cross an arena, none on its walls; there is no grid without walls."""
+    if isinstance(scene, Arena) and obstacle.grid:
+        return max(0, round(min(scene.size / obstacle.grid, ENDLESS)) - 1)
+    return 0
+
+
+def obstacle_count(obstacle: Obstacle, scene: Scene) -> int:
+    """How many squares an obstacle of a scene is."""
+    return grid_lines(obstacle, scene) ** 2 if obstacle.grid else obstacle.count

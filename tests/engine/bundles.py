@@ -4,12 +4,32 @@ from dataclasses import replace
 
 import numpy as np
 from mindrun.bundle import Bundle
+from mindrun.events import Delivery, Reach, Visit
 from mindrun.functions import Mlp, Procedure
+from mindrun.graph import Condition, Lesson, Reward, Task, Thing
+from mindrun.learners import Restarting
+from mindrun.measures import Change, Retreat
+from mindrun.quantity import Span
 from mindrun.robot.drivers.mock import MockActuator, MockSensor
 from mindrun.robot.wiring import ActuatorWire, SensorWire, Wiring
 from mindrun.weights import genes
+from mindrun.world import Arena, Item, Obstacle, Zone
 
 from tests.minds import always, mind, rule, skill
+
+THINGS = (
+    Thing("ball", Item(size=Span(3.0, 1.0, 0.5), reached="moves")),
+    Thing("home", Zone(size=Span(4.0, 8.0))),
+    Thing("rock", Obstacle(count=2)),
+)
+EACH = Reward(
+    "Σ", (("each", 0), ("measure", 1), ("*", 0)), None, (0, 1), Condition((("reading", 0),), "<", (("number", 0.5),))
+)
+TASK = Task(
+    "Carry", Arena(40.0), THINGS, 100, (Retreat("ball"), Change("thrust", 0.5)),
+    (Delivery("ball"), Reach("home"), Visit("patch", 8.0)), (2,), (Reward("1", (("number", 1.0),), 0), EACH), (1,),
+)  # fmt: skip
+LESSON = Lesson("All", "Go+On", "Carry", "Top", 5, False, True, Restarting())
 
 
 def example() -> Bundle:
@@ -18,7 +38,8 @@ def example() -> Bundle:
     go = skill("Go+On", Mlp(1), (0,), ("actuator", 0))
     grip = skill("Grip", Procedure("parts.claw.grip"), (0,), ("actuator", 1))
     weights = {"Go+On": np.arange(genes(go), dtype=np.float32)}
-    return Bundle(mind(top, go, grip), weights, {"parts.claw": "def grip(r): return r"})
+    graph = replace(mind(top, go, grip), tasks=(TASK,), lessons=(LESSON,))
+    return Bundle(graph, weights, {"parts.claw": "def grip(r): return r"})
 
 
 def wired() -> Bundle:

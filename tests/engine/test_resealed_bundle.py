@@ -57,6 +57,10 @@ def actuator(**changes: object) -> Change:
 
 FILES = {
     "a file more": (with_file("more.txt", b"more"), "not those of its manifest"),
+    "weights elsewhere": (with_file("Go+On.npy", to_npy(np.ones(6, np.float32))), "not those of its manifest"),
+    "what is not weights among them": (with_file("weights/Go+On.txt", b""), "not those of its manifest"),
+    "what is no module among them": (with_file("procedures/parts/claw.txt", b""), "not those of its manifest"),
+    "a module elsewhere": (with_file("parts/claw.py", b""), "not those of its manifest"),
     "no graph": (without("graph.json"), "has no graph.json"),
     "no wiring": (without("wiring.json"), "has no wiring.json"),
     "weights of nobody": (with_weights("Nobody"), "no skill of it that learns"),

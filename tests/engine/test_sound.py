@@ -1,25 +1,34 @@
 """What holds a graph together: each promise broken by itself, and named."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import replace
+from math import inf, nextafter
 
 import pytest
-from mindrun.events import Collision
+from mindrun.events import Delivery, Reach, Visit
 from mindrun.expression import is_sound
 from mindrun.functions import Mlp
-from mindrun.graph import Condition, Edge, Graph, Lesson, Memory, Reward, Sensor, Task
+from mindrun.graph import Condition, Edge, Graph, Lesson, Memory, Reward, Sensor, Task, Thing
 from mindrun.learners import Genetic
-from mindrun.measures import Forward
+from mindrun.measures import Advance, Progress, Retreat
 from mindrun.memory import Cell
-from mindrun.sensors import Battery, Derivative, RangeFinder
-from mindrun.sound import flaw
-from mindrun.world import Plain
+from mindrun.quantity import UNSAID, Span
+from mindrun.sensors import Battery, Derivative, RangeFinder, Sine
+from mindrun.sound import depths, flaw
+from mindrun.world import Arena, Content, Item, Obstacle, Plain, Zone
 
 from tests.minds import always, mind, rule, skill
 
 ONE = (("number", 1.0),)
 REWARD = Reward("", (("reading", 0), ("measure", 0), ("+", 0)), 0)
-TASK = Task("Go", Plain(), (), 10, (Forward(),), (Collision(),), (0,), (REWARD,), (0,))
+BALL = Thing("ball", Item())
+ROCKS, CLOSE = Thing("rocks", Obstacle(grid=10.0)), Thing("close", Obstacle(grid=5e-324))
+TASK = Task("Go", Plain(), (BALL,), 10, (Progress("ball"),), (Reach("ball"),), (0,), (REWARD,), (0,))
+
+
+def many(count: int, kind: Content, name: str = "one") -> Iterator[Thing]:
+    """Things of one kind."""
+    return (Thing(f"{name}{number}", kind) for number in range(count))
 
 
 def whole() -> Graph:
@@ -77,6 +86,8 @@ def sends(*edges: Edge) -> Callable[[Graph], Graph]:
 
 FLAWED: list[tuple[Callable[[Graph], Graph], str]] = [
     (lambda g: replace(g, tick=0.0), "its tick cannot be 0 s"),
+    (lambda g: replace(g, tick=nextafter(1e-9, 0)), "its tick cannot be 1e-09 s"),
+    (lambda g: replace(g, tick=nextafter(1e9, inf)), "its tick cannot be 1e+09 s"),
     (lambda g: replace(g, master="Nobody"), "its master 'Nobody' is not one of its skills"),
     (with_skill(1, name="Top"), "there cannot be a part called 'Top' twice"),
     (with_skill(1, name=" "), "there cannot be a part called ' '"),
@@ -95,6 +106,8 @@ FLAWED: list[tuple[Callable[[Graph], Graph], str]] = [
     (with_skill(1, inputs=(0, 6)), "skill Go reads what is not there"),
     (with_skill(1, inputs=(0, -1)), "skill Go reads what is not there"),
     (sends(always("skill", 0, 1.0)), "skill Top sends to what is not there"),
+    (with_skill(1, edges=(Edge("skill", 1, 0),)), "skill Go sends to what is not there"),
+    (with_skill(1, edges=(Edge("skill", 0, 0),)), "skill Go sends to what is not there"),
     (sends(always("skill", 2, 1.0)), "skill Top sends to what is not there"),
     (sends(always("actuator", 2, 1.0)), "skill Top sends to what is not there"),
     (sends(always("actuator", -1, 1.0)), "skill Top sends to what is not there"),
@@ -108,6 +121,25 @@ FLAWED: list[tuple[Callable[[Graph], Graph], str]] = [
     (sends(Edge("actuator", 0, None, (("measure", 0),))), "skill Top has an expression that cannot be computed"),
     (sends(Edge("actuator", 0, None, (("each", 0),))), "skill Top has an expression that cannot be computed"),
     (sends(Edge("actuator", 0, None, (("reading", 0.0),))), "skill Top has an expression that cannot be computed"),
+    (with_task(name="Go there"), "there cannot be a part called 'Go there'"),
+    (with_task(ticks=0), "task Go does not last"),
+    (with_task(ticks=-5), "task Go does not last"),
+    (with_task(things=(BALL, BALL)), "task Go contains what has no name of its own"),
+    (with_task(things=(BALL, Thing("no name", Zone()))), "task Go contains what has no name of its own"),
+    (with_task(things=(Thing("", Item()),)), "task Go contains what has no name of its own"),
+    (with_task(things=(BALL, Thing("home", Zone(size=UNSAID)))), "task Go contains what has no size"),
+    (with_task(things=()), "task Go names a thing that is not there"),
+    (with_task(things=(Thing("ball", Obstacle(count=1)),)), "task Go names a thing that is not there"),
+    (with_task(events=(Reach("no"),)), "task Go names a thing that is not there"),
+    (with_task(events=(Delivery("no"),)), "task Go names a thing that is not there"),
+    (with_task(measures=(Progress("no"),)), "task Go names a thing that is not there"),
+    (with_task(measures=(Advance("no"),)), "task Go names a thing that is not there"),
+    (with_task(measures=(Retreat("no"),)), "task Go names a thing that is not there"),
+    (with_task(things=(BALL, *many(100, Zone()))), "task Go contains more than 100 things"),
+    (with_task(things=(BALL, *many(26, Obstacle(count=100)))), "task Go contains more than 2500 obstacles"),
+    (with_task(things=(BALL, ROCKS), scene=Arena(520.0)), "task Go contains more than 2500 obstacles"),
+    (with_task(things=(BALL, CLOSE), scene=Arena()), "task Go contains more than 2500 obstacles"),
+    (with_task(events=(Visit("patch"),)), "task Go has patches without an arena"),
     (with_task(ends=(1,)), "task Go names an event that is not there"),
     (with_task(counts=(1,)), "task Go names an event that is not there"),
     (with_reward(on=1), "task Go names an event that is not there"),
@@ -121,6 +153,11 @@ FLAWED: list[tuple[Callable[[Graph], Graph], str]] = [
     (with_reward(each=(5, 2)), "task Go rewards readings that are not there"),
     (with_reward(each=(-1, 2)), "task Go rewards readings that are not there"),
     (with_reward(each=(0, 0)), "task Go rewards readings that are not there"),
+    (with_lesson(curriculum="All of it"), "a lesson cannot name 'All of it'"),
+    (with_lesson(skill=""), "a lesson cannot name ''"),
+    (with_lesson(task="1"), "a lesson cannot name '1'"),
+    (with_lesson(master="a b"), "a lesson cannot name 'a b'"),
+    (with_lesson(generations=0), "the lesson of Go has no generation"),
     (with_lesson(skill="Nobody"), "the lesson of Nobody names what is not there"),
     (with_lesson(master="Nobody"), "the lesson of Go names what is not there"),
     (with_lesson(task="Nothing"), "the lesson of Go names what is not there"),
@@ -135,6 +172,15 @@ def test_a_broken_one_is_told(broken: Callable[[Graph], Graph], what: str) -> No
 
 
 FINE: list[Callable[[Graph], Graph]] = [
+    lambda g: replace(g, tick=1e-9),
+    lambda g: replace(g, tick=1e9),
+    with_task(ticks=1),
+    with_task(things=(BALL, *many(99, Zone()), *many(25, Obstacle(count=100), "stone"))),
+    with_task(things=(BALL, ROCKS), scene=Arena(510.0)),
+    with_task(things=(BALL, CLOSE)),  # which is nowhere without walls
+    with_task(things=(Thing("ball", Item(size=Span(0.0, 0.0))),)),
+    with_task(events=(Visit("patch"),), scene=Arena()),
+    with_lesson(generations=1, curriculum="Größe_2+Go.on"),
     with_reward(each=(0, 6), amount=(("each", 0),)),
     with_reward(each=(5, 1), when=Condition((("each", 0),), ">=", ONE)),
     with_reward(on=None, when=Condition(ONE, "<", ONE)),
@@ -149,6 +195,14 @@ FINE: list[Callable[[Graph], Graph]] = [
 @pytest.mark.parametrize("changed", FINE)
 def test_what_may_be_is_let_be(changed: Callable[[Graph], Graph]) -> None:
     assert flaw(changed(whole())) is None
+
+
+def test_a_derivative_is_one_deeper_than_what_it_is_of() -> None:
+    of = {"a": "b", "b": "beat", "c": "a", "m": "m0", "x": "y", "y": "x", "z": "y"}
+    kinds = {"beat": Sine(1.0)} | {name: Derivative(source) for name, source in of.items()}
+    sensors = tuple(Sensor(name, kind, start, 1) for start, (name, kind) in enumerate(kinds.items()))
+    found = depths(replace(whole(), sensors=sensors))
+    assert found == {"beat": 0, "m0": 0, "b": 1, "m": 1, "a": 2, "c": 3}
 
 
 @pytest.mark.parametrize(

@@ -167,6 +167,17 @@ def test_mutants_are_the_same_language_too(seed: int) -> None:
     assert read_whole(text) == (not findings.diagnostics)
 
 
+NUMBER = re.compile(r"(?<![\w.])\d+(\.\d+)?(?![\w.])")
+TINY, HUGE = "0." + "0" * 322 + "5", "17" + "0" * 306
+
+
+@pytest.mark.parametrize("size", [TINY, HUGE], ids=["tiny", "huge"])
+def test_a_number_of_any_size_stands_anywhere(size: str) -> None:
+    text = TOUR.read_text(encoding="utf-8")
+    for number in NUMBER.finditer(text):
+        sane(compile_source(Source("fuzz.mind", text[: number.start()] + size + text[number.end() :])))
+
+
 ODD = ' \t .+-*/%()<>=_09azAZ"é٣ǅ,'
 WORDS = "s deg 10s 5_ a.b sensor.x s.x 1.5.2 1/2/3 2e3 Go+ +Go on at to"
 

@@ -23,6 +23,7 @@ from mindrun.robot.guardian import plan
 from mindrun.robot.recording import CHECK, About, Recorder
 from mindrun.robot.replay import replay
 from mindrun.robot.report import report
+from mindrun.sim.world import World
 from mindrun.train import checkpoint
 from mindrun.train.manifest import hashes
 from mindrun.train.progress import LINES, read
@@ -94,7 +95,7 @@ def _object(data: bytes) -> dict[str, Any]:
 
 
 def use_bundle(folder: Path) -> object:
-    """Read it, say what it holds, think with it, and make the guardian's plan."""
+    """Read it, say what it holds, think with it, be its worlds for a while, and make the guardian's plan."""
     bundle = unpack((folder / "x.bundle").read_bytes())
     json.dumps(contents(bundle), allow_nan=False)
     assert all(line.isprintable() for line in describe(bundle).splitlines())
@@ -102,6 +103,11 @@ def use_bundle(folder: Path) -> object:
     for reading in (0.0, 0.5, 1.0, np.nan):
         commands = engine.tick(np.full(bundle.graph.width, reading))
         assert ((commands >= 0) & (commands <= 1)).all()
+    for task in bundle.graph.tasks:
+        world = World(bundle.graph, task.name, 1)
+        for _ in range(5):
+            world.step([1.0] * len(bundle.graph.actuators))
+        assert np.isfinite(world.readings()).all()
     assert bundle.wiring
     neutrals = {actuator.name: actuator.kind.neutral for actuator in bundle.graph.actuators}
     made = plan.plan_of(bundle.graph.tick, neutrals, bundle.wiring)

@@ -263,7 +263,10 @@ def _world(options: argparse.Namespace) -> World:
     except ImportError as error:
         raise MindError(f"there is no simulator here ({error})", "pip install mindlang") from error
     graph = read_bundle(options.bundle).graph
-    world: World = simulator.World(graph, options.task, options.seed, options.master or None)
+    try:
+        world: World = simulator.World(graph, options.task, options.seed, options.master or None)
+    except MemoryError as error:
+        raise MindError(f"this computer has too little memory for task {options.task}") from error
     return world
 
 

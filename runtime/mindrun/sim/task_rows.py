@@ -47,13 +47,7 @@ def obstacles_of(task: Task) -> list[world.Obstacle]:
 
 def box_count(task: Task) -> int:
     """How many square obstacles the task's world has."""
-    return sum(_lines(task, o) ** 2 if o.grid else o.count for o in obstacles_of(task))
-
-
-def _lines(task: Task, obstacle: world.Obstacle) -> int:
-    if isinstance(task.scene, world.Arena) and obstacle.grid:
-        return world.grid_lines(task.scene.size, obstacle.grid)
-    return 0
+    return sum(world.obstacle_count(obstacle, task.scene) for obstacle in obstacles_of(task))
 
 
 def thing_rows(graph: Graph, task: Task) -> list[Any]:
@@ -83,7 +77,7 @@ def obstacle_rows(task: Task) -> list[Any]:
     for obstacle in obstacles_of(task):
         away, size = obstacle.away, obstacle.size
         count = 0 if obstacle.grid else obstacle.count
-        lines = _lines(task, obstacle)
+        lines = world.grid_lines(obstacle, task.scene)
         rows.append((size.first, size.last, obstacle.grid, obstacle.jitter, lines, count, *_away(away, task, 0.0)))
     return rows
 
