@@ -18,6 +18,7 @@ OTHER = {
 # What is said of types or to people, and checks of the program by itself.
 UNTOUCHED = (ast.Raise, ast.Assert, ast.JoinedStr, ast.Import, ast.ImportFrom, ast.pattern)
 UNTOUCHED_FIELDS = ("annotation", "returns", "decorator_list", "bases", "type_params")
+SYMMETRIC = ("maximum", "minimum", "fmax", "fmin", "clip")  # of numpy: the same with the first two the other way round
 UNTOUCHED_KEYWORDS = ("strict", "stacklevel")
 SHOWN = 100  # characters of what is around a change
 
@@ -81,7 +82,7 @@ def _places(node: ast.AST, where: str, above: tuple[ast.AST, ...]) -> Iterator[P
         for index, child in enumerate(listed):
             if not isinstance(child, ast.AST) or isinstance(child, UNTOUCHED) or _is_docstring(child):
                 continue
-            if isinstance(child, ast.keyword) and child.arg in UNTOUCHED_KEYWORDS:
+            if (isinstance(child, ast.keyword) and child.arg in UNTOUCHED_KEYWORDS) or _is_of_types(child):
                 continue
             around = (child,) if isinstance(child, ast.stmt) else (child, *above)
             inside = f"{where}.{child.name}".lstrip(".") if isinstance(child, ast.FunctionDef | ast.ClassDef) else where
@@ -91,6 +92,10 @@ def _places(node: ast.AST, where: str, above: tuple[ast.AST, ...]) -> Iterator[P
 
 def _is_docstring(node: ast.AST) -> bool:
     return isinstance(node, ast.Expr) and isinstance(node.value, ast.Constant)
+
+
+def _is_of_types(node: ast.AST) -> bool:
+    return isinstance(node, ast.If) and isinstance(node.test, ast.Name) and node.test.id == "TYPE_CHECKING"
 
 
 def _said(node: ast.AST) -> str:
@@ -123,8 +128,9 @@ def _changes(node: ast.AST) -> Iterator[ast.AST]:
             yield ast.Constant(not value)
         case ast.Constant(value=int(value) | float(value)):
             yield ast.Constant(value + 1)
-        case ast.Call(args=[first, second, *rest]):
-            if not isinstance(first, ast.Starred) and not isinstance(second, ast.Starred):
+        case ast.Call(func=function, args=[first, second, *rest]):
+            symmetric = isinstance(function, ast.Attribute) and function.attr in SYMMETRIC
+            if not symmetric and not isinstance(first, ast.Starred) and not isinstance(second, ast.Starred):
                 yield _with(node, args=[second, first, *rest])
         case ast.IfExp(body=body, orelse=other):
             yield body

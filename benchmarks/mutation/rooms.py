@@ -74,6 +74,9 @@ ROOMS = {
     ),
     "proofs": Room(
         ("mindlang/proofs/*.py",),
-        tuple(f"tests/proofs/test_{name}.py" for name in ("paths", "bounds", "prove_command")),
+        tuple(
+            f"tests/proofs/test_{name}.py"
+            for name in ("said", "intervals", "cutting", "reaching", "paths", "bounds", "prove_command")
+        ),
     ),
 }

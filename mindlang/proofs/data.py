@@ -57,7 +57,7 @@ def _actuator(found: OfActuator, place: int, proof: Proof, hashes: Hashes, run: 
         "command": {
             "low": low,
             "high": high,
-            "seen": tried and tried.commands and list(tried.commands),
+            "seen": tried and tried.commands,
             "needs_influence_of": 1e-30 if found.is_rough else 0.0,
             "rests_on": rests_on(found.weights, hashes),
         },
@@ -105,6 +105,6 @@ def _edge(edge: OfEdge, hashes: Hashes) -> dict[str, Any]:
         "target": edge.target,
         "low": sends.low,
         "high": sends.high,
-        "seen": sends.seen and list(sends.seen),
+        "seen": sends.seen,
         "rests_on": rests_on(edge.weights, hashes),
     }

@@ -62,16 +62,22 @@ def sent(skill: Skill, weights: Weights | None, boxes: Boxes) -> Sent:
     return Sent(np.clip(low, 0, 1), np.clip(high, 0, 1), np.isfinite(low) & np.isfinite(high))
 
 
+def perceptron(skill: Skill, weights: Weights | None) -> tuple[Singles, ...]:
+    """The matrices of its layers; none where it has nothing to learn, or was not taught."""
+    if weights is None or not isinstance(skill.function, Mlp):
+        return ()
+    return matrices(weights, layers(len(skill.inputs), skill.outputs, skill.function))
+
+
 def _outputs(skill: Skill, weights: Weights | None, boxes: Boxes) -> tuple[Singles, Singles] | None:
     """The outputs of its function; None where nothing is known of them."""
     if not is_known(skill, weights):
         return None
-    shape = layers(len(skill.inputs), skill.outputs, skill.function) if isinstance(skill.function, Mlp) else ()
-    if not shape or weights is None:
+    found, inputs = perceptron(skill, weights), list(skill.inputs)
+    if not found:
         nothing = np.zeros((len(boxes.low), skill.outputs), np.float32)
         return nothing, nothing
-    inputs = list(skill.inputs)
-    return perceive(matrices(weights, shape), boxes.low[:, inputs], boxes.high[:, inputs])
+    return perceive(found, boxes.low[:, inputs], boxes.high[:, inputs])
 
 
 def perceive(layer_matrices: Sequence[Singles], low: Singles, high: Singles) -> tuple[Singles, Singles]:
@@ -84,14 +90,17 @@ def perceive(layer_matrices: Sequence[Singles], low: Singles, high: Singles) -> 
 
 
 def _dense(matrix: Singles, low: Singles, high: Singles) -> tuple[Singles, Singles]:
-    """Σ weight · value in the order of the values, as the engine adds: a weight below 0 turns an interval round."""
+    """Σ weight · value in the order of the values, as the engine adds: a weight below 0 turns an interval round.
+
+    Weights are finite and values at most 1, so a sum can overflow, and stays infinite then, but is never NaN.
+    """
     rising, falling = np.maximum(matrix, 0), np.minimum(matrix, 0)
     least, most = np.zeros((2, len(low), len(matrix)), np.float32)
     for j in range(matrix.shape[1]):
         first, last = low[:, j, None], high[:, j, None]
         least += rising[:, j] * first + falling[:, j] * last  # one of the two is 0, so this rounds once
         most += rising[:, j] * last + falling[:, j] * first
-    return np.where(np.isnan(least), np.float32(-np.inf), least), np.where(np.isnan(most), np.float32(np.inf), most)
+    return least, most
 
 
 def evaluate(program: Program, boxes: Boxes) -> tuple[Singles, Singles]:
@@ -120,5 +129,5 @@ def _combined(operator: str, left: tuple[Doubles, Doubles], right: tuple[Doubles
     low, high = np.minimum.reduce(corners), np.maximum.reduce(corners)
     wild = ~(np.isfinite(low) & np.isfinite(high))
     if operator == "/":
-        wild |= (right[0] <= 0) & (right[1] >= 0)
+        wild |= np.sign(right[0]) != np.sign(right[1])
     return np.where(wild, -np.inf, low), np.where(wild, np.inf, high)

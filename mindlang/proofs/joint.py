@@ -49,6 +49,8 @@ def _least(graph: Graph, weights: Mapping[str, Weights], found: Reach, actuator:
         least = min(least, float(low[~is_open].min(initial=np.inf)))
         if is_open.any():
             cut = halves(_part(now, is_open), sway)
+            if (cut.low == cut.high).any():
+                return 0.0  # between neighbours of float32 nothing is left to cut
             waiting = Boxes(np.concatenate([cut.low, waiting.low]), np.concatenate([cut.high, waiting.high]))
     return least
 

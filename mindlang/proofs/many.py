@@ -7,13 +7,11 @@ from dataclasses import dataclass
 
 import numpy as np
 from mindrun.expression import OPERATORS
-from mindrun.functions import Mlp
-from mindrun.functions.mlp import layers, matrices
 from mindrun.graph import Graph, Program, Skill
 from mindrun.sigmoid import sigmoid
 from mindrun.weights import NONE, Weights, reachable
 
-from mindlang.proofs.interval import Doubles, Singles
+from mindlang.proofs.interval import Doubles, Singles, perceptron
 
 
 @dataclass(frozen=True, slots=True)
@@ -56,10 +54,10 @@ def values(skill: Skill, weights: Weights, readings: Singles) -> Singles:
 
 
 def _outputs(skill: Skill, weights: Weights, readings: Singles) -> Singles:
-    shape = layers(len(skill.inputs), skill.outputs, skill.function) if isinstance(skill.function, Mlp) else ()
-    if not shape:
+    layers = perceptron(skill, weights)
+    if not layers:
         return np.zeros((len(readings), skill.outputs), np.float32)
-    *hidden, last = matrices(weights, shape)
+    *hidden, last = layers
     found = readings[:, list(skill.inputs)]
     with np.errstate(all="ignore"):
         for matrix in hidden:

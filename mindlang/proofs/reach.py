@@ -39,8 +39,8 @@ class Driven:
 
     @property
     def is_always_driven(self) -> bool:
-        """Whether Σ influence is never 0 (nor too large to be a number)."""
-        return self.total.low > 0 and np.isfinite(self.total.high)
+        """Whether Σ influence is never 0, nor too large to be a number: of one that may be, `low` is 0."""
+        return self.total.low > 0
 
 
 @dataclass(frozen=True, slots=True)
@@ -108,7 +108,7 @@ def flow(graph: Graph, boxes: int, sends: Callable[[str], Sent]) -> Flow:
                 into_low, into_high = (total_low, total_high) if drives else (low, high)
                 into_low[:, edge.target] += np.where(arrives, least, np.float32(0))
                 into_high[:, edge.target] += np.where(np.isnan(most), np.float32(np.inf), most)
-    return Flow(low, high, total_low, total_high)
+    return Flow(low, high, np.where(np.isfinite(total_high), total_low, np.float32(0)), total_high)
 
 
 def _mean(drivers: Sequence[Range]) -> Bound | None:

@@ -145,17 +145,18 @@ def _unknown(proof: Proof) -> Iterator[Text]:
 def _line_of(names: Sequence[str], why: str) -> Text:
     if len(names) == 1:
         return Text(f"  {names[0]} {why}: what it sends is taken to be from 0 to 1")
-    plural = why.replace("is ", "are ", 1).replace("has ", "have ", 1)
+    plural = why.replace("is ", "are ").replace("has ", "have ")
     return Text(f"  {some(names)} {plural}: what they send is taken to be from 0 to 1")
 
 
 def some(names: Iterable[str]) -> str:
-    """Names as a sentence lists them; of many the first, and how many more."""
+    """Names, one at least, as a sentence lists them; of many the first, and how many more."""
     found = list(names)
     if len(found) > NAMED + 1:
         found = [*found[:NAMED], f"{len(found) - NAMED:,} more"]
-    return listed(found, "and") if found else "nothing"
+    return listed(found, "and")
 
 
 def _span(low: float, high: float) -> str:
-    return f"{low:.3g}" if low == high else f"{low:.3g} to {high:.3g}"
+    least, most = f"{low:.3g}", f"{high:.3g}"
+    return least if least == most else f"{least} to {most}"

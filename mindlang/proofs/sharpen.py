@@ -9,12 +9,11 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 from mindrun.functions import Mlp
-from mindrun.functions.mlp import layers, matrices
 from mindrun.graph import Edge, Skill
 from mindrun.weights import NONE, Weights
 from numpy.typing import NDArray
 
-from mindlang.proofs.interval import Boxes, Sent, Singles, is_known, sent
+from mindlang.proofs.interval import Boxes, Sent, Singles, is_known, perceptron, sent
 from mindlang.proofs.many import values
 
 CLOSE = 1e-3  # a bound this near to a value that was seen is sharp enough, but for 0 and 1
@@ -137,9 +136,8 @@ def sway_of(skill: Skill, weights: Weights | None) -> Singles:
         for word, reading in edge.value:
             if word == "reading":
                 sway[int(reading)] += 1
-    shape = layers(len(skill.inputs), skill.outputs, skill.function) if isinstance(skill.function, Mlp) else ()
-    if shape and weights is not None:
-        sway += np.minimum(np.abs(matrices(weights, shape)[0]), 1e6).sum(axis=0)
+    for matrix in perceptron(skill, weights)[:1]:
+        sway += np.minimum(np.abs(matrix), 1e6).sum(axis=0)
     return sway
 
 
