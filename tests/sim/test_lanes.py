@@ -10,10 +10,11 @@ import pytest
 from mindrun.actuators import Gripper, Wheel
 from mindrun.engine import Engine
 from mindrun.events import Reach, Visit
+from mindrun.functions import Mlp
 from mindrun.graph import Actuator, Edge, Reward, Sensor, Task, Thing
 from mindrun.memory import Cell
 from mindrun.quantity import Span
-from mindrun.sensors import Bearing, Derivative, RangeFinder, Sine
+from mindrun.sensors import Battery, Bearing, Derivative, RangeFinder, Sine
 from mindrun.sim.lanes.sense import in_claw
 from mindrun.sim.lanes.step import LINGER
 from mindrun.sim.place import uniform
@@ -22,7 +23,7 @@ from mindrun.sim.trace import trace
 from mindrun.world import Arena, Item, Obstacle, Plain, Power, Zone
 
 from tests.hierarchies import doubling
-from tests.minds import CLAW, always, mind, rule
+from tests.minds import CLAW, always, mind, rule, skill
 from tests.sim.following import follow
 
 NOBODY = np.zeros((1, 0), np.float32)
@@ -44,6 +45,20 @@ def test_influence_that_overflows_is_a_fault_here_too(levels: int, sent: float) 
     engine = Engine(graph, {})
     follow(Rollout(graph, {}, "World", "S0"), engine, 1)
     assert (engine.faults > 0) == (levels >= (128 if sent else 129))
+
+
+@pytest.mark.parametrize(
+    ("weights", "faults"), [((np.finfo(np.float32).max,), 0), ((3.401e38,), 0), ((2e38, 1.4e38), 0), ((3e38, 1e38), 3)]
+)
+def test_every_float32_is_a_number_up_to_the_largest(weights: tuple[float, ...], faults: int) -> None:
+    """Of what is sent: one that is none is a fault."""
+    top = skill("Top", Mlp(0), (0,) * len(weights), ("actuator", 0))
+    full = Sensor("charge", Battery(start=1.0, drain=0.0), 0, 1)
+    graph = replace(mind(top), sensors=(full,), tasks=(task(),))
+    given = {"Top": np.array(weights, np.float32)}
+    engine = Engine(graph, given)
+    follow(Rollout(graph, given, "World", "Top"), engine, 1)
+    assert engine.faults == faults
 
 
 def as_python(function: Callable[..., Any]) -> Callable[..., Any]:

@@ -19,7 +19,7 @@ NEUTRAL = st.sampled_from([0.0, 0.4, 0.5, 0.9, 1.0])
 OUTCOMES = st.sampled_from(["stays", "moves", "moves", "vanishes"])
 DELAY = st.sampled_from([0, 0, 1, 2, 5])
 WHEELS = st.builds(
-    Wheel, st.sampled_from(["left", "right"]), NEUTRAL, st.sampled_from([80.0, 80.0, 200.0, 15.0, -60.0]), DELAY
+    Wheel, st.sampled_from(["left", "right"]), NEUTRAL, st.sampled_from([80.0, 80.0, 200.0, 3000.0, 15.0, -60.0]), DELAY
 )
 CLAWS = st.builds(Gripper, st.sampled_from([0.0, 0.5, 0.9, 1.0]), st.sampled_from([1.5, 4.0]), DELAY)
 BODIES = st.builds(

@@ -65,7 +65,7 @@ TINY = F(1e-7)
 A1, A3, A5, A7, A9, A11, A13 = (F(a) for a in NUMERATOR)
 B0, B2, B4, B6 = (F(b) for b in DENOMINATOR)
 TOP = F(LIMIT)
-HUGE = F(3.4e38)
+HUGE = np.finfo(F).max
 
 
 @inlined
