@@ -70,7 +70,10 @@ ROOMS = {
     "recording": Room((f"{R}robot/recording.py", f"{R}robot/replay.py"), ("tests/robot/test_recording.py",)),
     "guardian": Room(
         (f"{R}robot/guardian/*.py",),
-        tuple(f"tests/robot/guardian/test_{name}.py" for name in ("frames", "guard", "plan", "output", "process")),
+        tuple(
+            f"tests/robot/guardian/test_{name}.py"
+            for name in ("frames", "main", "decisions", "guard", "plan", "output", "client", "process")
+        ),
     ),
     "proofs": Room(
         ("mindlang/proofs/*.py",),

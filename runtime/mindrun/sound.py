@@ -87,8 +87,7 @@ def depths(graph: Graph) -> dict[str, int]:
     derived: dict[str, list[str]] = {}
     for name, source in sources.items():
         derived.setdefault(source, []).append(name)
-    known = {sensor.name: 0 for sensor in graph.sensors if sensor.name not in sources}
-    known |= {source: 0 for source in derived if source not in sources}
+    known = dict.fromkeys({*derived, *(sensor.name for sensor in graph.sensors)} - sources.keys(), 0)
     waiting = list(known)
     while waiting:
         name = waiting.pop()

@@ -199,10 +199,10 @@ def test_what_may_be_is_let_be(changed: Callable[[Graph], Graph]) -> None:
 
 def test_a_derivative_is_one_deeper_than_what_it_is_of() -> None:
     of = {"a": "b", "b": "beat", "c": "a", "m": "m0", "x": "y", "y": "x", "z": "y"}
-    kinds = {"beat": Sine(1.0)} | {name: Derivative(source) for name, source in of.items()}
+    kinds = {"beat": Sine(1.0), "lone": Battery()} | {name: Derivative(source) for name, source in of.items()}
     sensors = tuple(Sensor(name, kind, start, 1) for start, (name, kind) in enumerate(kinds.items()))
     found = depths(replace(whole(), sensors=sensors))
-    assert found == {"beat": 0, "m0": 0, "b": 1, "m": 1, "a": 2, "c": 3}
+    assert found == {"beat": 0, "lone": 0, "m0": 0, "b": 1, "m": 1, "a": 2, "c": 3}
 
 
 @pytest.mark.parametrize(

@@ -2,6 +2,8 @@
 
 import json
 import subprocess
+from collections.abc import Iterator
+from math import inf, nextafter
 from pathlib import Path
 from typing import Any
 
@@ -11,13 +13,18 @@ from mindrun.errors import MindError
 from mindrun.quantity import Reference
 from mindrun.registry import arguments, kinds
 from mindrun.robot.drivers.mock import MockActuator
+from mindrun.robot.drivers.pca9685 import Pca9685
+from mindrun.robot.drivers.simulated import SimulatedActuator
 from mindrun.robot.guardian.client import PROGRAM
-from mindrun.robot.guardian.plan import Channel, Plan, PlanError, from_json, plan_of, read_plan, to_json
+from mindrun.robot.guardian.plan import Channel, Plan, PlanError, checked, from_json, plan_of, read_plan, to_json
 from mindrun.robot.wiring import ActuatorWire, Wiring
 
 from tests.minds import always, mind, rule
 
 PLAN = Plan(0.05, (Channel("wheel", 0.5, MockActuator(), -0.1, 0.2, 0.9, 3.0, True), Channel("é", 0, MockActuator())))
+
+FAR = (Channel("claw", 0.5, Pca9685(3, 500.5)), Channel("far", 0.5, SimulatedActuator("s", "a")))
+WIDE = Plan(0.05, from_json(to_json(PLAN)).channels + FAR)
 
 
 def changed(path: tuple[str | int, ...], value: Any) -> str:
@@ -98,6 +105,78 @@ def test_every_actuator_driver_can_be_in_a_plan(name: str) -> None:
 def test_what_no_robot_has_is_refused(path: tuple[str | int, ...], value: Any) -> None:
     with pytest.raises(PlanError):
         from_json(changed(path, value))
+
+
+ANYTHING: tuple[Any, ...] = (None, False, True, 0, 1, 0.5, 1.0, "", "x", [], [[]], {}, {"is": "mock"})
+
+
+def places(tree: Any) -> Iterator[tuple[Any, Any]]:
+    """Every place of a JSON tree: what holds it, and its key there."""
+    for key in list(tree) if isinstance(tree, dict) else range(len(tree)) if isinstance(tree, list) else ():
+        yield tree, key
+        yield from places(tree[key])
+
+
+def test_what_is_of_another_type_or_has_another_name_is_refused_anywhere() -> None:
+    tree = json.loads(to_json(WIDE))
+    for holder, key in list(places(tree)):
+        was = holder[key]
+        for value in ANYTHING:
+            holder[key] = value
+            if type(value) is not type(was) and not (type(was) is float and type(value) is int):
+                with pytest.raises(PlanError):
+                    from_json(json.dumps(tree))
+        holder[key] = was
+        if isinstance(holder, dict):
+            holder[f"{key}_"] = holder.pop(key)
+            with pytest.raises(PlanError):
+                from_json(json.dumps(tree))
+            holder[key] = holder.pop(f"{key}_")
+    assert from_json(json.dumps(tree)) == WIDE
+
+
+BOUNDS = {"neutral": (0, 1), "trim": (-1, 1), "low": (0, 0.9), "high": (0.2, 1), "slew": (0, 1e300)}
+
+
+@pytest.mark.parametrize("name", BOUNDS)
+def test_numbers_keep_to_their_bounds(name: str) -> None:
+    for bound, direction in zip(BOUNDS[name], (-inf, inf), strict=True):
+        assert getattr(from_json(changed(("channels", 0, name), bound)).channels[0], name) == bound
+        assert type(getattr(from_json(changed(("channels", 0, name), bound)).channels[0], name)) is float
+        if abs(bound) < 1e300:
+            with pytest.raises(PlanError):
+                from_json(changed(("channels", 0, name), nextafter(bound, direction)))
+
+
+@pytest.mark.parametrize(("tick", "fine"), [(1e-6, True), (1e9, True), (9e-7, False), (1000000001, False)])
+def test_a_tick_lasts_for_some_time(tick: float, fine: bool) -> None:
+    if fine:
+        assert from_json(changed(("tick",), tick)).tick == tick
+    else:
+        with pytest.raises(PlanError, match=r"plan\.tick cannot be"):
+            from_json(changed(("tick",), tick))
+
+
+def test_a_whole_number_that_no_float_holds_is_none() -> None:
+    assert from_json(changed(("channels", 0, "slew"), 2**53 - 1)).channels[0].slew == 2**53 - 1
+    with pytest.raises(PlanError, match="slew cannot be"):
+        from_json(changed(("channels", 0, "slew"), 2**53))
+
+
+def test_as_many_actuators_as_a_frame_has_room_for() -> None:
+    with pytest.raises(PlanError) as caught:
+        checked(Plan(0.05, PLAN.channels[:1] * 1001))
+    assert str(caught.value) == "a robot has 1 to 1000 actuators, not 1001"
+    assert len(checked(Plan(0.05, PLAN.channels[:1] * 1000)).channels) == 1000
+    with pytest.raises(PlanError, match="not 0"):
+        plan_of(0.05, {}, Wiring("r", (), ()))
+
+
+def test_limits_may_meet_but_not_cross() -> None:
+    assert checked(Plan(0.05, (Channel("wheel", 0.5, MockActuator(), low=0.5, high=0.5),)))
+    with pytest.raises(PlanError) as caught:
+        checked(Plan(0.05, (*PLAN.channels, Channel("claw", 0.5, MockActuator(), low=0.75, high=0.25))))
+    assert str(caught.value) == "claw: `low` 0.75 is above `high` 0.25"
 
 
 @pytest.mark.parametrize("text", ["", "{", "[]", "null", "[" * 100_000, '{"tick": Infinity}', b"\xff\xfe\x00"])

@@ -98,7 +98,7 @@ class Guard:
 
     def _move(self, commands: tuple[float, ...], now: float) -> Move:
         # No more than a tick: after a rest the first step is as small as any other.
-        seconds = min(max(now - self._then, 0.0), self._plan.tick)
+        seconds = min(now - self._then, self._plan.tick)
         wanted = zip(self._plan.channels, commands, self._values, strict=True)
         self._values = tuple(moved(channel, command, before, seconds) for channel, command, before in wanted)
         self._then = now

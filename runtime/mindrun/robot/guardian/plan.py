@@ -10,8 +10,7 @@ from dataclasses import dataclass, fields, is_dataclass
 from importlib import import_module
 from math import isfinite
 from pathlib import Path
-from types import NoneType, UnionType
-from typing import TYPE_CHECKING, Annotated, Any, NoReturn, Union, get_args, get_origin, get_type_hints
+from typing import TYPE_CHECKING, Annotated, Any, NoReturn, get_args, get_origin, get_type_hints
 
 from mindrun.errors import MindError
 from mindrun.quantity import RATIO, SECONDS, Quantity, Reference, fits
@@ -121,8 +120,6 @@ def _decode(hint: Any, data: Any, where: str) -> Any:
     parts = get_args(hint)
     if get_origin(hint) is Annotated:
         return _in_range(parts[1], _decode(parts[0], data, where), where)
-    if get_origin(hint) in (Union, UnionType):  # of something and None
-        return None if data is None else _decode(next(part for part in parts if part is not NoneType), data, where)
     if get_origin(hint) is tuple and isinstance(data, list):
         return tuple(_decode(parts[0], part, f"{where}[{place}]") for place, part in enumerate(data))
     if hint is ActuatorDriver:

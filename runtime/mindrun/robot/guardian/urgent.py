@@ -21,7 +21,8 @@ ENDING = ("SIGTERM", "SIGHUP", "SIGQUIT")
 def import_little(package: str) -> None:
     """Let modules of a package be imported without all the others that its `__init__` imports."""
     found = find_spec(package)
-    if found and package not in sys.modules:
+    assert found
+    if package not in sys.modules:
         sys.modules[package] = module_from_spec(found)
 
 

@@ -1,0 +1,256 @@
+"""The controller's side of the pipe: what it sends, hears and says, to a guardian that does what the test wants."""
+
+import os
+import signal
+import sys
+import time
+from collections.abc import Callable, Iterator
+from contextlib import suppress
+from pathlib import Path
+
+import pytest
+from mindrun.robot import children
+from mindrun.robot.guardian.client import Guardian, GuardianError
+from mindrun.robot.guardian.frames import Frame, Reader, size
+from mindrun.robot.guardian.plan import from_json
+
+from tests.robot.guardian.driven import PLAN
+
+MOVING = (0.875, 0.25, 1.0)
+# What is said at the start, once the plan is read; what is done then; how what brings to neutral ends.
+SCRIPT = """
+import os, sys, time
+log, says, then, ends = sys.argv[1:5]
+out = open(log + ("-neutral" if "--neutral" in sys.argv else ""), "ab", buffering=0)
+if "--neutral" in sys.argv:
+    out.write(sys.stdin.buffer.read())
+    if ends == "hangs":
+        time.sleep(600)
+    if ends == "killed":
+        os.kill(os.getpid(), 9)
+    sys.exit(int(ends))
+out.write(sys.stdin.buffer.readline())
+for part in says.split("|"):
+    sys.stdout.write(part)
+    sys.stdout.flush()
+    time.sleep(0.02)
+if then.startswith("exits"):
+    sys.exit(int(then.split()[1]))
+if then == "sleeps":
+    time.sleep(600)
+while data := os.read(0, 65536):
+    out.write(data)
+if then == "stays":
+    time.sleep(600)
+"""
+Start = Callable[..., Guardian]
+
+
+@pytest.fixture
+def start(tmp_path: Path) -> Iterator[Start]:
+    """Starts one that says `says`, then reads, `sleeps`, `stays` or `exits CODE`; all are ended in the end."""
+    begun: list[Guardian] = []
+
+    def started(says: str = "ready\n", then: str = "reads", ends: str = "0", patience: float = 20.0) -> Guardian:
+        words = (sys.executable, "-c", SCRIPT, str(tmp_path / "log"), says, then, ends)
+        begun.append(Guardian(PLAN, patience, words))
+        return begun[-1]
+
+    yield started
+    for guardian in begun:
+        guardian._process.kill()
+        guardian._process.wait()
+        guardian._let_go()
+
+
+def until(holds: Callable[[], object]) -> None:
+    end = time.monotonic() + 20
+    while not holds():
+        assert time.monotonic() < end
+        time.sleep(0.002)
+
+
+def running(folder: Path) -> list[str]:
+    """The processes that were started with this folder."""
+    found = []
+    for path in Path("/proc").glob("[0-9]*/cmdline"):
+        with suppress(OSError):
+            found += [path.parent.name] * (str(folder).encode() in path.read_bytes())
+    return found
+
+
+def sent(log: Path) -> list[Frame]:
+    """The frames after the plan, which is read as well."""
+    line, _, frames = log.read_bytes().partition(b"\n")
+    assert from_json(line) == PLAN
+    return Reader(len(PLAN.channels)).feed(frames)
+
+
+# What is sent
+
+
+def test_a_plan_then_frames_that_count_and_a_last_one_that_lets_all_rest(start: Start, tmp_path: Path) -> None:
+    before = time.monotonic()
+    with start() as guardian:
+        assert (guardian.state, guardian.pid) == ("neutral", guardian._process.pid)
+        guardian.send(MOVING, armed=True)
+        guardian.send(iter(MOVING), armed=False)
+    frames = sent(tmp_path / "log")
+    assert [(frame.number, frame.armed) for frame in frames] == [(0, True), (1, False), (2, False)]
+    assert [frame.commands for frame in frames] == [MOVING, MOVING, (0.5, 0.5, 0.0)]
+    assert before < frames[0].sent <= frames[1].sent <= frames[2].sent < time.monotonic()
+
+
+def test_the_pipe_takes_little_so_that_nothing_waits_long(start: Start) -> None:
+    guardian = start(then="sleeps")
+
+    def fill() -> None:
+        while True:
+            guardian.send(MOVING, armed=True)
+
+    with pytest.raises(GuardianError, match="the guardian hangs: another has brought the actuators to neutral"):
+        fill()
+    assert guardian._number <= 4096 // size(len(PLAN.channels))
+
+
+# What is heard
+
+
+@pytest.mark.parametrize(
+    ("says", "then", "why"),
+    [
+        ("failed left is missing\n", "exits 69", "the guardian cannot start: left is missing"),
+        ("failed: no\n", "reads", "the guardian cannot start: no"),
+        ("", "exits 0", "the guardian ended before it was ready"),
+        ("read", "exits 0", "the guardian ended before it was ready"),
+    ],
+)
+def test_one_that_is_not_ready_is_no_guardian(start: Start, says: str, then: str, why: str) -> None:
+    with pytest.raises(GuardianError) as caught:
+        start(says.replace("failed:", "failed"), then)
+    assert str(caught.value) == why
+
+
+@pytest.mark.parametrize("then", ["sleeps", "stays"])
+def test_one_that_is_never_ready_is_made_to_end(start: Start, tmp_path: Path, then: str) -> None:
+    before = set(children._let_go)
+    with pytest.raises(GuardianError, match=r"the guardian is not ready after 0\.3 s"):
+        start("starting", then, patience=0.3)
+    assert children._let_go == before
+    assert not running(tmp_path)
+
+
+def test_what_comes_in_pieces_is_one_word(start: Start) -> None:
+    with start("re|ady|\nfoll|owing\n") as guardian:
+        until(lambda: guardian._listen() and guardian.state == "following")
+        assert guardian.why == ""
+
+
+def test_of_all_that_was_said_the_last_holds(start: Start) -> None:
+    with start("ready\n|following\nneutral no frame for two ticks\nla") as guardian:
+        until(lambda: guardian._listen() and guardian.why)
+        assert (guardian.state, guardian.why) == ("neutral", "no frame for two ticks")
+
+
+def test_a_latched_one_takes_no_frame(start: Start, tmp_path: Path) -> None:
+    with start("ready\n|latched a frame that is damaged\n") as guardian:
+        until(lambda: guardian._listen() and guardian.state == "latched")
+        with pytest.raises(GuardianError, match="holds every actuator at neutral: a frame that is damaged") as caught:
+            guardian.send(MOVING, armed=True)
+        assert caught.value.hint == "start the robot again"
+    assert sent(tmp_path / "log") == []
+
+
+# How it ends
+
+
+@pytest.mark.parametrize("code", [0, 70])
+def test_one_that_has_ended_by_itself_was_at_neutral(start: Start, code: int) -> None:
+    guardian = start(then=f"exits {code}")
+    assert guardian._process.wait(20) == code
+    guardian.close()
+    assert guardian._let_go not in children._let_go
+
+
+def test_one_that_has_ended_at_neutral_is_not_replaced(start: Start, tmp_path: Path) -> None:
+    guardian = start(then="exits 0")
+    guardian._process.wait(20)
+    with pytest.raises(GuardianError) as caught:
+        guardian.send(MOVING, armed=True)
+    assert str(caught.value) == "the guardian is gone: it was told to end, with every actuator at neutral"
+    assert not (tmp_path / "log-neutral").exists()
+
+
+def test_one_that_does_not_end_goes_on_alone(start: Start, tmp_path: Path) -> None:
+    guardian = start(then="stays", patience=0.3)
+    with pytest.raises(GuardianError) as caught:
+        guardian.close()
+    assert str(caught.value) == f"an actuator is not at neutral after 0.3 s; process {guardian.pid} goes on trying"
+    assert caught.value.hint == "cut the actuators' power"
+    assert guardian._process.poll() is None
+    assert guardian._let_go not in children._let_go
+
+
+BROUGHT = {
+    "0": "another has brought the actuators to neutral",
+    "1": "an actuator may still move",
+    "killed": "an actuator may still move",
+    "hangs": "nothing has brought the actuators to neutral yet",
+}
+
+
+@pytest.mark.parametrize("ends", BROUGHT)
+def test_what_came_of_replacing_it_is_told_and_not_tried_again(start: Start, tmp_path: Path, ends: str) -> None:
+    guardian = start(ends=ends)
+    guardian._patience = 0.3 if ends == "hangs" else 20.0
+    os.kill(guardian.pid, signal.SIGKILL)
+    guardian._process.wait()
+    with pytest.raises(GuardianError) as caught:
+        guardian.send(MOVING, armed=True)
+    assert str(caught.value) == f"the guardian is gone: {BROUGHT[ends]}"
+    tries = 3 if ends == "killed" else 1
+    assert (tmp_path / "log-neutral").read_bytes() == guardian._plan * tries
+    guardian.close()
+    assert (tmp_path / "log-neutral").read_bytes() == guardian._plan * tries
+
+
+@pytest.mark.parametrize("ends", ["0", "hangs"])
+def test_an_end_without_an_error_is_told_as_it_is_and_one_with_an_error_after_it(start: Start, ends: str) -> None:
+    gone = f"the guardian is gone: {BROUGHT[ends]}"
+
+    def lost(error: Exception | None) -> None:
+        with start(ends=ends) as guardian:
+            guardian._patience = 0.3 if ends == "hangs" else 20.0
+            guardian._process.kill()
+            guardian._process.wait()
+            if error:
+                raise error
+
+    with pytest.raises(GuardianError) as caught:
+        lost(None)
+    assert str(caught.value) == gone
+    first = ValueError("a procedure failed")
+    with pytest.raises(GuardianError) as caught:
+        lost(first)
+    assert str(caught.value) == f"a procedure failed; {gone}"
+    assert caught.value.__cause__ is first
+
+
+def test_one_that_does_not_read_hangs_and_is_killed(start: Start, tmp_path: Path) -> None:
+    guardian = start(then="sleeps")
+    with pytest.raises(GuardianError, match="the guardian hangs: another has brought the actuators to neutral"):
+        guardian.close()
+    assert guardian._process.returncode == -signal.SIGKILL
+    assert (tmp_path / "log-neutral").read_bytes() == guardian._plan
+
+
+def test_what_it_inherits_goes_to_both(tmp_path: Path) -> None:
+    reading, writing = os.pipe()
+    program = (sys.executable, "-c", SCRIPT, str(tmp_path / "log"), "ready\n", "reads", "0")
+    with Guardian(PLAN, program=program, inherited=(writing,)) as guardian:
+        there, here = (Path(f"/proc/{pid}/fd/{writing}").readlink() for pid in (guardian.pid, os.getpid()))
+        assert there == here
+        assert not Path(f"/proc/{guardian.pid}/fd/{reading}").exists()
+        assert os.getsid(guardian.pid) == guardian.pid
+    os.close(reading)
+    os.close(writing)

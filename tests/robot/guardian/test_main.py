@@ -1,0 +1,147 @@
+"""In which order the guardian does what, and how it ends: the process below it only notes what it is asked for."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+
+import pytest
+from mindrun.robot.guardian import __main__ as main
+
+from tests.robot.guardian.driven import PLAN
+
+
+@dataclass
+class Asked:
+    """A process that notes what it is asked, and `fails` at one thing; `wrong` is what each opening finds."""
+
+    wrong: Iterator[list[str]] = field(default_factory=lambda: iter([[]]))
+    fails: str = ""
+    settles: bool = True
+    asked: list[object] = field(default_factory=list)
+    wake: int = 7
+
+    def _note(self, what: str) -> None:
+        self.asked.append(what)
+        if what == self.fails:
+            self.fails = ""
+            raise RuntimeError("out of order")
+
+    def open(self) -> list[str]:
+        self._note("open")
+        return next(self.wrong)
+
+    def serve(self) -> None:
+        self._note("serve")
+
+    def rest(self) -> None:
+        self._note("rest")
+
+    def settle(self, seconds: float | None = None) -> bool:
+        self._note("settle")
+        if seconds is not None:
+            self.asked.append(seconds)
+        return self.settles
+
+    def close(self) -> None:
+        self._note("close")
+
+
+@dataclass
+class Time:
+    """A clock that only sleep moves."""
+
+    now: float = 64.0
+
+    def monotonic(self) -> float:
+        return self.now
+
+    def sleep(self, seconds: float) -> None:
+        self.now += seconds
+
+
+@pytest.fixture
+def woken(monkeypatch: pytest.MonkeyPatch) -> list[int]:
+    """The descriptors that signals are to wake."""
+    found: list[int] = []
+    monkeypatch.setattr(main, "wake_on_signals", found.append)
+    return found
+
+
+@pytest.fixture
+def time(monkeypatch: pytest.MonkeyPatch) -> Time:
+    clock = Time()
+    monkeypatch.setattr(main, "monotonic", clock.monotonic)
+    monkeypatch.setattr(main, "sleep", clock.sleep)
+    return clock
+
+
+def guarded(process: Asked, monkeypatch: pytest.MonkeyPatch) -> tuple[int, list[str], list[str]]:
+    """The exit code, what was reported and what was said of the state."""
+    reports: list[str] = []
+    states: list[str] = []
+    made: list[object] = []
+
+    def make(*given: object) -> Asked:
+        made.extend(given)
+        return process
+
+    monkeypatch.setattr(main, "Process", make)
+    code = main.guard(PLAN, reports.append, states.append)  # type: ignore[arg-type]
+    assert made[:2] == [PLAN, 0]
+    return code, reports, states
+
+
+def test_it_is_ready_when_all_is_at_neutral_and_ends_there(monkeypatch: pytest.MonkeyPatch, woken: list[int]) -> None:
+    process = Asked()
+    assert guarded(process, monkeypatch) == (0, [], ["ready"])
+    assert process.asked == ["open", "settle", "serve", "rest", "settle", "close"]
+    assert woken == [7]
+
+
+def test_what_cannot_be_opened_is_told_and_the_others_are_at_neutral(
+    monkeypatch: pytest.MonkeyPatch, woken: list[int]
+) -> None:
+    process = Asked(wrong=iter([["left is missing", "claw is missing"]]))
+    said = "left is missing; claw is missing"
+    assert guarded(process, monkeypatch) == (69, [said], [f"failed {said}"])
+    assert process.asked == ["open", "rest", "settle", "close"]
+
+
+@pytest.mark.parametrize("fails", ["open", "settle", "serve"])
+def test_an_error_of_its_own_ends_at_neutral(monkeypatch: pytest.MonkeyPatch, woken: list[int], fails: str) -> None:
+    process = Asked(fails=fails)
+    code, reports, states = guarded(process, monkeypatch)
+    assert (code, reports) == (70, ["broken: RuntimeError out of order"])
+    assert states == ["ready"] * (fails == "serve")
+    done = ["open", "settle", "serve"][: ["open", "settle", "serve"].index(fails) + 1]
+    assert process.asked == [*done, "rest", "rest", "settle", "close"]
+
+
+def brought(process: Asked, seconds: float) -> tuple[int, list[str]]:
+    reports: list[str] = []
+    return main.bring(process, reports.append, seconds), reports  # type: ignore[arg-type]
+
+
+def test_to_neutral_once_waits_as_long_as_it_may(time: Time, woken: list[int]) -> None:
+    process = Asked()
+    assert brought(process, 5.0) == (0, [])
+    assert process.asked == ["open", "settle", 5.0, "close"]
+    assert woken == [7]
+
+
+def test_what_is_busy_is_opened_when_it_is_free(time: Time, woken: list[int]) -> None:
+    process = Asked(wrong=iter([["busy"], ["busy"], []]))
+    assert brought(process, 5.0) == (0, [])
+    assert process.asked == ["open", "open", "open", "settle", pytest.approx(4.9), "close"]
+
+
+def test_what_cannot_be_opened_in_time_is_told_and_the_others_are_brought(time: Time, woken: list[int]) -> None:
+    process = Asked(wrong=iter([["left is missing", "claw is missing"]] * 99))
+    assert brought(process, 1.0) == (1, ["left is missing", "claw is missing"])
+    assert process.asked.count("open") in (21, 22)  # every 0.05 s
+    assert process.asked[-3:] == ["settle", main.AGAIN, "close"]
+
+
+def test_what_is_not_at_neutral_in_time_is_told(time: Time, woken: list[int]) -> None:
+    process = Asked(settles=False)
+    assert brought(process, 2.0) == (1, ["not everything was at neutral after 2 s"])
+    assert process.asked == ["open", "settle", 2.0, "close"]
