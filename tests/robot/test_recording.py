@@ -1,7 +1,9 @@
 """What is recorded is computed again, bit for bit; what is damaged or foreign is refused."""
 
 import json
+import os
 from pathlib import Path
+from threading import Event, current_thread
 
 import numpy as np
 import pytest
@@ -228,6 +230,73 @@ def test_a_full_disk_is_told_with_the_name_of_the_file(day: Path) -> None:
         pytest.raises(RecordingError, match=r"more\.rec cannot be written: No space left on device"),
     ):
         recorder.write(tick=0)
+
+
+@pytest.mark.parametrize(("rows", "parts"), [(128, [128, 128, 44]), (100, [100, 100, 100]), (0, [1] * TICKS)])
+def test_it_is_read_in_parts(day: Path, monkeypatch: pytest.MonkeyPatch, rows: int, parts: list[int]) -> None:
+    size = read(day)[0].row.itemsize
+    monkeypatch.setattr("mindrun.robot.recording.READ", max(1, rows * size + size // 2 * (rows > 0)))
+    assert [len(part) for part in read(day)[1]] == parts
+    told: list[int] = []
+    replay(day, BUNDLE, Engine(graph("range_finder"), {}), told.append)
+    assert told == list(np.cumsum(parts))
+    data = bytearray(day.read_bytes())
+    data[-size - 9] ^= 1
+    day.write_bytes(data)
+    with pytest.raises(RecordingError, match=f"is damaged at row {TICKS - 2}"):
+        replay(day, BUNDLE, Engine(graph("range_finder"), {}))
+
+
+def test_it_is_brought_to_the_disk_beside_the_loop_and_in_the_end(day: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    synced: list[str] = []
+    brought = Event()
+
+    def sync(descriptor: int) -> None:
+        synced.append(current_thread().name)
+        if len(synced) > 2:
+            brought.set()
+        if len(synced) == 1:
+            raise OSError(5, "Input/output error")  # which is the writer's to notice
+
+    monkeypatch.setattr(os, "fsync", sync)
+    with Recorder(day.with_name("more.rec"), read(day)[0], every=0.001) as recorder:
+        recorder.write(tick=0, time=1.0)
+        assert brought.wait(20)
+    assert set(synced[:-1]) == {"recording"}
+    assert synced[-1] == current_thread().name
+    assert not recorder._syncing.is_alive()
+    assert recorder._file.closed
+
+
+def test_what_cannot_be_brought_to_the_disk_in_the_end_is_told(day: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    recorder = Recorder(day.with_name("more.rec"), read(day)[0])
+
+    def fail(descriptor: int) -> None:
+        raise OSError(5, "Input/output error")
+
+    monkeypatch.setattr(os, "fsync", fail)
+    with pytest.raises(RecordingError, match=r"more\.rec cannot be written: Input/output error"):
+        recorder.close()
+    assert recorder._file.closed
+
+
+@pytest.mark.parametrize(
+    ("name", "value", "fine"),
+    [
+        ("readings", 0, True), ("readings", 1 << 20, True), ("readings", (1 << 20) + 1, False),
+        ("tick", 1e-9, True), ("tick", 1e9, True), ("tick", 10**9, True), ("tick", 9e-10, False), ("tick", 1e10, False),
+        ("tick", True, False), ("sensors", [], True), ("bundle", f"{BUNDLE}0", False), ("bundle", None, False),
+        ("bundle", f"{BUNDLE[:-1]}g", False),
+    ],
+)  # fmt: skip
+def test_the_bounds_of_a_first_line(day: Path, name: str, value: object, fine: bool) -> None:
+    said = json.loads(day.read_bytes().partition(b"\n")[0]) | {"format": "mind recording 1", name: value}
+    day.write_bytes(json.dumps(said).encode() + b"\n")
+    if fine:
+        assert getattr(read(day)[0], name) == (tuple(value) if isinstance(value, list) else value)
+    else:
+        with pytest.raises(RecordingError, match="is no recording"):
+            read(day)
 
 
 def test_nothing_is_written_over(day: Path) -> None:

@@ -96,7 +96,7 @@ EVENTS = st.integers(0, 5).flatmap(lambda some: FRAMES if some else SELDOM)
 
 
 @given(st.tuples(CHANNELS, CHANNELS), st.lists(EVENTS, max_size=40))
-@settings(max_examples=300)
+@settings(max_examples=150)
 def test_whatever_comes_it_does_what_the_table_says(
     channels: tuple[Channel, Channel],
     events: list[tuple],  # type: ignore[type-arg]
