@@ -139,9 +139,8 @@ def test_what_is_no_recording(tmp_path: Path, data: bytes) -> None:
 
 
 def test_no_bit_of_the_first_line_can_flip(day: Path) -> None:
-    data = day.read_bytes()
-    end = data.index(b"\n")
-    for place in range(8 * end):
+    data = day.read_bytes().partition(b"\n")[0] + b"\n"
+    for place in range(8 * len(data) - 8):
         flipped = bytearray(data)
         flipped[place // 8] ^= 1 << place % 8
         day.write_bytes(flipped)
