@@ -79,7 +79,7 @@ ROOMS = {
         ("mindlang/proofs/*.py",),
         tuple(
             f"tests/proofs/test_{name}.py"
-            for name in ("said", "intervals", "cutting", "reaching", "paths", "bounds", "prove_command")
+            for name in ("said", "intervals", "claims", "cutting", "reaching", "paths", "bounds", "prove_command")
         ),
     ),
 }

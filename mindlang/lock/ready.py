@@ -32,7 +32,7 @@ def make_ready(graph: Graph, sources: Iterable[Source], master: str | None = Non
     lock = read_locks(source.path for source in sources)
     graph = replace(arrange(graph, lock), master=master or graph.master)
     needed = [skill.name for skill in reachable(graph, graph.master)]
-    weights, refusals = trained_weights(graph, lock, needed)
+    weights, refusals = trained_weights(graph, lock, frozenset(needed))
     states = status(graph, lock, sources[0].folder)
     acting = {name: states[name] for name in needed}
     return Ready(graph, weights, tuple(refusals), (*told_elsewhere(acting), *told_unknown(acting)))

@@ -126,6 +126,7 @@ def test_an_untaught_mind(mindc: Call, tmp_path: Path) -> None:
     found = proved(mindc, path)
     assert found["unknown"] == dict.fromkeys(["Drive", "Avoid"], "has no weights that fit")
     assert list(found["weights"]) == ["Go"]
+    assert len(found["weights"]["Go"]) == 64
     left, right, claw = found["actuators"]
     assert left["neutral"]["sent"] == right["neutral"]["sent"] == "not excluded"
     assert left["command"]["seen"] is None
@@ -150,7 +151,9 @@ def test_procedures_are_not_run(mindc: Call, tmp_path: Path) -> None:
     said = mindc("prove", path)
     assert said.code == 0
     assert "Turn is Python code: what it sends is taken to be from 0 to 1" in said.out
-    assert mindc("prove", path, "--run").code == 2
+    said = mindc("prove", path, "--run")
+    assert said.code == 2
+    assert said.err.startswith("--run: ")
 
 
 def test_the_tour(mindc: Call) -> None:
@@ -169,6 +172,24 @@ def test_a_run(mindc: Call) -> None:
     assert f"{claw['neutral_ticks']} ({claw['neutral_ticks'] / run['ticks']:.1%}), the first of them tick" in said.out
 
 
+def test_a_run_without_influence(mindc: Call, tmp_path: Path) -> None:
+    """The claw has no driver, the left wheel one that is always on; the right one only as far as the left one turns."""
+    text = RULES.replace("sensor ball", "actuator claw is gripper neutral 0.25\nsensor ball").replace("1200", "30")
+    text = text.replace("  influences Turn at 0.2", "  influences Turn at 0").replace(
+        "  drives right_wheel at 2.3", "# "
+    )
+    path = tmp_path / "turning.mind"
+    path.write_text(text)
+    found = proved(mindc, path, "--run", "--seed", 3)
+    assert (found["run"]["ticks"], found["run"]["seed"]) == (30, 3)
+    left, right, claw = (actuator["run"] for actuator in found["actuators"])
+    assert (left["neutral_ticks"], left["first_tick"]) == (0, None)
+    assert (right["neutral_ticks"], right["first_tick"], right["commands"]) == (30, 1, [0.5, 0.5])
+    assert (claw["neutral_ticks"], claw["first_tick"], claw["commands"]) == (30, 1, [0.25, 0.25])
+    rests = ["a run of 30 ticks of task Chase, seed 3"]
+    assert left["rests_on"] == right["rests_on"] == claw["rests_on"] == rests
+
+
 def test_what_cannot_be_proved(mindc: Call, rules: Path, tmp_path: Path) -> None:
     assert mindc("prove", tmp_path / "none.mind").code == 2
     (tmp_path / "bad.mind").write_text("reads x\n")
@@ -178,9 +199,13 @@ def test_what_cannot_be_proved(mindc: Call, rules: Path, tmp_path: Path) -> None
     assert mindc("prove", rules, "--leak", 0).code == 2
     assert mindc("prove", rules, "--leak", "nan").code == 2
     assert mindc("prove", rules, "--task", "Roam").code == 2
-    assert mindc("prove", rules, "--run", "--task", "Rome").code == 2
+    said = mindc("prove", rules, "--run", "--task", "Rome")
+    assert (said.code, said.err) == (2, "--run: there is no task called Rome\n  Did you mean Roam?\n")
     untaught = write_mind(tmp_path)
-    assert mindc("prove", untaught, "--run").code == 1
+    said = mindc("prove", untaught, "--run")
+    assert said.code == 1
+    assert said.err.startswith("--run: ")
+    assert f"mindc train {untaught} " in said.err
 
 
 def test_ten_thousand_skills(mindc: Call, tmp_path: Path) -> None:
