@@ -1,5 +1,9 @@
 """Checkpoints: read back to the bit, or not at all."""
 
+import json
+from collections.abc import Callable
+from dataclasses import replace
+from hashlib import sha256
 from pathlib import Path
 
 import numpy as np
@@ -38,6 +42,116 @@ def test_every_flipped_bit_is_refused(states: list[State]) -> None:
         damaged = bytearray(whole)
         damaged[place // 8] ^= 1 << place % 8
         assert unpack(bytes(damaged), RUN) is None
+
+
+@pytest.fixture(scope="module")
+def second() -> State:
+    """A state in its second attempt, in which nothing is empty."""
+    course = Course(lesson(4, population=6, attempts=2), 1, np.empty((0, LENGTH), np.float32))
+    return list(teach(course, Sphere(), begin(course), lambda: 0.0))[5][0]
+
+
+def among(array: np.ndarray, number: float) -> np.ndarray:
+    """The array with one number in the place of its last."""
+    return np.append(array.ravel()[:-1], np.array(number, array.dtype)).reshape(array.shape)
+
+
+def of(state: State, **changes: object) -> State:
+    """The state with another population."""
+    return replace(state, population=replace(state.population, **changes))
+
+
+BROKEN: dict[str, Callable[[State], State]] = {
+    "a score too few": lambda s: of(s, scores=s.population.scores[:-1]),
+    "a champion of other weights": lambda s: replace(s, champion=s.champion[:, 1:]),
+    "a rival of other weights": lambda s: replace(s, rival=s.rival[:, 1:]),
+    "champions of other weights": lambda s: replace(s, champions=s.champions[:, 1:]),
+    "two champions": lambda s: replace(s, champion=np.repeat(s.champion, 2, axis=0)),
+    "two rivals": lambda s: replace(s, rival=np.repeat(s.rival, 2, axis=0)),
+    "a length too many": lambda s: replace(s, lengths=np.repeat(s.lengths, 2)),
+    "a verdict too few": lambda s: replace(s, verdicts=s.verdicts[:0]),
+    "half a verdict": lambda s: replace(s, verdicts=s.verdicts[:, :1]),
+    "a genome that is not finite": lambda s: of(s, genomes=among(s.population.genomes, np.inf)),
+    "a genome that is no number": lambda s: of(s, genomes=among(s.population.genomes, np.nan)),
+    "a champion that is not finite": lambda s: replace(s, champion=among(s.champion, -np.inf)),
+    "a rival that is not finite": lambda s: replace(s, rival=among(s.rival, np.inf)),
+    "champions that are not finite": lambda s: replace(s, champions=among(s.champions, np.nan)),
+    "a score that is no number": lambda s: of(s, scores=among(s.population.scores, np.nan)),
+    "a verdict that is no number": lambda s: replace(s, verdicts=among(s.verdicts, np.nan)),
+    "a best that is no number": lambda s: replace(s, best=np.nan),
+    "seconds that are no number": lambda s: replace(s, seconds=np.nan),
+    "an attempt too many": lambda s: replace(s, attempt=2),
+    "an attempt too few": lambda s: replace(s, attempt=0),
+    "genomes before the first generation": lambda s: of(s, generation=0),
+    "no genomes after one": lambda s: of(s, genomes=s.population.genomes[:0], scores=np.empty(0)),
+    "less than no time": lambda s: replace(s, ticks=-1),
+    "a length of less than nothing": lambda s: replace(s, lengths=among(s.lengths, -1)),
+    "more ticks than can be": lambda s: replace(s, ticks=2**53 + 1),
+    "neither told apart nor not": lambda s: replace(s, told_apart=2),  # type: ignore[arg-type]
+}
+WHOLE: dict[str, Callable[[State], State]] = {
+    "scores of faults": lambda s: of(s, scores=among(s.population.scores, -np.inf)),
+    "a verdict of a fault": lambda s: replace(s, verdicts=among(s.verdicts, -np.inf)),
+    "as many ticks as can be": lambda s: replace(s, ticks=2**53),
+    "nothing told apart": lambda s: replace(s, told_apart=False),
+    "no champion": lambda s: replace(s, champion=s.champion[:0], rival=s.rival[:0]),
+}
+
+
+@pytest.mark.parametrize("what", BROKEN)
+def test_a_state_that_no_run_has_is_refused_though_its_hash_is_right(second: State, what: str) -> None:
+    assert unpack(pack(BROKEN[what](second), RUN), RUN) is None
+
+
+@pytest.mark.parametrize("what", WHOLE)
+def test_a_state_that_a_run_can_have_is_read(second: State, what: str) -> None:
+    again = unpack(pack(WHOLE[what](second), RUN), RUN)
+    assert again is not None
+    assert pack(again, RUN) == pack(WHOLE[what](second), RUN)
+    assert [type(each) for each in _plain(again)] == [int, int, int, int, float, float, bool]
+
+
+def _plain(state: State) -> tuple[object, ...]:
+    generation = state.population.generation
+    return state.attempt, generation, state.since, state.ticks, state.best, state.seconds, state.told_apart
+
+
+def test_the_header_says_what_follows_and_nothing_else(second: State) -> None:
+    body = pack(second, RUN)[:-32]
+    magic, line, rest = body.split(b"\n", 2)
+    header = json.loads(line)
+
+    def unsealed(header: object, rest: bytes = rest, magic: bytes = magic) -> State | None:
+        data = magic + b"\n" + json.dumps(header).encode() + b"\n" + rest
+        return unpack(data + sha256(data).digest(), RUN)
+
+    assert unsealed(header) is not None
+    arrays = header["arrays"]
+    for name, (dtype, shape) in arrays.items():
+        for other in (">f4", "<i4", "<f4", "<f8", "<i8", None):
+            if other != dtype:
+                assert unsealed(header | {"arrays": arrays | {name: [other, shape]}}) is None
+        for changed in (
+            shape[:-1],
+            [*shape, 1],
+            [shape[0] + 1, *shape[1:]],
+            [-1, *shape[1:]],
+            [float(shape[0]), *shape[1:]],
+        ):
+            assert unsealed(header | {"arrays": arrays | {name: [dtype, changed]}}) is None
+        assert unsealed(header | {"arrays": arrays | {name: [dtype, shape, 1]}}) is None
+        assert unsealed(header | {"arrays": {key: arrays[key] for key in arrays if key != name}}) is None
+    assert unsealed(header | {"arrays": dict(reversed(arrays.items()))}) is None
+    assert unsealed(header | {"arrays": list(arrays.values())}) is None
+    assert unsealed(header | {"more": 1}) is None
+    assert unsealed({"run": RUN}) is None
+    assert unsealed(header | {"run": "another run"}) is None
+    assert unsealed([header]) is None
+    assert unsealed(header, rest[:-1]) is None
+    assert unsealed(header, rest + b"\0") is None
+    assert unsealed(header, magic=b"mind checkpoint 3") is None
+    data = magic + b"\n" + line[:-1] + b"\n" + rest
+    assert unpack(data + sha256(data).digest(), RUN) is None
 
 
 def test_another_run_s_checkpoint_is_refused(states: list[State]) -> None:

@@ -8,11 +8,13 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from mindrun.train import checkpoint
 from mindrun.train.claim import claim
 from mindrun.train.errors import RunError
+from mindrun.train.lesson import Record, State
 from mindrun.train.progress import read
 from mindrun.train.run_folder import Run, create, open_run
-from mindrun.train.training import train
+from mindrun.train.training import Watch, train
 
 from tests.train.climbing import Sphere, lesson, manifest, unwatched
 
@@ -43,6 +45,37 @@ def test_a_finished_run_has_everything(tmp_path: Path) -> None:
     assert (run.folder / "progress.csv").read_text().count("\n") == 7
     np.testing.assert_array_equal(np.load(run.folder / "weights.npy"), state.kept[0])
     json.loads((run.folder / "manifest.json").read_text())
+
+
+def test_it_is_saved_every_two_seconds_and_in_the_end(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    now, saved, reported = [0.0], [], []
+    save = checkpoint.save
+
+    def counted(folder: Path, state: State, run: str) -> None:
+        saved.append(state.population.generation)
+        save(folder, state, run)
+
+    def report(state: State, record: Record) -> None:
+        reported.append((state.population.generation, record.generation))
+        now[0] += 0.5
+
+    monkeypatch.setattr(checkpoint, "save", counted)
+    watch = Watch(report, lambda warning: None, lambda: len(reported) == 10, lambda: now[0])
+    state = train(made(tmp_path, 99), Sphere(), watch)
+    assert saved == [4, 8, 10]
+    assert reported == [(number, number) for number in range(1, 11)]
+    assert state.population.generation == 10
+
+
+def test_a_run_that_is_stopped_leaves_the_best_so_far(tmp_path: Path) -> None:
+    run = create(tmp_path, manifest(lesson(6, attempts=2)), {}, {})
+    state = train(run, Sphere(), unwatched(stop_after=3))
+    np.testing.assert_array_equal(np.load(run.folder / "weights.npy"), state.champion[0])
+    assert not (run.folder / "champions.npy").exists()
+    state = train(run, Sphere(), unwatched(stop_after=5))
+    np.testing.assert_array_equal(np.load(run.folder / "weights.npy"), state.kept[0])
+    np.testing.assert_array_equal(np.load(run.folder / "champions.npy"), state.champions)
+    assert (len(state.champions), state.population.generation) == (1, 2)
 
 
 def test_a_run_leaves_no_file_open(tmp_path: Path) -> None:
