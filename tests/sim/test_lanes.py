@@ -25,6 +25,7 @@ from mindrun.world import Arena, Item, Obstacle, Plain, Power, Zone
 from tests.hierarchies import doubling
 from tests.minds import CLAW, always, mind, rule, skill
 from tests.sim.following import follow
+from tests.sim.minds import compile_text
 
 NOBODY = np.zeros((1, 0), np.float32)
 
@@ -152,6 +153,35 @@ def test_lanes_that_close_ranks_keep_what_waits() -> None:
     together = Rollout(graph, {}, "World", "Top", lanes=32).score(NOBODY, seeds)
     np.testing.assert_array_equal(alone.by_line, together.by_line)
     np.testing.assert_array_equal(alone.ticks, together.ticks)
+
+
+RUNNER = """
+tick 1/20 s
+master Run
+body Robot is disc
+actuator left_wheel is wheel side left neutral 0.5 thrust 3000
+actuator right_wheel is wheel side right neutral 0.5 thrust 3000
+sensor beat is sine period 3 s
+skill Run is rule
+  reads beat
+  drives left_wheel at 1
+  drives right_wheel at 1
+task World in arena size 300
+  contains rock is obstacle grid 12 size 2 to 4
+  lasts 60 ticks
+  rewards 1 on collision
+"""
+
+
+def test_a_robot_that_leaps_meets_what_stands_where_it_arrives() -> None:
+    """In every direction: one that is faster than its choice of boxes leaves it in a single tick."""
+    graph, directions, touched = compile_text(RUNNER), set(), 0
+    for seed in range(16):
+        rollout = Rollout(graph, {}, "World", "Run")
+        directions.add(int(trace(rollout, seed).begin[2] % (2 * np.pi) // (np.pi / 2)))
+        touched += follow(rollout, Engine(graph, {}), seed)["Collision"]
+    assert directions == {0, 1, 2, 3}
+    assert touched > 20
 
 
 @pytest.mark.parametrize("away", [1, 2, 3, 4, 5, 7])
