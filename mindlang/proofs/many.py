@@ -9,7 +9,7 @@ import numpy as np
 from mindrun.expression import OPERATORS
 from mindrun.graph import Graph, Program, Skill
 from mindrun.sigmoid import sigmoid
-from mindrun.weights import NONE, Weights, reachable
+from mindrun.weights import Weights, reachable
 
 from mindlang.proofs.interval import Doubles, Singles, perceptron
 
@@ -32,7 +32,7 @@ def think(graph: Graph, weights: Mapping[str, Weights], readings: Singles) -> Th
     with np.errstate(all="ignore"):
         for skill in reachable(graph, graph.master):
             own = influence[:, places[skill.name]].copy()
-            for edge, value in zip(skill.edges, values(skill, weights.get(skill.name, NONE), readings).T, strict=True):
+            for edge, value in zip(skill.edges, values(skill, weights.get(skill.name), readings).T, strict=True):
                 sound = np.isfinite(value)
                 share = np.where(sound, np.clip(value, 0, 1), 0) * own
                 if edge.to == "skill":
@@ -43,7 +43,7 @@ def think(graph: Graph, weights: Mapping[str, Weights], readings: Singles) -> Th
         return Thoughts(influence, totals, np.clip(sums / totals, 0, 1))
 
 
-def values(skill: Skill, weights: Weights, readings: Singles) -> Singles:
+def values(skill: Skill, weights: Weights | None, readings: Singles) -> Singles:
     """What a skill sends [rows, edges] before the clamp."""
     outputs = _outputs(skill, weights, readings)
     found = np.empty((len(readings), len(skill.edges)), np.float32)
@@ -53,7 +53,7 @@ def values(skill: Skill, weights: Weights, readings: Singles) -> Singles:
     return found
 
 
-def _outputs(skill: Skill, weights: Weights, readings: Singles) -> Singles:
+def _outputs(skill: Skill, weights: Weights | None, readings: Singles) -> Singles:
     layers = perceptron(skill, weights)
     if not layers:
         return np.zeros((len(readings), skill.outputs), np.float32)

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from itertools import islice
 
 import numpy as np
 from mindrun.functions import Mlp
@@ -71,7 +72,7 @@ def paths(found: Ways, actuators: int, listed: int) -> list[Paths]:
     counts = _counts(found, actuators)
     master = found.skills[0]
     return [
-        Paths(int(counts[master][actuator]), tuple(_first(found, counts, actuator, listed)))
+        Paths(int(counts[master][actuator]), tuple(islice(_first(found, counts, actuator), listed)))
         for actuator in range(actuators)
     ]
 
@@ -87,13 +88,12 @@ def _counts(found: Ways, actuators: int) -> dict[int, list[int]]:
     return counts
 
 
-def _first(found: Ways, counts: dict[int, list[int]], actuator: int, listed: int) -> Iterator[tuple[str, ...]]:
+def _first(found: Ways, counts: dict[int, list[int]], actuator: int) -> Iterator[tuple[str, ...]]:
     """Paths in the order of the lines, no step of which leads astray."""
     waiting: list[tuple[int, ...]] = [found.skills[:1]] if counts[found.skills[0]][actuator] else []
-    while waiting and listed:
+    while waiting:
         path = waiting.pop()
         if actuator in found.drives[path[-1]]:
             yield tuple(found.names[skill] for skill in path)
-            listed -= 1
         onward = (way.target for way in found.onward[path[-1]] if counts[way.target][actuator])
         waiting += reversed([(*path, target) for target in onward])

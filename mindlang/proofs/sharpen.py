@@ -10,7 +10,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from mindrun.functions import Mlp
 from mindrun.graph import Edge, Skill
-from mindrun.weights import NONE, Weights
+from mindrun.weights import Weights
 from numpy.typing import NDArray
 
 from mindlang.proofs.interval import Boxes, Sent, Singles, is_known, perceptron, sent
@@ -83,12 +83,12 @@ def _seen(skill: Skill, weights: Weights | None) -> tuple[Singles, Singles]:
     """The least and the most that each edge sends for readings that are tried; 0 and 1 where it cannot be known."""
     tried = readings_to_try(len(skill.inputs), TRIED)
     known = is_known(skill, weights)
-    found = values(skill if known else _without_function(skill), NONE if weights is None else weights, tried)
+    found = values(skill if known else _without_function(skill), weights, tried)
     sound = np.isfinite(found)
     found = np.clip(found, 0, 1)
     low, high = found.min(axis=0, initial=1, where=sound), found.max(axis=0, initial=0, where=sound)
     hidden = [not known and edge.output is not None for edge in skill.edges]
-    return np.where(hidden, np.float32(0), low), np.where(hidden, np.float32(1), high)
+    return low, np.where(hidden, np.float32(1), high)
 
 
 def _without_function(skill: Skill) -> Skill:

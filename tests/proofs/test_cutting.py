@@ -44,6 +44,27 @@ def test_only_so_many_boxes_are_cut_in_a_round() -> None:
     assert range_of(NOTHING, 1536).high == 1 / 1024
 
 
+def test_what_says_least_is_cut_first(monkeypatch: pytest.MonkeyPatch) -> None:
+    """One box at a time: three cuts leave four boxes, of which none is wider than a quarter."""
+    monkeypatch.setattr(sharpen, "AT_ONCE", 1)
+    assert range_of(NOTHING, 4).high == 0.5
+    assert range_of(NOTHING, 6).high == 0.25
+    assert range_of(NOTHING, 14).high == 0.125
+
+
+@pytest.mark.parametrize("at_once", [1, 2, 5])
+def test_boxes_that_wait_keep_what_is_sent_in_them(monkeypatch: pytest.MonkeyPatch, at_once: int) -> None:
+    """1/2 + r² − r is 1/4 to 1/2; (r·s − 3r/4 − s/4) / 2 + 1/2, from 1/8 to 1/2, is least in one corner of four."""
+    monkeypatch.setattr(sharpen, "AT_ONCE", at_once)
+    bowl = range_of((*R0, *R0, ("*", 0), *R0, ("-", 0), *number(0.5), ("+", 0)), 3000)
+    assert 0.25 - CLOSE <= bowl.low <= 0.25
+    assert 0.5 <= bowl.high <= 0.5 + CLOSE
+    terms = (*R0, *R1, ("*", 0), *R0, *number(0.75), ("*", 0), ("-", 0), *R1, *number(0.25), ("*", 0), ("-", 0))
+    saddle = range_of((*terms, *number(0.5), ("*", 0), *number(0.5), ("+", 0)), 3000, (0, 1))
+    assert 0.125 - 0.02 <= saddle.low <= 0.125
+    assert 0.5 <= saddle.high <= 0.5 + 0.02
+
+
 def test_a_parabola_is_as_high_as_it_is() -> None:
     """r·(1 − r) is 1/4 at most; 1/2 + r·(1 − r) − r·(1 − r) is 1/2."""
     hill = (*R0, *number(1), *R0, ("-", 0), ("*", 0))
@@ -104,6 +125,13 @@ def test_of_python_code_nothing_is_seen() -> None:
     assert ranges(Skill("Top", Procedure("a.b"), (0,), edges[:1]), None, 9) == (taken,)
 
 
+def test_nothing_is_cut_for_a_function_that_is_not_known(monkeypatch: pytest.MonkeyPatch) -> None:
+    looked, sent = [], sharpen.sent
+    monkeypatch.setattr(sharpen, "sent", lambda *arguments: looked.append(1) or sent(*arguments))
+    ranges(Skill("Top", Procedure("a.b"), (0,), (Edge("skill", 1, 0), always("skill", 2, 0.25))), None, 99)
+    assert len(looked) == 1
+
+
 def test_a_line_that_is_never_a_number_was_seen_to_send_nothing() -> None:
     assert range_of((*number(1), *number(0), ("/", 0)), 9, ()) == Range(0.0, 1.0, sure=False)
 
@@ -112,7 +140,7 @@ def test_what_was_seen_is_clamped() -> None:
     assert range_of((*R0, *number(3), ("*", 0), *number(1), ("-", 0)), 9) == Range(0.0, 1.0, True, (0.0, 1.0))
 
 
-@settings(max_examples=30)
+@settings(max_examples=15)
 @given(random_graph(), st.integers(0, 2**32 - 1))
 def test_a_skill_by_itself_sends_the_same(graph: Graph, seed: int) -> None:
     """Of readings that are numbered anew."""

@@ -45,6 +45,7 @@ def separate(draw: st.DrawFn) -> Graph:
     return mind(*skills, readings=width)
 
 
+@settings(max_examples=40)
 @given(separate())
 def test_influence_attains_its_bounds(graph: Graph) -> None:
     """With all readings 0, and with all of them 1: to the bit, for every skill and every actuator."""
@@ -59,6 +60,7 @@ def test_influence_attains_its_bounds(graph: Graph) -> None:
         assert (driven.command is None) == (high == 0)
 
 
+@settings(max_examples=40)
 @given(separate())
 def test_a_command_is_bounded_by_what_its_drivers_send(graph: Graph) -> None:
     """And by a margin for each of them that may have influence, and two more, as docs/proofs.md has it."""
@@ -269,7 +271,7 @@ def test_a_joint_claim_rests_on_all_weights_on_the_way() -> None:
     assert (right.neutral, right.weights) == ("can be", ())
 
 
-@settings(max_examples=30)
+@settings(max_examples=20)
 @given(separate())
 def test_engine_is_neutral_exactly_where_nothing_drives(graph: Graph) -> None:
     """In the corner where all readings are 0, which is the least of all."""
