@@ -49,9 +49,10 @@ class View:
     def findings(self) -> tuple[Diagnostic, ...]:
         """What is wrong, and where nothing is, what is hardly meant; a damaged lock is a finding, too."""
         from mindlang.linting.lint import lint
+        from mindlang.procedures import mistakes
 
         try:
-            return tuple(lint(self.compiled))
+            return (*lint(self.compiled), *mistakes(self.compiled))
         except MindError as error:
             where = Span(self.compiled.sources[0], 0, 0)
             damage = Diagnostic("damaged-lock", f"{error}.", where, error.hint, severity="warning")

@@ -247,6 +247,18 @@ def test_files_that_change_outside(shared) -> None:
     editor.close(main)
 
 
+def test_a_procedure_that_cannot_be_what_the_skill_needs_is_a_finding(tmp_path: Path, shared) -> None:
+    editor, path = shared[0], tmp_path / "main.mind"
+    text = PARTS + MAIN.partition("\n")[2].replace("is rule", "is procedure from turn.by").replace(" at 1", "")
+    path.write_text(text)
+    (tmp_path / "turn.py").write_text("def by(a, b):\n    return a, b\n")
+    editor.open(path)
+    found = [each for each in editor.settle(path) if each["code"] == "faulty-procedure"]
+    assert len(found) == 1
+    assert said(text, found[0]["range"]) == "procedure from turn.by"
+    editor.close(path)
+
+
 def test_a_damaged_lock_is_a_finding(tmp_path: Path, shared) -> None:
     editor, _ = shared
     path = write_mind(tmp_path)
