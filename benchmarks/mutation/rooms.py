@@ -72,7 +72,7 @@ ROOMS = {
         (f"{R}robot/guardian/*.py",),
         tuple(
             f"tests/robot/guardian/test_{name}.py"
-            for name in ("frames", "main", "decisions", "guard", "plan", "output", "client", "process")
+            for name in ("frames", "main", "decisions", "guard", "plan", "output", "serving", "client", "process")
         ),
     ),
     "proofs": Room(

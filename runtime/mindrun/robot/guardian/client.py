@@ -23,7 +23,6 @@ PROGRAM = (sys.executable, "-P", "-m", "mindrun.robot.guardian")
 PIPE = 4096  # bytes that can wait in the pipe
 CHILD = 70  # exit code of a forked process that took itself for the controller
 REPLACEMENTS = 3  # of a guardian, where these are killed as well
-KILLED = -1
 SOON = 0.002  # seconds
 HANGS = 0.5  # seconds in which the guardian has not once read all that was there
 
@@ -199,7 +198,7 @@ class Guardian:
     def _replaced(self) -> str:
         try:
             codes = (self._replacement().wait(self._patience) for _ in range(REPLACEMENTS))
-            code = next((code for code in codes if code >= 0), KILLED)
+            code = next((code for code in codes if code >= 0), None)
         except (OSError, subprocess.TimeoutExpired):  # it may still come to it
             return "nothing has brought the actuators to neutral yet"
         return "another has brought the actuators to neutral" if code == 0 else "an actuator may still move"

@@ -144,7 +144,7 @@ def _decode_driver(data: Any, where: str) -> Any:
 
 
 def _decode_fields(cls: Any, data: Any, where: str) -> Any:
-    known = {field.name for field in fields(cls)} if isinstance(cls, type) and is_dataclass(cls) else None
+    known = {field.name for field in fields(cls)} if is_dataclass(cls) else None
     if not isinstance(data, dict) or set(data) != known:
         raise ValueError(f"{where} is none that this version knows")
     hints = get_type_hints(cls, include_extras=True)

@@ -55,7 +55,7 @@ class Process:
                 output.start(channel.driver.open())
             except Exception as error:
                 hint = getattr(error, "hint", "")
-                wrong.append(f"{output.name} cannot be opened: {error or type(error).__name__} {hint}".strip())
+                wrong.append(f"{output.name} cannot be opened: {str(error) or type(error).__name__} {hint}".strip())
             else:
                 self._opened.append(output)
         self.rest()  # once more: to open one can reset another that is on the same chip
