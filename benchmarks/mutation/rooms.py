@@ -25,6 +25,7 @@ QUICK_TASKS = (
     "test_a_delay_shifts_the_commands",
     "test_a_reading_that_is_not_a_number_reaches_no_actuator",
 )
+GUARDIAN = ("frames", "urgent", "main", "decisions", "guard", "plan", "output", "serving", "client", "process")
 ROOMS = {
     "engine": Room(
         tuple(f"{R}{name}.py" for name in ("engine", "virtual", "expression", "sigmoid", "portable", "functions/mlp")),
@@ -70,10 +71,7 @@ ROOMS = {
     "recording": Room((f"{R}robot/recording.py", f"{R}robot/replay.py"), ("tests/robot/test_recording.py",)),
     "guardian": Room(
         (f"{R}robot/guardian/*.py",),
-        tuple(
-            f"tests/robot/guardian/test_{name}.py"
-            for name in ("frames", "main", "decisions", "guard", "plan", "output", "serving", "client", "process")
-        ),
+        tuple(f"tests/robot/guardian/test_{name}.py" for name in GUARDIAN),
     ),
     "proofs": Room(
         ("mindlang/proofs/*.py",),

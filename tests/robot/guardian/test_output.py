@@ -2,7 +2,7 @@
 
 import random
 import threading
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from time import monotonic, sleep
@@ -136,6 +136,53 @@ def test_whatever_is_ordered_whenever_settled_is_at_neutral(seed: int, orders: l
         output.rest()
         until_settled(output)
         assert device.value == REST
+
+
+class Noted(threading.Condition):
+    """Notes for how long it is to wait, and does not; at the time that `then` has, that is done."""
+
+    def __init__(self, then: dict[int, Callable[[], None]]) -> None:
+        super().__init__()
+        self.waits: list[float | None] = []
+        self.then = then
+
+    def wait(self, timeout: float | None = None) -> bool:
+        self.waits.append(timeout)
+        self.then.get(len(self.waits), lambda: None)()
+        return True
+
+
+class Stubborn:
+    """A device that refuses all it is told until it gives in."""
+
+    def __init__(self) -> None:
+        self.written: list[float] = []
+        self.refuses = True
+
+    def write(self, value: float) -> None:
+        self.written.append(value)
+        if self.refuses:
+            raise DeviceError("not now")
+
+    def close(self) -> None:
+        self.written.append(-1.0)
+
+
+def test_what_fails_is_tried_again_soon_and_then_every_50_ms_and_what_is_new_at_once() -> None:
+    output, device = Output("wheel", REST, lambda: None), Stubborn()
+    output._device = device
+
+    def give_in() -> None:
+        device.refuses = False
+
+    def end() -> None:
+        output._closing = True
+
+    output._change = Noted({7: lambda: output.move(0.75), 9: give_in, 10: end})
+    output._run()
+    slower = [0.002, 0.004, 0.008, 0.016, 0.032, 0.05, 0.05]
+    assert output._change.waits == [*slower, 0.002, 0.004, None]
+    assert device.written == [REST] * 7 + [0.75] * 3 + [-1.0]
 
 
 # How late one is

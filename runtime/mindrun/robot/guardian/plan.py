@@ -24,8 +24,8 @@ if TYPE_CHECKING:
 
 DRIVERS = "mindrun.robot.drivers"
 LARGEST = 1 << 20  # bytes
-RATIO_EITHER_WAY = Quantity("a share of the travel", {"": 1.0}, low=-1.0, high=1.0)
-NOT_NEGATIVE = Quantity("a number", {"": 1.0}, low=0.0)
+RATIO_EITHER_WAY = Quantity("a share of the travel", {}, low=-1.0, high=1.0)
+NOT_NEGATIVE = Quantity("a number", {}, low=0.0)
 
 
 class PlanError(MindError):

@@ -1,0 +1,86 @@
+"""What the guardian asks of the system: all of it, whatever the system refuses."""
+
+import resource
+import sys
+from collections.abc import Callable
+from importlib import import_module
+from pathlib import Path
+from types import SimpleNamespace
+from typing import Any
+
+import pytest
+from mindrun.robot.guardian import urgent
+
+UNLIMITED = resource.RLIM_INFINITY
+ASKED = ["stack", "switch", "scheduler", "killed last", "locked", "frozen"]
+
+
+@pytest.fixture
+def asked(monkeypatch: pytest.MonkeyPatch) -> dict[str, tuple[Any, ...]]:
+    """What is asked for, in its order, and with what; nothing of it happens."""
+    found: dict[str, tuple[Any, ...]] = {}
+
+    def note(what: str) -> Callable[..., None]:
+        return lambda *given, **named: found.update({what: given})
+
+    monkeypatch.setattr("threading.stack_size", note("stack"))
+    monkeypatch.setattr("sys.setswitchinterval", note("switch"))
+    monkeypatch.setattr("os.sched_setscheduler", note("scheduler"))
+    monkeypatch.setattr(Path, "write_text", note("killed last"))
+    monkeypatch.setattr("ctypes.CDLL", lambda *given, **named: SimpleNamespace(mlockall=note("locked")))
+    monkeypatch.setattr("gc.freeze", note("frozen"))
+    return found
+
+
+@pytest.mark.parametrize(
+    ("user", "limit", "locks"), [(0, 1 << 16, True), (0, UNLIMITED, True), (7, UNLIMITED, True), (7, 1 << 16, False)]
+)
+def test_memory_is_locked_where_nothing_limits_it(
+    asked: dict[str, tuple[Any, ...]], monkeypatch: pytest.MonkeyPatch, user: int, limit: int, locks: bool
+) -> None:
+    monkeypatch.setattr("os.geteuid", lambda: user)
+    # The hard limit is what could be asked for, not what holds.
+    monkeypatch.setattr("resource.getrlimit", lambda which: (limit, UNLIMITED))
+    urgent.be_urgent()
+    assert list(asked) == [what for what in ASKED if what != "locked" or locks]
+    assert asked["killed last"][1] == "-1000"
+    assert asked["stack"] == (256 << 10,)
+    assert asked["switch"][0] < 0.001
+    assert asked.get("locked", (3,)) == (3,)
+
+
+@pytest.mark.parametrize("what", ["scheduler", "killed last", "locked"])
+def test_what_is_refused_keeps_it_from_nothing_else(
+    asked: dict[str, tuple[Any, ...]], monkeypatch: pytest.MonkeyPatch, what: str
+) -> None:
+    def refuse(*given: object, **named: object) -> None:
+        raise PermissionError(1, "Operation not permitted")
+
+    monkeypatch.setattr("os.geteuid", lambda: 0)
+    match what:
+        case "scheduler":
+            monkeypatch.setattr("os.sched_setscheduler", refuse)
+        case "killed last":
+            monkeypatch.setattr(Path, "write_text", refuse)
+        case _:
+            monkeypatch.setattr("ctypes.CDLL", lambda *given, **named: SimpleNamespace())  # a system without it
+    urgent.be_urgent()
+    assert list(asked) == [each for each in ASKED if each != what]
+
+
+def test_a_module_is_imported_without_all_that_its_package_imports(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    (tmp_path / "loud_package").mkdir()
+    (tmp_path / "loud_package" / "__init__.py").write_text("raise SystemExit('imported')")
+    (tmp_path / "loud_package" / "quiet.py").write_text("word = 7")
+    monkeypatch.syspath_prepend(str(tmp_path))
+    for name in ("loud_package", "loud_package.quiet"):
+        monkeypatch.delitem(sys.modules, name, raising=False)
+    urgent.import_little("loud_package")
+    little = sys.modules["loud_package"]
+    assert import_module("loud_package.quiet").word == 7
+    urgent.import_little("loud_package")
+    assert sys.modules["loud_package"] is little
+    for name in ("loud_package", "loud_package.quiet"):
+        del sys.modules[name]
