@@ -71,3 +71,85 @@ def test_with_octaves_each_child_has_steps_of_its_own_size() -> None:
     assert shares.max() > learner.mutated * 6
     assert spreads.min() < learner.mutation / 6
     assert spreads.max() > learner.mutation * 6
+
+
+# What chance does, on the whole
+
+
+def rng() -> np.random.Generator:
+    return np.random.default_rng(1)
+
+
+def test_the_first_weights_are_normal_and_large() -> None:
+    first = ask(nobody(1000), LEARNER, np.empty((0, 1000), np.float32), rng())
+    assert (first.shape, first.dtype) == ((100, 1000), np.float32)
+    assert (first.mean(), first.std()) == (pytest.approx(0.0, abs=0.05), pytest.approx(4.0, rel=0.01))
+
+
+def test_no_weight_grows_beyond_a_hundred_or_is_no_number() -> None:
+    wild = np.array([[0.5, -0.5, 100.0, -100.0, 100.5, -1e30, np.inf, -np.inf, np.nan]], np.float32)
+    assert genetic.bounded(wild).tolist() == [[0.5, -0.5, 100, -100, 100, -100, 100, -100, 0]]
+    learner = Genetic(population=50, mutation=1000.0, mutated=1.0)
+    first = ask(nobody(9), learner, np.zeros((1, 9), np.float32), rng())
+    assert np.abs(first).max() == 100.0
+
+
+def test_who_wins_a_tournament_of_four() -> None:
+    ranks = genetic.choose(100, 20_000, rng())
+    assert (ranks.min(), ranks.max() < 100) == (0, True)
+    assert (ranks == 0).mean() == pytest.approx(1 - 0.99**4, rel=0.15)
+    assert ranks.mean() == pytest.approx(sum((1 - k / 100) ** 4 for k in range(1, 100)), rel=0.03)
+
+
+def test_a_child_has_each_weight_of_either_parent() -> None:
+    children = genetic.cross(np.zeros((100, 300), np.float32), np.ones((100, 300), np.float32), rng())
+    assert set(np.unique(children)) == {0.0, 1.0}
+    assert children.mean() == pytest.approx(0.5, abs=0.01)
+    assert children.mean(axis=1).std() < 0.05
+
+
+@pytest.mark.parametrize(("mutated", "mutation"), [(0.1, 0.5), (0.3, 2.0), (0.0, 1.0), (1.0, 0.25)])
+def test_a_share_of_the_weights_makes_a_normal_step(mutated: float, mutation: float) -> None:
+    steps = genetic.mutate(np.full((100, 500), 7.0, np.float32), Genetic(mutated=mutated, mutation=mutation), rng()) - 7
+    assert (steps != 0).mean() == pytest.approx(mutated, abs=0.01)
+    if mutated:
+        made = steps[steps != 0]
+        assert (made.mean(), made.std()) == (pytest.approx(0, abs=0.05 * mutation), pytest.approx(mutation, rel=0.03))
+
+
+def test_octaves_double_and_halve_so_many_times() -> None:
+    learner = Genetic(mutated=0.2, mutation=0.5, octaves=2)
+    steps = genetic.mutate(np.zeros((400, 4000), np.float32), learner, rng())
+    shares = np.log2((steps != 0).mean(axis=1) / 0.2).round().astype(int)
+    spreads = np.log2([made[made != 0].std() / 0.5 for made in steps]).round().astype(int)
+    for powers in (shares, spreads):
+        assert set(powers) == {-2, -1, 0, 1, 2}
+    assert abs(np.corrcoef(shares, spreads)[0, 1]) < 0.2
+
+
+@pytest.mark.parametrize(("share", "size", "kept"), [(0.1, 100, 10), (0.0, 100, 1), (0.25, 10, 2), (1.0, 10, 9)])
+def test_the_elite_are_the_best_unchanged_and_all_others_are_children(share: float, size: int, kept: int) -> None:
+    genomes = np.arange(size * 50, dtype=np.float32).reshape(size, 50) / 100
+    scores = np.random.default_rng(2).permutation(size).astype(float)
+    learner = Genetic(population=size, elite=share, mutated=1.0)
+    bred = genetic.breed(tell(nobody(50), genomes, scores), learner, rng())
+    assert bred.shape == genomes.shape
+    best = genomes[np.argsort(-scores)]
+    assert (bred[:kept] == best[:kept]).all()
+    assert (bred[kept:, None] != best[None]).any(axis=2).all()
+
+
+def test_children_are_of_parents_that_did_well() -> None:
+    genomes = np.repeat(np.arange(100, dtype=np.float32)[:, None], 40, axis=1)
+    learner = Genetic(population=2000, elite=0.0, mutated=0.0)
+    bred = genetic.breed(tell(nobody(40), genomes, -genomes[:, 0].astype(float)), learner, rng())
+    assert set(np.unique(bred)) <= set(range(100))
+    assert bred[1:].mean() == pytest.approx(sum((1 - k / 100) ** 4 for k in range(1, 100)), rel=0.05)
+    assert max(len(np.unique(child)) for child in bred) == 2
+
+
+def test_equal_scores_keep_their_order() -> None:
+    assert order(np.array([1.0, 3.0, 1.0, np.nan, 3.0, np.inf])).tolist() == [1, 4, 0, 2, 3, 5]
+    told = tell(nobody(1), np.zeros((4, 1), np.float32), np.array([np.nan, np.inf, -np.inf, 2.0]))
+    assert told.scores.tolist() == [-np.inf, -np.inf, -np.inf, 2.0]
+    assert told.generation == 1
