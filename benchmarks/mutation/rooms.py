@@ -51,6 +51,8 @@ ROOMS = {
             "tests/train/test_genetic.py",
             "tests/train/test_lesson.py",
             "tests/train/test_checkpoint.py",
+            "tests/train/test_progress.py",
+            "tests/train/test_strange_run.py",
             "tests/train/test_run_folder.py",
         ),
     ),

@@ -1,4 +1,4 @@
-"""The log of a run: what is written is what is read, up to where the run stands, or up to the first line that is none."""
+"""The log of a run: what is written is read, up to where the run stands, or to the first line that is none."""
 
 import csv
 import json
@@ -9,11 +9,11 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 from mindrun.train.genetic import Population
 from mindrun.train.lesson import Course, Record, State, begin
-from mindrun.train.progress import LARGEST, LINES, TABLE, Progress, read
+from mindrun.train.progress import LINES, TABLE, Progress, read
 
 from tests.train.climbing import LENGTH, lesson
 
@@ -45,6 +45,7 @@ def finite(record: Record) -> dict[str, object]:
 
 
 @given(st.lists(RECORDS, max_size=6))
+@settings(max_examples=25)
 def test_what_is_logged_is_read(tmp_path_factory: pytest.TempPathFactory, records: list[Record]) -> None:
     folder = tmp_path_factory.mktemp("run")
     with Progress(folder, at(0, 0)) as progress:
@@ -110,7 +111,6 @@ def test_numbers_at_their_bounds_are_numbers(tmp_path: Path) -> None:
     bounds = finite(replace(FIRST, ticks=2**53, faults=0)) | {"best": -(2**53), "mean": 0, "seconds": 1e308}
     (tmp_path / LINES).write_text(json.dumps(bounds) + "\n")
     assert read(tmp_path) == [bounds]
-    assert LARGEST >= 1 << 20
 
 
 def test_what_a_full_disk_takes_in_pieces_is_whole(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
