@@ -50,6 +50,7 @@ ROOMS = {
         (
             "tests/train/test_genetic.py",
             "tests/train/test_lesson.py",
+            "tests/train/test_standing.py",
             "tests/train/test_checkpoint.py",
             "tests/train/test_progress.py",
             "tests/train/test_strange_run.py",
