@@ -7,6 +7,7 @@ objects, intrinsics a line of numpy or of ctypes.
 
 import ast
 import ctypes
+import importlib
 import importlib.abc
 import importlib.machinery
 import sys
@@ -105,6 +106,12 @@ def call(address: Any, *arguments: Any) -> int:
     return int(function(*given))
 
 
+def call_procedure(address: Any, inputs: int, outputs: int, lanes: int, stride: int) -> int:
+    """A compiled procedure called over lanes, as `procedures.call_address` does."""
+    function = ctypes.CFUNCTYPE(ctypes.c_ssize_t, *[ctypes.c_void_p] * 2, *[ctypes.c_ssize_t] * 2)(int(address))
+    return int(function(inputs, outputs, lanes, stride))
+
+
 def _plain(*given: Any, **options: Any) -> Any:
     """In place of numba's decorator: the function as it stands."""
     return given[0] if given else _plain
@@ -119,12 +126,13 @@ def _quiet(function: Callable[..., Any]) -> Callable[..., Any]:
 
 
 def _install() -> None:
+    importlib.import_module("mindrun.sim.exact")  # what formulas call stays compiled, as they are
     numba.njit = _plain
     sys.meta_path.insert(0, Finder())
-    from mindrun.sim import chipmunk, rollout
+    from mindrun.sim import chipmunk, procedures, rollout
     from mindrun.sim.lanes import advance, stages
 
-    chipmunk.call = call
+    chipmunk.call, procedures.call_address = call, call_procedure
     build, tables = rollout.build, rollout.Tables
 
     def build_rows(*given: Any) -> Any:

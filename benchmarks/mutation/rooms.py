@@ -38,6 +38,7 @@ ROOMS = {
             "tests/sim/test_lanes.py",
             *(f"tests/sim/test_tasks.py::{name}" for name in QUICK_TASKS),
             "tests/sim/test_order.py",
+            "tests/sim/test_procedures.py::test_compiled_slow_and_rule_agree",
             "tests/sim/test_full_worlds.py",
             "tests/sim/test_random_worlds.py",
             "tests/sim/test_outcomes.py",
