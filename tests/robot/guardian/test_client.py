@@ -2,11 +2,12 @@
 
 import os
 import signal
+import subprocess
 import sys
 import time
 from collections.abc import Callable, Iterator
-from contextlib import suppress
 from pathlib import Path
+from typing import Any
 
 import pytest
 from mindrun.robot import children
@@ -25,7 +26,7 @@ out = open(log + ("-neutral" if "--neutral" in sys.argv else ""), "ab", bufferin
 if "--neutral" in sys.argv:
     out.write(sys.stdin.buffer.read())
     if ends == "hangs":
-        time.sleep(600)
+        time.sleep(20)
     if ends == "killed":
         os.kill(os.getpid(), 9)
     sys.exit(int(ends))
@@ -37,11 +38,11 @@ for part in says.split("|"):
 if then.startswith("exits"):
     sys.exit(int(then.split()[1]))
 if then == "sleeps":
-    time.sleep(600)
+    time.sleep(20)
 while data := os.read(0, 65536):
     out.write(data)
 if then == "stays":
-    time.sleep(600)
+    time.sleep(20)
 """
 Start = Callable[..., Guardian]
 
@@ -68,15 +69,6 @@ def until(holds: Callable[[], object]) -> None:
     while not holds():
         assert time.monotonic() < end
         time.sleep(0.002)
-
-
-def running(folder: Path) -> list[str]:
-    """The processes that were started with this folder."""
-    found = []
-    for path in Path("/proc").glob("[0-9]*/cmdline"):
-        with suppress(OSError):
-            found += [path.parent.name] * (str(folder).encode() in path.read_bytes())
-    return found
 
 
 def sent(log: Path) -> list[Frame]:
@@ -132,12 +124,19 @@ def test_one_that_is_not_ready_is_no_guardian(start: Start, says: str, then: str
 
 
 @pytest.mark.parametrize("then", ["sleeps", "stays"])
-def test_one_that_is_never_ready_is_made_to_end(start: Start, tmp_path: Path, then: str) -> None:
-    before = set(children._let_go)
+def test_one_that_is_never_ready_is_made_to_end(start: Start, monkeypatch: pytest.MonkeyPatch, then: str) -> None:
+    begun: list[subprocess.Popen[bytes]] = []
+
+    def begin(*given: Any, **named: Any) -> "subprocess.Popen[bytes]":
+        begun.append(popen(*given, **named))
+        return begun[-1]
+
+    before, popen = set(children._let_go), subprocess.Popen
+    monkeypatch.setattr(subprocess, "Popen", begin)
     with pytest.raises(GuardianError, match=r"the guardian is not ready after 0\.3 s"):
         start("starting", then, patience=0.3)
     assert children._let_go == before
-    assert not running(tmp_path)
+    assert [process.returncode for process in begun] == [-signal.SIGKILL]
 
 
 def test_what_comes_in_pieces_is_one_word(start: Start) -> None:
