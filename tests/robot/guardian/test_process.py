@@ -295,7 +295,10 @@ def test_neutral_once(log: Path, tmp_path: Path, manners: str, code: int) -> Non
 @pytest.mark.parametrize("text", [b"", b"{}\n", b"\xff" * 99])
 def test_without_a_plan_it_does_not_start(text: bytes) -> None:
     done = subprocess.run(PROGRAM, input=text, capture_output=True)
-    assert (done.returncode, done.stdout.startswith(b"failed ")) == (64, True)
+    assert done.returncode == 64
+    why = done.stderr.removeprefix(b"guardian: ")
+    assert done.stdout == b"failed " + why
+    assert why.startswith(b"this is no plan of a robot")
 
 
 def test_it_needs_no_numpy_and_imports_nothing_from_where_it_is_started(tmp_path: Path) -> None:
