@@ -153,14 +153,16 @@ class Noted(threading.Condition):
 
 
 class Stubborn:
-    """A device that refuses all it is told until it gives in."""
+    """A device that refuses all it is told until it gives in; what asks it a hundred times is to end."""
 
-    def __init__(self) -> None:
+    def __init__(self, output: Output) -> None:
         self.written: list[float] = []
         self.refuses = True
+        self.output = output
 
     def write(self, value: float) -> None:
         self.written.append(value)
+        self.output._closing |= len(self.written) == 100
         if self.refuses:
             raise DeviceError("not now")
 
@@ -169,8 +171,8 @@ class Stubborn:
 
 
 def test_what_fails_is_tried_again_soon_and_then_every_50_ms_and_what_is_new_at_once() -> None:
-    output, device = Output("wheel", REST, lambda: None), Stubborn()
-    output._device = device
+    output = Output("wheel", REST, lambda: None)
+    output._device = device = Stubborn(output)
 
     def give_in() -> None:
         device.refuses = False
