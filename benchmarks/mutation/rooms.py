@@ -17,6 +17,11 @@ class Room:
 
 
 R = "runtime/mindrun/"
+QUICK_SENSORS = (
+    "test_noise_is_even_and_no_more_than_said",
+    "test_what_is_lost_reads_as_if_nothing_were_there",
+    "test_what_is_seen_is_late",
+)
 QUICK_TASKS = (
     "test_carrying_and_delivering",
     "test_a_schedule_shrinks_with_every_success",
@@ -36,6 +41,7 @@ ROOMS = {
         (f"{R}sim/lanes/*.py", f"{R}sim/place.py"),
         (
             "tests/sim/test_lanes.py",
+            *(f"tests/sim/test_rough_sensors.py::{name}" for name in QUICK_SENSORS),
             *(f"tests/sim/test_tasks.py::{name}" for name in QUICK_TASKS),
             "tests/sim/test_order.py",
             "tests/sim/test_procedures.py::test_compiled_slow_and_rule_agree",

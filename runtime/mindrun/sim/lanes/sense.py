@@ -216,7 +216,7 @@ def choose(body, boxes, anchor, slot_boxes, slot_count, reach, n):
 
     The choice is only ever too generous, so that nothing depends on when it was made.
     """
-    total = boxes.shape[0] // 3 if boxes.shape[0] >= 3 else 0
+    total = boxes.shape[0] // 3
     most = 0
     for p in range(n):
         dx, dy = body[0, p] - anchor[0, p], body[1, p] - anchor[1, p]
