@@ -13,7 +13,7 @@ from mindlang.proofs.many import think
 from mindlang.proofs.proof import OfActuator, prove
 from mindlang.proofs.reach import MARGIN, Bound, Driven
 from tests.hierarchies import doubling
-from tests.minds import always, mind, rule, skill
+from tests.minds import CLAW, WHEELS, always, mind, rule, skill
 from tests.proofs.samples import ONE_LESS_R0, R0, drives, sends
 
 LEFT, RIGHT = 0, 1
@@ -188,6 +188,21 @@ def test_so_few_boxes_are_not_begun_with(monkeypatch: pytest.MonkeyPatch) -> Non
     for most, answer in ((joint.FEWEST, "never"), (joint.FEWEST - 1, "not excluded")):
         monkeypatch.setattr(joint, "WORK", 3 * most)
         assert claim(*bisected(0.5)).neutral == answer
+
+
+def test_only_what_is_open_is_looked_at(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Neither what is always driven, nor what nothing drives, nor what was seen without influence."""
+    looked = []
+    monkeypatch.setattr(joint, "_least", lambda *arguments: looked.append(arguments[3]) or 0.0)
+    graph = mind(
+        rule("Top", sends("skill", 1, R0), sends("skill", 2, ONE_LESS_R0), always("actuator", RIGHT, 0.5), reads=(0,)),
+        drives("A", 0.25),
+        rule("B", always("actuator", LEFT, 0.5), always("actuator", 3, 0.5)),
+        actuators=(*WHEELS, CLAW, CLAW),
+    )
+    answers = [found.neutral for found in prove(graph, {}, 0.01).actuators]
+    assert answers == ["not excluded", "never", "always", "can be"]
+    assert looked == [LEFT]
 
 
 def test_boxes_beyond_one_round_are_waited_for(monkeypatch: pytest.MonkeyPatch) -> None:
