@@ -44,7 +44,7 @@ def _least(graph: Graph, weights: Mapping[str, Weights], found: Reach, actuator:
         low = _flow(graph, weights, skills, found, now).total_low[:, actuator]
         is_open = low <= 0
         made += 2 * int(is_open.sum())
-        if is_open.any() and (made > most or not sway.any()):
+        if made > most or not sway.any():
             return 0.0
         least = min(least, float(low[~is_open].min(initial=np.inf)))
         if is_open.any():

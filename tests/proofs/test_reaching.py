@@ -190,6 +190,17 @@ def test_so_few_boxes_are_not_begun_with(monkeypatch: pytest.MonkeyPatch) -> Non
         assert claim(*bisected(0.5)).neutral == answer
 
 
+def test_every_box_that_is_cut_counts(monkeypatch: pytest.MonkeyPatch) -> None:
+    """r − r + 1e-6 is open everywhere: 1, 3, 7, 15, 31, 63 boxes are made, and then 64 are too many."""
+    looked, flow = [], joint.flow
+    monkeypatch.setattr(joint, "BOXES", 64)
+    monkeypatch.setattr(joint, "flow", lambda *arguments: looked.append(arguments[1]) or flow(*arguments))
+    nearly_nothing = (*R0, *R0, ("-", 0), *number(1e-6), ("+", 0))
+    found = claim(rule("Top", sends("skill", 1, nearly_nothing), reads=(0,)), drives("A", 0.5))
+    assert found.neutral == "not excluded"
+    assert looked == [1, 2, 4, 8, 16, 32]
+
+
 def test_only_what_is_open_is_looked_at(monkeypatch: pytest.MonkeyPatch) -> None:
     """Neither what is always driven, nor what nothing drives, nor what was seen without influence."""
     looked = []
