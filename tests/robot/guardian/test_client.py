@@ -1,12 +1,15 @@
 """The controller's side of the pipe: what it sends, hears and says, to a guardian that does what the test wants."""
 
+import fcntl
 import os
 import signal
 import subprocess
 import sys
 import time
+from array import array
 from collections.abc import Callable, Iterator
 from pathlib import Path
+from termios import FIONREAD
 from typing import Any
 
 import pytest
@@ -158,6 +161,36 @@ def test_a_latched_one_takes_no_frame(start: Start, tmp_path: Path) -> None:
             guardian.send(MOVING, armed=True)
         assert caught.value.hint == "start the robot again"
     assert sent(tmp_path / "log") == []
+
+
+def test_all_that_was_said_is_heard_before_the_next_frame(start: Start) -> None:
+    """Half of it would be a frame for a guardian that has latched, and the reason a tick later."""
+    said = "following\n" * 9 + "latched a frame that is damaged\n"
+    with start(f"ready\n|{said}") as guardian:
+        until(lambda: waiting(guardian) == len(said))
+        with pytest.raises(GuardianError, match="a frame that is damaged"):
+            guardian.send(MOVING, armed=True)
+
+
+def waiting(guardian: Guardian) -> int:
+    """How many bytes that it has said wait to be heard."""
+    found = array("i", [0])
+    fcntl.ioctl(guardian._output, FIONREAD, found)
+    return found[0]
+
+
+def test_a_process_that_a_procedure_has_forked_is_no_controller(start: Start, tmp_path: Path) -> None:
+    with start() as guardian:
+        for call in (lambda: guardian.send(MOVING, armed=True), guardian.close):
+            child = os.fork()
+            if child == 0:
+                try:
+                    call()
+                finally:
+                    os._exit(1)
+            assert os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]) == 70
+        guardian.send(MOVING, armed=True)
+    assert [frame.number for frame in sent(tmp_path / "log")] == [0, 1]
 
 
 # How it ends
