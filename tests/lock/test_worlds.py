@@ -438,6 +438,14 @@ def test_a_world_with_a_right_hash_and_odd_facts_is_refused_or_told(path: tuple[
     assert all(isinstance(each, str) for each in changes(LOCK["Top"].worlds[0], read))
 
 
+def test_a_world_says_everything_once() -> None:
+    world = LOCK["Top"].worlds[0]
+    heading, *lines = world.text().split("\n")
+    assert world_of(heading.split()[1], lines) == world
+    with pytest.raises(ValueError):  # noqa: PT011 - any: what reads it says that the lock is damaged
+        world_of(heading.split()[1], [*lines, lines[-1]])
+
+
 @pytest.mark.parametrize(
     "damage",
     [
