@@ -50,6 +50,8 @@ def test_whether_neutral_is_sent(
         (0.0, Bound(0.25, 0.5), True),
         (TINY / 2, Bound(0.25, 0.5), True),
         (TINY, Bound(0.25, 0.5), False),
+        (0.99e-30, Bound(0.25, 0.5), True),
+        (1.01e-30, Bound(0.25, 0.5), False),
         (0.0, Bound(0, 1), False),
         (0.0, Bound(1, 1), False),
         (0.0, Bound(0, 0), False),
