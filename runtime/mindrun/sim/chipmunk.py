@@ -14,7 +14,7 @@ from numba.extending import intrinsic
 from pymunk import _chipmunk
 
 from mindrun.sim.codes import FORCE_X, FORCE_Y, TORQUE
-from mindrun.sim.lanes.arithmetic import compiled
+from mindrun.sim.compiling import compiled
 
 ffi, lib = _chipmunk.ffi, _chipmunk.lib
 

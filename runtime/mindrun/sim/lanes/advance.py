@@ -4,8 +4,9 @@ import numpy as np
 
 from mindrun.sim.chipmunk import close_space
 from mindrun.sim.codes import GOING_ON, INERTIAL_TICKS, LOST, VISIT
+from mindrun.sim.compiling import compiled, entry
 from mindrun.sim.lanes.act import act, recall
-from mindrun.sim.lanes.arithmetic import compiled, entry, sine_cosine
+from mindrun.sim.lanes.arithmetic import sine_cosine
 from mindrun.sim.lanes.judge import judge, patch_of
 from mindrun.sim.lanes.sense import sense
 from mindrun.sim.lanes.step import is_lost, step

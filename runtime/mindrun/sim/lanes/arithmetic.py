@@ -1,63 +1,10 @@
 """Arithmetic that gives the same bits on every processor: + − × ÷ only, in a fixed order, no fused operations."""
 
-import atexit
-import os
-import shutil
-import tempfile
-from collections.abc import Callable
-from hashlib import sha256
-from pathlib import Path
-from typing import Any
-
-import numba
 import numpy as np
 
 from mindrun.portable import C1, C2, C3, C4, C5, C6, PART_1, PART_2, PART_3, S1, S2, S3, S4, S5, S6
 from mindrun.sigmoid import DENOMINATOR, LIMIT, NUMERATOR
-
-
-def _own_cache() -> None:
-    """Keep compiled code in a folder named after the sources: numba does not notice when a callee elsewhere changes."""
-    here = Path(__file__).parent
-    digest = sha256(numba.__version__.encode())
-    for path in sorted(
-        [*here.glob("*.py"), *here.parent.glob("*.py"), here.parents[1] / "sigmoid.py", here.parents[1] / "portable.py"]
-    ):
-        digest.update(path.read_bytes())
-    numba.config.CACHE_DIR = str(_writable(f"compiled-{digest.hexdigest()[:16]}"))
-
-
-def _writable(name: str) -> Path:
-    """A folder of that name in the user's cache; where none can be written, one for this process alone."""
-    try:
-        folder = _cache().absolute() / name  # numba would look for it anew from each working directory
-        folder.mkdir(parents=True, exist_ok=True)
-        with tempfile.TemporaryFile(dir=folder):
-            return folder
-    except (OSError, RuntimeError):  # RuntimeError: there is no home
-        folder = Path(tempfile.mkdtemp(prefix="mind-"))  # never a known name: whoever can write it can run code here
-        atexit.register(shutil.rmtree, folder, ignore_errors=True)
-        return folder
-
-
-def _cache() -> Path:
-    """Where a user wants such things kept; RuntimeError where there is no home."""
-    if given := os.environ.get("NUMBA_CACHE_DIR"):
-        return Path(given)
-    shared = Path(os.environ.get("XDG_CACHE_HOME", ""))  # of which a relative one does not count
-    return (shared if shared.is_absolute() else Path.home() / ".cache") / "mind"
-
-
-_own_cache()
-
-# Stages call each other compiled; only an `entry` can be called from Python, and takes twice as long to compile.
-Decorator = Callable[[Callable[..., Any]], Callable[..., Any]]
-# They own no array and make none. With `_nrt` numba would count the references of all that they are handed, at every
-# call: half of the time of a tick.
-OPTIONS = {"nogil": True, "error_model": "numpy", "_nrt": False}
-entry: Decorator = numba.njit(cache=True, **OPTIONS)
-compiled: Decorator = numba.njit(cache=True, no_cpython_wrapper=True, no_cfunc_wrapper=True, **OPTIONS)
-inlined: Decorator = numba.njit(inline="always", **OPTIONS)
+from mindrun.sim.compiling import inlined
 
 F = np.float32
 ZERO, HALF, ONE = F(0), F(0.5), F(1)

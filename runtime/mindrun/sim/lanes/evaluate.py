@@ -1,7 +1,7 @@
 """Expressions: a postfix program over all lanes at once, in float64."""
 
 from mindrun.sim.codes import ADD, DIVIDE, EACH, MEASURE, MULTIPLY, NEGATE, NUMBER, READING, SUBTRACT
-from mindrun.sim.lanes.arithmetic import compiled
+from mindrun.sim.compiling import compiled
 
 
 @compiled

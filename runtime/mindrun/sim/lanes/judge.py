@@ -20,7 +20,7 @@ from mindrun.sim.codes import (
     WHEEL_LEFT,
     WHEEL_RIGHT,
 )
-from mindrun.sim.lanes.arithmetic import compiled
+from mindrun.sim.compiling import compiled
 from mindrun.sim.lanes.evaluate import evaluate
 from mindrun.sim.lanes.reach import BEGUN, become, meet
 from mindrun.sim.lanes.sense import inside

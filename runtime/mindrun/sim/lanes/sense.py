@@ -14,7 +14,8 @@ from mindrun.sim.codes import (
     RANGE,
     SINE,
 )
-from mindrun.sim.lanes.arithmetic import HALF, HUGE, ONE, ZERO, F, bearing, clamp, compiled, sine_cosine
+from mindrun.sim.compiling import compiled
+from mindrun.sim.lanes.arithmetic import HALF, HUGE, ONE, ZERO, F, bearing, clamp, sine_cosine
 from mindrun.sim.lanes.vector import HIGHEST, LOWEST, WIDE, load, splat, store, where_ordered
 from mindrun.sim.place import uniform
 

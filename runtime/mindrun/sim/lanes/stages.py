@@ -3,8 +3,8 @@
 Functions of their own, not the stages compiled twice: numba would keep both under one name in its cache.
 """
 
+from mindrun.sim.compiling import entry
 from mindrun.sim.lanes import advance, think
-from mindrun.sim.lanes.arithmetic import entry
 
 
 @entry

@@ -1,7 +1,8 @@
 """Think: influence flows down the hierarchy (Eq. 2) and the skills that have some compute what they send (Eq. 1)."""
 
 from mindrun.sim.codes import MLP, PROCEDURE
-from mindrun.sim.lanes.arithmetic import ONE, ZERO, F, clamp, compiled, finite
+from mindrun.sim.compiling import compiled
+from mindrun.sim.lanes.arithmetic import ONE, ZERO, F, clamp, finite
 from mindrun.sim.lanes.evaluate import evaluate
 from mindrun.sim.lanes.vector import WIDE, load, sigmoids, splat, store
 from mindrun.sim.procedures import call

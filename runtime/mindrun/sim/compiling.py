@@ -1,0 +1,115 @@
+"""How the lanes are compiled: into one piece of machine code for each way in from Python, and where it is kept.
+
+Numba would optimise every function and make machine code of it, link it into each caller, and do all that again there,
+five levels deep. Here what only compiled code calls stays as it was lowered until it is part of a way in.
+"""
+
+import atexit
+import os
+import shutil
+import tempfile
+from collections.abc import Callable
+from hashlib import sha256
+from pathlib import Path
+from typing import Any
+
+import numba
+from numba import _dynfunc
+from numba.core.codegen import JITCodeLibrary
+from numba.core.compiler import CompilerBase, DefaultPassBuilder
+from numba.core.compiler_machinery import PassManager, register_pass
+from numba.core.typed_passes import NativeLowering
+
+
+def _own_cache() -> None:
+    """Keep compiled code in a folder named after the sources: numba does not notice when a callee elsewhere changes."""
+    here = Path(__file__).parent
+    digest = sha256(numba.__version__.encode())
+    for path in sorted(
+        [*here.glob("*.py"), *here.glob("lanes/*.py"), here.parent / "sigmoid.py", here.parent / "portable.py"]
+    ):
+        digest.update(path.read_bytes())
+    numba.config.CACHE_DIR = str(_writable(f"compiled-{digest.hexdigest()[:16]}"))
+
+
+def _writable(name: str) -> Path:
+    """A folder of that name in the user's cache; where none can be written, one for this process alone."""
+    try:
+        folder = _cache().absolute() / name  # numba would look for it anew from each working directory
+        folder.mkdir(parents=True, exist_ok=True)
+        with tempfile.TemporaryFile(dir=folder):
+            return folder
+    except (OSError, RuntimeError):  # RuntimeError: there is no home
+        folder = Path(tempfile.mkdtemp(prefix="mind-"))  # never a known name: whoever can write it can run code here
+        atexit.register(shutil.rmtree, folder, ignore_errors=True)
+        return folder
+
+
+def _cache() -> Path:
+    """Where a user wants such things kept; RuntimeError where there is no home."""
+    if given := os.environ.get("NUMBA_CACHE_DIR"):
+        return Path(given)
+    shared = Path(os.environ.get("XDG_CACHE_HOME", ""))  # of which a relative one does not count
+    return (shared if shared.is_absolute() else Path.home() / ".cache") / "mind"
+
+
+class Lowered(JITCodeLibrary):
+    """The code of a function, and of all that it calls, before any optimisation."""
+
+    def add_llvm_module(self, ll_module: Any) -> None:
+        """Take the code of the function itself."""
+        ll_module.data_layout = self._codegen._data_layout
+        self._final_module.link_in(ll_module)
+
+    def finalize(self) -> None:
+        """Take the code of what it calls."""
+        self._raise_if_finalized()
+        for library in dict.fromkeys(self._linking_libraries):
+            self._reload_init.update(library._reload_init)
+            self._final_module.link_in(library._get_module_for_linking(), preserve=True)
+        self._finalize_dynamic_globals()
+        self._finalized = True
+
+
+@register_pass(mutates_CFG=True, analysis_only=False)
+class LowerOnly(NativeLowering):
+    """Lower a function and make no machine code of it."""
+
+    _name = "lower_only"
+
+    def run_pass(self, state: Any) -> bool:
+        """In place of numba's own."""
+        state.library = Lowered(state.targetctx.codegen(), state.func_id.func_qualname)
+        state.flags.no_compile = True
+        super().run_pass(state)
+        lowered, module = state["cr"], state.func_id.module
+        # By this object others know the function: nobody can call it.
+        nowhere = _dynfunc.make_function(module, state.func_id.func_name, "", 0, lowered.env, (state.library,))
+        state.targetctx.insert_user_function(nowhere, lowered.fndesc, [state.library])
+        state.reload_init.extend(state.library._reload_init)
+        state["cr"] = lowered._replace(cfunc=nowhere)
+        return True
+
+
+class Inner(CompilerBase):
+    """Numba's compiler but for its last step."""
+
+    def define_pipelines(self) -> list[PassManager]:
+        """Numba's passes."""
+        passes = PassManager("inner")
+        for step, about in DefaultPassBuilder.define_nopython_pipeline(self.state).passes:
+            passes.add_pass(LowerOnly if step is NativeLowering else step, about)
+        passes.finalize()
+        return [passes]
+
+
+_own_cache()
+
+# Only an `entry` can be called from Python.
+Decorator = Callable[[Callable[..., Any]], Callable[..., Any]]
+# They own no array and make none. With `_nrt` numba would count the references of all that they are handed, at every
+# call: half of the time of a tick.
+OPTIONS = {"nogil": True, "error_model": "numpy", "_nrt": False}
+entry: Decorator = numba.njit(cache=True, **OPTIONS)
+compiled: Decorator = numba.njit(pipeline_class=Inner, no_cpython_wrapper=True, no_cfunc_wrapper=True, **OPTIONS)
+inlined: Decorator = numba.njit(inline="always", **OPTIONS)
