@@ -5,22 +5,23 @@ from mindrun.sim.compiling import compiled
 
 
 @compiled
-def evaluate(codes, readings, measures, each, stack, active, n):
-    """Leave the program's values for the lanes active[0..n] in stack[0]; `each` is the row that "for each" is at."""
+def evaluate(codes, readings, measures, each, stack, active, n, everywhere):
+    """Leave the program's values for the lanes active[0..n] in stack[0]; `each` is the row that "for each" is at.
+
+    With `everywhere` those are the lanes 0..n.
+    """
     top = 0
     for i in range(len(codes)):
         op, arg, value = codes[i].op, codes[i].arg, codes[i].value
         if op == NUMBER:
-            stack[top, :n] = value
+            for k in range(n):
+                stack[top, k] = value
             top += 1
         elif op in (READING, EACH):
-            row = readings[each if op == EACH else arg]
-            for k in range(n):
-                stack[top, k] = row[active[k]]
+            pick(readings[each if op == EACH else arg], stack[top], active, n, everywhere)
             top += 1
         elif op == MEASURE:
-            for k in range(n):
-                stack[top, k] = measures[arg, active[k]]
+            pick(measures[arg], stack[top], active, n, everywhere)
             top += 1
         elif op == NEGATE:
             for k in range(n):
@@ -28,6 +29,17 @@ def evaluate(codes, readings, measures, each, stack, active, n):
         else:
             top -= 1
             combine(op, stack[top - 1], stack[top], n)
+
+
+@compiled
+def pick(row, out, active, n, everywhere):
+    """The values of a row in some lanes, side by side."""
+    if everywhere:
+        for k in range(n):
+            out[k] = row[k]
+    else:
+        for k in range(n):
+            out[k] = row[active[k]]
 
 
 @compiled

@@ -150,8 +150,6 @@ def reward(t, s, line, total, n):
     """Add what a reward line pays in this tick to its sums."""
     if line.on >= 0 and s.happened[line.on] == 0:
         return
-    for p in range(n):
-        s.active[p] = p
     for k in range(max(1, line.eachs)):
         each = line.each + k
         paid = s.paid
@@ -170,24 +168,25 @@ def reward(t, s, line, total, n):
 
 @compiled
 def run(t, s, first, length, each, n):
-    """Evaluate a program into stack[0]."""
-    evaluate(t.codes[first : first + length], s.readings, s.measures, each, s.stack, s.active, n)
+    """Evaluate a program into stack[0], in every lane."""
+    evaluate(t.codes[first : first + length], s.readings, s.measures, each, s.stack, s.active, n, True)
 
 
 @compiled
 def only_when(paid, left, right, compare, n):
     """Nothing is paid where left compare right does not hold."""
-    for p in range(n):
-        a, b = left[p], right[p]
-        if compare == LESS:
-            holds = a < b
-        elif compare == LESS_EQUAL:
-            holds = a <= b
-        elif compare == GREATER:
-            holds = a > b
-        else:
-            holds = a >= b
-        paid[p] = paid[p] if holds else 0.0
+    if compare == LESS:
+        for p in range(n):
+            paid[p] = paid[p] if left[p] < right[p] else 0.0
+    elif compare == LESS_EQUAL:
+        for p in range(n):
+            paid[p] = paid[p] if left[p] <= right[p] else 0.0
+    elif compare == GREATER:
+        for p in range(n):
+            paid[p] = paid[p] if left[p] > right[p] else 0.0
+    else:
+        for p in range(n):
+            paid[p] = paid[p] if left[p] >= right[p] else 0.0
 
 
 @compiled

@@ -149,7 +149,8 @@ def send(t, s, i, out, n, lanes):
             values = s.hidden[out + edge.output]
         else:
             values = s.values
-            evaluate(t.codes[edge.code : edge.code + edge.length], s.readings, s.measures, 0, s.stack, s.active, n)
+            codes = t.codes[edge.code : edge.code + edge.length]
+            evaluate(codes, s.readings, s.measures, 0, s.stack, s.active, n, n == lanes)
             for k in range(n):
                 values[k] = F(s.stack[0, k])
         check(values, s.sound, s.sent, s.active, s.faults, influence, n)
