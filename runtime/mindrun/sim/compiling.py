@@ -14,6 +14,7 @@ from pathlib import Path
 from typing import Any
 
 import numba
+from llvmlite.binding import Linkage
 from numba import _dynfunc
 from numba.core.codegen import JITCodeLibrary
 from numba.core.compiler import CompilerBase, DefaultPassBuilder
@@ -71,6 +72,29 @@ class Lowered(JITCodeLibrary):
         self._finalized = True
 
 
+class Whole(JITCodeLibrary):
+    """The code of a way in, with that of all that it calls."""
+
+    def _optimize_final_module(self) -> None:
+        for function in self._final_module.functions:
+            if function.linkage == Linkage.linkonce_odr and not function.is_declaration:
+                function.linkage = "internal"  # nobody else calls it: what it is handed and does not need falls away
+        super()._optimize_final_module()
+
+
+@register_pass(mutates_CFG=True, analysis_only=False)
+class LowerAll(NativeLowering):
+    """Lower a function, and make machine code of it and of all that it calls."""
+
+    _name = "lower_all"
+
+    def run_pass(self, state: Any) -> bool:
+        """In place of numba's own."""
+        state.library = Whole(state.targetctx.codegen(), state.func_id.func_qualname)
+        state.library.enable_object_caching()
+        return bool(super().run_pass(state))
+
+
 @register_pass(mutates_CFG=True, analysis_only=False)
 class LowerOnly(NativeLowering):
     """Lower a function and make no machine code of it."""
@@ -91,16 +115,24 @@ class LowerOnly(NativeLowering):
         return True
 
 
-class Inner(CompilerBase):
+class Outer(CompilerBase):
     """Numba's compiler but for its last step."""
+
+    lowering: type[NativeLowering] = LowerAll
 
     def define_pipelines(self) -> list[PassManager]:
         """Numba's passes."""
-        passes = PassManager("inner")
+        passes = PassManager(self.lowering._name)
         for step, about in DefaultPassBuilder.define_nopython_pipeline(self.state).passes:
-            passes.add_pass(LowerOnly if step is NativeLowering else step, about)
+            passes.add_pass(self.lowering if step is NativeLowering else step, about)
         passes.finalize()
         return [passes]
+
+
+class Inner(Outer):
+    """The same for what only compiled code calls."""
+
+    lowering = LowerOnly
 
 
 _own_cache()
@@ -110,6 +142,6 @@ Decorator = Callable[[Callable[..., Any]], Callable[..., Any]]
 # They own no array and make none. With `_nrt` numba would count the references of all that they are handed, at every
 # call: half of the time of a tick.
 OPTIONS = {"nogil": True, "error_model": "numpy", "_nrt": False}
-entry: Decorator = numba.njit(cache=True, **OPTIONS)
+entry: Decorator = numba.njit(cache=True, pipeline_class=Outer, **OPTIONS)
 compiled: Decorator = numba.njit(pipeline_class=Inner, no_cpython_wrapper=True, no_cfunc_wrapper=True, **OPTIONS)
 inlined: Decorator = numba.njit(inline="always", **OPTIONS)
