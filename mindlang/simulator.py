@@ -17,7 +17,7 @@ def is_compiled() -> bool:
     from mindrun.sim.lanes.advance import advance
 
     dispatcher: Any = advance
-    return bool(dispatcher._cache._cache_file._load_index())
+    return bool(dispatcher._cache.is_there())
 
 
 def make_ready(rollout: Rollout, say: Callable[[str], None]) -> None:

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 from mindrun import streams
 from mindrun.robot.identity import IdentityError, adopt, identity_file
-from mindrun.sim import compiling
+from mindrun.sim import cache
 
 from tests.calling import Call
 
@@ -87,21 +87,21 @@ def test_compiled_code_is_kept_somewhere(
         monkeypatch.delenv(name, raising=False)
     monkeypatch.setenv("HOME", str(tmp_path / "home"))
     monkeypatch.setenv(variable, CACHES[kind](tmp_path / "cache"))
-    folder = compiling._writable("compiled-x")
+    folder = cache.writable("compiled-x")
     assert folder.is_dir()
     assert folder.is_absolute()
     (folder / "kept").write_text("")
     usable = kind in ("there", "missing", "deep") or (kind == "relative" and variable == "NUMBA_CACHE_DIR")
     if usable:
         assert folder.is_relative_to(tmp_path / "cache")
-        assert compiling._writable("compiled-x") == folder
+        assert cache.writable("compiled-x") == folder
 
 
 def test_without_a_home_compiled_code_is_kept_for_this_process(monkeypatch: pytest.MonkeyPatch) -> None:
     for name in ("NUMBA_CACHE_DIR", "XDG_CACHE_HOME"):
         monkeypatch.delenv(name, raising=False)
     _homeless(monkeypatch)
-    assert compiling._writable("compiled-x").is_dir()
+    assert cache.writable("compiled-x").is_dir()
 
 
 @pytest.mark.parametrize(

@@ -44,7 +44,7 @@ def library() -> Any:
     return np.array([*addresses, _count.address], np.uint64)
 
 
-@numba.cfunc(types.void(types.voidptr, types.voidptr, types.CPointer(types.int64)), cache=True)
+@numba.cfunc(types.void(types.voidptr, types.voidptr, types.CPointer(types.int64)))
 def _count(_body: Any, _arbiter: Any, count: Any) -> None:
     count[0] += 1
 

@@ -1,16 +1,10 @@
-"""How the lanes are compiled: into one piece of machine code for each way in from Python, and where it is kept.
+"""How the lanes are compiled: into one piece of machine code for each way in from Python.
 
 Numba would optimise every function and make machine code of it, link it into each caller, and do all that again there,
 five levels deep. Here what only compiled code calls stays as it was lowered until it is part of a way in.
 """
 
-import atexit
-import os
-import shutil
-import tempfile
 from collections.abc import Callable
-from hashlib import sha256
-from pathlib import Path
 from typing import Any
 
 import numba
@@ -21,40 +15,10 @@ from numba.core.compiler import CompilerBase, DefaultPassBuilder
 from numba.core.compiler_machinery import PassManager, register_pass
 from numba.core.typed_passes import NativeLowering
 
-
-def _own_cache() -> None:
-    """Keep compiled code in a folder named after the sources: numba does not notice when a callee elsewhere changes."""
-    here = Path(__file__).parent
-    digest = sha256(numba.__version__.encode())
-    for path in sorted(
-        [*here.glob("*.py"), *here.glob("lanes/*.py"), here.parent / "sigmoid.py", here.parent / "portable.py"]
-    ):
-        digest.update(path.read_bytes())
-    numba.config.CACHE_DIR = str(_writable(f"compiled-{digest.hexdigest()[:16]}"))
+from mindrun.sim.cache import MachineCode
 
 
-def _writable(name: str) -> Path:
-    """A folder of that name in the user's cache; where none can be written, one for this process alone."""
-    try:
-        folder = _cache().absolute() / name  # numba would look for it anew from each working directory
-        folder.mkdir(parents=True, exist_ok=True)
-        with tempfile.TemporaryFile(dir=folder):
-            return folder
-    except (OSError, RuntimeError):  # RuntimeError: there is no home
-        folder = Path(tempfile.mkdtemp(prefix="mind-"))  # never a known name: whoever can write it can run code here
-        atexit.register(shutil.rmtree, folder, ignore_errors=True)
-        return folder
-
-
-def _cache() -> Path:
-    """Where a user wants such things kept; RuntimeError where there is no home."""
-    if given := os.environ.get("NUMBA_CACHE_DIR"):
-        return Path(given)
-    shared = Path(os.environ.get("XDG_CACHE_HOME", ""))  # of which a relative one does not count
-    return (shared if shared.is_absolute() else Path.home() / ".cache") / "mind"
-
-
-class Lowered(JITCodeLibrary):
+class Lowered(JITCodeLibrary):  # type: ignore[misc]
     """The code of a function, and of all that it calls, before any optimisation."""
 
     def add_llvm_module(self, ll_module: Any) -> None:
@@ -72,7 +36,7 @@ class Lowered(JITCodeLibrary):
         self._finalized = True
 
 
-class Whole(JITCodeLibrary):
+class Whole(JITCodeLibrary):  # type: ignore[misc]
     """The code of a way in, with that of all that it calls."""
 
     def _optimize_final_module(self) -> None:
@@ -83,7 +47,7 @@ class Whole(JITCodeLibrary):
 
 
 @register_pass(mutates_CFG=True, analysis_only=False)
-class LowerAll(NativeLowering):
+class LowerAll(NativeLowering):  # type: ignore[misc]
     """Lower a function, and make machine code of it and of all that it calls."""
 
     _name = "lower_all"
@@ -96,7 +60,7 @@ class LowerAll(NativeLowering):
 
 
 @register_pass(mutates_CFG=True, analysis_only=False)
-class LowerOnly(NativeLowering):
+class LowerOnly(NativeLowering):  # type: ignore[misc]
     """Lower a function and make no machine code of it."""
 
     _name = "lower_only"
@@ -115,7 +79,7 @@ class LowerOnly(NativeLowering):
         return True
 
 
-class Outer(CompilerBase):
+class Outer(CompilerBase):  # type: ignore[misc]
     """Numba's compiler but for its last step."""
 
     lowering: type[NativeLowering] = LowerAll
@@ -135,13 +99,16 @@ class Inner(Outer):
     lowering = LowerOnly
 
 
-_own_cache()
-
-# Only an `entry` can be called from Python.
 Decorator = Callable[[Callable[..., Any]], Callable[..., Any]]
 # They own no array and make none. With `_nrt` numba would count the references of all that they are handed, at every
 # call: half of the time of a tick.
 OPTIONS = {"nogil": True, "error_model": "numpy", "_nrt": False}
-entry: Decorator = numba.njit(cache=True, pipeline_class=Outer, **OPTIONS)
 compiled: Decorator = numba.njit(pipeline_class=Inner, no_cpython_wrapper=True, no_cfunc_wrapper=True, **OPTIONS)
 inlined: Decorator = numba.njit(inline="always", **OPTIONS)
+
+
+def entry(function: Callable[..., Any]) -> Callable[..., Any]:
+    """Compiled too, and alone can be called from Python; its machine code is kept."""
+    dispatcher: Any = numba.njit(pipeline_class=Outer, **OPTIONS)(function)
+    dispatcher._cache = MachineCode(f"{function.__module__.rpartition('.')[2]}.{function.__name__}")
+    return dispatcher  # type: ignore[no-any-return]

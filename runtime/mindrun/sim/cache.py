@@ -1,0 +1,136 @@
+"""Machine code kept between starts: made for this very processor in the user's cache, and for its kind in the wheel.
+
+A file is named by all that it depends on (the sources, the versions of Python, numba and llvmlite, the processor, the
+types), so one that stands there fits, and begins with a hash, so one that is damaged is made anew.
+"""
+
+import atexit
+import os
+import pickle
+import shutil
+import sys
+import tempfile
+from contextlib import suppress
+from functools import cache
+from hashlib import sha256
+from pathlib import Path
+from typing import Any
+
+import llvmlite
+import numba
+from llvmlite.binding import get_host_cpu_features
+from numba.core.caching import _Cache
+from numba.core.compiler import CompileResult
+from numba.core.serialize import dumps
+
+HERE = Path(__file__).parent
+SHIPPED = HERE / "compiled"  # in the wheel
+# The kinds of processors for which wheels have machine code, and what one must have to run it, as LLVM writes it.
+KINDS = {"x86-64-v3": "+avx,+avx2,+bmi,+bmi2,+f16c,+fma,+lzcnt,+movbe,+popcnt,+sse4.2", "cortex-a72": "+neon"}
+HASH = 32  # bytes
+
+
+@cache
+def stamp() -> str:
+    """What all machine code depends on but the processor: numba would not notice when a callee elsewhere changes."""
+    versions = f"{sys.implementation.cache_tag} {numba.__version__} {llvmlite.__version__}"
+    digest = sha256(versions.encode())
+    beside = [HERE.parent / name for name in ("sigmoid.py", "portable.py")]
+    for path in sorted([*HERE.glob("*.py"), *HERE.glob("lanes/*.py"), *beside]):
+        digest.update(path.read_bytes())
+    return digest.hexdigest()[:16]
+
+
+@cache
+def folder() -> Path:
+    """Where machine code is kept: the user's cache; where that cannot be written, a folder of this process alone."""
+    return writable(f"compiled-{stamp()}")
+
+
+def writable(name: str) -> Path:
+    """A folder of that name in the user's cache, or one for this process alone."""
+    try:
+        found = _users().absolute() / name  # a relative one is of the folder in which we began
+        found.mkdir(parents=True, exist_ok=True)
+        with tempfile.TemporaryFile(dir=found):
+            return found
+    except (OSError, RuntimeError):  # RuntimeError: there is no home
+        found = Path(tempfile.mkdtemp(prefix="mind-"))  # never a known name: whoever can write it can run code here
+        atexit.register(shutil.rmtree, found, ignore_errors=True)
+        return found
+
+
+def _users() -> Path:
+    """Where a user wants such things kept; RuntimeError where there is no home."""
+    if given := os.environ.get("NUMBA_CACHE_DIR"):
+        return Path(given)
+    shared = Path(os.environ.get("XDG_CACHE_HOME", ""))  # of which a relative one does not count
+    return (shared if shared.is_absolute() else Path.home() / ".cache") / "mind"
+
+
+class MachineCode(_Cache):  # type: ignore[misc]
+    """The machine code of one function, for each signature: numba asks for it before it compiles."""
+
+    def __init__(self, function: str) -> None:
+        self.function = function
+
+    @property
+    def cache_path(self) -> str:
+        """Where it is kept."""
+        return str(folder())
+
+    def load_overload(self, sig: Any, target_context: Any) -> Any:
+        """The compiled function, or None."""
+        triple, *processor = target_context.codegen().magic_tuple()
+        kept = folder() / self.file(sig, triple, *processor)
+        for path in (kept, *(SHIPPED / self.file(sig, triple, kind, KINDS[kind]) for kind in fitting())):
+            if (data := _read(path)) is not None:
+                return CompileResult._rebuild(target_context, *pickle.loads(data))
+        return None
+
+    def save_overload(self, sig: Any, data: Any) -> None:
+        """Keep a compiled function; where that fails, it is compiled again another time."""
+        with suppress(OSError):
+            _write(folder() / self.file(sig, *data.codegen.magic_tuple()), dumps(data._reduce()))
+
+    def file(self, sig: Any, triple: str, processor: str, features: str) -> str:
+        """The name of a file."""
+        digest = sha256(f"{stamp()} {triple} {processor} {features} {sig}".encode()).hexdigest()[:16]
+        return f"{self.function}-{digest}.code"
+
+    def is_there(self) -> bool:
+        """Whether there is any, as far as one can see without the types."""
+        return any(True for place in (folder(), SHIPPED) for _ in place.glob(f"{self.function}-*.code"))
+
+    def enable(self) -> None:
+        """It always is."""
+
+    def disable(self) -> None:
+        """It never is."""
+
+    def flush(self) -> None:
+        """Forget what is kept."""
+        for path in folder().glob(f"{self.function}-*.code"):
+            path.unlink(missing_ok=True)
+
+
+def fitting() -> list[str]:
+    """The kinds of processors of which this one is."""
+    has = {f"+{name}" for name, is_there in get_host_cpu_features().items() if is_there}
+    return [kind for kind, needs in KINDS.items() if {*needs.split(",")} <= has]
+
+
+def _read(path: Path) -> bytes | None:
+    """What was written, or None where nothing was, or something else."""
+    with suppress(OSError):
+        data = path.read_bytes()
+        if sha256(data[HASH:]).digest() == data[:HASH]:
+            return data[HASH:]
+    return None
+
+
+def _write(path: Path, data: bytes) -> None:
+    """Beside, then renamed: another process may be reading."""
+    with tempfile.NamedTemporaryFile(dir=path.parent, delete=False) as file:
+        file.write(sha256(data).digest() + data)
+    Path(file.name).replace(path)
