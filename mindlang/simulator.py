@@ -5,6 +5,7 @@ import signal
 from collections.abc import Callable
 from typing import Any
 
+from mindrun.sim import warmup
 from mindrun.sim.rollout import Rollout
 
 from mindlang.terminal import INTERRUPTED
@@ -29,3 +30,5 @@ def make_ready(rollout: Rollout, say: Callable[[str], None]) -> None:
         rollout.compile()
     finally:
         signal.signal(signal.SIGINT, before)
+    if not warmup.is_native():  # what was shipped is for any processor of its kind: the next start is faster
+        warmup.start(warmup.BEHIND)

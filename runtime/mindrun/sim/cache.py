@@ -18,7 +18,7 @@ from typing import Any
 
 import llvmlite
 import numba
-from llvmlite.binding import get_host_cpu_features
+from llvmlite.binding import get_host_cpu_features, get_host_cpu_name
 from numba.core.caching import _Cache
 from numba.core.compiler import CompileResult
 from numba.core.serialize import dumps
@@ -26,7 +26,7 @@ from numba.core.serialize import dumps
 HERE = Path(__file__).parent
 SHIPPED = HERE / "compiled"  # in the wheel
 # The kinds of processors for which wheels have machine code, and what one must have to run it, as LLVM writes it.
-KINDS = {"x86-64-v3": "+avx,+avx2,+bmi,+bmi2,+f16c,+fma,+lzcnt,+movbe,+popcnt,+sse4.2", "cortex-a72": "+neon"}
+KINDS = {"x86-64-v3": "+avx,+avx2,+bmi,+bmi2,+f16c,+fma,+lzcnt,+movbe,+popcnt,+sse4.2", "generic": "+neon"}
 HASH = 32  # bytes
 
 
@@ -95,12 +95,17 @@ class MachineCode(_Cache):  # type: ignore[misc]
 
     def file(self, sig: Any, triple: str, processor: str, features: str) -> str:
         """The name of a file."""
-        digest = sha256(f"{stamp()} {triple} {processor} {features} {sig}".encode()).hexdigest()[:16]
-        return f"{self.function}-{digest}.code"
+        digest = sha256(f"{stamp()} {triple} {features} {sig}".encode()).hexdigest()[:16]
+        return f"{self.function}-{processor}-{digest}.code"
+
+    def is_native(self) -> bool:
+        """Whether some is kept that was made for this very processor."""
+        return any(folder().glob(f"{self.function}-{processor()}-*.code"))
 
     def is_there(self) -> bool:
-        """Whether there is any, as far as one can see without the types."""
-        return any(True for place in (folder(), SHIPPED) for _ in place.glob(f"{self.function}-*.code"))
+        """Whether there is some for this processor, as far as one can see without the types."""
+        shipped = (path for kind in fitting() for path in SHIPPED.glob(f"{self.function}-{kind}-*.code"))
+        return self.is_native() or any(shipped)
 
     def enable(self) -> None:
         """It always is."""
@@ -114,8 +119,15 @@ class MachineCode(_Cache):  # type: ignore[misc]
             path.unlink(missing_ok=True)
 
 
+def processor() -> str:
+    """The name of this processor, as LLVM has it."""
+    return str(get_host_cpu_name())
+
+
 def fitting() -> list[str]:
-    """The kinds of processors of which this one is."""
+    """The kinds of processors of which this one is; none where a user wants another's code."""
+    if numba.config.CPU_NAME:
+        return []
     has = {f"+{name}" for name, is_there in get_host_cpu_features().items() if is_there}
     return [kind for kind, needs in KINDS.items() if {*needs.split(",")} <= has]
 

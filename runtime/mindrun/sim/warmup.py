@@ -1,0 +1,74 @@
+"""Machine code of the simulator, made ahead of its use: `python -m mindrun.sim.warmup [behind]`."""
+
+import fcntl
+import os
+import subprocess
+import sys
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+
+from mindrun.actuators import Wheel
+from mindrun.functions import Rule
+from mindrun.graph import Actuator, Graph, Reward, Skill, Task
+from mindrun.sim import cache
+from mindrun.sim.lanes import stages
+from mindrun.sim.lanes.advance import advance
+from mindrun.sim.rollout import Rollout
+from mindrun.world import Disc, Plain
+
+BEHIND = "behind"
+LEAST = 19  # how little a process matters that works while others wait for nothing
+
+
+def is_native() -> bool:
+    """Whether the simulator is compiled for this very processor."""
+    dispatcher: Any = advance
+    return bool(dispatcher._cache.is_native())
+
+
+def start(*words: str) -> "subprocess.Popen[bytes]":
+    """A process that compiles it for this very processor, whatever was shipped, and goes on when this one ends."""
+    environment = os.environ | {"NUMBA_CPU_NAME": cache.processor()}
+    command, nowhere = [sys.executable, "-m", "mindrun.sim.warmup", *words], subprocess.DEVNULL
+    return subprocess.Popen(
+        command, env=environment, stdin=nowhere, stdout=nowhere, stderr=nowhere, start_new_session=True
+    )
+
+
+def warm_up() -> None:
+    """Compile every way in that is not kept yet."""
+    rollout = Rollout(_smallest(), {}, "Nothing", "Rest")
+    rollout.compile()
+    tile, jobs = rollout.tile(1), rollout.jobs(np.zeros((0, 0), np.float32), np.zeros(0, np.uint64))
+    t, s, none = rollout.tables, tile.state, np.int64(0)
+    stages.before(t, s, jobs)
+    stages.run_skills(t, s, none, 0, 0)
+    stages.wake(t, s, 0, 0)
+    stages.send(t, s, 0, 0, 0, 0)
+    stages.after(t, s, jobs, True)
+
+
+def main(words: Sequence[str]) -> None:
+    """Compile; once another process that is at it has done so, or, with `behind`, not at all then."""
+    behind = BEHIND in words
+    with (cache.folder() / "warming").open("w") as file:
+        try:
+            fcntl.flock(file, fcntl.LOCK_EX | (fcntl.LOCK_NB if behind else 0))
+        except OSError:
+            return
+        if behind:
+            os.nice(LEAST)
+        warm_up()
+
+
+def _smallest() -> Graph:
+    """A mind that does nothing."""
+    wheel = Actuator("wheel", Wheel("left", 0.5))
+    task = Task("Nothing", Plain(), (), 1, (), (), (), (Reward("", (("number", 0.0),), None),), ())
+    return Graph(1 / 60, Disc(), "Rest", (), (), (wheel,), (Skill("Rest", Rule(), (), ()),), (task,), ())
+
+
+if __name__ == "__main__":
+    main(sys.argv[1:])
