@@ -6,7 +6,6 @@ something could touch for the first time. `tests/sim` holds it against a loop of
 
 from typing import Any
 
-import numba
 import numpy as np
 from llvmlite import ir
 from numba import types
@@ -14,7 +13,7 @@ from numba.extending import intrinsic
 from pymunk import _chipmunk
 
 from mindrun.sim.codes import FORCE_X, FORCE_Y, TORQUE
-from mindrun.sim.compiling import compiled
+from mindrun.sim.compiling import callback, compiled
 
 ffi, lib = _chipmunk.ffi, _chipmunk.lib
 
@@ -44,7 +43,7 @@ def library() -> Any:
     return np.array([*addresses, _count.address], np.uint64)
 
 
-@numba.cfunc(types.void(types.voidptr, types.voidptr, types.CPointer(types.int64)))
+@callback(types.void(types.voidptr, types.voidptr, types.CPointer(types.int64)))
 def _count(_body: Any, _arbiter: Any, count: Any) -> None:
     count[0] += 1
 

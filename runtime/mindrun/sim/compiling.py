@@ -10,9 +10,11 @@ from typing import Any
 import numba
 from llvmlite.binding import Linkage
 from numba import _dynfunc
+from numba.core.ccallback import CFunc
 from numba.core.codegen import JITCodeLibrary
 from numba.core.compiler import CompilerBase, DefaultPassBuilder
 from numba.core.compiler_machinery import PassManager, register_pass
+from numba.core.sigutils import normalize_signature
 from numba.core.typed_passes import NativeLowering
 
 from mindrun.sim.cache import MachineCode
@@ -110,5 +112,21 @@ inlined: Decorator = numba.njit(inline="always", **OPTIONS)
 def entry(function: Callable[..., Any]) -> Callable[..., Any]:
     """Compiled too, and alone can be called from Python; its machine code is kept."""
     dispatcher: Any = numba.njit(pipeline_class=Outer, **OPTIONS)(function)
-    dispatcher._cache = MachineCode(f"{function.__module__.rpartition('.')[2]}.{function.__name__}")
+    dispatcher._cache = _code_of(function)
     return dispatcher  # type: ignore[no-any-return]
+
+
+def callback(signature: Any) -> Callable[[Callable[..., Any]], Any]:
+    """A function for C, which calls its `address`; its machine code is kept."""
+
+    def compile_it(function: Callable[..., Any]) -> Any:
+        made: Any = CFunc(function, normalize_signature(signature), locals={}, options={})
+        made._cache = _code_of(function)
+        made.compile()
+        return made
+
+    return compile_it
+
+
+def _code_of(function: Callable[..., Any]) -> MachineCode:
+    return MachineCode(f"{function.__module__.rpartition('.')[2]}.{function.__name__}")
