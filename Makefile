@@ -15,7 +15,7 @@ SEED ?= 1
 TO ?= runs/paper
 
 .DEFAULT_GOAL := help
-.PHONY: help demo test test-slow bench bench-learning paper paper-train clean
+.PHONY: help demo test test-slow bench bench-learning paper paper-train wheel clean
 
 help:  ## what there is to make
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  make %-14s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
@@ -40,6 +40,9 @@ paper: $(READY)  ## tables 1 to 3 and figures 11 to 15 of the paper, from the sh
 
 paper-train: $(READY)  ## the paper's whole protocol from nothing, goes on where it was stopped: ATTEMPTS= SCALE= SEED= TO=
 	$(BIN)/python examples/collect/paper/teach.py --attempts $(ATTEMPTS) --others $(OTHERS) --scale $(SCALE) --seed $(SEED) --out $(TO)
+
+wheel: $(READY)  ## a wheel with machine code for processors like this one, in dist/
+	MIND_COMPILED=1 $(BIN)/python -m hatchling build -t wheel
 
 clean:  ## remove what was built, with the environment; runs and weights stay
 	rm -rf .venv build dist .pytest_cache .mypy_cache .ruff_cache .hypothesis
