@@ -223,7 +223,7 @@ def test_everything_is_placed_clear_of_everything(scene: Plain | Arena) -> None:
     )
     graph = replace(mind(rule("Top"), actuators=(CLAW,)), tasks=(task(1, scene=scene, things=things),))
     spans = [(6.0, 12.0), (10.0, np.inf if isinstance(scene, Arena) else 40.0), (8.0, 9.0)]
-    angles, places = [], []
+    angles, places, sizes = [], [], []
     for seed in range(40):
         run = trace(Rollout(graph, {}, "World", "Top"), seed)
         x, y, angle = run.begin
@@ -239,8 +239,11 @@ def test_everything_is_placed_clear_of_everything(scene: Plain | Arena) -> None:
                 assert max(abs(ax - bx), abs(ay - by)) >= a + b + margin
             if isinstance(scene, Arena):
                 assert max(abs(ax), abs(ay)) <= 30.0 - a - 2.0 + 1e-9
-        assert set(run.boxes[:, 2]) <= set(run.boxes[(run.boxes[:, 2] >= 0.5) & (run.boxes[:, 2] <= 2.0), 2])
+        assert ((run.boxes[:, 2] >= 0.5) & (run.boxes[:, 2] <= 2.0)).all()
         assert 1.0 <= run.things[0, 2] <= 3.0
+        sizes.append((*run.boxes[:, 2] * 2, run.things[0, 2]))
+    assert (np.min(sizes, axis=0) < 1.4).all()
+    assert (np.max(sizes, axis=0) > (3.6, 3.6, 3.6, 3.6, 2.6)).all()
     assert min(angles) < 1.0
     assert max(angles) > 5.0
     assert (max(places) == 0) == isinstance(scene, Plain)
@@ -273,6 +276,8 @@ def test_a_grid_stands_on_its_crossings() -> None:
         off = run.boxes[:, :2] - crossings
         assert np.abs(off).max() <= jitter
         assert (off.min() < -jitter / 2) == (off.max() > jitter / 2) == (jitter > 0)
+        halves = run.boxes[:, 2]
+        assert 0.5 <= halves.min() < 0.7 < 0.8 < halves.max() <= 1.0
         gaps = np.abs(run.boxes[:, :2] - run.begin[:2]).max(axis=1) - run.boxes[:, 2]
         assert gaps.min() >= 3.0
 

@@ -1,5 +1,6 @@
 """What the guardian asks of the system: all of it, whatever the system refuses."""
 
+import os
 import resource
 import sys
 from collections.abc import Callable
@@ -46,6 +47,7 @@ def test_memory_is_locked_where_nothing_limits_it(
     assert asked["killed last"][1] == "-1000"
     assert asked["stack"] == (256 << 10,)
     assert asked["switch"][0] < 0.001
+    assert asked["scheduler"] == (0, os.SCHED_FIFO, os.sched_param(urgent.PRIORITY))
     assert asked.get("locked", (3,)) == (3,)
 
 
