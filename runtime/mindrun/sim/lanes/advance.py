@@ -3,7 +3,7 @@
 import numpy as np
 
 from mindrun.sim.chipmunk import close_space
-from mindrun.sim.codes import GOING_ON, INERTIAL_TICKS, LOST, VISIT
+from mindrun.sim.codes import FAR, GOING_ON, INERTIAL_TICKS, LOST, VISIT
 from mindrun.sim.compiling import compiled, entry
 from mindrun.sim.lanes.act import act, recall
 from mindrun.sim.lanes.arithmetic import sine_cosine
@@ -53,19 +53,34 @@ def after(t, s, jobs, interrupt):
         for p in range(n):
             s.last[i, p] = s.commands[i, p]
     jobs.clock[0] = clock + 1
-    p = n - 1
-    while p >= 0:
-        if is_lost(s.body, p):
-            s.faults[p] += 1
-            s.ended[p] = LOST
-        if s.ended[p] != GOING_ON or s.tick[p] >= t.world[0].ticks:
-            finish(t, s, jobs, p)
-            if not begin_job(t, s, jobs, p):
-                last = jobs.lanes[0] - 1
-                if p != last:
-                    move(s, last, p)
-                jobs.lanes[0] = last
-        p -= 1
+    if going_on(s.body, s.ended, s.tick, t.world[0].ticks, n) < n:
+        for k in range(n):
+            end(t, s, jobs, n - 1 - k)
+
+
+@compiled
+def going_on(body, ended, tick, ticks, n):
+    """In how many lanes the run is not over: most often in all of them, and then nothing else looks."""
+    count = 0
+    for p in range(n):
+        placed = (abs(body[0, p]) <= FAR) & (abs(body[1, p]) <= FAR) & (abs(body[2, p]) <= FAR)
+        count += 1 if placed & (ended[p] == GOING_ON) & (tick[p] < ticks) else 0
+    return count
+
+
+@compiled
+def end(t, s, jobs, p):
+    """Lane p's run written down where it is over, and the next one begun, or the last lane in its place."""
+    if is_lost(s.body, p):
+        s.faults[p] += 1
+        s.ended[p] = LOST
+    if s.ended[p] != GOING_ON or s.tick[p] >= t.world[0].ticks:
+        finish(t, s, jobs, p)
+        if not begin_job(t, s, jobs, p):
+            last = jobs.lanes[0] - 1
+            if p != last:
+                move(s, last, p)
+            jobs.lanes[0] = last
 
 
 @entry
