@@ -30,5 +30,5 @@ def make_ready(rollout: Rollout, say: Callable[[str], None]) -> None:
         rollout.compile()
     finally:
         signal.signal(signal.SIGINT, before)
-    if not warmup.is_native():  # what was shipped is for any processor of its kind: the next start is faster
+    if is_compiled() and not warmup.is_native():  # it was shipped, for any processor of its kind
         warmup.start(warmup.BEHIND)

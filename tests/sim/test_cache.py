@@ -107,17 +107,22 @@ def test_which_kinds_a_processor_is_of(monkeypatch: pytest.MonkeyPatch) -> None:
     assert cache.fitting() == [], "who names a processor gets what is made for it"
 
 
-@pytest.mark.parametrize("native", [True, False])
-def test_native_code_is_made_behind_what_was_shipped(monkeypatch: pytest.MonkeyPatch, native: bool) -> None:
+@pytest.mark.parametrize(("is_there", "native"), [(True, True), (True, False), (False, False)])
+def test_native_code_is_made_behind_what_was_shipped(
+    monkeypatch: pytest.MonkeyPatch, is_there: bool, native: bool
+) -> None:
+    """And only then: where nothing can be kept it would be made again and again."""
+
     class Compiled:
         def compile(self) -> None:
             pass
 
     started: list[str] = []
+    monkeypatch.setattr(simulator, "is_compiled", lambda: is_there)
     monkeypatch.setattr(warmup, "is_native", lambda: native)
     monkeypatch.setattr(warmup, "start", lambda *words: started.extend(words))
     simulator.make_ready(Compiled(), lambda words: None)  # type: ignore[arg-type]
-    assert started == ([] if native else [warmup.BEHIND])
+    assert started == ([warmup.BEHIND] if is_there and not native else [])
 
 
 def test_a_warm_simulator_says_where_it_lies(mindc: Call) -> None:
