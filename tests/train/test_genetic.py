@@ -34,6 +34,7 @@ def test_the_same_rng_gives_the_same_genomes() -> None:
 def test_what_is_known_stands_in_the_first_population_with_mutated_copies() -> None:
     known = np.full((1, 10), 3.0, np.float32)
     first = evolve(1, known).genomes
+    assert first.shape == (Genetic().population, 10)
     np.testing.assert_array_equal(first[0], known[0])
     assert 0 < (first[1:] != 3.0).mean() < 0.3
 

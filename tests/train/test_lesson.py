@@ -21,6 +21,7 @@ from mindrun.train.lesson import (
     teach,
     try_again,
 )
+from mindrun.train.seeds import Purpose, layouts
 
 from tests.train.climbing import LENGTH, Faulty, Flat, Results, Sphere, lesson
 
@@ -159,6 +160,8 @@ def test_all_attempts_have_their_verdict_on_the_same_layouts() -> None:
     verdicts = [seeds for _, seeds in told.asked if len(seeds) == 2 * VERDICT]
     assert len(verdicts) == 3
     assert verdicts[0] == verdicts[1] == verdicts[2]
+    known = layouts(1, 0, 3, 2 * VERDICT, Purpose.VERDICT).tolist()
+    assert [int(seed) for seed in verdicts[0]] == known, "whoever has the seed can score it again"
 
 
 def test_one_half_of_a_verdict_decides_and_the_other_is_reported() -> None:

@@ -6,11 +6,13 @@ import os
 from dataclasses import asdict, replace
 from math import inf
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from mindrun.train import training
 from mindrun.train.genetic import Population
 from mindrun.train.lesson import Course, Record, State, begin
 from mindrun.train.progress import LINES, TABLE, Progress, read
@@ -135,3 +137,20 @@ def test_both_files_are_brought_to_the_disk_and_closed(tmp_path: Path, monkeypat
     for descriptor in opened:
         with pytest.raises(OSError, match="Bad file descriptor"):
             os.fstat(descriptor)
+
+
+def test_the_log_is_on_the_disk_before_the_checkpoint_that_counts_on_it(monkeypatch: pytest.MonkeyPatch) -> None:
+    order: list[str] = []
+    monkeypatch.setattr("mindrun.train.checkpoint.save", lambda *given: order.append("checkpoint"))
+    run = SimpleNamespace(folder=Path(), manifest=SimpleNamespace(identity="one"))
+    training._save(run, at(0, 0), SimpleNamespace(sync=lambda: order.append("log")))  # type: ignore[arg-type]
+    assert order == ["log", "checkpoint"]
+
+
+def test_both_files_of_the_log_are_brought_to_the_disk(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    synced: list[int] = []
+    with Progress(tmp_path, at(0, 0)) as progress:
+        monkeypatch.setattr("os.fsync", synced.append)
+        progress.sync()
+        names = {Path(f"/proc/self/fd/{descriptor}").readlink().name for descriptor in synced}
+    assert names == {LINES, TABLE}
