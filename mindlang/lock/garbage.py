@@ -27,7 +27,7 @@ def remove(blobs: list[Path]) -> None:
     for folder in sorted({blob.parent.parent for blob in blobs}):
         try:
             with alone(folder / FOLDER):  # a training may be writing a lock
-                for blob in set(_unnamed(folder)) & set(blobs):
+                for blob in sorted(set(_unnamed(folder)) & set(blobs)):
                     blob.unlink()
         except OSError as error:
             raise LockError(f"{error.filename} cannot be removed: {error.strerror}") from error

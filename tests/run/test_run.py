@@ -11,7 +11,7 @@ from pathlib import Path
 from statistics import mean, stdev
 
 import pytest
-from mindrun.sim.lanes.advance import advance
+from mindrun.sim import cache
 
 from mindlang.run.stage import layouts
 from mindlang.simulator import is_compiled
@@ -118,11 +118,11 @@ def test_a_first_run_says_why_it_takes_so_long(mindc: Call, rules: Path, monkeyp
 
 
 def test_what_was_compiled_of_other_files_does_not_count(
-    mindc: Call, rules: Path, monkeypatch: pytest.MonkeyPatch
+    mindc: Call, rules: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     assert mindc("run", rules, "--seed", 3, "--quiet").code == 0
     assert is_compiled()
-    monkeypatch.setattr(advance._cache._cache_file, "_source_stamp", (0, 0))  # as after another installation
+    monkeypatch.setattr(cache, "folder", lambda: cache.writable(str(tmp_path / "compiled-another")))
     assert not is_compiled()
 
 
