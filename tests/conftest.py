@@ -26,3 +26,13 @@ def mindc(capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) -
 def rules(tmp_path: Path) -> Path:
     """A small mind that has nothing to learn, as a file."""
     return write_rules(tmp_path)
+
+
+@pytest.fixture
+def drive(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """A mind with two quick lessons, as a file in the working folder."""
+    from tests.edits.taught import write_mind  # what most tests need not import
+    from tests.train.test_train_command import MIND
+
+    monkeypatch.chdir(tmp_path)
+    return write_mind(tmp_path, MIND)

@@ -6,7 +6,7 @@ import numpy as np
 from mindrun.weights import genes
 
 from mindlang.compile import load
-from mindlang.lock import Taught, lock_path, read_locks
+from mindlang.lock import Taught, lock_path, read_lock, read_locks
 from mindlang.lock.arrange import arrange
 from mindlang.lock.blobs import record
 from mindlang.lock.status import Status, status
@@ -88,3 +88,8 @@ def statuses(path: Path) -> dict[str, Status]:
     assert compiled.graph
     lock = read_locks(source.path for source in compiled.sources)
     return status(arrange(compiled.graph, lock), lock)
+
+
+def recorded(path: Path, skill: str = "Go") -> str:
+    """The hash of the weights that a mind's lock names for a skill."""
+    return read_lock(lock_path(path))[skill].weights

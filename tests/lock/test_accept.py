@@ -3,35 +3,22 @@
 import json
 from pathlib import Path
 
-import pytest
-
-from mindlang.lock import lock_path, read_lock
+from mindlang.lock import lock_path
 from tests.calling import Call
-from tests.edits.taught import teach, write_mind
-from tests.train.test_train_command import MIND
-
-
-@pytest.fixture
-def drive(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    monkeypatch.chdir(tmp_path)
-    return write_mind(tmp_path, MIND)
-
-
-def weights(path: Path, skill: str = "Go") -> str:
-    return read_lock(lock_path(path))[skill].weights
+from tests.edits.taught import recorded, teach
 
 
 def test_what_a_person_accepts_is_not_taught_again(mindc: Call, drive: Path) -> None:
     teach(drive)
     drive.write_text(drive.read_text().replace("thrust 80", "thrust 70"))
-    old = weights(drive)
+    old = recorded(drive)
     rows = json.loads(mindc("status", drive, "--json").out)["skills"]
     assert {row["skill"]: row["status"] for row in rows} == {"Drive": "taught elsewhere", "Go": "taught elsewhere"}
     said = mindc("status", drive, "--accept", "Go", "Drive")
     assert said.code == 0, said.err
     assert "accepted by a person" in said.out
     assert "nothing to do" in mindc("train", drive).err
-    assert weights(drive) == old
+    assert recorded(drive) == old
     drive.write_text(drive.read_text().replace("thrust 70", "thrust 60"))
     assert "taught with left_wheel thrust 70, now 60" in mindc("status", drive).out
 

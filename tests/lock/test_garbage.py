@@ -7,27 +7,16 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from mindlang.lock import LockError, lock_path, read_lock
+from mindlang.lock import LockError, lock_path
 from mindlang.lock.blobs import blob
 from mindlang.lock.garbage import remove, unnamed
 from tests.calling import Call
-from tests.edits.taught import teach, write_mind
-from tests.train.test_train_command import MIND
-
-
-@pytest.fixture
-def drive(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    monkeypatch.chdir(tmp_path)
-    return write_mind(tmp_path, MIND)
-
-
-def weights(path: Path, skill: str = "Go") -> str:
-    return read_lock(lock_path(path))[skill].weights
+from tests.edits.taught import recorded, teach
 
 
 def test_gc_removes_what_no_lock_names(mindc: Call, drive: Path) -> None:
     teach(drive)
-    old = weights(drive)
+    old = recorded(drive)
     teach(drive, seed=2)
     stray = drive.parent / "weights" / "notes.npy"
     np.save(stray, np.zeros(3))
@@ -39,14 +28,14 @@ def test_gc_removes_what_no_lock_names(mindc: Call, drive: Path) -> None:
     assert blob(drive.parent, old).exists()
     assert mindc("gc", drive.parent, "--write").code == 0
     assert not blob(drive.parent, old).exists()
-    assert blob(drive.parent, weights(drive)).exists()
+    assert blob(drive.parent, recorded(drive)).exists()
     assert stray.exists()
     assert mindc("gc", drive.parent).err.startswith("nothing to remove")
 
 
 def test_gc_removes_nothing_where_a_lock_is_damaged_or_missing(mindc: Call, drive: Path) -> None:
     teach(drive)
-    kept = blob(drive.parent, weights(drive))
+    kept = blob(drive.parent, recorded(drive))
     lock_path(drive).write_text("?")
     said = mindc("gc", drive.parent, "--write")
     assert (said.code, kept.exists()) == (1, True)

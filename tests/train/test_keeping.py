@@ -3,32 +3,20 @@
 import json
 from pathlib import Path
 
-import pytest
-
-from mindlang.lock import lock_path, read_lock
+from mindlang.lock import lock_path
 from mindlang.lock.blobs import blob
 from tests.calling import Call
-from tests.edits.taught import teach, write_mind
+from tests.edits.taught import recorded, teach
 from tests.train.test_train_command import MIND
 
 QUICK = ("--seed", "1", "--generations", "1")
 
 
-@pytest.fixture
-def drive(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    monkeypatch.chdir(tmp_path)
-    return write_mind(tmp_path, MIND)
-
-
-def weights(path: Path, skill: str = "Go") -> str:
-    return read_lock(lock_path(path))[skill].weights
-
-
 def test_worse_weights_take_no_place_without_force(mindc: Call, drive: Path) -> None:
     assert mindc("train", drive, "Go", "--seed", 3, "--generations", 30).code == 0
-    good = weights(drive)
+    good = recorded(drive)
     said = mindc("train", drive, "Go", "--from-scratch", "--json", *QUICK)
-    assert (said.code, weights(drive)) == (0, good)
+    assert (said.code, recorded(drive)) == (0, good)
     result = json.loads(said.out)
     assert (result["kept"], result["weights"]) == (False, {"Go": good})
     assert result["compared"][0] > result["compared"][1]
@@ -37,20 +25,20 @@ def test_worse_weights_take_no_place_without_force(mindc: Call, drive: Path) -> 
     assert (drive.parent / result["run"] / "weights.npy").exists(), "what was learnt is not lost"
     forced = mindc("train", drive, "Go", "--from-scratch", "--force", *QUICK)
     assert forced.code == 0, forced.err
-    assert weights(drive) != good
+    assert recorded(drive) != good
     assert "but the weights that were there do better" in forced.err
     assert blob(drive.parent, good).exists(), "mindc gc alone removes weights"
 
 
 def test_better_weights_take_the_place(mindc: Call, drive: Path) -> None:
     teach(drive, "Go")
-    old = weights(drive)
+    old = recorded(drive)
     said = mindc("train", drive, "Go", "--seed", 3, "--generations", 30, "--from-scratch", "--json")
     assert said.code == 0, said.err
     result = json.loads(said.out)
     assert result["compared"][0] < result["compared"][1]
-    assert (result["kept"], result["weights"]["Go"]) == (True, weights(drive))
-    assert weights(drive) != old
+    assert (result["kept"], result["weights"]["Go"]) == (True, recorded(drive))
+    assert recorded(drive) != old
 
 
 def test_a_lesson_that_tells_nobody_apart_has_taught_nothing(mindc: Call, drive: Path) -> None:

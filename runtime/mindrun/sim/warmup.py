@@ -22,10 +22,16 @@ BEHIND = "behind"
 LEAST = 19  # how little a process matters that works while others wait for nothing
 
 
+def code() -> cache.MachineCode:
+    """What is kept and shipped of the way in that takes the longest to compile."""
+    dispatcher: Any = advance
+    found: cache.MachineCode = dispatcher._cache
+    return found
+
+
 def is_native() -> bool:
     """Whether the simulator is compiled for this very processor."""
-    dispatcher: Any = advance
-    return bool(dispatcher._cache.is_native())
+    return code().is_native()
 
 
 def start(*words: str) -> "subprocess.Popen[bytes]":

@@ -3,13 +3,13 @@
 import numpy as np
 
 from mindrun.sim.chipmunk import close_space
-from mindrun.sim.codes import FAR, GOING_ON, INERTIAL_TICKS, LOST, VISIT
+from mindrun.sim.codes import GOING_ON, INERTIAL_TICKS, LOST, VISIT
 from mindrun.sim.compiling import compiled, entry
 from mindrun.sim.lanes.act import act, recall
 from mindrun.sim.lanes.arithmetic import sine_cosine
 from mindrun.sim.lanes.judge import judge, patch_of
 from mindrun.sim.lanes.sense import sense
-from mindrun.sim.lanes.step import is_lost, step
+from mindrun.sim.lanes.step import is_lost, step, within
 from mindrun.sim.lanes.think import begin, think
 from mindrun.sim.place import draw
 
@@ -63,7 +63,7 @@ def going_on(body, ended, tick, ticks, n):
     """In how many lanes the run is not over: most often in all of them, and then nothing else looks."""
     count = 0
     for p in range(n):
-        placed = (abs(body[0, p]) <= FAR) & (abs(body[1, p]) <= FAR) & (abs(body[2, p]) <= FAR)
+        placed = within(body[0, p], body[1, p], body[2, p])
         count += 1 if placed & (ended[p] == GOING_ON) & (tick[p] < ticks) else 0
     return count
 

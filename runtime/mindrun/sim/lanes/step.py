@@ -112,7 +112,7 @@ def find_near(t, s, n):
 @compiled
 def within(x, y, angle):
     """Whether Chipmunk can say anything of such a place; not where it is no number."""
-    return abs(x) <= FAR and abs(y) <= FAR and abs(angle) <= FAR
+    return (abs(x) <= FAR) & (abs(y) <= FAR) & (abs(angle) <= FAR)
 
 
 @compiled
