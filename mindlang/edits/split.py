@@ -27,7 +27,8 @@ def _new_file(project: Project, to: str) -> Path:
     if not path.is_relative_to(main.folder) or path.suffix != ".mind" or '"' in to or Path(to).is_absolute():
         message = f"{to} is no .mind file in the folder of {main.name} or below it."
         raise EditError(message, "Write for example skills.mind.")
-    if path.exists():
+    used = (file.source.path.resolve() for file in project.files)  # an editor may not have saved them
+    if path.exists() or path in used:
         raise EditError(f"{to} exists already.", "Choose another name.")
     return path
 

@@ -17,7 +17,7 @@ from mindlang.editing.project import EditError, Project
 from mindlang.parse import parse
 from mindlang.source import Source
 from mindlang.syntax import Influences
-from tests.edits.sources import ACTUATORS, SENSORS, SKILLS, Texts, minds
+from tests.edits.sources import ACTUATORS, MAIN, PARTS, SENSORS, SKILLS, Texts, minds
 
 OFTEN, SELDOM = 5000, 150  # cases of each test in the slow suite, and in the other
 FREE = ("New", "Go+New", "Roam", "Over")
@@ -165,7 +165,7 @@ def _comments(asked: Asked, old: Texts, new: Texts) -> None:
 
 def _said(texts: Iterable[str]) -> list[str]:
     """All comments: each begins with a number of its own."""
-    return [comment for text in texts for comment in re.findall(r"# \d+:.*", text)]
+    return [comment for text in texts for comment in re.findall(r"# \d+:[^\r\n]*", text)]
 
 
 Reversible = Callable[[st.DrawFn, Project], tuple[Asked, list[Asked]]]
@@ -297,6 +297,13 @@ def _dense(text: str) -> list[str]:
 @settings(max_examples=SELDOM, suppress_health_check=[HealthCheck.too_slow])
 def test_an_edit_keeps_everything_but_its_own_lines(texts: Texts, asked: Asked) -> None:
     holds(texts, asked)
+
+
+def test_a_file_that_is_not_saved_yet_is_there() -> None:
+    main = 'tick 1/60 s\nbody Robot is disc size 2\nmaster Go\nuse "parts.mind"\nskill Go is rule\n  drives claw at 1\n'
+    texts = Texts({MAIN: main, PARTS: "actuator claw is gripper neutral 0\n"}, airy=False)
+    with pytest.raises(EditError, match=r"parts\.mind exists already"):
+        done(texts, Asked("split", {"to": "parts.mind", "names": ("Go",)}))
 
 
 @given(minds(), st.data())
