@@ -65,7 +65,7 @@ def _parts(sizes: Sizes) -> dict[str, int]:
         "the neurons of its widest layer": 8 * sizes.width,
         "the readings": 4 * (sizes.readings + sizes.inputs + sizes.before + sizes.rough + sizes.rings),
         "the patches to visit": sizes.patches,
-        "the obstacles": (24 + 16 + 8 + 8) * sizes.boxes,
+        "the obstacles": (24 + 24 + 16 + 8) * sizes.boxes,
         "what waits and changes": 4 * sizes.delays + 16 * sizes.changes + 8 * sizes.depth + 12 * sizes.skills,
     }
 

@@ -100,10 +100,10 @@ def open_space(t, s, p):
     call(c[SPACE_HASH], space, world.cell, HASH_COUNT)
     static = call(c[SPACE_STATIC], space)
     shape = 3 + things
-    for b in range(s.boxes.shape[0] // 3):
-        x, y, half = s.boxes[3 * b, p], s.boxes[3 * b + 1, p], s.boxes[3 * b + 2, p]
+    for b in range(s.boxes.shape[1] // 3):
+        x, y, half = s.boxes[p, 3 * b], s.boxes[p, 3 * b + 1], s.boxes[p, 3 * b + 2]
         s.handles[p, shape + b] = add_box(c, space, static, s.floats[p], x - half, y - half, x + half, y + half)
-    shape += s.boxes.shape[0] // 3
+    shape += s.boxes.shape[1] // 3
     if world.half < 1e300:
         a, b = world.half, world.half + 2 * WALL
         s.handles[p, shape] = add_box(c, space, static, s.floats[p], -b, -b, -a, b)

@@ -15,6 +15,7 @@ NUMBER, READING, EACH, MEASURE, ADD, SUBTRACT, MULTIPLY, DIVIDE, NEGATE = range(
 LESS, LESS_EQUAL, GREATER, GREATER_EQUAL = range(4)
 
 GOING_ON, LOST = -1, -2  # of a run that no event has ended: on its way or out of time, or beyond FAR
+AWAY = 1e30  # units: where a box is that is none
 FAR = 1e9  # units from the origin, and radians: nothing is there, and a little further Chipmunk never comes back
 
 FORCE, TORQUE, FORCE_X, FORCE_Y = range(4)  # rows of what pushes a body

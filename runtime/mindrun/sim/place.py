@@ -6,6 +6,7 @@ the same world. Everything is placed clear of everything else, with room for the
 
 import numpy as np
 
+from mindrun.sim.codes import FAR
 from mindrun.sim.compiling import compiled
 from mindrun.sim.lanes.arithmetic import sine_cosine
 
@@ -30,9 +31,9 @@ def uniform(random, p, low, high):
 def draw(t, s, p):
     """A fresh world in lane p: grids of obstacles, the robot, loose obstacles, then the things in their order."""
     world, obstacles = t.world[0], t.obstacles
-    s.boxes[:, p] = 1e9
-    s.boxes[2::3, p] = 0.0
-    s.things[:, p] = 1e9
+    s.boxes[p, :] = FAR
+    s.boxes[p, 2::3] = 0.0
+    s.things[:, p] = FAR
     box = 0
     for i in range(len(obstacles)):
         box = draw_grid(s, obstacles[i], box, p)
@@ -41,7 +42,7 @@ def draw(t, s, p):
         for _ in range(obstacles[i].count):
             size = uniform(s.random, p, obstacles[i].first, obstacles[i].last)
             x, y = find(s, world.half, world.radius, obstacles[i].low, obstacles[i].high, size / 2, -1, p)
-            s.boxes[3 * box, p], s.boxes[3 * box + 1, p], s.boxes[3 * box + 2, p] = x, y, size / 2
+            s.boxes[p, 3 * box], s.boxes[p, 3 * box + 1], s.boxes[p, 3 * box + 2] = x, y, size / 2
             box += 1
     for i in range(len(t.things)):
         thing = t.things[i]
@@ -58,7 +59,7 @@ def draw_grid(s, obstacle, box, p):
             x = (column - middle) * obstacle.grid + uniform(s.random, p, -obstacle.jitter, obstacle.jitter)
             y = (row - middle) * obstacle.grid + uniform(s.random, p, -obstacle.jitter, obstacle.jitter)
             size = uniform(s.random, p, obstacle.first, obstacle.last)
-            s.boxes[3 * box, p], s.boxes[3 * box + 1, p], s.boxes[3 * box + 2, p] = x, y, size / 2
+            s.boxes[p, 3 * box], s.boxes[p, 3 * box + 1], s.boxes[p, 3 * box + 2] = x, y, size / 2
             box += 1
     return box
 
@@ -79,9 +80,9 @@ def start(s, half, radius, p):
 @compiled
 def clear(s, x, y, margin, p):
     """Whether no obstacle comes within `margin` of a point, along the axes."""
-    for b in range(s.boxes.shape[0] // 3):
-        gap = s.boxes[3 * b + 2, p] + margin
-        if abs(s.boxes[3 * b, p] - x) < gap and abs(s.boxes[3 * b + 1, p] - y) < gap:
+    for b in range(s.boxes.shape[1] // 3):
+        gap = s.boxes[p, 3 * b + 2] + margin
+        if abs(s.boxes[p, 3 * b] - x) < gap and abs(s.boxes[p, 3 * b + 1] - y) < gap:
             return False
     return True
 

@@ -5,7 +5,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from mindrun.sim.codes import INERTIAL_TICKS
+from mindrun.sim.codes import AWAY, INERTIAL_TICKS
 from mindrun.sim.lanes.vector import WIDE
 from mindrun.sim.tables import Sizes, Tables
 
@@ -18,7 +18,7 @@ class State(NamedTuple):
     # the world
     body: Array  # [6] float64: x, y, angle, their velocities
     heading: Array  # [2] float64: cosine and sine of the angle
-    boxes: Array  # [3·boxes] float64: x, y, half side of each
+    boxes: Array  # [lane, 3·boxes] float64: x, y, half side of each
     things: Array  # [4·things] float64: x, y, size, distance to the robot when the tick began
     held: Array  # the thing that the claw holds, or −1
     reached: Array  # [things] uint8: bit 0 while it is in reach, bit 1 if it was in the tick before
@@ -69,7 +69,7 @@ class State(NamedTuple):
     limit: Array  # float64: the right side of its condition
     sight: Array  # [4 + rays] float32: heading and place, then how far each ray goes
     slots: Array  # [4·boxes] float32: the sides of the boxes that a lane's rays can meet, relative to the robot
-    slot_boxes: Array  # [boxes] int64: which boxes a lane's rays or robot can meet
+    nearby: Array  # [3·boxes] float64: the boxes that a lane's rays or robot can meet, the others AWAY
     slot_count: Array
     slot_most: Array  # [1]: of any lane
     anchor: Array  # [2] float64: where the slots were chosen
@@ -105,7 +105,7 @@ def empty_state(tables: Tables, sizes: Sizes, lanes: int) -> State:
     things, boxes, rays, events = len(tables.things), sizes.boxes, len(tables.ray_row), len(tables.events)
     actuators = len(tables.actuators)
     doubles = {
-        "body": 6, "heading": 2, "boxes": 3 * boxes, "things": 4 * things, "trail": 2 * INERTIAL_TICKS,
+        "body": 6, "heading": 2, "things": 4 * things, "trail": 2 * INERTIAL_TICKS,
         "changes": 2 * sizes.changes, "measures": len(tables.measures), "events": events,
         "lines": len(tables.rewards), "stack": sizes.depth, "push": 4, "was": 2, "anchor": 2,
     }  # fmt: skip
@@ -134,6 +134,7 @@ def empty_state(tables: Tables, sizes: Sizes, lanes: int) -> State:
         handles=np.zeros((lanes, HANDLES + things + boxes + 4), np.uint64),
         floats=np.zeros((lanes, 16)),
         batch=np.zeros((lanes, 8), np.int64),
-        slot_boxes=np.zeros((max(1, boxes), whole), np.int64),
+        boxes=np.zeros((lanes, 3 * boxes)),
+        nearby=np.tile(np.array([[AWAY], [AWAY], [0.0]]), (max(1, boxes), whole)),
         counts=np.zeros((max(1, events), whole), np.int64),
     )

@@ -50,7 +50,7 @@ def trace(rollout: Rollout, seed: int, genome: NDArray[np.float32] | None = None
     tile = rollout.tile(1)
     rollout.fill(tile, jobs)
     s = tile.state
-    boxes = s.boxes[: 3 * rollout.sizes.boxes, 0].reshape(-1, 3).copy()
+    boxes = s.boxes[0].reshape(-1, 3).copy()
     things = _things(s, rollout)
 
     def moments() -> Iterator[Moment]:

@@ -154,7 +154,7 @@ def finish(t, s, jobs, p):
 @compiled
 def move(s, a, b):
     """Lane a becomes lane b, whose own run is over. Scratch rows stay; the circles change places with their Space."""
-    for rows in (s.body, s.heading, s.boxes, s.things, s.trail, s.changes, s.lines, s.anchor):
+    for rows in (s.body, s.heading, s.nearby, s.things, s.trail, s.changes, s.lines, s.anchor):
         for i in range(rows.shape[0]):
             rows[i, b] = rows[i, a]
     for rows in (s.readings, s.before, s.measured, s.rings, s.genome, s.late, s.last, s.commands):
@@ -165,9 +165,10 @@ def move(s, a, b):
     s.battery[b], s.random[b], s.aside[b] = s.battery[a], s.random[a], s.aside[a]
     for i in range(s.board.shape[1]):
         s.board[b, i] = s.board[a, i]
-    for rows in (s.slot_boxes, s.counts):
-        for i in range(rows.shape[0]):
-            rows[i, b] = rows[i, a]
+    for i in range(s.boxes.shape[1]):
+        s.boxes[b, i] = s.boxes[a, i]
+    for i in range(s.counts.shape[0]):
+        s.counts[i, b] = s.counts[i, a]
     for rows in (s.reached, s.delivered):
         for i in range(rows.shape[0]):
             rows[i, b] = rows[i, a]

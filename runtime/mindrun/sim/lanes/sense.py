@@ -3,6 +3,7 @@
 import numpy as np
 
 from mindrun.sim.codes import (
+    AWAY,
     BATTERY,
     BEARING,
     CONTACT,
@@ -27,7 +28,7 @@ def sense(t, s, n, clock):
     """Fill the rows of the sensors that somebody reads, in the order of the table (sources before derivatives)."""
     world = t.world[0]
     see(s.body, s.things, len(t.things), n)
-    s.slot_most[0] = choose(s.body, s.boxes, s.anchor, s.slot_boxes, s.slot_count, world.near + SLACK, n)
+    s.slot_most[0] = choose(s.body, s.boxes, s.anchor, s.nearby, s.slot_count, world.near + SLACK, n)
     if world.rays > 0:
         look(t, s, n)
     for i in range(len(t.sensors)):
@@ -173,7 +174,7 @@ def look(t, s, n):
     world = t.world[0]
     count = s.slot_most[0]
     for k in range(count):
-        place(s.body, s.boxes, s.slot_boxes[k], s.slot_count, k, s.slots[4 * k : 4 * k + 4], n)
+        place(s.body, s.nearby[3 * k : 3 * k + 3], s.slots[4 * k : 4 * k + 4], n)
     for p in range(n):
         s.sight[0, p], s.sight[1, p] = F(s.heading[0, p]), F(s.heading[1, p])
         s.sight[2, p], s.sight[3, p] = F(s.body[0, p]), F(s.body[1, p])
@@ -212,36 +213,36 @@ def distance(out, far, radius, reach, dead_zone, n):
 
 
 @compiled
-def choose(body, boxes, anchor, slot_boxes, slot_count, reach, n):
-    """Which boxes each lane's rays or robot can meet, chosen anew for a lane that has moved; the most of any lane.
+def choose(body, boxes, anchor, nearby, slot_count, reach, n):
+    """Copy the boxes that each lane's rays or robot can meet, anew for a lane that has moved; the most of any lane.
 
-    The choice is only ever too generous, so that nothing depends on when it was made.
+    The choice is only ever too generous, so that nothing depends on when it was made. What is left over is AWAY.
     """
-    total = boxes.shape[0] // 3
+    total = boxes.shape[1] // 3
     most = 0
     for p in range(n):
         dx, dy = body[0, p] - anchor[0, p], body[1, p] - anchor[1, p]
         if not dx * dx + dy * dy < (SLACK * 0.9) ** 2:
-            anchor[0, p], anchor[1, p] = body[0, p], body[1, p]
+            x, y = body[0, p], body[1, p]
+            anchor[0, p], anchor[1, p] = x, y
             found = 0
             for b in range(total):
-                margin = boxes[3 * b + 2, p] + reach
-                if abs(boxes[3 * b, p] - body[0, p]) < margin and abs(boxes[3 * b + 1, p] - body[1, p]) < margin:
-                    slot_boxes[found, p] = b
+                margin = boxes[p, 3 * b + 2] + reach
+                if abs(boxes[p, 3 * b] - x) < margin and abs(boxes[p, 3 * b + 1] - y) < margin:
+                    for i in range(3):
+                        nearby[3 * found + i, p] = boxes[p, 3 * b + i]
                     found += 1
+            for k in range(found, slot_count[p]):
+                nearby[3 * k, p], nearby[3 * k + 1, p], nearby[3 * k + 2, p] = AWAY, AWAY, 0.0
             slot_count[p] = found
         most = max(most, slot_count[p])
     return most
 
 
 @compiled
-def place(body, boxes, chosen, slot_count, k, sides, n):
-    """The sides of each lane's k-th box relative to the robot; a box that no ray meets where there is none."""
+def place(body, box, sides, n):
+    """The sides of a box of each lane relative to the robot; no ray meets one that is AWAY before a wall."""
     for p in range(n):
-        if k < slot_count[p]:
-            b = 3 * chosen[p]
-            dx, dy, half = F(boxes[b, p] - body[0, p]), F(boxes[b + 1, p] - body[1, p]), F(boxes[b + 2, p])
-            sides[0, p], sides[1, p] = dx - half, dx + half
-            sides[2, p], sides[3, p] = dy - half, dy + half
-        else:
-            sides[0, p], sides[1, p], sides[2, p], sides[3, p] = HUGE, HUGE, HUGE, HUGE
+        dx, dy, half = F(box[0, p] - body[0, p]), F(box[1, p] - body[1, p]), F(box[2, p])
+        sides[0, p], sides[1, p] = dx - half, dx + half
+        sides[2, p], sides[3, p] = dy - half, dy + half

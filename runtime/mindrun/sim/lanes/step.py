@@ -93,7 +93,7 @@ def find_near(t, s, n):
     gap = s.gap
     clearance(s.body, world.half, world.dt, gap, n)
     for k in range(s.slot_most[0]):
-        approach(s.boxes, s.slot_boxes[k], s.slot_count, k, s.body, world.dt, gap, n)
+        approach(s.nearby[3 * k : 3 * k + 3], s.body, world.dt, gap, n)
     for p in range(n):
         s.near[p] = max(0, s.near[p] - 1)
         if s.held[p] >= 0:
@@ -130,13 +130,10 @@ def clearance(body, half, dt, gap, n):
 
 
 @compiled
-def approach(boxes, chosen, slot_count, k, body, dt, gap, n):
-    """`gap` lowered to the distance along the axes between the robot's next centre and its k-th box, if it has one."""
+def approach(box, body, dt, gap, n):
+    """`gap` lowered to the distance along the axes between the robot's next centre and a box of each lane."""
     for p in range(n):
-        if k >= slot_count[p]:
-            continue
-        b = 3 * chosen[p]
-        x = abs(body[0, p] + body[3, p] * dt - boxes[b, p]) - boxes[b + 2, p]
-        y = abs(body[1, p] + body[4, p] * dt - boxes[b + 1, p]) - boxes[b + 2, p]
+        x = abs(body[0, p] + body[3, p] * dt - box[0, p]) - box[2, p]
+        y = abs(body[1, p] + body[4, p] * dt - box[1, p]) - box[2, p]
         far = x if x > y else y
         gap[p] = far if far < gap[p] else gap[p]
