@@ -6,7 +6,7 @@ from functools import partial
 import numpy as np
 from numpy.typing import NDArray
 
-from mindrun.functions.mlp import Mlp, layers, matrices, perceive, weight_count
+from mindrun.functions.mlp import Mlp, first_weights, layers, matrices, perceive, weight_count
 from mindrun.functions.procedure import Procedure, call, load
 from mindrun.functions.rule import Rule
 
@@ -17,6 +17,13 @@ Compute = Callable[[NDArray[np.float32]], NDArray[np.float32]]
 def genome_length(function: Function, inputs: int, outputs: int) -> int:
     """How many weights a function learns: 0 where it does not learn."""
     return weight_count(inputs, outputs, function) if isinstance(function, Mlp) else 0
+
+
+def drawn(function: Function, inputs: int, outputs: int, count: int, rng: np.random.Generator) -> NDArray[np.float32]:
+    """Random genomes [count, weights] with which a function begins to learn."""
+    if isinstance(function, Mlp):
+        return first_weights(count, layers(inputs, outputs, function), rng)
+    return np.empty((count, 0), np.float32)
 
 
 def computes(
@@ -37,4 +44,4 @@ def _zeros(outputs: int) -> Compute:
     return lambda inputs: np.zeros(outputs, np.float32)
 
 
-__all__ = ["Compute", "Function", "Mlp", "Procedure", "Rule", "computes", "genome_length"]
+__all__ = ["Compute", "Function", "Mlp", "Procedure", "Rule", "computes", "drawn", "genome_length"]

@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from mindrun.functions import drawn
 from mindrun.graph import Graph
 from mindrun.sim import chipmunk
 from mindrun.sim.codes import ITEM
@@ -73,6 +74,7 @@ class Rollout:
         self.task = next(t for t in graph.tasks if t.name == task)
         self.procedures = Procedures(graph, master, procedures)
         self.interrupt, self.workers, self.lanes = interrupt, workers, lanes
+        self.learners = tuple(skill for skill in graph.skills if skill.name in learners)
         self.genome_length = genome_length(graph, learners)
         self.tables: Tables
         self.sizes: Sizes
@@ -99,6 +101,12 @@ class Rollout:
         stop = Event()
         parts = in_threads(lambda share: self._run(jobs, share, stop, ran), shares, stop)
         return _scores(parts, shares, (len(genomes), len(seeds)), self.task.counts)
+
+    def draw(self, count: int, rng: np.random.Generator) -> NDArray[np.float32]:
+        """Random genomes [count, genome_length] for learning to begin with."""
+        none = np.empty((count, 0), np.float32)
+        each = (drawn(skill.function, len(skill.inputs), skill.outputs, count, rng) for skill in self.learners)
+        return np.concatenate([none, *each], axis=1)
 
     def jobs(self, genomes: NDArray[np.float32], seeds: NDArray[np.uint64]) -> Jobs:
         """Every genome on every seed, as jobs that have not begun."""
