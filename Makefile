@@ -8,10 +8,12 @@ FOLDER ?= examples/collect
 OUT ?= build/paper
 RUNS ?= 1000
 # Of `make paper-train`: attempts of the lessons of collect.mind and of the others, times the paper's generations.
+# RUNGS: where attempts are compared early, and the worse half of them ends.
 ATTEMPTS ?= 10
 OTHERS ?= $(ATTEMPTS)
 SCALE ?= 1
 SEED ?= 1
+RUNGS ?= 0
 TO ?= runs/paper
 
 .DEFAULT_GOAL := help
@@ -38,8 +40,8 @@ bench-learning: $(READY)  ## how soon skills and the whole of Collect are learnt
 paper: $(READY)  ## tables 1 to 3 and figures 11 to 15 of the paper, from the shipped weights: FOLDER= OUT= RUNS=
 	$(BIN)/python examples/collect/paper --folder $(FOLDER) --out $(OUT) --runs $(RUNS)
 
-paper-train: $(READY)  ## the paper's whole protocol from nothing, goes on where it was stopped: ATTEMPTS= SCALE= SEED= TO=
-	$(BIN)/python examples/collect/paper/teach.py --attempts $(ATTEMPTS) --others $(OTHERS) --scale $(SCALE) --seed $(SEED) --out $(TO)
+paper-train: $(READY)  ## the paper's whole protocol from nothing, goes on where it was stopped: ATTEMPTS= SCALE= SEED= RUNGS= TO=
+	$(BIN)/python examples/collect/paper/teach.py --attempts $(ATTEMPTS) --others $(OTHERS) --scale $(SCALE) --seed $(SEED) --rungs $(RUNGS) --out $(TO)
 
 wheel: $(READY)  ## a wheel with machine code for processors like this one, in dist/
 	MIND_COMPILED=1 $(BIN)/python -m hatchling build -t wheel

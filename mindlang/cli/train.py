@@ -71,7 +71,7 @@ def command(
     if (file is None) == (resume is None):
         fail("Say what to train: a file, or --resume and a run.", "mindc train --help has examples.", MISUSE)
     school = School(workers, as_json, quiet)
-    wishes = Wishes(generations, scale, population, attempts, from_scratch)
+    wishes = Wishes(generations, scale, population, attempts, from_scratch=from_scratch)
     try:
         if resume:
             finished = school.resume(resume, force)

@@ -12,6 +12,7 @@ from time import perf_counter
 from mindrun.graph import Lesson
 from mindrun.sim.rollout import Rollout, cores
 from mindrun.train.errors import RunError
+from mindrun.train.genetic import founder_count
 from mindrun.train.lesson import Record, State
 from mindrun.train.run_folder import Run, keep_result, open_run, read_result
 from mindrun.train.training import Watch, train
@@ -119,8 +120,9 @@ class School:
             workers=self.workers or cores(),
         )
         learner = lesson.learner
-        refuse_too_large(rollout, learner.population, learner.layouts)
-        refuse_too_long(rollout, learner.population * learner.layouts * lesson.generations)
+        first = founder_count(learner)
+        refuse_too_large(rollout, first, learner.layouts)
+        refuse_too_long(rollout, (first + learner.population * (lesson.generations - 1)) * learner.layouts)
         make_ready(rollout, self._say)  # before the clock of the lesson starts
         return rollout
 

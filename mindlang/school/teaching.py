@@ -23,6 +23,7 @@ class Wishes:
     scale: float = 1.0
     population: int | None = None
     attempts: int | None = None
+    rungs: int | None = None
     from_scratch: bool = False
 
     def applied(self, lesson: Lesson) -> Lesson:
@@ -31,6 +32,7 @@ class Wishes:
             lesson.learner,
             population=self.population or lesson.learner.population,
             attempts=self.attempts or lesson.learner.attempts,
+            rungs=lesson.learner.rungs if self.rungs is None else self.rungs,
         )
         return replace(
             lesson,

@@ -4,6 +4,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Protocol
 
+from mindrun.train.genetic import founder_count
 from mindrun.train.lesson import Record
 from mindrun.train.progress import read
 from mindrun.train.run_folder import Run
@@ -66,14 +67,18 @@ class Standing:
 
 @dataclass(slots=True)
 class Pace:
-    """How fast generations pass since this process took the lesson up at `began`; `generations` are of all attempts."""
+    """How fast generations pass since this process took the lesson up at `began`; `generations` are of all attempts.
+
+    `first` says how many generations the first one of an attempt is worth, with all its founders.
+    """
 
     generations: int
     began: float
     attempts: int = 1
     reevaluated: float | None = None
+    first: float = 1.0
     ticks: int = 0
-    seen: int = 0
+    seen: float = 0.0
 
     @classmethod
     def of(cls, run: Run, began: float) -> "Pace":
@@ -81,12 +86,15 @@ class Pace:
         lesson = run.manifest.lesson
         scores = [record["reevaluated"] for record in read(run.folder)]
         known = next((score for score in reversed(scores) if score is not None), None)
-        return cls(lesson.generations * lesson.learner.attempts, began, lesson.learner.attempts, known)
+        learner = lesson.learner
+        first = founder_count(learner) / learner.population if run.begins_with_nothing else 1.0
+        return cls(lesson.generations * learner.attempts, began, learner.attempts, known, first)
 
     def standing(self, record: Record, done: int, now: float) -> Standing:
         """Where the lesson stands after a generation."""
         self.ticks += record.ticks
-        self.seen += 1
+        self.seen += self.first if record.generation == 1 else 1.0
+        left = self.generations - done + (self.attempts - record.attempt) * (self.first - 1.0)
         self.reevaluated = self.reevaluated if record.reevaluated is None else record.reevaluated
         seconds = max(now - self.began, 1e-9)
         one = self.generations // self.attempts
@@ -100,7 +108,7 @@ class Pace:
             f"best {number(record.best)}",
             f"re-evaluated {number(self.reevaluated)}",
             rate(self.ticks / seconds),
-            f"{duration(seconds / self.seen * (self.generations - done))} left",
+            f"{duration(seconds / self.seen * left)} left",
         )
 
 

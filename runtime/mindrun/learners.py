@@ -9,6 +9,8 @@ from mindrun.registry import kind
 OCTAVES = Quantity("a whole number up to 8", {"": 1.0}, low=0, high=8, whole=True)
 SPREAD = Quantity("a number above zero", {"": 1.0}, low=1e-6, high=1000.0)
 PATIENCE = replace(GENERATIONS, low=0)
+RUNGS = Quantity("a whole number up to 16", {"": 1.0}, low=0, high=16, whole=True)
+FOUNDERS = Quantity("a whole number", {"": 1.0}, low=0, high=100_000, whole=True)
 POPULATION = Quantity("a whole number of at least 4", {"": 1.0}, low=4, high=100_000, whole=True)
 
 
@@ -20,8 +22,10 @@ class Genetic:
     Every generation, `population` genomes are scored on the same `layouts` worlds; `attempts` independent runs
     are made and the best is kept. `mutation` is the spread of a mutated weight, `mutated` the share of weights it
     hits; with `octaves` each child has its own, up to so many times doubled or halved. With `patience` an attempt ends
-    early when its best has not become better beyond doubt for so many generations. A lesson may say any of these for
-    itself.
+    early when its best has not become better beyond doubt for so many generations. From scratch, the first population
+    is the best of `founders` random genomes, where these are more than it has. With `rungs` an attempt ends early at a
+    half, a quarter, an eighth … of its generations, so many times, where it is not in the better half of the attempts
+    that have come there (successive halving, as it stops trials one by one). A lesson may say any of these for itself.
     """
 
     population: Annotated[int, POPULATION] = 100
@@ -32,6 +36,8 @@ class Genetic:
     mutated: Annotated[float, RATIO] = 0.1
     octaves: Annotated[int, OCTAVES] = 0
     patience: Annotated[int, PATIENCE] = 0
+    founders: Annotated[int, FOUNDERS] = 0
+    rungs: Annotated[int, RUNGS] = 0
 
 
 @kind("curriculum", "restarting")

@@ -27,6 +27,9 @@ class Sphere:
     genome_length: int = LENGTH
     noise: float = 0.5
 
+    def draw(self, count: int, rng: np.random.Generator) -> NDArray[np.float32]:
+        return 4 * rng.standard_normal((count, self.genome_length), np.float32)
+
     def score(self, genomes: NDArray[np.float32], seeds: NDArray[np.uint64]) -> Results:
         distance = ((genomes.astype(np.float64) - 1.0) ** 2).sum(axis=1)
         luck = self.noise * np.sin(np.outer(distance, 1.0 + np.asarray(seeds) % 97))

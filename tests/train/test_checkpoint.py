@@ -47,8 +47,8 @@ def test_every_flipped_bit_is_refused(states: list[State]) -> None:
 @pytest.fixture(scope="module")
 def second() -> State:
     """A state in its second attempt, in which nothing is empty."""
-    course = Course(lesson(4, population=6, attempts=2), 1, np.empty((0, LENGTH), np.float32))
-    return list(teach(course, Sphere(), begin(course), lambda: 0.0))[5][0]
+    course = Course(lesson(4, population=6, attempts=2, rungs=1), 1, np.empty((0, LENGTH), np.float32))
+    return list(teach(course, Sphere(), begin(course), lambda: 0.0))[4][0]
 
 
 def among(array: np.ndarray, number: float) -> np.ndarray:
@@ -68,6 +68,8 @@ BROKEN: dict[str, Callable[[State], State]] = {
     "champions of other weights": lambda s: replace(s, champions=s.champions[:, 1:]),
     "two champions": lambda s: replace(s, champion=np.repeat(s.champion, 2, axis=0)),
     "two rivals": lambda s: replace(s, rival=np.repeat(s.rival, 2, axis=0)),
+    "a rung that is no number": lambda s: replace(s, rungs=among(s.rungs, np.nan)),
+    "rungs of an attempt too few": lambda s: replace(s, rungs=s.rungs[:-1]),
     "a length too many": lambda s: replace(s, lengths=np.repeat(s.lengths, 2)),
     "a verdict too few": lambda s: replace(s, verdicts=s.verdicts[:0]),
     "half a verdict": lambda s: replace(s, verdicts=s.verdicts[:, :1]),

@@ -15,9 +15,11 @@ from mindrun.train.lesson import (
     State,
     begin,
     generation,
+    is_behind,
     is_better,
     judge,
     mark,
+    rung_at,
     teach,
     try_again,
 )
@@ -118,6 +120,62 @@ def test_patience_outlasts_a_climb() -> None:
 )
 def test_better_means_beyond_doubt(scores: list[float], than: list[float], better: bool) -> None:
     assert is_better(np.array(scores), np.array(than)) is better
+
+
+def test_attempts_in_the_worse_half_at_a_rung_end_there() -> None:
+    course = Course(lesson(17, attempts=16, rungs=3), 1, UNKNOWN)
+    state, records = taught(course, Sphere(noise=20.0))
+    assert state.rungs.shape == (17, 3)
+    assert (state.rungs[-1] == -np.inf).all(), "of an attempt that never began"
+    heights = [2, 4, 8, 17]
+    for attempt, scores in enumerate(state.rungs[:-1]):
+        climbed = 0
+        while climbed < 3 and not is_behind(state.rungs[: attempt + 1, climbed]):
+            climbed += 1
+        assert state.lengths[attempt] == heights[climbed]
+        assert (scores[climbed + 1 :] == -np.inf).all()
+    assert state.lengths[0] == 17, "nobody was there before"
+    assert sorted(set(state.lengths.tolist())) == heights
+    assert len(records) == state.lengths.sum() < 16 * 17 / 2
+    assert len(state.champions) == len(state.verdicts) == 16
+
+
+def test_all_attempts_meet_the_same_layouts_at_a_rung_and_no_others_do() -> None:
+    told = Told()
+    state, _ = taught(Course(lesson(20, attempts=3, rungs=1), 1, UNKNOWN), told)
+    at_rungs = [seeds for count, seeds in told.asked if (count, len(seeds)) == (1, VERDICT)]
+    known = layouts(1, 0, 10, VERDICT, Purpose.RUNG).tolist()
+    assert [[int(seed) for seed in seeds] for seeds in at_rungs] == [known] * 3
+    assert [int(seed) for _, seeds in told.asked for seed in seeds].count(known[0]) == 3
+    assert (state.rungs[:3] > -np.inf).all()
+
+
+@pytest.mark.parametrize(
+    ("scores", "behind"),
+    [
+        ([3.0], False),
+        ([-np.inf], False),
+        ([3.0, 2.0], True),
+        ([2.0, 3.0], False),
+        ([3.0, 3.0], False),
+        ([1.0, 3.0, 2.0], True),
+        ([1.0, 3.0, 2.0, 2.5], False),
+        ([1.0, 3.0, 2.0, 1.5], True),
+        ([1.0, -np.inf, -np.inf, 2.0], False),
+        ([1.0, 3.0, -np.inf], True),
+        ([-np.inf, -np.inf], False),
+    ],
+)
+def test_who_is_in_the_worse_half(scores: list[float], behind: bool) -> None:
+    assert is_behind(np.array(scores)) is behind
+
+
+def test_a_rung_is_at_a_half_a_quarter_and_so_on() -> None:
+    climb = lesson(100, rungs=4)
+    assert {n: rung for n in range(101) if (rung := rung_at(climb, n)) is not None} == {6: 0, 12: 1, 25: 2, 50: 3}
+    few = lesson(3, rungs=4)
+    assert {n: rung for n in range(1, 4) if (rung := rung_at(few, n)) is not None} == {1: 3}
+    assert all(rung_at(lesson(100), n) is None for n in range(1, 101))
 
 
 def test_every_attempt_leaves_its_champion_and_its_verdict() -> None:

@@ -56,6 +56,11 @@ def test_what_an_attempt_has_been_waiting_for_is_not_forgotten(tmp_path: Path) -
     assert len(records) < 80
 
 
+def test_how_high_attempts_have_climbed_is_not_forgotten(tmp_path: Path) -> None:
+    records = stops_after_any_generation(tmp_path, manifest(lesson(16, attempts=4, rungs=2)))
+    assert len(records) < 64
+
+
 def stops_after_any_generation(tmp_path: Path, course: Manifest) -> list[dict[str, float | None]]:
     undisturbed = create(tmp_path, course, {}, {})
     train(undisturbed, Sphere(), unwatched())

@@ -55,6 +55,14 @@ def test_where_there_are_attempts_the_generation_is_one_of_them() -> None:
     assert Pace(80, 0.0).standing(record(1, 42), 42, 1.0).where == "generation 42 of 80"
 
 
+def test_founders_are_as_many_generations_as_they_take() -> None:
+    pace = Pace(80, 0.0, attempts=2, first=10.0)
+    assert pace.standing(record(1, 1), 1, 10.0).left == "1 min 28 s left", "79 generations and 9 for the next founders"
+    assert pace.standing(record(1, 2), 2, 11.0).left == "1 min 27 s left"
+    assert pace.standing(record(2, 1), 41, 60.0).left.startswith("1 min 51 s")
+    assert Pace(80, 0.0, attempts=2, first=10.0).standing(record(2, 1), 41, 10.0).left == "39 s left"
+
+
 def test_the_last_score_is_told_until_there_is_another() -> None:
     pace = Pace(40, 0.0, reevaluated=5.97)  # as of a run that goes on
     told = [pace.standing(record(1, n, score), n, 1.0).reevaluated for n, score in ((11, None), (20, 4.0), (21, None))]

@@ -15,18 +15,22 @@ PLAN = Path("logs") / "plan.json"
 
 @dataclass(frozen=True, slots=True)
 class Plan:
-    """Attempts of the lessons of collect.mind and of the others, times the paper's generations, genomes, the seed."""
+    """Attempts of the lessons of collect.mind and of the others, times the paper's generations, genomes, the seed.
+
+    With `rungs` attempts are compared early, and the worse half of them ends there.
+    """
 
     attempts: int
     others: int
     scale: float
     population: int | None
     seed: int
+    rungs: int = 0
 
     def wishes(self, file: str) -> Wishes:
         """What is asked of a file's lessons."""
         attempts = self.attempts if file == FILES[0] else self.others
-        return Wishes(scale=self.scale, population=self.population, attempts=attempts)
+        return Wishes(scale=self.scale, population=self.population, attempts=attempts, rungs=self.rungs)
 
     def applied(self, file: str, lesson: Lesson) -> Lesson:
         """A lesson of a file as it is taught."""
@@ -34,7 +38,7 @@ class Plan:
 
     def __str__(self) -> str:
         """As `make paper-train` takes it; it leaves the population as the files say."""
-        return f"ATTEMPTS={self.attempts} OTHERS={self.others} SCALE={self.scale:g} SEED={self.seed}"
+        return f"ATTEMPTS={self.attempts} OTHERS={self.others} SCALE={self.scale:g} SEED={self.seed} RUNGS={self.rungs}"
 
     @property
     def text(self) -> str:
@@ -43,10 +47,12 @@ class Plan:
         times = "all" if self.scale == 1 else f"{self.scale:g} times"
         genomes = "" if self.population is None else f" Every generation has {self.population} genomes."
         avoid = f'"Avoid 1000 generations" is {1000 * self.scale:g} here, "2500" is {2500 * self.scale:g}'
+        shares = ", ".join(f"{0.5**rung:.3g}" for rung in range(self.rungs, 0, -1))
+        ended = f" Those in the worse half after {shares} of their generations ended there." if self.rungs else ""
         return (
             f"**{scaled}.** Every lesson has {times} the paper's generations, in {self.attempts} attempts for the "
-            f"lessons of {FILES[0]} and {self.others} for all others, from seed {self.seed}.{genomes} The rows keep "
-            f"the paper's names: {avoid}."
+            f"lessons of {FILES[0]} and {self.others} for all others, from seed {self.seed}.{ended}{genomes} The rows "
+            f"keep the paper's names: {avoid}."
         )
 
 

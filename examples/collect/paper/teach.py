@@ -32,7 +32,8 @@ def main() -> None:
     """Say how long it takes, and do it."""
     options = arguments().parse_args()
     files = tuple(options.files) or FILES
-    plan = Plan(options.attempts, options.others or options.attempts, options.scale, options.population, options.seed)
+    others = options.others or options.attempts
+    plan = Plan(options.attempts, others, options.scale, options.population, options.seed, options.rungs)
     try:
         refuse_other(plan, options.out)
         foretell(plan, files, options.workers)
@@ -57,6 +58,9 @@ def arguments() -> argparse.ArgumentParser:
     parser.add_argument("--scale", type=real(0, 1000), default=1.0, help="times the paper's generations")
     parser.add_argument("--population", type=whole(4, 1_000_000), help="instead of the 100 genomes that the files say")
     parser.add_argument("--seed", type=whole(0, SEED), default=1)
+    parser.add_argument(
+        "--rungs", type=whole(0, 16), default=0, help="where attempts are compared and half of them end"
+    )
     parser.add_argument("--workers", type=whole(1, 1024), default=cores(), help="cores to use (default: all)")
     parser.add_argument("--out", type=Path, default=Path("runs/paper"), help="where it is taught")
     parser.add_argument("--dry-run", action="store_true", help="only say how long it would take")
@@ -124,8 +128,16 @@ def seconds_for(plan: Plan, file: str, workers: int) -> float | None:
 
 def ticks(lesson: Lesson, log: Log) -> float:
     """How many ticks a lesson takes if each genome takes as many as those of a log did."""
-    genomes = lesson.generations * lesson.learner.attempts * lesson.learner.population
+    learner = lesson.learner
+    attempts = 1 + (learner.attempts - 1) * share(learner.rungs)
+    genomes = lesson.generations * attempts * learner.population
     return float(genomes * log.result["ticks"] / (log.result["bred"] * log.result["population"]))
+
+
+def share(rungs: int) -> float:
+    """Of its generations an attempt has before it ends, where it falls behind at any rung as often as not."""
+    heights = [0.5**rung for rung in range(rungs, 0, -1)]
+    return sum(height * 0.5 ** (n + 1) for n, height in enumerate(heights)) + 0.5**rungs
 
 
 def speed(file: str, lesson: Lesson, log: Log, workers: int) -> float:

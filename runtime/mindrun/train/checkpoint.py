@@ -22,7 +22,7 @@ from mindrun.train.genetic import Population
 from mindrun.train.lesson import State
 
 NAME, PREVIOUS = "checkpoint", "checkpoint.previous"
-MAGIC = b"mind checkpoint 4\n"
+MAGIC = b"mind checkpoint 5\n"
 DIGEST = 32
 LARGEST = 1 << 32  # bytes of a file
 MOST = 2**53  # of any count
@@ -33,6 +33,7 @@ TYPES = {  # of each array in the order of the file: what its numbers are, and h
     "scores": ("<f8", 1),
     "champion": ("<f4", 2),
     "rival": ("<f4", 2),
+    "rungs": ("<f8", 2),
     "champions": ("<f4", 2),
     "lengths": ("<i8", 1),
     "verdicts": ("<f8", 2),
@@ -78,6 +79,7 @@ def pack(state: State, run: str) -> bytes:
         "scores": state.population.scores,
         "champion": state.champion,
         "rival": state.rival,
+        "rungs": state.rungs,
         "champions": state.champions,
         "lengths": state.lengths,
         "verdicts": state.verdicts,
@@ -139,6 +141,7 @@ def _hold_together(arrays: Arrays) -> bool:
         and all(arrays[name].shape[1] == weights for name in ("champion", "rival", "champions"))
         and max(len(arrays["champion"]), len(arrays["rival"])) <= 1
         and (arrays["lengths"].shape, arrays["verdicts"].shape) == ((ended,), (ended, 2))
+        and len(arrays["rungs"]) == ended + 1
         and (arrays["floats"].shape, arrays["counts"].shape) == ((2,), (7,))
     )
     if not fit:
@@ -146,7 +149,7 @@ def _hold_together(arrays: Arrays) -> bool:
     attempt, generation, *_, told_apart = arrays["counts"].tolist()
     return bool(
         all(np.isfinite(arrays[name]).all() for name in ("genomes", "champion", "rival", "champions"))
-        and not any(np.isnan(arrays[name]).any() for name in ("scores", "verdicts", "floats"))
+        and not any(np.isnan(arrays[name]).any() for name in ("scores", "rungs", "verdicts", "floats"))
         and all(((arrays[name] >= 0) & (arrays[name] <= MOST)).all() for name in ("lengths", "counts"))
         and (attempt, generation > 0) == (ended, population > 0)
         and told_apart <= 1
@@ -157,7 +160,7 @@ def _state(arrays: Arrays) -> State:
     attempt, generation, since, generations, ticks, faults, told_apart = (int(count) for count in arrays["counts"])
     best, seconds = (float(number) for number in arrays["floats"])
     population = Population(arrays["genomes"], arrays["scores"], generation)
-    now = arrays["champion"], arrays["rival"], since
+    now = arrays["champion"], arrays["rival"], since, arrays["rungs"]
     ended = arrays["champions"], arrays["lengths"], arrays["verdicts"]
     return State(attempt, population, *now, *ended, best, generations, ticks, seconds, faults, bool(told_apart))
 

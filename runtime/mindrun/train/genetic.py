@@ -1,5 +1,6 @@
 """A genetic algorithm with ask and tell: plain arrays, the rng passed in, the state apart from the parameters."""
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -9,11 +10,8 @@ from mindrun.learners import Genetic
 
 Genomes = NDArray[np.float32]
 Scores = NDArray[np.float64]
+Draw = Callable[[int, np.random.Generator], Genomes]  # so many random genomes
 
-# Of the weights that a population begins with. Without biases, small weights leave every sigmoid near 1/2. Tried on a
-# stand-in for GoToObject, 6 seeds each, until 17 targets: with 1 one seed got there in 100 M ticks, with 2 all by the
-# 10th generation, with 4 five in the first; 6 (until 22 targets) was no better than 4.
-SPREAD = 4.0
 LIMIT = 100.0  # no weight grows beyond it, so a genome is finite always
 TOURNAMENT = 4
 
@@ -35,25 +33,34 @@ def nobody(weights: int) -> Population:
     return Population(np.empty((0, weights), np.float32), np.empty(0), 0)
 
 
-def ask(population: Population, learner: Genetic, start: Genomes, rng: np.random.Generator) -> Genomes:
-    """The genomes [learner.population, weights] to score next; `start` [0 or 1, weights] is what the skill knows."""
-    if population.generation == 0:
-        return found(start, learner, rng)
-    return breed(population, learner, rng)
+def ask(population: Population, learner: Genetic, start: Genomes, draw: Draw, rng: np.random.Generator) -> Genomes:
+    """The genomes [individuals, weights] to score next: the founders, then generations of `learner.population`.
+
+    `start` [0 or 1, weights] is what the skill knows; where it knows nothing, `draw` has random genomes.
+    """
+    if population.generation > 0:
+        return breed(population, learner, rng)
+    return bounded(variants(start, learner, rng) if len(start) else draw(founder_count(learner), rng))
 
 
-def tell(population: Population, genomes: Genomes, scores: Scores) -> Population:
-    """The next population: these genomes and what they scored; a score that is not a number counts as -inf."""
-    return Population(genomes, worst_if_nan(scores), population.generation + 1)
+def tell(population: Population, learner: Genetic, genomes: Genomes, scores: Scores) -> Population:
+    """The next population: the best of these genomes, by what they scored; what is not a number counts as -inf."""
+    scores, most = worst_if_nan(scores), learner.population
+    if len(genomes) > most:  # founders
+        best = order(scores)[:most]
+        genomes, scores = genomes[best], scores[best]
+    return Population(genomes, scores, population.generation + 1)
 
 
-def found(start: Genomes, learner: Genetic, rng: np.random.Generator) -> Genomes:
-    """The first genomes: random ones, or `start` itself and mutated copies of it."""
-    if not len(start):
-        shape = (learner.population, start.shape[1])
-        return bounded(SPREAD * rng.standard_normal(shape, np.float32))
+def founder_count(learner: Genetic) -> int:
+    """How many random genomes the first population is chosen from."""
+    return max(learner.founders, learner.population)
+
+
+def variants(start: Genomes, learner: Genetic, rng: np.random.Generator) -> Genomes:
+    """What the skill knows, `start`, and mutated copies of it."""
     copies = np.repeat(start, learner.population - 1, axis=0)
-    return bounded(np.concatenate([start, mutate(copies, learner, rng)]))
+    return np.concatenate([start, mutate(copies, learner, rng)])
 
 
 def breed(population: Population, learner: Genetic, rng: np.random.Generator) -> Genomes:

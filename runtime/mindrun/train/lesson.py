@@ -43,6 +43,9 @@ class Scorer(Protocol):
     def genome_length(self) -> int:
         """How many weights the learner has."""
 
+    def draw(self, count: int, rng: np.random.Generator) -> Genomes:
+        """Random genomes [count, genome_length] for learning to begin with."""
+
     def score(self, genomes: Any, seeds: Any) -> Results:
         """Every genome on every seed; a result depends on its genome and its seed alone."""
 
@@ -68,6 +71,9 @@ class State:
     `champion` [0 or 1, weights] is the best of this attempt; `rival` [0 or 1, weights] the last one that was better
     beyond doubt than the one before it, found in generation `since`.
 
+    `rungs` [attempts begun, rungs] has the score of each attempt's champion at each rung, the lowest first, on layouts
+    that all attempts have there; -inf where it has not come so far.
+
     Of the attempts that have ended, `champions` [ended, weights] are the best, `lengths` [ended] their generations, and
     `verdicts` [ended, 2] their scores on layouts that chose nothing before: the first decides between the attempts, the
     second, on yet others, is what is reported.
@@ -81,6 +87,7 @@ class State:
     champion: Genomes
     rival: Genomes
     since: int
+    rungs: Scores
     champions: Genomes
     lengths: NDArray[np.int64]
     verdicts: Scores
@@ -144,7 +151,13 @@ def begin(course: Course) -> State:
     """The state before the first generation."""
     empty = course.start[:0]
     ended = empty, np.empty(0, np.int64), np.empty((0, 2))
-    return State(0, nobody(empty.shape[1]), course.start, empty, 0, *ended, -inf, 0, 0, 0.0, 0, False)
+    rungs = not_climbed(course.lesson)
+    return State(0, nobody(empty.shape[1]), course.start, empty, 0, rungs, *ended, -inf, 0, 0, 0.0, 0, False)
+
+
+def not_climbed(lesson: Lesson) -> Scores:
+    """The scores [1, rungs] of an attempt that begins."""
+    return np.full((1, lesson.learner.rungs), -inf)
 
 
 def could_be(course: Course, state: State) -> bool:
@@ -155,6 +168,7 @@ def could_be(course: Course, state: State) -> bool:
         weights == course.start.shape[1]
         and individuals in (0, course.lesson.learner.population)
         and state.attempt <= course.lesson.learner.attempts
+        and state.rungs.shape[1] == course.lesson.learner.rungs
         and state.since <= generation < max(1, course.lesson.generations)
         and not (state.lengths > course.lesson.generations).any()
     )
@@ -173,9 +187,9 @@ def teach(course: Course, scorer: Scorer, state: State, clock: Clock) -> Iterato
 def generation(course: Course, scorer: Scorer, state: State) -> tuple[State, Record]:
     """One generation: bred, scored, and every now and then its best tried on fresh layouts."""
     learner, key = course.lesson.learner, (course.seed, state.attempt, state.population.generation)
-    genomes = ask(state.population, learner, course.start, breeding(*key))
+    genomes = ask(state.population, learner, course.start, scorer.draw, breeding(*key))
     marks = mark(scorer, genomes, layouts(*key, learner.layouts))
-    population = tell(state.population, genomes, marks.scores)
+    population = tell(state.population, learner, genomes, marks.scores)
     now = replace(
         state,
         population=population,
@@ -186,8 +200,11 @@ def generation(course: Course, scorer: Scorer, state: State) -> tuple[State, Rec
         told_apart=state.told_apart or are_different(marks.scores),
     )
     number, reevaluated, verdict = population.generation, None, None
-    if number == 1 or number % EVERY == 0 or has_ended(course.lesson, now):
+    rung = rung_at(course.lesson, number)
+    if number == 1 or number % EVERY == 0 or rung is not None or has_ended(course.lesson, now):
         now, reevaluated = try_again(now, scorer, layouts(*key, FRESH, Purpose.REEVALUATION))
+    if rung is not None:
+        now = climb(now, scorer, rung, layouts(course.seed, 0, number, VERDICT, Purpose.RUNG))
     if has_ended(course.lesson, now):
         now, verdict = judge(course, scorer, now)
     ticks, faults = now.ticks - state.ticks, now.faults - state.faults
@@ -196,9 +213,37 @@ def generation(course: Course, scorer: Scorer, state: State) -> tuple[State, Rec
 
 
 def has_ended(lesson: Lesson, state: State) -> bool:
-    """Whether an attempt has had all its generations, or its best has not become better for too many of them."""
+    """Whether an attempt has had all its generations, has not become better for too many, or falls behind others."""
     generation = state.population.generation
-    return generation == lesson.generations or 0 < lesson.learner.patience <= generation - state.since
+    rung = rung_at(lesson, generation)
+    return (
+        generation == lesson.generations
+        or 0 < lesson.learner.patience <= generation - state.since
+        or (rung is not None and is_behind(state.rungs[:, rung]))
+    )
+
+
+def rung_at(lesson: Lesson, generation: int) -> int | None:
+    """Which rung is after so many generations; None where none is. The last is at a half of them."""
+    for above in range(lesson.learner.rungs):
+        if generation == lesson.generations >> 1 + above:
+            return lesson.learner.rungs - 1 - above
+    return None
+
+
+def is_behind(scores: Scores) -> bool:
+    """Whether the last of the attempts that came to a rung, with these scores [attempts], is in their worse half."""
+    *others, own = scores[np.isfinite(scores) | (np.arange(len(scores)) == len(scores) - 1)]
+    better = sum(bool(other > own) for other in others)
+    return better >= max(1, (len(others) + 1) // 2)
+
+
+def climb(state: State, scorer: Scorer, rung: int, seeds: Seeds) -> State:
+    """The champion's score at a rung, on the layouts of all attempts there."""
+    marks = mark(scorer, state.champion, seeds)
+    rungs = state.rungs.copy()
+    rungs[-1, rung] = marks.scores[0]
+    return replace(state, rungs=rungs, ticks=state.ticks + marks.ticks, faults=state.faults + marks.faults)
 
 
 def try_again(state: State, scorer: Scorer, fresh: Seeds) -> tuple[State, float]:
@@ -244,6 +289,7 @@ def judge(course: Course, scorer: Scorer, state: State) -> tuple[State, float]:
         champion=course.start,
         rival=course.start[:0],
         since=0,
+        rungs=np.concatenate([state.rungs, not_climbed(course.lesson)]),
         champions=np.concatenate([state.champions, state.champion]),
         lengths=np.append(state.lengths, state.population.generation),
         verdicts=np.concatenate([state.verdicts, verdict[None]]),

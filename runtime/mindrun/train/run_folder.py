@@ -35,15 +35,21 @@ class Run:
     manifest: Manifest
     weights: Mapping[str, Weights]
 
+    @property
+    def begins_with_nothing(self) -> bool:
+        """Whether its learners start from scratch, or know nothing."""
+        learners = self.manifest.learners
+        return self.manifest.lesson.from_scratch or any(skill not in self.weights for skill in learners)
+
     def course(self, genome_length: int) -> Course:
         """What the run teaches, beginning from the learners' weights unless they have none or start from scratch.
 
         RunError where these are not the weights of such a genome.
         """
         lesson = self.manifest.lesson
-        known = [self.weights[skill] for skill in self.manifest.learners if skill in self.weights]
-        if lesson.from_scratch or len(known) < len(self.manifest.learners):
+        if self.begins_with_nothing:
             return Course(lesson, self.manifest.seed, np.empty((0, genome_length), np.float32))
+        known = (self.weights[skill] for skill in self.manifest.learners)
         start = np.concatenate([*known, np.zeros(0, np.float32)])[None]
         if start.shape[1] != genome_length:
             raise _damaged(self.folder / START)

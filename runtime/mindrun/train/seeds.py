@@ -16,6 +16,7 @@ class Purpose(IntEnum):
     REEVALUATION = 2
     VERDICT = 3
     COMPARISON = 4
+    RUNG = 5
 
 
 def breeding(seed: int, attempt: int, generation: int) -> np.random.Generator:
