@@ -1,90 +1,124 @@
-"""Learners at the same number of ticks: python benchmarks/learners.py [--skill Avoid] [--ticks 100e6] [--seeds 3].
+"""Learners at the same number of ticks: python benchmarks/learners.py [--skill Avoid] [--ticks 100e6] [--seeds 20].
 
-    --genetic octaves=2,mutation=2,mutated=0.2     the genetic algorithm, other than its defaults; may be repeated
+    --genetic octaves=2,mutation=2,mutated=0.2     `genetic`, other than its defaults; may be repeated
+    --restarting generations=50,mutation=2         `restarting`; generations of an attempt, another follows
     --cmaes population_size=32,sigma=1             CMA-ES by the library cmaes (pip install cmaes); may be repeated
 
-Every seed teaches the skill from scratch, subskills as in the lock. The champion is chosen as in a lesson, and runs on
-100 layouts that the training has not seen.
+Every seed teaches the skill from scratch, subskills as in the lock, with the lesson's own code: attempt after attempt
+until the ticks are spent. The champion is chosen as in a lesson, and runs on 100 layouts that the training has not
+seen. A seed has succeeded if that counts as much as examples/collect/paper asks of an attempt.
 """
 
 import argparse
+import sys
 import time
-from collections.abc import Callable
-from dataclasses import dataclass, field
-from typing import Any, Protocol
+from collections.abc import Callable, Iterator
+from concurrent.futures import ProcessPoolExecutor
+from dataclasses import dataclass, replace
+from functools import cache
+from multiprocessing import get_context
+from typing import Any
 
 import numpy as np
 from learning import FRESH, prepared
-from mindrun.learners import Genetic
+from mindrun.graph import Lesson
+from mindrun.learners import Genetic, Restarting
 from mindrun.sim.rollout import Rollout, cores
-from mindrun.train.genetic import LIMIT, Genomes, Population, Scores, ask, nobody, order, tell
-from mindrun.train.lesson import CANDIDATES, EVERY
+from mindrun.train.genetic import LIMIT, Genomes, order
+from mindrun.train.lesson import CANDIDATES, EVERY, Course, begin, generation, judge
 from mindrun.train.lesson import FRESH as TRIES
-from workloads import collect
+from mindrun.train.training import best
+from workloads import COLLECT, collect
 
-ELSEWHERE = {"layouts": "--layouts says it", "attempts": "--seeds does it", "patience": "all have the same ticks"}
-LINE = "{name:<44} {score:8.1f} ± {error:6.1f}   {count:6.1f} per run   {seconds:5.0f} s a seed"
+sys.path.append(str(COLLECT.parent / "paper"))
+from protocol import SUCCESS
 
-
-class Learner(Protocol):
-    """Asked for genomes [individuals, weights], told their scores [individuals]."""
-
-    def ask(self) -> Genomes: ...
-
-    def tell(self, genomes: Genomes, scores: Scores) -> None: ...
-
-
-@dataclass(slots=True)
-class ByGenes:
-    """The genetic algorithm."""
-
-    weights: int
-    rng: np.random.Generator
-    learner: Genetic
-    population: Population = field(init=False)
-
-    def __post_init__(self) -> None:
-        self.population = nobody(self.weights)
-
-    def ask(self) -> Genomes:
-        return ask(self.population, self.learner, np.empty((0, self.weights), np.float32), self.rng)
-
-    def tell(self, genomes: Genomes, scores: Scores) -> None:
-        self.population = tell(self.population, genomes, scores)
+KINDS = {"genetic": Genetic, "restarting": Restarting}
+ENDLESS = 10**6  # generations
+LINE = (
+    "{name:<64} {succeeded:>3} of {seeds}  {score:8.1f} ± {error:5.1f}  {count:6.2f} ± {count_error:.2f} per run, "
+    "worst {worst:.1f}  {ticks:4.0f} M ticks, {seconds:5.1f} s CPU a seed"
+)
+Said = dict[str, float | int]
 
 
-class ByCovariance:
-    """CMA-ES."""
+@dataclass(frozen=True, slots=True)
+class Trial:
+    """One seed of one learner on a skill."""
 
-    def __init__(self, weights: int, rng: np.random.Generator, sigma: float = 2.0, **options: Any) -> None:
-        from cmaes import CMA
-
-        self._cma = CMA(mean=np.zeros(weights), sigma=sigma, seed=int(rng.integers(2**31)), **options)
-
-    def ask(self) -> Genomes:
-        asked = np.array([self._cma.ask() for _ in range(self._cma.population_size)])
-        return np.clip(asked, -LIMIT, LIMIT).astype(np.float32)
-
-    def tell(self, genomes: Genomes, scores: Scores) -> None:
-        worst = np.where(np.isfinite(scores), -scores, 1e9)
-        self._cma.tell([(genome.astype(float), float(bad)) for genome, bad in zip(genomes, worst, strict=True)])
+    kind: str
+    said: tuple[tuple[str, float | int], ...]
+    skill: str
+    ticks: float
+    seed: int
 
 
-def learn(learner: Learner, rollout: Rollout, ticks: float, layouts: int, rng: np.random.Generator) -> Genomes:
-    """The champion [1, weights] after so many ticks."""
-    champion, taken, generation = np.empty((0, rollout.genome_length), np.float32), 0, 0
-    while taken < ticks or generation % EVERY:
-        genomes = learner.ask()
+@dataclass(frozen=True, slots=True)
+class Outcome:
+    """What came of a trial: means over fresh layouts, and what it took."""
+
+    score: float
+    count: float
+    ticks: int
+    seconds: float
+
+
+def tried(trial: Trial) -> Outcome:
+    """Teach, and run what was learnt."""
+    lesson, rollout = lesson_of(trial.skill)
+    began = time.process_time()
+    learn = by_covariance if trial.kind == "cmaes" else by_lesson
+    champion, ticks = learn(trial, lesson, rollout)
+    seconds = time.process_time() - began
+    scores = rollout.score(champion, [int(word) for word in FRESH])
+    return Outcome(float(scores.total.mean()), float(scores.counts.mean()), ticks, seconds)
+
+
+@cache
+def lesson_of(skill: str) -> tuple[Lesson, Rollout]:
+    """The skill's first lesson, and what scores it in one thread."""
+    graph, weights, _ = collect()
+    lesson, rollout = prepared(graph, weights, skill, 1)
+    return lesson, rollout
+
+
+def by_lesson(trial: Trial, lesson: Lesson, rollout: Rollout) -> tuple[Genomes, int]:
+    """The champion [1, weights] of as many attempts as the ticks allow, and the ticks taken."""
+    said = dict(trial.said)
+    generations = int(said.pop("generations", ENDLESS))
+    learner = replace(KINDS[trial.kind](), **said, attempts=1000)  # type: ignore[arg-type]
+    lesson = replace(lesson, learner=learner, generations=generations)
+    course = Course(lesson, trial.seed, np.empty((0, rollout.genome_length), np.float32))
+    state = begin(course)
+    while state.ticks < trial.ticks:
+        state, _ = generation(course, rollout, state)
+    if len(state.champion):
+        state, _ = judge(course, rollout, state)
+    return best(state), state.ticks
+
+
+def by_covariance(trial: Trial, lesson: Lesson, rollout: Rollout) -> tuple[Genomes, int]:
+    """The champion [1, weights] of CMA-ES after so many ticks, and the ticks taken."""
+    from cmaes import CMA
+
+    rng, layouts = np.random.default_rng(trial.seed), lesson.learner.layouts
+    champion, taken, generations = np.empty((0, rollout.genome_length), np.float32), 0, 0
+    options: dict[str, Any] = {"sigma": 2.0, **dict(trial.said)}
+    cma = CMA(mean=np.zeros(rollout.genome_length), seed=int(rng.integers(2**31)), **options)
+    while taken < trial.ticks or generations % EVERY:
+        asked = np.array([cma.ask() for _ in range(cma.population_size)])
+        genomes = np.clip(asked, -LIMIT, LIMIT).astype(np.float32)
         scores = rollout.score(genomes, seeds(rng, layouts))
         totals = scores.total.mean(axis=1)
-        learner.tell(genomes, totals)
-        taken, generation = taken + int(scores.ticks.sum()), generation + 1
-        if generation % EVERY == 0:
+        worst = np.where(np.isfinite(totals), -totals, 1e9)
+        cma.tell([(genome.astype(float), float(bad)) for genome, bad in zip(genomes, worst, strict=True)])
+        taken, generations = taken + int(scores.ticks.sum()), generations + 1
+        if generations % EVERY == 0:
             candidates = np.concatenate([champion, genomes[order(totals)][:CANDIDATES]])
             scores = rollout.score(candidates, seeds(rng, TRIES))
             taken += int(scores.ticks.sum())
             champion = candidates[order(scores.total.mean(axis=1))][:1]
-    return champion
+    return champion, taken
 
 
 def seeds(rng: np.random.Generator, count: int) -> list[int]:
@@ -92,29 +126,44 @@ def seeds(rng: np.random.Generator, count: int) -> list[int]:
     return [int(word) for word in rng.integers(2**62, size=count)]
 
 
-def compare(name: str, make: Callable[[np.random.Generator], Learner], rollout: Rollout, options: Any) -> None:
-    """Print what a learner reaches, on the mean over the seeds with its standard error."""
-    totals, counts, begin = [], [], time.perf_counter()
-    for seed in range(1, options.seeds + 1):
-        rng = np.random.default_rng(seed)
-        champion = learn(make(rng), rollout, options.ticks, options.layouts, rng)
-        scores = rollout.score(champion, [int(word) for word in FRESH])
-        totals.append(float(scores.total.mean()))
-        counts.append(float(scores.counts.mean()))
-    error = float(np.std(totals, ddof=1)) / len(totals) ** 0.5 if len(totals) > 1 else 0.0
-    seconds = (time.perf_counter() - begin) / options.seeds
-    print(
-        LINE.format(name=name, score=np.mean(totals), error=error, count=np.mean(counts), seconds=seconds), flush=True
-    )
+def compare(options: argparse.Namespace, trials: Callable[[Trial], Iterator[Outcome]]) -> None:
+    """Print what each learner reaches, on the mean over the seeds with its standard error."""
+    for kind, said in [("genetic", {}), *options.learners]:
+        outcomes = list(trials(Trial(kind, tuple(said.items()), options.skill, options.ticks, 0)))
+        counts = np.array([outcome.count for outcome in outcomes])
+        scores = np.array([outcome.score for outcome in outcomes])
+        print(
+            LINE.format(
+                name=" ".join([kind, *(f"{key}={value:g}" for key, value in said.items())]),
+                succeeded=int((counts >= SUCCESS[options.skill]).sum()),
+                seeds=len(outcomes),
+                score=scores.mean(),
+                error=standard_error(scores),
+                count=counts.mean(),
+                count_error=standard_error(counts),
+                worst=counts.min(),
+                ticks=np.mean([outcome.ticks for outcome in outcomes]) / 1e6,
+                seconds=np.mean([outcome.seconds for outcome in outcomes]),
+            ),
+            flush=True,
+        )
 
 
-def settings(text: str) -> dict[str, float | int]:
-    """What `octaves=2,mutation=0.5` says."""
-    pairs = (part.partition("=") for part in text.split(",") if part)
-    said: dict[str, float | int] = {key: int(value) if value.isdecimal() else float(value) for key, _, value in pairs}
-    for key in said.keys() & ELSEWHERE.keys():
-        raise argparse.ArgumentTypeError(f"{key} is not compared here: {ELSEWHERE[key]}")
-    return said
+def standard_error(numbers: np.ndarray[Any, Any]) -> float:
+    """Of the mean of numbers; 0 of a single one."""
+    return float(numbers.std(ddof=1)) / len(numbers) ** 0.5 if len(numbers) > 1 else 0.0
+
+
+class Learners(argparse.Action):
+    """`--genetic octaves=2`: a learner, and what it says for itself."""
+
+    def __call__(self, parser: argparse.ArgumentParser, namespace: Any, text: Any, option: str | None = None) -> None:
+        kind = (option or "").lstrip("-")
+        pairs = (part.partition("=") for part in text.split(",") if part)
+        said: Said = {key: int(value) if value.isdecimal() else float(value) for key, _, value in pairs}
+        if "attempts" in said:
+            parser.error("attempts are as many as the ticks allow")
+        namespace.learners = [*namespace.learners, (kind, said)]
 
 
 def main() -> None:
@@ -122,22 +171,22 @@ def main() -> None:
     parser = argparse.ArgumentParser(
         allow_abbrev=False, description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
     )
-    parser.add_argument("--skill", default="GoToObject")
+    parser.add_argument("--skill", default="GoToObject", choices=[*SUCCESS])
     parser.add_argument("--ticks", type=float, default=40e6)
-    parser.add_argument("--seeds", type=int, default=3)
-    parser.add_argument("--layouts", type=int, default=2)
-    parser.add_argument("--workers", type=int, default=cores())
-    parser.add_argument("--genetic", action="append", type=settings, default=[])
-    parser.add_argument("--cmaes", action="append", type=settings, default=[])
+    parser.add_argument("--seeds", type=int, default=20)
+    parser.add_argument("--workers", type=int, default=cores(), help="seeds at a time")
+    for kind in (*KINDS, "cmaes"):
+        parser.add_argument(f"--{kind}", action=Learners, dest="learners", default=[], metavar="NAME=NUMBER,…")
     options = parser.parse_args()
-    graph, weights, _ = collect()
-    _, rollout = prepared(graph, weights, options.skill, options.workers)
-    length = rollout.genome_length
-    print(f"{options.skill}, {length} weights, {options.ticks / 1e6:g} M ticks, {options.seeds} seeds")
-    for said in [{}, *options.genetic]:
-        compare(f"genetic {said}", lambda rng, said=said: ByGenes(length, rng, Genetic(**said)), rollout, options)
-    for said in options.cmaes:
-        compare(f"cmaes {said}", lambda rng, said=said: ByCovariance(length, rng, **said), rollout, options)
+    _, rollout = lesson_of(options.skill)  # compiled once
+    print(
+        f"{options.skill}, {rollout.genome_length} weights, {options.ticks / 1e6:g} M ticks, seeds 1 to {options.seeds}"
+    )
+    with ProcessPoolExecutor(options.workers, get_context("spawn")) as pool:
+        compare(
+            options,
+            lambda trial: pool.map(tried, [replace(trial, seed=seed) for seed in range(1, options.seeds + 1)]),
+        )
 
 
 if __name__ == "__main__":

@@ -12,21 +12,17 @@ import sys
 import tempfile
 import time
 from collections.abc import Callable, Sequence
-from concurrent.futures import ThreadPoolExecutor
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 from statistics import median
 from typing import Any
 
-import numpy as np
 from mindrun.graph import Graph
-from mindrun.sim.rollout import LANES, Rollout
+from mindrun.sim.rollout import Rollout
 from mindrun.sim.trace import trace
 from mindrun.train.manifest import processor, versions
 from plain_pymunk import Robot
-from workloads import STUCK, Weights, collect, random_weights, with_obstacles, with_skills
-
-WARM = 300  # ticks before the clock starts: robots leave their places, caches fill
+from workloads import STUCK, WARM, Lanes, Weights, collect, random_weights
 
 
 @dataclass(frozen=True, slots=True)
@@ -53,50 +49,6 @@ class Effort:
     rounds: int
     ticks: int  # of the lanes, in a round
     plain: int  # of the plain loop, in a round
-
-
-class Lanes:
-    """Some tiles of lanes, one per worker, that have left their beginning behind."""
-
-    def __init__(
-        self, graph: Graph, weights: Weights, learner: str | None = None, lanes: int = LANES, workers: int = 1
-    ) -> None:
-        self.rollout = Rollout(
-            _endless(graph), weights, "Collect", graph.master, [learner] if learner else [], interrupt=False
-        )
-        rng, genome = np.random.default_rng(1), weights.get(learner or "", np.zeros(0, np.float32))
-        genomes = genome + rng.normal(0.0, 0.02, (lanes, len(genome)))  # nearly the same behaviour
-        each = np.arange(lanes)
-        self.parts = []
-        for worker in range(workers):
-            seeds = (1 + worker * lanes + each).astype(np.uint64)
-            jobs = self.rollout.jobs(genomes.astype(np.float32), seeds[:1])._replace(seeds=seeds, seed=each)
-            tile = self.rollout.tile(lanes)
-            self.rollout.fill(tile, jobs)
-            self.parts.append((tile, jobs))
-        self.lanes = lanes
-        self.rate(WARM)
-
-    def rate(self, ticks: int) -> float:
-        """Agent-ticks per second of all workers together."""
-        begin = time.perf_counter()
-        with ThreadPoolExecutor(len(self.parts)) as pool:
-            working = list(pool.map(lambda part: self.rollout.advance(*part, ticks), self.parts))
-        assert working == [self.lanes] * len(self.parts), "a run ended while it was measured"
-        return len(self.parts) * self.lanes * ticks / (time.perf_counter() - begin)
-
-    def behaviour(self) -> dict[str, float]:
-        """What the robots do now: skills under influence, and the shares that move and that Chipmunk steps."""
-        state = self.parts[0][0].state
-        return {
-            "skills_awake": float((state.influence > 0).sum(axis=0).mean()),
-            "moving": float((np.hypot(state.body[3], state.body[4]) > 0.5).mean()),
-            "in_contact": float((state.near > 0).mean()),
-        }
-
-
-def _endless(graph: Graph) -> Graph:
-    return replace(graph, tasks=tuple(replace(task, ticks=10**9) for task in graph.tasks))
 
 
 class Plain:
@@ -154,23 +106,6 @@ def worst_case(graph: Graph, effort: Effort) -> dict[str, Any]:
     return {"figures": found, "ratios": {"own_genomes_to_plain": ratio}, "behaviour": own.behaviour()}
 
 
-def growth(graph: Graph, weights: Weights, effort: Effort) -> dict[str, dict[str, Figure]]:
-    """Rates for growing numbers of lanes, of obstacles and of skills."""
-    by_lanes = {str(n): Lanes(graph, weights, graph.master, lanes=n) for n in (16, 32, 64, 128, 256, 512)}
-    grids = {f"grid {grid}": Lanes(with_obstacles(graph, grid), weights, graph.master) for grid in (20, 10, 7)}
-    by_obstacles = {f"{lanes.rollout.sizes.boxes} ({name})": lanes for name, lanes in grids.items()}
-    by_skills = {str(n): Lanes(*with_skills(n)) for n in (2, 5, 10, 20, 50)}
-    sweeps = {"lanes": by_lanes, "obstacles": by_obstacles, "skills": by_skills}
-    return {
-        name: take_turns(effort.rounds, **{k: _rate(lanes, effort.ticks) for k, lanes in sweep.items()})
-        for name, sweep in sweeps.items()
-    }
-
-
-def _rate(lanes: Lanes, ticks: int) -> Callable[[], float]:
-    return lambda: lanes.rate(max(1, ticks * LANES // lanes.lanes))
-
-
 def starts() -> dict[str, float]:
     """Seconds of a first `mindc run`, which compiles the simulator, and of later ones."""
     mind = Path(__file__).parent.parent / "examples" / "braitenberg.mind"
@@ -209,10 +144,6 @@ def show(found: dict[str, Any]) -> None:
     print("agent-ticks per second, median (smallest .. largest)")
     show_case(f"Collect with {found['weights']} weights", found["collect"])
     show_case("Collect with robots that are stuck", found["worst_case"])
-    for name, sweep in found.get("growth", {}).items():
-        print(f"by {name}")
-        for size, figure in sweep.items():
-            print(f"  {size:<16}{figure}")
     if "starts" in found:
         print(f"first start {found['starts']['first']:.1f} s, later {found['starts']['later']:.2f} s")
 
@@ -228,7 +159,7 @@ def main() -> None:
     found: dict[str, Any] = {"machine": machine(), "load": os.getloadavg()[0], "weights": origin}
     found |= {"collect": main_figures(graph, weights, effort), "worst_case": worst_case(graph, effort)}
     if not options.quick:
-        found |= {"growth": growth(graph, weights, effort), "starts": starts()}
+        found["starts"] = starts()
     if options.json:
         print(json.dumps(found, default=Figure.plain))
     else:

@@ -1,13 +1,21 @@
-"""Minds to measure: the example Collect with weights under which influence flows, and hierarchies of any size."""
+"""Minds to measure: the example Collect with weights under which influence flows, hierarchies of any size; and lanes.
 
+The files are those of the checkout whose mindlang is imported.
+"""
+
+import time
+from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 from mindrun.graph import Graph
+from mindrun.sim.rollout import LANES, Rollout
 from mindrun.weights import genes
 from numpy.typing import NDArray
 
+import mindlang
 from mindlang.compile import Compiled, compile_source, load
 from mindlang.lock.ready import make_ready
 from mindlang.source import Source
@@ -16,7 +24,8 @@ Weights = dict[str, NDArray[np.float32]]
 # The first seed of `random_weights` under which all skills of the example are awake and nearly all robots move; and one
 # under which nine robots in ten push against an obstacle: the worst case, in which Chipmunk steps nearly every robot.
 LIVELY, STUCK = 21, 4
-COLLECT = Path(__file__).parent.parent / "examples" / "collect" / "collect.mind"
+WARM = 300  # ticks before the clock starts: robots leave their places, caches fill
+COLLECT = Path(mindlang.__file__).parent.parent / "examples" / "collect" / "collect.mind"
 
 
 def graph_of(compiled: Compiled) -> Graph:
@@ -53,19 +62,67 @@ def with_obstacles(graph: Graph, grid: float) -> Graph:
 
 
 def with_skills(count: int) -> tuple[Graph, Weights]:
-    """A master over `count` − 1 perceptrons that all look around and drive both wheels, all under influence."""
+    """A master over `count` − 1 skills, all under influence, that drive both wheels as the trained Avoid does."""
     lines = [
-        "tick 1/60 s", "master Top", "body Robot is disc",
-        "actuator left_wheel is wheel side left neutral 0.5",
-        "actuator right_wheel is wheel side right neutral 0.5",
+        "tick 1/60 s", "master Top", "body Robot is disc size 2 density 2 linear_damping 5 angular_damping 20",
+        "actuator left_wheel is wheel side left thrust 80 neutral 0.5",
+        "actuator right_wheel is wheel side right thrust 80 neutral 0.5",
         "sensor proximity is range_finder at 0 22.5 45 90 135 180 225 270 315 337.5 deg range 12",
+        "sensor moving is inertial", "sensor pulse is sine period 2 s",
         "skill Top is mlp hidden 2", "  reads proximity", *(f"  influences S{i}" for i in range(1, count)),
     ]  # fmt: skip
     for i in range(1, count):
-        lines += [f"skill S{i} is mlp hidden 2", "  reads proximity", "  drives left_wheel", "  drives right_wheel"]
+        lines += [f"skill S{i} is mlp hidden 2", *(f"  reads {name}" for name in ("proximity", "moving", "pulse"))]
+        lines += ["  drives left_wheel", "  drives right_wheel"]
     lines += ["task Collect in arena size 100", "  contains rock is obstacle grid 20 size 4 to 8 jitter 1"]
     lines += ["  lasts 30000 ticks", "  rewards 0.01 * forward per tick"]
     graph = graph_of(compile_source(Source("skills.mind", "\n".join(lines) + "\n")))
+    _, weights, _ = collect()
     rng = np.random.default_rng(1)
     # Positive weights keep every output, and with it every influence, above zero.
-    return graph, {s.name: (rng.random(genes(s)) * 0.3).astype(np.float32) for s in graph.skills}
+    top = {s.name: (rng.random(genes(s)) * 0.3).astype(np.float32) for s in graph.skills if s.name == "Top"}
+    return graph, {s.name: weights["Avoid"] for s in graph.skills} | top
+
+
+class Lanes:
+    """Some tiles of lanes, one per worker, that have left their beginning behind."""
+
+    def __init__(
+        self, graph: Graph, weights: Weights, learner: str | None = None, lanes: int = LANES, workers: int = 1
+    ) -> None:
+        self.rollout = Rollout(
+            _endless(graph), weights, "Collect", graph.master, [learner] if learner else [], interrupt=False
+        )
+        rng, genome = np.random.default_rng(1), weights.get(learner or "", np.zeros(0, np.float32))
+        genomes = genome + rng.normal(0.0, 0.02, (lanes, len(genome)))  # nearly the same behaviour
+        each = np.arange(lanes)
+        self.parts = []
+        for worker in range(workers):
+            seeds = (1 + worker * lanes + each).astype(np.uint64)
+            jobs = self.rollout.jobs(genomes.astype(np.float32), seeds[:1])._replace(seeds=seeds, seed=each)
+            tile = self.rollout.tile(lanes)
+            self.rollout.fill(tile, jobs)
+            self.parts.append((tile, jobs))
+        self.lanes = lanes
+        self.rate(WARM)
+
+    def rate(self, ticks: int, clock: Callable[[], float] = time.perf_counter) -> float:
+        """Agent-ticks per second of all workers together."""
+        begin = clock()
+        with ThreadPoolExecutor(len(self.parts)) as pool:
+            working = list(pool.map(lambda part: self.rollout.advance(*part, ticks), self.parts))
+        assert working == [self.lanes] * len(self.parts), "a run ended while it was measured"
+        return len(self.parts) * self.lanes * ticks / (clock() - begin)
+
+    def behaviour(self) -> dict[str, float]:
+        """What the robots do now: skills under influence, and the shares that move and that Chipmunk steps."""
+        state = self.parts[0][0].state
+        return {
+            "skills_awake": float((state.influence > 0).sum(axis=0).mean()),
+            "moving": float((np.hypot(state.body[3], state.body[4]) > 0.5).mean()),
+            "in_contact": float((state.near > 0).mean()),
+        }
+
+
+def _endless(graph: Graph) -> Graph:
+    return replace(graph, tasks=tuple(replace(task, ticks=10**9) for task in graph.tasks))

@@ -1,0 +1,210 @@
+"""Gradients instead of genes: python benchmarks/gradients.py [--skill GoToObject] [--ticks 4e6] [--seeds 5].
+
+PPO (Schulman et al., 2017) in the skill's own function class, a perceptron without biases, with numpy alone: 64 lanes
+are its environments, a command is held for some ticks, the critic is a network of its own that the skill never sees.
+Each quarter of the ticks the weights as they stand run on 100 layouts that the training has not seen.
+"""
+
+import argparse
+import time
+from collections.abc import Iterator
+from dataclasses import dataclass
+from itertools import pairwise
+
+import numpy as np
+from commanded import Commanded
+from learning import FRESH, prepared
+from mindrun.functions.mlp import Mlp, first_weights, layers, matrices
+from mindrun.train.genetic import LIMIT, Genomes
+from numpy.typing import NDArray
+from workloads import collect
+
+LANES, STEPS, EPOCHS, BATCH = 64, 128, 6, 1024
+DISCOUNT, TRACE, CLIP = 0.99, 0.95, 0.2
+CRITIC, CRITIC_RATE = (64, 64), 1e-3
+FASTEST = 3e-3  # steps of the spread
+Array = NDArray[np.float64]
+
+
+class Worlds:
+    """A skill's lesson in lanes, which begin anew when a run ends; whoever uses it sends the skill's commands."""
+
+    def __init__(self, skill: str, hold: int, rng: np.random.Generator) -> None:
+        graph, _, _ = collect()
+        self.skill = next(each for each in graph.skills if each.name == skill)
+        self.hold, self.ticks = hold, 0
+        lesson = next(each for each in graph.lessons if each.skill == skill)
+        seeds = rng.integers(2**62, size=100_000)
+        self._worlds = Commanded(graph, lesson.task, lesson.master, LANES, seeds, interrupt=True)
+        self._job, self._paid = self._worlds.state.job.copy(), np.zeros(LANES)
+
+    def inputs(self) -> Array:
+        """What the skill reads [lanes, inputs]."""
+        return self._worlds.state.readings[list(self.skill.inputs), :LANES].T.astype(np.float64)
+
+    def step(self, commands: Array) -> tuple[Array, NDArray[np.bool_]]:
+        """Hold commands [lanes, outputs] for some ticks: what they earned [lanes], and in which lanes a run ended."""
+        state, lines = self._worlds.state, self._worlds.jobs.lines
+        earned, ended = np.zeros(LANES), np.zeros(LANES, bool)
+        for _ in range(self.hold):
+            self._worlds.step([edge.target for edge in self.skill.edges], np.clip(commands, 0, 1).T)
+            self.ticks += LANES
+            paid, over = state.lines[:, :LANES].sum(axis=0), state.job != self._job
+            earned += np.where(over, lines[self._job].sum(axis=1), paid) - self._paid
+            ended |= over
+            self._paid, self._job = paid, state.job.copy()
+            self._worlds.sense()
+        return earned, ended
+
+
+class Network:
+    """Layers of matrices [out, in] that learn by Adam; sigmoid or tanh between them, the last one linear."""
+
+    def __init__(self, weights: list[Array], biased: bool) -> None:
+        self.weights, self._biased, self._steps = weights, biased, 0
+        self._moments = [(np.zeros_like(w), np.zeros_like(w)) for w in weights]
+        self._values: list[Array] = []
+
+    def forward(self, values: Array) -> Array:
+        """The outputs [rows, out]; what `backward` needs is kept."""
+        self._values = []
+        for i, matrix in enumerate(self.weights):
+            if self._biased:
+                values = np.concatenate([values, np.ones((len(values), 1))], axis=1)
+            self._values.append(values)
+            values = values @ matrix.T
+            if i < len(self.weights) - 1:
+                values = np.tanh(values) if self._biased else 1 / (1 + np.exp(-values))
+        return values
+
+    def backward(self, slope: Array, rate: float) -> None:
+        """One step of Adam down the slope [rows, out] of a loss by the outputs of the last `forward`."""
+        gradients = []
+        for i in range(len(self.weights) - 1, -1, -1):
+            gradients.append(slope.T @ self._values[i])
+            slope = slope @ self.weights[i]
+            if self._biased:
+                slope = slope[:, :-1]
+            if i:
+                seen = self._values[i][:, : slope.shape[1]]
+                slope = slope * (1 - seen * seen if self._biased else seen * (1 - seen))
+        self._steps += 1
+        for matrix, moments, gradient in zip(self.weights, self._moments, reversed(gradients), strict=True):
+            matrix -= adam(moments, gradient, rate, self._steps)
+
+
+def adam(moments: tuple[Array, Array], gradient: Array, rate: float, steps: int) -> Array:
+    """The step that Adam takes (Kingma and Ba, 2015); the moments are brought up to date."""
+    mean, square = moments
+    mean += 0.1 * (gradient - mean)
+    square += 0.001 * (gradient * gradient - square)
+    return rate * (mean / (1 - 0.9**steps)) / (np.sqrt(square / (1 - 0.999**steps)) + 1e-8)
+
+
+@dataclass(slots=True)
+class Scale:
+    """The running spread of what is still to be earned, by which rewards are divided."""
+
+    count: float = 1e-4
+    mean: float = 0.0
+    variance: float = 1.0
+
+    def learn(self, values: Array) -> None:
+        """Take some more values in."""
+        gap, total = float(values.mean()) - self.mean, self.count + len(values)
+        both = self.variance * self.count + float(values.var()) * len(values)
+        self.variance = (both + gap * gap * self.count * len(values) / total) / total
+        self.mean += gap * len(values) / total
+        self.count = total
+
+
+def learn(skill: str, ticks: float, seed: int, rate: float, hold: int) -> Iterator[tuple[int, Genomes]]:
+    """The ticks taken and the skill's weights [1, weights], after each update."""
+    rng = np.random.default_rng(seed)
+    worlds = Worlds(skill, hold, rng)
+    function, count = worlds.skill.function, len(worlds.skill.inputs)
+    assert isinstance(function, Mlp)
+    shape = layers(count, worlds.skill.outputs, function)
+    begun = [matrix.astype(np.float64) for matrix in matrices(first_weights(1, shape, rng)[0], shape)]
+    begun[-1] = 1 / shape[-1][0] + 0.1 * rng.standard_normal(begun[-1].shape)  # or noise would change nothing
+    actor = Network(begun, biased=False)
+    sizes = (count, *CRITIC, 1)
+    wide = [rng.standard_normal((b, a + 1)) / np.sqrt(a) for a, b in pairwise(sizes)]
+    critic = Network(wide, biased=True)
+    spread, steps = np.full(worlds.skill.outputs, np.log(0.3)), 0
+    moments = np.zeros_like(spread), np.zeros_like(spread)
+    scale, coming, inputs = Scale(), np.zeros(LANES), worlds.inputs()
+    while worlds.ticks < ticks:
+        seen, done, likely, values, earned, over = [], [], [], [], [], []
+        for _ in range(STEPS):
+            noise = rng.standard_normal((LANES, len(spread)))
+            seen.append(inputs)
+            done.append(actor.forward(inputs) + np.exp(spread) * noise)
+            likely.append((-0.5 * noise**2 - spread).sum(axis=1))
+            values.append(critic.forward(2 * inputs - 1)[:, 0])
+            paid, ended = worlds.step(done[-1])
+            coming = DISCOUNT * coming + paid
+            scale.learn(coming)
+            coming[ended] = 0
+            earned.append(np.clip(paid / np.sqrt(scale.variance + 1e-8), -20, 20))
+            over.append(ended)
+            inputs = worlds.inputs()
+        values.append(critic.forward(2 * inputs - 1)[:, 0])
+        gains = advantages(earned, over, values)
+        x, a, old, gain = (np.concatenate(part) for part in (seen, done, likely, gains))
+        target = gain + np.concatenate(values[:-1])
+        for _ in range(EPOCHS):
+            for rows in np.array_split(rng.permutation(len(x)), len(x) // BATCH):
+                steps += 1
+                better = (gain[rows] - gain[rows].mean()) / (gain[rows].std() + 1e-8)
+                z = (a[rows] - actor.forward(x[rows])) / np.exp(spread)
+                ratio = np.exp((-0.5 * z**2 - spread).sum(axis=1) - old[rows])
+                counts = ratio * better <= np.clip(ratio, 1 - CLIP, 1 + CLIP) * better
+                slope = (-better * ratio * counts / len(rows))[:, None]
+                actor.backward(slope * z / np.exp(spread), rate)
+                spread -= adam(moments, (slope * (z**2 - 1)).sum(axis=0), min(rate, FASTEST), steps)
+                np.clip(spread, -3, 0.5, out=spread)
+                missed = critic.forward(2 * x[rows] - 1)[:, 0] - target[rows]
+                critic.backward(missed[:, None] / len(rows), CRITIC_RATE)
+        genome = np.concatenate([matrix.ravel() for matrix in actor.weights])
+        yield worlds.ticks, np.clip(genome, -LIMIT, LIMIT).astype(np.float32)[None]
+
+
+def advantages(earned: list[Array], over: list[NDArray[np.bool_]], values: list[Array]) -> list[Array]:
+    """How much better than expected each step was (generalised advantage estimation)."""
+    gains, last = [], np.zeros(LANES)
+    for t in range(len(earned) - 1, -1, -1):
+        going = 1.0 - over[t]
+        last = earned[t] + DISCOUNT * values[t + 1] * going - values[t] + DISCOUNT * TRACE * going * last
+        gains.append(last)
+    return gains[::-1]
+
+
+def main() -> None:
+    """Learn, try, print."""
+    parser = argparse.ArgumentParser(
+        allow_abbrev=False, description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
+    parser.add_argument("--skill", default="GoToObject")
+    parser.add_argument("--ticks", type=float, default=4e6)
+    parser.add_argument("--seeds", type=int, default=5)
+    parser.add_argument("--rate", type=float, default=0.03, help="of Adam for the skill's weights")
+    parser.add_argument("--hold", type=int, default=6, help="ticks for which a command is held")
+    options = parser.parse_args()
+    graph, weights, _ = collect()
+    _, rollout = prepared(graph, weights, options.skill, 1)
+    ends = []
+    for seed in range(1, options.seeds + 1):
+        begin, found = time.process_time(), []
+        for ticks, genome in learn(options.skill, options.ticks, seed, options.rate, options.hold):
+            if ticks >= options.ticks * (len(found) + 1) / 4:
+                found.append(float(rollout.score(genome, [int(word) for word in FRESH]).counts.mean()))
+        seconds = time.process_time() - begin
+        said = ", ".join(f"{count:.1f}" for count in found)
+        print(f"seed {seed:>3}: {said} per run after each quarter, {seconds:.0f} s CPU", flush=True)
+        ends.append(found)
+    print("mean:     " + ", ".join(f"{count:.1f}" for count in np.mean(ends, axis=0)))
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,204 @@
+"""Agent-ticks per second of CPU time for many workloads: python benchmarks/rates.py [--against COMMIT] [NAME…].
+
+With --against, a commit's checkout and this one take turns, a process each, and the ratio is printed beside the rates:
+the same minds, weights and layouts, each in its own checkout's words. CPU time is of all threads; `first start` is the
+CPU time in seconds of an import and a compilation into an empty cache, and its ratio is of the speeds.
+"""
+
+import argparse
+import json
+import os
+import subprocess
+import sys
+import tempfile
+import time
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
+from functools import partial
+from pathlib import Path
+from statistics import median
+
+import numpy as np
+from mindrun.sim.rollout import Rollout
+from workloads import STUCK, Lanes, collect, random_weights, with_obstacles, with_skills
+
+ROOT = Path(__file__).resolve().parent.parent
+TICKS = 400_000  # agent-ticks of a measurement, and as many runs of a lesson as it has
+START = "first start, seconds of CPU time"
+Measure = Callable[[], float]
+
+
+def steady(ready: Callable[[], Lanes]) -> Callable[[], Measure]:
+    """Robots whose runs never end."""
+
+    def prepared() -> Measure:
+        lanes = ready()
+        ticks = max(1, TICKS // (lanes.lanes * len(lanes.parts)))
+        return lambda: lanes.rate(ticks, time.process_time)
+
+    return prepared
+
+
+def lanes_of(count: int, workers: int = 1, frozen: bool = False) -> Callable[[], Measure]:
+    """The whole hierarchy, with genomes of their own for the master unless it is frozen."""
+
+    def ready() -> Lanes:
+        graph, weights, _ = collect()
+        return Lanes(graph, weights, None if frozen else graph.master, count, workers)
+
+    return steady(ready)
+
+
+def lesson(skill: str, genomes: int = 100, layouts: int = 2, workers: int = 2) -> Callable[[], Measure]:
+    """A generation late in a lesson: shipped weights and what mutation makes of them, runs that end and begin."""
+
+    def prepared() -> Measure:
+        graph, weights, _ = collect()
+        others = {name: array for name, array in weights.items() if name != skill}
+        rollout = Rollout(graph, others, skill, skill, [skill], workers=workers)
+        rng = np.random.default_rng(1)
+        steps = rng.normal(0.0, 0.5, (genomes, len(weights[skill]))) * (rng.random((genomes, 1)) < 0.1)
+        bred = (weights[skill] + steps).astype(np.float32)
+        rollout.compile()
+
+        def measure() -> float:
+            began = time.process_time()
+            ticks = int(rollout.score(bred, [*range(1, layouts + 1)]).ticks.sum())
+            return ticks / (time.process_time() - began)
+
+        return measure
+
+    return prepared
+
+
+def stuck() -> Lanes:
+    """Robots that push against obstacles."""
+    graph, _, _ = collect()
+    return Lanes(graph, random_weights(graph, STUCK), graph.master)
+
+
+def crowded() -> Lanes:
+    """169 obstacles."""
+    graph, weights, _ = collect()
+    return Lanes(with_obstacles(graph, 7), weights, graph.master)
+
+
+def skilled(count: int) -> Lanes:
+    """So many skills, all under influence, in robots that keep moving."""
+    return Lanes(*with_skills(count))
+
+
+WORKLOADS: Mapping[str, Callable[[], Measure]] = {
+    "Collect, own genomes, 256 lanes": lanes_of(256),
+    "Collect, all frozen, 256 lanes": lanes_of(256, frozen=True),
+    "Collect, 64 lanes": lanes_of(64),
+    "Collect, 16 lanes": lanes_of(16),
+    "Collect, two workers of 100 lanes": lanes_of(100, workers=2),
+    "population 50, one layout, two workers": lanes_of(25, workers=2),
+    "population 50, two layouts, two workers": lanes_of(50, workers=2),
+    "population 100, one layout, two workers": lanes_of(50, workers=2),
+    "lesson GoToObject, two workers": lesson("GoToObject"),
+    "lesson Avoid, two workers": lesson("Avoid"),
+    "lesson GoToObject+Avoid, two workers": lesson("GoToObject+Avoid"),
+    "lesson Collect, two workers": lesson("Collect"),
+    "stuck robots": steady(stuck),
+    "169 obstacles": steady(crowded),
+    **{f"{count} skills that move": steady(partial(skilled, count)) for count in (2, 10, 50)},
+}
+
+
+def first_start() -> float:
+    """Seconds of CPU time of an import and a compilation into an empty cache."""
+    program = (
+        "from workloads import collect; from mindrun.sim.rollout import Rollout; graph, weights, _ = collect();"
+        "Rollout(graph, weights, graph.master, graph.master).compile(); import time; print(time.process_time())"
+    )
+    with tempfile.TemporaryDirectory() as cache:
+        environment = os.environ | {"NUMBA_CACHE_DIR": cache}
+        said = subprocess.run([sys.executable, "-c", program], env=environment, check=True, capture_output=True)
+    return float(said.stdout)
+
+
+def measured(names: list[str]) -> dict[str, float]:
+    """Each workload once, after a first time that counts for nothing."""
+    found = {}
+    for name in names:
+        if name == START:
+            found[name] = first_start()
+        else:
+            measure = WORKLOADS[name]()
+            measure()
+            found[name] = measure()
+    return found
+
+
+@contextmanager
+def checkout(commit: str) -> Iterator[Path]:
+    """A commit's files, in a folder that is gone afterwards."""
+    with tempfile.TemporaryDirectory() as folder:
+        packed = subprocess.run(["git", "archive", commit], cwd=ROOT, check=True, capture_output=True).stdout
+        subprocess.run(["tar", "-x", "-C", folder], input=packed, check=True)
+        yield Path(folder)
+
+
+def in_checkout(root: Path, cache: Path, names: list[str]) -> dict[str, float]:
+    """What this program measures of a checkout, in a process of its own."""
+    paths = map(str, (root, root / "runtime", Path(__file__).parent))
+    environment = os.environ | {"PYTHONPATH": os.pathsep.join(paths), "NUMBA_CACHE_DIR": str(cache)}
+    command = [sys.executable, __file__, "--once", *names]
+    found: dict[str, float] = json.loads(
+        subprocess.run(command, env=environment, check=True, stdout=subprocess.PIPE).stdout
+    )
+    return found
+
+
+def take_turns(commit: str, names: list[str], rounds: int) -> None:
+    """Print the medians of both, and the median of their ratios."""
+    with checkout(commit) as before, tempfile.TemporaryDirectory() as caches:
+        pairs: list[tuple[dict[str, float], dict[str, float]]] = []
+        for number in range(rounds + 1):  # the first compiles
+            turn = [name for name in names if name != START or number == 1]
+            sides = [in_checkout(root, Path(caches) / side, turn) for root, side in ((before, "a"), (ROOT, "b"))]
+            pairs += [(sides[0], sides[1])] * bool(number)
+    print(f"{'medians of ' + str(rounds) + ' rounds':<44}{commit:>10}{'here':>10}{'ratio':>8}")
+    for name in names:
+        found = [(old[name], new[name]) for old, new in pairs if name in old]
+        old, new = (median(side) for side in zip(*found, strict=True))
+        ratio = median(new / old if name != START else old / new for old, new in found)
+        print(f"{name:<44}{_said(name, old):>10}{_said(name, new):>10}{ratio:>8.2f}", flush=True)
+
+
+def _said(name: str, value: float) -> str:
+    return f"{value:.1f} s" if name == START else f"{value / 1e6:.2f} M"
+
+
+def main() -> None:
+    """Measure and print."""
+    parser = argparse.ArgumentParser(
+        allow_abbrev=False, description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
+    parser.add_argument("names", nargs="*", metavar="NAME", help="only workloads whose name contains one of these")
+    parser.add_argument("--against", metavar="COMMIT", help="another commit takes turns with this checkout")
+    parser.add_argument("--rounds", type=int, default=3)
+    parser.add_argument("--once", action="store_true", help=argparse.SUPPRESS)
+    options = parser.parse_args()
+    if options.once:
+        print(json.dumps(measured(options.names)))
+        return
+    names = [
+        name
+        for name in (*WORKLOADS, START)
+        if not options.names or any(part.lower() in name.lower() for part in options.names)
+    ]
+    if not names:
+        parser.error(f"no workload is called that; there are: {'; '.join((*WORKLOADS, START))}")
+    if options.against:
+        take_turns(options.against, names, options.rounds)
+        return
+    for name in names:
+        rounds = [measured([name])[name] for _ in range(1 if name == START else options.rounds)]
+        print(f"{name:<44}{_said(name, median(rounds)):>10}", flush=True)
+
+
+if __name__ == "__main__":
+    main()
