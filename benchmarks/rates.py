@@ -19,11 +19,13 @@ from pathlib import Path
 from statistics import median
 
 import numpy as np
+from mindrun.learners import Genetic
 from mindrun.sim.rollout import Rollout
+from mindrun.train.genetic import mutate
 from workloads import STUCK, Lanes, collect, random_weights, with_obstacles, with_skills
 
 ROOT = Path(__file__).resolve().parent.parent
-TICKS = 400_000  # agent-ticks of a measurement, and as many runs of a lesson as it has
+TICKS = 400_000  # agent-ticks of a measurement; a lesson's is a generation
 START = "first start, seconds of CPU time"
 Measure = Callable[[], float]
 
@@ -49,21 +51,20 @@ def lanes_of(count: int, workers: int = 1, frozen: bool = False) -> Callable[[],
     return steady(ready)
 
 
-def lesson(skill: str, genomes: int = 100, layouts: int = 2, workers: int = 2) -> Callable[[], Measure]:
+def lesson(skill: str) -> Callable[[], Measure]:
     """A generation late in a lesson: shipped weights and what mutation makes of them, runs that end and begin."""
 
     def prepared() -> Measure:
         graph, weights, _ = collect()
         others = {name: array for name, array in weights.items() if name != skill}
-        rollout = Rollout(graph, others, skill, skill, [skill], workers=workers)
-        rng = np.random.default_rng(1)
-        steps = rng.normal(0.0, 0.5, (genomes, len(weights[skill]))) * (rng.random((genomes, 1)) < 0.1)
-        bred = (weights[skill] + steps).astype(np.float32)
+        rollout = Rollout(graph, others, skill, skill, [skill], workers=2)
+        learner = Genetic()
+        bred = mutate(np.repeat(weights[skill][None], learner.population, axis=0), learner, np.random.default_rng(1))
         rollout.compile()
 
         def measure() -> float:
             began = time.process_time()
-            ticks = int(rollout.score(bred, [*range(1, layouts + 1)]).ticks.sum())
+            ticks = int(rollout.score(bred, [*range(1, learner.layouts + 1)]).ticks.sum())
             return ticks / (time.process_time() - began)
 
         return measure
@@ -95,8 +96,7 @@ WORKLOADS: Mapping[str, Callable[[], Measure]] = {
     "Collect, 16 lanes": lanes_of(16),
     "Collect, two workers of 100 lanes": lanes_of(100, workers=2),
     "population 50, one layout, two workers": lanes_of(25, workers=2),
-    "population 50, two layouts, two workers": lanes_of(50, workers=2),
-    "population 100, one layout, two workers": lanes_of(50, workers=2),
+    "population 50 on two layouts or 100 on one, two workers": lanes_of(50, workers=2),
     "lesson GoToObject, two workers": lesson("GoToObject"),
     "lesson Avoid, two workers": lesson("Avoid"),
     "lesson GoToObject+Avoid, two workers": lesson("GoToObject+Avoid"),
@@ -160,12 +160,12 @@ def take_turns(commit: str, names: list[str], rounds: int) -> None:
             turn = [name for name in names if name != START or number == 1]
             sides = [in_checkout(root, Path(caches) / side, turn) for root, side in ((before, "a"), (ROOT, "b"))]
             pairs += [(sides[0], sides[1])] * bool(number)
-    print(f"{'medians of ' + str(rounds) + ' rounds':<44}{commit:>10}{'here':>10}{'ratio':>8}")
+    print(f"{'medians of ' + str(rounds) + ' rounds':<56}{commit:>10}{'here':>10}{'ratio':>8}")
     for name in names:
         found = [(old[name], new[name]) for old, new in pairs if name in old]
         old, new = (median(side) for side in zip(*found, strict=True))
         ratio = median(new / old if name != START else old / new for old, new in found)
-        print(f"{name:<44}{_said(name, old):>10}{_said(name, new):>10}{ratio:>8.2f}", flush=True)
+        print(f"{name:<56}{_said(name, old):>10}{_said(name, new):>10}{ratio:>8.2f}", flush=True)
 
 
 def _said(name: str, value: float) -> str:
@@ -197,7 +197,7 @@ def main() -> None:
         return
     for name in names:
         rounds = [measured([name])[name] for _ in range(1 if name == START else options.rounds)]
-        print(f"{name:<44}{_said(name, median(rounds)):>10}", flush=True)
+        print(f"{name:<56}{_said(name, median(rounds)):>10}", flush=True)
 
 
 if __name__ == "__main__":
