@@ -47,13 +47,18 @@ class Plan:
         times = "all" if self.scale == 1 else f"{self.scale:g} times"
         genomes = "" if self.population is None else f" Every generation has {self.population} genomes."
         avoid = f'"Avoid 1000 generations" is {1000 * self.scale:g} here, "2500" is {2500 * self.scale:g}'
-        shares = ", ".join(f"{0.5**rung:.3g}" for rung in range(self.rungs, 0, -1))
+        shares = ", ".join(f"{height:.3g}" for height in heights(self.rungs))
         ended = f" Those in the worse half after {shares} of their generations ended there." if self.rungs else ""
         return (
             f"**{scaled}.** Every lesson has {times} the paper's generations, in {self.attempts} attempts for the "
             f"lessons of {FILES[0]} and {self.others} for all others, from seed {self.seed}.{ended}{genomes} The rows "
             f"keep the paper's names: {avoid}."
         )
+
+
+def heights(rungs: int) -> list[float]:
+    """After which shares of its generations an attempt comes to its rungs, the lowest first."""
+    return [0.5**rung for rung in range(rungs, 0, -1)]
 
 
 def read_plan(folder: Path) -> Plan | None:

@@ -17,7 +17,7 @@ from mindrun.arguments import SEED, real, whole
 from mindrun.errors import MindError
 from mindrun.graph import Lesson
 from mindrun.sim.rollout import cores
-from plan import Plan, keep_plan, read_plan
+from plan import Plan, heights, keep_plan, read_plan
 from protocol import FILES, FOLDER
 
 from mindlang import simulator
@@ -136,8 +136,7 @@ def ticks(lesson: Lesson, log: Log) -> float:
 
 def share(rungs: int) -> float:
     """Of its generations an attempt has before it ends, where it falls behind at any rung as often as not."""
-    heights = [0.5**rung for rung in range(rungs, 0, -1)]
-    return sum(height * 0.5 ** (n + 1) for n, height in enumerate(heights)) + 0.5**rungs
+    return sum(height * 0.5 ** (n + 1) for n, height in enumerate(heights(rungs))) + 0.5**rungs
 
 
 def speed(file: str, lesson: Lesson, log: Log, workers: int) -> float:

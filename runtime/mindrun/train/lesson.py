@@ -233,9 +233,9 @@ def rung_at(lesson: Lesson, generation: int) -> int | None:
 
 def is_behind(scores: Scores) -> bool:
     """Whether the last of the attempts that came to a rung, with these scores [attempts], is in their worse half."""
-    *others, own = scores[np.isfinite(scores) | (np.arange(len(scores)) == len(scores) - 1)]
-    better = sum(bool(other > own) for other in others)
-    return better >= max(1, (len(others) + 1) // 2)
+    others, own = scores[:-1], scores[-1]
+    came, better = int(np.isfinite(others).sum()), int((others > own).sum())
+    return better >= max(1, (came + 1) // 2)
 
 
 def climb(state: State, scorer: Scorer, rung: int, seeds: Seeds) -> State:
