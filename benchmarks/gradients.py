@@ -8,8 +8,9 @@ Each quarter of the ticks the weights as they stand run on 100 layouts that the 
 import argparse
 import time
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, field, fields
 from itertools import pairwise
+from typing import Self
 
 import numpy as np
 from commanded import Commanded
@@ -118,56 +119,92 @@ class Scale:
         self.count = total
 
 
-def learn(skill: str, ticks: float, seed: int, rate: float, hold: int) -> Iterator[tuple[int, Genomes]]:
-    """The ticks taken and the skill's weights [1, weights], after each update."""
-    rng = np.random.default_rng(seed)
-    worlds = Worlds(skill, hold, rng)
-    function, count = worlds.skill.function, len(worlds.skill.inputs)
-    assert isinstance(function, Mlp)
-    shape = layers(count, worlds.skill.outputs, function)
-    begun = [matrix.astype(np.float64) for matrix in matrices(first_weights(1, shape, rng)[0], shape)]
-    begun[-1] = 1 / shape[-1][0] + 0.1 * rng.standard_normal(begun[-1].shape)  # or noise would change nothing
-    actor = Network(begun, biased=False)
-    sizes = (count, *CRITIC, 1)
-    wide = [rng.standard_normal((b, a + 1)) / np.sqrt(a) for a, b in pairwise(sizes)]
-    critic = Network(wide, biased=True)
-    spread, steps = np.full(worlds.skill.outputs, np.log(0.3)), 0
-    moments = np.zeros_like(spread), np.zeros_like(spread)
-    scale, coming, inputs = Scale(), np.zeros(LANES), worlds.inputs()
-    while worlds.ticks < ticks:
+@dataclass(slots=True)
+class Learner:
+    """PPO: the skill's perceptron as actor, with a spread of its own for each output, and the critic."""
+
+    worlds: Worlds
+    actor: Network
+    critic: Network
+    spread: Array  # logarithms
+    rng: np.random.Generator
+    rate: float
+    scale: Scale = field(default_factory=Scale)
+
+    @classmethod
+    def begin(cls, skill: str, hold: int, rate: float, seed: int) -> Self:
+        """First weights as a lesson draws them, but for the last layer: noise would change nothing there."""
+        rng = np.random.default_rng(seed)
+        worlds = Worlds(skill, hold, rng)
+        function, count, outputs = worlds.skill.function, len(worlds.skill.inputs), worlds.skill.outputs
+        assert isinstance(function, Mlp)
+        shape = layers(count, outputs, function)
+        first = [matrix.astype(np.float64) for matrix in matrices(first_weights(1, shape, rng)[0], shape)]
+        first[-1] = 1 / shape[-1][0] + 0.1 * rng.standard_normal(first[-1].shape)
+        wide = [rng.standard_normal((b, a + 1)) / np.sqrt(a) for a, b in pairwise((count, *CRITIC, 1))]
+        actor, critic = Network(first, biased=False), Network(wide, biased=True)
+        return cls(worlds, actor, critic, np.full(outputs, np.log(0.3)), rng, rate)
+
+    def learn(self, ticks: float) -> Iterator[tuple[int, Genomes]]:
+        """The ticks taken and the skill's weights [1, weights], after each update."""
+        moments, steps, coming = (np.zeros_like(self.spread), np.zeros_like(self.spread)), 0, np.zeros(LANES)
+        while self.worlds.ticks < ticks:
+            batch = self.collected(coming)
+            for _ in range(EPOCHS):
+                for rows in np.array_split(self.rng.permutation(len(batch.seen)), len(batch.seen) // BATCH):
+                    steps += 1
+                    self.improve(batch.rows(rows), moments, steps)
+            genome = np.concatenate([matrix.ravel() for matrix in self.actor.weights])
+            yield self.worlds.ticks, np.clip(genome, -LIMIT, LIMIT).astype(np.float32)[None]
+
+    def collected(self, coming: Array) -> "Batch":
+        """Some steps in all lanes; `coming` is what they earned of late, discounted, from batch to batch."""
         seen, done, likely, values, earned, over = [], [], [], [], [], []
+        inputs = self.worlds.inputs()
         for _ in range(STEPS):
-            noise = rng.standard_normal((LANES, len(spread)))
+            noise = self.rng.standard_normal((LANES, len(self.spread)))
             seen.append(inputs)
-            done.append(actor.forward(inputs) + np.exp(spread) * noise)
-            likely.append((-0.5 * noise**2 - spread).sum(axis=1))
-            values.append(critic.forward(2 * inputs - 1)[:, 0])
-            paid, ended = worlds.step(done[-1])
-            coming = DISCOUNT * coming + paid
-            scale.learn(coming)
+            done.append(self.actor.forward(inputs) + np.exp(self.spread) * noise)
+            likely.append((-0.5 * noise**2 - self.spread).sum(axis=1))
+            values.append(self.critic.forward(2 * inputs - 1)[:, 0])
+            paid, ended = self.worlds.step(done[-1])
+            coming[:] = DISCOUNT * coming + paid
+            self.scale.learn(coming)
             coming[ended] = 0
-            earned.append(np.clip(paid / np.sqrt(scale.variance + 1e-8), -20, 20))
+            earned.append(np.clip(paid / np.sqrt(self.scale.variance + 1e-8), -20, 20))
             over.append(ended)
-            inputs = worlds.inputs()
-        values.append(critic.forward(2 * inputs - 1)[:, 0])
-        gains = advantages(earned, over, values)
-        x, a, old, gain = (np.concatenate(part) for part in (seen, done, likely, gains))
-        target = gain + np.concatenate(values[:-1])
-        for _ in range(EPOCHS):
-            for rows in np.array_split(rng.permutation(len(x)), len(x) // BATCH):
-                steps += 1
-                better = (gain[rows] - gain[rows].mean()) / (gain[rows].std() + 1e-8)
-                z = (a[rows] - actor.forward(x[rows])) / np.exp(spread)
-                ratio = np.exp((-0.5 * z**2 - spread).sum(axis=1) - old[rows])
-                counts = ratio * better <= np.clip(ratio, 1 - CLIP, 1 + CLIP) * better
-                slope = (-better * ratio * counts / len(rows))[:, None]
-                actor.backward(slope * z / np.exp(spread), rate)
-                spread -= adam(moments, (slope * (z**2 - 1)).sum(axis=0), min(rate, FASTEST), steps)
-                np.clip(spread, -3, 0.5, out=spread)
-                missed = critic.forward(2 * x[rows] - 1)[:, 0] - target[rows]
-                critic.backward(missed[:, None] / len(rows), CRITIC_RATE)
-        genome = np.concatenate([matrix.ravel() for matrix in actor.weights])
-        yield worlds.ticks, np.clip(genome, -LIMIT, LIMIT).astype(np.float32)[None]
+            inputs = self.worlds.inputs()
+        values.append(self.critic.forward(2 * inputs - 1)[:, 0])
+        x, a, old, gain = (np.concatenate(part) for part in (seen, done, likely, advantages(earned, over, values)))
+        return Batch(x, a, old, gain, gain + np.concatenate(values[:-1]))
+
+    def improve(self, batch: "Batch", moments: tuple[Array, Array], steps: int) -> None:
+        """One step of Adam for the actor, the spread and the critic."""
+        better = (batch.gain - batch.gain.mean()) / (batch.gain.std() + 1e-8)
+        z = (batch.done - self.actor.forward(batch.seen)) / np.exp(self.spread)
+        ratio = np.exp((-0.5 * z**2 - self.spread).sum(axis=1) - batch.likely)
+        counts = ratio * better <= np.clip(ratio, 1 - CLIP, 1 + CLIP) * better
+        slope = (-better * ratio * counts / len(better))[:, None]
+        self.actor.backward(slope * z / np.exp(self.spread), self.rate)
+        self.spread -= adam(moments, (slope * (z**2 - 1)).sum(axis=0), min(self.rate, FASTEST), steps)
+        np.clip(self.spread, -3, 0.5, out=self.spread)
+        missed = self.critic.forward(2 * batch.seen - 1)[:, 0] - batch.target
+        self.critic.backward(missed[:, None] / len(missed), CRITIC_RATE)
+
+
+@dataclass(frozen=True, slots=True)
+class Batch:
+    """What was read [rows, inputs] and commanded [rows, outputs], how likely that was, what came of it [rows]."""
+
+    seen: Array
+    done: Array
+    likely: Array
+    gain: Array
+    target: Array
+
+    def rows(self, chosen: NDArray[np.int64]) -> "Batch":
+        """Some of it."""
+        return Batch(*(getattr(self, each.name)[chosen] for each in fields(self)))
 
 
 def advantages(earned: list[Array], over: list[NDArray[np.bool_]], values: list[Array]) -> list[Array]:
@@ -196,7 +233,8 @@ def main() -> None:
     ends = []
     for seed in range(1, options.seeds + 1):
         begin, found = time.process_time(), []
-        for ticks, genome in learn(options.skill, options.ticks, seed, options.rate, options.hold):
+        learner = Learner.begin(options.skill, options.hold, options.rate, seed)
+        for ticks, genome in learner.learn(options.ticks):
             if ticks >= options.ticks * (len(found) + 1) / 4:
                 found.append(float(rollout.score(genome, [int(word) for word in FRESH]).counts.mean()))
         seconds = time.process_time() - begin

@@ -115,7 +115,9 @@ def first_start() -> float:
     )
     with tempfile.TemporaryDirectory() as cache:
         environment = os.environ | {"NUMBA_CACHE_DIR": cache}
-        said = subprocess.run([sys.executable, "-c", program], env=environment, check=True, capture_output=True)
+        said = subprocess.run(  # in a folder with no modules of its own: -c looks there first
+            [sys.executable, "-c", program], cwd=cache, env=environment, check=True, capture_output=True
+        )
     return float(said.stdout)
 
 
