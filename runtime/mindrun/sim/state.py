@@ -73,7 +73,7 @@ class State(NamedTuple):
     slot_count: Array
     slot_most: Array  # [1]: of any lane
     anchor: Array  # [2] float64: where the slots were chosen
-    active: Array  # [lanes] int64
+    active: Array  # [lanes] uint64: which lanes a skill runs in
     sound: Array  # float32: 0 where all inputs of a skill are finite, else NaN
     values: Array  # float32: of an edge with `at`
     sent: Array  # float32: the values of an edge, −1 where nothing is sent
@@ -117,7 +117,7 @@ def empty_state(tables: Tables, sizes: Sizes, lanes: int) -> State:
         "slots": 4 * boxes,
     }  # fmt: skip
     numbers = (
-        "held", "tick", "ended", "faults", "job", "near", "touching", "touches", "slot_count", "active",
+        "held", "tick", "ended", "faults", "job", "near", "touching", "touches", "slot_count"
     )  # fmt: skip
     return State(
         **{name: np.zeros((max(1, rows), whole)) for name, rows in doubles.items()},
@@ -126,7 +126,7 @@ def empty_state(tables: Tables, sizes: Sizes, lanes: int) -> State:
         **{name: np.zeros(lanes) for name in ("battery", "gap", "paid", "limit")},
         **{name: np.zeros(whole, np.float32) for name in ("sound", "values", "sent")},
         failed=np.full(2, -1, np.int64),
-        **{name: np.zeros(lanes, np.uint64) for name in ("random", "aside")},
+        **{name: np.zeros(lanes, np.uint64) for name in ("random", "aside", "active")},
         **{name: np.zeros((max(1, things), whole), np.uint8) for name in ("reached", "delivered")},
         board=np.zeros((lanes, max(1, sizes.patches)), np.uint8),
         slot_most=np.zeros(1, np.int64),

@@ -49,6 +49,19 @@ def splat(typingctx, value):
     return vector(types.float32), lambda context, builder, signature, args: _splat(builder, args[0])
 
 
+@intrinsic
+def everywhere(typingctx, array, index):
+    """The same number of a flat float32 array in every lane; the index is not negative, and not looked at."""
+
+    def generate(context, builder, signature, args):
+        kind = signature.args[0]
+        view = context.make_array(kind)(context, builder, args[0])
+        pointer = cgutils.get_item_pointer(context, builder, kind, view, [args[1]], wraparound=False)
+        return _splat(builder, builder.load(pointer))
+
+    return vector(array, types.intp), generate
+
+
 def _address(context: Any, builder: Any, kind: Any, array: Any, row: Any, lane: Any) -> Any:
     view = context.make_array(kind)(context, builder, array)
     pointer = cgutils.get_item_pointer(context, builder, kind, view, [row, lane], wraparound=False)
