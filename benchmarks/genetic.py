@@ -10,7 +10,8 @@ from statistics import median
 
 import numpy as np
 from mindrun.learners import Genetic
-from mindrun.train.genetic import ask, nobody, tell
+from mindrun.train.breeding import ask, tell
+from mindrun.train.population import Genomes, nobody
 
 SIZES = [(100, 28), (100, 450), (128, 500), (300, 1610)]
 
@@ -20,10 +21,14 @@ def cost(individuals: int, weights: int) -> float:
     learner, rng = Genetic(population=individuals), np.random.default_rng(0)
     none = np.empty((0, weights), np.float32)
     population, times = nobody(weights), []
+
+    def draw(count: int, rng: np.random.Generator) -> Genomes:
+        return rng.standard_normal((count, weights), np.float32)
+
     for _ in range(50):
         began = time.perf_counter()
-        genomes = ask(population, learner, none, rng)
-        population = tell(population, genomes, rng.normal(size=individuals))
+        genomes = ask(population, learner, none, draw, rng)
+        population = tell(population, learner, none, genomes, rng.normal(size=individuals))
         times.append((time.perf_counter() - began) / individuals * 1e6)
     return median(times)
 

@@ -16,7 +16,7 @@ import numpy as np
 from commanded import Commanded
 from learning import FRESH, prepared
 from mindrun.functions.mlp import Mlp, first_weights, layers, matrices
-from mindrun.train.genetic import LIMIT, Genomes
+from mindrun.train.population import LIMIT, Genomes
 from numpy.typing import NDArray
 from workloads import collect
 

@@ -24,9 +24,9 @@ from learning import FRESH, prepared
 from mindrun.graph import Lesson
 from mindrun.learners import Genetic, Restarting
 from mindrun.sim.rollout import Rollout, cores
-from mindrun.train.genetic import LIMIT, Genomes, order
 from mindrun.train.lesson import CANDIDATES, EVERY, Course, begin, generation, judge
 from mindrun.train.lesson import FRESH as TRIES
+from mindrun.train.population import LIMIT, Genomes, order
 from mindrun.train.training import best
 from workloads import COLLECT, collect
 

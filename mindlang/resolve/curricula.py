@@ -6,21 +6,23 @@ from typing import Any
 
 from mindrun.functions import Mlp
 from mindrun.quantity import GENERATIONS
+from mindrun.registry import kinds
 
 from mindlang import model
-from mindlang.diagnostic import Findings
+from mindlang.diagnostic import Findings, Label, listed
 from mindlang.hierarchy import reached
 from mindlang.resolve.kinds import Scope, make, overrides
 from mindlang.resolve.names import Names
 from mindlang.resolve.parts import refuse_facts
 from mindlang.resolve.quantities import convert
-from mindlang.syntax import Argument, Name, Teaches
+from mindlang.syntax import Argument, Name, Phrase, Teaches
 
 # Words that a lesson says beside the arguments of its learner.
 SWITCHES = {
     "from": ("scratch", "A lesson starts from scratch or, without this, from the weights that the skill has."),
     "with": ("subskills", "A lesson teaches one skill or, with subskills, all that learn below it together with it."),
 }
+USING = "using"  # a kind of learner other than the curriculum's
 
 
 def lessons(names: Names, skills: tuple[model.Skill, ...], findings: Findings) -> Iterator[model.Lesson]:
@@ -46,9 +48,10 @@ def _lesson(
         found.append(names.find(fact.master, ("skill",), findings))
     generations = convert(fact.generations, GENERATIONS, findings)
     switches = {argument.key.text for argument in fact.arguments if argument.key.text in SWITCHES}
-    arguments = tuple(argument for argument in fact.arguments if argument.key.text not in SWITCHES)
+    arguments = tuple(argument for argument in fact.arguments if argument.key.text not in {*SWITCHES, USING})
     _check_switches(fact.arguments, findings)
-    said = overrides(type(learner), "teaches", arguments, findings) if learner else {}
+    learner, kind = _learner(fact, learner, findings)
+    said = overrides(type(learner), kind, arguments, findings) if learner else {}
     if found[0]:
         _check_learns(fact, skills, "with" in switches, findings)
     if None not in found:
@@ -66,6 +69,22 @@ def _lesson(
         replace(learner, **said),
         fact,
     )
+
+
+def _learner(fact: Teaches, of_all: Any, findings: Findings) -> tuple[Any, str]:
+    """A lesson's learner with the defaults of its kind, the curriculum's or that after `using`, and whose it is."""
+    said = [argument for argument in fact.arguments if argument.key.text == USING]
+    for argument in said[1:]:
+        first = Label(said[0].span, "first said here")
+        findings.error("repeated-argument", argument.key.span, "using is said twice.", "Leave one out.", first)
+    match [argument.value for argument in said]:
+        case []:
+            return of_all, "teaches"
+        case [Name() as kind, *_]:
+            return make("curriculum", Phrase(kind, (), kind.span), Scope(Names({}), None), findings), kind.text
+    hint = f"Here stands a kind of curriculum: {listed(sorted(kinds('curriculum')))}."
+    findings.error("not-a-name", said[0].value.span, "A number cannot stand after using.", hint)
+    return None, USING
 
 
 def _check_switches(written: tuple[Argument, ...], findings: Findings) -> None:

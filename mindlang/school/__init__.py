@@ -12,8 +12,8 @@ from time import perf_counter
 from mindrun.graph import Lesson
 from mindrun.sim.rollout import Rollout, cores
 from mindrun.train.errors import RunError
-from mindrun.train.genetic import founder_count
 from mindrun.train.lesson import Record, State
+from mindrun.train.population import founder_count
 from mindrun.train.run_folder import Run, keep_result, open_run, read_result
 from mindrun.train.training import Watch, train
 from mindrun.weights import learners

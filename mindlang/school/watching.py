@@ -4,8 +4,8 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Protocol
 
-from mindrun.train.genetic import founder_count
 from mindrun.train.lesson import Record
+from mindrun.train.population import founder_count
 from mindrun.train.progress import read
 from mindrun.train.run_folder import Run
 from rich.console import Console, ConsoleOptions, RenderableType

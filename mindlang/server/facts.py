@@ -89,12 +89,16 @@ def _lesson(line: Line, rest: Sequence[str]) -> list[Offer]:
             return [Offer("scratch", "word")]
         case [*_, "with"]:
             return [Offer("subskills", "word")]
+        case [*_, "using"]:
+            return kinds_of("curriculum")
     phrase = line.above.header.phrase if line.above else None
-    switches = [offer for offer in words("from scratch", "with subskills") if offer.label.split()[0] not in rest]
-    if phrase is None or phrase.kind.text not in kinds("curriculum"):
+    learner = rest[rest.index("using") + 1] if "using" in rest else phrase.kind.text if phrase else ""
+    switches = words("from scratch", "with subskills", "using")
+    switches = [offer for offer in switches if offer.label.split()[0] not in rest]
+    if learner not in kinds("curriculum"):
         return switches
-    found = arguments_of(line.view, "curriculum", phrase.kind.text, rest[2:], None)
-    waits = offers.said(kinds("curriculum")[phrase.kind.text], rest[2:]).awaits_number
+    found = arguments_of(line.view, "curriculum", learner, rest[2:], None)
+    waits = offers.said(kinds("curriculum")[learner], rest[2:]).awaits_number
     return [] if waits else [*found, *switches]
 
 

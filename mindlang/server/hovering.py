@@ -7,6 +7,7 @@ from typing import Any
 
 from mindrun.registry import arguments, kinds
 
+from mindlang.resolve.curricula import USING
 from mindlang.server.cards import card
 from mindlang.server.describing import argument_card, kind_card
 from mindlang.server.tree import path_to
@@ -50,16 +51,23 @@ def noun_of(above: object) -> str:
 
 
 def _kind(view: View, file: File, offset: int) -> Hover | None:
-    """A kind, or an argument of one; those of a lesson are of its curriculum's kind."""
+    """A kind, or an argument of one; those of a lesson are of its own learner or the curriculum's."""
     match _owned(path_to(file, offset)):
         case above, Phrase(kind=kind), Name() as name if name is kind:
             cls = kinds(noun_of(above)).get(kind.text)
             return Hover(kind_card(noun_of(above), kind.text, cls), kind.span) if cls else None
         case above, Phrase() as phrase, Argument() as argument:
             return _argument(noun_of(above), phrase.kind.text, argument)
-        case _, Teaches(), Argument() as argument if declaration := declaration_at(file, offset):
-            of = declaration.header.phrase
-            return _argument("curriculum", of.kind.text, argument) if of else None
+        case _, Teaches() as lesson, Argument() as argument if declaration := declaration_at(file, offset):
+            own = [said.value for said in lesson.arguments if said.key.text == USING]
+            of_all = declaration.header.phrase
+            learner = own[0] if own else of_all and of_all.kind
+            if not isinstance(learner, Name):
+                return None
+            if argument.value is learner and learner.span.start <= offset:
+                cls = kinds("curriculum").get(learner.text)
+                return Hover(kind_card("curriculum", learner.text, cls), learner.span) if cls else None
+            return _argument("curriculum", learner.text, argument)
     return None
 
 

@@ -38,12 +38,13 @@ JOINTS = {
     "when": "The reward is added only where this holds: `when holding < 0.5`.",
     "from scratch": "The lesson starts from random weights, not from those that the skill has.",
     "with subskills": "All skills below that learn are taught along, as one genome.",
+    "using": "After it comes the kind of learner of a lesson, where it is not the curriculum's.",
     "frozen": "The skill refuses training; lessons with subskills leave it out.",
 }
 UNITS = {
     "s": "seconds",
     "ticks": "ticks of the mind",
-    "generations": "generations of a genetic algorithm",
+    "generations": "generations of a learner",
     "deg": "degrees",
     "%": "hundredths",
 }

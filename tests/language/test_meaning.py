@@ -4,7 +4,7 @@ from math import pi
 
 import pytest
 from mindrun.graph import Graph
-from mindrun.learners import Genetic, Restarting
+from mindrun.learners import EvolutionStrategy, Genetic, Restarting
 from mindrun.quantity import Span
 from mindrun.registry import arguments, kinds
 from mindrun.sensors import RangeFinder
@@ -65,9 +65,10 @@ def test_a_lesson_overrides_its_curriculum(tour: Graph) -> None:
     assert learners[0] == Genetic(40, 2, 3, 0.1, 0.5, 0.2)
     assert learners[1] == Genetic(60, 2, 3, 0.1, 0.5, 0.2)
     assert learners[2].mutation == 0.3
-    assert [lesson.from_scratch for lesson in tour.lessons] == [False, False, False, True, False, False]
-    assert [lesson.with_subskills for lesson in tour.lessons] == [False, False, False, False, False, True]
+    assert [lesson.from_scratch for lesson in tour.lessons] == [False, False, False, True, False, False, False]
+    assert [lesson.with_subskills for lesson in tour.lessons] == [False, False, False, False, False, True, True]
     assert learners[4] == Restarting(attempts=3, octaves=1, patience=30)
+    assert learners[6] == EvolutionStrategy(mutation=0.3)
 
 
 def test_minus_binds_tighter_than_times_and_the_left_comes_first() -> None:

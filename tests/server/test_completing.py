@@ -66,6 +66,9 @@ CASES = [  # where the line is put, the line with | for the cursor, what must be
     (BELOW_QUICK, "  teaches Avoid on Work for 9 |", "generations", "s"),
     (BELOW_QUICK, "  teaches Avoid on Work for 9 generations |", "population octaves", "is"),
     (BELOW_QUICK, "  teaches Avoid on Work for 9 generations from |", "scratch", "population"),
+    (BELOW_QUICK, "  teaches Avoid on Work for 9 generations |", "using", "evolution_strategy"),
+    (BELOW_QUICK, "  teaches Avoid on Work for 9 generations using |", "genetic evolution_strategy", "population"),
+    (BELOW_QUICK, "  teaches Avoid on Work for 9 generations using evolution_strategy |", "mutation", "elite using"),
 ]
 
 

@@ -4,21 +4,22 @@ import numpy as np
 import pytest
 from mindrun.learners import Genetic
 from mindrun.train import genetic
-from mindrun.train.genetic import ask, nobody, order, tell
+from mindrun.train.breeding import ask, tell
+from mindrun.train.population import Genomes, Population, bounded, nobody, order
 
 LEARNER = Genetic(population=100)
 UNKNOWN = np.empty((0, 10), np.float32)
 
 
-def draw(count: int, rng: np.random.Generator) -> genetic.Genomes:
+def draw(count: int, rng: np.random.Generator) -> Genomes:
     return 4 * rng.standard_normal((count, 10), np.float32)
 
 
-def evolve(generations: int, start: np.ndarray = UNKNOWN, learner: Genetic = LEARNER) -> genetic.Population:
+def evolve(generations: int, start: np.ndarray = UNKNOWN, learner: Genetic = LEARNER) -> Population:
     population = nobody(start.shape[1])
     for generation in range(generations):
         genomes = ask(population, learner, start, draw, np.random.default_rng(generation))
-        population = tell(population, learner, genomes, -((genomes.astype(float) - 1) ** 2).sum(axis=1))
+        population = tell(population, learner, start, genomes, -((genomes.astype(float) - 1) ** 2).sum(axis=1))
     return population
 
 
@@ -56,7 +57,7 @@ def test_genomes_stay_finite_float32_under_absurd_mutation() -> None:
 
 
 def test_a_population_of_only_bad_scores_breeds_on() -> None:
-    population = tell(nobody(4), LEARNER, np.ones((10, 4), np.float32), np.full(10, np.nan))
+    population = tell(nobody(4), LEARNER, UNKNOWN, np.ones((10, 4), np.float32), np.full(10, np.nan))
     assert ask(population, Genetic(population=10), UNKNOWN, draw, np.random.default_rng(0)).shape == (10, 4)
 
 
@@ -91,7 +92,7 @@ def test_the_first_population_is_the_best_of_its_founders() -> None:
     np.testing.assert_array_equal(founders, draw(200, rng()))
     scores = founders[:, 0].astype(float)
     scores[:3] = np.nan, np.inf, -np.inf
-    first = tell(nobody(10), learner, founders, scores)
+    first = tell(nobody(10), learner, UNKNOWN, founders, scores)
     assert first.scores.tolist() == sorted(scores[3:], reverse=True)[:10]
     np.testing.assert_array_equal(first.genomes[:, 0], first.scores)
     assert ask(first, learner, UNKNOWN, draw, rng()).shape == (10, 10)
@@ -106,7 +107,7 @@ def test_founders_are_never_fewer_than_the_population_and_what_is_known_has_none
 
 def test_no_weight_grows_beyond_a_hundred_or_is_no_number() -> None:
     wild = np.array([[0.5, -0.5, 100.0, -100.0, 100.5, -1e30, np.inf, -np.inf, np.nan]], np.float32)
-    assert genetic.bounded(wild).tolist() == [[0.5, -0.5, 100, -100, 100, -100, 100, -100, 0]]
+    assert bounded(wild).tolist() == [[0.5, -0.5, 100, -100, 100, -100, 100, -100, 0]]
     learner = Genetic(population=50, mutation=1000.0, mutated=1.0)
     first = ask(nobody(9), learner, np.zeros((1, 9), np.float32), draw, rng())
     assert np.abs(first).max() == 100.0
@@ -150,7 +151,7 @@ def test_the_elite_are_the_best_unchanged_and_all_others_are_children(share: flo
     genomes = np.arange(size * 50, dtype=np.float32).reshape(size, 50) / 100
     scores = np.random.default_rng(2).permutation(size).astype(float)
     learner = Genetic(population=size, elite=share, mutated=1.0)
-    bred = genetic.breed(tell(nobody(50), learner, genomes, scores), learner, rng())
+    bred = genetic.breed(tell(nobody(50), learner, UNKNOWN, genomes, scores), learner, rng())
     assert bred.shape == genomes.shape
     best = genomes[np.argsort(-scores)]
     assert (bred[:kept] == best[:kept]).all()
@@ -160,7 +161,7 @@ def test_the_elite_are_the_best_unchanged_and_all_others_are_children(share: flo
 def test_children_are_of_parents_that_did_well() -> None:
     genomes = np.repeat(np.arange(100, dtype=np.float32)[:, None], 40, axis=1)
     learner = Genetic(population=2000, elite=0.0, mutated=0.0)
-    bred = genetic.breed(tell(nobody(40), learner, genomes, -genomes[:, 0].astype(float)), learner, rng())
+    bred = genetic.breed(tell(nobody(40), learner, UNKNOWN, genomes, -genomes[:, 0].astype(float)), learner, rng())
     assert set(np.unique(bred)) <= set(range(100))
     assert bred[1:].mean() == pytest.approx(sum((1 - k / 100) ** 4 for k in range(1, 100)), rel=0.05)
     assert max(len(np.unique(child)) for child in bred) == 2
@@ -168,6 +169,6 @@ def test_children_are_of_parents_that_did_well() -> None:
 
 def test_equal_scores_keep_their_order() -> None:
     assert order(np.array([1.0, 3.0, 1.0, np.nan, 3.0, np.inf])).tolist() == [1, 4, 0, 2, 3, 5]
-    told = tell(nobody(1), LEARNER, np.zeros((4, 1), np.float32), np.array([np.nan, np.inf, -np.inf, 2.0]))
+    told = tell(nobody(1), LEARNER, UNKNOWN, np.zeros((4, 1), np.float32), np.array([np.nan, np.inf, -np.inf, 2.0]))
     assert told.scores.tolist() == [-np.inf, -np.inf, -np.inf, 2.0]
     assert told.generation == 1

@@ -4,7 +4,6 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from mindrun.train.genetic import Population
 from mindrun.train.lesson import (
     CANDIDATES,
     EVERY,
@@ -23,6 +22,7 @@ from mindrun.train.lesson import (
     teach,
     try_again,
 )
+from mindrun.train.population import Population
 from mindrun.train.seeds import Purpose, layouts
 
 from tests.train.climbing import LENGTH, Faulty, Flat, Results, Sphere, lesson

@@ -13,8 +13,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from mindrun.train import training
-from mindrun.train.genetic import Population
 from mindrun.train.lesson import Course, Record, State, begin
+from mindrun.train.population import Population
 from mindrun.train.progress import LINES, TABLE, Progress, read
 
 from tests.train.climbing import LENGTH, lesson

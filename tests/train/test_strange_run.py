@@ -10,8 +10,8 @@ import numpy as np
 import pytest
 from mindrun.train import checkpoint
 from mindrun.train.errors import RunError
-from mindrun.train.genetic import Population
 from mindrun.train.lesson import State
+from mindrun.train.population import Population
 from mindrun.train.progress import LINES, read
 from mindrun.train.run_folder import MANIFEST, RESULT, Run, create, open_run, read_result, unfinished
 from mindrun.train.training import train

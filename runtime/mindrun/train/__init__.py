@@ -1,1 +1,1 @@
-"""Training: a genetic algorithm teaches one skill one lesson, in a run folder that survives anything."""
+"""Training: a learner teaches one skill one lesson, in a run folder that survives anything."""

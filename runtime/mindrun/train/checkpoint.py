@@ -18,8 +18,8 @@ from mindrun.durable import sync_folder, write_beside
 from mindrun.plain_data import is_whole, parsed
 from mindrun.regular import read_whole
 from mindrun.train.errors import RunError
-from mindrun.train.genetic import Population
 from mindrun.train.lesson import State
+from mindrun.train.population import Population
 
 NAME, PREVIOUS = "checkpoint", "checkpoint.previous"
 MAGIC = b"mind checkpoint 5\n"

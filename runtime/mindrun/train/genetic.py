@@ -1,60 +1,25 @@
 """A genetic algorithm with ask and tell: plain arrays, the rng passed in, the state apart from the parameters."""
 
-from collections.abc import Callable
-from dataclasses import dataclass
-
 import numpy as np
 from numpy.typing import NDArray
 
 from mindrun.learners import Genetic
+from mindrun.train.population import Genomes, Population, Scores, bounded, order
 
-Genomes = NDArray[np.float32]
-Scores = NDArray[np.float64]
-Draw = Callable[[int, np.random.Generator], Genomes]  # so many random genomes
-
-LIMIT = 100.0  # no weight grows beyond it, so a genome is finite always
 TOURNAMENT = 4
 
 
-@dataclass(frozen=True, slots=True)
-class Population:
-    """What has been learnt so far: the last `genomes` [individuals, weights], their `scores` [individuals], its number.
-
-    Generation 0 has no genomes yet.
-    """
-
-    genomes: Genomes
-    scores: Scores
-    generation: int
-
-
-def nobody(weights: int) -> Population:
-    """The population before the first generation, for genomes of so many weights."""
-    return Population(np.empty((0, weights), np.float32), np.empty(0), 0)
-
-
-def ask(population: Population, learner: Genetic, start: Genomes, draw: Draw, rng: np.random.Generator) -> Genomes:
-    """The genomes [individuals, weights] to score next: the founders, then generations of `learner.population`.
-
-    `start` [0 or 1, weights] is what the skill knows; where it knows nothing, `draw` has random genomes.
-    """
-    if population.generation > 0:
-        return breed(population, learner, rng)
-    return bounded(variants(start, learner, rng) if len(start) else draw(founder_count(learner), rng))
+def ask(population: Population, learner: Genetic, start: Genomes, rng: np.random.Generator) -> Genomes:
+    """The genomes [individuals, weights] to score next: at first what the skill knows, `start` [1, weights], varied."""
+    return breed(population, learner, rng) if population.generation else bounded(variants(start, learner, rng))
 
 
 def tell(population: Population, learner: Genetic, genomes: Genomes, scores: Scores) -> Population:
-    """The next population: the best of these genomes, by what they scored; what is not a number counts as -inf."""
-    scores, most = worst_if_nan(scores), learner.population
-    if len(genomes) > most:  # founders
-        best = order(scores)[:most]
+    """The next population: these genomes, or the best of them where there are more, as of founders."""
+    if len(genomes) > learner.population:
+        best = order(scores)[: learner.population]
         genomes, scores = genomes[best], scores[best]
     return Population(genomes, scores, population.generation + 1)
-
-
-def founder_count(learner: Genetic) -> int:
-    """How many random genomes the first population is chosen from."""
-    return max(learner.founders, learner.population)
 
 
 def variants(start: Genomes, learner: Genetic, rng: np.random.Generator) -> Genomes:
@@ -71,11 +36,6 @@ def breed(population: Population, learner: Genetic, rng: np.random.Generator) ->
     mothers, fathers = choose(len(ranked), children, rng), choose(len(ranked), children, rng)
     mixed = cross(ranked[mothers], ranked[fathers], rng)
     return bounded(np.concatenate([ranked[:elite], mutate(mixed, learner, rng)]))
-
-
-def order(scores: Scores) -> NDArray[np.intp]:
-    """The indices of the individuals, best first; equal scores keep their order, NaN comes last."""
-    return np.argsort(-worst_if_nan(scores), kind="stable")
 
 
 def choose(individuals: int, count: int, rng: np.random.Generator) -> NDArray[np.intp]:
@@ -101,13 +61,3 @@ def mutate(genomes: Genomes, learner: Genetic, rng: np.random.Generator) -> Geno
     hit = rng.random(genomes.shape, np.float32) < share
     step = spread * rng.standard_normal(genomes.shape, np.float32)
     return genomes + np.where(hit, step, np.float32(0))
-
-
-def bounded(genomes: Genomes) -> Genomes:
-    """The genomes with every weight finite and within ±LIMIT."""
-    return np.clip(np.nan_to_num(genomes, nan=0.0), -LIMIT, LIMIT).astype(np.float32, copy=False)
-
-
-def worst_if_nan(scores: Scores) -> Scores:
-    """The scores with -inf for NaN and for +inf, which no honest reward adds up to."""
-    return np.where(np.isfinite(scores), scores, -np.inf)

@@ -9,7 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mindrun.graph import Lesson
-from mindrun.train.genetic import Genomes, Population, Scores, ask, nobody, order, tell
+from mindrun.train.breeding import ask, kept_count, tell
+from mindrun.train.population import Genomes, Population, Scores, nobody, order
 from mindrun.train.seeds import Purpose, Seeds, breeding, layouts
 
 EVERY = 10  # generations between two re-evaluations
@@ -166,7 +167,7 @@ def could_be(course: Course, state: State) -> bool:
     generation = state.population.generation
     return (
         weights == course.start.shape[1]
-        and individuals in (0, course.lesson.learner.population)
+        and individuals in (0, kept_count(course.lesson.learner))
         and state.attempt <= course.lesson.learner.attempts
         and state.rungs.shape[1] == course.lesson.learner.rungs
         and state.since <= generation < max(1, course.lesson.generations)
@@ -189,7 +190,7 @@ def generation(course: Course, scorer: Scorer, state: State) -> tuple[State, Rec
     learner, key = course.lesson.learner, (course.seed, state.attempt, state.population.generation)
     genomes = ask(state.population, learner, course.start, scorer.draw, breeding(*key))
     marks = mark(scorer, genomes, layouts(*key, learner.layouts))
-    population = tell(state.population, learner, genomes, marks.scores)
+    population = tell(state.population, learner, course.start, genomes, marks.scores)
     now = replace(
         state,
         population=population,

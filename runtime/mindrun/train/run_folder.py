@@ -17,9 +17,9 @@ from mindrun.plain_data import parsed
 from mindrun.regular import read_whole
 from mindrun.train import checkpoint
 from mindrun.train.errors import NotFoundError, RunError
-from mindrun.train.genetic import Genomes
 from mindrun.train.lesson import Course
 from mindrun.train.manifest import Manifest, from_json, hashes, to_json
+from mindrun.train.population import Genomes
 from mindrun.weights import Weights
 
 MANIFEST, SOURCES, START, WEIGHTS = "manifest.json", "source", "start.npz", "weights.npy"

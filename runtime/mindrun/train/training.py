@@ -8,8 +8,8 @@ from pathlib import Path
 from mindrun.train import checkpoint
 from mindrun.train.claim import claim
 from mindrun.train.errors import RunError
-from mindrun.train.genetic import Genomes
 from mindrun.train.lesson import Clock, Course, Record, Scorer, State, begin, could_be, teach
+from mindrun.train.population import Genomes
 from mindrun.train.progress import Progress
 from mindrun.train.run_folder import Run, keep_champions, keep_weights
 

@@ -1,0 +1,52 @@
+"""Genomes and what they scored: what all learners share."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mindrun.learners import Learner
+
+Genomes = NDArray[np.float32]
+Scores = NDArray[np.float64]
+Draw = Callable[[int, np.random.Generator], Genomes]  # so many random genomes
+
+LIMIT = 100.0  # no weight grows beyond it, so a genome is finite always
+
+
+@dataclass(frozen=True, slots=True)
+class Population:
+    """What has been learnt so far: its number, and what the next generation is bred from.
+
+    These are `genomes` [individuals, weights] and their `scores` [individuals]. Generation 0 has none yet.
+    """
+
+    genomes: Genomes
+    scores: Scores
+    generation: int
+
+
+def nobody(weights: int) -> Population:
+    """The population before the first generation, for genomes of so many weights."""
+    return Population(np.empty((0, weights), np.float32), np.empty(0), 0)
+
+
+def founder_count(learner: Learner) -> int:
+    """How many random genomes the first population is chosen from."""
+    return max(learner.founders, learner.population)
+
+
+def order(scores: Scores) -> NDArray[np.intp]:
+    """The indices of the individuals, best first; equal scores keep their order, NaN comes last."""
+    return np.argsort(-worst_if_nan(scores), kind="stable")
+
+
+def bounded(genomes: Genomes) -> Genomes:
+    """The genomes with every weight finite and within ±LIMIT."""
+    return np.clip(np.nan_to_num(genomes, nan=0.0), -LIMIT, LIMIT).astype(np.float32, copy=False)
+
+
+def worst_if_nan(scores: Scores) -> Scores:
+    """The scores with -inf for NaN and for +inf, which no honest reward adds up to."""
+    return np.where(np.isfinite(scores), scores, -np.inf)
