@@ -2,11 +2,13 @@
 
     --genetic octaves=2,mutation=2,mutated=0.2     `genetic`, other than its defaults; may be repeated
     --restarting generations=50,mutation=2         `restarting`; generations of an attempt, another follows
+    --evolution_strategy mutation=0.2              `evolution_strategy`
     --cmaes population_size=32,sigma=1             CMA-ES by the library cmaes (pip install cmaes); may be repeated
 
 Every seed teaches the skill from scratch, subskills as in the lock, with the lesson's own code: attempt after attempt
-until the ticks are spent. The champion is chosen as in a lesson, and runs on 100 layouts that the training has not
-seen. A seed has succeeded if that counts as much as examples/collect/paper asks of an attempt.
+until the ticks are spent. With `--finishing on_the_job.mind` it teaches the skill and all below it, each attempt from
+the weights that they have there. The champion is chosen as in a lesson, and runs on 100 layouts that the training has
+not seen. A seed has succeeded if that counts as much as examples/collect/paper asks of an attempt.
 """
 
 import argparse
@@ -22,18 +24,22 @@ from typing import Any
 import numpy as np
 from learning import FRESH, prepared
 from mindrun.graph import Lesson
-from mindrun.learners import Genetic, Restarting
+from mindrun.learners import EvolutionStrategy, Genetic, Restarting
 from mindrun.sim.rollout import Rollout, cores
 from mindrun.train.lesson import CANDIDATES, EVERY, Course, begin, generation, judge
 from mindrun.train.lesson import FRESH as TRIES
 from mindrun.train.population import LIMIT, Genomes, order
 from mindrun.train.training import best
-from workloads import COLLECT, collect
+from mindrun.weights import learners
+from workloads import COLLECT, collect, graph_of
+
+from mindlang.compile import load
+from mindlang.lock.ready import make_ready
 
 sys.path.append(str(COLLECT.parent / "paper"))
 from protocol import SUCCESS
 
-KINDS = {"genetic": Genetic, "restarting": Restarting}
+KINDS = {"genetic": Genetic, "restarting": Restarting, "evolution_strategy": EvolutionStrategy}
 ENDLESS = 10**6  # generations
 LINE = (
     "{name:<64} {succeeded:>3} of {seeds}  {score:8.1f} ± {error:5.1f}  {count:6.2f} ± {count_error:.2f} per run, "
@@ -51,6 +57,16 @@ class Trial:
     skill: str
     ticks: float
     seed: int
+    finishing: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Teaching:
+    """What a trial teaches: the lesson, what scores it in one thread, and the weights that it begins with, if any."""
+
+    lesson: Lesson
+    rollout: Rollout
+    start: Genomes
 
 
 @dataclass(frozen=True, slots=True)
@@ -65,30 +81,39 @@ class Outcome:
 
 def tried(trial: Trial) -> Outcome:
     """Teach, and run what was learnt."""
-    lesson, rollout = lesson_of(trial.skill)
+    teaching = teaching_of(trial.skill, trial.finishing)
     began = time.process_time()
     learn = by_covariance if trial.kind == "cmaes" else by_lesson
-    champion, ticks = learn(trial, lesson, rollout)
+    champion, ticks = learn(trial, teaching)
     seconds = time.process_time() - began
-    scores = rollout.score(champion, [int(word) for word in FRESH])
+    scores = teaching.rollout.score(champion, [int(word) for word in FRESH])
     return Outcome(float(scores.total.mean()), float(scores.counts.mean()), ticks, seconds)
 
 
 @cache
-def lesson_of(skill: str) -> tuple[Lesson, Rollout]:
-    """The skill's first lesson, and what scores it in one thread."""
-    graph, weights, _ = collect()
-    lesson, rollout = prepared(graph, weights, skill, 1)
-    return lesson, rollout
+def teaching_of(skill: str, finishing: str) -> Teaching:
+    """The skill's first lesson from scratch, or with all below it from what is known in the file `finishing`."""
+    if not finishing:
+        graph, weights, _ = collect()
+        lesson, rollout = prepared(graph, weights, skill, 1)
+        return Teaching(lesson, rollout, np.empty((0, rollout.genome_length), np.float32))
+    compiled = load(COLLECT.with_name(finishing))
+    ready = make_ready(graph_of(compiled), compiled.sources)
+    lesson = next(each for each in ready.graph.lessons if each.skill == skill == each.master)
+    lesson = replace(lesson, with_subskills=True)
+    taught = learners(ready.graph, lesson)
+    rollout = Rollout(ready.graph, ready.weights, lesson.task, lesson.master, taught)
+    rollout.compile()
+    return Teaching(lesson, rollout, np.concatenate([ready.weights[each] for each in taught])[None])
 
 
-def by_lesson(trial: Trial, lesson: Lesson, rollout: Rollout) -> tuple[Genomes, int]:
+def by_lesson(trial: Trial, teaching: Teaching) -> tuple[Genomes, int]:
     """The champion [1, weights] of as many attempts as the ticks allow, and the ticks taken."""
     said = dict(trial.said)
     generations = int(said.pop("generations", ENDLESS))
     learner = replace(KINDS[trial.kind](), **said, attempts=1000)  # type: ignore[arg-type]
-    lesson = replace(lesson, learner=learner, generations=generations)
-    course = Course(lesson, trial.seed, np.empty((0, rollout.genome_length), np.float32))
+    lesson = replace(teaching.lesson, learner=learner, generations=generations)
+    course, rollout = Course(lesson, trial.seed, teaching.start), teaching.rollout
     state = begin(course)
     while state.ticks < trial.ticks:
         state, _ = generation(course, rollout, state)
@@ -97,14 +122,15 @@ def by_lesson(trial: Trial, lesson: Lesson, rollout: Rollout) -> tuple[Genomes, 
     return best(state), state.ticks
 
 
-def by_covariance(trial: Trial, lesson: Lesson, rollout: Rollout) -> tuple[Genomes, int]:
+def by_covariance(trial: Trial, teaching: Teaching) -> tuple[Genomes, int]:
     """The champion [1, weights] of CMA-ES after so many ticks, and the ticks taken."""
     from cmaes import CMA
 
-    rng, layouts = np.random.default_rng(trial.seed), lesson.learner.layouts
-    champion, taken, generations = np.empty((0, rollout.genome_length), np.float32), 0, 0
+    rng, layouts, rollout = np.random.default_rng(trial.seed), teaching.lesson.learner.layouts, teaching.rollout
+    champion, taken, generations = teaching.start, 0, 0
     options: dict[str, Any] = {"sigma": 2.0, **dict(trial.said)}
-    cma = CMA(mean=np.zeros(rollout.genome_length), seed=int(rng.integers(2**31)), **options)
+    mean = champion[0].astype(float) if len(champion) else np.zeros(rollout.genome_length)
+    cma = CMA(mean=mean, seed=int(rng.integers(2**31)), **options)
     while taken < trial.ticks or generations % EVERY:
         asked = np.array([cma.ask() for _ in range(cma.population_size)])
         genomes = np.clip(asked, -LIMIT, LIMIT).astype(np.float32)
@@ -129,7 +155,7 @@ def seeds(rng: np.random.Generator, count: int) -> list[int]:
 def compare(options: argparse.Namespace, trials: Callable[[Trial], Iterator[Outcome]]) -> None:
     """Print what each learner reaches, on the mean over the seeds with its standard error."""
     for kind, said in [("genetic", {}), *options.learners]:
-        outcomes = list(trials(Trial(kind, tuple(said.items()), options.skill, options.ticks, 0)))
+        outcomes = list(trials(Trial(kind, tuple(said.items()), options.skill, options.ticks, 0, options.finishing)))
         counts = np.array([outcome.count for outcome in outcomes])
         scores = np.array([outcome.score for outcome in outcomes])
         print(
@@ -175,13 +201,12 @@ def main() -> None:
     parser.add_argument("--ticks", type=float, default=40e6)
     parser.add_argument("--seeds", type=int, default=20)
     parser.add_argument("--workers", type=int, default=cores(), help="seeds at a time")
+    parser.add_argument("--finishing", default="", metavar="FILE", help="with whose weights it begins")
     for kind in (*KINDS, "cmaes"):
         parser.add_argument(f"--{kind}", action=Learners, dest="learners", default=[], metavar="NAME=NUMBER,…")
     options = parser.parse_args()
-    _, rollout = lesson_of(options.skill)  # compiled once
-    print(
-        f"{options.skill}, {rollout.genome_length} weights, {options.ticks / 1e6:g} M ticks, seeds 1 to {options.seeds}"
-    )
+    weights = teaching_of(options.skill, options.finishing).rollout.genome_length  # compiled once
+    print(f"{options.skill}, {weights} weights, {options.ticks / 1e6:g} M ticks, seeds 1 to {options.seeds}")
     with ProcessPoolExecutor(options.workers, get_context("spawn")) as pool:
         compare(
             options,

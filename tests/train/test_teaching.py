@@ -15,6 +15,11 @@ from mindlang.school.teaching import is_due, subskills
 FOLDER = Path(__file__).parents[2] / "examples" / "collect"
 
 
+ON_THE_JOB = """
+curriculum Twice is genetic
+  teaches Avoid on Avoid for 100 generations
+  teaches Avoid on Collect under Collect for 100 generations
+"""
 JOINT = """
 curriculum Joint is genetic
   teaches Collect on Collect for 100 generations with subskills
@@ -27,11 +32,12 @@ def taught_on(task: str, master: str, jointly: bool = False) -> Trained:
     return Trained(Entry("Avoid", Signature("mlp hidden 2 width 14", (), ()), "0" * 64, taught), ())
 
 
-def test_a_later_lesson_of_a_taught_skill_is_due_until_it_has_been_given() -> None:
+def test_a_later_lesson_of_a_taught_skill_is_due_until_it_has_been_given(tmp_path: Path) -> None:
     """Scenario 2: Avoid, taught alone, is due on the job; taught on the job, neither lesson is due."""
-    graph = load(FOLDER / "collect.mind").graph
+    (tmp_path / "collect.mind").write_text((FOLDER / "collect.mind").read_text() + ON_THE_JOB)
+    graph = load(tmp_path / "collect.mind").graph
     assert graph
-    alone, on_the_job = (lesson for lesson in graph.lessons if lesson.skill == "Avoid" and lesson.curriculum == "Quick")
+    alone, on_the_job = (lesson for lesson in graph.lessons if lesson.curriculum == "Twice")
     assert is_due(graph, alone, {"Avoid": Untaught()})
     assert not is_due(graph, alone, {"Avoid": taught_on("Avoid", "Avoid")})
     assert is_due(graph, on_the_job, {"Avoid": taught_on("Avoid", "Avoid")})
