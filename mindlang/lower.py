@@ -145,4 +145,5 @@ def _lesson(lesson: model.Lesson) -> graph.Lesson:
         lesson.from_scratch,
         lesson.with_subskills,
         lesson.learner,
+        lesson.number,
     )

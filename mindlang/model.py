@@ -141,6 +141,7 @@ class Lesson:
     from_scratch: bool
     with_subskills: bool
     learner: Learner
+    number: int
     fact: Teaches
 
 

@@ -86,7 +86,12 @@ def _entry(entry: Entry, names: Names) -> Entry:
         entry,
         skill=skill(entry.skill),
         signature=replace(signature, reads=tuple(map(read, signature.reads)), sends=tuple(sends)),
-        taught=replace(taught, task=now_called(taught.task, names, "task"), master=skill(taught.master)),
+        taught=replace(
+            taught,
+            task=now_called(taught.task, names, "task"),
+            master=skill(taught.master),
+            curriculum=now_called(taught.curriculum, names, "curriculum"),
+        ),
         subskills=tuple(sorted((skill(name), weights) for name, weights in entry.subskills)),
         worlds=tuple(relabelled(world, names) for world in entry.worlds),
     )

@@ -18,7 +18,7 @@ from mindrun.regular import read_regular
 
 from mindlang.lock.training_world import HEADING, TrainingWorld, world_of
 
-VERSIONS = ("# mind lock 1:", "# mind lock 2:")
+VERSIONS = ("# mind lock 1:", "# mind lock 2:", "# mind lock 3:")
 HEADER = (
     f"{VERSIONS[-1]} what has been taught. `mindc train` writes it; it belongs under version control, with weights/."
 )
@@ -31,6 +31,7 @@ _LINE = re.compile(
     r" \| task (?P<task>\S+) master (?P<master>\S+)(?P<jointly> with subskills)?"
     r" generations (?P<generations>[0-9]{1,19}) population (?P<population>[0-9]{1,19})"
     r" seed (?P<seed>[0-9]{1,19}) score (?P<score>-?[0-9]{1,400}(?:\.[0-9]{1,400})?(?:e[+-]?[0-9]{1,3})?)"
+    r"(?: lesson (?P<number>[0-9]{1,9}) of (?P<curriculum>\S+))?"
     r"(?: \| with (?P<subskills>\S+:[0-9a-f]{64}(?: \S+:[0-9a-f]{64})*))?"
     r"(?: \| (?P<how>taught|accepted) in (?P<worlds>[0-9a-f]{16}(?: [0-9a-f]{16})*))?"
 )
@@ -53,7 +54,10 @@ class Signature:
 
 @dataclass(frozen=True, slots=True)
 class Taught:
-    """How a genome came about: where, `jointly` with its subskills or theirs, and after how many generations."""
+    """How a genome came about: where, `jointly` with its subskills or theirs, and after how many generations.
+
+    It was lesson `number` of a curriculum; 0 and "" where the lock does not say, as those of older versions.
+    """
 
     task: str
     master: str
@@ -62,6 +66,8 @@ class Taught:
     population: int
     seed: int
     score: float
+    number: int = 0
+    curriculum: str = ""
 
 
 @dataclass(frozen=True, slots=True)
@@ -91,7 +97,9 @@ class Entry:
             f"weights {self.weights}",
             f"task {taught.task} master {taught.master}{' with subskills' * taught.jointly} "
             f"generations {taught.generations} population {taught.population} "
-            f"seed {taught.seed} score {taught.score!r}",
+            f"seed {taught.seed} score {taught.score!r}"
+            + f" lesson {taught.number} of {taught.curriculum}"
+            * bool(taught.number),
         ]
         if self.subskills:
             parts.append("with " + " ".join(f"{skill}:{weights}" for skill, weights in self.subskills))
@@ -109,7 +117,8 @@ class Entry:
         signature = Signature(found["function"], tuple(found["reads"].split()), tuple(found["sends"].split()))
         generations, population, seed = (int(found[key]) for key in ("generations", "population", "seed"))
         where = found["task"], found["master"], found["jointly"] is not None
-        taught = Taught(*where, generations, population, seed, float(found["score"]))
+        lesson = int(found["number"] or 0), found["curriculum"] or ""
+        taught = Taught(*where, generations, population, seed, float(found["score"]), *lesson)
         pairs = (part.rpartition(":") for part in (found["subskills"] or "").split())
         subskills = tuple((skill, weights) for skill, _, weights in pairs)
         taught_in = tuple(worlds[name] for name in names)

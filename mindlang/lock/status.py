@@ -14,7 +14,7 @@ from mindlang.lock.blobs import load_weights
 from mindlang.lock.signature import differences, reordered, signature
 from mindlang.lock.training_world import LessonKey, TrainingWorld
 from mindlang.lock.world_changes import changes
-from mindlang.lock.world_facts import Worlds, key_of, key_of_taught
+from mindlang.lock.world_facts import Worlds, key_of, key_of_taught, last_lesson
 
 UNKNOWN = "in a world that the lock does not know (mindc status --accept says that it is this one)"
 
@@ -23,12 +23,13 @@ UNKNOWN = "in a world that the lock does not know (mindc status --accept says th
 class Trained:
     """Its weights fit. Where `changes` are, sentences, it was taught elsewhere: in a world that is not the mind's.
 
-    `outdated` are the lessons that have changed since.
+    `last` is the lesson that it was taught last, where that is known; `outdated` are those that have changed since.
     """
 
     entry: Entry
     changes: tuple[str, ...] = ()
-    outdated: frozenset[LessonKey] = frozenset()
+    outdated: frozenset[Lesson] = frozenset()
+    last: Lesson | None = None
 
     @property
     def is_elsewhere(self) -> bool:
@@ -93,24 +94,36 @@ class _Standing:
         return Stale(found) if found else self._trained(index, entry)
 
     def _trained(self, index: int, entry: Entry) -> Trained:
-        told = {world.lesson: self._world_changes(entry.skill, world) for world in entry.worlds}
+        last, changed, outdated = last_lesson(self.graph, entry.taught), [], set[Lesson]()
+        for world in entry.worlds:
+            stand = [each for each in self._lessons.get(world.lesson, ()) if entry.skill in learners(self.graph, each)]
+            told = {lesson: self._world_changes(world, lesson) for lesson in self._in_question(stand, last)}
+            changed += next(iter(told.values())) if told else self._world_changes(world, None)
+            outdated |= {lesson for lesson, said in told.items() if said}
         subskills = [*self._subskill_changes(index, entry)]
-        outdated = {lesson for lesson, changed in told.items() if changed}
         if subskills:
-            outdated.add(key_of_taught(entry.taught))
-        changed = dict.fromkeys((*subskills, *(each for changed in told.values() for each in changed)))
-        return Trained(entry, tuple(changed), frozenset(outdated))
+            key = key_of_taught(entry.taught)
+            outdated |= {last} if last else {each for each in self.graph.lessons if key_of(each) == key}
+        return Trained(entry, tuple(dict.fromkeys((*subskills, *changed))), frozenset(outdated), last)
 
-    def _world_changes(self, skill: str, world: TrainingWorld) -> list[str]:
-        """What has changed in the world of a lesson."""
-        lesson = world.lesson
-        if lesson.task not in self._tasks:
-            return [f"its task {lesson.task} is gone"]
-        if lesson.master not in self._skills:
-            return [f"its master {lesson.master} is gone"]
-        stands = (each for each in self._lessons.get(lesson, ()) if skill in learners(self.graph, each))
-        now = next(stands, None)
-        return changes(world, self._worlds.of(now) if now else self._worlds.of_gone(lesson, world.facts["lesson"]))
+    @staticmethod
+    def _in_question(stand: list[Lesson], last: Lesson | None) -> list[Lesson]:
+        """Of the lessons that a world may be of, the one that was taught last, if it is among them, comes first.
+
+        Of its curriculum no other is: those before it had worlds that the lock has forgotten.
+        """
+        if last not in stand:
+            return stand
+        return [last, *(each for each in stand if each.curriculum != last.curriculum)]
+
+    def _world_changes(self, world: TrainingWorld, lesson: Lesson | None) -> list[str]:
+        """What has changed in the world of a lesson; None where none of the mind is of it."""
+        key = world.lesson
+        if key.task not in self._tasks:
+            return [f"its task {key.task} is gone"]
+        if key.master not in self._skills:
+            return [f"its master {key.master} is gone"]
+        return changes(world, self._worlds.of(lesson) if lesson else self._worlds.of_gone(key, world.facts["lesson"]))
 
     def _subskill_changes(self, index: int, entry: Entry) -> Iterator[str]:
         """What is different about the learnt skills below one, but for what a lesson changed that it took part in."""

@@ -43,6 +43,14 @@ def key_of_taught(taught: Taught) -> LessonKey:
     return LessonKey(taught.task, taught.master, taught.jointly)
 
 
+def last_lesson(graph: Graph, taught: Taught) -> Lesson | None:
+    """The lesson of the graph that a line of a lock tells of; None where it does not say, or another stands there."""
+    for lesson in graph.lessons:
+        if (lesson.number, lesson.curriculum) == (taught.number, taught.curriculum):
+            return lesson if key_of(lesson) == key_of_taught(taught) else None
+    return None
+
+
 @dataclass(frozen=True)
 class Worlds:
     """The training worlds of a mind; `folder` is where its procedures stand, None where they do not count."""

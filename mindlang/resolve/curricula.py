@@ -32,14 +32,20 @@ def lessons(names: Names, skills: tuple[model.Skill, ...], findings: Findings) -
         refuse_facts(declaration, (Teaches,), findings)
         phrase = declaration.header.phrase
         learner = make("curriculum", phrase, Scope(names, None), findings) if phrase else None
-        for fact in declaration.facts:
-            if isinstance(fact, Teaches):
-                lesson = _lesson(name, fact, learner, names, by_name, findings)
-                yield from [lesson] if lesson else []
+        taught = (fact for fact in declaration.facts if isinstance(fact, Teaches))
+        for number, fact in enumerate(taught, 1):
+            lesson = _lesson(name, number, fact, learner, names, by_name, findings)
+            yield from [lesson] if lesson else []
 
 
 def _lesson(
-    curriculum: str, fact: Teaches, learner: Any, names: Names, skills: Mapping[str, model.Skill], findings: Findings
+    curriculum: str,
+    number: int,
+    fact: Teaches,
+    learner: Any,
+    names: Names,
+    skills: Mapping[str, model.Skill],
+    findings: Findings,
 ) -> model.Lesson | None:
     before = len(findings.diagnostics)
     master = fact.master or fact.skill
@@ -67,6 +73,7 @@ def _lesson(
         "from" in switches,
         "with" in switches,
         replace(learner, **said),
+        number,
         fact,
     )
 

@@ -113,7 +113,8 @@ def _genome_there(run: Run, book: Book) -> Genomes | None:
 def _record(run: Run, book: Book, state: State, genome: Genomes, score: float) -> dict[str, Entry]:
     lesson, learners = run.manifest.lesson, run.manifest.learners
     population, seed = lesson.learner.population, run.manifest.seed
-    taught = Taught(lesson.task, lesson.master, lesson.with_subskills, state.kept_after, population, seed, score)
+    where = lesson.task, lesson.master, lesson.with_subskills
+    taught = Taught(*where, state.kept_after, population, seed, score, lesson.number, lesson.curriculum)
     begun_with = {} if lesson.from_scratch else {skill: book.lock[skill] for skill in learners if skill in run.weights}
     learnt = parts(book.graph, learners, genome)
     world = Worlds(book.graph, book.folder).of(declared(book, lesson))
@@ -126,5 +127,6 @@ def declared(book: Book, lesson: Lesson) -> Lesson:
         each
         for each in book.graph.lessons
         if (each.skill, each.curriculum, key_of(each)) == (lesson.skill, lesson.curriculum, key_of(lesson))
+        and each.number == (lesson.number or each.number)
     )
     return next(alike, lesson)

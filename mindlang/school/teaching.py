@@ -82,8 +82,10 @@ def is_due(graph: Graph, lesson: Lesson, states: Mapping[str, Status]) -> bool:
 def _is_due(lesson: Lesson, earlier: Iterable[Lesson], state: Status) -> bool:
     if not isinstance(state, Trained):
         return True
-    if key_of(lesson) in state.outdated:
+    if lesson in state.outdated:
         return True
+    if state.last and state.last.curriculum == lesson.curriculum:
+        return state.last.number < lesson.number
     taught = key_of_taught(state.entry.taught)
     return key_of(lesson) != taught and any(key_of(other) == taught for other in earlier)
 

@@ -16,7 +16,7 @@ from mindrun.encoding import decode, decode_wiring, encode
 from mindrun.errors import BundleError, WeightsError
 from mindrun.graph import Graph
 from mindrun.npy import to_npy
-from mindrun.older import brought_along
+from mindrun.older import brought_along, with_whole_lessons
 from mindrun.plain_data import parsed
 from mindrun.regular import read_whole
 from mindrun.robot.wiring import Wiring
@@ -126,7 +126,7 @@ def _bundle(members: dict[str, bytes]) -> Bundle:
     manifest = parsed(members.pop(MANIFEST, b""))
     if not isinstance(manifest, dict) or manifest.get("format") not in (FORMAT, WIRED, *OLDER):
         raise BundleError(_foreign(manifest))
-    data = _document(members, GRAPH)
+    data = with_whole_lessons(_document(members, GRAPH))
     if manifest["format"] in OLDER:
         data = brought_along(data)
         manifest = manifest | {"format": OLDER[manifest["format"]]}

@@ -139,7 +139,8 @@ class Task:
 class Lesson:
     """Who learns (`skill`), on which task, driven by which master, for how long, and how (`learner`).
 
-    With `with_subskills`, all that learn below the skill and are not frozen learn with it, as one genome.
+    With `with_subskills`, all that learn below the skill and are not frozen learn with it, as one genome. `number` is
+    its place in its curriculum, from 1; 0 in what was made before lessons had one.
     """
 
     curriculum: str
@@ -150,6 +151,7 @@ class Lesson:
     from_scratch: bool
     with_subskills: bool
     learner: Learner
+    number: int = 0
 
     @property
     def name(self) -> str:

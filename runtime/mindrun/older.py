@@ -1,7 +1,9 @@
 """Graphs of older bundles, brought along: what has got words of its own since is said in them."""
 
+from dataclasses import fields
 from typing import Any
 
+from mindrun.registry import kinds
 from mindrun.world import MOVES, STAYS
 
 
@@ -14,6 +16,24 @@ def brought_along(graph: Any) -> Any:
         return graph | {"tasks": [_task(task) for task in graph["tasks"]]}
     except (TypeError, LookupError):
         return graph
+
+
+def with_whole_lessons(graph: Any) -> Any:
+    """The data of a graph whose lessons say all there is to say: what they do not is as where nothing is said.
+
+    No lesson acts in a bundle, so a new argument makes no new format.
+    """
+    try:
+        return graph | {"lessons": [_lesson(lesson) for lesson in graph["lessons"]]}
+    except (TypeError, LookupError):
+        return graph
+
+
+def _lesson(lesson: Any) -> Any:
+    """A lesson from before it had a number, and its learner some of their arguments."""
+    learner = lesson["learner"]
+    usual = {field.name: field.default for field in fields(kinds("curriculum")[learner["is"]])}
+    return {"number": 0} | lesson | {"learner": usual | learner}
 
 
 def _task(task: Any) -> Any:

@@ -43,7 +43,7 @@ def test_an_old_lock_says_that_it_does_not_know(mindc: Call, drive: Path) -> Non
     teach(drive)
     text = lock_path(drive).read_text()
     lines = [line.partition(" | taught in ")[0] for line in text.partition("\n\n")[0].splitlines()]
-    lock_path(drive).write_text("\n".join([lines[0].replace("lock 2", "lock 1"), *lines[1:], ""]))
+    lock_path(drive).write_text("\n".join([lines[0].replace("lock 3", "lock 1"), *lines[1:], ""]))
     said = mindc("status", drive)
     assert said.code == 0
     assert said.out.count("taught in a world that the lock does not know") == 2

@@ -11,6 +11,7 @@ from mindlang.lock import Entry, LockError, Signature, Taught, read_lock, read_l
 NAMES = st.text("abcxyzABC_+:0123456789", min_size=1, max_size=8)
 HASHES = st.text("0123456789abcdef", min_size=64, max_size=64)
 COUNTS = st.integers(0, 10**12)
+PLACES = st.just((0, "")) | st.tuples(st.integers(1, 10**9 - 1), NAMES)
 ENTRIES = st.builds(
     Entry,
     NAMES,
@@ -22,7 +23,9 @@ ENTRIES = st.builds(
     ),
     HASHES,
     st.builds(
-        Taught, NAMES, NAMES, st.booleans(), COUNTS, COUNTS, COUNTS, st.floats(allow_nan=False, allow_infinity=False)
+        lambda place, *said: Taught(*said, *place),
+        *(PLACES, NAMES, NAMES, st.booleans(), COUNTS, COUNTS, COUNTS),
+        st.floats(allow_nan=False, allow_infinity=False),
     ),
     st.lists(st.tuples(NAMES, HASHES), max_size=3).map(tuple),
 )
@@ -75,7 +78,7 @@ def test_a_file_knows_what_the_files_that_it_uses_have_learnt(tmp_path: Path) ->
     [
         (lambda text: "", "is damaged: it is not a whole lock"),
         (lambda text: text[:-1], "is damaged: it is not a whole lock"),
-        (lambda text: text.replace("lock 2", "lock 3"), "is damaged: it is not a whole lock"),
+        (lambda text: text.replace("lock 3", "lock 4"), "is damaged: it is not a whole lock"),
         (lambda text: text + "\n", "a.lock:3 is damaged: this is not what mindc wrote"),
         (lambda text: text.replace("abab", "abax"), "a.lock:2 is damaged: this is not what mindc wrote"),
         (lambda text: text + LINE + "\n", "a.lock:3 is damaged: Avoid has two lines"),

@@ -5,9 +5,9 @@ from time import perf_counter
 
 import numpy as np
 import pytest
-from mindrun.learners import EvolutionStrategy
+from mindrun.learners import EvolutionStrategy, Genetic
 from mindrun.train.breeding import ask, kept_count, tell
-from mindrun.train.lesson import Course, begin, could_be, teach
+from mindrun.train.lesson import FRESH, Course, begin, could_be, fresh_count, teach
 from mindrun.train.population import Genomes, Population, nobody
 
 from .climbing import LENGTH, Sphere, lesson
@@ -88,3 +88,7 @@ def test_a_lesson_finishes_what_is_known_and_keeps_the_centre() -> None:
     assert len(states[5].population.genomes) == kept_count(learner) == 1
     assert all(could_be(course, state) for state in states[:-1])
     assert states[-1].reevaluated > -1.5 > -12
+
+
+def test_a_single_candidate_is_tried_on_twice_as_many_layouts_as_four() -> None:
+    assert fresh_count(EvolutionStrategy()) == 2 * FRESH == 2 * fresh_count(Genetic())

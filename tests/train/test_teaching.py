@@ -1,5 +1,6 @@
 """Which lessons are due."""
 
+from dataclasses import replace
 from pathlib import Path
 from shutil import copy
 
@@ -9,6 +10,7 @@ from mindrun.weights import learners, parts
 from mindlang.compile import load
 from mindlang.lock import Entry, Signature, Taught
 from mindlang.lock.status import Trained, Untaught
+from mindlang.lock.world_facts import last_lesson
 from mindlang.school.book import open_book
 from mindlang.school.teaching import is_due, subskills
 
@@ -96,3 +98,38 @@ def test_with_subskills_all_below_learn_as_one_genome() -> None:
     genome = np.arange(1510, dtype=np.float32)
     assert [part[0] for part in parts(graph, whole, genome).values()][:2] == [0, 162]
     assert subskills(graph, lesson) == ()
+
+
+ROUNDS = """
+curriculum Rounds is genetic
+  teaches Collect on Collect for 100 generations with subskills
+  teaches Avoid on Collect under Collect for 100 generations
+  teaches Collect on Collect for 100 generations with subskills
+  teaches Collect on Collect for 9 generations with subskills using evolution_strategy
+"""
+
+
+def test_a_lesson_that_is_said_again_is_due_after_those_between(tmp_path: Path) -> None:
+    """The lock says which lesson of its curriculum a skill has come to: what comes after is due."""
+    (tmp_path / "collect.mind").write_text((FOLDER / "collect.mind").read_text() + ROUNDS)
+    graph = load(tmp_path / "collect.mind").graph
+    assert graph
+    rounds = [lesson for lesson in graph.lessons if lesson.curriculum == "Rounds"]
+    assert [lesson.number for lesson in rounds] == [1, 2, 3, 4]
+    for last in rounds:
+        entry = taught_on(last.task, last.master, last.with_subskills).entry
+        numbered = replace(entry.taught, number=last.number, curriculum="Rounds")
+        state = Trained(replace(entry, taught=numbered), last=last_lesson(graph, numbered))
+        assert state.last == last
+        assert [is_due(graph, lesson, {"Avoid": state}) for lesson in rounds] == [
+            lesson.number > last.number for lesson in rounds
+        ]
+
+
+def test_where_the_curriculum_was_changed_the_number_of_a_lesson_says_nothing(tmp_path: Path) -> None:
+    (tmp_path / "collect.mind").write_text((FOLDER / "collect.mind").read_text() + ROUNDS)
+    graph = load(tmp_path / "collect.mind").graph
+    assert graph
+    assert last_lesson(graph, Taught("Collect", "Collect", True, 1, 8, 1, 1.0, 2, "Rounds")) is None
+    assert last_lesson(graph, Taught("Collect", "Collect", True, 1, 8, 1, 1.0, 7, "Rounds")) is None
+    assert last_lesson(graph, Taught("Collect", "Collect", True, 1, 8, 1, 1.0)) is None

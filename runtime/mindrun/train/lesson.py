@@ -9,13 +9,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mindrun.graph import Lesson
+from mindrun.learners import Learner
 from mindrun.train.breeding import ask, kept_count, tell
 from mindrun.train.population import Genomes, Population, Scores, nobody, order
 from mindrun.train.seeds import Purpose, Seeds, breeding, layouts
 
 EVERY = 10  # generations between two re-evaluations
 CANDIDATES = 4  # of a generation, that are re-evaluated beside the champion
-FRESH = 16  # layouts of a re-evaluation
+FRESH = 16  # layouts of a re-evaluation of so many candidates
 VERDICT = 50  # layouts on which attempts are compared, and as many others on which the best is reported
 
 Clock = Callable[[], float]
@@ -203,7 +204,7 @@ def generation(course: Course, scorer: Scorer, state: State) -> tuple[State, Rec
     number, reevaluated, verdict = population.generation, None, None
     rung = rung_at(course.lesson, number)
     if number == 1 or number % EVERY == 0 or rung is not None or has_ended(course.lesson, now):
-        now, reevaluated = try_again(now, scorer, layouts(*key, FRESH, Purpose.REEVALUATION))
+        now, reevaluated = try_again(now, scorer, layouts(*key, fresh_count(learner), Purpose.REEVALUATION))
     if rung is not None:
         now = climb(now, scorer, rung, layouts(course.seed, 0, number, VERDICT, Purpose.RUNG))
     if has_ended(course.lesson, now):
@@ -237,6 +238,11 @@ def is_behind(scores: Scores) -> bool:
     others, own = scores[:-1], scores[-1]
     came, better = int(np.isfinite(others).sum()), int((others > own).sum())
     return better >= max(1, (came + 1) // 2)
+
+
+def fresh_count(learner: Learner) -> int:
+    """On how many layouts candidates are tried again: the fewer there are beside champion and rival, the more."""
+    return FRESH * (CANDIDATES + 2) // (min(CANDIDATES, kept_count(learner)) + 2)
 
 
 def climb(state: State, scorer: Scorer, rung: int, seeds: Seeds) -> State:
