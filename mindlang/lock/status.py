@@ -94,11 +94,12 @@ class _Standing:
         return Stale(found) if found else self._trained(index, entry)
 
     def _trained(self, index: int, entry: Entry) -> Trained:
-        last, changed, outdated = last_lesson(self.graph, entry.taught), [], set[Lesson]()
+        last, changed, outdated = last_lesson(self.graph, entry.taught), list[str](), set[Lesson]()
         for world in entry.worlds:
             stand = [each for each in self._lessons.get(world.lesson, ()) if entry.skill in learners(self.graph, each)]
             told = {lesson: self._world_changes(world, lesson) for lesson in self._in_question(stand, last)}
-            changed += next(iter(told.values())) if told else self._world_changes(world, None)
+            fewest: list[str] = min(told.values(), key=len) if told else self._world_changes(world, None)
+            changed += fewest
             outdated |= {lesson for lesson, said in told.items() if said}
         subskills = [*self._subskill_changes(index, entry)]
         if subskills:
@@ -108,10 +109,7 @@ class _Standing:
 
     @staticmethod
     def _in_question(stand: list[Lesson], last: Lesson | None) -> list[Lesson]:
-        """Of the lessons that a world may be of, the one that was taught last, if it is among them, comes first.
-
-        Of its curriculum no other is: those before it had worlds that the lock has forgotten.
-        """
+        """Of these lessons the world of a lock may be: of a curriculum that one said last, the others are forgotten."""
         if last not in stand:
             return stand
         return [last, *(each for each in stand if each.curriculum != last.curriculum)]

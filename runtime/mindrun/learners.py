@@ -65,7 +65,7 @@ class EvolutionStrategy:
     random genomes. `attempts`, `patience` and `rungs` are those of `genetic`.
     """
 
-    population: Annotated[int, POPULATION] = 100
+    population: Annotated[int, POPULATION] = 50
     attempts: Annotated[int, COUNT] = 1
     layouts: Annotated[int, COUNT] = 2
     mutation: Annotated[float, SPREAD] = 0.2

@@ -1,10 +1,91 @@
-"""Data of older bundles."""
+"""Bundles of before things said what becomes of them: they are read, and mean what they meant."""
 
+import json
+from typing import Any
+
+import pytest
+from mindrun.bundle import Bundle, pack, unpack
 from mindrun.encoding import decode, encode
+from mindrun.errors import BundleError
+from mindrun.graph import Task
 from mindrun.learners import Restarting
 from mindrun.older import with_whole_lessons
 
-from .bundles import example
+from tests.engine.bundles import example
+from tests.engine.resealed import resealed
+from tests.sim.minds import DRIFTER, compile_text
+
+TASKS = """
+task Count in plain
+  contains object is item
+  contains home is zone
+  lasts 9 ticks
+  counts reach of object
+  rewards 1 on reach of home
+task Carry in arena
+  contains object is item
+  contains home is zone
+  contains plug is power
+  contains rock is obstacle count 2
+  lasts 9 ticks
+  ends on delivery of object
+  counts reach of plug
+task Neither in plain
+  contains object is item
+  contains home is zone
+  lasts 9 ticks
+  rewards progress toward object per tick
+"""
+
+
+def old(data: bytes, form: Any = "mind bundle 1") -> bytes:
+    """A bundle as it was written before."""
+    return resealed(data, _silence, {"format": form})
+
+
+def _silence(members: dict[str, bytes]) -> None:
+    graph = json.loads(members["graph.json"])
+    for task in graph["tasks"]:
+        for thing in task["things"]:
+            thing["kind"] = {key: value for key, value in thing["kind"].items() if key not in ("reached", "delivered")}
+    members["graph.json"] = json.dumps(graph).encode()
+
+
+def said(task: Task) -> dict[str, tuple[Any, ...]]:
+    return {
+        thing.name: tuple(getattr(thing.kind, word) for word in ("reached", "delivered") if hasattr(thing.kind, word))
+        for thing in task.things
+    }
+
+
+def test_what_a_line_named_moves() -> None:
+    now = Bundle(compile_text(DRIFTER + TASKS), {}, {})
+    count, carry, neither = unpack(old(pack(now))).graph.tasks
+    assert said(count) == {"object": ("moves", "stays"), "home": ("moves",)}
+    assert said(carry) == {"object": ("stays", "moves"), "home": ("stays",), "plug": ("moves",), "rock": ()}
+    assert said(neither) == {"object": ("stays", "stays"), "home": ("stays",)}
+    assert unpack(pack(now)) == now
+
+
+def test_a_bundle_of_today_that_does_not_say_it_is_damaged() -> None:
+    now = Bundle(compile_text(DRIFTER + TASKS), {}, {})
+    with pytest.raises(BundleError, match="damaged"):
+        unpack(old(pack(now), "mind bundle 3"))
+
+
+@pytest.mark.parametrize("form", ["mind bundle 2", "mind bundle 5", "", None, 3, ["mind bundle 1"]])
+def test_other_formats_are_refused(form: Any) -> None:
+    with pytest.raises(BundleError):
+        unpack(old(pack(Bundle(compile_text(DRIFTER + TASKS), {}, {})), form))
+
+
+@pytest.mark.parametrize("graph", [None, [], {}, {"tasks": 3}, {"tasks": [None]}, {"tasks": [{"events": [{}]}]}])
+def test_what_is_no_graph_is_refused_as_ever(graph: Any) -> None:
+    def put(members: dict[str, bytes]) -> None:
+        members["graph.json"] = json.dumps(graph).encode()
+
+    with pytest.raises(BundleError, match="damaged"):
+        unpack(resealed(pack(Bundle(compile_text(DRIFTER + TASKS), {}, {})), put, {"format": "mind bundle 1"}))
 
 
 def test_what_lessons_did_not_say_is_as_it_is_where_nothing_is_said() -> None:

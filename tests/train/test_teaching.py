@@ -48,7 +48,7 @@ def test_a_later_lesson_of_a_taught_skill_is_due_until_it_has_been_given(tmp_pat
 
 
 def test_a_joint_lesson_is_due_after_the_lessons_of_its_learners_and_is_no_lesson_of_one_alone(tmp_path: Path) -> None:
-    (tmp_path / "collect.mind").write_text((FOLDER / "collect.mind").read_text() + JOINT)
+    (tmp_path / "collect.mind").write_text((FOLDER / "collect.mind").read_text() + ON_THE_JOB + JOINT)
     graph = load(tmp_path / "collect.mind").graph
     assert graph
     joint, after = (lesson for lesson in graph.lessons if lesson.curriculum == "Joint")
