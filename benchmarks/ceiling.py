@@ -13,10 +13,9 @@ import numpy as np
 from commanded import Commanded
 from mindrun.sim.rollout import Rollout
 from numpy.typing import NDArray
-from workloads import COLLECT, graph_of
+from workloads import COLLECT, graph_of, shipped
 
 from mindlang.compile import load
-from mindlang.lock.ready import make_ready
 
 AGAIN = 120  # ticks after which a way is planned anew
 AROUND, WITH_LOAD = 1.6, 2.2  # units that obstacles are wider for the robot, and for a robot that holds something
@@ -120,10 +119,9 @@ def driven(runs: int, backwards: bool) -> tuple[Array, float, float]:
     return worlds.jobs.counts[:runs, list(task.counts)].sum(axis=1).astype(float), float(np.mean(legs)), speed
 
 
-def shipped(name: str, runs: int) -> Array:
+def delivered(name: str, runs: int) -> Array:
     """Objects of each run under a shipped mind, on the same layouts; collisions end nothing."""
-    compiled = load(COLLECT.with_name(name))
-    ready = make_ready(graph_of(compiled), compiled.sources)
+    ready = shipped(name)
     rollout = Rollout(ready.graph, ready.weights, "Collect", "Collect", interrupt=False)
     none = np.zeros((1, 0), np.float32)
     return rollout.score(none, [*range(1, runs + 1)]).counts[0].astype(float)
@@ -144,7 +142,7 @@ def main() -> None:
     )
     print(f"{'no turns, no detours':<32}{SECONDS * fastest / (2 * leg):6.1f} objects at {fastest:.2f} units a second")
     for name in ("collect.mind", "on_the_job.mind"):
-        print(f"{name:<32}{said(shipped(name, options.runs))} objects")
+        print(f"{name:<32}{said(delivered(name, options.runs))} objects")
 
 
 def said(numbers: Array) -> str:

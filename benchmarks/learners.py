@@ -31,10 +31,7 @@ from mindrun.train.lesson import FRESH as TRIES
 from mindrun.train.population import LIMIT, Genomes, order
 from mindrun.train.training import best
 from mindrun.weights import learners
-from workloads import COLLECT, collect, graph_of
-
-from mindlang.compile import load
-from mindlang.lock.ready import make_ready
+from workloads import COLLECT, collect, shipped
 
 sys.path.append(str(COLLECT.parent / "paper"))
 from protocol import SUCCESS
@@ -97,8 +94,7 @@ def teaching_of(skill: str, finishing: str) -> Teaching:
         graph, weights, _ = collect()
         lesson, rollout = prepared(graph, weights, skill, 1)
         return Teaching(lesson, rollout, np.empty((0, rollout.genome_length), np.float32))
-    compiled = load(COLLECT.with_name(finishing))
-    ready = make_ready(graph_of(compiled), compiled.sources)
+    ready = shipped(finishing)
     lesson = next(each for each in ready.graph.lessons if each.skill == skill == each.master)
     lesson = replace(lesson, with_subskills=True)
     taught = learners(ready.graph, lesson)

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 import mindlang
 from mindlang.compile import Compiled, compile_source, load
-from mindlang.lock.ready import make_ready
+from mindlang.lock.ready import Ready, make_ready
 from mindlang.source import Source
 
 Weights = dict[str, NDArray[np.float32]]
@@ -34,10 +34,15 @@ def graph_of(compiled: Compiled) -> Graph:
     return compiled.graph
 
 
+def shipped(name: str) -> Ready:
+    """A file of the examples' folder collect/ with the weights of its locks."""
+    compiled = load(COLLECT.with_name(name))
+    return make_ready(graph_of(compiled), compiled.sources)
+
+
 def collect() -> tuple[Graph, Weights, str]:
     """The example, its weights, and where they come from."""
-    compiled = load(COLLECT)
-    ready = make_ready(graph_of(compiled), compiled.sources)
+    ready = shipped(COLLECT.name)
     if ready.refusals:
         return ready.graph, random_weights(ready.graph, LIVELY), "random"
     return ready.graph, ready.weights, "trained"

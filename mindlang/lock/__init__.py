@@ -98,8 +98,7 @@ class Entry:
             f"task {taught.task} master {taught.master}{' with subskills' * taught.jointly} "
             f"generations {taught.generations} population {taught.population} "
             f"seed {taught.seed} score {taught.score!r}"
-            + f" lesson {taught.number} of {taught.curriculum}"
-            * bool(taught.number),
+            f"{f' lesson {taught.number} of {taught.curriculum}' * bool(taught.number)}",
         ]
         if self.subskills:
             parts.append("with " + " ".join(f"{skill}:{weights}" for skill, weights in self.subskills))

@@ -11,7 +11,7 @@ from mindlang.lock import Entry, Lock, LockError, lock_path, read_lock, read_loc
 from mindlang.lock.blobs import FOLDER, alone
 from mindlang.lock.status import Trained, status
 from mindlang.lock.training_world import LessonKey, TrainingWorld
-from mindlang.lock.world_facts import Worlds, key_of, key_of_taught
+from mindlang.lock.world_facts import Worlds, in_question, key_of, key_of_taught, last_lesson
 
 
 def accept(graph: Graph, sources: Sequence[Path], skills: Sequence[str]) -> None:
@@ -43,7 +43,8 @@ def _write(path: Path, entries: Lock) -> None:
 def _accepted(graph: Graph, lock: Lock, folder: Path, entry: Entry) -> Entry:
     taught = entry.taught
     keys = [world.lesson for world in entry.worlds] or [key_of_taught(taught)]
-    lessons = [lesson for key in keys if (lesson := _lesson(graph, key, entry.skill))]
+    last = last_lesson(graph.lessons, taught)
+    lessons = [lesson for key in keys if (lesson := _lesson(graph, key, entry.skill, last))]
     if not lessons:
         raise LockError(
             f"no lesson of the mind teaches {entry.skill} on {taught.task}, so its world cannot be accepted"
@@ -54,6 +55,6 @@ def _accepted(graph: Graph, lock: Lock, folder: Path, entry: Entry) -> Entry:
     return replace(entry, worlds=worlds, subskills=subskills, accepted=True)
 
 
-def _lesson(graph: Graph, key: LessonKey, skill: str) -> Lesson | None:
-    found = (lesson for lesson in graph.lessons if key_of(lesson) == key and skill in learners(graph, lesson))
-    return next(found, None)
+def _lesson(graph: Graph, key: LessonKey, skill: str, last: Lesson | None) -> Lesson | None:
+    found = [lesson for lesson in graph.lessons if key_of(lesson) == key and skill in learners(graph, lesson)]
+    return next(iter(in_question(found, last)), None)

@@ -14,7 +14,7 @@ from mindlang.lock.blobs import load_weights
 from mindlang.lock.signature import differences, reordered, signature
 from mindlang.lock.training_world import LessonKey, TrainingWorld
 from mindlang.lock.world_changes import changes
-from mindlang.lock.world_facts import Worlds, key_of, key_of_taught, last_lesson
+from mindlang.lock.world_facts import Worlds, in_question, key_of, key_of_taught, last_lesson
 
 UNKNOWN = "in a world that the lock does not know (mindc status --accept says that it is this one)"
 
@@ -94,25 +94,18 @@ class _Standing:
         return Stale(found) if found else self._trained(index, entry)
 
     def _trained(self, index: int, entry: Entry) -> Trained:
-        last, changed, outdated = last_lesson(self.graph, entry.taught), list[str](), set[Lesson]()
+        alike = self._lessons.get(key_of_taught(entry.taught), [])
+        last, changed, outdated = last_lesson(alike, entry.taught), list[str](), set[Lesson]()
         for world in entry.worlds:
             stand = [each for each in self._lessons.get(world.lesson, ()) if entry.skill in learners(self.graph, each)]
-            told = {lesson: self._world_changes(world, lesson) for lesson in self._in_question(stand, last)}
+            told = {lesson: self._world_changes(world, lesson) for lesson in in_question(stand, last)}
             fewest: list[str] = min(told.values(), key=len) if told else self._world_changes(world, None)
             changed += fewest
             outdated |= {lesson for lesson, said in told.items() if said}
         subskills = [*self._subskill_changes(index, entry)]
         if subskills:
-            key = key_of_taught(entry.taught)
-            outdated |= {last} if last else {each for each in self.graph.lessons if key_of(each) == key}
+            outdated |= {last} if last else {*alike}
         return Trained(entry, tuple(dict.fromkeys((*subskills, *changed))), frozenset(outdated), last)
-
-    @staticmethod
-    def _in_question(stand: list[Lesson], last: Lesson | None) -> list[Lesson]:
-        """Of these lessons the world of a lock may be: of a curriculum that one said last, the others are forgotten."""
-        if last not in stand:
-            return stand
-        return [last, *(each for each in stand if each.curriculum != last.curriculum)]
 
     def _world_changes(self, world: TrainingWorld, lesson: Lesson | None) -> list[str]:
         """What has changed in the world of a lesson; None where none of the mind is of it."""

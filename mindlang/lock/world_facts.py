@@ -5,7 +5,7 @@ counted, names of curricula, how many generations there are, and the weights of 
 since those may be taught again when it has learnt.
 """
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from hashlib import sha256
@@ -43,12 +43,20 @@ def key_of_taught(taught: Taught) -> LessonKey:
     return LessonKey(taught.task, taught.master, taught.jointly)
 
 
-def last_lesson(graph: Graph, taught: Taught) -> Lesson | None:
-    """The lesson of the graph that a line of a lock tells of; None where it does not say, or another stands there."""
-    for lesson in graph.lessons:
-        if (lesson.number, lesson.curriculum) == (taught.number, taught.curriculum):
-            return lesson if key_of(lesson) == key_of_taught(taught) else None
-    return None
+def last_lesson(lessons: Iterable[Lesson], taught: Taught) -> Lesson | None:
+    """Which of these lessons a line of a lock tells of; None where it does not say, or another stands there."""
+    said = taught.number, taught.curriculum, key_of_taught(taught)
+    return next((each for each in lessons if (each.number, each.curriculum, key_of(each)) == said), None)
+
+
+def in_question(lessons: Sequence[Lesson], last: Lesson | None) -> Sequence[Lesson]:
+    """Of lessons with the same key those that a world of a lock may be of; the one taught last, if known, comes first.
+
+    Of its curriculum it is the only one: the worlds of those before it are forgotten.
+    """
+    if last is None or last not in lessons:
+        return lessons
+    return [last, *(each for each in lessons if each.curriculum != last.curriculum)]
 
 
 @dataclass(frozen=True)

@@ -54,21 +54,28 @@ def _kind(view: View, file: File, offset: int) -> Hover | None:
     """A kind, or an argument of one; those of a lesson are of its own learner or the curriculum's."""
     match _owned(path_to(file, offset)):
         case above, Phrase(kind=kind), Name() as name if name is kind:
-            cls = kinds(noun_of(above)).get(kind.text)
-            return Hover(kind_card(noun_of(above), kind.text, cls), kind.span) if cls else None
+            return _kind_itself(noun_of(above), kind)
         case above, Phrase() as phrase, Argument() as argument:
             return _argument(noun_of(above), phrase.kind.text, argument)
         case _, Teaches() as lesson, Argument() as argument if declaration := declaration_at(file, offset):
-            own = [said.value for said in lesson.arguments if said.key.text == USING]
-            of_all = declaration.header.phrase
-            learner = own[0] if own else of_all and of_all.kind
-            if not isinstance(learner, Name):
-                return None
-            if argument.value is learner and learner.span.start <= offset:
-                cls = kinds("curriculum").get(learner.text)
-                return Hover(kind_card("curriculum", learner.text, cls), learner.span) if cls else None
-            return _argument("curriculum", learner.text, argument)
+            return _of_lesson(lesson, declaration.header.phrase, argument, offset)
     return None
+
+
+def _of_lesson(lesson: Teaches, of_all: Phrase | None, argument: Argument, offset: int) -> Hover | None:
+    """The kind after `using`, or an argument of the lesson's learner."""
+    own = [said.value for said in lesson.arguments if said.key.text == USING]
+    learner = own[0] if own else of_all and of_all.kind
+    if not isinstance(learner, Name):
+        return None
+    if argument.value is learner and learner.span.start <= offset:
+        return _kind_itself("curriculum", learner)
+    return _argument("curriculum", learner.text, argument)
+
+
+def _kind_itself(noun: str, kind: Name) -> Hover | None:
+    cls = kinds(noun).get(kind.text)
+    return Hover(kind_card(noun, kind.text, cls), kind.span) if cls else None
 
 
 def _owned(path: list[Any]) -> tuple[Any, ...]:

@@ -50,3 +50,14 @@ def test_an_old_lock_says_that_it_does_not_know(mindc: Call, drive: Path) -> Non
     assert "nothing to do" in mindc("train", drive).err, "what nobody knows is no reason"
     assert mindc("status", drive, "--accept", "Go", "Drive").code == 0
     assert "does not know" not in mindc("status", drive).out
+
+
+def test_of_a_lesson_that_is_said_again_the_one_that_was_taught_last_is_accepted(mindc: Call, drive: Path) -> None:
+    again = "  teaches Drive on Reach for 2 generations using evolution_strategy\ncurriculum Rest"
+    drive.write_text(drive.read_text().replace("curriculum Rest", again))
+    assert mindc("train", drive, "--curriculum", "School").code == 0
+    drive.write_text(drive.read_text().replace("thrust 80", "thrust 70"))
+    assert mindc("status", drive, "--accept", "Go", "Drive").code == 0
+    rows = json.loads(mindc("status", drive, "--json").out)["skills"]
+    assert {row["skill"]: row["status"] for row in rows} == {"Drive": "trained", "Go": "trained"}
+    assert "nothing to do" in mindc("train", drive, "--curriculum", "School").err

@@ -14,15 +14,14 @@ from mindrun.train.lesson import (
     State,
     begin,
     generation,
-    is_behind,
     is_better,
     judge,
     mark,
-    rung_at,
     teach,
     try_again,
 )
 from mindrun.train.population import Population
+from mindrun.train.rungs import is_behind, rung_at
 from mindrun.train.seeds import Purpose, layouts
 
 from tests.train.climbing import LENGTH, Faulty, Flat, Results, Sphere, lesson

@@ -119,7 +119,7 @@ def test_a_lesson_that_is_said_again_is_due_after_those_between(tmp_path: Path) 
     for last in rounds:
         entry = taught_on(last.task, last.master, last.with_subskills).entry
         numbered = replace(entry.taught, number=last.number, curriculum="Rounds")
-        state = Trained(replace(entry, taught=numbered), last=last_lesson(graph, numbered))
+        state = Trained(replace(entry, taught=numbered), last=last_lesson(graph.lessons, numbered))
         assert state.last == last
         assert [is_due(graph, lesson, {"Avoid": state}) for lesson in rounds] == [
             lesson.number > last.number for lesson in rounds
@@ -130,6 +130,6 @@ def test_where_the_curriculum_was_changed_the_number_of_a_lesson_says_nothing(tm
     (tmp_path / "collect.mind").write_text((FOLDER / "collect.mind").read_text() + ROUNDS)
     graph = load(tmp_path / "collect.mind").graph
     assert graph
-    assert last_lesson(graph, Taught("Collect", "Collect", True, 1, 8, 1, 1.0, 2, "Rounds")) is None
-    assert last_lesson(graph, Taught("Collect", "Collect", True, 1, 8, 1, 1.0, 7, "Rounds")) is None
-    assert last_lesson(graph, Taught("Collect", "Collect", True, 1, 8, 1, 1.0)) is None
+    assert last_lesson(graph.lessons, Taught("Collect", "Collect", True, 1, 8, 1, 1.0, 2, "Rounds")) is None
+    assert last_lesson(graph.lessons, Taught("Collect", "Collect", True, 1, 8, 1, 1.0, 7, "Rounds")) is None
+    assert last_lesson(graph.lessons, Taught("Collect", "Collect", True, 1, 8, 1, 1.0)) is None

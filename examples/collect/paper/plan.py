@@ -6,6 +6,7 @@ from pathlib import Path
 
 from mindrun.durable import write
 from mindrun.graph import Lesson
+from mindrun.train.rungs import heights
 from protocol import FILES
 
 from mindlang.school.teaching import Wishes
@@ -54,11 +55,6 @@ class Plan:
             f"lessons of {FILES[0]} and {self.others} for all others, from seed {self.seed}.{ended}{genomes} The rows "
             f"keep the paper's names: {avoid}."
         )
-
-
-def heights(rungs: int) -> list[float]:
-    """After which shares of its generations an attempt comes to its rungs, the lowest first."""
-    return [0.5**rung for rung in range(rungs, 0, -1)]
 
 
 def read_plan(folder: Path) -> Plan | None:

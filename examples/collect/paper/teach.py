@@ -17,7 +17,8 @@ from mindrun.arguments import SEED, real, whole
 from mindrun.errors import MindError
 from mindrun.graph import Lesson
 from mindrun.sim.rollout import cores
-from plan import Plan, heights, keep_plan, read_plan
+from mindrun.train.rungs import heights
+from plan import Plan, keep_plan, read_plan
 from protocol import FILES, FOLDER
 
 from mindlang import simulator

@@ -13,7 +13,7 @@ PARENTS = 4  # one genome in so many has a say in where the centre goes
 
 def ask(population: Population, learner: EvolutionStrategy, start: Genomes, rng: np.random.Generator) -> Genomes:
     """The genomes [individuals, weights] to score next, around the centre: at first `start` [1, weights]."""
-    centre = population.genomes if population.generation else start
+    centre = _centre(population, start)
     steps = rng.standard_normal((learner.population, centre.shape[1]), np.float32)
     return bounded(centre + np.float32(learner.mutation) * steps)
 
@@ -23,14 +23,21 @@ def tell(population: Population, genomes: Genomes, scores: Scores, start: Genome
 
     Where no genome was without a fault the centre stays. Its score is the weighted mean of theirs.
     """
-    before = population.genomes if population.generation else start
-    chosen = order(scores)[: max(1, len(genomes) // PARENTS) if len(before) else 1]
-    parents = chosen[np.isfinite(scores[chosen])] if len(before) else chosen
+    before, ranked, generation = _centre(population, start), order(scores), population.generation + 1
+    if not len(before):
+        return Population(genomes[ranked[:1]], scores[ranked[:1]], generation)
+    parents = ranked[: len(genomes) // PARENTS]
+    parents = parents[np.isfinite(scores[parents])]
     if not len(parents):
-        return Population(before, np.full(1, -np.inf), population.generation + 1)
+        return Population(before, np.full(1, -np.inf), generation)
     shares = np.arange(len(parents), 0, -1) / (len(parents) * (len(parents) + 1) / 2)
     centre, score = np.zeros(genomes.shape[1]), 0.0
     for share, parent in zip(shares, parents, strict=True):  # in this order: the same bits on every processor
         centre += share * genomes[parent]
         score += float(share * scores[parent])
-    return Population(bounded(centre[None].astype(np.float32)), np.full(1, score), population.generation + 1)
+    return Population(bounded(centre[None].astype(np.float32)), np.full(1, score), generation)
+
+
+def _centre(population: Population, start: Genomes) -> Genomes:
+    """What genomes are drawn around [0 or 1, weights]; before the first generation what the skill knows, `start`."""
+    return population.genomes if population.generation else start

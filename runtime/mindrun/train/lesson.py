@@ -12,6 +12,7 @@ from mindrun.graph import Lesson
 from mindrun.learners import Learner
 from mindrun.train.breeding import ask, kept_count, tell
 from mindrun.train.population import Genomes, Population, Scores, nobody, order
+from mindrun.train.rungs import is_behind, not_climbed, rung_at
 from mindrun.train.seeds import Purpose, Seeds, breeding, layouts
 
 EVERY = 10  # generations between two re-evaluations
@@ -157,11 +158,6 @@ def begin(course: Course) -> State:
     return State(0, nobody(empty.shape[1]), course.start, empty, 0, rungs, *ended, -inf, 0, 0, 0.0, 0, False)
 
 
-def not_climbed(lesson: Lesson) -> Scores:
-    """The scores [1, rungs] of an attempt that begins."""
-    return np.full((1, lesson.learner.rungs), -inf)
-
-
 def could_be(course: Course, state: State) -> bool:
     """Whether a state that was read is one to which a run of this course could have come."""
     individuals, weights = state.population.genomes.shape
@@ -223,21 +219,6 @@ def has_ended(lesson: Lesson, state: State) -> bool:
         or 0 < lesson.learner.patience <= generation - state.since
         or (rung is not None and is_behind(state.rungs[:, rung]))
     )
-
-
-def rung_at(lesson: Lesson, generation: int) -> int | None:
-    """Which rung is after so many generations; None where none is. The last is at a half of them."""
-    for above in range(lesson.learner.rungs):
-        if generation == lesson.generations >> 1 + above:
-            return lesson.learner.rungs - 1 - above
-    return None
-
-
-def is_behind(scores: Scores) -> bool:
-    """Whether the last of the attempts that came to a rung, with these scores [attempts], is in their worse half."""
-    others, own = scores[:-1], scores[-1]
-    came, better = int(np.isfinite(others).sum()), int((others > own).sum())
-    return better >= max(1, (came + 1) // 2)
 
 
 def fresh_count(learner: Learner) -> int:

@@ -4,7 +4,7 @@ from mindrun.sim.codes import MLP, PROCEDURE
 from mindrun.sim.compiling import compiled
 from mindrun.sim.lanes.arithmetic import ONE, ZERO, F, clamp, finite
 from mindrun.sim.lanes.evaluate import evaluate
-from mindrun.sim.lanes.vector import WIDE, everywhere, load, sigmoids, splat, store
+from mindrun.sim.lanes.vector import WIDE, broadcast, load, sigmoids, splat, store
 from mindrun.sim.procedures import call
 
 NOT_SENT = F(-1)
@@ -112,10 +112,10 @@ def dense(w, source, inputs, target, outputs, last, n):
             first = q * inputs
             for j in range(inputs):
                 x = load(source, j, p)
-                a = a + everywhere(w, first + j) * x
-                b = b + everywhere(w, first + inputs + j) * x
-                c = c + everywhere(w, first + 2 * inputs + j) * x
-                d = d + everywhere(w, first + 3 * inputs + j) * x
+                a = a + broadcast(w, first + j) * x
+                b = b + broadcast(w, first + inputs + j) * x
+                c = c + broadcast(w, first + 2 * inputs + j) * x
+                d = d + broadcast(w, first + 3 * inputs + j) * x
             store(target, q, p, a if last else sigmoids(a))
             store(target, q + 1, p, b if last else sigmoids(b))
             store(target, q + 2, p, c if last else sigmoids(c))
@@ -123,7 +123,7 @@ def dense(w, source, inputs, target, outputs, last, n):
         for q in range(outputs - outputs % 4, outputs):
             a = splat(ZERO)
             for j in range(inputs):
-                a = a + everywhere(w, q * inputs + j) * load(source, j, p)
+                a = a + broadcast(w, q * inputs + j) * load(source, j, p)
             store(target, q, p, a if last else sigmoids(a))
 
 

@@ -49,23 +49,24 @@ def splat(typingctx, value):
     return vector(types.float32), lambda context, builder, signature, args: _splat(builder, args[0])
 
 
+def _pointer(context: Any, builder: Any, kind: Any, array: Any, *indices: Any) -> Any:
+    """Where an element stands; whether an index is negative is not looked at."""
+    view = context.make_array(kind)(context, builder, array)
+    return cgutils.get_item_pointer(context, builder, kind, view, indices, wraparound=False)
+
+
 @intrinsic
-def everywhere(typingctx, array, index):
-    """The same number of a flat float32 array in every lane; the index is not negative, and not looked at."""
+def broadcast(typingctx, array, index):
+    """An element of a flat float32 array in every lane."""
 
     def generate(context, builder, signature, args):
-        kind = signature.args[0]
-        view = context.make_array(kind)(context, builder, args[0])
-        pointer = cgutils.get_item_pointer(context, builder, kind, view, [args[1]], wraparound=False)
-        return _splat(builder, builder.load(pointer))
+        return _splat(builder, builder.load(_pointer(context, builder, signature.args[0], *args)))
 
     return vector(array, types.intp), generate
 
 
 def _address(context: Any, builder: Any, kind: Any, array: Any, row: Any, lane: Any) -> Any:
-    view = context.make_array(kind)(context, builder, array)
-    pointer = cgutils.get_item_pointer(context, builder, kind, view, [row, lane], wraparound=False)
-    return builder.bitcast(pointer, _VECTOR.as_pointer())
+    return builder.bitcast(_pointer(context, builder, kind, array, row, lane), _VECTOR.as_pointer())
 
 
 @intrinsic
