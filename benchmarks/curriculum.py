@@ -1,4 +1,4 @@
-"""From nothing to Collect: python benchmarks/curriculum.py [--seeds 5] [--curriculum Quick] [--json].
+"""From nothing to Collect: python benchmarks/curriculum.py [--seeds 5] [--file best.mind --curriculum Best] [--json].
 
 Every seed teaches the whole curriculum with `mindc train` in a folder of its own, on all cores, and what it has learnt
 runs on 200 layouts that the training has not seen. The first compilation is not counted; starting Python is.
@@ -22,14 +22,15 @@ MINDC = (sys.executable, "-c", "from mindlang.cli import main; main()")
 LINE = "seed {seed:>3}: {seconds:5.0f} s, {objects:5.2f} ± {error:.2f} objects, {runtime:.0%} of the run"
 
 
-def learn(curriculum: str, seed: int, runs: int) -> dict[str, Any]:
+def learn(file: str, curriculum: str, seed: int, runs: int) -> dict[str, Any]:
     """One seed: how long it took, and what came of it."""
     with TemporaryDirectory() as folder:
-        copy(COLLECT, folder)
+        for path in {COLLECT, COLLECT.with_name(file)}:
+            copy(path, folder)
         begin = time.perf_counter()
-        lines = mindc(folder, "train", COLLECT.name, "--curriculum", curriculum, "--seed", str(seed))
+        lines = mindc(folder, "train", file, "--curriculum", curriculum, "--seed", str(seed))
         seconds = time.perf_counter() - begin
-        (found,) = mindc(folder, "bench", COLLECT.name, "--task", "Collect", "--runs", str(runs), "--seed", "20211121")
+        (found,) = mindc(folder, "bench", file, "--task", "Collect", "--runs", str(runs), "--seed", "20211121")
     return {
         "seed": seed,
         "seconds": seconds,
@@ -56,6 +57,7 @@ def mindc(folder: str, *arguments: str) -> Sequence[dict[str, Any]]:
 def main() -> None:
     """Teach, try, print."""
     parser = argparse.ArgumentParser(allow_abbrev=False, description=__doc__)
+    parser.add_argument("--file", default=COLLECT.name, help="one of the examples' folder collect/")
     parser.add_argument("--curriculum", default="Quick")
     parser.add_argument("--seeds", type=int, default=5)
     parser.add_argument("--first-seed", type=int, default=1)
@@ -67,7 +69,7 @@ def main() -> None:
     prepared(graph, weights, "Collect", 1)
     runs = []
     for seed in range(options.first_seed, options.first_seed + options.seeds):
-        runs.append(learn(options.curriculum, seed, options.runs))
+        runs.append(learn(options.file, options.curriculum, seed, options.runs))
         if not options.json:
             print(LINE.format(**runs[-1]), runs[-1]["lessons"], flush=True)
     succeeded = sum(run["objects"] >= options.at_least for run in runs)

@@ -104,7 +104,7 @@ class _Standing:
             outdated |= {lesson for lesson, said in told.items() if said}
         subskills = [*self._subskill_changes(index, entry)]
         if subskills:
-            outdated |= {last} if last else {*alike}
+            outdated |= {*in_question(alike, last)}
         return Trained(entry, tuple(dict.fromkeys((*subskills, *changed))), frozenset(outdated), last)
 
     def _world_changes(self, world: TrainingWorld, lesson: Lesson | None) -> list[str]:

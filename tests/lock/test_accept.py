@@ -55,9 +55,18 @@ def test_an_old_lock_says_that_it_does_not_know(mindc: Call, drive: Path) -> Non
 def test_of_a_lesson_that_is_said_again_the_one_that_was_taught_last_is_accepted(mindc: Call, drive: Path) -> None:
     again = "  teaches Drive on Reach for 2 generations using evolution_strategy\ncurriculum Rest"
     drive.write_text(drive.read_text().replace("curriculum Rest", again))
-    assert mindc("train", drive, "--curriculum", "School").code == 0
+    assert mindc("train", drive, "--curriculum", "School", "--seed", "2").code == 0
     drive.write_text(drive.read_text().replace("thrust 80", "thrust 70"))
     assert mindc("status", drive, "--accept", "Go", "Drive").code == 0
     rows = json.loads(mindc("status", drive, "--json").out)["skills"]
     assert {row["skill"]: row["status"] for row in rows} == {"Drive": "trained", "Go": "trained"}
     assert "nothing to do" in mindc("train", drive, "--curriculum", "School").err
+
+
+def test_a_lesson_of_another_curriculum_is_due_where_a_subskill_was_taught_since(mindc: Call, drive: Path) -> None:
+    again = "curriculum Again is genetic population 8\n  teaches Drive on Reach for 1 generations\n"
+    drive.write_text(drive.read_text() + again)
+    assert mindc("train", drive, "--curriculum", "School", "--seed", "2").code == 0
+    assert "nothing to do" in mindc("train", drive, "--curriculum", "Again").err
+    assert mindc("train", drive, "Go", "--curriculum", "School", "--force", "--from-scratch", "--seed", "5").code == 0
+    assert "Drive on Reach from its weights" in mindc("train", drive, "--curriculum", "Again", "--seed", "1").err
