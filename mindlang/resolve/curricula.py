@@ -1,7 +1,7 @@
 """Curricula: who is taught what, under which master, for how long."""
 
 from collections.abc import Iterator, Mapping
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from typing import Any
 
 from mindrun.functions import Mlp
@@ -9,9 +9,9 @@ from mindrun.quantity import GENERATIONS
 from mindrun.registry import kinds
 
 from mindlang import model
-from mindlang.diagnostic import Findings, Label, listed
+from mindlang.diagnostic import Findings, listed
 from mindlang.hierarchy import reached
-from mindlang.resolve.kinds import Scope, make, overrides
+from mindlang.resolve.kinds import Scope, a_name, make, once, overrides
 from mindlang.resolve.names import Names
 from mindlang.resolve.parts import refuse_facts
 from mindlang.resolve.quantities import convert
@@ -33,65 +33,66 @@ def lessons(names: Names, skills: tuple[model.Skill, ...], findings: Findings) -
         phrase = declaration.header.phrase
         learner = make("curriculum", phrase, Scope(names, None), findings) if phrase else None
         taught = (fact for fact in declaration.facts if isinstance(fact, Teaches))
-        for number, fact in enumerate(taught, 1):
-            lesson = _lesson(name, number, fact, learner, names, by_name, findings)
-            yield from [lesson] if lesson else []
+        curriculum = _Curriculum(name, learner, names, by_name, findings)
+        yield from filter(None, (curriculum.lesson(number, fact) for number, fact in enumerate(taught, 1)))
 
 
-def _lesson(
-    curriculum: str,
-    number: int,
-    fact: Teaches,
-    learner: Any,
-    names: Names,
-    skills: Mapping[str, model.Skill],
-    findings: Findings,
-) -> model.Lesson | None:
-    before = len(findings.diagnostics)
-    master = fact.master or fact.skill
-    found = [names.find(fact.skill, ("skill",), findings), names.find(fact.task, ("task",), findings)]
-    if fact.master:
-        found.append(names.find(fact.master, ("skill",), findings))
-    generations = convert(fact.generations, GENERATIONS, findings)
-    switches = {argument.key.text for argument in fact.arguments if argument.key.text in SWITCHES}
-    arguments = tuple(argument for argument in fact.arguments if argument.key.text not in {*SWITCHES, USING})
-    _check_switches(fact.arguments, findings)
-    learner, kind = _learner(fact, learner, findings)
-    said = overrides(type(learner), kind, arguments, findings) if learner else {}
-    if found[0]:
-        _check_learns(fact, skills, "with" in switches, findings)
-    if None not in found:
-        _check_reached(fact, master, skills, findings)
-    if learner is None or generations is None or len(findings.diagnostics) > before:
-        return None
-    return model.Lesson(
-        curriculum,
-        fact.skill.text,
-        fact.task.text,
-        master.text,
-        int(generations),
-        "from" in switches,
-        "with" in switches,
-        replace(learner, **said),
-        number,
-        fact,
-    )
+@dataclass(frozen=True, slots=True)
+class _Curriculum:
+    """What its lessons are held against: its learner, None where that is wrong, and the mind's names and skills."""
 
+    name: str
+    learner: Any
+    names: Names
+    skills: Mapping[str, model.Skill]
+    findings: Findings
 
-def _learner(fact: Teaches, of_all: Any, findings: Findings) -> tuple[Any, str]:
-    """A lesson's learner with the defaults of its kind, the curriculum's or that after `using`, and whose it is."""
-    said = [argument for argument in fact.arguments if argument.key.text == USING]
-    for argument in said[1:]:
-        first = Label(said[0].span, "first said here")
-        findings.error("repeated-argument", argument.key.span, "using is said twice.", "Leave one out.", first)
-    match [argument.value for argument in said]:
-        case []:
-            return of_all, "teaches"
-        case [Name() as kind, *_]:
-            return make("curriculum", Phrase(kind, (), kind.span), Scope(Names({}), None), findings), kind.text
-    hint = f"Here stands a kind of curriculum: {listed(sorted(kinds('curriculum')))}."
-    findings.error("not-a-name", said[0].value.span, "A number cannot stand after using.", hint)
-    return None, USING
+    def lesson(self, number: int, fact: Teaches) -> model.Lesson | None:
+        """The lesson that a fact says, the `number`th of the curriculum; None after reporting what is wrong with it."""
+        before = len(self.findings.diagnostics)
+        found = [self._find(fact.skill, "skill"), self._find(fact.task, "task")]
+        if fact.master:
+            found.append(self._find(fact.master, "skill"))
+        generations = convert(fact.generations, GENERATIONS, self.findings)
+        switches = {argument.key.text for argument in fact.arguments if argument.key.text in SWITCHES}
+        _check_switches(fact.arguments, self.findings)
+        learner = self._learner(fact)
+        if found[0]:
+            _check_learns(fact, self.skills, "with" in switches, self.findings)
+        master = fact.master or fact.skill
+        if None not in found:
+            _check_reached(fact, master, self.skills, self.findings)
+        if learner is None or generations is None or len(self.findings.diagnostics) > before:
+            return None
+        return model.Lesson(
+            curriculum=self.name,
+            skill=fact.skill.text,
+            task=fact.task.text,
+            master=master.text,
+            generations=int(generations),
+            from_scratch="from" in switches,
+            with_subskills="with" in switches,
+            learner=learner,
+            number=number,
+            fact=fact,
+        )
+
+    def _find(self, name: Name, noun: str) -> Any:
+        return self.names.find(name, (noun,), self.findings)
+
+    def _learner(self, fact: Teaches) -> Any:
+        """The curriculum's learner, or that of a kind after `using`, with the arguments of the lesson."""
+        learner, said_by = self.learner, "teaches"
+        if using := once(USING, fact.arguments, self.findings):
+            hint = f"Here stands a kind of curriculum: {listed(sorted(kinds('curriculum')))}."
+            if not (kind := a_name(using, hint, self.findings)):
+                return None
+            phrase, said_by = Phrase(kind, (), kind.span), kind.text
+            learner = make("curriculum", phrase, Scope(self.names, None), self.findings)
+        if learner is None:
+            return None
+        own = (argument for argument in fact.arguments if argument.key.text not in {*SWITCHES, USING})
+        return replace(learner, **overrides(type(learner), said_by, own, self.findings))
 
 
 def _check_switches(written: tuple[Argument, ...], findings: Findings) -> None:

@@ -87,11 +87,33 @@ def _by_key(
         if key not in parameters:
             _unknown(kind, argument.key, parameters, findings)
         elif key in found:
-            first = Label(found[key].span, "first said here")
-            findings.error("repeated-argument", argument.key.span, f"{key} is said twice.", "Leave one out.", first)
+            _said_twice(argument, found[key], findings)
         else:
             found[key] = argument
     return found
+
+
+def once(key: str, written: Iterable[Argument], findings: Findings) -> Argument | None:
+    """The first argument of a key, None where none is; others are reported."""
+    found = [argument for argument in written if argument.key.text == key]
+    for argument in found[1:]:
+        _said_twice(argument, found[0], findings)
+    return found[0] if found else None
+
+
+def a_name(argument: Argument, hint: str, findings: Findings) -> Name | None:
+    """The name that an argument's value must be; None after reporting that it is none."""
+    if isinstance(argument.value, Name):
+        return argument.value
+    message = f"A number cannot stand after {argument.key.text}."
+    findings.error("not-a-name", argument.value.span, message, hint)
+    return None
+
+
+def _said_twice(argument: Argument, first: Argument, findings: Findings) -> None:
+    label = Label(first.span, "first said here")
+    message = f"{argument.key.text} is said twice."
+    findings.error("repeated-argument", argument.key.span, message, "Leave one out.", label)
 
 
 def _unknown(kind: str, key: Name, parameters: Mapping[str, Parameter], findings: Findings) -> None:
@@ -114,12 +136,11 @@ def _value(
 ) -> Any:
     if not isinstance(parameter.type, Reference):
         return _number(parameter, argument, findings)
-    if not isinstance(argument.value, Name):
-        message = f"A number cannot stand after {parameter.key}."
-        findings.error("not-a-name", argument.value.span, message, f"Here stands the name of a {parameter.type.noun}.")
+    name = a_name(argument, f"Here stands the name of a {parameter.type.noun}.", findings)
+    if name is None:
         return None
-    _check(noun, phrase, parameter.type, argument.value, scope, findings)
-    return argument.value.text
+    _check(noun, phrase, parameter.type, name, scope, findings)
+    return name.text
 
 
 def _number(parameter: Parameter, argument: Argument, findings: Findings) -> Any:
