@@ -53,7 +53,10 @@ ROOMS = {
         interpreted=True,
     ),
     "train": Room(
-        tuple(f"{R}train/{name}.py" for name in ("genetic", "lesson", "seeds", "training", "checkpoint", "progress")),
+        tuple(
+            f"{R}train/{name}.py"
+            for name in ("genetic", "lesson", "rungs", "scoring", "seeds", "training", "checkpoint", "progress")
+        ),
         (
             "tests/train/test_genetic.py",
             "tests/train/test_lesson.py",

@@ -8,9 +8,10 @@ import numpy as np
 from mindrun.graph import Lesson
 from mindrun.sim.rollout import Rollout
 from mindrun.train.errors import RunError
-from mindrun.train.lesson import State, mark
+from mindrun.train.lesson import State
 from mindrun.train.population import Genomes
 from mindrun.train.run_folder import Run
+from mindrun.train.scoring import mark
 from mindrun.train.seeds import Purpose, layouts
 from mindrun.weights import parts
 

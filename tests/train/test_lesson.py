@@ -16,12 +16,12 @@ from mindrun.train.lesson import (
     generation,
     is_better,
     judge,
-    mark,
     teach,
     try_again,
 )
 from mindrun.train.population import Population
 from mindrun.train.rungs import is_behind, rung_at
+from mindrun.train.scoring import mark
 from mindrun.train.seeds import Purpose, layouts
 
 from tests.train.climbing import LENGTH, Faulty, Flat, Results, Sphere, lesson

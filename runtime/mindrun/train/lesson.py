@@ -1,9 +1,8 @@
 """One lesson: generation after generation, and the weights kept are those that do best on layouts never seen."""
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from math import inf
-from typing import Any, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,6 +12,7 @@ from mindrun.learners import Learner
 from mindrun.train.breeding import ask, kept_count, tell
 from mindrun.train.population import Genomes, Population, Scores, nobody, order
 from mindrun.train.rungs import is_behind, not_climbed, rung_at
+from mindrun.train.scoring import Scorer, mark
 from mindrun.train.seeds import Purpose, Seeds, breeding, layouts
 
 EVERY = 10  # generations between two re-evaluations
@@ -21,36 +21,6 @@ FRESH = 16  # layouts of a re-evaluation of so many candidates
 VERDICT = 50  # layouts on which attempts are compared, and as many others on which the best is reported
 
 Clock = Callable[[], float]
-
-
-class Results(Protocol):
-    """What a scorer measured: arrays [genomes, seeds]."""
-
-    @property
-    def total(self) -> NDArray[np.float64]:
-        """The sum of the rewards; -inf where something was not finite."""
-
-    @property
-    def ticks(self) -> NDArray[np.int64]:
-        """How long each evaluation lasted."""
-
-    @property
-    def faults(self) -> NDArray[np.int64]:
-        """How many numbers were not finite."""
-
-
-class Scorer(Protocol):
-    """What scores genomes: `mindrun.sim.rollout.Rollout`, or anything of its shape."""
-
-    @property
-    def genome_length(self) -> int:
-        """How many weights the learner has."""
-
-    def draw(self, count: int, rng: np.random.Generator) -> Genomes:
-        """Random genomes [count, genome_length] for learning to begin with."""
-
-    def score(self, genomes: Any, seeds: Any) -> Results:
-        """Every genome on every seed; a result depends on its genome and its seed alone."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -137,16 +107,6 @@ class Record:
     verdict: float | None
     ticks: int
     seconds: float
-    faults: int
-
-
-@dataclass(frozen=True, slots=True)
-class Marks:
-    """The scores `each` [genomes, layouts] of genomes, their means `scores` [genomes], and what it took."""
-
-    each: Scores
-    scores: Scores
-    ticks: int
     faults: int
 
 
@@ -285,14 +245,6 @@ def judge(course: Course, scorer: Scorer, state: State) -> tuple[State, float]:
         faults=state.faults + marks.faults,
     )
     return ended, float(verdict[1])
-
-
-def mark(scorer: Scorer, genomes: Genomes, seeds: Seeds | Sequence[int]) -> Marks:
-    """Score every genome on every seed; a genome with a fault anywhere has -inf."""
-    results = scorer.score(genomes, seeds)
-    faulty = (results.faults > 0) | ~np.isfinite(results.total)
-    each = np.where(faulty, -inf, results.total)
-    return Marks(each, each.mean(axis=1), int(results.ticks.sum()), int(faulty.sum()))
 
 
 def _mean(scores: Scores) -> float:

@@ -8,10 +8,11 @@ from pathlib import Path
 from mindrun.train import checkpoint
 from mindrun.train.claim import claim
 from mindrun.train.errors import RunError
-from mindrun.train.lesson import Clock, Course, Record, Scorer, State, begin, could_be, teach
+from mindrun.train.lesson import Clock, Course, Record, State, begin, could_be, teach
 from mindrun.train.population import Genomes
 from mindrun.train.progress import Progress
 from mindrun.train.run_folder import Run, keep_champions, keep_weights
+from mindrun.train.scoring import Scorer
 
 EVERY = 2.0  # seconds between two checkpoints
 
