@@ -141,7 +141,7 @@ def main() -> None:
         f"{'driver who knows everything':<32}{said(objects)} objects, mean speed {speed:.2f}, mean leg {leg:.1f} units"
     )
     print(f"{'no turns, no detours':<32}{SECONDS * fastest / (2 * leg):6.1f} objects at {fastest:.2f} units a second")
-    for name in ("collect.mind", "on_the_job.mind"):
+    for name in ("collect.mind", "on_the_job.mind", "best.mind"):
         print(f"{name:<32}{said(delivered(name, options.runs))} objects")
 
 
