@@ -15,7 +15,7 @@ from mindrun.sim.rollout import Rollout
 from numpy.typing import NDArray
 from workloads import COLLECT, graph_of, shipped
 
-from mindlang.compile import load
+from mindlang.compiler.compile import load
 
 AGAIN = 120  # ticks after which a way is planned anew
 AROUND, WITH_LOAD = 1.6, 2.2  # units that obstacles are wider for the robot, and for a robot that holds something

@@ -18,14 +18,15 @@ from mindrun.encoding import encode
 from rich.console import Console
 
 from benchmarks.shapes import SHAPES
-from mindlang.comparison import differences
-from mindlang.compile import Compiled, compile_source
-from mindlang.drawing import dot, tree
+from mindlang.compiler.comparison import differences
+from mindlang.compiler.compile import Compiled, compile_source
+from mindlang.compiler.drawing import dot, tree
+from mindlang.compiler.format import formatted
+from mindlang.compiler.source import Source
 from mindlang.editing.carry_out import carry_out
 from mindlang.editing.catalog import edit
 from mindlang.editing.project import EditError, open_project
 from mindlang.editing.telling import diff, told
-from mindlang.format import formatted
 from mindlang.linting.fixing import fixed
 from mindlang.linting.lint import lint
 from mindlang.lock.report import report, rows
@@ -41,7 +42,6 @@ from mindlang.server.proposals import proposals
 from mindlang.server.selection import Selection
 from mindlang.server.session import Session
 from mindlang.server.tidying import tidied
-from mindlang.source import Source
 from mindlang.unified import unified
 
 LINEAR = 2.8  # what shapes with names of more digits, or that change into one another, come to by themselves

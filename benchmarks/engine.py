@@ -12,7 +12,7 @@ from mindrun.graph import Graph
 from mindrun.weights import genes
 from workloads import COLLECT, graph_of
 
-from mindlang.compile import load
+from mindlang.compiler.compile import load
 
 
 def engine_of(graph: Graph, rng: np.random.Generator) -> Engine:

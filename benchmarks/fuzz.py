@@ -19,9 +19,11 @@ from tempfile import TemporaryDirectory
 from mindrun.visible import visible
 
 from benchmarks.sources import source
-from mindlang.comparison import differences
-from mindlang.compile import Compiled, compile_source
-from mindlang.format import formatted
+from mindlang.compiler.comparison import differences
+from mindlang.compiler.compile import Compiled, compile_source
+from mindlang.compiler.format import formatted
+from mindlang.compiler.source import Source
+from mindlang.compiler.splice import spliced
 from mindlang.linting.lint import lint
 from mindlang.lock.report import rows
 from mindlang.lock.status import NotLearning, status
@@ -34,8 +36,6 @@ from mindlang.server.mending import all_mended, mendings
 from mindlang.server.navigating import definitions, highlights, references, symbols
 from mindlang.server.tidying import tidied
 from mindlang.server.wire import Wire
-from mindlang.source import Source
-from mindlang.splice import spliced
 
 SOON = 2.0  # seconds of the processor
 END = 30.0  # after which a case is ended

@@ -19,9 +19,9 @@ PARSE = """
 import gc, sys, time
 from pathlib import Path
 from mindlang.cli import SELDOM
-from mindlang.diagnostic import Findings
-from mindlang.parse import parse
-from mindlang.source import Source
+from mindlang.compiler.diagnostic import Findings
+from mindlang.compiler.parse import parse
+from mindlang.compiler.source import Source
 gc.set_threshold(SELDOM)
 text = Path(sys.argv[1]).read_text()
 parse(Source("warm", text[:2000]), Findings())

@@ -12,9 +12,9 @@ from random import Random
 
 from mindrun.registry import arguments, kinds
 
+from mindlang.compiler.parse.explain import INSTEAD
+from mindlang.compiler.syntax import NOUNS, SETTINGS, VERBS
 from mindlang.linting.rule import all_rules
-from mindlang.parse.explain import INSTEAD
-from mindlang.syntax import NOUNS, SETTINGS, VERBS
 
 ROOT = Path(__file__).parents[1]
 PIECE = re.compile(r"\w+|\s+|.", re.DOTALL)

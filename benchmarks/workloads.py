@@ -16,9 +16,9 @@ from mindrun.weights import genes
 from numpy.typing import NDArray
 
 import mindlang
-from mindlang.compile import Compiled, compile_source, load
+from mindlang.compiler.compile import Compiled, compile_source, load
+from mindlang.compiler.source import Source
 from mindlang.lock.ready import Ready, make_ready
-from mindlang.source import Source
 
 Weights = dict[str, NDArray[np.float32]]
 # The first seed of `random_weights` under which all skills of the example are awake and nearly all robots move; and one

@@ -11,7 +11,7 @@ from pathlib import Path
 
 from mindrun.regular import read_regular
 
-from mindlang.source import LIMIT, decode
+from mindlang.compiler.source import LIMIT, decode
 
 ENTRIES = 20_000  # of a folder, or of all folders below one, that are looked at
 FILES = 500  # files that are read of all those around one

@@ -8,8 +8,8 @@ from unicodedata import combining, east_asian_width
 
 from mindrun.visible import visible
 
-from mindlang.diagnostic import MOST, Diagnostic
-from mindlang.source import Span
+from mindlang.compiler.diagnostic import MOST, Diagnostic
+from mindlang.compiler.source import Span
 
 if TYPE_CHECKING:
     from rich.console import Console

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any, NoReturn
 if TYPE_CHECKING:
     from rich.console import Console
 
-    from mindlang.compile import Compiled
+    from mindlang.compiler.compile import Compiled
 
 OK, FINDINGS, MISUSE, INTERRUPTED = 0, 1, 2, 130  # how a program ends
 talk: Console
@@ -111,7 +111,7 @@ def take_back(path: Path | str) -> None:
 
 def load_compiled(path: Path | str) -> Compiled:
     """The compiled file; its report goes to stderr, and a file with errors ends the program (2 when unreadable)."""
-    from mindlang.compile import load
+    from mindlang.compiler.compile import load
     from mindlang.report import print_report
 
     take_back(path)

@@ -23,7 +23,7 @@ class Suggesting(click.Group):
     ) -> tuple[str | None, click.Command | None, list[str]]:
         """As click does it, with a suggestion for a name that is nearly right."""
         if args and not args[0].startswith("-") and args[0] not in self.list_commands(ctx):
-            from mindlang.diagnostic import did_you_mean
+            from mindlang.compiler.diagnostic import did_you_mean
 
             hint = did_you_mean(args[0], self.list_commands(ctx)) or f"`{ctx.command_path} --help` lists them."
             noun = "edit" if ctx.parent else "command"

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from mindrun.graph import Graph
     from mindrun.robot.wiring import Wiring
 
-    from mindlang.compile import Compiled
+    from mindlang.compiler.compile import Compiled
     from mindlang.lock.ready import Ready
 
 EXAMPLES = """\b
@@ -47,7 +47,7 @@ def command(file: str, output: Path, master: str | None, robot: Path | None, as_
     from mindrun.engine import procedure_sources
     from mindrun.errors import MindError
 
-    from mindlang.diagnostic import did_you_mean
+    from mindlang.compiler.diagnostic import did_you_mean
     from mindlang.lock.ready import make_ready
     from mindlang.terminal import MISUSE, fail, load_compiled, print_json, say
 
@@ -81,7 +81,7 @@ def command(file: str, output: Path, master: str | None, robot: Path | None, as_
 
 def _refuse_procedures(compiled: Compiled, master: str | None) -> None:
     """End the program where a procedure cannot be what its skill needs."""
-    from mindlang.procedures import mistakes
+    from mindlang.compiler.procedures import mistakes
     from mindlang.report import print_report
     from mindlang.terminal import FINDINGS, console
 

@@ -23,7 +23,7 @@ def command(code: str | None, as_json: bool) -> None:
     from mindrun.visible import visible
     from rich.text import Text
 
-    from mindlang.diagnostic import did_you_mean
+    from mindlang.compiler.diagnostic import did_you_mean
     from mindlang.explaining.explanation import explanations
     from mindlang.explaining.show import as_data, contents, page
     from mindlang.terminal import MISUSE, console, fail, print_json

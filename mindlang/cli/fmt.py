@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import click
 
 if TYPE_CHECKING:
-    from mindlang.source import Source
+    from mindlang.compiler.source import Source
 
 EXAMPLES = """\b
 Examples:
@@ -36,11 +36,11 @@ def command(files: tuple[str, ...], check: bool, diff: bool) -> None:
 
 def _tidy(file: str, check: bool, diff: bool) -> int:
     """Tidy one file, or only look; how the program would end if it were the only one."""
-    from mindlang.compile import read_main
-    from mindlang.diagnostic import Findings
-    from mindlang.parse import parse
+    from mindlang.compiler.compile import read_main
+    from mindlang.compiler.diagnostic import Findings
+    from mindlang.compiler.parse import parse
+    from mindlang.compiler.source import Source
     from mindlang.report import print_report
-    from mindlang.source import Source
     from mindlang.terminal import FINDINGS, MISUSE, console, take_back
 
     take_back(file)
@@ -60,8 +60,8 @@ def _put(file: str, source: Source, check: bool, diff: bool) -> int:
     """The tidy text put where it belongs."""
     from mindrun.durable import rewrite
 
-    from mindlang.format import formatted
-    from mindlang.source import encoded
+    from mindlang.compiler.format import formatted
+    from mindlang.compiler.source import encoded
     from mindlang.terminal import FINDINGS, OK, fail, print_document
     from mindlang.unified import unified
 

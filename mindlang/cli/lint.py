@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import click
 
 if TYPE_CHECKING:
-    from mindlang.diagnostic import Diagnostic
+    from mindlang.compiler.diagnostic import Diagnostic
 
 EXAMPLES = """\b
 Examples:
@@ -59,7 +59,7 @@ def command(files: tuple[str, ...], fix: bool, select: tuple[str, ...], ignore: 
 
 def _codes(said: Sequence[str]) -> list[str]:
     """The codes of an option; one that is none ends the program."""
-    from mindlang.diagnostic import did_you_mean
+    from mindlang.compiler.diagnostic import did_you_mean
     from mindlang.explaining.explanation import errors
     from mindlang.linting.rule import all_rules
     from mindlang.terminal import MISUSE, fail

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import click
 
 if TYPE_CHECKING:
-    from mindlang.source import Source
+    from mindlang.compiler.source import Source
 
 EXAMPLES = """\b
 Examples:
@@ -33,11 +33,11 @@ def command(files: tuple[str, ...], write: bool) -> None:
 
 def _migrate(file: str, write: bool) -> int:
     """Migrate one file; how the program would end if it were the only one."""
-    from mindlang.compile import read_main
-    from mindlang.diagnostic import Findings
-    from mindlang.migration import migrated
+    from mindlang.compiler.compile import read_main
+    from mindlang.compiler.diagnostic import Findings
+    from mindlang.compiler.migration import migrated
+    from mindlang.compiler.source import Source
     from mindlang.report import print_report
-    from mindlang.source import Source
     from mindlang.terminal import FINDINGS, MISUSE, OK, console, print_document, take_back
     from mindlang.unified import unified
 
@@ -63,7 +63,7 @@ def _migrate(file: str, write: bool) -> int:
 def _write(file: str, source: Source, text: str) -> None:
     from mindrun.durable import rewrite
 
-    from mindlang.source import encoded
+    from mindlang.compiler.source import encoded
     from mindlang.terminal import fail
 
     try:

@@ -18,7 +18,7 @@ def command(file: str, as_dot: bool, as_json: bool) -> None:
     """Show the hierarchy of a mind, from the master down."""
     from mindrun.encoding import encode
 
-    from mindlang.drawing import dot, tree
+    from mindlang.compiler.drawing import dot, tree
     from mindlang.terminal import console, load_compiled, print_document, print_json
 
     if as_dot and as_json:

@@ -53,7 +53,7 @@ def command(file: str, skills: tuple[str, ...], accept: bool, as_json: bool) -> 
 
 
 def _refuse_unknown(graph: Graph, skills: Sequence[str]) -> None:
-    from mindlang.diagnostic import did_you_mean
+    from mindlang.compiler.diagnostic import did_you_mean
     from mindlang.terminal import MISUSE, fail
 
     known = [skill.name for skill in graph.skills]

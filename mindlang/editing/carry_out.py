@@ -6,13 +6,13 @@ from pathlib import Path
 
 from mindrun.graph import Graph
 
-from mindlang.compile import Compiled, compile_source, load
-from mindlang.diagnostic import Diagnostic
+from mindlang.compiler.compile import Compiled, compile_source, load
+from mindlang.compiler.diagnostic import Diagnostic
+from mindlang.compiler.source import Span
+from mindlang.compiler.splice import spliced
 from mindlang.editing.follow import Followed, Locks, follow, locks_of
 from mindlang.editing.project import Change, EditError, Project
 from mindlang.lock import LockError
-from mindlang.source import Span
-from mindlang.splice import spliced
 
 
 @dataclass(frozen=True, slots=True)

@@ -5,7 +5,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from mindlang.diagnostic import Diagnostic, listed
+from mindlang.compiler.diagnostic import Diagnostic, listed
 from mindlang.editing.carry_out import Edited, carry_out
 from mindlang.editing.catalog import Edit
 from mindlang.editing.project import EditError, open_project

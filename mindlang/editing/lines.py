@@ -3,8 +3,8 @@
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
-from mindlang.source import Source, Span
-from mindlang.splice import Splice
+from mindlang.compiler.source import Source, Span
+from mindlang.compiler.splice import Splice
 
 
 @dataclass(frozen=True, slots=True)

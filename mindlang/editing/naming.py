@@ -1,11 +1,11 @@
 """What can stand in a line: a name is what the grammar takes for one."""
 
-from mindlang.diagnostic import Findings, a
+from mindlang.compiler.diagnostic import Findings, a
+from mindlang.compiler.parse import parse
+from mindlang.compiler.parse.explain import proper
+from mindlang.compiler.source import Source
+from mindlang.compiler.syntax import PARTS, Contains
 from mindlang.editing.project import EditError, facts
-from mindlang.parse import parse
-from mindlang.parse.explain import proper
-from mindlang.source import Source
-from mindlang.syntax import PARTS, Contains
 
 EXAMPLES = dict.fromkeys((*PARTS, "thing"), "left_wheel")  # of the other nouns it is GoThere
 

@@ -4,7 +4,7 @@ from collections.abc import Collection, Iterable, Iterator
 from os.path import realpath
 from pathlib import Path
 
-from mindlang.compile import Compiled, load
+from mindlang.compiler.compile import Compiled, load
 from mindlang.nearby import above, as_many, beside, text_of
 
 

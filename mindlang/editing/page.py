@@ -3,10 +3,9 @@
 from collections.abc import Iterable, Sequence
 from itertools import takewhile
 
-from mindlang.editing.lines import Line, first_line, insert_above, insert_below, newline, remove_lines, replace_line
-from mindlang.source import Span
-from mindlang.splice import Splice
-from mindlang.syntax import (
+from mindlang.compiler.source import Span
+from mindlang.compiler.splice import Splice
+from mindlang.compiler.syntax import (
     PARTS,
     Contains,
     Counts,
@@ -23,6 +22,7 @@ from mindlang.syntax import (
     Teaches,
     Use,
 )
+from mindlang.editing.lines import Line, first_line, insert_above, insert_below, newline, remove_lines, replace_line
 
 INDENT = "  "
 NOUNS = ("body", "actuator", "sensor", "memory", "skill", "task", "curriculum")  # in the order of a file

@@ -9,15 +9,15 @@ from mindrun.errors import MindError
 from mindrun.graph import Graph
 from mindrun.registry import kinds
 
-from mindlang.compile import Compiled
-from mindlang.diagnostic import Diagnostic, Findings, Label, a, did_you_mean, listed
+from mindlang.compiler.compile import Compiled
+from mindlang.compiler.diagnostic import Diagnostic, Findings, Label, a, did_you_mean, listed
+from mindlang.compiler.model import Mind
+from mindlang.compiler.resolve.names import SHARED, Names, gather
+from mindlang.compiler.source import Span
+from mindlang.compiler.splice import Splice
+from mindlang.compiler.syntax import NOUNS, Declaration, Drives, Fact, File, Influences, Master, Reads
 from mindlang.editing.neighbours import neighbours
 from mindlang.editing.references import READ, Mention, mentions
-from mindlang.model import Mind
-from mindlang.resolve.names import SHARED, Names, gather
-from mindlang.source import Span
-from mindlang.splice import Splice
-from mindlang.syntax import NOUNS, Declaration, Drives, Fact, File, Influences, Master, Reads
 
 F = TypeVar("F", bound=Fact)
 MOST = 8  # names in a message

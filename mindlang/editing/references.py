@@ -7,8 +7,8 @@ from typing import Any
 from mindrun.quantity import Reference as Noun
 from mindrun.registry import arguments, kinds
 
-from mindlang.resolve.names import Names
-from mindlang.syntax import (
+from mindlang.compiler.resolve.names import Names
+from mindlang.compiler.syntax import (
     Argument,
     Contains,
     Counts,

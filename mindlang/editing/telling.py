@@ -6,7 +6,7 @@ from pathlib import Path
 
 from mindrun.graph import Graph
 
-from mindlang.diagnostic import listed
+from mindlang.compiler.diagnostic import listed
 from mindlang.editing.carry_out import Beside, Edited
 from mindlang.editing.follow import Locks, merged
 from mindlang.lock.arrange import arrange

@@ -8,12 +8,12 @@ from mindrun.npy import to_npy
 from mindrun.regular import read_regular
 
 from mindlang import journal
+from mindlang.compiler.source import LIMIT, decode, encoded
 from mindlang.editing.carry_out import Edited
 from mindlang.editing.follow import locks_of
 from mindlang.editing.project import EditError
 from mindlang.lock import lock_text
 from mindlang.lock.blobs import FOLDER, alone
-from mindlang.source import LIMIT, decode, encoded
 
 
 def write(edited: Edited) -> None:

@@ -4,13 +4,13 @@ from collections.abc import Iterator
 from dataclasses import replace
 from typing import Annotated
 
-from mindlang.diagnostic import Findings
+from mindlang.compiler.diagnostic import Findings
+from mindlang.compiler.parse import parse
+from mindlang.compiler.source import Source, Span
+from mindlang.compiler.splice import Splice
+from mindlang.compiler.syntax import Declaration, Fact, File
 from mindlang.editing.page import FACTS, INDENT, NOUNS, below_siblings, commented, declare, text_of
 from mindlang.editing.project import Change, EditError, Project, owner
-from mindlang.parse import parse
-from mindlang.source import Source, Span
-from mindlang.splice import Splice
-from mindlang.syntax import Declaration, Fact, File
 
 
 def add(

@@ -2,11 +2,11 @@
 
 from typing import Annotated
 
-from mindlang.diagnostic import a
+from mindlang.compiler.diagnostic import a
+from mindlang.compiler.syntax import Drives, Influences, Reads
 from mindlang.editing.naming import refuse_lines
 from mindlang.editing.page import below_siblings
 from mindlang.editing.project import Change, EditError, Project
-from mindlang.syntax import Drives, Influences, Reads
 
 VERBS = {"skill": Influences, "actuator": Drives, "memory": Drives, "sensor": Reads}
 

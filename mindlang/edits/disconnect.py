@@ -1,9 +1,9 @@
 """`mindc edit disconnect`."""
 
-from mindlang.diagnostic import Label, did_you_mean
+from mindlang.compiler.diagnostic import Label, did_you_mean
+from mindlang.compiler.syntax import Drives, Influences, Reads
 from mindlang.editing.page import without_fact
 from mindlang.editing.project import Change, EditError, Project
-from mindlang.syntax import Drives, Influences, Reads
 
 
 def disconnect(project: Project, skill: str, target: str) -> Change:

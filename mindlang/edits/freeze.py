@@ -1,8 +1,8 @@
 """`mindc edit freeze`."""
 
+from mindlang.compiler.syntax import Stays
 from mindlang.editing.page import below_siblings
 from mindlang.editing.project import Change, EditError, Project, facts
-from mindlang.syntax import Stays
 
 
 def freeze(project: Project, skill: str) -> Change:

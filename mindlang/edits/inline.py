@@ -1,5 +1,7 @@
 """`mindc edit inline`."""
 
+from mindlang.compiler.splice import Splice
+from mindlang.compiler.syntax import Declaration, Drives, Influences, Phrase, Reads
 from mindlang.editing.page import (
     below_siblings,
     indentation,
@@ -9,8 +11,6 @@ from mindlang.editing.page import (
     without_fact,
 )
 from mindlang.editing.project import Change, EditError, Project, facts
-from mindlang.splice import Splice
-from mindlang.syntax import Declaration, Drives, Influences, Phrase, Reads
 
 Edge = Drives | Influences
 

@@ -2,9 +2,9 @@
 
 from typing import Annotated
 
+from mindlang.compiler.syntax import Influences, Reads
 from mindlang.editing.page import below_siblings
 from mindlang.editing.project import Change, EditError, Project, influence, kind_of
-from mindlang.syntax import Influences, Reads
 
 
 def integrate(

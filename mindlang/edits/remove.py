@@ -2,10 +2,10 @@
 
 from typing import Annotated
 
-from mindlang.diagnostic import did_you_mean
+from mindlang.compiler.diagnostic import did_you_mean
+from mindlang.compiler.syntax import NOUNS, Declaration
 from mindlang.editing.page import without_declarations, without_fact
 from mindlang.editing.project import Change, EditError, Project, owner
-from mindlang.syntax import NOUNS, Declaration
 
 
 def remove(

@@ -2,7 +2,8 @@
 
 from typing import Annotated
 
-from mindlang.diagnostic import Label, a, listed
+from mindlang.compiler.diagnostic import Label, a, listed
+from mindlang.compiler.syntax import NOUNS, Rewards
 from mindlang.editing.naming import refuse_misnamed
 from mindlang.editing.page import instead
 from mindlang.editing.project import (
@@ -15,7 +16,6 @@ from mindlang.editing.project import (
     suggestion,
 )
 from mindlang.editing.references import Mention, introductions
-from mindlang.syntax import NOUNS, Rewards
 
 
 def rename(

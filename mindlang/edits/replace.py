@@ -1,10 +1,10 @@
 """`mindc edit replace`."""
 
-from mindlang.diagnostic import listed
+from mindlang.compiler.diagnostic import listed
+from mindlang.compiler.hierarchy import reached
+from mindlang.compiler.syntax import Influences
 from mindlang.editing.page import instead
 from mindlang.editing.project import Change, EditError, Project, Replaced
-from mindlang.hierarchy import reached
-from mindlang.syntax import Influences
 
 
 def replace(project: Project, skill: str, new: str) -> Change:

@@ -2,9 +2,9 @@
 
 from pathlib import Path
 
+from mindlang.compiler.syntax import Declaration
 from mindlang.editing.page import text_of, use_line, without_declarations
 from mindlang.editing.project import Change, EditError, Project
-from mindlang.syntax import Declaration
 
 
 def split(project: Project, to: str, names: tuple[str, ...]) -> Change:

@@ -1,8 +1,8 @@
 """`mindc edit unfreeze`."""
 
+from mindlang.compiler.syntax import Stays
 from mindlang.editing.page import without_fact
 from mindlang.editing.project import Change, EditError, Project, facts
-from mindlang.syntax import Stays
 
 
 def unfreeze(project: Project, skill: str) -> Change:

@@ -7,14 +7,14 @@ from pathlib import Path
 from mindrun.regular import read_regular
 
 from mindlang import journal
-from mindlang.compile import Compiled, compile_source, load
-from mindlang.diagnostic import Diagnostic
+from mindlang.compiler.compile import Compiled, compile_source, load
+from mindlang.compiler.diagnostic import Diagnostic
+from mindlang.compiler.source import Source, encoded
 from mindlang.editing.neighbours import neighbours
 from mindlang.linting.fixing import fixed
 from mindlang.linting.lint import lint
 from mindlang.linting.rule import all_rules
 from mindlang.lock import LockError
-from mindlang.source import Source, encoded
 
 
 @dataclass(frozen=True, slots=True)

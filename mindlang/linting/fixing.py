@@ -3,9 +3,9 @@
 from bisect import bisect_right, insort
 from collections.abc import Callable, Iterable
 
-from mindlang.diagnostic import Diagnostic
-from mindlang.source import Source
-from mindlang.splice import Splice, spliced
+from mindlang.compiler.diagnostic import Diagnostic
+from mindlang.compiler.source import Source
+from mindlang.compiler.splice import Splice, spliced
 
 ROUNDS = 100  # a fix may make room for another
 CHARACTERS = 4 << 20  # that are looked at in all rounds: what is left of a long file is for the next time

@@ -4,8 +4,8 @@ from collections.abc import Iterable, Iterator
 
 from mindrun.visible import visible
 
-from mindlang.diagnostic import Diagnostic
-from mindlang.source import Span
+from mindlang.compiler.diagnostic import Diagnostic
+from mindlang.compiler.source import Span
 
 
 def annotations(found: Iterable[Diagnostic]) -> Iterator[str]:

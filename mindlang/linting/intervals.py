@@ -6,8 +6,8 @@ from math import inf, isnan
 
 from mindrun.measures import Forward, Measure, Progress
 
-from mindlang.model import EachReading, Expression, Measured, Number, Reading
-from mindlang.syntax import Operator
+from mindlang.compiler.model import EachReading, Expression, Measured, Number, Reading
+from mindlang.compiler.syntax import Operator
 
 Interval = tuple[float, float]
 ANY: Interval = (-inf, inf)

@@ -3,13 +3,13 @@
 import re
 from collections.abc import Collection, Iterator
 
-from mindlang.compile import Compiled
-from mindlang.diagnostic import Diagnostic, Findings
+from mindlang.compiler.compile import Compiled
+from mindlang.compiler.diagnostic import Diagnostic, Findings
+from mindlang.compiler.resolve.names import gather
 from mindlang.editing.neighbours import neighbours
 from mindlang.editing.references import mentions
 from mindlang.linting.rule import Rule, all_rules
 from mindlang.linting.study import Finding, study
-from mindlang.resolve.names import gather
 
 _NOQA = re.compile(r"#\s*noqa(?:\s*:\s*(?P<codes>[\w-]+(?:[ ,]+[\w-]+)*))?\s*$", re.IGNORECASE)
 

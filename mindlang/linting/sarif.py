@@ -7,9 +7,9 @@ from pathlib import PurePath
 from typing import Any
 from urllib.parse import quote
 
-from mindlang.diagnostic import Diagnostic
+from mindlang.compiler.diagnostic import Diagnostic
+from mindlang.compiler.source import Span
 from mindlang.linting.rule import all_rules
-from mindlang.source import Span
 
 SCHEMA = "https://json.schemastore.org/sarif-2.1.0.json"
 

@@ -10,14 +10,14 @@ from mindrun.functions import Mlp
 from mindrun.graph import Graph, Lesson, SensorKind
 from mindrun.sensors import Bearing, Contact, Derivative, Held, Inside
 
-from mindlang.compile import Compiled
-from mindlang.diagnostic import Findings, Fix, Label
+from mindlang.compiler.compile import Compiled
+from mindlang.compiler.diagnostic import Findings, Fix, Label
+from mindlang.compiler.hierarchy import in_order
+from mindlang.compiler.model import Mind, Skill, Task
+from mindlang.compiler.resolve.names import Names, gather
+from mindlang.compiler.source import Source, Span
 from mindlang.editing.references import Mention, mentions
-from mindlang.hierarchy import in_order
 from mindlang.lock import Lock, read_locks
-from mindlang.model import Mind, Skill, Task
-from mindlang.resolve.names import Names, gather
-from mindlang.source import Source, Span
 
 
 @dataclass(frozen=True)

@@ -8,9 +8,9 @@ from mindrun.events import Collision, Delivery, Event, Exhaustion
 from mindrun.sensors import Battery, Bearing, Contact, Derivative, Held, Inside, RangeFinder, Sine
 from mindrun.world import STAYS, Arena, Item, Obstacle, Power
 
+from mindlang.compiler.model import Condition, Expression, Reward, Task
 from mindlang.linting.intervals import SHARE, Interval, interval
 from mindlang.linting.study import Study
-from mindlang.model import Condition, Expression, Reward, Task
 
 
 @dataclass(frozen=True, slots=True)

@@ -4,7 +4,7 @@ from dataclasses import replace
 
 from mindrun.graph import Edge, Graph, Skill
 
-from mindlang.hierarchy import parents_first
+from mindlang.compiler.hierarchy import parents_first
 from mindlang.lock import Lock
 from mindlang.lock.signature import signature
 

@@ -14,7 +14,7 @@ from mindrun.npy import to_npy
 from mindrun.regular import read_whole
 from mindrun.weights import Weights, reachable, read_weights, weights_of
 
-from mindlang.diagnostic import listed
+from mindlang.compiler.diagnostic import listed
 from mindlang.lock import Entry, Lock, LockError, Taught, read_lock, write_lock
 from mindlang.lock.signature import signature
 from mindlang.lock.training_world import TrainingWorld

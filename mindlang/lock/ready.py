@@ -6,11 +6,11 @@ from dataclasses import dataclass, replace
 from mindrun.graph import Graph
 from mindrun.weights import Weights, reachable
 
-from mindlang.diagnostic import listed
+from mindlang.compiler.diagnostic import listed
+from mindlang.compiler.source import Source
 from mindlang.lock import read_locks
 from mindlang.lock.arrange import arrange
 from mindlang.lock.status import UNKNOWN, Status, Trained, status, trained_weights
-from mindlang.source import Source
 
 
 @dataclass(frozen=True, slots=True)

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 from mindrun.graph import Graph, Skill
 from mindrun.weights import reachable
 
-from mindlang.diagnostic import listed
+from mindlang.compiler.diagnostic import listed
 from mindlang.lock import LockError, Taught, read_locks
 from mindlang.lock.arrange import arrange
 from mindlang.lock.blobs import load_weights

@@ -25,7 +25,7 @@ from mindrun.sensors import Battery, Derivative
 from mindrun.weights import genes, reachable
 from mindrun.world import Item
 
-from mindlang.drawing import phrase
+from mindlang.compiler.drawing import phrase
 from mindlang.lock import Taught
 from mindlang.lock.training_world import LessonKey, TrainingWorld
 from mindlang.lock.wording import infix

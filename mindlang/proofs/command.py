@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 
 from mindrun.errors import MindError
 
-from mindlang.compile import Compiled
-from mindlang.diagnostic import did_you_mean
+from mindlang.compiler.compile import Compiled
+from mindlang.compiler.diagnostic import did_you_mean
 from mindlang.lock import read_locks
 from mindlang.lock.ready import make_ready
 from mindlang.proofs.data import as_data

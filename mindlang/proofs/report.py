@@ -8,7 +8,7 @@ from rich.console import Group, RenderableType
 from rich.table import Table
 from rich.text import Text
 
-from mindlang.diagnostic import listed
+from mindlang.compiler.diagnostic import listed
 from mindlang.proofs.data import Hashes, rests_on, run_of
 from mindlang.proofs.leak import Leak
 from mindlang.proofs.paths import MANY

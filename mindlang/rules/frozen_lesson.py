@@ -4,7 +4,7 @@ A frozen skill keeps its weights, and training passes such a lesson over. Take `
 learn again, or the lesson if it is not.
 """
 
-from mindlang.diagnostic import Fix
+from mindlang.compiler.diagnostic import Fix
 from mindlang.editing.page import without_fact
 from mindlang.linting.study import Finding, Found, Study
 

@@ -4,7 +4,7 @@ Every attempt is then as good as any other, and what is learnt is chance. A task
 benchmark needs no rewards.
 """
 
-from mindlang.diagnostic import Label
+from mindlang.compiler.diagnostic import Label
 from mindlang.linting.study import Finding, Found, Study
 
 COURSE = """

@@ -4,7 +4,7 @@ Influence flows from the master down. A skill that neither the mind's master nor
 straight or through others, never acts and never learns; and whoever reads the file will think that it does.
 """
 
-from mindlang.diagnostic import Fix
+from mindlang.compiler.diagnostic import Fix
 from mindlang.editing.page import without_declarations
 from mindlang.linting.study import Finding, Found, Study
 

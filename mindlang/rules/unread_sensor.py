@@ -4,7 +4,7 @@ It is computed in every tick and comes to nothing; and whoever reads the file wi
 read by skills, by other sensors (`derivative of`) and by rewards.
 """
 
-from mindlang.diagnostic import Fix
+from mindlang.compiler.diagnostic import Fix
 from mindlang.editing.page import without_declarations
 from mindlang.linting.study import Finding, Found, Study
 

@@ -8,10 +8,10 @@ from collections.abc import Iterator
 
 from mindrun.sensors import Derivative
 
-from mindlang.diagnostic import Fix
+from mindlang.compiler.diagnostic import Fix
+from mindlang.compiler.model import Expression, Reading
 from mindlang.editing.page import without_declarations
 from mindlang.linting.study import Finding, Found, Study
-from mindlang.model import Expression, Reading
 
 ELSEWHERE = True
 GOOD = (

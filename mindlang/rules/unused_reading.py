@@ -6,11 +6,11 @@ silent when that sensor fails.
 
 from mindrun.functions import Rule
 
-from mindlang.diagnostic import Fix
+from mindlang.compiler.diagnostic import Fix
+from mindlang.compiler.model import Reading
+from mindlang.compiler.syntax import Reads
 from mindlang.editing.page import without_fact
 from mindlang.linting.study import Finding, Found, Study
-from mindlang.model import Reading
-from mindlang.syntax import Reads
 
 EYES = "sensor left_eye is range_finder at 40 deg\nsensor right_eye is range_finder at -40 deg\n"
 GO = "skill Go is rule\n  reads left_eye\n  reads right_eye\n"

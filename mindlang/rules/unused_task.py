@@ -4,7 +4,7 @@ Nobody learns there, and it counts nothing: a task that counts is for benchmarks
 runs in its tasks. Both are fine.
 """
 
-from mindlang.diagnostic import Fix
+from mindlang.compiler.diagnostic import Fix
 from mindlang.editing.page import without_declarations
 from mindlang.linting.study import Finding, Found, Study
 

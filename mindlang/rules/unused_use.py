@@ -7,11 +7,11 @@ curriculum, no tick, no lock with weights.
 from collections.abc import Iterable
 from pathlib import Path
 
-from mindlang.diagnostic import Fix
+from mindlang.compiler.diagnostic import Fix
+from mindlang.compiler.syntax import Declaration, File, Tick, Use
 from mindlang.editing.lines import first_line, remove_lines
 from mindlang.linting.study import Finding, Found, Study
 from mindlang.lock import lock_path
-from mindlang.syntax import Declaration, File, Tick, Use
 
 PASSIVE = {"sensor", "memory", "skill"}
 PARTS = "-- parts.mind --\ntick 1/60 s\nsensor eye is range_finder at 0 deg\n"

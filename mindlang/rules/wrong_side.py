@@ -10,9 +10,9 @@ from math import sin
 from mindrun.actuators import Wheel
 from mindrun.sensors import RangeFinder
 
+from mindlang.compiler.source import Span
 from mindlang.linting.study import Finding, Found, Study
 from mindlang.linting.words import words
-from mindlang.source import Span
 
 OTHER = {"left": "right", "right": "left"}
 GOOD = ("sensor left_eye is range_finder at 30 60 deg\n", "sensor left_eye is range_finder at 0 deg\n")

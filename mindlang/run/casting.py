@@ -12,8 +12,8 @@ from mindrun.errors import MindError
 from mindrun.graph import Graph, Task
 from mindrun.weights import genes, reachable
 
-from mindlang.compile import Compiled
-from mindlang.diagnostic import did_you_mean, listed
+from mindlang.compiler.compile import Compiled
+from mindlang.compiler.diagnostic import did_you_mean, listed
 from mindlang.lock.ready import Ready, make_ready
 
 if TYPE_CHECKING:

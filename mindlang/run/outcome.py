@@ -10,7 +10,7 @@ import numpy as np
 from mindrun.graph import Task
 from numpy.typing import NDArray
 
-from mindlang.drawing import phrase
+from mindlang.compiler.drawing import phrase
 
 if TYPE_CHECKING:
     from mindrun.sim.rollout import Scores

@@ -13,8 +13,8 @@ from mindrun.train.manifest import Manifest, fingerprint, hashes, processor, ver
 from mindrun.train.run_folder import Run, create, unfinished
 from mindrun.weights import Weights, learners
 
-from mindlang.compile import Compiled
-from mindlang.diagnostic import listed
+from mindlang.compiler.compile import Compiled
+from mindlang.compiler.diagnostic import listed
 from mindlang.lock import Lock, lock_path, read_lock, read_locks
 from mindlang.lock.arrange import arrange
 from mindlang.lock.status import Status, status, trained_weights

@@ -7,7 +7,7 @@ from mindrun.graph import Graph, Lesson
 from mindrun.train.errors import NotFoundError, RunError
 from mindrun.weights import genes, learners, reachable
 
-from mindlang.diagnostic import did_you_mean, listed
+from mindlang.compiler.diagnostic import did_you_mean, listed
 from mindlang.lock.status import Status, Trained
 from mindlang.lock.world_facts import key_of, key_of_taught
 

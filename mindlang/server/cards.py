@@ -5,12 +5,12 @@ from collections.abc import Iterator
 from mindrun.errors import MindError
 from mindrun.registry import kinds
 
+from mindlang.compiler.syntax import Contains, Declaration, Drives, Influences, Reads, Teaches
 from mindlang.lock.report import Row, made_by, rows
 from mindlang.lock.status import Trained
 from mindlang.server.comments import leading
 from mindlang.server.describing import kind_card
 from mindlang.server.view import View
-from mindlang.syntax import Contains, Declaration, Drives, Influences, Reads, Teaches
 
 
 def card(view: View, noun: str, name: str) -> str:

@@ -5,18 +5,18 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
-from mindlang.diagnostic import Findings, did_you_mean, listed
+from mindlang.compiler.diagnostic import Findings, did_you_mean, listed
+from mindlang.compiler.resolve.names import gather
+from mindlang.compiler.splice import Splice
 from mindlang.editing.carry_out import carry_out
 from mindlang.editing.catalog import Edit, edit, names
 from mindlang.editing.project import Change, EditError, Project
 from mindlang.editing.telling import broken, told
 from mindlang.editing.writing import changed_locks
-from mindlang.resolve.names import gather
 from mindlang.server.desk import Desk
 from mindlang.server.following import Following
 from mindlang.server.navigating import sharing
 from mindlang.server.view import View
-from mindlang.splice import Splice
 
 
 @dataclass(frozen=True, slots=True)

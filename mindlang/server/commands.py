@@ -7,6 +7,8 @@ from typing import Any
 from lsprotocol import types
 from mindrun.errors import MindError
 
+from mindlang.compiler.source import Source, Span
+from mindlang.compiler.splice import Splice, spliced
 from mindlang.editing.catalog import edit, names
 from mindlang.editing.project import EditError
 from mindlang.server.changing import Outcome, project
@@ -14,8 +16,6 @@ from mindlang.server.mending import Mending, all_mended, mendings
 from mindlang.server.proposals import Proposal, proposals
 from mindlang.server.selection import Selection
 from mindlang.server.server import MindServer, failed
-from mindlang.source import Source, Span
-from mindlang.splice import Splice, spliced
 
 EDIT, EDITS = "mind.edit", "mind.edits"
 FIX_ALL = "source.fixAll.mind"

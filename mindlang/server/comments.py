@@ -2,8 +2,8 @@
 
 from itertools import takewhile
 
+from mindlang.compiler.syntax import Declaration
 from mindlang.editing.lines import first_line
-from mindlang.syntax import Declaration
 
 
 def leading(declaration: Declaration) -> str:

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from itertools import islice
 from pathlib import Path
 
+from mindlang.compiler.syntax import NOUNS, SETTINGS
 from mindlang.editing.project import OWNERS
 from mindlang.nearby import below
 from mindlang.server.facts import FACTS
@@ -13,7 +14,6 @@ from mindlang.server.offers import Offer, arguments_of, kinds_of, words
 from mindlang.server.procedures import functions
 from mindlang.server.sentence import Line
 from mindlang.server.view import View, declaration_at
-from mindlang.syntax import NOUNS, SETTINGS
 
 MOST = 200  # files that are offered
 

@@ -7,7 +7,7 @@ from typing import Any
 from mindrun.quantity import Quantity, Reference, Span
 from mindrun.registry import Argument, arguments
 
-from mindlang.diagnostic import a, listed
+from mindlang.compiler.diagnostic import a, listed
 
 
 def kind_card(noun: str, name: str, cls: type[Any]) -> str:

@@ -6,10 +6,10 @@ from dataclasses import dataclass, field
 from itertools import chain
 from pathlib import Path
 
-from mindlang.compile import Compiled, load
+from mindlang.compiler.compile import Compiled, load
+from mindlang.compiler.source import within
 from mindlang.nearby import above, as_many, beside, text_of
 from mindlang.server.view import View, view
-from mindlang.source import within
 
 _MASTER = re.compile(r"^[ \t]*master\b", re.MULTILINE)
 _USE = re.compile(r'^[ \t]*use[ \t]+"', re.MULTILINE)

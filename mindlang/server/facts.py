@@ -4,11 +4,11 @@ from collections.abc import Callable, Mapping, Sequence
 
 from mindrun.registry import kinds
 
+from mindlang.compiler.syntax import Drives, Influences, Reads
 from mindlang.editing.references import DRIVEN, READ
 from mindlang.server import offers, rewarding
 from mindlang.server.offers import NUMBER, Offer, arguments_of, kinds_of, names, units, words
 from mindlang.server.sentence import Line
-from mindlang.syntax import Drives, Influences, Reads
 
 Answer = Callable[[Line, Sequence[str]], list[Offer]]
 

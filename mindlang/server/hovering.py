@@ -7,14 +7,14 @@ from typing import Any
 
 from mindrun.registry import arguments, kinds
 
-from mindlang.resolve.curricula import USING
+from mindlang.compiler.resolve.curricula import USING
+from mindlang.compiler.source import Span
+from mindlang.compiler.syntax import NOUNS, Argument, Contains, Expression, File, Header, Name, Phrase, Teaches
 from mindlang.server.cards import card
 from mindlang.server.describing import argument_card, kind_card
 from mindlang.server.tree import path_to
 from mindlang.server.view import View, declaration_at
 from mindlang.server.words import WORDS
-from mindlang.source import Span
-from mindlang.syntax import NOUNS, Argument, Contains, Expression, File, Header, Name, Phrase, Teaches
 
 _WORD = re.compile(r"[A-Za-z_][\w.]*(?:\+[A-Z]\w*)*|%")
 

@@ -5,12 +5,12 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
-from mindlang.compile import compile_source
-from mindlang.diagnostic import Diagnostic
+from mindlang.compiler.compile import compile_source
+from mindlang.compiler.diagnostic import Diagnostic
+from mindlang.compiler.source import Source
+from mindlang.compiler.splice import Splice
 from mindlang.linting.fixing import fixed
 from mindlang.server.view import View
-from mindlang.source import Source
-from mindlang.splice import Splice
 
 _NEARLY = re.compile(r"Did you mean (\S+)\?")
 

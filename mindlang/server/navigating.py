@@ -5,13 +5,13 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
+from mindlang.compiler.source import Source, Span
+from mindlang.compiler.syntax import Argument, Contains, File, Name, Phrase, Use
 from mindlang.editing.references import Mention, introductions
 from mindlang.nearby import text_of
 from mindlang.server.desk import Desk
 from mindlang.server.tree import path_to
 from mindlang.server.view import View
-from mindlang.source import Source, Span
-from mindlang.syntax import Argument, Contains, File, Name, Phrase, Use
 
 
 @dataclass(frozen=True, slots=True)

@@ -7,12 +7,12 @@ from typing import Any
 from mindrun.quantity import Quantity, Reference
 from mindrun.registry import Argument, arguments, kinds
 
-from mindlang.resolve.kinds import ABOUT, PLACES
-from mindlang.resolve.names import things_of
+from mindlang.compiler.resolve.kinds import ABOUT, PLACES
+from mindlang.compiler.resolve.names import things_of
+from mindlang.compiler.syntax import Declaration
 from mindlang.server.describing import argument_line, kind_card, meaning
 from mindlang.server.view import View
 from mindlang.server.words import WORDS
-from mindlang.syntax import Declaration
 
 NUMBER = "0123456789"
 

@@ -5,12 +5,12 @@ from functools import lru_cache
 from itertools import chain, islice
 from pathlib import Path
 
-from mindlang.diagnostic import Findings
+from mindlang.compiler.diagnostic import Findings
+from mindlang.compiler.parse import parse
+from mindlang.compiler.source import Source
 from mindlang.nearby import as_many, below
-from mindlang.parse import parse
 from mindlang.server.desk import Desk
 from mindlang.server.navigating import Symbol, symbols
-from mindlang.source import Source
 
 MOST = 500  # symbols that are found
 KNOWN = 1000  # files whose symbols are remembered

@@ -4,14 +4,14 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from typing import Any
 
-from mindlang.diagnostic import listed
+from mindlang.compiler.diagnostic import listed
+from mindlang.compiler.syntax import Declaration, Drives, Influences, Reads, Stays
 from mindlang.editing.project import EditError, Project, facts, kind_of
 from mindlang.server.changing import proposed
 from mindlang.server.fresh import fresh_file, fresh_title, new_skill
 from mindlang.server.selection import Selection
 from mindlang.server.targets import connectable, lesson, not_yet_below, replacements
 from mindlang.server.view import fact_at, on_line
-from mindlang.syntax import Declaration, Drives, Influences, Reads, Stays
 
 
 @dataclass(frozen=True, slots=True)

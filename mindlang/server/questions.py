@@ -2,6 +2,8 @@
 
 from lsprotocol import types
 
+from mindlang.compiler.source import Source
+from mindlang.compiler.splice import Splice
 from mindlang.server.completing import complete
 from mindlang.server.hovering import hover
 from mindlang.server.navigating import Symbol, definitions, highlights, references, symbols
@@ -10,8 +12,6 @@ from mindlang.server.overview import everything
 from mindlang.server.server import MindServer
 from mindlang.server.tidying import tidied
 from mindlang.server.wire import Wire
-from mindlang.source import Source
-from mindlang.splice import Splice
 
 SYMBOLS = {
     "body": types.SymbolKind.Object,

@@ -4,10 +4,10 @@ from collections.abc import Sequence
 
 from mindrun.registry import kinds
 
+from mindlang.compiler.syntax import Declaration
 from mindlang.editing.references import READ
 from mindlang.server.offers import Offer, arguments_of, kinds_of, names, said, words
 from mindlang.server.view import View
-from mindlang.syntax import Declaration
 
 OPEN = ("+", "-", "*", "/", "(", "<", ">", "<=", ">=", "when")
 

@@ -3,9 +3,9 @@
 from dataclasses import dataclass
 from pathlib import Path
 
+from mindlang.compiler.syntax import Declaration, Fact
 from mindlang.editing.project import Project
 from mindlang.server.view import on_line
-from mindlang.syntax import Declaration, Fact
 
 
 @dataclass(frozen=True, slots=True)

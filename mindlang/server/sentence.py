@@ -4,8 +4,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
+from mindlang.compiler.syntax import Declaration, Drives, Influences, Reads
 from mindlang.server.view import View, on_line
-from mindlang.syntax import Declaration, Drives, Influences, Reads
 
 
 @dataclass(frozen=True, slots=True)

@@ -7,7 +7,7 @@ from pathlib import Path
 from lsprotocol import types
 from mindrun.errors import MindError
 
-from mindlang.diagnostic import Diagnostic, listed
+from mindlang.compiler.diagnostic import Diagnostic, listed
 from mindlang.server.desk import Desk
 from mindlang.server.following import Following, keep_up
 from mindlang.server.view import View

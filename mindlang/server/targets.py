@@ -6,9 +6,9 @@ from typing import Any
 
 from mindrun.weights import genes
 
+from mindlang.compiler.hierarchy import above, reached
+from mindlang.compiler.syntax import Declaration, Drives, Influences, Reads
 from mindlang.editing.project import Project
-from mindlang.hierarchy import above, reached
-from mindlang.syntax import Declaration, Drives, Influences, Reads
 
 MOST = 6  # of each sort; the command line and the editor's own dialogue know them all
 

@@ -3,10 +3,10 @@
 from collections.abc import Iterator
 from itertools import pairwise
 
-from mindlang.format import formatted
-from mindlang.parse import BLANKS
-from mindlang.source import Source
-from mindlang.splice import Splice
+from mindlang.compiler.format import formatted
+from mindlang.compiler.parse import BLANKS
+from mindlang.compiler.source import Source
+from mindlang.compiler.splice import Splice
 
 Stretch = tuple[int, int]
 

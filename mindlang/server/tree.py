@@ -4,8 +4,8 @@ from collections.abc import Iterator
 from dataclasses import fields, is_dataclass
 from typing import Any
 
-from mindlang.source import Span
-from mindlang.syntax import File
+from mindlang.compiler.source import Span
+from mindlang.compiler.syntax import File
 
 
 def path_to(file: File, offset: int) -> list[Any]:

@@ -7,13 +7,13 @@ from pathlib import Path
 
 from mindrun.errors import MindError
 
-from mindlang.compile import Compiled, load
-from mindlang.diagnostic import Diagnostic, Findings
+from mindlang.compiler.compile import Compiled, load
+from mindlang.compiler.diagnostic import Diagnostic, Findings
+from mindlang.compiler.resolve.names import Names, gather
+from mindlang.compiler.source import Span
+from mindlang.compiler.syntax import Declaration, Fact, File, Setting
+from mindlang.compiler.use import files
 from mindlang.editing.references import Mention, mentions
-from mindlang.resolve.names import Names, gather
-from mindlang.source import Span
-from mindlang.syntax import Declaration, Fact, File, Setting
-from mindlang.use import files
 
 Texts = Mapping[Path, str]
 
@@ -48,8 +48,8 @@ class View:
     @cached_property
     def findings(self) -> tuple[Diagnostic, ...]:
         """What is wrong, and where nothing is, what is hardly meant; a damaged lock is a finding, too."""
+        from mindlang.compiler.procedures import mistakes
         from mindlang.linting.lint import lint
-        from mindlang.procedures import mistakes
 
         try:
             return (*lint(self.compiled), *mistakes(self.compiled))

@@ -8,10 +8,10 @@ from urllib.parse import quote
 from lsprotocol import types
 from pygls.uris import from_fs_path, to_fs_path
 
-from mindlang.diagnostic import Diagnostic
+from mindlang.compiler.diagnostic import Diagnostic
+from mindlang.compiler.source import Source, Span
+from mindlang.compiler.splice import Splice
 from mindlang.server.positions import ruler
-from mindlang.source import Source, Span
-from mindlang.splice import Splice
 
 SEVERITIES = {"error": types.DiagnosticSeverity.Error, "warning": types.DiagnosticSeverity.Warning}
 

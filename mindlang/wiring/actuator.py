@@ -3,7 +3,7 @@
 from mindrun.graph import Actuator
 from mindrun.robot.wiring import ActuatorWire
 
-from mindlang.diagnostic import Findings
+from mindlang.compiler.diagnostic import Findings
 from mindlang.wiring.driver import Wired
 from mindlang.wiring.nodes import tell
 

@@ -5,8 +5,8 @@ from dataclasses import dataclass
 
 from mindrun.robot.parts import ADDRESS, BUS, CHANNEL, PIN
 
-from mindlang.diagnostic import Findings, Label
-from mindlang.source import Span
+from mindlang.compiler.diagnostic import Findings, Label
+from mindlang.compiler.source import Span
 from mindlang.wiring.driver import Wired
 from mindlang.wiring.nodes import Items, tell
 from mindlang.wiring.options import Option, driver_options

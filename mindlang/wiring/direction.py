@@ -4,7 +4,7 @@ from mindrun.graph import Sensor
 from mindrun.robot.wiring import SensorWire
 from mindrun.sensors import Contact, Held, RangeFinder
 
-from mindlang.diagnostic import Findings, Label
+from mindlang.compiler.diagnostic import Findings, Label
 from mindlang.wiring.driver import Wired
 from mindlang.wiring.nodes import warn
 

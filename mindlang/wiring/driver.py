@@ -7,8 +7,8 @@ from typing import Any
 from mindrun.errors import MindError
 from mindrun.quantity import Quantity, Reference
 
-from mindlang.diagnostic import Findings, errors, listed, nearest
-from mindlang.source import Span
+from mindlang.compiler.diagnostic import Findings, errors, listed, nearest
+from mindlang.compiler.source import Span
 from mindlang.wiring.nodes import Entry, Scalar, Table, shortened, tell
 from mindlang.wiring.options import DRIVER, Option, driver_options, drivers, own_options
 from mindlang.wiring.tables import by_option, is_empty, missing_key, unknown_key

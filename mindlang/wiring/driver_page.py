@@ -6,7 +6,7 @@ from math import isinf
 from mindrun.quantity import RATIO, Quantity, Reference
 from mindrun.robot.parts import ADDRESS
 
-from mindlang.diagnostic import listed
+from mindlang.compiler.diagnostic import listed
 from mindlang.wiring.options import DRIVER, Option, driver_options, drivers
 
 NOUNS = ("sensor", "actuator")

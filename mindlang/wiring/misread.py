@@ -4,7 +4,7 @@ import re
 
 import yaml
 
-from mindlang.source import Source, Span
+from mindlang.compiler.source import Source, Span
 from mindlang.wiring.nodes import shortened
 
 Answer = tuple[str, Span, str, str]  # code, place, message, hint

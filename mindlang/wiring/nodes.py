@@ -2,8 +2,8 @@
 
 from dataclasses import dataclass
 
-from mindlang.diagnostic import Diagnostic, Findings, Label
-from mindlang.source import Span
+from mindlang.compiler.diagnostic import Diagnostic, Findings, Label
+from mindlang.compiler.source import Span
 
 
 @dataclass(frozen=True, slots=True)

@@ -7,8 +7,8 @@ from dataclasses import dataclass, field
 
 import yaml
 
-from mindlang.diagnostic import Findings
-from mindlang.source import Source, Span
+from mindlang.compiler.diagnostic import Findings
+from mindlang.compiler.source import Source, Span
 from mindlang.wiring.misread import misread, odd_line
 from mindlang.wiring.nodes import Items, Lost, Node, shortened, tell
 from mindlang.wiring.written import keyed, scalar, unmarked

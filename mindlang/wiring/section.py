@@ -7,7 +7,7 @@ from mindrun.graph import Actuator, Graph, Sensor
 from mindrun.readings import physical
 from mindrun.robot.wiring import ActuatorWire, SensorWire, read_by
 
-from mindlang.diagnostic import Findings, a, listed, nearest
+from mindlang.compiler.diagnostic import Findings, a, listed, nearest
 from mindlang.wiring.actuator import actuator_wire
 from mindlang.wiring.driver import Wired, wired
 from mindlang.wiring.nodes import Entry, Scalar, Table, shortened, tell

@@ -6,7 +6,7 @@ from mindrun.robot.parts import PIN
 from mindrun.robot.wiring import SensorWire
 from mindrun.sensors import Bearing, RangeFinder
 
-from mindlang.diagnostic import Findings, Label, errors
+from mindlang.compiler.diagnostic import Findings, Label, errors
 from mindlang.wiring.direction import check_direction
 from mindlang.wiring.driver import Wired
 from mindlang.wiring.nodes import tell

@@ -3,8 +3,8 @@
 from collections.abc import Iterable, Mapping
 from typing import Any
 
-from mindlang.diagnostic import Findings, listed
-from mindlang.source import Span
+from mindlang.compiler.diagnostic import Findings, listed
+from mindlang.compiler.source import Span
 from mindlang.wiring.nodes import Entry, Lost, Node, Scalar, Table, shortened, tell
 from mindlang.wiring.options import Option
 from mindlang.wiring.values import first_line, value

@@ -5,10 +5,10 @@ from typing import Any
 
 from mindrun.quantity import Quantity, Reference
 
-from mindlang.diagnostic import Findings, listed
-from mindlang.resolve.quantities import convert
-from mindlang.source import Span
-from mindlang.syntax import Amount
+from mindlang.compiler.diagnostic import Findings, listed
+from mindlang.compiler.resolve.quantities import convert
+from mindlang.compiler.source import Span
+from mindlang.compiler.syntax import Amount
 from mindlang.wiring.nodes import Items, Lost, Node, Scalar, Table, shortened, tell
 from mindlang.wiring.options import Option
 

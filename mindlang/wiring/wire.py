@@ -8,8 +8,8 @@ from mindrun.graph import Graph
 from mindrun.regular import read_regular
 from mindrun.robot.wiring import Wiring
 
-from mindlang.diagnostic import Diagnostic, Findings, errors, nearest
-from mindlang.source import Source, decode
+from mindlang.compiler.diagnostic import Diagnostic, Findings, errors, nearest
+from mindlang.compiler.source import Source, decode
 from mindlang.wiring.claims import check_claims
 from mindlang.wiring.nodes import Entry, Node, tell
 from mindlang.wiring.read import read

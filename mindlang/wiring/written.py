@@ -4,8 +4,8 @@ from collections.abc import Sequence
 
 import yaml
 
-from mindlang.diagnostic import Findings, Label
-from mindlang.source import Source, Span
+from mindlang.compiler.diagnostic import Findings, Label
+from mindlang.compiler.source import Source, Span
 from mindlang.wiring.nodes import Entry, Lost, Node, Scalar, Table, shortened, tell
 from mindlang.wiring.surprises import surprise
 

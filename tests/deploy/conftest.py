@@ -9,7 +9,7 @@ from mindrun.readings import physical
 from mindrun.robot.drivers.mock import MockActuator, MockSensor
 from mindrun.robot.wiring import ActuatorWire, SensorWire, Wiring
 
-from mindlang.compile import load
+from mindlang.compiler.compile import load
 from tests.calling import write_rules
 from tests.deploy.robot import FakeRobot, copy, deployed, make_robot
 

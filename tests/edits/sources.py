@@ -7,9 +7,9 @@ from random import Random
 
 from hypothesis import strategies as st
 
-from mindlang.compile import Compiled, compile_source
+from mindlang.compiler.compile import Compiled, compile_source
+from mindlang.compiler.source import Source
 from mindlang.editing.project import Project, open_project
-from mindlang.source import Source
 
 FOLDER = Path("/nowhere/minds")
 MAIN, PARTS = FOLDER / "main.mind", FOLDER / "parts.mind"

@@ -5,7 +5,7 @@ from pathlib import Path
 import numpy as np
 from mindrun.weights import genes
 
-from mindlang.compile import load
+from mindlang.compiler.compile import load
 from mindlang.lock import Taught, lock_path, read_lock, read_locks
 from mindlang.lock.arrange import arrange
 from mindlang.lock.blobs import record

@@ -7,7 +7,7 @@ import pytest
 from mindrun.train.manifest import fingerprint
 from mindrun.weights import learners
 
-from mindlang.compile import load
+from mindlang.compiler.compile import load
 from mindlang.lock import lock_path, read_lock
 from mindlang.lock.arrange import arrange
 from tests.calling import Call

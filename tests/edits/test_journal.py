@@ -15,7 +15,7 @@ from typing import Any
 
 import pytest
 
-from mindlang.compile import load
+from mindlang.compiler.compile import load
 from mindlang.editing.carry_out import carry_out
 from mindlang.editing.project import EditError, open_project
 from mindlang.editing.writing import write

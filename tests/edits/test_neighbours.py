@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from mindlang.compile import load
+from mindlang.compiler.compile import load
 from mindlang.lock import lock_path, read_lock
 from mindlang.lock.status import Trained
 from tests.calling import Call

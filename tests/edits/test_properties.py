@@ -10,13 +10,13 @@ import pytest
 from hypothesis import HealthCheck, assume, event, given, settings
 from hypothesis import strategies as st
 
-from mindlang.diagnostic import Findings
+from mindlang.compiler.diagnostic import Findings
+from mindlang.compiler.parse import parse
+from mindlang.compiler.source import Source
+from mindlang.compiler.syntax import Influences
 from mindlang.editing.carry_out import carry_out
 from mindlang.editing.catalog import edit, names
 from mindlang.editing.project import EditError, Project
-from mindlang.parse import parse
-from mindlang.source import Source
-from mindlang.syntax import Influences
 from tests.edits.sources import ACTUATORS, MAIN, PARTS, SENSORS, SKILLS, Texts, minds
 
 OFTEN, SELDOM = 5000, 150  # cases of each test in the slow suite, and in the other

@@ -15,7 +15,7 @@ from mindrun.graph import Edge, Graph, Sensor
 from mindrun.sensors import Battery
 from mindrun.weights import genes
 
-from mindlang.compile import load
+from mindlang.compiler.compile import load
 from mindlang.editing.carry_out import carry_out
 from mindlang.editing.catalog import edit
 from mindlang.editing.follow import follow

@@ -15,7 +15,7 @@ from mindrun.graph import Edge
 from mindrun.memory import Cell
 from mindrun.weights import genes
 
-from mindlang.compile import load
+from mindlang.compiler.compile import load
 from tests.minds import always, mind, rule, skill
 from tests.project.sources import ROOT
 

@@ -6,7 +6,7 @@ import pytest
 from mindrun.graph import Sensor
 from mindrun.sensors import Physical
 
-from mindlang.compile import load
+from mindlang.compiler.compile import load
 from tests.calling import Call
 from tests.language.examples import COLLECT
 

@@ -5,9 +5,9 @@ from pathlib import Path
 
 import pytest
 
-from mindlang.compile import load
+from mindlang.compiler.compile import load
+from mindlang.compiler.resolve.curricula import SWITCHES
 from mindlang.explaining.explanation import ERRORS, Explanation, errors, explanations
-from mindlang.resolve.curricula import SWITCHES
 from tests.explain.examples import write
 from tests.project.sources import COMPILER, modules, tree
 

@@ -8,12 +8,12 @@ from typing import Any
 
 import pytest
 
-from mindlang.comparison import differences
-from mindlang.compile import compile_source
-from mindlang.diagnostic import Findings
-from mindlang.format import formatted
-from mindlang.parse import parse
-from mindlang.source import Source, Span
+from mindlang.compiler.comparison import differences
+from mindlang.compiler.compile import compile_source
+from mindlang.compiler.diagnostic import Findings
+from mindlang.compiler.format import formatted
+from mindlang.compiler.parse import parse
+from mindlang.compiler.source import Source, Span
 from tests.language.examples import EXAMPLES, RIGHT
 
 TEXTS = [path.read_text(encoding="utf-8") for path in (RIGHT, *EXAMPLES)]

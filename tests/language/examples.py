@@ -2,8 +2,8 @@
 
 from pathlib import Path
 
-from mindlang.compile import Compiled, compile_source
-from mindlang.source import Source
+from mindlang.compiler.compile import Compiled, compile_source
+from mindlang.compiler.source import Source
 
 ROOT = Path(__file__).parents[2]
 EXAMPLES = sorted((ROOT / "examples").rglob("*.mind"))

@@ -11,7 +11,7 @@ from mindrun.quantity import Span
 from mindrun.sensors import Sine
 from mindrun.world import Arena, Item, Obstacle
 
-from mindlang.compile import load
+from mindlang.compiler.compile import load
 from tests.language.examples import COLLECT, compiled
 
 

@@ -4,9 +4,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from mindlang.comparison import Difference, differences
-from mindlang.model import Mind
-from mindlang.syntax import NOUNS, SETTINGS
+from mindlang.compiler.comparison import Difference, differences
+from mindlang.compiler.model import Mind
+from mindlang.compiler.syntax import NOUNS, SETTINGS
 from tests.calling import RULES
 from tests.edits.sources import Texts, minds
 from tests.language.examples import COLLECT, compiled

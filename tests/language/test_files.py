@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from mindlang.compile import Compiled, load
+from mindlang.compiler.compile import Compiled, load
 from mindlang.report import as_data, plain
 from tests.language.examples import RIGHT, changed, codes, compiled
 

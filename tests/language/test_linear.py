@@ -17,7 +17,9 @@ ALLOWED = {
 
 @pytest.mark.parametrize("shape", ALL)
 def test_twice_the_lines_are_twice_the_work(shape: str, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("mindlang.diagnostic.MOST", 4)  # what is done for the first few lines only is done here, too
+    monkeypatch.setattr(
+        "mindlang.compiler.diagnostic.MOST", 4
+    )  # what is done for the first few lines only is done here, too
     monkeypatch.setattr("mindlang.unified.SHORT", 10)
     monkeypatch.setattr("mindlang.linting.fixing.ROUNDS", 2)
     first = WORDS if shape.startswith("one long") else LINES

@@ -10,7 +10,7 @@ from mindrun.registry import arguments, kinds
 from mindrun.sensors import RangeFinder
 from mindrun.world import Obstacle
 
-from mindlang.compile import load
+from mindlang.compiler.compile import load
 from tests.language.examples import TOUR, changed, codes, compiled
 
 

@@ -8,13 +8,13 @@ from pathlib import Path
 
 import pytest
 
-from mindlang.compile import compile_source, load
-from mindlang.diagnostic import Findings
-from mindlang.parse import parse
-from mindlang.parse.explain import INSTEAD, LINES
-from mindlang.parse.mistakes import MISTAKES, OPENINGS, Mistake
+from mindlang.compiler.compile import compile_source, load
+from mindlang.compiler.diagnostic import Findings
+from mindlang.compiler.parse import parse
+from mindlang.compiler.parse.explain import INSTEAD, LINES
+from mindlang.compiler.parse.mistakes import MISTAKES, OPENINGS, Mistake
+from mindlang.compiler.source import Source
 from mindlang.report import plain
-from mindlang.source import Source
 
 HERE = Path(__file__).parent
 CASES = sorted((HERE / "wrong").glob("*.mind"))

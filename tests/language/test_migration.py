@@ -8,10 +8,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 from mindrun.bundle import Bundle, pack, unpack
 
-from mindlang.compile import compile_source
-from mindlang.diagnostic import Findings
-from mindlang.migration import migrated
-from mindlang.source import Source
+from mindlang.compiler.compile import compile_source
+from mindlang.compiler.diagnostic import Findings
+from mindlang.compiler.migration import migrated
+from mindlang.compiler.source import Source
 from tests.calling import Call
 from tests.engine.test_older import old
 from tests.sim.minds import DRIFTER, compile_text

@@ -6,14 +6,14 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from mindlang.diagnostic import Findings
+from mindlang.compiler.diagnostic import Findings
+from mindlang.compiler.parse import parse
+from mindlang.compiler.source import Source, Span
+from mindlang.compiler.splice import Splice, spliced
 from mindlang.editing.lines import first_line, insert_below, remove_lines
 from mindlang.editing.naming import refuse_misnamed
 from mindlang.editing.page import declare, text_of, without_declarations
 from mindlang.editing.project import EditError
-from mindlang.parse import parse
-from mindlang.source import Source, Span
-from mindlang.splice import Splice, spliced
 from mindlang.unified import unified
 
 lines = st.lists(

@@ -2,10 +2,10 @@
 
 import pytest
 
-from mindlang.diagnostic import Diagnostic, Fix
+from mindlang.compiler.diagnostic import Diagnostic, Fix
+from mindlang.compiler.source import Source
+from mindlang.compiler.splice import Splice
 from mindlang.linting.fixing import fixed
-from mindlang.source import Source
-from mindlang.splice import Splice
 
 TEXT = "abcdef"
 

@@ -8,11 +8,11 @@ from typing import NamedTuple
 
 import pytest
 
-from mindlang.compile import compile_source
-from mindlang.format import formatted
+from mindlang.compiler.compile import compile_source
+from mindlang.compiler.format import formatted
+from mindlang.compiler.source import Source, decode
 from mindlang.linting.lint import lint
 from mindlang.report import plain
-from mindlang.source import Source, decode
 from tests.fmt.test_format import comments, meaning
 from tests.language.test_fuzz import SEEDS, delete, duplicate, flip, insert, splice, swap_lines
 

@@ -5,12 +5,12 @@ from pathlib import Path
 
 import pytest
 
-from mindlang.compile import load
+from mindlang.compiler.compile import load
+from mindlang.compiler.model import Expression, Number, Reading
+from mindlang.compiler.source import Source, Span
+from mindlang.compiler.syntax import Operator
 from mindlang.linting.intervals import ANY, interval
 from mindlang.linting.lint import lint
-from mindlang.model import Expression, Number, Reading
-from mindlang.source import Source, Span
-from mindlang.syntax import Operator
 from tests.lint.examples import whole
 
 Lint = Callable[[str, str], list[str]]

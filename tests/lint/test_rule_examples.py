@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from mindlang.compile import load
+from mindlang.compiler.compile import load
 from mindlang.linting.lint import lint
 
 FOLDER = Path(__file__).parents[2] / "examples"

@@ -6,10 +6,10 @@ from random import Random
 
 import pytest
 
-from mindlang.compile import compile_source
+from mindlang.compiler.compile import compile_source
+from mindlang.compiler.source import Source
+from mindlang.compiler.syntax import NOUNS, VERBS
 from mindlang.linting.lint import lint
-from mindlang.source import Source
-from mindlang.syntax import NOUNS, VERBS
 from tests.language.examples import COLLECT, EXAMPLES
 
 CASES, SHARE = 1000, 0.99

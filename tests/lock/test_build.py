@@ -11,7 +11,7 @@ from mindrun.bundle import read_bundle
 from mindrun.engine import Engine
 from mindrun.weights import genes
 
-from mindlang.compile import load
+from mindlang.compiler.compile import load
 from mindlang.lock import Taught, read_lock
 from mindlang.lock.arrange import arrange
 from mindlang.lock.blobs import FOLDER, record

@@ -16,7 +16,8 @@ from mindrun.quantity import Quantity, Reference, Span
 from mindrun.registry import arguments, kinds, names
 from mindrun.weights import genes, learners
 
-from mindlang.compile import compile_source, load
+from mindlang.compiler.compile import compile_source, load
+from mindlang.compiler.source import Source
 from mindlang.lock import Lock, LockError, Taught, lock_path, lock_text, read_lock
 from mindlang.lock.blobs import record
 from mindlang.lock.report import rows, survival
@@ -24,7 +25,6 @@ from mindlang.lock.status import Stale, Trained, status
 from mindlang.lock.training_world import TrainingWorld, world_of
 from mindlang.lock.world_changes import changes
 from mindlang.lock.world_facts import Worlds
-from mindlang.source import Source
 
 # One of everything that a lesson can depend on, all of it below Top.
 MIND = """\

@@ -6,7 +6,7 @@ import cv2
 import numpy as np
 import pytest
 
-from mindlang.compile import load
+from mindlang.compiler.compile import load
 from mindlang.pictures.canvas import text_width
 from mindlang.pictures.film import HEIGHT, WIDTH
 from mindlang.pictures.flow import Flow, Link

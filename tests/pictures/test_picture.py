@@ -10,7 +10,7 @@ import pytest
 from mindrun.graph import Thing
 from mindrun.world import Item
 
-from mindlang.compile import load
+from mindlang.compiler.compile import load
 from mindlang.pictures.canvas import Canvas, Image, View, blank
 from mindlang.pictures.caption import LINES, SMALLEST, fitted
 from mindlang.pictures.picture import ABOVE, BELOW, SIDE, SIZE, picture, view_of

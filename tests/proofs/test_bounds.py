@@ -15,7 +15,7 @@ from mindrun.think import think as really_think
 from mindrun.think import values as really_sent
 from mindrun.weights import Weights, genes, reachable
 
-from mindlang.compile import load
+from mindlang.compiler.compile import load
 from mindlang.lock.ready import make_ready
 from mindlang.proofs.interval import DIP
 from mindlang.proofs.many import think, values

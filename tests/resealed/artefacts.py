@@ -32,14 +32,14 @@ from mindrun.train.training import Watch, train
 from mindrun.weights import genes
 
 from mindlang.cli.deploy import _listed
-from mindlang.compile import compile_source
+from mindlang.compiler.compile import compile_source
+from mindlang.compiler.source import Source
 from mindlang.deploying.state import state_of
 from mindlang.lock import LockError, Taught, lock_path, read_lock
 from mindlang.lock.blobs import load_weights, record
 from mindlang.lock.report import rows
 from mindlang.lock.world_facts import Worlds
 from mindlang.pictures.log import load_curves
-from mindlang.source import Source
 from tests.engine.bundles import wired
 from tests.engine.resealed import members_of, resealed
 from tests.lock.test_worlds import MIND

@@ -42,7 +42,7 @@ from mindrun.sim.rollout import Rollout
 from mindrun.sim.trace import trace
 from mindrun.sim.world import World
 
-from mindlang.compile import load
+from mindlang.compiler.compile import load
 from mindlang.run.casting import cast
 from tests.calling import RULES, write_rules
 from tests.sim.test_rollout import some_weights

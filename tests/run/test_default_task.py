@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 from mindrun.default_task import default_task
 
-from mindlang.compile import load
+from mindlang.compiler.compile import load
 from tests.calling import RULES, Call
 
 MIND = """tick 1/60 s

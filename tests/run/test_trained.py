@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from mindrun.weights import genes
 
-from mindlang.compile import load
+from mindlang.compiler.compile import load
 from mindlang.lock import Taught, lock_path
 from mindlang.lock.arrange import arrange
 from mindlang.lock.blobs import record

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 from lark import Token, Tree, UnexpectedInput
 
-from mindlang.parse.shape import grammar
+from mindlang.compiler.parse.shape import grammar
 from mindlang.server.words import NOUNS, SETTINGS, VERBS
 from tests.language.examples import EXAMPLES
 from tests.server.textmate import Grammar
@@ -148,7 +148,7 @@ def test_a_line_that_is_being_written_has_its_colours() -> None:
 
 
 def test_the_words_of_the_language_are_explained() -> None:
-    from mindlang import syntax
+    from mindlang.compiler import syntax
 
     assert set(NOUNS) == set(syntax.NOUNS)
     assert set(VERBS) == set(syntax.VERBS)

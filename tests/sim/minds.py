@@ -2,8 +2,8 @@
 
 from mindrun.graph import Graph
 
-from mindlang.compile import compile_source
-from mindlang.source import Source
+from mindlang.compiler.compile import compile_source
+from mindlang.compiler.source import Source
 
 DRIFTER = """
 tick 1/60 s

@@ -135,7 +135,7 @@ def test_a_warm_simulator_says_where_it_lies(mindc: Call) -> None:
 DIGEST = """
 from hashlib import sha256
 import numpy as np
-from mindlang.compile import load
+from mindlang.compiler.compile import load
 from mindlang.lock.ready import make_ready
 from mindrun.sim.rollout import Rollout
 found = load("examples/collect/collect.mind")

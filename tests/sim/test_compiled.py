@@ -7,7 +7,7 @@ import pytest
 from mindrun.sim.lanes.advance import advance, fill
 from mindrun.sim.rollout import Rollout
 
-from mindlang.compile import load
+from mindlang.compiler.compile import load
 from tests.language.examples import COLLECT
 
 WRAPPER = "_ZN7cpython"  # what Python calls: it holds the arrays while the lanes run

@@ -15,7 +15,7 @@ from mindrun.sim.trace import trace
 from mindrun.weights import genes
 from mindrun.world import Arena, Item, Obstacle
 
-from mindlang.compile import load
+from mindlang.compiler.compile import load
 from tests.hierarchies import SCALES, random_graph
 from tests.sim.test_rollout import COLLECT, some_weights
 

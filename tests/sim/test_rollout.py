@@ -9,7 +9,7 @@ from mindrun.graph import Graph
 from mindrun.sim.rollout import Rollout, Scores
 from mindrun.weights import genes
 
-from mindlang.compile import load
+from mindlang.compiler.compile import load
 
 COLLECT = Path(__file__).parents[2] / "examples" / "collect" / "collect.mind"
 

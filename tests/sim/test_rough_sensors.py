@@ -10,8 +10,8 @@ from mindrun.sim.rollout import Rollout
 from mindrun.sim.trace import trace
 from numpy.typing import NDArray
 
-from mindlang.compile import compile_source
-from mindlang.source import Source
+from mindlang.compiler.compile import compile_source
+from mindlang.compiler.source import Source
 
 TICKS = 400
 MIND = """\

@@ -9,7 +9,7 @@ from mindrun.sim.rollout import Rollout
 from mindrun.sim.state import empty_state
 
 from mindlang import estimate
-from mindlang.compile import load
+from mindlang.compiler.compile import load
 from mindlang.estimate import bytes_of
 from tests.calling import Call
 

@@ -16,7 +16,7 @@ from mindrun.tools import tools
 
 from mindlang import estimate
 from mindlang.cli import commands
-from mindlang.compile import load
+from mindlang.compiler.compile import load
 from tests.calling import Call, write_rules
 from tests.project.sources import ROOT, modules, tree
 

@@ -10,7 +10,7 @@ from mindrun import __main__ as mindrun_main
 from mindrun.bundle import write_bundle
 
 from mindlang.cli import main as mindc_main
-from mindlang.compile import load
+from mindlang.compiler.compile import load
 from tests.calling import write_rules
 from tests.surroundings.streams import CLOSED, FULL, GONE, Ended, ended
 

@@ -16,7 +16,7 @@ from mindrun.train.progress import LINES, read
 from mindrun.train.run_folder import MANIFEST, RESULT, Run, create, open_run, read_result, unfinished
 from mindrun.train.training import train
 
-from mindlang.compile import load
+from mindlang.compiler.compile import load
 from mindlang.school.book import open_book, refuse_changed
 from tests.calling import write_rules
 from tests.train.climbing import LENGTH, Sphere, lesson, manifest, unwatched

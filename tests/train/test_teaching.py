@@ -7,7 +7,7 @@ from shutil import copy
 import numpy as np
 from mindrun.weights import learners, parts
 
-from mindlang.compile import load
+from mindlang.compiler.compile import load
 from mindlang.lock import Entry, Signature, Taught
 from mindlang.lock.status import Trained, Untaught
 from mindlang.lock.world_facts import last_lesson

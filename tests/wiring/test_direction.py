@@ -5,9 +5,9 @@ from pathlib import Path
 import pytest
 from mindrun.graph import Graph
 
-from mindlang.compile import load
+from mindlang.compiler.compile import load
+from mindlang.compiler.source import Source
 from mindlang.report import plain
-from mindlang.source import Source
 from mindlang.wiring.wire import Checked, check_wiring
 
 MIND = """\

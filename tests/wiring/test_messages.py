@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 from mindrun.graph import Graph
 
-from mindlang.compile import load
+from mindlang.compiler.compile import load
 from mindlang.report import plain
 from mindlang.wiring.wire import Checked, load_wiring
 from tests.project.sources import COMPILER, ROOT

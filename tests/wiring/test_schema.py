@@ -8,7 +8,7 @@ import pytest
 import yaml
 from jsonschema import Draft202012Validator
 
-from mindlang.compile import load
+from mindlang.compiler.compile import load
 from mindlang.wiring.options import drivers, own_options
 from mindlang.wiring.schema import schema
 from mindlang.wiring.wire import load_wiring

@@ -12,7 +12,7 @@ from mindrun.sim.rollout import Rollout, cores
 from mindrun.weights import Weights, learners, reachable
 from protocol import Case
 
-from mindlang.compile import Compiled, load
+from mindlang.compiler.compile import Compiled, load
 from mindlang.lock import lock_path, read_lock
 from mindlang.lock.ready import make_ready
 from mindlang.run.casting import cast

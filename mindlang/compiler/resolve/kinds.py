@@ -8,10 +8,10 @@ from mindrun.quantity import Quantity, Reference
 from mindrun.registry import Argument as Parameter
 from mindrun.registry import arguments, kinds
 
-from mindlang.diagnostic import Findings, Label, a, did_you_mean, listed
-from mindlang.resolve import quantities
-from mindlang.resolve.names import Names
-from mindlang.syntax import VERBS, Argument, Name, Phrase
+from mindlang.compiler.diagnostic import Findings, Label, a, did_you_mean, listed
+from mindlang.compiler.resolve import quantities
+from mindlang.compiler.resolve.names import Names
+from mindlang.compiler.syntax import VERBS, Argument, Name, Phrase
 
 # What a kind can be about where not every item, zone and power will do. Obstacles are many: no kind is about one.
 ABOUT: Mapping[tuple[str, str], Set[str]] = {

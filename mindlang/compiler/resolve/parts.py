@@ -4,11 +4,11 @@ from typing import Any
 
 from mindrun.sensors import Derivative, RangeFinder
 
-from mindlang.diagnostic import Findings, a, listed
-from mindlang.model import Part
-from mindlang.resolve.kinds import Scope, make
-from mindlang.resolve.names import Names
-from mindlang.syntax import Declaration, Fact
+from mindlang.compiler.diagnostic import Findings, a, listed
+from mindlang.compiler.model import Part
+from mindlang.compiler.resolve.kinds import Scope, make
+from mindlang.compiler.resolve.names import Names
+from mindlang.compiler.syntax import Declaration, Fact
 
 MOST_READINGS = 20_000
 ONE_LINE = "All that there is to say of it stands in its one line; set the fact below the skill or task it belongs to."

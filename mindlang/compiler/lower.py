@@ -5,12 +5,12 @@ from typing import Any, TypeVar
 
 from mindrun import graph
 
-from mindlang import model
-from mindlang.diagnostic import Findings
-from mindlang.format import spaced
-from mindlang.hierarchy import in_order
-from mindlang.resolve.parts import widths
-from mindlang.syntax import Operator
+from mindlang.compiler import model
+from mindlang.compiler.diagnostic import Findings
+from mindlang.compiler.format import spaced
+from mindlang.compiler.hierarchy import in_order
+from mindlang.compiler.resolve.parts import widths
+from mindlang.compiler.syntax import Operator
 
 T = TypeVar("T")
 

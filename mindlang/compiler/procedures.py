@@ -9,8 +9,8 @@ from mindrun.functions.procedure import module_source
 from mindrun.functions.procedure_text import file_of, fit, imports
 from mindrun.weights import reachable
 
-from mindlang.compile import Compiled
-from mindlang.diagnostic import Diagnostic
+from mindlang.compiler.compile import Compiled
+from mindlang.compiler.diagnostic import Diagnostic
 
 
 def mistakes(compiled: Compiled, master: str | None = None) -> tuple[Diagnostic, ...]:

@@ -4,8 +4,8 @@ from math import ceil, floor, isfinite
 
 from mindrun.quantity import LEAST_STEP, Quantity, Span
 
-from mindlang.diagnostic import Findings, listed
-from mindlang.syntax import Amount, Numbers, Range, Value
+from mindlang.compiler.diagnostic import Findings, listed
+from mindlang.compiler.syntax import Amount, Numbers, Range, Value
 
 
 def convert(amount: Amount, quantity: Quantity, findings: Findings, unit: str = "") -> float | int | None:

@@ -6,11 +6,11 @@ from dataclasses import dataclass
 from mindrun.quantity import Quantity
 from mindrun.registry import kinds
 
-from mindlang import model, syntax
-from mindlang.diagnostic import Findings
-from mindlang.resolve.kinds import Scope, make
-from mindlang.resolve.quantities import convert
-from mindlang.syntax import Amount, Operator, Phrase
+from mindlang.compiler import model, syntax
+from mindlang.compiler.diagnostic import Findings
+from mindlang.compiler.resolve.kinds import Scope, make
+from mindlang.compiler.resolve.quantities import convert
+from mindlang.compiler.syntax import Amount, Operator, Phrase
 
 TRUTH = {"true": 1, "yes": 1, "false": 0, "no": 0}
 PLAIN = Quantity("a plain number", {"": 1.0, "%": 0.01})

@@ -4,8 +4,8 @@ from collections.abc import Iterable, Mapping
 from heapq import heapify, heappop, heappush
 from typing import Any, TypeVar
 
-from mindlang.diagnostic import Findings, Label
-from mindlang.model import Skill
+from mindlang.compiler.diagnostic import Findings, Label
+from mindlang.compiler.model import Skill
 
 T = TypeVar("T", int, str)
 

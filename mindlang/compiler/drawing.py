@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from mindrun.registry import arguments, names
 
-from mindlang.model import Edge, Mind, Skill
+from mindlang.compiler.model import Edge, Mind, Skill
 
 if TYPE_CHECKING:
     from rich.tree import Tree

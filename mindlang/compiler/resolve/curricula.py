@@ -8,14 +8,14 @@ from mindrun.functions import Mlp
 from mindrun.quantity import GENERATIONS
 from mindrun.registry import kinds
 
-from mindlang import model
-from mindlang.diagnostic import Findings, listed
-from mindlang.hierarchy import reached
-from mindlang.resolve.kinds import Scope, a_name, make, once, overrides
-from mindlang.resolve.names import Names
-from mindlang.resolve.parts import refuse_facts
-from mindlang.resolve.quantities import convert
-from mindlang.syntax import Argument, Name, Phrase, Teaches
+from mindlang.compiler import model
+from mindlang.compiler.diagnostic import Findings, listed
+from mindlang.compiler.hierarchy import reached
+from mindlang.compiler.resolve.kinds import Scope, a_name, make, once, overrides
+from mindlang.compiler.resolve.names import Names
+from mindlang.compiler.resolve.parts import refuse_facts
+from mindlang.compiler.resolve.quantities import convert
+from mindlang.compiler.syntax import Argument, Name, Phrase, Teaches
 
 # Words that a lesson says beside the arguments of its learner.
 SWITCHES = {

@@ -6,9 +6,9 @@ from typing import Any, cast
 from lark import Token, Tree, v_args
 from lark.visitors import Transformer_NonRecursive
 
-from mindlang import syntax
-from mindlang.source import Source, Span
-from mindlang.syntax import Amount, Expression, Name, Operator, Phrase, Term
+from mindlang.compiler import syntax
+from mindlang.compiler.source import Source, Span
+from mindlang.compiler.syntax import Amount, Expression, Name, Operator, Phrase, Term
 
 Terms = list[Term]
 

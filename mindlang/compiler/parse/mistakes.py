@@ -5,7 +5,7 @@
 
 from dataclasses import dataclass
 
-from mindlang.syntax import NOUNS, PARTS, SETTINGS, VERBS, WHOLES
+from mindlang.compiler.syntax import NOUNS, PARTS, SETTINGS, VERBS, WHOLES
 
 
 @dataclass(frozen=True, slots=True)

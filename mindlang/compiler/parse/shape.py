@@ -12,8 +12,8 @@ from itertools import accumulate
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, cast
 
-from mindlang import syntax
-from mindlang.source import Source, Span
+from mindlang.compiler import syntax
+from mindlang.compiler.source import Source, Span
 
 if TYPE_CHECKING:
     from lark import Lark
@@ -38,7 +38,7 @@ def grammar() -> "Lark":
     """The grammar, with `start` for a whole file and `line` for one line."""
     from lark import Lark
 
-    here = Path(__file__).parents[1]
+    here = Path(__file__).parents[2]
     folder = next(folder for folder in (here / "grammar", here.parent / "grammar") if folder.is_dir())
     return Lark(
         (folder / "mind.lark").read_text(encoding="utf-8"),
@@ -89,7 +89,7 @@ def _words() -> frozenset[str]:
 
 
 def _parsed(code: str, source: Source, offset: int) -> syntax.Line:
-    from mindlang.parse.build import build
+    from mindlang.compiler.parse.build import build
 
     return build(grammar().parse(code, start="line"), source, offset)
 
@@ -139,7 +139,7 @@ def _naming(first: int, end: int) -> Maker:
 
 
 def _measuring(unit: str, first: int, end: int) -> Maker:
-    from mindlang.parse.build import number
+    from mindlang.compiler.parse.build import number
 
     def amount(line: _Line) -> syntax.Amount:
         span = Span(line.source, line.at[first], line.at[end])

@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 
-from mindlang.source import Source, Span
+from mindlang.compiler.source import Source, Span
 
 # The words with which a line begins; the names of parts begin with a small letter, all others with a capital one.
 PARTS = ("sensor", "actuator", "memory")

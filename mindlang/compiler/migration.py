@@ -4,11 +4,11 @@ from collections.abc import Iterator
 
 from mindrun.world import MOVES, STAYS
 
-from mindlang.diagnostic import Findings
-from mindlang.parse import parse
-from mindlang.source import Source
-from mindlang.splice import Splice, spliced
-from mindlang.syntax import Contains, Counts, Declaration, Ends, Name, Phrase, Rewards
+from mindlang.compiler.diagnostic import Findings
+from mindlang.compiler.parse import parse
+from mindlang.compiler.source import Source
+from mindlang.compiler.splice import Splice, spliced
+from mindlang.compiler.syntax import Contains, Counts, Declaration, Ends, Name, Phrase, Rewards
 
 PLACED = ("item", "zone", "power")  # the kinds that had places of their own
 

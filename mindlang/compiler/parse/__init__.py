@@ -5,12 +5,12 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 from functools import lru_cache
 
-from mindlang import syntax
-from mindlang.diagnostic import Findings, nearest
-from mindlang.parse.explain import explain, proper
-from mindlang.parse.shape import said
-from mindlang.source import Source, Span
-from mindlang.syntax import NOUNS, SETTINGS, VERBS
+from mindlang.compiler import syntax
+from mindlang.compiler.diagnostic import Findings, nearest
+from mindlang.compiler.parse.explain import explain, proper
+from mindlang.compiler.parse.shape import said
+from mindlang.compiler.source import Source, Span
+from mindlang.compiler.syntax import NOUNS, SETTINGS, VERBS
 
 NESTING = 64
 MOST = 1000  # unreadable lines, after which this is no mind

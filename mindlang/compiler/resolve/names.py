@@ -7,9 +7,9 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import chain, islice
 
-from mindlang.diagnostic import Findings, Label, a, listed
-from mindlang.source import Span
-from mindlang.syntax import Contains, Declaration, Fact, File, Name
+from mindlang.compiler.diagnostic import Findings, Label, a, listed
+from mindlang.compiler.source import Span
+from mindlang.compiler.syntax import Contains, Declaration, Fact, File, Name
 
 # A memory is read like a sensor and driven like an actuator, so its name must be neither's.
 SHARED = {"sensor": ("memory",), "actuator": ("memory",), "memory": ("sensor", "actuator")}

@@ -9,11 +9,11 @@ from dataclasses import dataclass, fields, is_dataclass
 from functools import lru_cache
 from typing import Any
 
-from mindlang import syntax
-from mindlang.parse import BLANKS, code_of
-from mindlang.parse.shape import SHAPES, grammar, pieces, said, shape_of
-from mindlang.source import Source
-from mindlang.syntax import NOUNS, SETTINGS
+from mindlang.compiler import syntax
+from mindlang.compiler.parse import BLANKS, code_of
+from mindlang.compiler.parse.shape import SHAPES, grammar, pieces, said, shape_of
+from mindlang.compiler.source import Source
+from mindlang.compiler.syntax import NOUNS, SETTINGS
 
 INDENT = "  "
 OPEN = ("skill", "task", "curriculum")  # nouns that own facts

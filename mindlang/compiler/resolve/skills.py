@@ -5,14 +5,14 @@ from typing import Any
 
 from mindrun.functions import Function, Mlp, Rule
 
-from mindlang import model
-from mindlang.diagnostic import Findings, Label
-from mindlang.resolve.expressions import Visible, resolve
-from mindlang.resolve.kinds import Scope, make
-from mindlang.resolve.names import Names
-from mindlang.resolve.parts import refuse_facts
-from mindlang.source import Span
-from mindlang.syntax import Declaration, Drives, Influences, Reads, Stays
+from mindlang.compiler import model
+from mindlang.compiler.diagnostic import Findings, Label
+from mindlang.compiler.resolve.expressions import Visible, resolve
+from mindlang.compiler.resolve.kinds import Scope, make
+from mindlang.compiler.resolve.names import Names
+from mindlang.compiler.resolve.parts import refuse_facts
+from mindlang.compiler.source import Span
+from mindlang.compiler.syntax import Declaration, Drives, Influences, Reads, Stays
 
 
 def skills(names: Names, widths: Mapping[str, int], findings: Findings) -> tuple[model.Skill, ...]:

@@ -9,13 +9,13 @@ from mindrun.durable import descriptor_of
 from mindrun.errors import reason
 from mindrun.graph import Graph
 
-from mindlang.diagnostic import Diagnostic, Findings
-from mindlang.lower import lower
-from mindlang.model import Mind
-from mindlang.resolve import resolve
-from mindlang.source import LIMIT, Source, Span, decode, within
-from mindlang.syntax import File
-from mindlang.use import files, read
+from mindlang.compiler.diagnostic import Diagnostic, Findings
+from mindlang.compiler.lower import lower
+from mindlang.compiler.model import Mind
+from mindlang.compiler.resolve import resolve
+from mindlang.compiler.source import LIMIT, Source, Span, decode, within
+from mindlang.compiler.syntax import File
+from mindlang.compiler.use import files, read
 
 STDIN = "<stdin>"
 NOTHING: Mapping[Path, str] = {}

@@ -8,14 +8,14 @@ from mindrun.events import Delivery, Exhaustion, Visit
 from mindrun.quantity import SECONDS, TICKS
 from mindrun.world import MOST_OBSTACLES, MOST_THINGS, Arena, Obstacle, Plain, Zone, obstacle_count
 
-from mindlang import model, syntax
-from mindlang.diagnostic import Findings, Label
-from mindlang.resolve.expressions import Visible, resolve
-from mindlang.resolve.kinds import Scope, make
-from mindlang.resolve.names import Names, things_of
-from mindlang.resolve.parts import refuse_facts
-from mindlang.resolve.quantities import convert
-from mindlang.syntax import Contains, Counts, Declaration, Ends, Fact, Lasts, Phrase, Rewards
+from mindlang.compiler import model, syntax
+from mindlang.compiler.diagnostic import Findings, Label
+from mindlang.compiler.resolve.expressions import Visible, resolve
+from mindlang.compiler.resolve.kinds import Scope, make
+from mindlang.compiler.resolve.names import Names, things_of
+from mindlang.compiler.resolve.parts import refuse_facts
+from mindlang.compiler.resolve.quantities import convert
+from mindlang.compiler.syntax import Contains, Counts, Declaration, Ends, Fact, Lasts, Phrase, Rewards
 
 LONGEST = 10_000_000  # ticks of a run
 LASTS = replace(TICKS, low=1.0, high=LONGEST)

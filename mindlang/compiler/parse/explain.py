@@ -8,10 +8,10 @@ from unicodedata import normalize
 
 from mindrun.registry import arguments, kinds
 
-from mindlang.diagnostic import Diagnostic, a, did_you_mean, listed
-from mindlang.parse.mistakes import MISTAKES, OPENINGS, Mistake
-from mindlang.source import Span
-from mindlang.syntax import NOUNS, PARTS, SETTINGS, VERBS
+from mindlang.compiler.diagnostic import Diagnostic, a, did_you_mean, listed
+from mindlang.compiler.parse.mistakes import MISTAKES, OPENINGS, Mistake
+from mindlang.compiler.source import Span
+from mindlang.compiler.syntax import NOUNS, PARTS, SETTINGS, VERBS
 
 if TYPE_CHECKING:
     from lark import UnexpectedInput

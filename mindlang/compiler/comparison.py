@@ -5,12 +5,12 @@ from dataclasses import dataclass, fields, is_dataclass
 from difflib import SequenceMatcher
 from typing import Any
 
-from mindlang.diagnostic import Findings
-from mindlang.format import spaced
-from mindlang.model import Lesson, Mind, Part, Skill, Task
-from mindlang.resolve.kinds import Scope, make
-from mindlang.resolve.names import Names
-from mindlang.syntax import (
+from mindlang.compiler.diagnostic import Findings
+from mindlang.compiler.format import spaced
+from mindlang.compiler.model import Lesson, Mind, Part, Skill, Task
+from mindlang.compiler.resolve.kinds import Scope, make
+from mindlang.compiler.resolve.names import Names
+from mindlang.compiler.syntax import (
     NOUNS,
     Contains,
     Counts,

@@ -7,10 +7,10 @@ from pathlib import Path
 from mindrun.errors import reason
 from mindrun.regular import read_regular
 
-from mindlang.diagnostic import Findings
-from mindlang.parse import parse
-from mindlang.source import LIMIT, Source, decode, within
-from mindlang.syntax import File, Use
+from mindlang.compiler.diagnostic import Findings
+from mindlang.compiler.parse import parse
+from mindlang.compiler.source import LIMIT, Source, decode, within
+from mindlang.compiler.syntax import File, Use
 
 DEEP = 64
 

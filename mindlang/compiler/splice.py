@@ -3,7 +3,7 @@
 from collections.abc import Iterable
 from dataclasses import dataclass
 
-from mindlang.source import Source
+from mindlang.compiler.source import Source
 
 
 @dataclass(frozen=True, slots=True)

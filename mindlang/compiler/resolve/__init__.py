@@ -7,17 +7,17 @@ from mindrun.quantity import TICK
 from mindrun.sensors import Battery
 from mindrun.world import Disc
 
-from mindlang import model
-from mindlang.diagnostic import Findings, Label
-from mindlang.hierarchy import check_cycles
-from mindlang.resolve.curricula import lessons
-from mindlang.resolve.names import Names, gather
-from mindlang.resolve.parts import parts, widths
-from mindlang.resolve.quantities import convert
-from mindlang.resolve.skills import skills
-from mindlang.resolve.tasks import Robot, tasks
-from mindlang.source import Span
-from mindlang.syntax import File, Master, Setting, Tick
+from mindlang.compiler import model
+from mindlang.compiler.diagnostic import Findings, Label
+from mindlang.compiler.hierarchy import check_cycles
+from mindlang.compiler.resolve.curricula import lessons
+from mindlang.compiler.resolve.names import Names, gather
+from mindlang.compiler.resolve.parts import parts, widths
+from mindlang.compiler.resolve.quantities import convert
+from mindlang.compiler.resolve.skills import skills
+from mindlang.compiler.resolve.tasks import Robot, tasks
+from mindlang.compiler.source import Span
+from mindlang.compiler.syntax import File, Master, Setting, Tick
 
 S = TypeVar("S", bound=Setting)
 

@@ -5,8 +5,8 @@ from dataclasses import dataclass, field
 from difflib import get_close_matches
 from itertools import chain
 
-from mindlang.source import Span
-from mindlang.splice import Splice
+from mindlang.compiler.source import Span
+from mindlang.compiler.splice import Splice
 
 MOST = 100  # diagnostics that are read
 COMPARED = 50_000  # names that are held against words

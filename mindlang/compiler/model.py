@@ -11,8 +11,8 @@ from mindrun.measures import Measure
 from mindrun.memory import Cell
 from mindrun.world import Content, Disc, Scene
 
-from mindlang.source import Span
-from mindlang.syntax import Declaration, Drives, File, Influences, Operator, Rewards, Teaches
+from mindlang.compiler.source import Span
+from mindlang.compiler.syntax import Declaration, Drives, File, Influences, Operator, Rewards, Teaches
 
 K = TypeVar("K")
 

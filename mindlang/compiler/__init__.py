@@ -1,0 +1,1 @@
+"""The compiler: text → File → Mind → Graph, for any input without an exception."""
