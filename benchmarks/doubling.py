@@ -24,9 +24,9 @@ from mindlang.compiler.drawing import dot, tree
 from mindlang.compiler.format import formatted
 from mindlang.compiler.source import Source
 from mindlang.editing.carry_out import carry_out
-from mindlang.editing.catalog import edit
 from mindlang.editing.project import EditError, open_project
 from mindlang.editing.telling import diff, told
+from mindlang.edits import edit
 from mindlang.linting.fixing import fixed
 from mindlang.linting.lint import lint
 from mindlang.lock.report import report, rows

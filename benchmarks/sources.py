@@ -14,7 +14,7 @@ from mindrun.registry import arguments, kinds
 
 from mindlang.compiler.parse.explain import INSTEAD
 from mindlang.compiler.syntax import NOUNS, SETTINGS, VERBS
-from mindlang.linting.rule import all_rules
+from mindlang.rules import all_rules
 
 ROOT = Path(__file__).parents[1]
 PIECE = re.compile(r"\w+|\s+|.", re.DOTALL)

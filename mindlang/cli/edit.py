@@ -9,7 +9,7 @@ import click
 from mindlang.cli import Suggesting
 
 if TYPE_CHECKING:
-    from mindlang.editing.catalog import Edit, Option
+    from mindlang.edits import Edit, Option
 
 EXAMPLES = """\b
 Examples:
@@ -23,13 +23,13 @@ class Edits(Suggesting):
 
     def list_commands(self, ctx: click.Context) -> list[str]:
         """Their names."""
-        from mindlang.editing.catalog import names
+        from mindlang.edits import names
 
         return names()
 
     def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:
         """The edit of that name as a command."""
-        from mindlang.editing.catalog import edit
+        from mindlang.edits import edit
 
         return _command(edit(cmd_name)) if cmd_name in self.list_commands(ctx) else None
 

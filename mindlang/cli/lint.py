@@ -61,7 +61,7 @@ def _codes(said: Sequence[str]) -> list[str]:
     """The codes of an option; one that is none ends the program."""
     from mindlang.compiler.diagnostic import did_you_mean
     from mindlang.explaining.explanation import errors
-    from mindlang.linting.rule import all_rules
+    from mindlang.rules import all_rules
     from mindlang.terminal import MISUSE, fail
 
     codes = [code for text in said for code in text.replace(",", " ").split()]

@@ -55,7 +55,7 @@ def _explained(code: str, chapter: str, body: str) -> Explanation:
 
 
 def _rules() -> Iterator[Explanation]:
-    from mindlang.linting.rule import all_rules
+    from mindlang.rules import all_rules
 
     for rule in all_rules().values():
         title, text = _titled(rule.text)

@@ -13,8 +13,8 @@ from mindlang.compiler.source import Source, encoded
 from mindlang.editing.neighbours import neighbours
 from mindlang.linting.fixing import fixed
 from mindlang.linting.lint import lint
-from mindlang.linting.rule import all_rules
 from mindlang.lock import LockError
+from mindlang.rules import all_rules
 
 
 @dataclass(frozen=True, slots=True)

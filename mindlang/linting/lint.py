@@ -8,8 +8,8 @@ from mindlang.compiler.diagnostic import Diagnostic, Findings
 from mindlang.compiler.resolve.names import gather
 from mindlang.editing.neighbours import neighbours
 from mindlang.editing.references import mentions
-from mindlang.linting.rule import Rule, all_rules
 from mindlang.linting.study import Finding, study
+from mindlang.rules import Rule, all_rules
 
 _NOQA = re.compile(r"#\s*noqa(?:\s*:\s*(?P<codes>[\w-]+(?:[ ,]+[\w-]+)*))?\s*$", re.IGNORECASE)
 

@@ -9,7 +9,7 @@ from urllib.parse import quote
 
 from mindlang.compiler.diagnostic import Diagnostic
 from mindlang.compiler.source import Span
-from mindlang.linting.rule import all_rules
+from mindlang.rules import all_rules
 
 SCHEMA = "https://json.schemastore.org/sarif-2.1.0.json"
 

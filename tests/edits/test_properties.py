@@ -15,8 +15,8 @@ from mindlang.compiler.parse import parse
 from mindlang.compiler.source import Source
 from mindlang.compiler.syntax import Influences
 from mindlang.editing.carry_out import carry_out
-from mindlang.editing.catalog import edit, names
 from mindlang.editing.project import EditError, Project
+from mindlang.edits import edit, names
 from tests.edits.sources import ACTUATORS, MAIN, PARTS, SENSORS, SKILLS, Texts, minds
 
 OFTEN, SELDOM = 5000, 150  # cases of each test in the slow suite, and in the other

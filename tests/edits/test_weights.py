@@ -17,11 +17,11 @@ from mindrun.weights import genes
 
 from mindlang.compiler.compile import load
 from mindlang.editing.carry_out import carry_out
-from mindlang.editing.catalog import edit
 from mindlang.editing.follow import follow
 from mindlang.editing.project import Change, EditError, open_project
 from mindlang.editing.telling import told
 from mindlang.editing.writing import write
+from mindlang.edits import edit
 from mindlang.lock import lock_path, read_lock
 from mindlang.lock.arrange import arrange
 from mindlang.lock.blobs import FOLDER, blob
