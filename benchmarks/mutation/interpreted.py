@@ -20,7 +20,8 @@ import numba.extending
 import numpy as np
 
 ROOM = "mindrun.sim."
-VECTOR = f"{ROOM}lanes.vector"
+VECTOR = f"{ROOM}vector"
+CHIPMUNK = f"{ROOM}lanes.chipmunk"  # calls into a library: as it is
 WIDE = 16
 F = np.float32
 
@@ -50,10 +51,10 @@ class Loader(importlib.machinery.SourceFileLoader):
 
 
 class Finder(importlib.abc.MetaPathFinder):
-    """Finds what is compiled elsewhere: the lanes, and places; for vectors what stands for them below."""
+    """Finds what is compiled elsewhere: the lanes and their arithmetic; for vectors what stands for them below."""
 
     def find_spec(self, name: str, path: Sequence[str] | None, target: ModuleType | None = None) -> Any:
-        if not name.startswith(f"{ROOM}lanes.") and name != f"{ROOM}place":
+        if name == CHIPMUNK or not name.startswith((f"{ROOM}lanes.", f"{ROOM}arithmetic", VECTOR)):
             return None
         spec = importlib.machinery.PathFinder.find_spec(name, path)
         if spec and spec.origin:
@@ -62,7 +63,7 @@ class Finder(importlib.abc.MetaPathFinder):
 
 
 class Vectors(importlib.abc.Loader):
-    """In place of `lanes.vector`: sixteen lanes are an array of sixteen."""
+    """In place of `sim.vector`: sixteen lanes are an array of sixteen."""
 
     def create_module(self, spec: Any) -> ModuleType | None:
         return None
@@ -129,8 +130,8 @@ def _install() -> None:
     importlib.import_module("mindrun.sim.exact")  # what formulas call stays compiled, as they are
     numba.njit = _plain
     sys.meta_path.insert(0, Finder())
-    from mindrun.sim import chipmunk, procedures, rollout
-    from mindrun.sim.lanes import advance, stages
+    from mindrun.sim import procedures, rollout
+    from mindrun.sim.lanes import advance, chipmunk, stages
 
     chipmunk.call, procedures.call_address = call, call_procedure
     build, tables = rollout.build, rollout.Tables

@@ -38,7 +38,7 @@ ROOMS = {
     ),
     "think": Room((f"{R}think.py",), ("tests/engine/test_influence.py", "tests/engine/test_bits.py")),
     "lanes": Room(
-        (f"{R}sim/lanes/*.py", f"{R}sim/place.py"),
+        (f"{R}sim/lanes/*.py",),
         (
             "tests/sim/test_lanes.py",
             *(f"tests/sim/test_rough_sensors.py::{name}" for name in QUICK_SENSORS),
@@ -49,7 +49,7 @@ ROOMS = {
             "tests/sim/test_random_worlds.py",
             "tests/sim/test_outcomes.py",
         ),
-        but=(f"{R}sim/lanes/vector.py", f"{R}sim/lanes/arithmetic.py", f"{R}sim/lanes/stages.py"),
+        but=(f"{R}sim/lanes/chipmunk.py", f"{R}sim/lanes/stages.py"),
         interpreted=True,
     ),
     "train": Room(

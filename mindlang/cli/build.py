@@ -13,7 +13,7 @@ from mindlang.cli._options import NewFile
 
 if TYPE_CHECKING:
     from mindrun.graph import Graph
-    from mindrun.robot.wiring import Wiring
+    from mindrun.wiring import Wiring
 
     from mindlang.compiler.compile import Compiled
     from mindlang.lock.ready import Ready

@@ -1,7 +1,7 @@
 """A table about an actuator → ActuatorWire, checked against the actuator of the mind."""
 
 from mindrun.graph import Actuator
-from mindrun.robot.wiring import ActuatorWire
+from mindrun.wiring import ActuatorWire
 
 from mindlang.compiler.diagnostic import Findings
 from mindlang.wiring.driver import Wired

@@ -1,8 +1,8 @@
 """Whether a sensor reads forwards: what is near on the robot must be what was near in training."""
 
 from mindrun.graph import Sensor
-from mindrun.robot.wiring import SensorWire
 from mindrun.sensors import Contact, Held, RangeFinder
+from mindrun.wiring import SensorWire
 
 from mindlang.compiler.diagnostic import Findings, Label
 from mindlang.wiring.driver import Wired

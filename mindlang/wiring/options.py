@@ -8,7 +8,7 @@ from typing import Annotated, Any, Union, get_args, get_origin, get_type_hints
 
 from mindrun.quantity import NUMBER, Quantity, Reference
 from mindrun.registry import kinds
-from mindrun.robot.wiring import ActuatorWire, SensorWire
+from mindrun.wiring import ActuatorWire, SensorWire
 
 DRIVER = "driver"
 WORD = Reference("text")

@@ -5,7 +5,7 @@ from typing import Any, TypeVar
 
 from mindrun.graph import Actuator, Graph, Sensor
 from mindrun.readings import physical
-from mindrun.robot.wiring import ActuatorWire, SensorWire, read_by
+from mindrun.wiring import ActuatorWire, SensorWire, read_by
 
 from mindlang.compiler.diagnostic import Findings, a, listed, nearest
 from mindlang.wiring.actuator import actuator_wire

@@ -3,8 +3,8 @@
 from mindrun.graph import Sensor
 from mindrun.quantity import Quantity
 from mindrun.robot.parts import PIN
-from mindrun.robot.wiring import SensorWire
 from mindrun.sensors import Bearing, RangeFinder
+from mindrun.wiring import SensorWire
 
 from mindlang.compiler.diagnostic import Findings, Label, errors
 from mindlang.wiring.direction import check_direction

@@ -6,7 +6,7 @@ from pathlib import Path
 from mindrun.errors import reason
 from mindrun.graph import Graph
 from mindrun.regular import read_regular
-from mindrun.robot.wiring import Wiring
+from mindrun.wiring import Wiring
 
 from mindlang.compiler.diagnostic import Diagnostic, Findings, errors, nearest
 from mindlang.compiler.source import Source, decode

@@ -19,9 +19,9 @@ from mindrun.describe import contents, describe
 from mindrun.engine import Engine
 from mindrun.errors import MindError, ProcedureError, ReadingsError, surroundings
 from mindrun.readings import vector
-from mindrun.robot.wiring import read_by
 from mindrun.tools import run_tool, tools
 from mindrun.visible import visible
+from mindrun.wiring import read_by
 
 OK, FAILED, MISUSE, INTERRUPTED = 0, 1, 2, 130
 LONGEST = 1 << 20  # characters of one line of readings

@@ -19,8 +19,8 @@ from mindrun.npy import to_npy
 from mindrun.older import brought_along, with_whole_lessons
 from mindrun.plain_data import parsed
 from mindrun.regular import read_whole
-from mindrun.robot.wiring import Wiring
 from mindrun.weights import Weights, genes, read_weights, weights_of
+from mindrun.wiring import Wiring
 
 # A mindrun that knows nothing of wirings refuses a bundle that has one, and one that knows nothing of what becomes of
 # things those of which the tasks say it.

@@ -7,7 +7,7 @@ from mindrun.bundle import Bundle, fingerprint
 from mindrun.encoding import encode
 from mindrun.readings import physical
 from mindrun.registry import names
-from mindrun.robot.wiring import Wiring
+from mindrun.wiring import Wiring
 
 
 def describe(bundle: Bundle) -> str:

@@ -7,13 +7,13 @@ from math import isfinite
 from types import NoneType, UnionType
 from typing import Annotated, Any, TypeVar, Union, get_args, get_origin, get_type_hints
 
+from mindrun.driver import ActuatorDriver, SensorDriver
 from mindrun.errors import BundleError, MindError
 from mindrun.graph import Graph
 from mindrun.quantity import Quantity, Reference, fits
 from mindrun.registry import kinds, names
-from mindrun.robot.contract import ActuatorDriver, SensorDriver
-from mindrun.robot.wiring import Wiring, flaws
 from mindrun.sound import flaw
+from mindrun.wiring import Wiring, flaws
 
 T = TypeVar("T")
 _known_hints: dict[type[Any], dict[str, Any]] = {}  # of each class that was decoded

@@ -7,7 +7,7 @@ import pytest
 from mindrun.bundle import write_bundle
 from mindrun.readings import physical
 from mindrun.robot.drivers.mock import MockActuator, MockSensor
-from mindrun.robot.wiring import ActuatorWire, SensorWire, Wiring
+from mindrun.wiring import ActuatorWire, SensorWire, Wiring
 
 from mindlang.compiler.compile import load
 from tests.calling import write_rules

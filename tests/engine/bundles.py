@@ -11,8 +11,8 @@ from mindrun.learners import Restarting
 from mindrun.measures import Change, Retreat
 from mindrun.quantity import Span
 from mindrun.robot.drivers.mock import MockActuator, MockSensor
-from mindrun.robot.wiring import ActuatorWire, SensorWire, Wiring
 from mindrun.weights import genes
+from mindrun.wiring import ActuatorWire, SensorWire, Wiring
 from mindrun.world import Arena, Item, Obstacle, Zone
 
 from tests.minds import always, mind, rule, skill

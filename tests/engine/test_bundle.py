@@ -23,8 +23,8 @@ from mindrun.engine import Engine
 from mindrun.errors import BundleError
 from mindrun.graph import Graph
 from mindrun.robot.drivers.mock import MockSensor
-from mindrun.robot.wiring import Wiring
 from mindrun.weights import genes
+from mindrun.wiring import Wiring
 
 from tests.engine.bundles import example, wired
 from tests.engine.resealed import resealed

@@ -16,7 +16,7 @@ from mindrun.errors import BundleError
 from mindrun.graph import Graph
 from mindrun.quantity import Quantity, Span
 from mindrun.registry import arguments, kinds, names
-from mindrun.robot.wiring import Wiring
+from mindrun.wiring import Wiring
 from mindrun.world import Zone
 
 from tests.engine.bundles import example, wired

@@ -21,7 +21,7 @@ from mindrun.robot.drivers.simulated import (
     SimulatedActuator,
     SimulatedSensor,
 )
-from mindrun.robot.wiring import ActuatorWire, SensorWire, Wiring
+from mindrun.wiring import ActuatorWire, SensorWire, Wiring
 
 PEER = struct.Struct("3i")
 

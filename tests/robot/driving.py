@@ -10,7 +10,7 @@ from typing import Any
 
 from mindrun.bundle import write_bundle
 from mindrun.robot.drivers.mock import MockActuator, MockSensor
-from mindrun.robot.wiring import ActuatorWire, SensorWire, Wiring
+from mindrun.wiring import ActuatorWire, SensorWire, Wiring
 
 from tests.robot.faults import MIND, SENSORS
 from tests.sim.minds import compile_text

@@ -6,14 +6,14 @@ from math import inf, nan
 from typing import Any
 
 import numpy as np
+from mindrun.driver import DeviceError
 from mindrun.engine import Engine
 from mindrun.graph import Graph
-from mindrun.robot.contract import DeviceError
 from mindrun.robot.loop import Loop
 from mindrun.robot.pace import Pace
 from mindrun.robot.sampling import Sampler
 from mindrun.robot.senses import Senses
-from mindrun.robot.wiring import SensorWire
+from mindrun.wiring import SensorWire
 from numpy.typing import NDArray
 
 from tests.sim.minds import compile_text

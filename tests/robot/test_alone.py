@@ -16,7 +16,7 @@ from mindrun.robot.drivers.mock import MockActuator
 from mindrun.robot.drivers.pca9685 import Pca9685
 from mindrun.robot.drivers.simulated import SimulatedActuator
 from mindrun.robot.recording import read
-from mindrun.robot.wiring import ActuatorWire, SensorWire, Wiring, still
+from mindrun.wiring import ActuatorWire, SensorWire, Wiring, still
 
 from tests.robot.driving import MINDRUN, NAME, begun, children, mindrun, recorded, until, write_procedure
 

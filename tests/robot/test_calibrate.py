@@ -1,8 +1,8 @@
 """The lines that `mindrun calibrate` prints can stand in robot.yaml."""
 
 from mindrun.robot.sampling import Sample
-from mindrun.robot.wiring import SensorWire
 from mindrun.tools.calibrate import found, lines
+from mindrun.wiring import SensorWire
 
 from tests.robot.faults import Scripted
 

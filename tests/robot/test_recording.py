@@ -15,7 +15,7 @@ from mindrun.robot.replay import replay
 from mindrun.robot.report import report
 from mindrun.robot.sampling import Sampler
 from mindrun.robot.senses import Senses
-from mindrun.robot.wiring import SensorWire
+from mindrun.wiring import SensorWire
 
 from tests.robot.faults import TICK, Clock, Scripted, Sent, bus_error, graph
 

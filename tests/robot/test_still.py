@@ -1,11 +1,11 @@
 """What may not move yet moves nothing: not even a camera's neck."""
 
 import pytest
-from mindrun.robot.contract import SensorDriver
+from mindrun.driver import SensorDriver
 from mindrun.robot.drivers.ball_tracker import BallTracker
 from mindrun.robot.drivers.lsm9ds1 import Compass, Motion, Turn
 from mindrun.robot.drivers.mock import MockSensor
-from mindrun.robot.wiring import SensorWire, still
+from mindrun.wiring import SensorWire, still
 
 
 def test_a_camera_looks_straight_ahead() -> None:

@@ -20,11 +20,11 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from mindrun.bundle import write_bundle
+from mindrun.driver import DeviceError
 from mindrun.engine import Engine
 from mindrun.errors import MindError
 from mindrun.graph import Graph
 from mindrun.registry import kinds
-from mindrun.robot.contract import DeviceError
 from mindrun.robot.drivers.simulated import (
     READ,
     REQUEST,
@@ -36,11 +36,11 @@ from mindrun.robot.drivers.simulated import (
     dry,
     status,
 )
-from mindrun.robot.wiring import flaws
 from mindrun.robot.world import Scene, Server, listening, requests, simulated
 from mindrun.sim.rollout import Rollout
 from mindrun.sim.trace import trace
 from mindrun.sim.world import World
+from mindrun.wiring import flaws
 
 from mindlang.compiler.compile import load
 from mindlang.run.casting import cast

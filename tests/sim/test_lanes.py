@@ -15,9 +15,9 @@ from mindrun.graph import Actuator, Edge, Reward, Sensor, Task, Thing
 from mindrun.memory import Cell
 from mindrun.quantity import Span
 from mindrun.sensors import Battery, Bearing, Derivative, RangeFinder, Sine
+from mindrun.sim.lanes.placement import uniform
 from mindrun.sim.lanes.sense import in_claw
 from mindrun.sim.lanes.step import LINGER
-from mindrun.sim.place import uniform
 from mindrun.sim.rollout import Rollout
 from mindrun.sim.trace import trace
 from mindrun.world import Arena, Item, Obstacle, Plain, Power, Zone

@@ -16,7 +16,7 @@ from itertools import chain
 
 from mindrun.errors import MindError
 from mindrun.robot.children import keep_from_children, keep_no_longer
-from mindrun.robot.wiring import Wiring
+from mindrun.wiring import Wiring
 
 PREFIX = b"\0mind "  # an address that begins with a zero is in no folder
 STREAMS = 3  # descriptors below this are standard input, output and error, whether they are there or not

@@ -10,15 +10,15 @@ from typing import Any
 
 from mindrun.bundle import LARGEST, Bundle, read_bundle
 from mindrun.default_task import default_task
+from mindrun.driver import DeviceError
 from mindrun.errors import MindError
 from mindrun.regular import read_whole
 from mindrun.robot.alone import alone
-from mindrun.robot.contract import DeviceError
 from mindrun.robot.drive import Wishes, drive
 from mindrun.robot.drivers.mock import MockActuator
 from mindrun.robot.identity import IdentityError, is_adopted
 from mindrun.robot.loop import Loop
-from mindrun.robot.wiring import still
+from mindrun.wiring import still
 
 
 def run(options: argparse.Namespace) -> int:

@@ -20,7 +20,7 @@ from mindrun.robot.recording import About, Recorder
 from mindrun.robot.sampling import Sampler
 from mindrun.robot.senses import Senses
 from mindrun.robot.stopping import Stop, stopping
-from mindrun.robot.wiring import Wiring, read_by
+from mindrun.wiring import Wiring, read_by
 
 PATIENCE = 10.0  # seconds for every sensor to have been measured once
 GRACE = 2.0  # seconds, or ticks where these are longer, in which a tick has to end once a signal has come

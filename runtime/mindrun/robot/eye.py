@@ -10,7 +10,7 @@ from typing import Any, Protocol
 
 import numpy as np
 
-from mindrun.robot.contract import ActuatorDevice, DeviceError
+from mindrun.driver import ActuatorDevice, DeviceError
 from mindrun.robot.parts import library
 from mindrun.robot.tracker import Aim, Ball, Frame, Look, Neck, blindness, find_ball, follow
 

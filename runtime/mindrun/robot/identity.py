@@ -13,7 +13,7 @@ from mindrun.durable import destination, write
 from mindrun.errors import MindError, reason
 from mindrun.graph import Graph
 from mindrun.regular import read_regular
-from mindrun.robot.wiring import Wiring
+from mindrun.wiring import Wiring
 
 LONGEST = 4096  # bytes of what a robot says
 

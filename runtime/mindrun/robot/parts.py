@@ -9,8 +9,8 @@ from importlib import import_module
 from time import monotonic, sleep
 from typing import Any, Protocol
 
+from mindrun.driver import DeviceError
 from mindrun.quantity import Quantity, Reference
-from mindrun.robot.contract import DeviceError
 
 PIN = Quantity("a GPIO number", {"": 1.0}, low=0, high=27, whole=True)  # as Broadcom counts, not as the header does
 BUS = Quantity("the number of an I2C bus", {"": 1.0}, low=0, high=99, whole=True)

@@ -6,8 +6,8 @@ from dataclasses import dataclass
 from math import inf, isfinite
 from time import monotonic
 
-from mindrun.robot.contract import DeviceError, SensorDevice
-from mindrun.robot.wiring import SensorWire
+from mindrun.driver import DeviceError, SensorDevice
+from mindrun.wiring import SensorWire
 
 
 @dataclass(frozen=True, slots=True)

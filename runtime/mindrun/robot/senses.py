@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from mindrun.graph import Graph, Sensor
 from mindrun.robot.sampling import Sample
-from mindrun.robot.wiring import SensorWire, reading
+from mindrun.wiring import SensorWire, reading
 
 FINE, UNMEASURED, FAILED, STALE = range(4)  # what is wrong with a sensor in a tick
 WORDS = ("fine", "not measured yet", "failed", "too old")

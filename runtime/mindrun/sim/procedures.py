@@ -22,10 +22,10 @@ from mindrun.functions import Procedure
 from mindrun.functions.procedure import call as ask
 from mindrun.functions.procedure import load, module_source
 from mindrun.graph import Graph, Skill
+from mindrun.sim.arithmetic import F
 from mindrun.sim.compiling import compiled
 from mindrun.sim.exact import exactly
 from mindrun.sim.formulas import NoFormulaError, formula
-from mindrun.sim.lanes.arithmetic import F
 from mindrun.weights import reachable
 
 # the lane in which it fails or −1; inputs, outputs, lanes, the distance between rows in floats

@@ -12,8 +12,8 @@ from numpy.typing import NDArray
 
 from mindrun.functions import drawn
 from mindrun.graph import Graph
-from mindrun.sim import chipmunk
 from mindrun.sim.codes import ITEM
+from mindrun.sim.lanes import chipmunk
 from mindrun.sim.lanes.advance import advance, fill
 from mindrun.sim.procedures import Procedures
 from mindrun.sim.slow import Memories, advance_slowly

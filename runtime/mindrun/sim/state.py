@@ -6,8 +6,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mindrun.sim.codes import AWAY, INERTIAL_TICKS
-from mindrun.sim.lanes.vector import WIDE
 from mindrun.sim.tables import Sizes, Tables
+from mindrun.sim.vector import WIDE
 
 Array = NDArray[Any]
 

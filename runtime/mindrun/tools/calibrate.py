@@ -20,10 +20,10 @@ from mindrun.arguments import real
 from mindrun.bundle import read_bundle
 from mindrun.errors import MindError
 from mindrun.robot.sampling import Sample, Sampler
-from mindrun.robot.wiring import SensorWire, reading, still
 from mindrun.sensors import Bearing, RangeFinder
 from mindrun.streams import draw
 from mindrun.visible import visible
+from mindrun.wiring import SensorWire, reading, still
 
 MOST = 3600.0  # seconds
 REST = 10  # values that follow one another, over which noise is measured

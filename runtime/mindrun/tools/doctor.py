@@ -20,7 +20,7 @@ import mindrun.robot.drivers  # noqa: F401  every driver is known once this is i
 from mindrun.bundle import read_bundle
 from mindrun.registry import names
 from mindrun.robot.sampling import Sample, Sampler
-from mindrun.robot.wiring import SensorWire, Wiring, still
+from mindrun.wiring import SensorWire, Wiring, still
 
 PATIENCE = 3.0  # seconds for a sensor to answer
 PACKAGES = {  # that drivers may need, and the line that installs each

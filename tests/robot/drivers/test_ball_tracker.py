@@ -8,12 +8,12 @@ from time import monotonic, sleep
 import cv2
 import numpy as np
 import pytest
+from mindrun.driver import DeviceError
 from mindrun.robot import eye, parts
-from mindrun.robot.contract import DeviceError
 from mindrun.robot.drivers import ball_tracker
 from mindrun.robot.drivers.ball_tracker import BallTracker
 from mindrun.robot.tracker import Frame, focal_length
-from mindrun.robot.wiring import SensorWire, reading
+from mindrun.wiring import SensorWire, reading
 
 from tests.robot.drivers.fakes import FakeBus, FakePca9685
 from tests.robot.drivers.frames import HEIGHT, VIEW, WIDTH, FakeCamera, ball, column, room, taken

@@ -8,9 +8,9 @@ from time import monotonic
 from typing import Annotated, get_origin, get_type_hints
 
 import pytest
+from mindrun.driver import DeviceError, SensorDevice
 from mindrun.registry import kinds
 from mindrun.robot import drivers
-from mindrun.robot.contract import DeviceError, SensorDevice
 from mindrun.robot.drivers import ball_tracker
 
 from tests.robot.drivers.worlds import ACTUATORS, ANYTHING, SENSORS, World

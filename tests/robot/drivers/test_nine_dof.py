@@ -1,11 +1,11 @@
 """The 9-dof sensor and the battery: physical quantities in their units, the right way round."""
 
 import pytest
+from mindrun.driver import DeviceError
 from mindrun.robot import parts
-from mindrun.robot.contract import DeviceError
 from mindrun.robot.drivers.ads1115 import Ads1115
 from mindrun.robot.drivers.lsm9ds1 import Compass, Motion, Turn
-from mindrun.robot.wiring import SensorWire, reading
+from mindrun.wiring import SensorWire, reading
 
 from tests.robot.drivers.fakes import FakeAds1115, FakeBus, FakeLsm9ds1
 

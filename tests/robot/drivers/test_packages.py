@@ -5,8 +5,8 @@ import sys
 from types import SimpleNamespace
 
 import pytest
+from mindrun.driver import DeviceError
 from mindrun.robot import parts
-from mindrun.robot.contract import DeviceError
 from mindrun.robot.drivers.switch import Switch
 
 WITHOUT = """
@@ -15,7 +15,7 @@ for name in ("cv2", "smbus2", "gpiozero", "lgpio", "RPi"):
     sys.modules[name] = None
 import mindrun.robot.drivers
 from mindrun.registry import kinds
-from mindrun.robot.contract import DeviceError
+from mindrun.driver import DeviceError
 needed = {"ultrasonic": {"trigger": (5,), "echo": (6,)}, "grove_ultrasonic": {"ports": (4,)}, "switch": {"pin": 5},
     "pca9685": {"channel": 0}, "grove_motor": {"motor": 1}}
 for noun in ("sensor driver", "actuator driver"):

@@ -3,8 +3,8 @@
 from time import monotonic
 
 import pytest
+from mindrun.driver import DeviceError
 from mindrun.robot import parts
-from mindrun.robot.contract import DeviceError
 from mindrun.robot.drivers.grove_ultrasonic import GroveUltrasonic
 from mindrun.robot.drivers.ultrasonic import Ultrasonic, firing_order
 

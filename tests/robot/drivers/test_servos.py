@@ -1,8 +1,8 @@
 """Servos on a PCA9685: pulses of the right width, other channels left alone, and lost settings noticed."""
 
 import pytest
+from mindrun.driver import DeviceError
 from mindrun.robot import parts
-from mindrun.robot.contract import DeviceError
 from mindrun.robot.drivers.pca9685 import COUNT, Pca9685
 
 from tests.robot.drivers.fakes import FakeBus, FakePca9685

@@ -4,8 +4,8 @@ from math import isclose
 from random import Random
 
 import pytest
+from mindrun.driver import DeviceError
 from mindrun.robot import parts
-from mindrun.robot.contract import DeviceError
 from mindrun.robot.drivers import grove_motor
 from mindrun.robot.drivers.grove_motor import GroveMotor, MotorDevice
 

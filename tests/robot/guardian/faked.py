@@ -5,7 +5,7 @@ from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
 from unittest.mock import patch
 
-from mindrun.robot.contract import DeviceError
+from mindrun.driver import DeviceError
 from mindrun.robot.guardian.frames import pack
 from mindrun.robot.guardian.plan import Channel, Plan
 from mindrun.robot.guardian.process import Process

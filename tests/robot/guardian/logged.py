@@ -18,8 +18,8 @@ from dataclasses import dataclass
 from importlib import import_module
 from itertools import count
 
+from mindrun.driver import DeviceError
 from mindrun.registry import kind
-from mindrun.robot.contract import DeviceError
 from mindrun.robot.guardian.__main__ import main
 from mindrun.robot.guardian.plan import DRIVERS
 from mindrun.robot.guardian.urgent import import_little

@@ -10,7 +10,7 @@ from time import monotonic, sleep
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from mindrun.robot.contract import DeviceError
+from mindrun.driver import DeviceError
 from mindrun.robot.drivers.mock import MockActuator
 from mindrun.robot.guardian.frames import pack
 from mindrun.robot.guardian.guard import FOLLOWING

@@ -17,7 +17,7 @@ from mindrun.robot.drivers.pca9685 import Pca9685
 from mindrun.robot.drivers.simulated import SimulatedActuator
 from mindrun.robot.guardian.client import PROGRAM
 from mindrun.robot.guardian.plan import Channel, Plan, PlanError, checked, from_json, plan_of, read_plan, to_json
-from mindrun.robot.wiring import ActuatorWire, Wiring
+from mindrun.wiring import ActuatorWire, Wiring
 
 from tests.minds import always, mind, rule
 

@@ -7,7 +7,7 @@ from math import inf
 from select import select
 
 import pytest
-from mindrun.robot.contract import DeviceError
+from mindrun.driver import DeviceError
 from mindrun.robot.guardian.frames import pack
 from mindrun.robot.guardian.plan import Channel, Plan
 from mindrun.robot.guardian.process import Process

@@ -6,10 +6,10 @@ from threading import Lock, Thread
 from time import sleep
 from typing import Annotated
 
+from mindrun.driver import DeviceError
 from mindrun.quantity import COUNT, RATIO, Quantity, Reference
 from mindrun.registry import kind
 from mindrun.robot import eye
-from mindrun.robot.contract import DeviceError
 from mindrun.robot.drivers.pca9685 import Pca9685
 from mindrun.robot.eye import Eye, Joint, Sight
 from mindrun.robot.parts import ADDRESS, BUS, CHANNEL, DEGREES, METRES, MICROSECONDS, PATH, on_bus

@@ -6,9 +6,9 @@ from threading import Lock
 from time import monotonic, sleep
 from typing import Annotated
 
+from mindrun.driver import DeviceError
 from mindrun.quantity import Quantity
 from mindrun.registry import kind
-from mindrun.robot.contract import DeviceError
 from mindrun.robot.parts import ADDRESS, BUS, Wire, on_bus, share
 
 MOTOR = Quantity("a motor of the board", {"": 1.0}, low=1, high=2, whole=True)

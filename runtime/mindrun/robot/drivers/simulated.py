@@ -12,12 +12,12 @@ from struct import Struct, unpack
 from time import monotonic
 from typing import Annotated, Any
 
+from mindrun.driver import DeviceError
 from mindrun.graph import Graph
 from mindrun.quantity import COUNT, Reference
 from mindrun.readings import physical
 from mindrun.registry import kind
-from mindrun.robot.contract import DeviceError
-from mindrun.robot.wiring import ActuatorWire, SensorWire, Wiring
+from mindrun.wiring import ActuatorWire, SensorWire, Wiring
 
 READ, WRITE, STATUS = b"R", b"W", b"S"
 REQUEST = Struct("<cHd")  # what, length of the name, value; then the name in UTF-8

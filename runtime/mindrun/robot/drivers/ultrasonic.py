@@ -6,8 +6,8 @@ from threading import Event
 from time import monotonic, sleep
 from typing import Annotated, Any
 
+from mindrun.driver import DeviceError
 from mindrun.registry import kind
-from mindrun.robot.contract import DeviceError
 from mindrun.robot.parts import METRES, PIN, library, pins
 
 SOUND = 343.2  # metres a second, at 20 °C

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from threading import Condition, Thread
 from time import monotonic
 
-from mindrun.robot.contract import ActuatorDevice
+from mindrun.driver import ActuatorDevice
 
 SOON, LATER = 0.002, 0.05  # seconds between two tries: at first, and in the end
 

@@ -12,15 +12,15 @@ from math import isfinite
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, NoReturn, get_args, get_origin, get_type_hints
 
+from mindrun.driver import ActuatorDriver
 from mindrun.errors import MindError
 from mindrun.quantity import RATIO, SECONDS, Quantity, Reference, fits
 from mindrun.registry import kinds, names
 from mindrun.regular import read_regular
-from mindrun.robot.contract import ActuatorDriver
 from mindrun.robot.guardian.frames import MOST
 
 if TYPE_CHECKING:
-    from mindrun.robot.wiring import Wiring  # which needs numpy
+    from mindrun.wiring import Wiring  # which needs numpy
 
 DRIVERS = "mindrun.robot.drivers"
 LARGEST = 1 << 20  # bytes

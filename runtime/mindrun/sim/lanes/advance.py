@@ -2,16 +2,16 @@
 
 import numpy as np
 
-from mindrun.sim.chipmunk import close_space
+from mindrun.sim.arithmetic import sine_cosine
 from mindrun.sim.codes import GOING_ON, INERTIAL_TICKS, LOST, VISIT
 from mindrun.sim.compiling import compiled, entry
 from mindrun.sim.lanes.act import act, recall
-from mindrun.sim.lanes.arithmetic import sine_cosine
+from mindrun.sim.lanes.chipmunk import close_space
 from mindrun.sim.lanes.judge import judge, patch_of
+from mindrun.sim.lanes.placement import draw
 from mindrun.sim.lanes.sense import sense
 from mindrun.sim.lanes.step import is_lost, step, within
 from mindrun.sim.lanes.think import begin, think
-from mindrun.sim.place import draw
 
 ASIDE = np.uint64(0xD1B54A32D192ED03)  # what no skill reads draws from a generator of its own
 

@@ -5,8 +5,8 @@ Nothing here depends on whether a line of the task names the event: what measure
 
 from mindrun.sim.codes import ITEM, MOVES, STAYS, VANISHES, ZONE
 from mindrun.sim.compiling import compiled
+from mindrun.sim.lanes.placement import succeed, vanish
 from mindrun.sim.lanes.sense import in_claw, inside
-from mindrun.sim.place import succeed, vanish
 
 BEGUN = 1  # in this tick and not in the one before
 

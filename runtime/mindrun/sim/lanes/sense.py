@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from mindrun.sim.arithmetic import HALF, HUGE, ONE, ZERO, F, bearing, clamp, sine_cosine
 from mindrun.sim.codes import (
     AWAY,
     BATTERY,
@@ -16,9 +17,8 @@ from mindrun.sim.codes import (
     SINE,
 )
 from mindrun.sim.compiling import compiled
-from mindrun.sim.lanes.arithmetic import HALF, HUGE, ONE, ZERO, F, bearing, clamp, sine_cosine
-from mindrun.sim.lanes.vector import HIGHEST, LOWEST, WIDE, load, splat, store, where_ordered
-from mindrun.sim.place import uniform
+from mindrun.sim.lanes.placement import uniform
+from mindrun.sim.vector import HIGHEST, LOWEST, WIDE, load, splat, store, where_ordered
 
 SLACK = 2.0  # how far a robot may move before the boxes near it are chosen anew
 

@@ -1,10 +1,10 @@
 """Step: one tick of physics. Free flight is plain arithmetic in Chipmunk's order; Chipmunk steps what could touch."""
 
-from mindrun.sim.chipmunk import open_space, push_body, step_space
+from mindrun.sim.arithmetic import sine_cosine
 from mindrun.sim.codes import FAR, FORCE, FORCE_X, FORCE_Y, TORQUE, WHEEL_LEFT, WHEEL_RIGHT
 from mindrun.sim.compiling import compiled
 from mindrun.sim.lanes.act import carry
-from mindrun.sim.lanes.arithmetic import sine_cosine
+from mindrun.sim.lanes.chipmunk import open_space, push_body, step_space
 from mindrun.sim.lanes.sense import SLACK
 
 MARGIN = 0.01  # beyond the rounding of any distance here

@@ -1,11 +1,11 @@
 """Think: influence flows down the hierarchy (Eq. 2) and the skills that have some compute what they send (Eq. 1)."""
 
+from mindrun.sim.arithmetic import ONE, ZERO, F, clamp, finite
 from mindrun.sim.codes import MLP, PROCEDURE
 from mindrun.sim.compiling import compiled
-from mindrun.sim.lanes.arithmetic import ONE, ZERO, F, clamp, finite
 from mindrun.sim.lanes.evaluate import evaluate
-from mindrun.sim.lanes.vector import WIDE, broadcast, load, sigmoids, splat, store
 from mindrun.sim.procedures import call
+from mindrun.sim.vector import WIDE, broadcast, load, sigmoids, splat, store
 
 NOT_SENT = F(-1)
 

@@ -8,10 +8,10 @@ from dataclasses import dataclass, replace
 from math import isfinite, nan
 from typing import Annotated
 
+from mindrun.driver import ActuatorDriver, SensorDriver
 from mindrun.graph import Graph
 from mindrun.quantity import NUMBER, RATIO, Quantity, Reference
 from mindrun.readings import physical
-from mindrun.robot.contract import ActuatorDriver, SensorDriver
 from mindrun.sensors import Derivative
 from mindrun.weights import reachable
 

@@ -6,9 +6,9 @@ the same world. Everything is placed clear of everything else, with room for the
 
 import numpy as np
 
+from mindrun.sim.arithmetic import sine_cosine
 from mindrun.sim.codes import FAR
 from mindrun.sim.compiling import compiled
-from mindrun.sim.lanes.arithmetic import sine_cosine
 
 GOLDEN, MIX_1, MIX_2 = np.uint64(0x9E3779B97F4A7C15), np.uint64(0xBF58476D1CE4E5B9), np.uint64(0x94D049BB133111EB)
 S30, S27, S31, S11 = np.uint64(30), np.uint64(27), np.uint64(31), np.uint64(11)
