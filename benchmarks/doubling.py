@@ -23,15 +23,15 @@ from mindlang.compiler.compile import Compiled, compile_source
 from mindlang.compiler.drawing import dot, tree
 from mindlang.compiler.format import formatted
 from mindlang.compiler.source import Source
-from mindlang.editing.carry_out import carry_out
+from mindlang.diagnostic_printer import as_data, print_report
+from mindlang.editing.apply import carry_out
 from mindlang.editing.project import EditError, open_project
-from mindlang.editing.telling import diff, told
+from mindlang.editing.summary import diff, told
 from mindlang.edits import edit
 from mindlang.linting.fixing import fixed
 from mindlang.linting.lint import lint
 from mindlang.lock.report import report, rows
 from mindlang.proofs.proof import prove
-from mindlang.report import as_data, print_report
 from mindlang.server.changing import perform
 from mindlang.server.completing import complete
 from mindlang.server.hovering import hover
@@ -42,7 +42,7 @@ from mindlang.server.proposals import proposals
 from mindlang.server.selection import Selection
 from mindlang.server.session import Session
 from mindlang.server.tidying import tidied
-from mindlang.unified import unified
+from mindlang.unified_diff import unified
 
 LINEAR = 2.8  # what shapes with names of more digits, or that change into one another, come to by themselves
 

@@ -16,7 +16,7 @@ from pathlib import Path
 from random import Random
 from tempfile import TemporaryDirectory
 
-from mindrun.visible import visible
+from mindrun.printable import visible
 
 from benchmarks.sources import source
 from mindlang.compiler.comparison import differences
@@ -24,18 +24,18 @@ from mindlang.compiler.compile import Compiled, compile_source
 from mindlang.compiler.format import formatted
 from mindlang.compiler.source import Source
 from mindlang.compiler.splice import spliced
+from mindlang.diagnostic_printer import as_data, plain
 from mindlang.linting.lint import lint
 from mindlang.lock.report import rows
 from mindlang.lock.status import NotLearning, status
 from mindlang.proofs.proof import prove
-from mindlang.report import as_data, plain
 from mindlang.server.completing import complete
-from mindlang.server.desk import Desk
 from mindlang.server.hovering import hover
+from mindlang.server.lsp_types import Wire
 from mindlang.server.mending import all_mended, mendings
 from mindlang.server.navigating import definitions, highlights, references, symbols
 from mindlang.server.tidying import tidied
-from mindlang.server.wire import Wire
+from mindlang.server.workspace import Desk
 
 SOON = 2.0  # seconds of the processor
 END = 30.0  # after which a case is ended

@@ -10,7 +10,7 @@ from statistics import median
 
 import numpy as np
 from mindrun.learners import Genetic
-from mindrun.train.breeding import ask, tell
+from mindrun.train.ask_and_tell import ask, tell
 from mindrun.train.population import Genomes, nobody
 
 SIZES = [(100, 28), (100, 450), (128, 500), (300, 1610)]

@@ -7,7 +7,7 @@ import time
 
 import cv2
 import numpy as np
-from mindrun.robot.tracker import Frame, Look, find_ball
+from mindrun.robot.ball_detection import Frame, Look, find_ball
 
 WIDTH, HEIGHT = 320, 240
 FRAMES = 50

@@ -40,7 +40,7 @@ def console(stderr: bool = False) -> Console:
 
 def say(message: str, hint: str = "") -> None:
     """Print a message and what to do about it on stderr."""
-    from mindrun.visible import visible
+    from mindrun.printable import visible
     from rich.text import Text
 
     console(stderr=True).print(Text(visible(message), "red"))
@@ -61,7 +61,7 @@ def print_json(value: object) -> None:
 
 def print_document(text: str) -> None:
     """What programs read, on stdout: in UTF-8 on any terminal."""
-    from mindrun.streams import document
+    from mindrun.standard_streams import document
 
     document(text)
 
@@ -75,7 +75,7 @@ def procedures_talk() -> Iterator[None]:
 
 def refuse_unwritable(path: Path | None, *suffixes: str) -> None:
     """End the program where no picture could be written to `path`, before any work is done."""
-    from mindrun.durable import refuse
+    from mindrun.atomic_write import refuse
 
     if path is None:
         return
@@ -89,7 +89,7 @@ def refuse_unwritable(path: Path | None, *suffixes: str) -> None:
 
 def write_picture(path: Path, data: bytes) -> None:
     """Write a picture that is done; where that fails the program ends, and the old one is still there."""
-    from mindrun.durable import write_out
+    from mindrun.atomic_write import write_out
 
     try:
         write_out(path, data)
@@ -99,7 +99,7 @@ def write_picture(path: Path, data: bytes) -> None:
 
 def take_back(path: Path | str) -> None:
     """Take back an edit of a file that was interrupted; end the program where that would lose work."""
-    from mindlang.journal import JournalError, recover
+    from mindlang.transaction import JournalError, recover
 
     folder = Path(path).absolute().parent
     try:
@@ -112,7 +112,7 @@ def take_back(path: Path | str) -> None:
 def load_compiled(path: Path | str) -> Compiled:
     """The compiled file; its report goes to stderr, and a file with errors ends the program (2 when unreadable)."""
     from mindlang.compiler.compile import load
-    from mindlang.report import print_report
+    from mindlang.diagnostic_printer import print_report
 
     take_back(path)
     compiled = load(path)

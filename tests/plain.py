@@ -5,9 +5,9 @@ import math
 import numpy as np
 from mindrun.functions import Mlp
 from mindrun.functions.mlp import layers
-from mindrun.portable import sine
 from mindrun.sensors import Bearing, Derivative, Sine
 from mindrun.sigmoid import DENOMINATOR, LIMIT, NUMERATOR
+from mindrun.trigonometry import sine
 
 f = np.float32
 

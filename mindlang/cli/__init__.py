@@ -8,7 +8,7 @@ from pkgutil import iter_modules
 from threading import active_count
 
 import click
-from mindrun import streams
+from mindrun import standard_streams as streams
 
 from mindlang.terminal import FINDINGS, INTERRUPTED, MISUSE, OK, say
 

@@ -46,7 +46,7 @@ def command(
     from mindrun.sim.rollout import cores
 
     from mindlang.run import outcome
-    from mindlang.run.stage import Stage, layouts
+    from mindlang.run.session import Stage, layouts
     from mindlang.run.summary import bench_summary
     from mindlang.terminal import console, print_json
 

@@ -82,7 +82,7 @@ def command(file: str, output: Path, master: str | None, robot: Path | None, as_
 def _refuse_procedures(compiled: Compiled, master: str | None) -> None:
     """End the program where a procedure cannot be what its skill needs."""
     from mindlang.compiler.procedures import mistakes
-    from mindlang.report import print_report
+    from mindlang.diagnostic_printer import print_report
     from mindlang.terminal import FINDINGS, console
 
     assert compiled.graph is not None
@@ -93,7 +93,7 @@ def _refuse_procedures(compiled: Compiled, master: str | None) -> None:
 
 def _wiring(path: Path, graph: Graph) -> Wiring:
     """What the mind is wired to; its report goes to stderr, and one with errors ends the program."""
-    from mindlang.report import print_report
+    from mindlang.diagnostic_printer import print_report
     from mindlang.terminal import FINDINGS, MISUSE, console
     from mindlang.wiring.wire import load_wiring
 

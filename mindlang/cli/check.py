@@ -23,8 +23,8 @@ def command(files: tuple[str, ...], as_json: bool) -> None:
     Ends with 0 when nothing is wrong, with 1 when something is, with 2 when a file cannot be read.
     """
     from mindlang.compiler.procedures import mistakes
+    from mindlang.diagnostic_printer import as_data, print_report
     from mindlang.editing.neighbours import minds
-    from mindlang.report import as_data, print_report
     from mindlang.terminal import FINDINGS, MISUSE, OK, console, print_json, take_back
 
     for file in files:

@@ -132,7 +132,7 @@ def _do(
 
 
 def _list(robot: Robot, as_json: bool) -> None:
-    from mindrun.visible import visible
+    from mindrun.printable import visible
 
     from mindlang.deploying.state import look
     from mindlang.terminal import print_json

@@ -20,7 +20,7 @@ def command(code: str | None, as_json: bool) -> None:
     With a wrong example and a right one. The code stands in brackets at the end of a message. CODE can be a driver of
     a robot.yaml, too: what it is, and what it can be told. Ends with 0, or with 2 where there is no such code.
     """
-    from mindrun.visible import visible
+    from mindrun.printable import visible
     from rich.text import Text
 
     from mindlang.compiler.diagnostic import did_you_mean

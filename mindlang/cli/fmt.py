@@ -40,7 +40,7 @@ def _tidy(file: str, check: bool, diff: bool) -> int:
     from mindlang.compiler.diagnostic import Findings
     from mindlang.compiler.parse import parse
     from mindlang.compiler.source import Source
-    from mindlang.report import print_report
+    from mindlang.diagnostic_printer import print_report
     from mindlang.terminal import FINDINGS, MISUSE, console, take_back
 
     take_back(file)
@@ -58,12 +58,12 @@ def _tidy(file: str, check: bool, diff: bool) -> int:
 
 def _put(file: str, source: Source, check: bool, diff: bool) -> int:
     """The tidy text put where it belongs."""
-    from mindrun.durable import rewrite
+    from mindrun.atomic_write import rewrite
 
     from mindlang.compiler.format import formatted
     from mindlang.compiler.source import encoded
     from mindlang.terminal import FINDINGS, OK, fail, print_document
-    from mindlang.unified import unified
+    from mindlang.unified_diff import unified
 
     text = formatted(source.text)
     is_tidy = text == source.text

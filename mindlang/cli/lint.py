@@ -80,7 +80,7 @@ def _codes(said: Sequence[str]) -> list[str]:
 
 
 def _print(found: Sequence[Diagnostic], as_: str) -> None:
-    from mindlang.report import as_data, print_report
+    from mindlang.diagnostic_printer import as_data, print_report
     from mindlang.terminal import console, print_json
 
     match as_:

@@ -37,9 +37,9 @@ def _migrate(file: str, write: bool) -> int:
     from mindlang.compiler.diagnostic import Findings
     from mindlang.compiler.migration import migrated
     from mindlang.compiler.source import Source
-    from mindlang.report import print_report
+    from mindlang.diagnostic_printer import print_report
     from mindlang.terminal import FINDINGS, MISUSE, OK, console, print_document, take_back
-    from mindlang.unified import unified
+    from mindlang.unified_diff import unified
 
     take_back(file)
     source = read_main(file)
@@ -61,7 +61,7 @@ def _migrate(file: str, write: bool) -> int:
 
 
 def _write(file: str, source: Source, text: str) -> None:
-    from mindrun.durable import rewrite
+    from mindrun.atomic_write import rewrite
 
     from mindlang.compiler.source import encoded
     from mindlang.terminal import fail

@@ -12,7 +12,7 @@ from mindlang.cli._options import NewFile
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from mindlang.pictures.log import Curve
+    from mindlang.pictures.learning_log import Curve
 
 EXAMPLES = """\b
 Examples:
@@ -41,7 +41,7 @@ def command(runs: tuple[Path, ...], output: Path, as_json: bool, quiet: bool) ->
     from mindrun.errors import MindError
     from mindrun.train.errors import NotFoundError
 
-    from mindlang.pictures.log import load_curves
+    from mindlang.pictures.learning_log import load_curves
     from mindlang.terminal import MISUSE, fail, print_json, refuse_unwritable, write_picture
 
     if find_spec("matplotlib") is None:

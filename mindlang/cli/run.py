@@ -49,7 +49,7 @@ def command(
     import secrets
 
     from mindlang.run import outcome
-    from mindlang.run.stage import Stage
+    from mindlang.run.session import Stage
     from mindlang.run.summary import run_summary
     from mindlang.terminal import console, print_json, refuse_unwritable
 

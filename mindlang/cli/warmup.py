@@ -21,7 +21,7 @@ def command(as_json: bool) -> None:
     """
     from mindrun.sim import cache, warmup
 
-    from mindlang.simulator import WAIT
+    from mindlang.simulator_compilation import WAIT
     from mindlang.terminal import FINDINGS, OK, console, fail, print_json
 
     had = warmup.is_native()

@@ -5,7 +5,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
-from mindrun.durable import descriptor_of
+from mindrun.atomic_write import descriptor_of
 from mindrun.errors import reason
 from mindrun.graph import Graph
 

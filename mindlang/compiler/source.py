@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 from functools import lru_cache
 from pathlib import Path
 
-from mindrun.regular import read_regular
+from mindrun.regular_files import read_regular
 
 LIMIT = 1 << 20  # bytes
 LARGE = f"is larger than {LIMIT >> 20} MiB"

@@ -5,7 +5,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from mindrun.errors import reason
-from mindrun.regular import read_regular
+from mindrun.regular_files import read_regular
 
 from mindlang.compiler.diagnostic import Findings
 from mindlang.compiler.parse import parse

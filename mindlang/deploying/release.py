@@ -10,7 +10,7 @@ from pathlib import Path
 
 import mindrun
 from mindrun.bundle import LARGEST, Bundle
-from mindrun.regular import read_whole
+from mindrun.regular_files import read_whole
 
 from mindlang.deploying.unit import ARMED, SERVICE, unit
 

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from datetime import UTC, datetime, timedelta
 
-from mindrun.plain_data import parsed
+from mindrun.strict_json import parsed
 
 from mindlang.deploying.errors import DeployError
 from mindlang.deploying.robot import Robot, Told

@@ -6,12 +6,12 @@ from dataclasses import dataclass
 from typing import Any
 
 from mindlang.compiler.diagnostic import Diagnostic, listed
-from mindlang.editing.carry_out import Edited, carry_out
+from mindlang.diagnostic_printer import as_data, print_report
+from mindlang.editing.apply import Edited, carry_out
 from mindlang.editing.project import EditError, open_project
-from mindlang.editing.telling import broken, diff, told
+from mindlang.editing.summary import broken, diff, told
 from mindlang.editing.writing import changed_locks, write
 from mindlang.edits import Edit
-from mindlang.report import as_data, print_report
 from mindlang.terminal import FINDINGS, MISUSE, console, fail, load_compiled, print_document, print_json, talk
 
 

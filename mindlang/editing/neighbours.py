@@ -5,7 +5,7 @@ from os.path import realpath
 from pathlib import Path
 
 from mindlang.compiler.compile import Compiled, load
-from mindlang.nearby import above, as_many, beside, text_of
+from mindlang.file_search import above, as_many, beside, text_of
 
 
 def neighbours(files: Collection[Path]) -> Iterator[Compiled]:

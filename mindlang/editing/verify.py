@@ -13,9 +13,9 @@ from mindrun.sim.trace import trace
 from mindrun.weights import Weights, genes, reachable, weights_of
 from numpy.typing import NDArray
 
-from mindlang import simulator
-from mindlang.editing.carry_out import Edited
-from mindlang.editing.follow import Names, merged, new_names, now_called
+from mindlang import simulator_compilation as simulator
+from mindlang.editing.apply import Edited
+from mindlang.editing.lock_update import Names, merged, new_names, now_called
 from mindlang.editing.project import EditError
 from mindlang.editing.references import READ
 from mindlang.lock import Lock

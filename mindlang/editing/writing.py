@@ -5,12 +5,12 @@ from contextlib import ExitStack
 from pathlib import Path
 
 from mindrun.npy import to_npy
-from mindrun.regular import read_regular
+from mindrun.regular_files import read_regular
 
-from mindlang import journal
+from mindlang import transaction as journal
 from mindlang.compiler.source import LIMIT, decode, encoded
-from mindlang.editing.carry_out import Edited
-from mindlang.editing.follow import locks_of
+from mindlang.editing.apply import Edited
+from mindlang.editing.lock_update import locks_of
 from mindlang.editing.project import EditError
 from mindlang.lock import lock_text
 from mindlang.lock.blobs import FOLDER, alone

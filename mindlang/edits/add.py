@@ -9,7 +9,7 @@ from mindlang.compiler.parse import parse
 from mindlang.compiler.source import Source, Span
 from mindlang.compiler.splice import Splice
 from mindlang.compiler.syntax import Declaration, Fact, File
-from mindlang.editing.page import FACTS, INDENT, NOUNS, below_siblings, commented, declare, text_of
+from mindlang.editing.insertion import FACTS, INDENT, NOUNS, below_siblings, commented, declare, text_of
 from mindlang.editing.project import Change, EditError, Project, owner
 
 

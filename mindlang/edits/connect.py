@@ -4,8 +4,8 @@ from typing import Annotated
 
 from mindlang.compiler.diagnostic import a
 from mindlang.compiler.syntax import Drives, Influences, Reads
+from mindlang.editing.insertion import below_siblings
 from mindlang.editing.naming import refuse_lines
-from mindlang.editing.page import below_siblings
 from mindlang.editing.project import Change, EditError, Project
 
 VERBS = {"skill": Influences, "actuator": Drives, "memory": Drives, "sensor": Reads}

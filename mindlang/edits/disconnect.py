@@ -2,7 +2,7 @@
 
 from mindlang.compiler.diagnostic import Label, did_you_mean
 from mindlang.compiler.syntax import Drives, Influences, Reads
-from mindlang.editing.page import without_fact
+from mindlang.editing.insertion import without_fact
 from mindlang.editing.project import Change, EditError, Project
 
 

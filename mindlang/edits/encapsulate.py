@@ -2,8 +2,8 @@
 
 from typing import Annotated
 
+from mindlang.editing.insertion import INDENT, declare, instead
 from mindlang.editing.naming import refuse_lines, refuse_misnamed
-from mindlang.editing.page import INDENT, declare, instead
 from mindlang.editing.project import Change, Project, Replaced, influence
 
 

@@ -4,8 +4,8 @@ from typing import Annotated
 
 from mindlang.compiler.diagnostic import did_you_mean
 from mindlang.compiler.syntax import Declaration, Influences, Reads
+from mindlang.editing.insertion import declare_below, indentation, instead_of_line, line_of, without_fact
 from mindlang.editing.naming import refuse_lines, refuse_misnamed
-from mindlang.editing.page import declare_below, indentation, instead_of_line, line_of, without_fact
 from mindlang.editing.project import Change, EditError, Project, facts, influence, kind_of
 
 

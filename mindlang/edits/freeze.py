@@ -1,7 +1,7 @@
 """`mindc edit freeze`."""
 
 from mindlang.compiler.syntax import Stays
-from mindlang.editing.page import below_siblings
+from mindlang.editing.insertion import below_siblings
 from mindlang.editing.project import Change, EditError, Project, facts
 
 

@@ -2,7 +2,7 @@
 
 from mindlang.compiler.splice import Splice
 from mindlang.compiler.syntax import Declaration, Drives, Influences, Phrase, Reads
-from mindlang.editing.page import (
+from mindlang.editing.insertion import (
     below_siblings,
     indentation,
     instead_of_line,

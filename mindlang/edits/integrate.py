@@ -3,7 +3,7 @@
 from typing import Annotated
 
 from mindlang.compiler.syntax import Influences, Reads
-from mindlang.editing.page import below_siblings
+from mindlang.editing.insertion import below_siblings
 from mindlang.editing.project import Change, EditError, Project, influence, kind_of
 
 

@@ -4,7 +4,7 @@ from typing import Annotated
 
 from mindlang.compiler.diagnostic import did_you_mean
 from mindlang.compiler.syntax import NOUNS, Declaration
-from mindlang.editing.page import without_declarations, without_fact
+from mindlang.editing.insertion import without_declarations, without_fact
 from mindlang.editing.project import Change, EditError, Project, owner
 
 

@@ -4,8 +4,8 @@ from typing import Annotated
 
 from mindlang.compiler.diagnostic import Label, a, listed
 from mindlang.compiler.syntax import NOUNS, Rewards
+from mindlang.editing.insertion import instead
 from mindlang.editing.naming import refuse_misnamed
-from mindlang.editing.page import instead
 from mindlang.editing.project import (
     Change,
     EditError,

@@ -3,7 +3,7 @@
 from mindlang.compiler.diagnostic import listed
 from mindlang.compiler.hierarchy import reached
 from mindlang.compiler.syntax import Influences
-from mindlang.editing.page import instead
+from mindlang.editing.insertion import instead
 from mindlang.editing.project import Change, EditError, Project, Replaced
 
 

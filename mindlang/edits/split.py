@@ -3,7 +3,7 @@
 from pathlib import Path
 
 from mindlang.compiler.syntax import Declaration
-from mindlang.editing.page import text_of, use_line, without_declarations
+from mindlang.editing.insertion import text_of, use_line, without_declarations
 from mindlang.editing.project import Change, EditError, Project
 
 

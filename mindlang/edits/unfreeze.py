@@ -1,7 +1,7 @@
 """`mindc edit unfreeze`."""
 
 from mindlang.compiler.syntax import Stays
-from mindlang.editing.page import without_fact
+from mindlang.editing.insertion import without_fact
 from mindlang.editing.project import Change, EditError, Project, facts
 
 

@@ -4,9 +4,9 @@ from collections.abc import Collection
 from dataclasses import dataclass
 from pathlib import Path
 
-from mindrun.regular import read_regular
+from mindrun.regular_files import read_regular
 
-from mindlang import journal
+from mindlang import transaction as journal
 from mindlang.compiler.compile import Compiled, compile_source, load
 from mindlang.compiler.diagnostic import Diagnostic
 from mindlang.compiler.source import Source, encoded

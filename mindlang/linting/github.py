@@ -2,7 +2,7 @@
 
 from collections.abc import Iterable, Iterator
 
-from mindrun.visible import visible
+from mindrun.printable import visible
 
 from mindlang.compiler.diagnostic import Diagnostic
 from mindlang.compiler.source import Span

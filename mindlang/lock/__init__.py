@@ -12,9 +12,9 @@ from math import isfinite
 from pathlib import Path
 from typing import Self
 
-from mindrun.durable import write
+from mindrun.atomic_write import write
 from mindrun.errors import MindError
-from mindrun.regular import read_regular
+from mindrun.regular_files import read_regular
 
 from mindlang.lock.training_world import HEADING, TrainingWorld, world_of
 

@@ -6,12 +6,12 @@ from dataclasses import replace
 from hashlib import sha256
 from pathlib import Path
 
-from mindrun import durable
-from mindrun.durable import write
+from mindrun import atomic_write as durable
+from mindrun.atomic_write import write
 from mindrun.errors import WeightsError
 from mindrun.graph import Graph, Skill
 from mindrun.npy import to_npy
-from mindrun.regular import read_whole
+from mindrun.regular_files import read_whole
 from mindrun.weights import Weights, reachable, read_weights, weights_of
 
 from mindlang.compiler.diagnostic import listed

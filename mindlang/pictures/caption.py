@@ -5,12 +5,12 @@ from typing import Any
 
 from mindrun.world import Item
 
-from mindlang.figures import score
+from mindlang.number_format import score
 from mindlang.pictures.canvas import Canvas, square, text_width
 from mindlang.pictures.path import LEAST, Path, draw_cross
-from mindlang.pictures.story import Story
+from mindlang.pictures.recorded_run import Story
+from mindlang.pictures.scene import thing_colours
 from mindlang.pictures.theme import Theme, mixed
-from mindlang.pictures.world import thing_colours
 
 GAP = 22.0  # between two entries
 SMALL, LARGE, SMALLEST = 11.0, 14.0, 5.0

@@ -13,7 +13,7 @@ from matplotlib.lines import Line2D
 from matplotlib.ticker import MaxNLocator
 from matplotlib.transforms import offset_copy
 
-from mindlang.pictures.log import Curve
+from mindlang.pictures.learning_log import Curve
 
 INK, FAINT, GRID, PAGE = "#23272f", "#8a8f99", "#ececee", "#ffffff"
 ATTEMPTS = (  # Paul Tol's muted colours, which all eyes tell apart, and a grey

@@ -6,15 +6,15 @@ from pathlib import Path as FilePath
 from typing import Any, ClassVar
 
 import cv2
-from mindrun.durable import destination, write
+from mindrun.atomic_write import destination, write
 from mindrun.world import Arena
 
 from mindlang.pictures.canvas import Canvas, Image, View, blank, pasted, text_width
-from mindlang.pictures.panel import Panel
+from mindlang.pictures.hierarchy_panel import Panel
 from mindlang.pictures.path import Path, draw_cross
-from mindlang.pictures.story import Story
+from mindlang.pictures.recorded_run import Story
+from mindlang.pictures.scene import WALL, draw_floor, draw_items, draw_names, draw_robot, draw_zones
 from mindlang.pictures.theme import NIGHT
-from mindlang.pictures.world import WALL, draw_floor, draw_items, draw_names, draw_robot, draw_zones
 
 WIDTH, HEIGHT = 1280, 720
 MINUTE = 60.0  # seconds that a whole run lasts, sped up

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from itertools import pairwise
 from statistics import fmean
 
-from mindlang.pictures.flow import Link, Sink
+from mindlang.pictures.influence_flow import Link, Sink
 
 SWEEPS = 8
 WIDEST, HIGHEST = 210.0, 50.0  # pixels of a box

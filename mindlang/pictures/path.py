@@ -8,9 +8,9 @@ from mindrun.world import Item
 from numpy.typing import NDArray
 
 from mindlang.pictures.canvas import Canvas, square
-from mindlang.pictures.story import Story
+from mindlang.pictures.recorded_run import Story
+from mindlang.pictures.scene import thing_colours
 from mindlang.pictures.theme import Colour, Theme, mixed
-from mindlang.pictures.world import thing_colours
 
 STEPS = 64  # shades of a path by time
 LEAST = 0.005  # of the run: a skill that was in control for less does not count

@@ -9,9 +9,9 @@ from mindrun.world import Arena
 from mindlang.pictures.canvas import Canvas, Image, View, blank, pasted
 from mindlang.pictures.caption import draw_legend, draw_scale, draw_title
 from mindlang.pictures.path import Path, draw_collisions, draw_former, draw_start
-from mindlang.pictures.story import Story
+from mindlang.pictures.recorded_run import Story
+from mindlang.pictures.scene import WALL, draw_floor, draw_items, draw_names, draw_robot, draw_zones
 from mindlang.pictures.theme import PAPER
-from mindlang.pictures.world import WALL, draw_floor, draw_items, draw_names, draw_robot, draw_zones
 
 SIZE = 1000
 ABOVE, BELOW, SIDE = 96, 74, 28  # what stands around the world

@@ -60,7 +60,7 @@ def _under(compiled: Compiled, master: str | None) -> Compiled:
 
 def _run(file: str, compiled: Compiled, wishes: Wishes) -> Recorded:
     from mindlang.proofs.recorded import record
-    from mindlang.run.casting import CastingError, cast
+    from mindlang.run.setup import CastingError, cast
 
     assert compiled.graph
     try:

@@ -9,7 +9,7 @@ from mindrun.graph import Graph
 
 from mindlang.proofs.leak import Leak
 from mindlang.proofs.proof import DECLARATION, OfActuator, OfEdge, Proof
-from mindlang.proofs.silence import Tried
+from mindlang.proofs.silence_search import Tried
 
 if TYPE_CHECKING:
     from mindlang.proofs.recorded import Recorded

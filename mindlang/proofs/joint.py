@@ -14,9 +14,9 @@ from mindrun.graph import Graph, Skill
 from mindrun.weights import Weights, reachable
 from numpy.typing import NDArray
 
+from mindlang.proofs.branch_and_bound import by_itself, halves, sway_of
 from mindlang.proofs.interval import Boxes, Sent, Singles, sent
 from mindlang.proofs.reach import Bound, Flow, Reach, as_sent, flow
-from mindlang.proofs.sharpen import by_itself, halves, sway_of
 
 BOXES, FEWEST, WORK = 8192, 16, 100_000  # boxes, and boxes times skills
 AT_ONCE = 256

@@ -9,13 +9,13 @@ from mindrun.functions import Procedure
 from mindrun.graph import Actuator, Edge, Graph, Skill
 from mindrun.weights import Weights, reachable
 
+from mindlang.proofs.branch_and_bound import Range
 from mindlang.proofs.interval import is_known
 from mindlang.proofs.joint import together
 from mindlang.proofs.leak import Leak, leaks
 from mindlang.proofs.paths import Paths, paths, ways
 from mindlang.proofs.reach import TINY, Driven, Reach, reach
-from mindlang.proofs.sharpen import Range
-from mindlang.proofs.silence import Tried, try_out
+from mindlang.proofs.silence_search import Tried, try_out
 
 LISTED = 10  # paths
 DECLARATION = "the declaration alone"

@@ -14,8 +14,8 @@ import numpy as np
 from mindrun.graph import Graph
 from mindrun.weights import Weights, reachable
 
+from mindlang.proofs.branch_and_bound import Range, ranges
 from mindlang.proofs.interval import Sent, Singles
-from mindlang.proofs.sharpen import Range, ranges
 
 BOXES, ALL_BOXES = 20_000, 500_000  # for one skill, for all of them
 MARGIN = 2.0**-22

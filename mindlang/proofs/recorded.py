@@ -8,8 +8,8 @@ import numpy as np
 from mindrun.sim.rollout import Rollout
 from mindrun.sim.trace import trace
 
-from mindlang import simulator
-from mindlang.run.casting import Cast
+from mindlang import simulator_compilation as simulator
+from mindlang.run.setup import Cast
 from mindlang.terminal import procedures_talk, say
 
 

@@ -7,7 +7,7 @@ of its time, and the count stays 0.
 
 from mindlang.compiler.diagnostic import Fix
 from mindlang.compiler.syntax import Counts, Ends
-from mindlang.editing.page import without_fact
+from mindlang.editing.insertion import without_fact
 from mindlang.linting.study import Finding, Found, Study
 from mindlang.linting.worlds import world
 

@@ -7,7 +7,7 @@ amount is always 0. Learning goes on without it and nobody notices.
 from mindlang.compiler.diagnostic import Fix
 from mindlang.compiler.model import Condition, Reward
 from mindlang.compiler.source import Span
-from mindlang.editing.page import without_fact
+from mindlang.editing.insertion import without_fact
 from mindlang.linting.intervals import said
 from mindlang.linting.study import Finding, Found, Study
 from mindlang.linting.worlds import World, world

@@ -5,7 +5,7 @@ another matter: 0 is a command as any other.
 """
 
 from mindlang.compiler.diagnostic import Fix
-from mindlang.editing.page import without_fact
+from mindlang.editing.insertion import without_fact
 from mindlang.linting.intervals import interval
 from mindlang.linting.study import Finding, Found, Study
 

@@ -5,7 +5,7 @@ learn again, or the lesson if it is not.
 """
 
 from mindlang.compiler.diagnostic import Fix
-from mindlang.editing.page import without_fact
+from mindlang.editing.insertion import without_fact
 from mindlang.linting.study import Finding, Found, Study
 
 GOOD = (

@@ -8,7 +8,7 @@ another skill drive the actuator as well.
 
 from mindlang.compiler.diagnostic import Fix
 from mindlang.compiler.model import Edge, Skill
-from mindlang.editing.page import instead
+from mindlang.editing.insertion import instead
 from mindlang.linting.study import Finding, Found, Study
 
 HIERARCHY = """

@@ -5,7 +5,7 @@ closes. Let a skill drive it, or take it out if the robot has no such part.
 """
 
 from mindlang.compiler.diagnostic import Fix
-from mindlang.editing.page import without_declarations
+from mindlang.editing.insertion import without_declarations
 from mindlang.linting.study import Finding, Found, Study
 
 ELSEWHERE = True

@@ -5,7 +5,7 @@ straight or through others, never acts and never learns; and whoever reads the f
 """
 
 from mindlang.compiler.diagnostic import Fix
-from mindlang.editing.page import without_declarations
+from mindlang.editing.insertion import without_declarations
 from mindlang.linting.study import Finding, Found, Study
 
 ELSEWHERE = True

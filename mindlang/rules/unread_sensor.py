@@ -5,7 +5,7 @@ read by skills, by other sensors (`derivative of`) and by rewards.
 """
 
 from mindlang.compiler.diagnostic import Fix
-from mindlang.editing.page import without_declarations
+from mindlang.editing.insertion import without_declarations
 from mindlang.linting.study import Finding, Found, Study
 
 ELSEWHERE = True

@@ -10,7 +10,7 @@ from mindrun.sensors import Derivative
 
 from mindlang.compiler.diagnostic import Fix
 from mindlang.compiler.model import Expression, Reading
-from mindlang.editing.page import without_declarations
+from mindlang.editing.insertion import without_declarations
 from mindlang.linting.study import Finding, Found, Study
 
 ELSEWHERE = True

@@ -9,7 +9,7 @@ from mindrun.functions import Rule
 from mindlang.compiler.diagnostic import Fix
 from mindlang.compiler.model import Reading
 from mindlang.compiler.syntax import Reads
-from mindlang.editing.page import without_fact
+from mindlang.editing.insertion import without_fact
 from mindlang.linting.study import Finding, Found, Study
 
 EYES = "sensor left_eye is range_finder at 40 deg\nsensor right_eye is range_finder at -40 deg\n"

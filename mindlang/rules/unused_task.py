@@ -5,7 +5,7 @@ runs in its tasks. Both are fine.
 """
 
 from mindlang.compiler.diagnostic import Fix
-from mindlang.editing.page import without_declarations
+from mindlang.editing.insertion import without_declarations
 from mindlang.linting.study import Finding, Found, Study
 
 ELSEWHERE = True

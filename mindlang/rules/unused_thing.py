@@ -9,7 +9,7 @@ from mindrun.world import Content, Item, Obstacle, Power, Zone
 
 from mindlang.compiler.diagnostic import Fix
 from mindlang.compiler.syntax import Contains
-from mindlang.editing.page import without_fact
+from mindlang.editing.insertion import without_fact
 from mindlang.linting.study import Finding, Found, Study
 
 ELSEWHERE = True

@@ -6,7 +6,7 @@ Every influence and command is clamped to 0..1. A value that is only sometimes o
 
 from mindlang.compiler.diagnostic import Fix
 from mindlang.compiler.model import Edge
-from mindlang.editing.page import instead
+from mindlang.editing.insertion import instead
 from mindlang.linting.intervals import Interval, interval, is_constant, said
 from mindlang.linting.study import Finding, Found, Study
 

@@ -6,7 +6,7 @@ from typing import Any
 from rich.console import Group, RenderableType
 from rich.text import Text
 
-from mindlang.figures import duration, rate, score
+from mindlang.number_format import duration, rate, score
 from mindlang.run.outcome import TIME
 
 

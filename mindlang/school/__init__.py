@@ -18,15 +18,15 @@ from mindrun.train.run_folder import Run, keep_result, open_run, read_result
 from mindrun.train.training import Watch, train
 from mindrun.weights import learners
 
-from mindlang.estimate import refuse_too_large, refuse_too_long
 from mindlang.lock import LockError
+from mindlang.resource_limits import refuse_too_large, refuse_too_long
 from mindlang.school.book import Book, begin, open_book, refuse_changed
 from mindlang.school.interruption import Interruption
 from mindlang.school.keeping import Kept, keep
 from mindlang.school.results import Result, opening, outcome, result_of
 from mindlang.school.teaching import Wishes, is_due, lessons
 from mindlang.school.watching import Bar, Lines, Pace, Silent, Watcher
-from mindlang.simulator import make_ready
+from mindlang.simulator_compilation import make_ready
 from mindlang.terminal import load_compiled, procedures_talk, talk
 
 

@@ -15,11 +15,11 @@ from mindrun.train.scoring import mark
 from mindrun.train.seeds import Purpose, layouts
 from mindrun.weights import parts
 
-from mindlang.figures import number
 from mindlang.lock import Entry, LockError, Taught, read_lock
 from mindlang.lock.blobs import record
 from mindlang.lock.status import Trained, trained_weights
 from mindlang.lock.world_facts import Worlds, key_of
+from mindlang.number_format import number
 from mindlang.school.book import Book
 from mindlang.school.teaching import is_due
 

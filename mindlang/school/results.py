@@ -6,7 +6,7 @@ from typing import Any
 from mindrun.train.lesson import State
 from mindrun.train.run_folder import WEIGHTS, Run
 
-from mindlang.figures import duration, number, rate
+from mindlang.number_format import duration, number, rate
 from mindlang.school.keeping import Kept
 
 Result = dict[str, Any]

@@ -14,7 +14,7 @@ from rich.progress_bar import ProgressBar
 from rich.table import Table
 from rich.text import Text
 
-from mindlang.figures import duration, number, rate
+from mindlang.number_format import duration, number, rate
 
 SECONDS = 5.0  # between two lines
 WIDE, NARROW = 20, 8  # columns of a bar, the space behind it with the narrowest

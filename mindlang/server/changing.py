@@ -8,15 +8,15 @@ from typing import Any
 from mindlang.compiler.diagnostic import Findings, did_you_mean, listed
 from mindlang.compiler.resolve.names import gather
 from mindlang.compiler.splice import Splice
-from mindlang.editing.carry_out import carry_out
+from mindlang.editing.apply import carry_out
 from mindlang.editing.project import Change, EditError, Project
-from mindlang.editing.telling import broken, told
+from mindlang.editing.summary import broken, told
 from mindlang.editing.writing import changed_locks
 from mindlang.edits import Edit, edit, names
-from mindlang.server.desk import Desk
-from mindlang.server.following import Following
 from mindlang.server.navigating import sharing
+from mindlang.server.pending_renames import Following
 from mindlang.server.view import View
+from mindlang.server.workspace import Desk
 
 
 @dataclass(frozen=True, slots=True)

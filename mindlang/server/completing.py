@@ -8,7 +8,7 @@ from pathlib import Path
 
 from mindlang.compiler.syntax import NOUNS, SETTINGS
 from mindlang.editing.project import OWNERS
-from mindlang.nearby import below
+from mindlang.file_search import below
 from mindlang.server.facts import FACTS
 from mindlang.server.offers import Offer, arguments_of, kinds_of, words
 from mindlang.server.procedures import functions

@@ -8,10 +8,10 @@ from pathlib import Path
 from mindlang.compiler.source import Source, Span
 from mindlang.compiler.syntax import Argument, Contains, File, Name, Phrase, Use
 from mindlang.editing.references import Mention, introductions
-from mindlang.nearby import text_of
-from mindlang.server.desk import Desk
+from mindlang.file_search import text_of
 from mindlang.server.tree import path_to
 from mindlang.server.view import View
+from mindlang.server.workspace import Desk
 
 
 @dataclass(frozen=True, slots=True)

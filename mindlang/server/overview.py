@@ -8,9 +8,9 @@ from pathlib import Path
 from mindlang.compiler.diagnostic import Findings
 from mindlang.compiler.parse import parse
 from mindlang.compiler.source import Source
-from mindlang.nearby import as_many, below
-from mindlang.server.desk import Desk
+from mindlang.file_search import as_many, below
 from mindlang.server.navigating import Symbol, symbols
+from mindlang.server.workspace import Desk
 
 MOST = 500  # symbols that are found
 KNOWN = 1000  # files whose symbols are remembered

@@ -3,7 +3,7 @@
 import re
 from pathlib import Path
 
-from mindlang.nearby import beside, text_of
+from mindlang.file_search import beside, text_of
 
 _FUNCTION = re.compile(r"^def ([a-z]\w*)\(", re.MULTILINE)
 MOST = 100  # modules that are read

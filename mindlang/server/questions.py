@@ -6,12 +6,12 @@ from mindlang.compiler.source import Source
 from mindlang.compiler.splice import Splice
 from mindlang.server.completing import complete
 from mindlang.server.hovering import hover
+from mindlang.server.lsp_types import Wire
 from mindlang.server.navigating import Symbol, definitions, highlights, references, symbols
 from mindlang.server.offers import Offer
 from mindlang.server.overview import everything
 from mindlang.server.server import MindServer
 from mindlang.server.tidying import tidied
-from mindlang.server.wire import Wire
 
 SYMBOLS = {
     "body": types.SymbolKind.Object,

@@ -8,10 +8,10 @@ from lsprotocol import types
 from mindrun.errors import MindError
 
 from mindlang.compiler.diagnostic import Diagnostic, listed
-from mindlang.server.desk import Desk
-from mindlang.server.following import Following, keep_up
+from mindlang.server.lsp_types import Wire
+from mindlang.server.pending_renames import Following, keep_up
 from mindlang.server.view import View
-from mindlang.server.wire import Wire
+from mindlang.server.workspace import Desk
 
 Report = tuple[int | None, list[types.Diagnostic]]
 MOST = 8  # edits whose locks are looked after

@@ -3,7 +3,7 @@
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
-from mindrun.robot.parts import ADDRESS, BUS, CHANNEL, PIN
+from mindrun.robot.driver_support import ADDRESS, BUS, CHANNEL, PIN
 
 from mindlang.compiler.diagnostic import Findings, Label
 from mindlang.compiler.source import Span

@@ -4,7 +4,7 @@ from collections.abc import Iterator
 from math import isinf
 
 from mindrun.quantity import RATIO, Quantity, Reference
-from mindrun.robot.parts import ADDRESS
+from mindrun.robot.driver_support import ADDRESS
 
 from mindlang.compiler.diagnostic import listed
 from mindlang.wiring.options import DRIVER, Option, driver_options, drivers

@@ -4,7 +4,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence, Set
 from typing import Any, TypeVar
 
 from mindrun.graph import Actuator, Graph, Sensor
-from mindrun.readings import physical
+from mindrun.named_readings import physical
 from mindrun.wiring import ActuatorWire, SensorWire, read_by
 
 from mindlang.compiler.diagnostic import Findings, a, listed, nearest

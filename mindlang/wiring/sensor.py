@@ -2,7 +2,7 @@
 
 from mindrun.graph import Sensor
 from mindrun.quantity import Quantity
-from mindrun.robot.parts import PIN
+from mindrun.robot.driver_support import PIN
 from mindrun.sensors import Bearing, RangeFinder
 from mindrun.wiring import SensorWire
 

@@ -5,7 +5,7 @@ from pathlib import Path
 
 from mindrun.errors import reason
 from mindrun.graph import Graph
-from mindrun.regular import read_regular
+from mindrun.regular_files import read_regular
 from mindrun.wiring import Wiring
 
 from mindlang.compiler.diagnostic import Diagnostic, Findings, errors, nearest

@@ -12,15 +12,16 @@ from contextlib import redirect_stdout
 from pathlib import Path
 from typing import Any
 
-from mindrun import VERSION, arguments, streams
+from mindrun import VERSION, arguments
+from mindrun import standard_streams as streams
 from mindrun.arguments import SEED, new_file, real, whole
 from mindrun.bundle import read_bundle
 from mindrun.describe import contents, describe
 from mindrun.engine import Engine
 from mindrun.errors import MindError, ProcedureError, ReadingsError, surroundings
-from mindrun.readings import vector
+from mindrun.named_readings import vector
+from mindrun.printable import visible
 from mindrun.tools import run_tool, tools
-from mindrun.visible import visible
 from mindrun.wiring import read_by
 
 OK, FAILED, MISUSE, INTERRUPTED = 0, 1, 2, 130

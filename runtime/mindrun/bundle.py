@@ -11,14 +11,14 @@ from pathlib import Path
 from typing import Any
 
 from mindrun.archive import read_archive, write_archive
-from mindrun.durable import write_out
+from mindrun.atomic_write import write_out
+from mindrun.bundle_migration import brought_along, with_whole_lessons
 from mindrun.encoding import decode, decode_wiring, encode
 from mindrun.errors import BundleError, WeightsError
 from mindrun.graph import Graph
 from mindrun.npy import to_npy
-from mindrun.older import brought_along, with_whole_lessons
-from mindrun.plain_data import parsed
-from mindrun.regular import read_whole
+from mindrun.regular_files import read_whole
+from mindrun.strict_json import parsed
 from mindrun.weights import Weights, genes, read_weights, weights_of
 from mindrun.wiring import Wiring
 

@@ -5,7 +5,7 @@ from typing import Any
 
 from mindrun.bundle import Bundle, fingerprint
 from mindrun.encoding import encode
-from mindrun.readings import physical
+from mindrun.named_readings import physical
 from mindrun.registry import names
 from mindrun.wiring import Wiring
 

@@ -12,7 +12,7 @@ from mindrun.errors import BundleError, MindError
 from mindrun.graph import Graph
 from mindrun.quantity import Quantity, Reference, fits
 from mindrun.registry import kinds, names
-from mindrun.sound import flaw
+from mindrun.validate import flaw
 from mindrun.wiring import Wiring, flaws
 
 T = TypeVar("T")

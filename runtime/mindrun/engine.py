@@ -11,7 +11,7 @@ from mindrun.functions import Procedure
 from mindrun.functions.procedure import module_source
 from mindrun.graph import Graph
 from mindrun.think import hierarchy, think
-from mindrun.virtual import virtual_sensors
+from mindrun.virtual_sensors import virtual_sensors
 from mindrun.weights import Weights, reachable
 
 

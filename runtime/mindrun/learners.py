@@ -1,4 +1,4 @@
-"""Kinds of curricula: how the lessons are learnt. `train/breeding.py` knows who does it."""
+"""Kinds of curricula: how the lessons are learnt. `train/ask_and_tell.py` knows who does it."""
 
 from dataclasses import dataclass, replace
 from typing import Annotated

@@ -10,8 +10,8 @@ from typing import Annotated
 
 from mindrun.driver import ActuatorDriver, SensorDriver
 from mindrun.graph import Graph
+from mindrun.named_readings import physical
 from mindrun.quantity import NUMBER, RATIO, Quantity, Reference
-from mindrun.readings import physical
 from mindrun.sensors import Derivative
 from mindrun.weights import reachable
 

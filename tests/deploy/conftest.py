@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 from mindrun.bundle import write_bundle
-from mindrun.readings import physical
+from mindrun.named_readings import physical
 from mindrun.robot.drivers.mock import MockActuator, MockSensor
 from mindrun.wiring import ActuatorWire, SensorWire, Wiring
 

@@ -14,7 +14,7 @@ from mindlang.compiler.diagnostic import Findings
 from mindlang.compiler.parse import parse
 from mindlang.compiler.source import Source
 from mindlang.compiler.syntax import Influences
-from mindlang.editing.carry_out import carry_out
+from mindlang.editing.apply import carry_out
 from mindlang.editing.project import EditError, Project
 from mindlang.edits import edit, names
 from tests.edits.sources import ACTUATORS, MAIN, PARTS, SENSORS, SKILLS, Texts, minds

@@ -16,10 +16,10 @@ from mindrun.sensors import Battery
 from mindrun.weights import genes
 
 from mindlang.compiler.compile import load
-from mindlang.editing.carry_out import carry_out
-from mindlang.editing.follow import follow
+from mindlang.editing.apply import carry_out
+from mindlang.editing.lock_update import follow
 from mindlang.editing.project import Change, EditError, open_project
-from mindlang.editing.telling import told
+from mindlang.editing.summary import told
 from mindlang.editing.writing import write
 from mindlang.edits import edit
 from mindlang.lock import lock_path, read_lock

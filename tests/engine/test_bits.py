@@ -7,8 +7,8 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from mindrun.engine import Engine
-from mindrun.portable import cosine, sine
 from mindrun.sigmoid import sigmoid
+from mindrun.trigonometry import cosine, sine
 
 from tests.hierarchies import Case, random_case
 from tests.plain import Plain

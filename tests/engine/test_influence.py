@@ -11,7 +11,7 @@ from mindrun.functions.mlp import first_weights, layers, matrices, weight_count
 from mindrun.graph import Edge, Sensor
 from mindrun.memory import Cell
 from mindrun.sensors import Battery, Derivative
-from mindrun.virtual import Wave
+from mindrun.virtual_sensors import Wave
 from mindrun.weights import genes
 
 from tests.hierarchies import doubling

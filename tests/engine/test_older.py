@@ -5,11 +5,11 @@ from typing import Any
 
 import pytest
 from mindrun.bundle import Bundle, pack, unpack
+from mindrun.bundle_migration import with_whole_lessons
 from mindrun.encoding import decode, encode
 from mindrun.errors import BundleError
 from mindrun.graph import Task
 from mindrun.learners import Restarting
-from mindrun.older import with_whole_lessons
 
 from tests.engine.bundles import example
 from tests.engine.resealed import resealed

@@ -14,7 +14,7 @@ from mindrun.measures import Advance, Progress, Retreat
 from mindrun.memory import Cell
 from mindrun.quantity import UNSAID, Span
 from mindrun.sensors import Battery, Derivative, RangeFinder, Sine
-from mindrun.sound import depths, flaw
+from mindrun.validate import depths, flaw
 from mindrun.world import Arena, Content, Item, Obstacle, Plain, Zone
 
 from tests.minds import always, mind, rule, skill

@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 
 from mindlang.compiler.compile import Compiled, load
-from mindlang.report import as_data, plain
+from mindlang.diagnostic_printer import as_data, plain
 from tests.language.examples import RIGHT, changed, codes, compiled
 
 TEXT = RIGHT.read_text(encoding="utf-8")

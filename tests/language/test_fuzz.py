@@ -19,7 +19,7 @@ from mindlang.compiler.parse import parse
 from mindlang.compiler.parse.build import build
 from mindlang.compiler.parse.shape import grammar, said
 from mindlang.compiler.source import Source
-from mindlang.report import as_data, plain
+from mindlang.diagnostic_printer import as_data, plain
 from tests.language.examples import EXAMPLES, RIGHT, TOUR
 
 SEEDS = [RIGHT, *EXAMPLES]

@@ -20,7 +20,7 @@ def test_twice_the_lines_are_twice_the_work(shape: str, monkeypatch: pytest.Monk
     monkeypatch.setattr(
         "mindlang.compiler.diagnostic.MOST", 4
     )  # what is done for the first few lines only is done here, too
-    monkeypatch.setattr("mindlang.unified.SHORT", 10)
+    monkeypatch.setattr("mindlang.unified_diff.SHORT", 10)
     monkeypatch.setattr("mindlang.linting.fixing.ROUNDS", 2)
     first = WORDS if shape.startswith("one long") else LINES
     slow = {}

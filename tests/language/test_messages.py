@@ -14,7 +14,7 @@ from mindlang.compiler.parse import parse
 from mindlang.compiler.parse.explain import INSTEAD, LINES
 from mindlang.compiler.parse.mistakes import MISTAKES, OPENINGS, Mistake
 from mindlang.compiler.source import Source
-from mindlang.report import plain
+from mindlang.diagnostic_printer import plain
 
 HERE = Path(__file__).parent
 CASES = sorted((HERE / "wrong").glob("*.mind"))

@@ -11,8 +11,8 @@ import pytest
 from mindlang.compiler.compile import compile_source
 from mindlang.compiler.format import formatted
 from mindlang.compiler.source import Source, decode
+from mindlang.diagnostic_printer import plain
 from mindlang.linting.lint import lint
-from mindlang.report import plain
 from tests.fmt.test_format import comments, meaning
 from tests.language.test_fuzz import SEEDS, delete, duplicate, flip, insert, splice, swap_lines
 

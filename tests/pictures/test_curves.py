@@ -14,7 +14,7 @@ from mindrun.train.run_folder import Run, create
 from mindrun.train.training import train
 
 from mindlang.pictures.curves import figure, image
-from mindlang.pictures.log import load_curves
+from mindlang.pictures.learning_log import load_curves
 from tests.calling import Call
 from tests.train.climbing import Sphere, lesson, manifest, unwatched
 

@@ -9,11 +9,11 @@ import pytest
 from mindlang.compiler.compile import load
 from mindlang.pictures.canvas import text_width
 from mindlang.pictures.film import HEIGHT, WIDTH
-from mindlang.pictures.flow import Flow, Link
+from mindlang.pictures.hierarchy_panel import LARGEST, fitting
+from mindlang.pictures.influence_flow import Flow, Link
 from mindlang.pictures.layout import Layout, Place
-from mindlang.pictures.panel import LARGEST, fitting
-from mindlang.pictures.story import tell
-from mindlang.run.casting import cast
+from mindlang.pictures.recorded_run import tell
+from mindlang.run.setup import cast
 from tests.calling import Call
 
 

@@ -14,12 +14,12 @@ from mindlang.compiler.compile import load
 from mindlang.pictures.canvas import Canvas, Image, View, blank
 from mindlang.pictures.caption import LINES, SMALLEST, fitted
 from mindlang.pictures.picture import ABOVE, BELOW, SIDE, SIZE, picture, view_of
-from mindlang.pictures.story import Story, tell
+from mindlang.pictures.recorded_run import Story, tell
+from mindlang.pictures.scene import thing_colours
 from mindlang.pictures.theme import PAPER, mixed
-from mindlang.pictures.world import thing_colours
-from mindlang.run.casting import cast
 from mindlang.run.outcome import one
-from mindlang.run.stage import NOBODY
+from mindlang.run.session import NOBODY
+from mindlang.run.setup import cast
 from tests.calling import RULES, Call
 
 

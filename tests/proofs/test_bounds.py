@@ -17,8 +17,8 @@ from mindrun.weights import Weights, genes, reachable
 
 from mindlang.compiler.compile import load
 from mindlang.lock.ready import make_ready
+from mindlang.proofs.batch import think, values
 from mindlang.proofs.interval import DIP
-from mindlang.proofs.many import think, values
 from mindlang.proofs.proof import OfActuator, Proof, prove
 from mindlang.proofs.reach import TINY, Reach, reach
 from tests.hierarchies import SCALES, random_graph

@@ -6,13 +6,13 @@ from mindrun.functions import Mlp, Procedure
 from mindrun.graph import Graph
 from mindrun.weights import genes
 
-from mindlang.proofs import silence
+from mindlang.proofs import silence_search as silence
+from mindlang.proofs.branch_and_bound import readings_to_try
 from mindlang.proofs.paths import Paths
 from mindlang.proofs.proof import OfActuator, prove
 from mindlang.proofs.reach import TINY, Bound, Driven
 from mindlang.proofs.recorded import Undriven, _undriven
-from mindlang.proofs.sharpen import readings_to_try
-from mindlang.proofs.silence import Tried, try_out
+from mindlang.proofs.silence_search import Tried, try_out
 from tests.minds import CLAW, WHEELS, always, mind, rule, skill
 from tests.proofs.samples import R0, drives, sends, single
 

@@ -8,10 +8,10 @@ from mindrun.functions import Mlp, Procedure
 from mindrun.graph import Edge, Graph, Program, Skill
 from mindrun.weights import NONE, genes
 
-from mindlang.proofs import sharpen
+from mindlang.proofs import branch_and_bound as sharpen
+from mindlang.proofs.batch import values
+from mindlang.proofs.branch_and_bound import CLOSE, Range, by_itself, halves, ranges, readings_to_try, sway_of
 from mindlang.proofs.interval import Boxes, Sent
-from mindlang.proofs.many import values
-from mindlang.proofs.sharpen import CLOSE, Range, by_itself, halves, ranges, readings_to_try, sway_of
 from tests.hierarchies import random_graph
 from tests.minds import always, rule, skill
 

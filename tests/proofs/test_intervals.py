@@ -10,8 +10,8 @@ from mindrun.functions import Mlp, Procedure, Rule
 from mindrun.graph import Edge, Program, Skill
 from mindrun.weights import genes
 
+from mindlang.proofs.batch import values
 from mindlang.proofs.interval import DIP, Boxes, Sent, evaluate, is_known, perceive, sent
-from mindlang.proofs.many import values
 from tests.minds import always, rule, skill
 
 SHARES = st.floats(0, 1, width=32)

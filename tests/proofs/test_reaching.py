@@ -9,7 +9,7 @@ from mindrun.functions import Mlp, Procedure
 from mindrun.graph import Edge, Graph, Program, Skill
 
 from mindlang.proofs import joint, reach
-from mindlang.proofs.many import think
+from mindlang.proofs.batch import think
 from mindlang.proofs.proof import OfActuator, prove
 from mindlang.proofs.reach import MARGIN, Bound, Driven
 from tests.hierarchies import doubling

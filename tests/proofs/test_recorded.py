@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from mindlang import simulator
+from mindlang import simulator_compilation as simulator
 from tests.calling import RULES, Call
 from tests.proofs.test_prove_command import proved
 

@@ -22,8 +22,8 @@ from mindrun.npy import to_npy
 from mindrun.robot.guardian import plan
 from mindrun.robot.recording import CHECK, About, Recorder
 from mindrun.robot.replay import replay
-from mindrun.robot.report import report
-from mindrun.sim.world import World
+from mindrun.robot.timing_report import report
+from mindrun.sim.commanded_world import World
 from mindrun.train import checkpoint
 from mindrun.train.manifest import hashes
 from mindrun.train.progress import LINES, read
@@ -39,7 +39,7 @@ from mindlang.lock import LockError, Taught, lock_path, read_lock
 from mindlang.lock.blobs import load_weights, record
 from mindlang.lock.report import rows
 from mindlang.lock.world_facts import Worlds
-from mindlang.pictures.log import load_curves
+from mindlang.pictures.learning_log import load_curves
 from tests.engine.bundles import wired
 from tests.engine.resealed import members_of, resealed
 from tests.lock.test_worlds import MIND

@@ -10,9 +10,9 @@ from mindrun.driver import DeviceError
 from mindrun.engine import Engine
 from mindrun.graph import Graph
 from mindrun.robot.loop import Loop
-from mindrun.robot.pace import Pace
+from mindrun.robot.rate import Pace
+from mindrun.robot.reading_filter import Senses
 from mindrun.robot.sampling import Sampler
-from mindrun.robot.senses import Senses
 from mindrun.wiring import SensorWire
 from numpy.typing import NDArray
 

@@ -9,7 +9,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
-from mindrun.robot.alone import DrivenError, alone, claims
+from mindrun.robot.device_locks import DrivenError, alone, claims
 from mindrun.robot.drivers.ball_tracker import BallTracker
 from mindrun.robot.drivers.grove_motor import GroveMotor
 from mindrun.robot.drivers.mock import MockActuator

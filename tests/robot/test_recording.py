@@ -9,12 +9,12 @@ import numpy as np
 import pytest
 from mindrun.engine import Engine
 from mindrun.robot.loop import Loop
-from mindrun.robot.pace import Pace
+from mindrun.robot.rate import Pace
+from mindrun.robot.reading_filter import Senses
 from mindrun.robot.recording import About, Recorder, RecordingError, read
 from mindrun.robot.replay import replay
-from mindrun.robot.report import report
 from mindrun.robot.sampling import Sampler
-from mindrun.robot.senses import Senses
+from mindrun.robot.timing_report import report
 from mindrun.wiring import SensorWire
 
 from tests.robot.faults import TICK, Clock, Scripted, Sent, bus_error, graph

@@ -40,7 +40,7 @@ def test_one_signal_ends_a_procedure_that_hangs(
 
 
 def python(lines: str) -> subprocess.CompletedProcess[str]:
-    before = "import os, signal, time\nfrom mindrun.robot.stopping import *\n"
+    before = "import os, signal, time\nfrom mindrun.robot.stop_signals import *\n"
     return subprocess.run([sys.executable, "-c", before + lines], capture_output=True, text=True, timeout=60)
 
 

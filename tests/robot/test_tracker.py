@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from mindrun.robot.tracker import Aim, Ball, Look, Neck, blindness, distance, find_ball, focal_length, follow
+from mindrun.robot.ball_detection import Aim, Ball, Look, Neck, blindness, distance, find_ball, focal_length, follow
 
 from tests.robot.drivers.frames import (
     HEIGHT,

@@ -37,13 +37,13 @@ from mindrun.robot.drivers.simulated import (
     status,
 )
 from mindrun.robot.world import Scene, Server, listening, requests, simulated
+from mindrun.sim.commanded_world import World
 from mindrun.sim.rollout import Rollout
 from mindrun.sim.trace import trace
-from mindrun.sim.world import World
 from mindrun.wiring import flaws
 
 from mindlang.compiler.compile import load
-from mindlang.run.casting import cast
+from mindlang.run.setup import cast
 from tests.calling import RULES, write_rules
 from tests.sim.test_rollout import some_weights
 

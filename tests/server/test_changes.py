@@ -10,9 +10,9 @@ from mindlang.edits import names
 from mindlang.lock import read_lock
 from mindlang.lock.status import Trained
 from mindlang.server.changing import perform, project
-from mindlang.server.desk import Desk
 from mindlang.server.proposals import Proposal, proposals
 from mindlang.server.selection import Selection
+from mindlang.server.workspace import Desk
 from tests.edits.taught import MIND, statuses, teach, write_mind
 from tests.language.examples import EXAMPLES
 from tests.server.client import Editor, ServerError, editing, uri

@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 
 from mindlang.server.completing import complete
-from mindlang.server.desk import Desk
+from mindlang.server.workspace import Desk
 from tests.language.examples import TOUR
 
 TEXT = TOUR.read_text(encoding="utf-8")

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from mindlang import nearby
+from mindlang import file_search as nearby
 from tests.language.examples import RIGHT
 from tests.server.client import Editor, editing, uri
 

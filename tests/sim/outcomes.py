@@ -5,8 +5,8 @@ from math import sqrt
 
 import numpy as np
 from mindrun.graph import Graph, Task
-from mindrun.portable import cosine, sine
 from mindrun.sim.trace import Moment, Run
+from mindrun.trigonometry import cosine, sine
 from mindrun.world import Item, Obstacle, Power, Zone
 from numpy.typing import NDArray
 

@@ -6,7 +6,7 @@ from collections import deque
 import numpy as np
 import pymunk
 from mindrun import actuators, events, measures, sensors, world
-from mindrun.portable import cosine, sine
+from mindrun.trigonometry import cosine, sine
 
 from tests.plain import f, postfix
 from tests.sim.plain import CATCH

@@ -2,9 +2,9 @@
 
 import numpy as np
 import pytest
-from mindrun.portable import cosine, sine
 from mindrun.sim.rollout import Rollout
 from mindrun.sim.trace import trace
+from mindrun.trigonometry import cosine, sine
 
 from tests.sim.minds import drifter
 from tests.sim.plain import PlainRobot

@@ -5,7 +5,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
-from mindrun import streams
+from mindrun import standard_streams as streams
 from mindrun.robot.identity import IdentityError, adopt, identity_file
 from mindrun.sim import cache
 

@@ -8,9 +8,9 @@ from mindrun.graph import Graph
 from mindrun.sim.rollout import Rollout
 from mindrun.sim.state import empty_state
 
-from mindlang import estimate
+from mindlang import resource_limits as estimate
 from mindlang.compiler.compile import load
-from mindlang.estimate import bytes_of
+from mindlang.resource_limits import bytes_of
 from tests.calling import Call
 
 MIND = """

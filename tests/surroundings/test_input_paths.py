@@ -10,11 +10,11 @@ from threading import Thread
 import pytest
 from mindrun.errors import MindError, ProcedureError
 from mindrun.functions.procedure import Procedure, module_source
-from mindrun.regular import read_regular
+from mindrun.regular_files import read_regular
 from mindrun.robot.guardian.plan import read_plan
 from mindrun.robot.recording import read as read_recording
 
-from mindlang.journal import NAME
+from mindlang.transaction import NAME
 from mindlang.wiring.wire import load_wiring
 from tests.calling import Call
 from tests.surroundings.kinds import IRREGULAR

@@ -14,7 +14,7 @@ from mindrun.arguments import parser
 from mindrun.bundle import write_bundle
 from mindrun.tools import tools
 
-from mindlang import estimate
+from mindlang import resource_limits as estimate
 from mindlang.cli import commands
 from mindlang.compiler.compile import load
 from tests.calling import Call, write_rules
@@ -61,7 +61,7 @@ def _still(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
 
     monkeypatch.chdir(tmp_path)
     monkeypatch.setenv("PATH", "")
-    monkeypatch.setattr("mindlang.run.stage.Stage.score", stopped)
+    monkeypatch.setattr("mindlang.run.session.Stage.score", stopped)
     monkeypatch.setattr("mindlang.school.train", stopped)
     write_rules(tmp_path)
     (tmp_path / "log.csv").write_text(LOG)

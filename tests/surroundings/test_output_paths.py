@@ -8,8 +8,8 @@ from pathlib import Path
 from threading import Thread
 
 import pytest
+from mindrun.atomic_write import destination, rewrite, write, write_out
 from mindrun.bundle import read_bundle
-from mindrun.durable import destination, rewrite, write, write_out
 
 from mindlang.linting import command
 from tests.calling import Call

@@ -6,7 +6,7 @@ from time import perf_counter
 import numpy as np
 import pytest
 from mindrun.learners import EvolutionStrategy, Genetic
-from mindrun.train.breeding import ask, kept_count, tell
+from mindrun.train.ask_and_tell import ask, kept_count, tell
 from mindrun.train.lesson import FRESH, Course, begin, could_be, fresh_count, teach
 from mindrun.train.population import Genomes, Population, nobody
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from mindrun.learners import Genetic
 from mindrun.train import genetic
-from mindrun.train.breeding import ask, tell
+from mindrun.train.ask_and_tell import ask, tell
 from mindrun.train.population import Genomes, Population, bounded, nobody, order
 
 LEARNER = Genetic(population=100)

@@ -9,8 +9,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 from mindrun.train import checkpoint
-from mindrun.train.claim import claim
 from mindrun.train.errors import RunError
+from mindrun.train.folder_lock import claim
 from mindrun.train.lesson import Record, State
 from mindrun.train.progress import read
 from mindrun.train.run_folder import Run, create, open_run
@@ -100,7 +100,9 @@ def test_lines_after_the_checkpoint_are_dropped_and_written_again(tmp_path: Path
 def test_two_processes_cannot_use_one_folder(tmp_path: Path) -> None:
     run = made(tmp_path)
     with claim(run.folder):
-        code = f"from pathlib import Path; from mindrun.train.claim import claim; claim(Path({str(run.folder)!r}))"
+        code = (
+            f"from pathlib import Path; from mindrun.train.folder_lock import claim; claim(Path({str(run.folder)!r}))"
+        )
         other = subprocess.run(
             [sys.executable, "-c", f"{code}.__enter__()"], capture_output=True, text=True, check=False
         )

@@ -7,7 +7,7 @@ from mindrun.graph import Graph
 
 from mindlang.compiler.compile import load
 from mindlang.compiler.source import Source
-from mindlang.report import plain
+from mindlang.diagnostic_printer import plain
 from mindlang.wiring.wire import Checked, check_wiring
 
 MIND = """\

@@ -13,7 +13,7 @@ from mindrun.graph import Graph
 
 from mindlang.compiler.compile import load
 from mindlang.compiler.source import Source
-from mindlang.report import as_data, plain
+from mindlang.diagnostic_printer import as_data, plain
 from mindlang.wiring.surprises import surprise
 from mindlang.wiring.wire import Checked, check_wiring, load_wiring
 from tests.language.test_fuzz import delete, duplicate, flip, swap_lines

@@ -11,7 +11,7 @@ import pytest
 from mindrun.graph import Graph
 
 from mindlang.compiler.compile import load
-from mindlang.report import plain
+from mindlang.diagnostic_printer import plain
 from mindlang.wiring.wire import Checked, load_wiring
 from tests.project.sources import COMPILER, ROOT
 

@@ -10,13 +10,13 @@ from measure import compiled
 
 from mindlang.pictures.canvas import Image, View
 from mindlang.pictures.film import HEIGHT, WIDTH, Film
-from mindlang.pictures.panel import Panel
+from mindlang.pictures.hierarchy_panel import Panel
 from mindlang.pictures.path import Path as Trail
-from mindlang.pictures.story import Story, tell
+from mindlang.pictures.recorded_run import Story, tell
 from mindlang.pictures.theme import NIGHT
 from mindlang.run import outcome
-from mindlang.run.casting import CastingError, cast
-from mindlang.run.stage import NOBODY
+from mindlang.run.session import NOBODY
+from mindlang.run.setup import CastingError, cast
 
 FILE, TASK, MASTER = "constant_skills.mind", "Collect", "Gather"
 SEEKER, DODGER = "SeekObject", "Dodge"

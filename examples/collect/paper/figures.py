@@ -9,7 +9,7 @@ from figure15 import passage
 from logs import logs_of
 
 from mindlang.pictures.curves import figure, image
-from mindlang.pictures.log import load_curves
+from mindlang.pictures.learning_log import load_curves
 
 Say = Callable[[str], None]
 

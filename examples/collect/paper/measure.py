@@ -15,8 +15,8 @@ from protocol import Case
 from mindlang.compiler.compile import Compiled, load
 from mindlang.lock import lock_path, read_lock
 from mindlang.lock.ready import make_ready
-from mindlang.run.casting import cast
-from mindlang.run.stage import NOBODY, layouts
+from mindlang.run.session import NOBODY, layouts
+from mindlang.run.setup import cast
 
 
 @dataclass(frozen=True, slots=True)

@@ -4,7 +4,7 @@ import json
 from dataclasses import asdict, dataclass
 from pathlib import Path
 
-from mindrun.durable import write
+from mindrun.atomic_write import write
 from mindrun.graph import Lesson
 from mindrun.train.rungs import heights
 from protocol import FILES

@@ -9,7 +9,7 @@ from logs import Log, logs_of
 from measure import champions_do, is_taught, measure, teaching
 from protocol import FILES, SUCCESS, Case, Table
 
-from mindlang.figures import duration
+from mindlang.number_format import duration
 
 Say = Callable[[str], None]
 FRESH = 100  # layouts on which each champion is tried

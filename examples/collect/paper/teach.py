@@ -21,9 +21,9 @@ from mindrun.train.rungs import heights
 from plan import Plan, keep_plan, read_plan
 from protocol import FILES, FOLDER
 
-from mindlang import simulator
-from mindlang.figures import duration
-from mindlang.run.stage import layouts
+from mindlang import simulator_compilation as simulator
+from mindlang.number_format import duration
+from mindlang.run.session import layouts
 from mindlang.school import School
 
 RUNS = 128  # of shipped champions, to see how fast this machine is; fewer would leave lanes empty

@@ -19,7 +19,7 @@ from mindrun.errors import ProcedureError, reason
 from mindrun.functions.procedure_text import examine, file_of
 from mindrun.quantity import FUNCTION
 from mindrun.registry import kind
-from mindrun.regular import read_regular
+from mindrun.regular_files import read_regular
 
 LONGEST = 1 << 20  # bytes of source
 

@@ -12,8 +12,8 @@ from mindrun.bundle import LARGEST, Bundle, read_bundle
 from mindrun.default_task import default_task
 from mindrun.driver import DeviceError
 from mindrun.errors import MindError
-from mindrun.regular import read_whole
-from mindrun.robot.alone import alone
+from mindrun.regular_files import read_whole
+from mindrun.robot.device_locks import alone
 from mindrun.robot.drive import Wishes, drive
 from mindrun.robot.drivers.mock import MockActuator
 from mindrun.robot.identity import IdentityError, is_adopted

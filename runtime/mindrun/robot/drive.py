@@ -14,12 +14,12 @@ from mindrun.graph import Graph
 from mindrun.robot.guardian.client import Guardian
 from mindrun.robot.guardian.plan import plan_of
 from mindrun.robot.loop import Loop, Tick
-from mindrun.robot.notify import notify
-from mindrun.robot.pace import Pace
+from mindrun.robot.rate import Pace
+from mindrun.robot.reading_filter import Senses
 from mindrun.robot.recording import About, Recorder
 from mindrun.robot.sampling import Sampler
-from mindrun.robot.senses import Senses
-from mindrun.robot.stopping import Stop, stopping
+from mindrun.robot.stop_signals import Stop, stopping
+from mindrun.robot.systemd import notify
 from mindrun.wiring import Wiring, read_by
 
 PATIENCE = 10.0  # seconds for every sensor to have been measured once

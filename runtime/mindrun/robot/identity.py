@@ -8,11 +8,11 @@ import os
 from hashlib import sha256
 from pathlib import Path
 
+from mindrun.atomic_write import destination, write
 from mindrun.bundle import fingerprint
-from mindrun.durable import destination, write
 from mindrun.errors import MindError, reason
 from mindrun.graph import Graph
-from mindrun.regular import read_regular
+from mindrun.regular_files import read_regular
 from mindrun.wiring import Wiring
 
 LONGEST = 4096  # bytes of what a robot says

@@ -8,9 +8,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mindrun.engine import Engine
-from mindrun.robot.pace import Pace
+from mindrun.robot.rate import Pace
+from mindrun.robot.reading_filter import Sensed, Senses
 from mindrun.robot.recording import Recorder
-from mindrun.robot.senses import Sensed, Senses
 
 BEHIND = 3  # ticks in a row that were missed, after which every actuator is neutral until one is not
 OLD = 2  # ticks that thinking may take

@@ -21,10 +21,10 @@ from numpy.typing import NDArray
 
 from mindrun.errors import MindError
 from mindrun.graph import Graph
-from mindrun.plain_data import are_names, is_whole, parsed
-from mindrun.readings import physical
-from mindrun.regular import open_regular
-from mindrun.sound import LONGEST, SHORTEST
+from mindrun.named_readings import physical
+from mindrun.regular_files import open_regular
+from mindrun.strict_json import are_names, is_whole, parsed
+from mindrun.validate import LONGEST, SHORTEST
 
 FORMAT, UNSEALED = "mind recording 2", "mind recording 1"
 LARGEST = 1 << 20  # bytes of the line

@@ -35,7 +35,7 @@ PARENT_DIED = 1  # PR_SET_PDEATHSIG
 
 
 class World(Protocol):
-    """What `mindrun.sim.world` simulates."""
+    """What `mindrun.sim.commanded_world` simulates."""
 
     graph: Graph
     seed: int
@@ -259,7 +259,7 @@ def _world(options: argparse.Namespace) -> World:
     from mindrun.bundle import read_bundle
 
     try:
-        simulator = import_module("mindrun.sim.world")
+        simulator = import_module("mindrun.sim.commanded_world")
     except ImportError as error:
         raise MindError(f"there is no simulator here ({error})", "pip install mindlang") from error
     graph = read_bundle(options.bundle).graph

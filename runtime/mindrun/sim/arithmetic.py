@@ -2,9 +2,9 @@
 
 import numpy as np
 
-from mindrun.portable import C1, C2, C3, C4, C5, C6, PART_1, PART_2, PART_3, S1, S2, S3, S4, S5, S6
 from mindrun.sigmoid import DENOMINATOR, LIMIT, NUMERATOR
 from mindrun.sim.compiling import inlined
+from mindrun.trigonometry import C1, C2, C3, C4, C5, C6, PART_1, PART_2, PART_3, S1, S2, S3, S4, S5, S6
 
 F = np.float32
 ZERO, HALF, ONE = F(0), F(0.5), F(1)
@@ -30,7 +30,7 @@ def finite(v):
 
 @inlined
 def sine_cosine(x):
-    """(sin x, cos x) of a float64: the arithmetic of `mindrun.portable`, with selects for its branches."""
+    """(sin x, cos x) of a float64: the arithmetic of `mindrun.trigonometry`, with selects for its branches."""
     k = np.floor(x * 0.6366197723675814 + 0.5)
     r = ((x - k * PART_1) - k * PART_2) - k * PART_3
     z = r * r

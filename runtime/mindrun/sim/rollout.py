@@ -16,7 +16,7 @@ from mindrun.sim.codes import ITEM
 from mindrun.sim.lanes import chipmunk
 from mindrun.sim.lanes.advance import advance, fill
 from mindrun.sim.procedures import Procedures
-from mindrun.sim.slow import Memories, advance_slowly
+from mindrun.sim.python_procedures import Memories, advance_slowly
 from mindrun.sim.state import Jobs, State, empty_state
 from mindrun.sim.tables import Sizes, Tables, build, genome_length
 from mindrun.sim.threads import in_threads

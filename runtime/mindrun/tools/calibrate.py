@@ -19,10 +19,10 @@ import mindrun.robot.drivers  # noqa: F401  every driver is known once this is i
 from mindrun.arguments import real
 from mindrun.bundle import read_bundle
 from mindrun.errors import MindError
+from mindrun.printable import visible
 from mindrun.robot.sampling import Sample, Sampler
 from mindrun.sensors import Bearing, RangeFinder
-from mindrun.streams import draw
-from mindrun.visible import visible
+from mindrun.standard_streams import draw
 from mindrun.wiring import SensorWire, reading, still
 
 MOST = 3600.0  # seconds

@@ -13,7 +13,7 @@ from mindrun.engine import Engine
 from mindrun.robot.command import digest
 from mindrun.robot.recording import read
 from mindrun.robot.replay import replay
-from mindrun.streams import draw
+from mindrun.standard_streams import draw
 
 
 def options(parser: argparse.ArgumentParser) -> None:

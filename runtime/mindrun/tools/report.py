@@ -12,8 +12,8 @@ from pathlib import Path
 
 from mindrun.bundle import read_bundle
 from mindrun.robot.command import digest
-from mindrun.robot.report import report
-from mindrun.streams import document
+from mindrun.robot.timing_report import report
+from mindrun.standard_streams import document
 
 
 def options(parser: argparse.ArgumentParser) -> None:

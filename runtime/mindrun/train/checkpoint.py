@@ -14,9 +14,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from mindrun.durable import sync_folder, write_beside
-from mindrun.plain_data import is_whole, parsed
-from mindrun.regular import read_whole
+from mindrun.atomic_write import sync_folder, write_beside
+from mindrun.regular_files import read_whole
+from mindrun.strict_json import is_whole, parsed
 from mindrun.train.errors import RunError
 from mindrun.train.lesson import State
 from mindrun.train.population import Population

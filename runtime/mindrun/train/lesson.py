@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from mindrun.graph import Lesson
 from mindrun.learners import Learner
-from mindrun.train.breeding import ask, kept_count, tell
+from mindrun.train.ask_and_tell import ask, kept_count, tell
 from mindrun.train.population import Genomes, Population, Scores, nobody, order
 from mindrun.train.rungs import is_behind, not_climbed, rung_at
 from mindrun.train.scoring import Scorer, mark

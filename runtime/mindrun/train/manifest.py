@@ -16,9 +16,9 @@ from mindrun.errors import BundleError
 from mindrun.functions import Procedure
 from mindrun.functions.procedure import module_source
 from mindrun.graph import Graph, Lesson
-from mindrun.plain_data import is_whole, parsed
-from mindrun.sound import lesson_flaws
+from mindrun.strict_json import is_whole, parsed
 from mindrun.train.errors import RunError
+from mindrun.validate import lesson_flaws
 from mindrun.weights import Weights, reachable
 
 FORMAT = 2

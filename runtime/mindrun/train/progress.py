@@ -8,9 +8,9 @@ from math import isfinite
 from pathlib import Path
 from types import TracebackType
 
-from mindrun import durable
-from mindrun.plain_data import is_whole, parsed
-from mindrun.regular import read_whole
+from mindrun import atomic_write as durable
+from mindrun.regular_files import read_whole
+from mindrun.strict_json import is_whole, parsed
 from mindrun.train.errors import RunError
 from mindrun.train.lesson import Record, State
 

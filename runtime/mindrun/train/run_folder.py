@@ -10,11 +10,11 @@ from typing import Any
 
 import numpy as np
 
-from mindrun import durable
+from mindrun import atomic_write as durable
 from mindrun.archive import read_archive, write_archive
 from mindrun.npy import from_npy, to_npy
-from mindrun.plain_data import parsed
-from mindrun.regular import read_whole
+from mindrun.regular_files import read_whole
+from mindrun.strict_json import parsed
 from mindrun.train import checkpoint
 from mindrun.train.errors import NotFoundError, RunError
 from mindrun.train.lesson import Course

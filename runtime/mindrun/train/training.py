@@ -6,8 +6,8 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from mindrun.train import checkpoint
-from mindrun.train.claim import claim
 from mindrun.train.errors import RunError
+from mindrun.train.folder_lock import claim
 from mindrun.train.lesson import Clock, Course, Record, State, begin, could_be, teach
 from mindrun.train.population import Genomes
 from mindrun.train.progress import Progress

@@ -9,10 +9,11 @@ import cv2
 import numpy as np
 import pytest
 from mindrun.driver import DeviceError
-from mindrun.robot import eye, parts
+from mindrun.robot import camera as eye
+from mindrun.robot import driver_support as parts
+from mindrun.robot.ball_detection import Frame, focal_length
 from mindrun.robot.drivers import ball_tracker
 from mindrun.robot.drivers.ball_tracker import BallTracker
-from mindrun.robot.tracker import Frame, focal_length
 from mindrun.wiring import SensorWire, reading
 
 from tests.robot.drivers.fakes import FakeBus, FakePca9685

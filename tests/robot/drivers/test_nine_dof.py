@@ -2,7 +2,7 @@
 
 import pytest
 from mindrun.driver import DeviceError
-from mindrun.robot import parts
+from mindrun.robot import driver_support as parts
 from mindrun.robot.drivers.ads1115 import Ads1115
 from mindrun.robot.drivers.lsm9ds1 import Compass, Motion, Turn
 from mindrun.wiring import SensorWire, reading

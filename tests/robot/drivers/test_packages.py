@@ -6,7 +6,7 @@ from types import SimpleNamespace
 
 import pytest
 from mindrun.driver import DeviceError
-from mindrun.robot import parts
+from mindrun.robot import driver_support as parts
 from mindrun.robot.drivers.switch import Switch
 
 WITHOUT = """

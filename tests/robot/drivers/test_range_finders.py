@@ -4,7 +4,7 @@ from time import monotonic
 
 import pytest
 from mindrun.driver import DeviceError
-from mindrun.robot import parts
+from mindrun.robot import driver_support as parts
 from mindrun.robot.drivers.grove_ultrasonic import GroveUltrasonic
 from mindrun.robot.drivers.ultrasonic import Ultrasonic, firing_order
 

@@ -2,7 +2,7 @@
 
 import pytest
 from mindrun.driver import DeviceError
-from mindrun.robot import parts
+from mindrun.robot import driver_support as parts
 from mindrun.robot.drivers.pca9685 import COUNT, Pca9685
 
 from tests.robot.drivers.fakes import FakeBus, FakePca9685

@@ -5,7 +5,7 @@ from random import Random
 
 import pytest
 from mindrun.driver import DeviceError
-from mindrun.robot import parts
+from mindrun.robot import driver_support as parts
 from mindrun.robot.drivers import grove_motor
 from mindrun.robot.drivers.grove_motor import GroveMotor, MotorDevice
 

@@ -22,7 +22,7 @@ from mindrun.driver import DeviceError
 from mindrun.registry import kind
 from mindrun.robot.guardian.__main__ import main
 from mindrun.robot.guardian.plan import DRIVERS
-from mindrun.robot.guardian.urgent import import_little
+from mindrun.robot.guardian.realtime import import_little
 
 LOG = os.open(os.environ["MIND_LOG"], os.O_WRONLY | os.O_APPEND | os.O_CREAT)
 MANNERS = os.environ.get("MIND_MANNERS", "fine fine fine").split()

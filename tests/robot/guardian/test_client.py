@@ -13,7 +13,7 @@ from termios import FIONREAD
 from typing import Any
 
 import pytest
-from mindrun.robot import children
+from mindrun.robot import child_processes as children
 from mindrun.robot.guardian.client import Guardian, GuardianError
 from mindrun.robot.guardian.frames import Frame, Reader, size
 from mindrun.robot.guardian.plan import from_json

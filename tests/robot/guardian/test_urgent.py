@@ -10,7 +10,7 @@ from types import SimpleNamespace
 from typing import Any
 
 import pytest
-from mindrun.robot.guardian import urgent
+from mindrun.robot.guardian import realtime as urgent
 
 UNLIMITED = resource.RLIM_INFINITY
 ASKED = ["stack", "switch", "scheduler", "killed last", "locked", "frozen"]

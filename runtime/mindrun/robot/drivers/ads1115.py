@@ -6,7 +6,7 @@ from typing import Annotated
 
 from mindrun.quantity import Quantity
 from mindrun.registry import kind
-from mindrun.robot.parts import ADDRESS, BUS, Wire
+from mindrun.robot.driver_support import ADDRESS, BUS, Wire
 
 INPUT = Quantity("an input", {"": 1.0}, low=0, high=3, whole=True)
 RATIO_OF_DIVIDER = Quantity("how many times more than the input gets", {"": 1.0}, low=1.0, high=100.0)

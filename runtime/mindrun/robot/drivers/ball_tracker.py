@@ -9,11 +9,11 @@ from typing import Annotated
 from mindrun.driver import DeviceError
 from mindrun.quantity import COUNT, RATIO, Quantity, Reference
 from mindrun.registry import kind
-from mindrun.robot import eye
+from mindrun.robot import camera as eye
+from mindrun.robot.ball_detection import Look, Neck, distance
+from mindrun.robot.camera import Eye, Joint, Sight
+from mindrun.robot.driver_support import ADDRESS, BUS, CHANNEL, DEGREES, METRES, MICROSECONDS, PATH, on_bus
 from mindrun.robot.drivers.pca9685 import Pca9685
-from mindrun.robot.eye import Eye, Joint, Sight
-from mindrun.robot.parts import ADDRESS, BUS, CHANNEL, DEGREES, METRES, MICROSECONDS, PATH, on_bus
-from mindrun.robot.tracker import Look, Neck, distance
 
 MEASURE = Reference("measure", ("bearing", "elevation", "distance"))
 HUE = Quantity("a hue", {"deg": 1.0}, low=0.0, high=360.0)

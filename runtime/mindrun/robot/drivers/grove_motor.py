@@ -9,7 +9,7 @@ from typing import Annotated
 from mindrun.driver import DeviceError
 from mindrun.quantity import Quantity
 from mindrun.registry import kind
-from mindrun.robot.parts import ADDRESS, BUS, Wire, on_bus, share
+from mindrun.robot.driver_support import ADDRESS, BUS, Wire, on_bus, share
 
 MOTOR = Quantity("a motor of the board", {"": 1.0}, low=1, high=2, whole=True)
 SPEED, FREQUENCY, DIRECTION = 0x82, 0x84, 0xAA

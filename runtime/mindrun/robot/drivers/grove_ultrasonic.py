@@ -6,7 +6,7 @@ from typing import Annotated
 
 from mindrun.quantity import Quantity
 from mindrun.registry import kind
-from mindrun.robot.parts import ADDRESS, BUS, METRES, Wire
+from mindrun.robot.driver_support import ADDRESS, BUS, METRES, Wire
 
 PORT = Quantity("a digital port of the GrovePi", {"": 1.0}, low=2, high=8, whole=True)
 RANGER, VERSION = 7, 8  # commands

@@ -11,7 +11,7 @@ from typing import Annotated
 
 from mindrun.quantity import NUMBER, Quantity, Reference
 from mindrun.registry import kind
-from mindrun.robot.parts import ADDRESS, BUS, DEGREES, Wire
+from mindrun.robot.driver_support import ADDRESS, BUS, DEGREES, Wire
 
 WHO_AM_I, INERTIAL, MAGNETIC = 0x0F, 0x68, 0x3D  # 7.11 and 8.4
 GYROSCOPE_ON = ((0x22, 0x44), (0x10, 0x60))  # CTRL_REG8: whole values only; CTRL_REG1_G: 119 Hz, ±245 °/s

@@ -5,7 +5,7 @@ from typing import Annotated
 
 from mindrun.quantity import COUNT, NUMBER
 from mindrun.registry import kind
-from mindrun.robot.parts import share
+from mindrun.robot.driver_support import share
 
 
 @dataclass(frozen=True, slots=True)

@@ -5,7 +5,7 @@ from time import sleep
 from typing import Annotated
 
 from mindrun.registry import kind
-from mindrun.robot.parts import ADDRESS, BUS, CHANNEL, MICROSECONDS, Wire, on_bus, share
+from mindrun.robot.driver_support import ADDRESS, BUS, CHANNEL, MICROSECONDS, Wire, on_bus, share
 
 MODE1, MODE2, LED0, ALL_OFF_HIGH, PRESCALE = 0x00, 0x01, 0x06, 0xFD, 0xFE  # table 4
 RESTART, AUTO_INCREMENT, SLEEP = 0x80, 0x20, 0x10  # bits of MODE1, table 5

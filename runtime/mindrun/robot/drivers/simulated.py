@@ -14,8 +14,8 @@ from typing import Annotated, Any
 
 from mindrun.driver import DeviceError
 from mindrun.graph import Graph
+from mindrun.named_readings import physical
 from mindrun.quantity import COUNT, Reference
-from mindrun.readings import physical
 from mindrun.registry import kind
 from mindrun.wiring import ActuatorWire, SensorWire, Wiring
 

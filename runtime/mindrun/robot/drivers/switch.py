@@ -5,7 +5,7 @@ from typing import Annotated, Any
 
 from mindrun.quantity import Reference
 from mindrun.registry import kind
-from mindrun.robot.parts import PIN, library, pins
+from mindrun.robot.driver_support import PIN, library, pins
 
 PULL = Reference("pull", ("up", "down"))
 

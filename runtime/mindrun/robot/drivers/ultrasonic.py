@@ -8,7 +8,7 @@ from typing import Annotated, Any
 
 from mindrun.driver import DeviceError
 from mindrun.registry import kind
-from mindrun.robot.parts import METRES, PIN, library, pins
+from mindrun.robot.driver_support import METRES, PIN, library, pins
 
 SOUND = 343.2  # metres a second, at 20 °C
 TRIGGER = 10e-6  # seconds, HC-SR04 data sheet

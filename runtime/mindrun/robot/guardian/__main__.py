@@ -9,10 +9,10 @@ from pathlib import Path
 from time import monotonic, sleep
 
 from mindrun.errors import MindError
+from mindrun.line_writer import Teller
 from mindrun.robot.guardian.plan import DRIVERS, LARGEST, Plan, from_json, read_plan
 from mindrun.robot.guardian.process import Process
-from mindrun.robot.guardian.urgent import be_urgent, import_little, wake_on_signals
-from mindrun.teller import Teller
+from mindrun.robot.guardian.realtime import be_urgent, import_little, wake_on_signals
 
 OK, FAILED, USAGE, UNAVAILABLE, BROKEN = 0, 1, 64, 69, 70  # as in sysexits.h
 INPUT, OUTPUT, ERRORS = 0, 1, 2

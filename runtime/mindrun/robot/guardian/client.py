@@ -13,7 +13,7 @@ from time import monotonic, monotonic_ns, sleep
 from types import TracebackType
 
 from mindrun.errors import MindError
-from mindrun.robot.children import keep_from_children, keep_no_longer
+from mindrun.robot.child_processes import keep_from_children, keep_no_longer
 from mindrun.robot.guardian.frames import pack
 from mindrun.robot.guardian.guard import FOLLOWING, LATCHED, NEUTRAL
 from mindrun.robot.guardian.plan import Plan, to_json

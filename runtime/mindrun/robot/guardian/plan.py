@@ -16,7 +16,7 @@ from mindrun.driver import ActuatorDriver
 from mindrun.errors import MindError
 from mindrun.quantity import RATIO, SECONDS, Quantity, Reference, fits
 from mindrun.registry import kinds, names
-from mindrun.regular import read_regular
+from mindrun.regular_files import read_regular
 from mindrun.robot.guardian.frames import MOST
 
 if TYPE_CHECKING:

@@ -13,7 +13,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
 
-from mindrun.regular import irregular, read_regular
+from mindrun.regular_files import irregular, read_regular
 
 # Where Linux has the descriptors of a process. What is behind one has perhaps no path, or one that is not its own.
 DESCRIPTORS = re.compile(r"/(?:dev|proc/self)/fd/(\d{1,9})|/dev/std(in|out|err)")

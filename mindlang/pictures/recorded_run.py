@@ -11,7 +11,7 @@ from mindrun.sim.trace import trace
 from mindrun.weights import reachable
 from numpy.typing import NDArray
 
-from mindlang.run.casting import Cast
+from mindlang.run.setup import Cast
 
 Floats = NDArray[np.float64]
 JUMP = 0.5  # units: nothing moves that far in a tick but what reappears elsewhere

@@ -15,7 +15,7 @@ from hashlib import sha256
 from itertools import chain
 
 from mindrun.errors import MindError
-from mindrun.robot.children import keep_from_children, keep_no_longer
+from mindrun.robot.child_processes import keep_from_children, keep_no_longer
 from mindrun.wiring import Wiring
 
 PREFIX = b"\0mind "  # an address that begins with a zero is in no folder

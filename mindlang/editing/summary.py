@@ -7,11 +7,11 @@ from pathlib import Path
 from mindrun.graph import Graph
 
 from mindlang.compiler.diagnostic import listed
-from mindlang.editing.carry_out import Beside, Edited
-from mindlang.editing.follow import Locks, merged
+from mindlang.editing.apply import Beside, Edited
+from mindlang.editing.lock_update import Locks, merged
 from mindlang.lock.arrange import arrange
 from mindlang.lock.status import Stale, Status, Trained, Untaught, status
-from mindlang.unified import unified
+from mindlang.unified_diff import unified
 
 Statuses = Mapping[str, Status]
 

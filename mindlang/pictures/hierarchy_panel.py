@@ -8,9 +8,9 @@ from mindrun.actuators import Gripper
 from numpy.typing import NDArray
 
 from mindlang.pictures.canvas import Canvas, text_width
-from mindlang.pictures.flow import Flow, Flowing, Sink
+from mindlang.pictures.influence_flow import Flow, Flowing, Sink
 from mindlang.pictures.layout import Layout, Place
-from mindlang.pictures.story import Story
+from mindlang.pictures.recorded_run import Story
 from mindlang.pictures.theme import Theme, mixed
 
 BEND = np.linspace(0.0, 1.0, 24)

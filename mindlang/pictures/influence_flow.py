@@ -9,7 +9,7 @@ from mindrun.engine import procedure_sources
 from mindrun.think import hierarchy, values
 from numpy.typing import NDArray
 
-from mindlang.pictures.story import Story
+from mindlang.pictures.recorded_run import Story
 
 Sink = tuple[str, int]  # "skill", "actuator" or "memory", and its index
 

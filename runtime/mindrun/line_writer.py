@@ -5,7 +5,7 @@ from collections import deque
 from select import select
 from threading import Condition, Thread
 
-from mindrun.visible import visible
+from mindrun.printable import visible
 
 MOST = 1000  # pieces that wait; the oldest go first
 

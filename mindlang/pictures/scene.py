@@ -12,7 +12,7 @@ from mindrun.world import Arena, Item, Power, Zone
 from numpy.typing import NDArray
 
 from mindlang.pictures.canvas import Canvas, square, text_width
-from mindlang.pictures.story import Story
+from mindlang.pictures.recorded_run import Story
 from mindlang.pictures.theme import Colour, Theme, mixed
 
 GRID = 10.0  # units

@@ -11,11 +11,11 @@ from pathlib import Path
 
 from mindrun.graph import Graph
 
-from mindlang import journal
+from mindlang import transaction as journal
 from mindlang.compiler.compile import Compiled, load
 from mindlang.compiler.diagnostic import Findings
 from mindlang.compiler.resolve.names import gather
-from mindlang.editing.follow import Locks, follow, locks_of, merged
+from mindlang.editing.lock_update import Locks, follow, locks_of, merged
 from mindlang.editing.project import Change, EditError, Renamed, Replaced
 from mindlang.lock import Lock, lock_text
 from mindlang.lock.arrange import arrange

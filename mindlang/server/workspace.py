@@ -8,7 +8,7 @@ from pathlib import Path
 
 from mindlang.compiler.compile import Compiled, load
 from mindlang.compiler.source import within
-from mindlang.nearby import above, as_many, beside, text_of
+from mindlang.file_search import above, as_many, beside, text_of
 from mindlang.server.view import View, view
 
 _MASTER = re.compile(r"^[ \t]*master\b", re.MULTILINE)

@@ -14,9 +14,9 @@ from hashlib import sha256
 from pathlib import Path
 from stat import S_ISREG
 
-from mindrun.durable import alone, exchange, spare, sync_folder, write
+from mindrun.atomic_write import alone, exchange, spare, sync_folder, write
 from mindrun.errors import MindError
-from mindrun.regular import read_whole
+from mindrun.regular_files import read_whole
 
 NAME = ".mind-edit"
 LARGEST = 1 << 28  # bytes of a file that is changed, and of a journal

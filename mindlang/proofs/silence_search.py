@@ -9,9 +9,9 @@ import numpy as np
 from mindrun.graph import Graph
 from mindrun.weights import Weights, genes, reachable
 
+from mindlang.proofs.batch import Thoughts, think
+from mindlang.proofs.branch_and_bound import readings_to_try
 from mindlang.proofs.interval import Singles, is_known
-from mindlang.proofs.many import Thoughts, think
-from mindlang.proofs.sharpen import readings_to_try
 
 TRIED, WORK = 4096, 20_000_000  # readings, and weights times readings
 

@@ -7,9 +7,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mindrun.graph import Graph
-from mindrun.portable import sine
 from mindrun.sensors import Bearing, Derivative, Sine
-from mindrun.sound import depths
+from mindrun.trigonometry import sine
+from mindrun.validate import depths
 
 _HALF, _ONE, _NAN = np.float32(0.5), np.float32(1.0), np.float32(np.nan)
 

@@ -12,9 +12,9 @@ from mindrun.errors import MindError
 from mindrun.sim.rollout import Rollout, Scores
 from rich.progress import BarColumn, Progress, TaskProgressColumn, TextColumn, TimeRemainingColumn
 
-from mindlang.estimate import refuse_too_large, refuse_too_many
-from mindlang.run.casting import Cast, CastingError, cast
-from mindlang.simulator import make_ready
+from mindlang.resource_limits import refuse_too_large, refuse_too_many
+from mindlang.run.setup import Cast, CastingError, cast
+from mindlang.simulator_compilation import make_ready
 from mindlang.terminal import FINDINGS, MISUSE, fail, load_compiled, procedures_talk, say, talk, write_picture
 
 NOBODY = np.zeros((1, 0), np.float32)  # the genome where nobody learns
@@ -68,7 +68,7 @@ class Stage:
     def draw(self, cast: Cast, rollout: Rollout, found: dict[str, Any], path: Path) -> None:
         """The picture of a run, written to `path`."""
         from mindlang.pictures.picture import picture, png
-        from mindlang.pictures.story import tell
+        from mindlang.pictures.recorded_run import tell
 
         story = tell(cast, rollout, found["seed"])
         write_picture(path, png(picture(story, found)))
@@ -78,7 +78,7 @@ class Stage:
     def film(self, cast: Cast, rollout: Rollout, found: dict[str, Any], path: Path, speed: float | None) -> None:
         """The video of a run, written to `path`."""
         from mindlang.pictures.film import Film, FilmError
-        from mindlang.pictures.story import tell
+        from mindlang.pictures.recorded_run import tell
 
         film = Film.of(tell(cast, rollout, found["seed"]), found, speed)
         try:

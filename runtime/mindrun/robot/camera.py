@@ -11,8 +11,8 @@ from typing import Any, Protocol
 import numpy as np
 
 from mindrun.driver import ActuatorDevice, DeviceError
-from mindrun.robot.parts import library
-from mindrun.robot.tracker import Aim, Ball, Frame, Look, Neck, blindness, find_ball, follow
+from mindrun.robot.ball_detection import Aim, Ball, Frame, Look, Neck, blindness, find_ball, follow
+from mindrun.robot.driver_support import library
 
 STALE = 0.2  # seconds for which the same frame may come
 RETRY = 0.02  # seconds between two questions to a camera that has no frame

@@ -10,8 +10,8 @@ from io import BytesIO, StringIO
 from math import isfinite
 from pathlib import Path
 
-from mindrun.plain_data import is_whole
-from mindrun.regular import read_whole
+from mindrun.regular_files import read_whole
+from mindrun.strict_json import is_whole
 from mindrun.train.errors import NotFoundError, RunError
 from mindrun.train.progress import COUNTED, LINES, TABLE, read
 from mindrun.train.run_folder import MANIFEST, open_run

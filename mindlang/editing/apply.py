@@ -10,7 +10,7 @@ from mindlang.compiler.compile import Compiled, compile_source, load
 from mindlang.compiler.diagnostic import Diagnostic
 from mindlang.compiler.source import Span
 from mindlang.compiler.splice import spliced
-from mindlang.editing.follow import Followed, Locks, follow, locks_of
+from mindlang.editing.lock_update import Followed, Locks, follow, locks_of
 from mindlang.editing.project import Change, EditError, Project
 from mindlang.lock import LockError
 

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from mindrun.robot.parts import library
+from mindrun.robot.driver_support import library
 
 Frame = NDArray[np.uint8]
 

@@ -11,8 +11,8 @@ from select import select
 from typing import Any, TextIO
 
 from mindrun.errors import reason
-from mindrun.teller import Teller
-from mindrun.visible import visible
+from mindrun.line_writer import Teller
+from mindrun.printable import visible
 
 OUTPUT, ERRORS = 1, 2
 SIZES = "COLUMNS", "LINES"  # of the terminal, as the environment may say them

@@ -13,8 +13,8 @@ from mindrun.graph import Edge, Skill
 from mindrun.weights import Weights
 from numpy.typing import NDArray
 
+from mindlang.proofs.batch import values
 from mindlang.proofs.interval import Boxes, Sent, Singles, is_known, perceptron, sent
-from mindlang.proofs.many import values
 
 CLOSE = 1e-3  # a bound this near to a value that was seen is sharp enough, but for 0 and 1
 AT_ONCE = 256  # boxes that are cut in one round

@@ -9,8 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mindrun.graph import Graph, Sensor
+from mindrun.robot.reading_filter import FINE
 from mindrun.robot.recording import RecordingError, read
-from mindrun.robot.senses import FINE
 from mindrun.sensors import Physical
 
 
