@@ -24,9 +24,9 @@ from mindlang.compiler.drawing import dot, tree
 from mindlang.compiler.format import formatted
 from mindlang.compiler.source import Source
 from mindlang.diagnostic_printer import as_data, print_report
-from mindlang.editing.apply import carry_out
+from mindlang.editing.apply import apply_edit
 from mindlang.editing.project import EditError, open_project
-from mindlang.editing.summary import diff, told
+from mindlang.editing.summary import diff, summarise
 from mindlang.edits import edit
 from mindlang.linting.fixing import fixed
 from mindlang.linting.lint import lint
@@ -126,8 +126,8 @@ def _edits(*names: str) -> Callable[[Case], None]:
             project = open_project(case.compiled)
             for name in names:
                 with suppress(EditError):
-                    edited = carry_out(project, edit(name).function(project, **said[name]), keep_weights=False)
-                    told(edited)
+                    edited = apply_edit(project, edit(name).function(project, **said[name]), keep_weights=False)
+                    summarise(edited)
                     diff(edited)
 
     return made
@@ -139,40 +139,40 @@ def _opened(case: Case) -> None:
 
 def _asked(case: Case) -> None:
     """Every question at the first declaration and at the end."""
-    desk = case.session().desk
-    view = desk.view(case.path)
+    workspace = case.session().workspace
+    view = workspace.view(case.path)
     for offset in (case.text.find("eye") + 1, len(case.text)):
         hover(view, case.path, offset)
         complete(view, case.path, case.text, offset)
         definitions(view, case.path, offset)
-        references(desk, view, case.path, offset, with_declaration=True)
+        references(workspace, view, case.path, offset, with_declaration=True)
         highlights(view, case.path, offset)
 
 
 def _acted(case: Case) -> None:
     """What an editor can do about all that is found, and at the master."""
     session = case.session()
-    desk, wire = session.desk, session.wire
-    view = desk.view(case.path)
+    workspace, lsp = session.workspace, session.lsp
+    view = workspace.view(case.path)
     for each in mendings(view, case.path, 0, len(case.text)):
-        wire.workspace_edit(each.splices, {}, plain=True)
-    all_mended(view, case.path, desk.texts)
+        lsp.workspace_edit(each.splices, {}, plain=True)
+    all_mended(view, case.path, workspace.texts)
     if case.compiled.graph:
         at = max(case.text.find("skill Go"), 0)
         proposals(Selection(open_project(case.compiled), case.path, at, at))
         with suppress(EditError):
-            outcome = perform(desk, case.path, "rename", {"old": "eye", "new": "other", "noun": "sensor"})
-            wire.workspace_edit(outcome.change.splices, {}, plain=True)
+            outcome = perform(workspace, case.path, "rename", {"old": "eye", "new": "other", "noun": "sensor"})
+            lsp.workspace_edit(outcome.change.splices, {}, plain=True)
 
 
 def _outlined(case: Case) -> None:
     session = case.session()
-    if file := session.desk.view(case.path).file(case.path):
+    if file := session.workspace.view(case.path).file(case.path):
         for symbol in symbols(file):
-            session.wire.range(symbol.whole)
-    everything(session.desk, [case.path.parent], "g")
+            session.lsp.range(symbol.whole)
+    everything(session.workspace, [case.path.parent], "g")
     for splice in tidied(Source("mind.mind", case.text, case.path.parent)):
-        session.wire.text_edit(splice)
+        session.lsp.text_edit(splice)
 
 
 COMMANDS: Mapping[str, Callable[[Case], None]] = {

@@ -31,11 +31,11 @@ from mindlang.lock.status import NotLearning, status
 from mindlang.proofs.proof import prove
 from mindlang.server.completing import complete
 from mindlang.server.hovering import hover
-from mindlang.server.lsp_types import Wire
+from mindlang.server.lsp_types import LspConverter
 from mindlang.server.mending import all_mended, mendings
 from mindlang.server.navigating import definitions, highlights, references, symbols
 from mindlang.server.tidying import tidied
-from mindlang.server.workspace import Desk
+from mindlang.server.workspace import Workspace
 
 SOON = 2.0  # seconds of the processor
 END = 30.0  # after which a case is ended
@@ -120,21 +120,21 @@ def _prove(place: Place, found: Compiled, text: str, random: Random) -> None:
 
 def _answers(place: Place, found: Compiled, text: str, random: Random) -> None:
     """What an editor asks about three places."""
-    path, wire = place.main, Wire()
-    desk = Desk({**place.texts, path: text})
-    view = desk.view(path)
+    path, wire = place.main, LspConverter()
+    workspace = Workspace({**place.texts, path: text})
+    view = workspace.view(path)
     for each in view.findings:
         wire.diagnostic(each)
     if file := view.file(path):
         symbols(file)
-    all_mended(view, path, desk.texts)
+    all_mended(view, path, workspace.texts)
     tidied(Source("case.mind", text, place.folder))
     for _ in range(3):
         offset = random.randrange(len(text) + 1)
         hover(view, path, offset)
         complete(view, path, text, offset)
         definitions(view, path, offset)
-        references(desk, view, path, offset, with_declaration=False)
+        references(workspace, view, path, offset, with_declaration=False)
         highlights(view, path, offset)
         list(mendings(view, path, offset, offset))
 

@@ -7,7 +7,7 @@ import time
 
 import cv2
 import numpy as np
-from mindrun.robot.ball_detection import Frame, Look, find_ball
+from mindrun.robot.ball_detection import BallTarget, Frame, find_ball
 
 WIDTH, HEIGHT = 320, 240
 FRAMES = 50
@@ -30,7 +30,7 @@ def milliseconds(frames: list[Frame], rounds: int) -> list[float]:
     for _ in range(rounds):
         for shown in frames:
             begin = time.perf_counter_ns()
-            find_ball(shown, Look())
+            find_ball(shown, BallTarget())
             taken.append((time.perf_counter_ns() - begin) / 1e6)
     return taken
 

@@ -17,7 +17,7 @@ def is_compiled() -> bool:
     return warmup.code().is_there()
 
 
-def make_ready(rollout: Rollout, say: Callable[[str], None]) -> None:
+def ensure_compiled(rollout: Rollout, say: Callable[[str], None]) -> None:
     """Compile the simulator if need be, and say so; Ctrl-C ends the program meanwhile, because numba may swallow it."""
     had = is_compiled()
     if not had:

@@ -99,13 +99,13 @@ def write_picture(path: Path, data: bytes) -> None:
 
 def take_back(path: Path | str) -> None:
     """Take back an edit of a file that was interrupted; end the program where that would lose work."""
-    from mindlang.transaction import JournalError, recover
+    from mindlang.transaction import TransactionError, recover
 
     folder = Path(path).absolute().parent
     try:
         if recover(folder):
             say("An edit was interrupted, and has been taken back.", "Make it again.")
-    except JournalError as error:
+    except TransactionError as error:
         fail(f"{error}.", error.hint, MISUSE)
 
 

@@ -23,7 +23,7 @@ LARGEST = 1 << 28  # bytes of a file that is changed, and of a journal
 KINDS = (".mind", ".lock", ".npy")  # of files that mindc changes
 
 
-class JournalError(MindError):
+class TransactionError(MindError):
     """Files that cannot be written, or put back."""
 
 
@@ -44,7 +44,7 @@ def change(folder: Path, files: Mapping[Path, bytes], check: Callable[[], None] 
     for path in files:
         if not _is_ours(folder, path):
             kinds = ", ".join(KINDS[:-1]) + f" and {KINDS[-1]}"
-            raise JournalError(f"{path} cannot be changed together with others: it is a link, or none of {kinds}")
+            raise TransactionError(f"{path} cannot be changed together with others: it is a link, or none of {kinds}")
     waiting = set[Path]()
     with alone(folder):
         try:
@@ -60,7 +60,7 @@ def change(folder: Path, files: Mapping[Path, bytes], check: Callable[[], None] 
         except BaseException as error:
             _undo(folder, waiting)
             if isinstance(error, OSError):
-                raise JournalError(f"{error.filename or folder} cannot be written: {error.strerror}") from error
+                raise TransactionError(f"{error.filename or folder} cannot be written: {error.strerror}") from error
             raise
 
 
@@ -95,7 +95,7 @@ def _undo(folder: Path, waiting: Collection[Path]) -> None:
     try:
         _put_back(folder, waiting)
     except OSError as error:
-        raise JournalError(
+        raise TransactionError(
             f"{error.filename or folder} cannot be written: {error.strerror}",
             f"the edit is half done; any mindc command takes it back as soon as {folder} can be written again",
         ) from error
@@ -118,7 +118,7 @@ def _put_back(folder: Path, waiting: Collection[Path] = ()) -> bool:
     for path, note in noted.items():
         now = _get(path)
         if now != note.was and _hash(now) != note.becomes and path not in waiting:
-            raise JournalError(
+            raise TransactionError(
                 f"{path} has been changed since an edit of {names} was interrupted",
                 f"keep them as they are by deleting {folder / NAME}, or get {path.name} back",
             )
@@ -140,10 +140,10 @@ def _read(folder: Path) -> dict[Path, _Noted] | None:
             _inside(folder, path): _Noted(_unpacked(told["was"]), str(told["becomes"])) for path, told in plain.items()
         }
     except OSError as error:
-        raise JournalError(f"{folder / NAME} cannot be read: {error.strerror}", "delete it") from error
+        raise TransactionError(f"{folder / NAME} cannot be read: {error.strerror}", "delete it") from error
     except (ValueError, TypeError, KeyError, AttributeError, RuntimeError) as error:
         # a RuntimeError is of what nests too deep, or of links in a circle
-        raise JournalError(f"{folder / NAME} is not what mindc wrote", "delete it") from error
+        raise TransactionError(f"{folder / NAME} is not what mindc wrote", "delete it") from error
 
 
 def _inside(folder: Path, name: str) -> Path:

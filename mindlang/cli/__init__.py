@@ -8,7 +8,7 @@ from pkgutil import iter_modules
 from threading import active_count
 
 import click
-from mindrun import standard_streams as streams
+from mindrun import standard_streams
 
 from mindlang.terminal import FINDINGS, INTERRUPTED, MISUSE, OK, say
 
@@ -59,9 +59,9 @@ def commands() -> None:
 def main() -> None:
     """Run one command; whatever happens ends in one message and an exit code, never in a traceback."""
     set_threshold(SELDOM)
-    streams.prepare()
+    standard_streams.prepare()
     code = _run()
-    if why := streams.finish():
+    if why := standard_streams.finish():
         say(why)
         code = code or FINDINGS
     if code == INTERRUPTED and active_count() > 1:  # the simulator's threads would be waited for

@@ -46,17 +46,17 @@ def command(
     from mindrun.sim.rollout import cores
 
     from mindlang.run import outcome
-    from mindlang.run.session import Stage, layouts
+    from mindlang.run.session import RunSession, layouts
     from mindlang.run.summary import bench_summary
     from mindlang.terminal import console, print_json
 
-    stage = Stage(quiet)
+    session = RunSession(quiet)
     workers = workers or cores()
-    cast, rollout = stage.prepare(file, task, master, interrupt=not no_interruption, workers=workers, runs=runs)
+    setup, rollout = session.prepare(file, task, master, interrupt=not no_interruption, workers=workers, runs=runs)
     seeds = layouts(seed, runs)
-    scores, seconds = stage.score(rollout, seeds)
-    found = {"task": cast.task.name, "master": cast.master, "seed": seed, "workers": workers}
-    found |= outcome.many(cast.task, scores, seeds, seconds) | {"notes": [*cast.ready.notes]}
+    scores, seconds = session.score(rollout, seeds)
+    found = {"task": setup.task.name, "master": setup.master, "seed": seed, "workers": workers}
+    found |= outcome.many(setup.task, scores, seeds, seconds) | {"notes": [*setup.ready.notes]}
     if as_json:
         print_json(found)
     else:

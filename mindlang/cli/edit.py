@@ -46,10 +46,10 @@ def _command(of: Edit) -> click.Command:
     """A click command with the parameters of an edit, and those that all of them have."""
 
     def run(file: str, write: bool, anyway: bool, keep_weights: bool, verify: bool, as_json: bool, **said: Any) -> None:
-        from mindlang.editing.command import Wishes, perform
+        from mindlang.editing.command import EditOptions, perform
 
         said, file = _file_first(of, said, file)
-        perform(of, said, file, Wishes(write, anyway, keep_weights, verify, as_json))
+        perform(of, said, file, EditOptions(write, anyway, keep_weights, verify, as_json))
 
     parameters = [
         *(click.Argument([name], nargs=-1 if many else 1, required=True) for name, many in of.arguments),

@@ -49,22 +49,22 @@ def command(
     import secrets
 
     from mindlang.run import outcome
-    from mindlang.run.session import Stage
+    from mindlang.run.session import RunSession
     from mindlang.run.summary import run_summary
     from mindlang.terminal import console, print_json, refuse_unwritable
 
-    stage = Stage(quiet)
+    session = RunSession(quiet)
     refuse_unwritable(picture, ".png")
     refuse_unwritable(video, ".mp4")
-    cast, rollout = stage.prepare(file, task, master, interrupt=not no_interruption)
+    setup, rollout = session.prepare(file, task, master, interrupt=not no_interruption)
     seed = secrets.randbits(31) if seed is None else seed
-    found = outcome.one(cast.task, stage.score(rollout, [seed])[0])
-    found = {"task": cast.task.name, "master": cast.master, "seed": seed, "notes": [*cast.ready.notes]} | found
+    found = outcome.one(setup.task, session.score(rollout, [seed])[0])
+    found = {"task": setup.task.name, "master": setup.master, "seed": seed, "notes": [*setup.ready.notes]} | found
     if as_json:
         print_json(found)
     else:
         console().print(run_summary(found))
     if picture:
-        stage.draw(cast, rollout, found, picture)
+        session.draw(setup, rollout, found, picture)
     if video:
-        stage.film(cast, rollout, found, video, speed)
+        session.film(setup, rollout, found, video, speed)

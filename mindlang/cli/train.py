@@ -48,7 +48,7 @@ def command(
     workers: int | None,
     as_json: bool,
     quiet: bool,
-    **options: Any,
+    **choice: Any,
 ) -> int:
     """Teach the skills of FILE, in the order of its curriculum.
 
@@ -63,20 +63,20 @@ def command(
     from mindrun.errors import MindError
     from mindrun.train.errors import NotFoundError
 
-    from mindlang.school import School
-    from mindlang.school.teaching import Wishes
+    from mindlang.training import Trainer
+    from mindlang.training.lesson_choice import TrainOptions
 
     if file == "-":
         fail("Standard input cannot be taught: what is learnt is kept beside a file.", "Save it as a file.", MISUSE)
     if (file is None) == (resume is None):
         fail("Say what to train: a file, or --resume and a run.", "mindc train --help has examples.", MISUSE)
-    school = School(workers, as_json, quiet)
-    wishes = Wishes(generations, scale, population, attempts, from_scratch=from_scratch)
+    trainer = Trainer(workers, as_json, quiet)
+    options = TrainOptions(generations, scale, population, attempts, from_scratch=from_scratch)
     try:
         if resume:
-            finished = school.resume(resume, force)
+            finished = trainer.resume(resume, force)
         else:
-            finished = school.teach_file(Path(str(file)), skills, wishes=wishes, force=force, **options)
+            finished = trainer.teach_file(Path(str(file)), skills, options=options, force=force, **choice)
     except NotFoundError as error:
         fail(str(error), error.hint, MISUSE)
     except MindError as error:

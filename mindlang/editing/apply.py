@@ -10,13 +10,13 @@ from mindlang.compiler.compile import Compiled, compile_source, load
 from mindlang.compiler.diagnostic import Diagnostic
 from mindlang.compiler.source import Span
 from mindlang.compiler.splice import spliced
-from mindlang.editing.lock_update import Followed, Locks, follow, locks_of
+from mindlang.editing.lock_update import Locks, UpdatedLocks, locks_of, update_locks
 from mindlang.editing.project import Change, EditError, Project
 from mindlang.lock import LockError
 
 
 @dataclass(frozen=True, slots=True)
-class Beside:
+class EditedNeighbour:
     """A neighbour before and after an edit; one whose lock is damaged keeps it as it is, and why is in `damage`."""
 
     before: Project
@@ -32,9 +32,9 @@ class Edited:
     change: Change
     texts: Mapping[Path, str]
     graph: Graph
-    beside: tuple[Beside, ...]
+    beside: tuple[EditedNeighbour, ...]
     locks: Locks
-    followed: Followed
+    followed: UpdatedLocks
 
     @property
     def old_texts(self) -> dict[Path, str]:
@@ -47,7 +47,7 @@ class Edited:
         return [*self.project.paths, *self.change.created]
 
 
-def carry_out(project: Project, change: Change, keep_weights: bool) -> Edited:
+def apply_edit(project: Project, change: Change, keep_weights: bool) -> Edited:
     """The edit made in memory; EditError where its result would not compile, nothing is written."""
     texts = _texts(change)
     graph = _compiled(project, texts)
@@ -60,8 +60,8 @@ def carry_out(project: Project, change: Change, keep_weights: bool) -> Edited:
             locks = locks_of(other.paths) | locks
         except LockError as error:
             damage = str(error)
-        beside.append(Beside(other, load(main, texts), damage))
-    followed = follow(locks, project.graph, graph, change, keep_weights)
+        beside.append(EditedNeighbour(other, load(main, texts), damage))
+    followed = update_locks(locks, project.graph, graph, change, keep_weights)
     return Edited(project, change, texts, graph, tuple(beside), locks, followed)
 
 

@@ -7,16 +7,16 @@ from typing import Any
 
 from mindlang.compiler.diagnostic import Diagnostic, listed
 from mindlang.diagnostic_printer import as_data, print_report
-from mindlang.editing.apply import Edited, carry_out
+from mindlang.editing.apply import Edited, apply_edit
 from mindlang.editing.project import EditError, open_project
-from mindlang.editing.summary import broken, diff, told
+from mindlang.editing.summary import broken_neighbours, diff, summarise
 from mindlang.editing.writing import changed_locks, write
 from mindlang.edits import Edit
 from mindlang.terminal import FINDINGS, MISUSE, console, fail, load_compiled, print_document, print_json, talk
 
 
 @dataclass(frozen=True, slots=True)
-class Wishes:
+class EditOptions:
     """What the command line says beside the edit itself."""
 
     write: bool
@@ -26,29 +26,29 @@ class Wishes:
     as_json: bool
 
 
-def perform(of: Edit, said: Mapping[str, Any], file: str, wishes: Wishes) -> None:
+def perform(of: Edit, said: Mapping[str, Any], file: str, options: EditOptions) -> None:
     """Make an edit of a file; an impossible one ends the program with its reason."""
-    if wishes.write and file == "-":
+    if options.write and file == "-":
         fail("Standard input cannot be written.", "Leave --write out: the diff is printed.", MISUSE)
     project = open_project(load_compiled(file))
     try:
-        edited = carry_out(project, of.function(project, **said), wishes.keep_weights)
-        sentences = [*told(edited), *_broken(edited, wishes)]
-        if wishes.verify:
-            from mindlang.editing.verify import verified
+        edited = apply_edit(project, of.function(project, **said), options.keep_weights)
+        sentences = [*summarise(edited), *_broken(edited, options)]
+        if options.verify:
+            from mindlang.editing.verify import verify_unchanged
 
-            sentences.append(_verified(verified(edited)))
-        if wishes.write:
+            sentences.append(_verified(verify_unchanged(edited)))
+        if options.write:
             write(edited)
     except EditError as error:
-        _refuse(error.diagnostic, wishes)
-    _show(edited, sentences, wishes)
+        _refuse(error.diagnostic, options)
+    _show(edited, sentences, options)
 
 
-def _broken(edited: Edited, wishes: Wishes) -> list[str]:
+def _broken(edited: Edited, options: EditOptions) -> list[str]:
     """A sentence for each mind that would no longer compile; EditError where that is not wished for."""
-    lines = [f"{name} no longer compiles by itself: {why}" for name, why in broken(edited).items()]
-    if lines and wishes.write and not wishes.anyway:
+    lines = [f"{name} no longer compiles by itself: {why}" for name, why in broken_neighbours(edited).items()]
+    if lines and options.write and not options.anyway:
         raise EditError(f"After this edit {lines[0]}", "--anyway makes it nevertheless.")
     return lines
 
@@ -59,15 +59,15 @@ def _verified(skills: list[str]) -> str:
     return f"verified: {listed(skills, 'and')} did the same to the bit"
 
 
-def _show(edited: Edited, sentences: list[str], wishes: Wishes) -> None:
-    if wishes.as_json:
-        print_json({"diff": diff(edited), "written": wishes.write, "weights": sentences})
+def _show(edited: Edited, sentences: list[str], options: EditOptions) -> None:
+    if options.as_json:
+        print_json({"diff": diff(edited), "written": options.write, "weights": sentences})
         return
-    if not wishes.write:
+    if not options.write:
         print_document(diff(edited))
     for line in sentences:
         talk.print(line, markup=False)
-    talk.print(_ending(edited, wishes.write), markup=False)
+    talk.print(_ending(edited, options.write), markup=False)
 
 
 def _ending(edited: Edited, is_written: bool) -> str:
@@ -79,8 +79,8 @@ def _ending(edited: Edited, is_written: bool) -> str:
     return f"nothing has been written: --write makes this edit{also}"
 
 
-def _refuse(diagnostic: Diagnostic, wishes: Wishes) -> None:
-    if wishes.as_json:
+def _refuse(diagnostic: Diagnostic, options: EditOptions) -> None:
+    if options.as_json:
         print_json({"diagnostics": [as_data(diagnostic)]})
     else:
         print_report([diagnostic], console(stderr=True))

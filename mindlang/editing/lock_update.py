@@ -8,7 +8,7 @@ from mindrun.graph import Graph
 from mindrun.weights import Weights
 
 from mindlang.editing.project import Change, Replaced
-from mindlang.editing.widen import widened
+from mindlang.editing.widen import widen_locks
 from mindlang.editing.world_names import relabelled
 from mindlang.lock import Entry, Lock, lock_path, read_lock
 
@@ -17,7 +17,7 @@ Names = Mapping[str, Mapping[str, str]]  # what is called otherwise now, by noun
 
 
 @dataclass(frozen=True, slots=True)
-class Followed:
+class UpdatedLocks:
     """The locks as they are after an edit, by path, and the new weights that they name, by the path of their file."""
 
     locks: Mapping[Path, Lock]
@@ -37,7 +37,7 @@ def merged(locks: Locks, sources: Iterable[Path]) -> Lock:
     return known
 
 
-def follow(locks: Locks, before: Graph, after: Graph, change: Change, keep_weights: bool) -> Followed:
+def update_locks(locks: Locks, before: Graph, after: Graph, change: Change, keep_weights: bool) -> UpdatedLocks:
     """The locks after an edit; with `keep_weights`, a skill that reads or influences more goes on as before.
 
     EditError where a skill cannot.
@@ -49,7 +49,11 @@ def follow(locks: Locks, before: Graph, after: Graph, change: Change, keep_weigh
     if change.replaced:
         own = {skill.name for skill in before.skills} - {change.replaced.new}
         kept = {path: _moved(lock, change.replaced, own) for path, lock in kept.items()}
-    return Followed(*widened(locks, kept, names["skill"], before, after)) if keep_weights else Followed(kept, {})
+    return (
+        UpdatedLocks(*widen_locks(locks, kept, names["skill"], before, after))
+        if keep_weights
+        else UpdatedLocks(kept, {})
+    )
 
 
 def new_names(change: Change) -> dict[str, dict[str, str]]:

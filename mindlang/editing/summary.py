@@ -7,7 +7,7 @@ from pathlib import Path
 from mindrun.graph import Graph
 
 from mindlang.compiler.diagnostic import listed
-from mindlang.editing.apply import Beside, Edited
+from mindlang.editing.apply import Edited, EditedNeighbour
 from mindlang.editing.lock_update import Locks, merged
 from mindlang.lock.arrange import arrange
 from mindlang.lock.status import Stale, Status, Trained, Untaught, status
@@ -26,7 +26,7 @@ def diff(edited: Edited) -> str:
     return "".join(unified(names[path], old.get(path, ""), text) for path, text in edited.texts.items())
 
 
-def told(edited: Edited) -> list[str]:
+def summarise(edited: Edited) -> list[str]:
     """A sentence for each skill whose weights do not simply stay as they are, and for what happens to neighbours."""
     before = _statuses(edited.project.graph, edited.locks, list(edited.project.paths))
     after = _statuses(edited.graph, edited.followed.locks, edited.sources)
@@ -47,7 +47,7 @@ def told(edited: Edited) -> list[str]:
     return lines + _told_beside(edited)
 
 
-def broken(edited: Edited) -> dict[str, str]:
+def broken_neighbours(edited: Edited) -> dict[str, str]:
     """The neighbours that would no longer compile by themselves, and why."""
     return {
         other.before.main.source.path.name: other.after.diagnostics[0].message
@@ -77,7 +77,7 @@ def _told_beside(edited: Edited) -> list[str]:
     return [f"{listed(sorted(names), 'and')}: {line}" if any(names) else line for line, names in found.items()]
 
 
-def _stale_beside(edited: Edited, other: Beside) -> Iterator[str]:
+def _stale_beside(edited: Edited, other: EditedNeighbour) -> Iterator[str]:
     assert other.after.graph
     own = merged(edited.locks, edited.project.paths)
     theirs = merged(edited.locks, other.before.paths)

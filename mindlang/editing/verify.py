@@ -13,7 +13,7 @@ from mindrun.sim.trace import trace
 from mindrun.weights import Weights, genes, reachable, weights_of
 from numpy.typing import NDArray
 
-from mindlang import simulator_compilation as simulator
+from mindlang import simulator_compilation
 from mindlang.editing.apply import Edited
 from mindlang.editing.lock_update import Names, merged, new_names, now_called
 from mindlang.editing.project import EditError
@@ -33,7 +33,7 @@ ROUNDING = (
 
 
 @dataclass(frozen=True, slots=True)
-class Side:
+class MindVersion:
     """A mind before or after an edit; `fresh` are weights that have not been written yet, by the path of their file."""
 
     graph: Graph
@@ -63,16 +63,16 @@ class Side:
 
 
 @procedures_talk()
-def verified(edited: Edited) -> list[str]:
+def verify_unchanged(edited: Edited) -> list[str]:
     """The trained skills that did the same before and after, each in charge of the task on which it was taught.
 
     What they read is recorded from a run in the simulator, as the mind was. EditError where one did something else.
     """
     lock = merged(edited.locks, edited.project.paths)
     folder = edited.project.main.source.folder
-    before = Side(arrange(edited.project.graph, lock), lock, {}, folder)
+    before = MindVersion(arrange(edited.project.graph, lock), lock, {}, folder)
     now = merged(edited.followed.locks, edited.sources)
-    after = Side(arrange(edited.graph, now), now, edited.followed.weights, folder)
+    after = MindVersion(arrange(edited.graph, now), now, edited.followed.weights, folder)
     names = new_names(edited.change)
     done = []
     for skill, state in status(before.graph, lock).items():
@@ -83,7 +83,7 @@ def verified(edited: Edited) -> list[str]:
     return done
 
 
-def _is_untouched(before: Side, after: Side, skill: str, master: str, names: Names) -> bool:
+def _is_untouched(before: MindVersion, after: MindVersion, skill: str, master: str, names: Names) -> bool:
     """Whether all that a skill reaches is declared as before, or has been widened to do as before; and can act."""
     old, new = before.weights(skill), master in after.lock and after.weights(master)
     if not old or not new:
@@ -97,7 +97,7 @@ def _is_untouched(before: Side, after: Side, skill: str, master: str, names: Nam
     return True
 
 
-def _shape(side: Side, skill: Skill, names: Names) -> object:
+def _shape(side: MindVersion, skill: Skill, names: Names) -> object:
     """What a skill reads and sends, by name."""
     readings = _readings(side.graph)
 
@@ -123,7 +123,7 @@ def _readings(graph: Graph) -> list[tuple[str, int]]:
     return wide + [(memory.name, 0) for memory in graph.memories]
 
 
-def _hold(before: Side, after: Side, skill: str, master: str, state: Trained, names: Names) -> None:
+def _hold(before: MindVersion, after: MindVersion, skill: str, master: str, state: Trained, names: Names) -> None:
     """Run a skill before and after on the same readings; EditError at the first tick that differs."""
     recorded = _recorded(before, skill, state)
     columns = {
@@ -148,12 +148,12 @@ def _hold(before: Side, after: Side, skill: str, master: str, state: Trained, na
             )
 
 
-def _recorded(side: Side, skill: str, state: Trained) -> NDArray[np.float32]:
+def _recorded(side: MindVersion, skill: str, state: Trained) -> NDArray[np.float32]:
     """What a skill reads [ticks, graph.width] in a run of the task on which it was taught."""
     tasks = [task.name for task in side.graph.tasks]
     task = state.entry.taught.task if state.entry.taught.task in tasks else tasks[0]
     weights = side.weights(skill)
     assert weights is not None
     rollout = Rollout(side.graph, weights, task, skill, procedures=side.folder)
-    simulator.make_ready(rollout, say)
+    simulator_compilation.ensure_compiled(rollout, say)
     return np.array([moment.readings for moment in islice(trace(rollout, SEED).moments, TICKS)])

@@ -20,7 +20,7 @@ from mindlang.lock.status import Stale, Trained, status
 Locks = Mapping[Path, Lock]
 
 
-def widened(
+def widen_locks(
     locks: Locks, kept: Locks, new_names: Mapping[str, str], before: Graph, after: Graph
 ) -> tuple[Locks, Mapping[Path, Weights]]:
     """The locks `kept` with weights of zero for whatever a skill reads or influences beside what it was taught with.

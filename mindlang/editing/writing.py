@@ -7,7 +7,7 @@ from pathlib import Path
 from mindrun.npy import to_npy
 from mindrun.regular_files import read_regular
 
-from mindlang import transaction as journal
+from mindlang import transaction
 from mindlang.compiler.source import LIMIT, decode, encoded
 from mindlang.editing.apply import Edited
 from mindlang.editing.lock_update import locks_of
@@ -25,7 +25,7 @@ def write(edited: Edited) -> None:
     with ExitStack() as stack:
         for weights in sorted({path.parent / FOLDER for path in locks}):
             stack.enter_context(alone(weights))  # a training may keep what it has taught just now
-        journal.change(_folder(files), files, lambda: _refuse_changed(edited))
+        transaction.change(_folder(files), files, lambda: _refuse_changed(edited))
 
 
 def changed_locks(edited: Edited) -> list[Path]:

@@ -6,7 +6,7 @@ from pathlib import Path
 
 from mindrun.regular_files import read_regular
 
-from mindlang import transaction as journal
+from mindlang import transaction
 from mindlang.compiler.compile import Compiled, compile_source, load
 from mindlang.compiler.diagnostic import Diagnostic
 from mindlang.compiler.source import Source, encoded
@@ -46,7 +46,9 @@ def _mended(path: Path, compiled: Compiled, codes: Collection[str]) -> Linted:
     source, made = fixed(compiled.sources[0], lambda source: lint(again(source), codes))
     if not made or _breaks(path, source.text, again(source)):
         return Linted(tuple(lint(compiled, codes)), True, 0)
-    journal.change(path.parent, {path: encoded(path, source.text)}, lambda: _refuse_changed(path, compiled.sources[0]))
+    transaction.change(
+        path.parent, {path: encoded(path, source.text)}, lambda: _refuse_changed(path, compiled.sources[0])
+    )
     return Linted(tuple(lint(again(source), codes)), True, made)
 
 
@@ -54,7 +56,9 @@ def _refuse_changed(path: Path, old: Source) -> None:
     """JournalError where somebody has written the file since it was read."""
     was = encoded(path, old.text)
     if read_regular(path, len(was) + 1) != was:
-        raise journal.JournalError(f"{path.name} has been changed meanwhile", "Try again: nothing has been written.")
+        raise transaction.TransactionError(
+            f"{path.name} has been changed meanwhile", "Try again: nothing has been written."
+        )
 
 
 def _breaks(path: Path, text: str, mended: Compiled) -> bool:

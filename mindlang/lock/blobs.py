@@ -6,7 +6,7 @@ from dataclasses import replace
 from hashlib import sha256
 from pathlib import Path
 
-from mindrun import atomic_write as durable
+from mindrun import atomic_write
 from mindrun.atomic_write import write
 from mindrun.errors import WeightsError
 from mindrun.graph import Graph, Skill
@@ -97,7 +97,7 @@ def digest(weights: Weights) -> str:
 def alone(folder: Path) -> Iterator[None]:
     """Let one process at a time change a folder of weights and the locks beside it."""
     folder.mkdir(exist_ok=True)
-    with durable.alone(folder):
+    with atomic_write.alone(folder):
         yield
 
 

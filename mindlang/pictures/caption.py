@@ -8,7 +8,7 @@ from mindrun.world import Item
 from mindlang.number_format import score
 from mindlang.pictures.canvas import Canvas, square, text_width
 from mindlang.pictures.path import LEAST, Path, draw_cross
-from mindlang.pictures.recorded_run import Story
+from mindlang.pictures.recorded_run import RecordedRun
 from mindlang.pictures.scene import thing_colours
 from mindlang.pictures.theme import Theme, mixed
 
@@ -18,11 +18,11 @@ LINES, LINE, MARK = 2, 22.0, 26.0  # of the legend: how many, how high, and how 
 
 
 def draw_title(
-    canvas: Canvas, story: Story, found: dict[str, Any], theme: Theme, x: float, y: float, right: float
+    canvas: Canvas, run: RecordedRun, found: dict[str, Any], theme: Theme, x: float, y: float, right: float
 ) -> None:
     """The task, and the facts of the run side by side up to `right`, each below its name."""
-    canvas.text(x, y, story.task.name, 24, theme.ink, bold=True)
-    facts = _facts(story, found)
+    canvas.text(x, y, run.task.name, 24, theme.ink, bold=True)
+    facts = _facts(run, found)
     wide = [max(_width(canvas, name, SMALL), _width(canvas, value, LARGE)) + 1.6 * GAP for name, value in facts]
     fit = min(1.0, (right - x) / (sum(wide) - 1.6 * GAP))  # smaller, where much is counted
     for (name, value), width in zip(facts, wide, strict=True):
@@ -31,17 +31,17 @@ def draw_title(
         x += fit * width
 
 
-def _facts(story: Story, found: dict[str, Any]) -> list[tuple[str, str]]:
-    seconds = found["ticks"] * story.graph.tick
+def _facts(run: RecordedRun, found: dict[str, Any]) -> list[tuple[str, str]]:
+    seconds = found["ticks"] * run.graph.tick
     facts = [("in charge", found["master"]), ("seed", str(found["seed"])), ("score", score(found["score"], 1))]
     facts += [(event, str(times)) for event, times in found["by_event"].items()]
     facts.append(("ticks", f"{found['ticks']:,} of {found['of_ticks']:,} ({seconds:.0f} s)"))
     return [*facts, ("ended by", found["ended_by"] or "time")]
 
 
-def draw_legend(canvas: Canvas, story: Story, path: Path, theme: Theme, x: float, y: float, right: float) -> None:
+def draw_legend(canvas: Canvas, run: RecordedRun, path: Path, theme: Theme, x: float, y: float, right: float) -> None:
     """What the colours and marks mean, in lines that end before `right`, smaller where they are many."""
-    entries = _entries(canvas, story, path, theme)
+    entries = _entries(canvas, run, path, theme)
     size, places = fitted(canvas, [name for _, name in entries], right - x)
     for (draw, name), (along, line) in zip(entries, places, strict=True):
         low = y + LINE * line
@@ -70,7 +70,7 @@ def _places(widths: Sequence[float], room: float) -> list[tuple[float, int]]:
     return places
 
 
-def _entries(canvas: Canvas, story: Story, path: Path, theme: Theme) -> list[Any]:
+def _entries(canvas: Canvas, run: RecordedRun, path: Path, theme: Theme) -> list[Any]:
     def bar(colour: Any) -> Any:
         return lambda x, y: canvas.line([(x, y), (x + 18, y)], colour, 3.0)
 
@@ -81,19 +81,19 @@ def _entries(canvas: Canvas, story: Story, path: Path, theme: Theme) -> list[Any
     def box(colour: Any) -> Any:
         return lambda x, y: canvas.polygon(square(x + 9, y, 6), colour, 0.75)
 
-    seconds = story.ticks * story.graph.tick
+    seconds = run.ticks * run.graph.tick
     entries: list[Any] = [
         (bar(colour), f"{name} {share:.0%}")
         for colour, (name, share) in zip(path.colours, path.shares.items(), strict=False)
         if share >= LEAST
     ] or [(ramp, f"path, 0 to {seconds:.0f} s")]
     entries.append((lambda x, y: canvas.disc(x + 9, y, 4.5, theme.ink, width=1.6), "start"))
-    for thing, colour in zip(story.contents, thing_colours(story.contents, theme), strict=True):
+    for thing, colour in zip(run.contents, thing_colours(run.contents, theme), strict=True):
         is_item = isinstance(thing.kind, Item)
         entries.append((_dot(canvas, colour) if is_item else box(colour), thing.name))
-    if len(story.boxes):
+    if len(run.boxes):
         entries.append((box(theme.rock_edge), "obstacle"))
-    if hits := len(story.collisions):
+    if hits := len(run.collisions):
         entries.append((lambda x, y: draw_cross(canvas, x + 9, y, 5, theme), f"collision ({hits})"))
     return entries
 

@@ -12,7 +12,7 @@ from mindrun.world import Arena
 from mindlang.pictures.canvas import Canvas, Image, View, blank, pasted, text_width
 from mindlang.pictures.hierarchy_panel import Panel
 from mindlang.pictures.path import Path, draw_cross
-from mindlang.pictures.recorded_run import Story
+from mindlang.pictures.recorded_run import RecordedRun
 from mindlang.pictures.scene import WALL, draw_floor, draw_items, draw_names, draw_robot, draw_zones
 from mindlang.pictures.theme import NIGHT
 
@@ -29,28 +29,28 @@ class FilmError(Exception):
 
 @dataclass(frozen=True, slots=True)
 class Film:
-    """A story at so many times the robot's speed."""
+    """A run at so many times the robot's speed."""
 
-    story: Story
+    run: RecordedRun
     found: dict[str, Any]
     speed: float
     FPS: ClassVar[int] = 30
 
     @classmethod
-    def of(cls, story: Story, found: dict[str, Any], speed: float | None) -> "Film":
+    def of(cls, run: RecordedRun, found: dict[str, Any], speed: float | None) -> "Film":
         """A film; without a speed one that shows the whole of the task's time in a minute, if that is not slower."""
-        long = story.task.ticks * story.graph.tick
-        return cls(story, found, speed or max(1.0, round(long / MINUTE, 1)))
+        long = run.task.ticks * run.graph.tick
+        return cls(run, found, speed or max(1.0, round(long / MINUTE, 1)))
 
     @property
     def step(self) -> float:
         """Ticks from one frame to the next."""
-        return self.speed / self.FPS / self.story.graph.tick
+        return self.speed / self.FPS / self.run.graph.tick
 
     @property
     def frames(self) -> int:
         """How many frames the film has; the last shows the last tick."""
-        return int(-(-(self.story.ticks - 1) // self.step)) + 1
+        return int(-(-(self.run.ticks - 1) // self.step)) + 1
 
     def write(self, path: FilePath, wrote: Callable[[], None]) -> None:
         """Encode the film into `path`, which is only replaced when it is whole; `wrote` is told of each frame."""
@@ -60,9 +60,9 @@ class Film:
         try:
             if not writer.isOpened():
                 raise FilmError(f"{path} cannot be written: OpenCV cannot encode a video there")
-            panel, trail = Panel(self.story, NIGHT, HEIGHT + 8, 86, WIDTH - HEIGHT - 16, HEIGHT - 96), self._trail()
+            panel, trail = Panel(self.run, NIGHT, HEIGHT + 8, 86, WIDTH - HEIGHT - 16, HEIGHT - 96), self._trail()
             for number in range(self.frames):
-                writer.write(self.frame(panel, trail, min(self.story.ticks, 1 + round(number * self.step))))
+                writer.write(self.frame(panel, trail, min(self.run.ticks, 1 + round(number * self.step))))
                 wrote()
             writer.release()
             if _frames_in(spare) != self.frames:
@@ -82,41 +82,41 @@ class Film:
         return page
 
     def _trail(self) -> Path:
-        return Path.of(self.story, NIGHT)
+        return Path.of(self.run, NIGHT)
 
     def _world(self, trail: Path, tick: int) -> Image:
-        story, past = self.story, round(TRAIL * self.FPS * self.step)
+        run, past = self.run, round(TRAIL * self.FPS * self.step)
         canvas = Canvas(blank(HEIGHT, HEIGHT, self._ground), self.view(tick))
-        draw_floor(canvas, story, NIGHT)
-        draw_zones(canvas, story, NIGHT, tick)
+        draw_floor(canvas, run, NIGHT)
+        draw_zones(canvas, run, NIGHT, tick)
         trail.draw(canvas, max(0, tick - past), tick, 2.0)
-        draw_items(canvas, story, NIGHT, tick)
-        draw_robot(canvas, story, NIGHT, tick)
-        draw_names(canvas, story, NIGHT, tick)
+        draw_items(canvas, run, NIGHT, tick)
+        draw_robot(canvas, run, NIGHT, tick)
+        draw_names(canvas, run, NIGHT, tick)
         recent = tick - FLASH * self.FPS * self.step
-        for x, y, _ in story.body[story.collisions[(story.collisions > recent) & (story.collisions <= tick)]]:
+        for x, y, _ in run.body[run.collisions[(run.collisions > recent) & (run.collisions <= tick)]]:
             draw_cross(canvas, x, y, 9 / canvas.view.scale, NIGHT)
         return canvas.image
 
     def view(self, tick: int) -> View:
         """What is seen of the world in a tick: the whole arena; of a plain scene what is around the robot."""
-        scene = self.story.task.scene
+        scene = self.run.task.scene
         half = scene.size / 2 + 2 * WALL if isinstance(scene, Arena) else WINDOW / 2
-        middle = self.story.body[tick, :2] * (not isinstance(scene, Arena))
+        middle = self.run.body[tick, :2] * (not isinstance(scene, Arena))
         return View.around(middle - half, middle + half, HEIGHT, HEIGHT)
 
     @property
     def _ground(self) -> tuple[int, int, int]:
-        return NIGHT.page if isinstance(self.story.task.scene, Arena) else NIGHT.floor
+        return NIGHT.page if isinstance(self.run.task.scene, Arena) else NIGHT.floor
 
     def _title(self, canvas: Canvas, tick: int) -> None:
-        story, left, y = self.story, HEIGHT + 24.0, 66.0
-        canvas.text(left, 38, story.task.name, 17, NIGHT.ink, bold=True)
+        run, left, y = self.run, HEIGHT + 24.0, 66.0
+        canvas.text(left, 38, run.task.name, 17, NIGHT.ink, bold=True)
         said: list[str] = [
-            f"{tick * story.graph.tick:.1f} s",
+            f"{tick * run.graph.tick:.1f} s",
             f"speed {self.speed:g}",
-            f"score {story.lines[tick - 1].sum():,.1f}",
-            *(f"{event} {times}" for event, times in zip(self.found["counted"], story.counts[tick - 1], strict=True)),
+            f"score {run.lines[tick - 1].sum():,.1f}",
+            *(f"{event} {times}" for event, times in zip(self.found["counted"], run.counts[tick - 1], strict=True)),
             f"seed {self.found['seed']}",
         ]
         for text in said:

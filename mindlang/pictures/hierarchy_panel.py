@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from mindlang.pictures.canvas import Canvas, text_width
 from mindlang.pictures.influence_flow import Flow, Flowing, Sink
 from mindlang.pictures.layout import Layout, Place
-from mindlang.pictures.recorded_run import Story
+from mindlang.pictures.recorded_run import RecordedRun
 from mindlang.pictures.theme import Theme, mixed
 
 BEND = np.linspace(0.0, 1.0, 24)
@@ -19,11 +19,11 @@ RIM, CORE = 7.0, 2.0
 
 
 class Panel:
-    """Draws the hierarchy of a story into a rectangle of a canvas."""
+    """Draws the hierarchy of a run into a rectangle of a canvas."""
 
-    def __init__(self, story: Story, theme: Theme, left: float, top: float, width: float, height: float) -> None:
-        self._story, self._theme = story, theme
-        self._flow = Flow(story)
+    def __init__(self, run: RecordedRun, theme: Theme, left: float, top: float, width: float, height: float) -> None:
+        self._run, self._theme = run, theme
+        self._flow = Flow(run)
         self._layout = Layout.of(self._flow.links, self._flow.skills, Place(left, top, width, height))
         boxes = self._layout.boxes.items()
         self._size = min(fitting(self._widest(sink), place) for sink, place in boxes)
@@ -36,12 +36,12 @@ class Panel:
         for sink, place in self._layout.boxes.items():
             match sink:
                 case "skill", index:
-                    self._skill(canvas, self._name(sink), place, float(self._story.influence[tick - 1, index]))
+                    self._skill(canvas, self._name(sink), place, float(self._run.influence[tick - 1, index]))
                 case "actuator", index:
-                    self._actuator(canvas, index, place, float(self._story.commands[tick - 1, index]))
+                    self._actuator(canvas, index, place, float(self._run.commands[tick - 1, index]))
                 case "memory", index:
-                    cell = self._story.graph.memories[index]
-                    self._gauge(canvas, cell.name, place, float(self._story.readings[tick - 1, cell.start]), 0.0)
+                    cell = self._run.graph.memories[index]
+                    self._gauge(canvas, cell.name, place, float(self._run.readings[tick - 1, cell.start]), 0.0)
 
     def _link(self, canvas: Canvas, stops: Sequence[Place], carried: Flowing) -> None:
         theme, line = self._theme, _curve(stops)
@@ -59,7 +59,7 @@ class Panel:
         canvas.text(place.x, place.y + self._size + 6, f"{influence:.2f}", self._size, number, align="centre")
 
     def _actuator(self, canvas: Canvas, index: int, place: Place, command: float) -> None:
-        actuator = self._story.graph.actuators[index]
+        actuator = self._run.graph.actuators[index]
         middle = 0.0 if isinstance(actuator.kind, Gripper) else actuator.kind.neutral
         self._gauge(canvas, actuator.name, place, command, middle)
 
@@ -81,7 +81,7 @@ class Panel:
         canvas.line(outline, rim, 2.0, closed=True)
 
     def _name(self, sink: Sink) -> str:
-        return self._story.graph.named(*sink)
+        return self._run.graph.named(*sink)
 
     def _widest(self, sink: Sink) -> str:
         """The longest line in a box: a skill's number stands below its name, any other's behind it."""

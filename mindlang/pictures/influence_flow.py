@@ -9,7 +9,7 @@ from mindrun.engine import procedure_sources
 from mindrun.think import hierarchy, values
 from numpy.typing import NDArray
 
-from mindlang.pictures.recorded_run import Story
+from mindlang.pictures.recorded_run import RecordedRun
 
 Sink = tuple[str, int]  # "skill", "actuator" or "memory", and its index
 
@@ -31,13 +31,13 @@ class Flowing:
 
 
 class Flow:
-    """The links of the skills that a story's master reaches, and what they carry."""
+    """The links of the skills that a run's master reaches, and what they carry."""
 
-    def __init__(self, story: Story) -> None:
-        graph, ready = story.graph, story.cast.ready
-        sources = procedure_sources(graph, story.cast.folder, story.cast.master)
-        self._story = story
-        self._hierarchy = hierarchy(graph, ready.weights, sources, story.cast.master)
+    def __init__(self, run: RecordedRun) -> None:
+        graph, ready = run.graph, run.setup.ready
+        sources = procedure_sources(graph, run.setup.folder, run.setup.master)
+        self._run = run
+        self._hierarchy = hierarchy(graph, ready.weights, sources, run.setup.master)
         self.skills = [skill.index for skill in self._hierarchy.skills]
         self.links = [
             Link(index, (edge.to, edge.target)) for index in self.skills for edge in graph.skills[index].edges
@@ -45,9 +45,9 @@ class Flow:
 
     def at(self, tick: int) -> list[Flowing]:
         """What each link carried in a tick, in the order of `links`."""
-        influence = self._story.influence[tick - 1]
+        influence = self._run.influence[tick - 1]
         with np.errstate(all="ignore"):
-            return list(self._flowing(self._story.readings[tick - 1], influence))
+            return list(self._flowing(self._run.readings[tick - 1], influence))
 
     def _flowing(self, readings: NDArray[np.float32], influence: NDArray[np.float32]) -> Iterator[Flowing]:
         for skill in self._hierarchy.skills:

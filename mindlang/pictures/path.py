@@ -8,7 +8,7 @@ from mindrun.world import Item
 from numpy.typing import NDArray
 
 from mindlang.pictures.canvas import Canvas, square
-from mindlang.pictures.recorded_run import Story
+from mindlang.pictures.recorded_run import RecordedRun
 from mindlang.pictures.scene import thing_colours
 from mindlang.pictures.theme import Colour, Theme, mixed
 
@@ -30,16 +30,16 @@ class Path:
     shares: dict[str, float]
 
     @classmethod
-    def of(cls, story: Story, theme: Theme) -> "Path":
+    def of(cls, run: RecordedRun, theme: Theme) -> "Path":
         """By skill, where several were in control."""
-        movers = [skill.name for skill in story.movers()]
-        places = story.body[:, :2]
-        keys = story.in_control() if movers else np.zeros(story.ticks, np.int64)
-        shares = np.bincount(keys, minlength=len(movers)) / max(1, story.ticks)
+        movers = [skill.name for skill in run.movers()]
+        places = run.body[:, :2]
+        keys = run.in_control() if movers else np.zeros(run.ticks, np.int64)
+        shares = np.bincount(keys, minlength=len(movers)) / max(1, run.ticks)
         if np.count_nonzero(shares >= LEAST) > 1:
             colours = [theme.skills[i % len(theme.skills)] for i in range(len(movers))]
             return cls(places, keys, colours, dict(zip(movers, shares.tolist(), strict=True)))
-        keys = np.arange(story.ticks) * STEPS // max(1, story.ticks)
+        keys = np.arange(run.ticks) * STEPS // max(1, run.ticks)
         return cls(places, keys, [mixed(theme.early, theme.late, i / STEPS) for i in range(STEPS)], {})
 
     def draw(self, canvas: Canvas, first: int, last: int, width: float) -> None:
@@ -55,17 +55,17 @@ def _stretches(keys: NDArray[np.int64]) -> list[tuple[int, int]]:
     return list(pairwise([0, *(int(change) for change in changes), len(keys)])) if len(keys) else []
 
 
-def draw_start(canvas: Canvas, story: Story, theme: Theme) -> None:
+def draw_start(canvas: Canvas, run: RecordedRun, theme: Theme) -> None:
     """Where the run began."""
     unit = canvas.pen / canvas.view.scale
-    x, y, _ = story.body[0]
+    x, y, _ = run.body[0]
     canvas.disc(x, y, 5 * unit, theme.floor)
     canvas.disc(x, y, 5 * unit, theme.ink, width=1.8)
 
 
-def draw_collisions(canvas: Canvas, story: Story, theme: Theme) -> None:
+def draw_collisions(canvas: Canvas, run: RecordedRun, theme: Theme) -> None:
     """Where the robot collided; over the robot, since a run may end there."""
-    for x, y, _ in story.body[story.collisions]:
+    for x, y, _ in run.body[run.collisions]:
         draw_cross(canvas, x, y, 5.5 * canvas.pen / canvas.view.scale, theme)
 
 
@@ -76,10 +76,10 @@ def draw_cross(canvas: Canvas, x: float, y: float, size: float, theme: Theme) ->
         canvas.line([(x - size, y + size), (x + size, y - size)], colour, width)
 
 
-def draw_former(canvas: Canvas, story: Story, theme: Theme) -> None:
+def draw_former(canvas: Canvas, run: RecordedRun, theme: Theme) -> None:
     """Faintly, where things were before, numbered in their order where there are not too many."""
-    for number, (thing, colour) in enumerate(zip(story.contents, thing_colours(story.contents, theme), strict=True)):
-        former = story.former(number)
+    for number, (thing, colour) in enumerate(zip(run.contents, thing_colours(run.contents, theme), strict=True)):
+        former = run.former(number)
         for order, (x, y, size) in enumerate(former, 1):
             if isinstance(thing.kind, Item):
                 canvas.disc(x, y, size / 2, colour, 0.16)

@@ -9,7 +9,7 @@ from mindrun.world import Arena
 from mindlang.pictures.canvas import Canvas, Image, View, blank, pasted
 from mindlang.pictures.caption import draw_legend, draw_scale, draw_title
 from mindlang.pictures.path import Path, draw_collisions, draw_former, draw_start
-from mindlang.pictures.recorded_run import Story
+from mindlang.pictures.recorded_run import RecordedRun
 from mindlang.pictures.scene import WALL, draw_floor, draw_items, draw_names, draw_robot, draw_zones
 from mindlang.pictures.theme import PAPER
 
@@ -19,26 +19,26 @@ FINE = 2  # drawn so many times larger, then averaged
 MARGIN = 6.0  # units around a plain scene
 
 
-def picture(story: Story, found: dict[str, Any]) -> Image:
-    """The picture of a story with the outcome `found`."""
+def picture(run: RecordedRun, found: dict[str, Any]) -> Image:
+    """The picture of a run with the outcome `found`."""
     page = blank(FINE * SIZE, FINE * SIZE, PAPER.page)
     wide, high = FINE * (SIZE - 2 * SIDE), FINE * (SIZE - ABOVE - BELOW)
-    view = view_of(story, wide, high)
-    pasted(page, _world(story, view, wide, high), FINE * SIDE, FINE * ABOVE)
+    view = view_of(run, wide, high)
+    pasted(page, _world(run, view, wide, high), FINE * SIDE, FINE * ABOVE)
     canvas = Canvas(page, View(0.0, 0.0, FINE), pen=FINE, down=True)
-    draw_title(canvas, story, found, PAPER, SIDE, 34, SIZE - SIDE)
-    draw_legend(canvas, story, Path.of(story, PAPER), PAPER, SIDE, SIZE - 46, SIZE - SIDE - 170)
+    draw_title(canvas, run, found, PAPER, SIDE, 34, SIZE - SIDE)
+    draw_legend(canvas, run, Path.of(run, PAPER), PAPER, SIDE, SIZE - 46, SIZE - SIDE - 170)
     draw_scale(canvas, FINE / view.scale, PAPER, SIZE - SIDE, SIZE - 44)
     return cv2.resize(page, (SIZE, SIZE), interpolation=cv2.INTER_AREA).astype(np.uint8)
 
 
-def view_of(story: Story, width: int, height: int) -> View:
+def view_of(run: RecordedRun, width: int, height: int) -> View:
     """The arena, or in a plain scene all that happened."""
-    if isinstance(story.task.scene, Arena):
-        half = story.task.scene.size / 2 + WALL
+    if isinstance(run.task.scene, Arena):
+        half = run.task.scene.size / 2 + WALL
         return View.around([-half, -half], [half, half], width, height)
-    places = [story.body[:, :2], *(story.placements(i)[:, :2] for i in range(len(story.contents)))]
-    seen = np.concatenate([*places, story.boxes[:, :2]])
+    places = [run.body[:, :2], *(run.placements(i)[:, :2] for i in range(len(run.contents)))]
+    seen = np.concatenate([*places, run.boxes[:, :2]])
     return View.around(seen.min(axis=0) - MARGIN, seen.max(axis=0) + MARGIN, width, height)
 
 
@@ -49,17 +49,17 @@ def png(image: Image) -> bytes:
     return bytes(data)
 
 
-def _world(story: Story, view: View, width: int, height: int) -> Image:
-    is_plain = not isinstance(story.task.scene, Arena)
+def _world(run: RecordedRun, view: View, width: int, height: int) -> Image:
+    is_plain = not isinstance(run.task.scene, Arena)
     image = blank(width, height, PAPER.floor if is_plain else PAPER.page)
     canvas = Canvas(image, view, pen=FINE)
-    draw_floor(canvas, story, PAPER)
-    draw_former(canvas, story, PAPER)
-    draw_zones(canvas, story, PAPER, story.ticks)
-    Path.of(story, PAPER).draw(canvas, 0, story.ticks, 2.0)
-    draw_start(canvas, story, PAPER)
-    draw_items(canvas, story, PAPER, story.ticks)
-    draw_robot(canvas, story, PAPER, story.ticks)
-    draw_collisions(canvas, story, PAPER)
-    draw_names(canvas, story, PAPER, story.ticks)
+    draw_floor(canvas, run, PAPER)
+    draw_former(canvas, run, PAPER)
+    draw_zones(canvas, run, PAPER, run.ticks)
+    Path.of(run, PAPER).draw(canvas, 0, run.ticks, 2.0)
+    draw_start(canvas, run, PAPER)
+    draw_items(canvas, run, PAPER, run.ticks)
+    draw_robot(canvas, run, PAPER, run.ticks)
+    draw_collisions(canvas, run, PAPER)
+    draw_names(canvas, run, PAPER, run.ticks)
     return image

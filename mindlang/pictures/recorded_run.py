@@ -11,20 +11,20 @@ from mindrun.sim.trace import trace
 from mindrun.weights import reachable
 from numpy.typing import NDArray
 
-from mindlang.run.setup import Cast
+from mindlang.run.setup import RunSetup
 
 Floats = NDArray[np.float64]
 JUMP = 0.5  # units: nothing moves that far in a tick but what reappears elsewhere
 
 
 @dataclass(frozen=True, slots=True)
-class Story:
+class RecordedRun:
     """Row 0 of `body` [ticks + 1, 3], `things` [ticks + 1, things, 3] and `held` is the beginning.
 
     `readings`, `influence`, `commands`, `lines`, `touching` and `counts` [ticks, counted events] have a row per tick.
     """
 
-    cast: Cast
+    setup: RunSetup
     boxes: Floats
     body: Floats
     things: Floats
@@ -39,12 +39,12 @@ class Story:
     @property
     def graph(self) -> Graph:
         """The mind."""
-        return self.cast.ready.graph
+        return self.setup.ready.graph
 
     @property
     def task(self) -> Task:
         """The task."""
-        return self.cast.task
+        return self.setup.task
 
     @property
     def ticks(self) -> int:
@@ -78,7 +78,7 @@ class Story:
         wheels = {i for i, actuator in enumerate(self.graph.actuators) if isinstance(actuator.kind, Wheel)}
         return [
             skill
-            for skill in reachable(self.graph, self.cast.master)
+            for skill in reachable(self.graph, self.setup.master)
             if any(edge.to == "actuator" and edge.target in wheels for edge in skill.edges)
         ]
 
@@ -89,23 +89,23 @@ class Story:
         return chosen
 
 
-def tell(cast: Cast, rollout: Rollout, seed: int) -> Story:
-    """The story of the run that `rollout` makes of a seed."""
+def record_run(setup: RunSetup, rollout: Rollout, seed: int) -> RecordedRun:
+    """The run that `rollout` makes of a seed, written down."""
     run = trace(rollout, seed)
     moments = list(run.moments)
     events = np.array([moment.events for moment in moments]).reshape(len(moments), -1)
-    return Story(
-        cast,
+    return RecordedRun(
+        setup,
         run.boxes,
         np.array([run.begin, *(moment.body[:3] for moment in moments)]),
         np.array([run.things, *(moment.things for moment in moments)]),
         np.array([-1, *(moment.held for moment in moments)]),
-        _as_read(cast.ready.graph, np.array([moment.readings for moment in moments])),
+        _as_read(setup.ready.graph, np.array([moment.readings for moment in moments])),
         np.array([moment.influence for moment in moments]),
         np.array([moment.commands for moment in moments]),
         np.array([moment.lines for moment in moments]).reshape(len(moments), -1),
         np.array([moment.touching for moment in moments]),
-        np.cumsum(events[:, list(cast.task.counts)], axis=0),
+        np.cumsum(events[:, list(setup.task.counts)], axis=0),
     )
 
 

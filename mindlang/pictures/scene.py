@@ -12,7 +12,7 @@ from mindrun.world import Arena, Item, Power, Zone
 from numpy.typing import NDArray
 
 from mindlang.pictures.canvas import Canvas, square, text_width
-from mindlang.pictures.recorded_run import Story
+from mindlang.pictures.recorded_run import RecordedRun
 from mindlang.pictures.theme import Colour, Theme, mixed
 
 GRID = 10.0  # units
@@ -20,14 +20,14 @@ WALL = 0.8
 NAME = 10.0  # pixels: the capitals of a thing's name
 
 
-def draw_floor(canvas: Canvas, story: Story, theme: Theme) -> None:
+def draw_floor(canvas: Canvas, run: RecordedRun, theme: Theme) -> None:
     """The floor with a line every ten units, the walls and the obstacles."""
-    half = story.task.scene.size / 2 if isinstance(story.task.scene, Arena) else 0.0
+    half = run.task.scene.size / 2 if isinstance(run.task.scene, Arena) else 0.0
     if half:
         canvas.polygon(square(0, 0, half + WALL), theme.wall)
         canvas.polygon(square(0, 0, half), theme.floor)
     _grid(canvas, theme, half)
-    for x, y, size in story.boxes:
+    for x, y, size in run.boxes:
         canvas.polygon(square(x, y, size), theme.rock)
         canvas.line(square(x, y, size), theme.rock_edge, 1.2, closed=True)
 
@@ -48,36 +48,36 @@ def thing_colours(things: Sequence[Thing], theme: Theme) -> list[Colour]:
     return [next(left[type(thing.kind)]) for thing in things]
 
 
-def _each(story: Story, theme: Theme, tick: int) -> Iterable[tuple[Thing, Colour, NDArray[np.float64]]]:
+def _each(run: RecordedRun, theme: Theme, tick: int) -> Iterable[tuple[Thing, Colour, NDArray[np.float64]]]:
     """Every thing that has not vanished, its colour, and its place and size after a tick."""
-    each = zip(story.contents, thing_colours(story.contents, theme), story.things[tick], strict=True)
+    each = zip(run.contents, thing_colours(run.contents, theme), run.things[tick], strict=True)
     return (found for found in each if np.isfinite(found[2][0]))
 
 
-def draw_zones(canvas: Canvas, story: Story, theme: Theme, tick: int) -> None:
+def draw_zones(canvas: Canvas, run: RecordedRun, theme: Theme, tick: int) -> None:
     """The zones as they are after a tick: below the path."""
-    for thing, fill, (x, y, size) in _each(story, theme, tick):
+    for thing, fill, (x, y, size) in _each(run, theme, tick):
         if not isinstance(thing.kind, Item):
             canvas.polygon(square(x, y, size / 2), fill, 0.22)
             canvas.line(square(x, y, size / 2), fill, 1.6, closed=True)
 
 
-def draw_items(canvas: Canvas, story: Story, theme: Theme, tick: int) -> None:
+def draw_items(canvas: Canvas, run: RecordedRun, theme: Theme, tick: int) -> None:
     """The items as they are after a tick."""
-    for thing, fill, (x, y, size) in _each(story, theme, tick):
+    for thing, fill, (x, y, size) in _each(run, theme, tick):
         if isinstance(thing.kind, Item):
             canvas.disc(x, y, size / 2, fill)
             canvas.disc(x, y, size / 2, mixed(fill, theme.ink, 0.45), width=1.2)
 
 
-def draw_names(canvas: Canvas, story: Story, theme: Theme, tick: int) -> None:
+def draw_names(canvas: Canvas, run: RecordedRun, theme: Theme, tick: int) -> None:
     """The name of each thing in sight: below it, or above it where the robot or the lower edge is."""
     pixel = 1 / canvas.view.scale
     (height, width), (left, top) = canvas.image.shape[:2], (canvas.view.left, canvas.view.top)
     right, low = left + width * pixel, top - height * pixel
-    robot, radius = story.body[tick, :2], story.graph.body.size / 2
+    robot, radius = run.body[tick, :2], run.graph.body.size / 2
     high, gap = NAME * canvas.pen * pixel, 4 * canvas.pen * pixel
-    for thing, _, (x, y, size) in _each(story, theme, tick):
+    for thing, _, (x, y, size) in _each(run, theme, tick):
         if not (left < x < right and low < y < top):
             continue
         half = text_width(thing.name, NAME * canvas.pen) * pixel / 2
@@ -89,27 +89,27 @@ def draw_names(canvas: Canvas, story: Story, theme: Theme, tick: int) -> None:
         canvas.text(middle, line, thing.name, NAME, theme.ink, align="centre", halo=theme.floor)
 
 
-def draw_robot(canvas: Canvas, story: Story, theme: Theme, tick: int) -> None:
+def draw_robot(canvas: Canvas, run: RecordedRun, theme: Theme, tick: int) -> None:
     """The robot as it is after a tick: rays, claw, body, and a line that shows its heading."""
-    x, y, angle = story.body[tick]
-    radius = story.graph.body.size / 2
+    x, y, angle = run.body[tick]
+    radius = run.graph.body.size / 2
     if tick:
-        _rays(canvas, story, theme, tick)
-        _claw(canvas, story, theme, tick)
+        _rays(canvas, run, theme, tick)
+        _claw(canvas, run, theme, tick)
     canvas.disc(x, y, radius, theme.robot)
     canvas.disc(x, y, radius, theme.floor, width=1.2)
     tip = (x + 0.95 * radius * cos(angle), y + 0.95 * radius * sin(angle))
     canvas.line([(x, y), tip], theme.floor, 2.0)
 
 
-def _rays(canvas: Canvas, story: Story, theme: Theme, tick: int) -> None:
-    x, y, angle = story.body[tick]
-    radius = story.graph.body.size / 2
-    for sensor in story.graph.sensors:
+def _rays(canvas: Canvas, run: RecordedRun, theme: Theme, tick: int) -> None:
+    x, y, angle = run.body[tick]
+    radius = run.graph.body.size / 2
+    for sensor in run.graph.sensors:
         rows = slice(sensor.start, sensor.start + sensor.width)
-        if not isinstance(sensor.kind, RangeFinder) or not story.readings[:, rows].any():  # nobody reads it
+        if not isinstance(sensor.kind, RangeFinder) or not run.readings[:, rows].any():  # nobody reads it
             continue
-        for at, reading in zip(sensor.kind.at, story.readings[tick - 1, rows], strict=True):
+        for at, reading in zip(sensor.kind.at, run.readings[tick - 1, rows], strict=True):
             way = np.array([cos(angle + at), sin(angle + at)])
             end = (x, y) + way * (radius + float(reading) * sensor.kind.range)
             canvas.line([(x, y) + way * radius, end], theme.ray, 1.0, 0.3 + 0.4 * (reading < 1.0))
@@ -117,12 +117,12 @@ def _rays(canvas: Canvas, story: Story, theme: Theme, tick: int) -> None:
                 canvas.disc(end[0], end[1], 2.5 * canvas.pen / canvas.view.scale, theme.ray)
 
 
-def _claw(canvas: Canvas, story: Story, theme: Theme, tick: int) -> None:
-    x, y, angle = story.body[tick]
-    radius = story.graph.body.size / 2
-    for number, actuator in enumerate(story.graph.actuators):
+def _claw(canvas: Canvas, run: RecordedRun, theme: Theme, tick: int) -> None:
+    x, y, angle = run.body[tick]
+    radius = run.graph.body.size / 2
+    for number, actuator in enumerate(run.graph.actuators):
         if isinstance(actuator.kind, Gripper):
-            apart = 0.35 if story.commands[tick - 1, number] > 0.5 else 0.75
+            apart = 0.35 if run.commands[tick - 1, number] > 0.5 else 0.75
             for side in (-1.0, 1.0):
                 shape = np.array([(0.8, 0.5 * side), (1.4, apart * side), (1.9, apart * 0.8 * side)]) * radius
                 turned = shape @ np.array([(cos(angle), sin(angle)), (-sin(angle), cos(angle))])

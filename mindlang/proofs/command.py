@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True, slots=True)
-class Wishes:
+class ProofOptions:
     """What the command line says."""
 
     leak: float
@@ -32,16 +32,16 @@ class Wishes:
     as_json: bool
 
 
-def perform(file: str, wishes: Wishes) -> None:
+def perform(file: str, options: ProofOptions) -> None:
     """Prove and print."""
-    compiled = _under(load_compiled(file), wishes.master)
+    compiled = _under(load_compiled(file), options.master)
     assert compiled.graph
     ready = make_ready(compiled.graph, compiled.sources)
     lock = read_locks(source.path for source in compiled.sources)
     hashes = {skill: lock[skill].weights for skill in ready.weights if skill in lock}
-    run = _run(file, compiled, wishes) if wishes.run else None
-    proof = prove(ready.graph, ready.weights, wishes.leak)
-    if wishes.as_json:
+    run = _run(file, compiled, options) if options.run else None
+    proof = prove(ready.graph, ready.weights, options.leak)
+    if options.as_json:
         print_json(as_data(proof, hashes, run))
     else:
         console().print(report(proof, hashes, run))
@@ -58,14 +58,14 @@ def _under(compiled: Compiled, master: str | None) -> Compiled:
     return replace(compiled, graph=replace(compiled.graph, master=master))
 
 
-def _run(file: str, compiled: Compiled, wishes: Wishes) -> Recorded:
+def _run(file: str, compiled: Compiled, options: ProofOptions) -> Recorded:
     from mindlang.proofs.recorded import record
-    from mindlang.run.setup import CastingError, cast
+    from mindlang.run.setup import SetupError, set_up
 
     assert compiled.graph
     try:
-        return record(cast(file, compiled, wishes.task, compiled.graph.master), wishes.seed)
-    except CastingError as error:
+        return record(set_up(file, compiled, options.task, compiled.graph.master), options.seed)
+    except SetupError as error:
         fail(f"--run: {error}", error.hint, MISUSE if error.misuse else FINDINGS)
     except MindError as error:
         fail(f"--run: {error}", error.hint, MISUSE)

@@ -8,8 +8,8 @@ import numpy as np
 from mindrun.sim.rollout import Rollout
 from mindrun.sim.trace import trace
 
-from mindlang import simulator_compilation as simulator
-from mindlang.run.setup import Cast
+from mindlang import simulator_compilation
+from mindlang.run.setup import RunSetup
 from mindlang.terminal import procedures_talk, say
 
 
@@ -34,10 +34,10 @@ class Recorded:
 
 
 @procedures_talk()
-def record(cast: Cast, seed: int) -> Recorded:
+def record(cast: RunSetup, seed: int) -> Recorded:
     """One run of a cast to its end. Runs the Python code of the mind's procedures."""
     rollout = cast.rollout()
-    simulator.make_ready(rollout, say)
+    simulator_compilation.ensure_compiled(rollout, say)
     run = trace(rollout, seed)
     influence, commands = [], []
     for moment in run.moments:

@@ -13,11 +13,11 @@ from mindrun.sim.rollout import Rollout, Scores
 from rich.progress import BarColumn, Progress, TaskProgressColumn, TextColumn, TimeRemainingColumn
 
 from mindlang.resource_limits import refuse_too_large, refuse_too_many
-from mindlang.run.setup import Cast, CastingError, cast
-from mindlang.simulator_compilation import make_ready
+from mindlang.run.setup import RunSetup, SetupError, set_up
+from mindlang.simulator_compilation import ensure_compiled
 from mindlang.terminal import FINDINGS, MISUSE, fail, load_compiled, procedures_talk, say, talk, write_picture
 
-NOBODY = np.zeros((1, 0), np.float32)  # the genome where nobody learns
+NO_GENOME = np.zeros((1, 0), np.float32)  # the genome where nobody learns
 
 
 def layouts(seed: int, runs: int) -> list[int]:
@@ -26,7 +26,7 @@ def layouts(seed: int, runs: int) -> list[int]:
 
 
 @dataclass(frozen=True, slots=True)
-class Stage:
+class RunSession:
     """Talks on stderr, unless it is to be quiet; what is wrong ends the program with one message."""
 
     quiet: bool
@@ -34,17 +34,17 @@ class Stage:
     @procedures_talk()
     def prepare(
         self, file: str, task: str | None, master: str | None, interrupt: bool, workers: int = 1, runs: int = 1
-    ) -> tuple[Cast, Rollout]:
+    ) -> tuple[RunSetup, Rollout]:
         """The cast of a run, in the simulator."""
         compiled = load_compiled(file)
         try:
-            found = cast(file, compiled, task, master)
+            found = set_up(file, compiled, task, master)
             self.say(*(f"note: {note}" for note in (*found.ready.notes, found.note) if note))
             refuse_too_many(found.task, runs)
             rollout = found.rollout(interrupt, workers)
             refuse_too_large(rollout, 1, runs)
-            make_ready(rollout, self.say)
-        except CastingError as error:
+            ensure_compiled(rollout, self.say)
+        except SetupError as error:
             *first, last = str(error).split("\n")
             for line in first:
                 say(line)
@@ -61,26 +61,26 @@ class Stage:
         with self._progress() as progress:
             bar = progress.add_task(f"{rollout.task.name}", total=len(seeds))
             begin = perf_counter()
-            scores = rollout.score(NOBODY, seeds, lambda runs: progress.advance(bar, runs))
+            scores = rollout.score(NO_GENOME, seeds, lambda runs: progress.advance(bar, runs))
             return scores, perf_counter() - begin
 
     @procedures_talk()
-    def draw(self, cast: Cast, rollout: Rollout, found: dict[str, Any], path: Path) -> None:
+    def draw(self, set_up: RunSetup, rollout: Rollout, found: dict[str, Any], path: Path) -> None:
         """The picture of a run, written to `path`."""
         from mindlang.pictures.picture import picture, png
-        from mindlang.pictures.recorded_run import tell
+        from mindlang.pictures.recorded_run import record_run
 
-        story = tell(cast, rollout, found["seed"])
-        write_picture(path, png(picture(story, found)))
+        recorded = record_run(set_up, rollout, found["seed"])
+        write_picture(path, png(picture(recorded, found)))
         self.say(f"{path}: the path of the robot")
 
     @procedures_talk()
-    def film(self, cast: Cast, rollout: Rollout, found: dict[str, Any], path: Path, speed: float | None) -> None:
+    def film(self, set_up: RunSetup, rollout: Rollout, found: dict[str, Any], path: Path, speed: float | None) -> None:
         """The video of a run, written to `path`."""
         from mindlang.pictures.film import Film, FilmError
-        from mindlang.pictures.recorded_run import tell
+        from mindlang.pictures.recorded_run import record_run
 
-        film = Film.of(tell(cast, rollout, found["seed"]), found, speed)
+        film = Film.of(record_run(set_up, rollout, found["seed"]), found, speed)
         try:
             with self._progress() as progress:
                 bar = progress.add_task(path.name, total=film.frames)

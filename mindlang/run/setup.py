@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from mindrun.sim.rollout import Rollout
 
 
-class CastingError(MindError):
+class SetupError(MindError):
     """A run that cannot begin. `misuse`: the command line is what is wrong."""
 
     def __init__(self, message: str, hint: str = "", misuse: bool = False) -> None:
@@ -29,7 +29,7 @@ class CastingError(MindError):
 
 
 @dataclass(frozen=True, slots=True)
-class Cast:
+class RunSetup:
     """A task, the master in charge of it, and a mind that is ready to run; `note` says why it is this task."""
 
     task: Task
@@ -53,21 +53,21 @@ class Cast:
         )
 
 
-def cast(file: str, compiled: Compiled, task: str | None, master: str | None) -> Cast:
+def set_up(file: str, compiled: Compiled, task: str | None, master: str | None) -> RunSetup:
     """The task and the master of these names, or those meant without; CastingError where they cannot perform."""
     assert compiled.graph is not None
     chosen, note = task_of(compiled.graph, task)
     leader = master_of(compiled.graph, chosen, master)
     ready = make_ready(compiled.graph, compiled.sources, leader)
     if ready.refusals:
-        raise CastingError("\n".join(ready.refusals), f"mindc train {file} {' '.join(_missing(ready))}")
-    return Cast(chosen, leader, ready, compiled.sources[0].folder, note)
+        raise SetupError("\n".join(ready.refusals), f"mindc train {file} {' '.join(_missing(ready))}")
+    return RunSetup(chosen, leader, ready, compiled.sources[0].folder, note)
 
 
 def task_of(graph: Graph, name: str | None) -> tuple[Task, str]:
     """The task of that name; without one, the mind's default, and why it is that one where this needs saying."""
     if not graph.tasks:
-        raise CastingError("there is no task to run", "add one: task Go in plain")
+        raise SetupError("there is no task to run", "add one: task Go in plain")
     if name is None:
         return default_task(graph)
     found = next((task for task in graph.tasks if task.name == name), None)
@@ -87,7 +87,7 @@ def master_of(graph: Graph, task: Task, name: str | None) -> str:
 
 def _unknown(noun: str, name: str, known: Sequence[str]) -> Never:
     hint = did_you_mean(name, known) or f"There is {listed(known, 'and')}."
-    raise CastingError(f"there is no {noun} called {name}", hint, misuse=True)
+    raise SetupError(f"there is no {noun} called {name}", hint, misuse=True)
 
 
 def _missing(ready: Ready) -> list[str]:

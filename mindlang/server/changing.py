@@ -8,15 +8,15 @@ from typing import Any
 from mindlang.compiler.diagnostic import Findings, did_you_mean, listed
 from mindlang.compiler.resolve.names import gather
 from mindlang.compiler.splice import Splice
-from mindlang.editing.apply import carry_out
+from mindlang.editing.apply import apply_edit
 from mindlang.editing.project import Change, EditError, Project
-from mindlang.editing.summary import broken, told
+from mindlang.editing.summary import broken_neighbours, summarise
 from mindlang.editing.writing import changed_locks
 from mindlang.edits import Edit, edit, names
 from mindlang.server.navigating import sharing
-from mindlang.server.pending_renames import Following
+from mindlang.server.pending_renames import PendingRename
 from mindlang.server.view import View
-from mindlang.server.workspace import Desk
+from mindlang.server.workspace import Workspace
 
 
 @dataclass(frozen=True, slots=True)
@@ -25,15 +25,15 @@ class Outcome:
 
     change: Change
     sentences: tuple[str, ...]
-    following: Following | None
+    following: PendingRename | None
 
 
-def project(desk: Desk, view: View) -> Project:
+def project(workspace: Workspace, view: View) -> Project:
     """The mind as edits know it, with the minds that share its files; EditError where it does not compile."""
     if view.compiled.graph is None:
         first = next(each for each in view.compiled.diagnostics if each.severity == "error")
         raise EditError(f"{view.main.name} has to compile first. {first.message}", first.hint, first.span)
-    shared = (_project(other) for other in sharing(desk, view) if other.compiled.graph)
+    shared = (_project(other) for other in sharing(workspace, view) if other.compiled.graph)
     return replace(_project(view), neighbours=tuple(shared))
 
 
@@ -46,14 +46,14 @@ def proposed(project: Project, name: str, arguments: Mapping[str, Any]) -> Chang
     return change
 
 
-def perform(desk: Desk, path: Path, name: str, arguments: Mapping[str, Any]) -> Outcome:
+def perform(workspace: Workspace, path: Path, name: str, arguments: Mapping[str, Any]) -> Outcome:
     """An edit of the mind to which a file belongs; MindError where it is impossible or would break a mind."""
-    on = project(desk, desk.view(path))
+    on = project(workspace, workspace.view(path))
     change = proposed(on, name, arguments)
-    edited = carry_out(on, _as_open(on, change, desk), keep_weights=False)
-    for other, why in broken(edited).items():
+    edited = apply_edit(on, _as_open(on, change, workspace), keep_weights=False)
+    for other, why in broken_neighbours(edited).items():
         raise EditError(f"After this edit {other} no longer compiles: {why}", "mindc edit --anyway makes it.")
-    sentences = told(edited)
+    sentences = summarise(edited)
     locks = [lock.name for lock in changed_locks(edited)]
     if not locks or not (change.renamed or change.replaced):
         return Outcome(change, tuple(sentences), None)
@@ -61,7 +61,7 @@ def perform(desk: Desk, path: Path, name: str, arguments: Mapping[str, Any]) -> 
     minds = (on, *on.neighbours)
     files = dict.fromkeys(path for mind in minds for path in mind.paths)
     mains = tuple(mind.main.source.path for mind in minds)
-    return Outcome(change, tuple(sentences), Following(mains, tuple(files), change.renamed, change.replaced))
+    return Outcome(change, tuple(sentences), PendingRename(mains, tuple(files), change.renamed, change.replaced))
 
 
 def _project(view: View) -> Project:
@@ -89,10 +89,10 @@ def _value(value: Any, is_many: bool, is_flag: bool) -> Any:
     return tuple(texts) if is_many else " ".join(texts)
 
 
-def _as_open(project: Project, change: Change, desk: Desk) -> Change:
+def _as_open(project: Project, change: Change, workspace: Workspace) -> Change:
     """The change with an empty splice for each open file that it leaves alone, so that this is held against, too."""
     touched = {splice.source.path for splice in change.splices}
     minds = (*project.neighbours, project)
-    open_ = {path: file.source for mind in minds for path, file in mind.paths.items() if path in desk.texts}
+    open_ = {path: file.source for mind in minds for path, file in mind.paths.items() if path in workspace.texts}
     idle = (Splice(source, 0, 0, "") for path, source in open_.items() if path not in touched)
     return replace(change, splices=(*change.splices, *idle))

@@ -38,10 +38,10 @@ def prepared(ls: MindServer, params: types.PrepareRenameParams) -> types.Prepare
     if mention is None:
         return None
     try:
-        project(ls.session.desk, view)
+        project(ls.session.workspace, view)
     except EditError as error:
         raise failed(error) from error
-    return types.PrepareRenamePlaceholder(ls.session.wire.range(mention.name.span), mention.name.text)
+    return types.PrepareRenamePlaceholder(ls.session.lsp.range(mention.name.span), mention.name.text)
 
 
 def renamed(ls: MindServer, params: types.RenameParams) -> types.WorkspaceEdit | None:
@@ -62,15 +62,15 @@ def renamed(ls: MindServer, params: types.RenameParams) -> types.WorkspaceEdit |
 def acted(ls: MindServer, params: types.CodeActionParams) -> list[types.CodeAction]:
     """The quick fixes and the edits at a selection."""
     view, path, start = ls.session.place(params.text_document.uri, params.range.start)
-    end = ls.session.wire.offset(ls.session.desk.text(path), params.range.end)
+    end = ls.session.lsp.offset(ls.session.workspace.text(path), params.range.end)
     wanted = params.context.only
     actions: list[types.CodeAction] = []
     if _wants(wanted, "quickfix"):
         actions += [_mending(ls, each) for each in mendings(view, path, start, end)]
-    if _wants(wanted, FIX_ALL) and (text := all_mended(view, path, ls.session.desk.texts)) is not None:
+    if _wants(wanted, FIX_ALL) and (text := all_mended(view, path, ls.session.workspace.texts)) is not None:
         actions.append(_fix_all(ls, path, text))
     if _wants(wanted, "refactor") and view.compiled.graph:
-        selection = Selection(project(ls.session.desk, view), path, start, end)
+        selection = Selection(project(ls.session.workspace, view), path, start, end)
         actions += [_proposal(params.text_document.uri, each) for each in proposals(selection)]
     return [action for action in actions if _wants(wanted, str(action.kind))]
 
@@ -85,16 +85,16 @@ def _mending(ls: MindServer, mending: Mending) -> types.CodeAction:
     return types.CodeAction(
         mending.title,
         kind="quickfix",
-        diagnostics=[ls.session.wire.diagnostic(mending.of)],
+        diagnostics=[ls.session.lsp.diagnostic(mending.of)],
         is_preferred=mending.is_safe,
-        edit=ls.session.wire.workspace_edit(mending.splices, {}, not ls.knows_documents),
+        edit=ls.session.lsp.workspace_edit(mending.splices, {}, not ls.knows_documents),
     )
 
 
 def _fix_all(ls: MindServer, path: Path, text: str) -> types.CodeAction:
-    source = Source(str(path), ls.session.desk.text(path), path.parent)
+    source = Source(str(path), ls.session.workspace.text(path), path.parent)
     splices = (Splice(source, 0, len(source.text), text),)
-    edit = ls.session.wire.workspace_edit(splices, {}, not ls.knows_documents)
+    edit = ls.session.lsp.workspace_edit(splices, {}, not ls.knows_documents)
     return types.CodeAction("Make all safe fixes", kind=FIX_ALL, edit=edit)
 
 
@@ -110,7 +110,7 @@ async def edited(ls: MindServer, *arguments: Any) -> types.Location | None:
     The answer is where that name stands, so that the editor can let the user rename it.
     """
     uri, name, said, fresh = (*arguments, "", "", {}, "")[: max(4, len(arguments))][:4]
-    path = ls.session.wire.path(str(uri))
+    path = ls.session.lsp.path(str(uri))
     try:
         outcome, edit = ls.outcome(path, str(name), said if isinstance(said, dict) else {})
     except MindError as error:
@@ -131,7 +131,7 @@ def _place_of(ls: MindServer, outcome: Outcome, fresh: str) -> types.Location | 
         text = spliced(source, outcome.change.splices)
         at = text.find(f" {fresh} ") + 1 if fresh else 0
         if at:
-            return ls.session.wire.location(Span(Source(source.name, text, source.folder), at, at + len(fresh)))
+            return ls.session.lsp.location(Span(Source(source.name, text, source.folder), at, at + len(fresh)))
     return None
 
 

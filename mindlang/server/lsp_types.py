@@ -17,7 +17,7 @@ SEVERITIES = {"error": types.DiagnosticSeverity.Error, "warning": types.Diagnost
 
 
 @dataclass
-class Wire:
+class LspConverter:
     """How paths and offsets are said to one editor: its URIs, and the units that its columns count."""
 
     encoding: str = "utf-16"

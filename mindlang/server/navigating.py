@@ -11,7 +11,7 @@ from mindlang.editing.references import Mention, introductions
 from mindlang.file_search import text_of
 from mindlang.server.tree import path_to
 from mindlang.server.view import View
-from mindlang.server.workspace import Desk
+from mindlang.server.workspace import Workspace
 
 
 @dataclass(frozen=True, slots=True)
@@ -40,13 +40,13 @@ def definitions(view: View, path: Path, offset: int) -> list[Span]:
     return _procedure(file, offset)
 
 
-def references(desk: Desk, view: View, path: Path, offset: int, with_declaration: bool) -> list[Span]:
+def references(workspace: Workspace, view: View, path: Path, offset: int, with_declaration: bool) -> list[Span]:
     """Where a name stands, in the files of the mind and in those of the minds that share them."""
     mention = view.mention_at(path, offset)
     if mention is None:
         return []
     declared = {found.name.span for found in _introduced(view, mention)}
-    places = dict.fromkeys(span for each in (view, *sharing(desk, view)) for span in _places(each, mention))
+    places = dict.fromkeys(span for each in (view, *sharing(workspace, view)) for span in _places(each, mention))
     unique = {(span.source.path, span.start): span for span in reversed(places)}
     spans = sorted(unique.values(), key=lambda span: (span.source.path != path, span.source.path, span.start))
     if with_declaration:
@@ -61,12 +61,12 @@ def highlights(view: View, path: Path, offset: int) -> list[Span]:
     return [span for span in _places(view, mention) if span.source.path == path] if mention else []
 
 
-def sharing(desk: Desk, view: View) -> Iterator[View]:
+def sharing(workspace: Workspace, view: View) -> Iterator[View]:
     """Other minds that have one of a mind's files among their own."""
     own = set(view.paths)
-    for path, text in desk.around(*view.paths):
+    for path, text in workspace.around(*view.paths):
         if path != view.main and (path in own or 'use "' in text):
-            other = desk.mind(path)
+            other = workspace.mind(path)
             if not own.isdisjoint(other.paths):
                 yield other
 

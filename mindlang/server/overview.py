@@ -10,16 +10,16 @@ from mindlang.compiler.parse import parse
 from mindlang.compiler.source import Source
 from mindlang.file_search import as_many, below
 from mindlang.server.navigating import Symbol, symbols
-from mindlang.server.workspace import Desk
+from mindlang.server.workspace import Workspace
 
 MOST = 500  # symbols that are found
 KNOWN = 1000  # files whose symbols are remembered
 
 
-def everything(desk: Desk, folders: Iterable[Path], query: str) -> list[Symbol]:
+def everything(workspace: Workspace, folders: Iterable[Path], query: str) -> list[Symbol]:
     """The declarations whose names hold the letters of a query in their order, by file."""
-    paths = dict.fromkeys(chain(desk.texts, (path for folder in folders for path in below(folder))))
-    files = as_many((path, desk.text(path)) for path in paths)
+    paths = dict.fromkeys(chain(workspace.texts, (path for folder in folders for path in below(folder))))
+    files = as_many((path, workspace.text(path)) for path in paths)
     found = (symbol for path, text in files for symbol in _declared(path, text))
     return list(islice((symbol for symbol in found if _fits(query.lower(), symbol.name.lower())), MOST))
 

@@ -11,11 +11,11 @@ from pathlib import Path
 
 from mindrun.graph import Graph
 
-from mindlang import transaction as journal
+from mindlang import transaction
 from mindlang.compiler.compile import Compiled, load
 from mindlang.compiler.diagnostic import Findings
 from mindlang.compiler.resolve.names import gather
-from mindlang.editing.lock_update import Locks, follow, locks_of, merged
+from mindlang.editing.lock_update import Locks, locks_of, merged, update_locks
 from mindlang.editing.project import Change, EditError, Renamed, Replaced
 from mindlang.lock import Lock, lock_text
 from mindlang.lock.arrange import arrange
@@ -24,7 +24,7 @@ from mindlang.lock.status import Trained, status
 
 
 @dataclass(frozen=True, slots=True)
-class Following:
+class PendingRename:
     """New names that locks have to follow: the minds that have them by their main files, and all files of these."""
 
     mains: tuple[Path, ...]
@@ -40,7 +40,7 @@ class Following:
         return Change((), self.renamed, self.replaced), Change((), back, replaced)
 
 
-def keep_up(following: Following) -> list[Path]:
+def keep_up(following: PendingRename) -> list[Path]:
     """Let the locks say the names that the files on the disk have now; the locks that this changed.
 
     MindError where a lock is damaged or cannot be written.
@@ -60,7 +60,7 @@ def _followed(minds: Sequence[Compiled], locks: Locks, change: Change) -> Locks:
     """The locks that are others with these names; none where the minds do not have these names."""
     first = minds[0].graph
     assert first is not None
-    followed = follow(locks, first, first, change, keep_weights=False).locks
+    followed = update_locks(locks, first, first, change, keep_weights=False).locks
     fit, would_fit = _fitting(minds, locks), _fitting(minds, followed)
     is_whole = all(len(followed[path]) == len(locks[path]) for path in locks)
     if would_fit < fit or (would_fit == fit and not (is_whole and _is_renamed(minds[0], change))):
@@ -100,4 +100,4 @@ def _write(before: Locks, now: Locks) -> None:
             stack.enter_context(alone(folder))
         for folder in sorted({path.parent for path in now}):
             files = {path: lock_text(lock).encode() for path, lock in now.items() if path.parent == folder}
-            journal.change(folder, files, refuse_changed)
+            transaction.change(folder, files, refuse_changed)

@@ -6,7 +6,7 @@ from mindlang.compiler.source import Source
 from mindlang.compiler.splice import Splice
 from mindlang.server.completing import complete
 from mindlang.server.hovering import hover
-from mindlang.server.lsp_types import Wire
+from mindlang.server.lsp_types import LspConverter
 from mindlang.server.navigating import Symbol, definitions, highlights, references, symbols
 from mindlang.server.offers import Offer
 from mindlang.server.overview import everything
@@ -57,16 +57,16 @@ def hovered(ls: MindServer, params: types.HoverParams) -> types.Hover | None:
     if found is None:
         return None
     content = types.MarkupContent(types.MarkupKind.Markdown, found.text)
-    return types.Hover(content, ls.session.wire.range(found.span))
+    return types.Hover(content, ls.session.lsp.range(found.span))
 
 
 def completed(ls: MindServer, params: types.CompletionParams) -> types.CompletionList:
     """What may be written."""
     view, path, offset = ls.session.place(params.text_document.uri, params.position)
-    text = ls.session.desk.text(path)
+    text = ls.session.workspace.text(path)
     found = complete(view, path, text, offset)
     source = Source(str(path), text, path.parent)
-    edits = (ls.session.wire.text_edit(Splice(source, found.start, offset, offer.label)) for offer in found.offers)
+    edits = (ls.session.lsp.text_edit(Splice(source, found.start, offset, offer.label)) for offer in found.offers)
     items = [_item(*each) for each in enumerate(zip(found.offers, edits, strict=True))]
     return types.CompletionList(is_incomplete=False, items=items)
 
@@ -86,55 +86,55 @@ def _item(place: int, of: tuple[Offer, types.TextEdit]) -> types.CompletionItem:
 def defined(ls: MindServer, params: types.DefinitionParams) -> list[types.Location]:
     """Where it is declared."""
     spans = definitions(*ls.session.place(params.text_document.uri, params.position))
-    return [ls.session.wire.location(span) for span in spans]
+    return [ls.session.lsp.location(span) for span in spans]
 
 
 def referred(ls: MindServer, params: types.ReferenceParams) -> list[types.Location]:
     """Where else it stands."""
     place = ls.session.place(params.text_document.uri, params.position)
-    spans = references(ls.session.desk, *place, with_declaration=params.context.include_declaration)
-    return [ls.session.wire.location(span) for span in spans]
+    spans = references(ls.session.workspace, *place, with_declaration=params.context.include_declaration)
+    return [ls.session.lsp.location(span) for span in spans]
 
 
 def highlighted(ls: MindServer, params: types.DocumentHighlightParams) -> list[types.DocumentHighlight]:
     """Where else it stands in this file."""
     spans = highlights(*ls.session.place(params.text_document.uri, params.position))
-    return [types.DocumentHighlight(ls.session.wire.range(span)) for span in spans]
+    return [types.DocumentHighlight(ls.session.lsp.range(span)) for span in spans]
 
 
 def outlined(ls: MindServer, params: types.DocumentSymbolParams) -> list[types.DocumentSymbol]:
     """What the file declares."""
-    path = ls.session.wire.path(params.text_document.uri)
-    file = ls.session.desk.view(path).file(path)
-    return [_symbol(ls.session.wire, symbol) for symbol in symbols(file)] if file else []
+    path = ls.session.lsp.path(params.text_document.uri)
+    file = ls.session.workspace.view(path).file(path)
+    return [_symbol(ls.session.lsp, symbol) for symbol in symbols(file)] if file else []
 
 
-def _symbol(wire: Wire, symbol: Symbol) -> types.DocumentSymbol:
+def _symbol(lsp: LspConverter, symbol: Symbol) -> types.DocumentSymbol:
     return types.DocumentSymbol(
         symbol.name,
         SYMBOLS[symbol.noun],
-        wire.range(symbol.whole),
-        wire.range(symbol.place),
+        lsp.range(symbol.whole),
+        lsp.range(symbol.place),
         detail=f"{symbol.noun} {symbol.kind}".strip(),
-        children=[_symbol(wire, inner) for inner in symbol.inner],
+        children=[_symbol(lsp, inner) for inner in symbol.inner],
     )
 
 
 def searched(ls: MindServer, params: types.WorkspaceSymbolParams) -> list[types.WorkspaceSymbol]:
     """What the files of the workspace declare."""
-    folders = [ls.session.wire.path(uri) for uri in ls.workspace.folders]
+    folders = [ls.session.lsp.path(uri) for uri in ls.workspace.folders]
     if not folders and ls.workspace.root_uri:
-        folders = [ls.session.wire.path(ls.workspace.root_uri)]
+        folders = [ls.session.lsp.path(ls.workspace.root_uri)]
     return [
         types.WorkspaceSymbol(
-            ls.session.wire.location(symbol.place), symbol.name, SYMBOLS[symbol.noun], container_name=symbol.noun
+            ls.session.lsp.location(symbol.place), symbol.name, SYMBOLS[symbol.noun], container_name=symbol.noun
         )
-        for symbol in everything(ls.session.desk, folders, params.query)
+        for symbol in everything(ls.session.workspace, folders, params.query)
     ]
 
 
 def formatted(ls: MindServer, params: types.DocumentFormattingParams) -> list[types.TextEdit]:
     """The file as it should be written."""
-    path = ls.session.wire.path(params.text_document.uri)
-    source = Source(str(path), ls.session.desk.text(path), path.parent)
-    return [ls.session.wire.text_edit(splice) for splice in tidied(source)]
+    path = ls.session.lsp.path(params.text_document.uri)
+    source = Source(str(path), ls.session.workspace.text(path), path.parent)
+    return [ls.session.lsp.text_edit(splice) for splice in tidied(source)]

@@ -67,11 +67,11 @@ class MindServer(LanguageServer):
 
     def outcome(self, path: Path, name: str, arguments: dict[str, Any]) -> tuple[Outcome, types.WorkspaceEdit]:
         """An edit made in memory, and as the editor takes it; MindError where it is impossible."""
-        outcome = perform(self.session.desk, path, name, arguments)
+        outcome = perform(self.session.workspace, path, name, arguments)
         plain = not self.knows_documents
         if outcome.change.created and plain:
             raise MindError("This editor cannot make files.", f"On the command line: mindc edit {name}")
-        edit = self.session.wire.workspace_edit(outcome.change.splices, outcome.change.created, plain)
+        edit = self.session.lsp.workspace_edit(outcome.change.splices, outcome.change.created, plain)
         return outcome, edit
 
     def done(self, outcome: Outcome) -> None:

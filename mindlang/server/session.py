@@ -8,10 +8,10 @@ from lsprotocol import types
 from mindrun.errors import MindError
 
 from mindlang.compiler.diagnostic import Diagnostic, listed
-from mindlang.server.lsp_types import Wire
-from mindlang.server.pending_renames import Following, keep_up
+from mindlang.server.lsp_types import LspConverter
+from mindlang.server.pending_renames import PendingRename, keep_up
 from mindlang.server.view import View
-from mindlang.server.workspace import Desk
+from mindlang.server.workspace import Workspace
 
 Report = tuple[int | None, list[types.Diagnostic]]
 MOST = 8  # edits whose locks are looked after
@@ -22,57 +22,57 @@ TOLD = 1000  # findings in a file
 class Session:
     """What the server remembers."""
 
-    desk: Desk = field(default_factory=Desk)
-    wire: Wire = field(default_factory=Wire)
-    following: list[Following] = field(default_factory=list)
+    workspace: Workspace = field(default_factory=Workspace)
+    lsp: LspConverter = field(default_factory=LspConverter)
+    following: list[PendingRename] = field(default_factory=list)
     _told: dict[Path, Report] = field(default_factory=dict)
 
     def set(self, uri: str, version: int, text: str) -> None:
         """A file has this text now."""
-        path = self.wire.path(uri)
-        self.wire.uris[path], self.wire.versions[path] = uri, version
-        self.desk.texts[path] = text
+        path = self.lsp.path(uri)
+        self.lsp.uris[path], self.lsp.versions[path] = uri, version
+        self.workspace.texts[path] = text
 
     def close(self, uri: str) -> None:
         """A file is no longer open."""
-        path = self.wire.path(uri)
-        self.desk.close(path)
-        self.wire.versions.pop(path, None)
-        self.wire.uris.pop(path, None)
+        path = self.lsp.path(uri)
+        self.workspace.close(path)
+        self.lsp.versions.pop(path, None)
+        self.lsp.uris.pop(path, None)
 
     def place(self, uri: str, position: types.Position) -> tuple[View, Path, int]:
         """The mind of a file, its path, and the offset of a position in it."""
-        path = self.wire.path(uri)
-        return self.desk.view(path), path, self.wire.offset(self.desk.text(path), position)
+        path = self.lsp.path(uri)
+        return self.workspace.view(path), path, self.lsp.offset(self.workspace.text(path), position)
 
     def news(self) -> Iterator[types.PublishDiagnosticsParams]:
         """What is to be said anew: the findings in all files of the open minds, and of files that have none now."""
         found = self._found()
         for path in [*found, *(path for path in self._told if path not in found)]:
-            now = self.wire.versions.get(path), [self.wire.diagnostic(each) for each in found.get(path, ())]
+            now = self.lsp.versions.get(path), [self.lsp.diagnostic(each) for each in found.get(path, ())]
             if self._told.get(path) != now:
-                yield types.PublishDiagnosticsParams(self.wire.uri(path), now[1], now[0])
+                yield types.PublishDiagnosticsParams(self.lsp.uri(path), now[1], now[0])
             self._told[path] = now
         self._told = {path: report for path, report in self._told.items() if report[1] or path in found}
 
     def _found(self) -> dict[Path, list[Diagnostic]]:
         """The findings by file, each once, also where several minds have it."""
-        found: dict[Path, dict[tuple[object, ...], Diagnostic]] = {path: {} for path in self.desk.texts}
-        for main in self.desk.mains():
-            for each in self.desk.mind(main).findings:
+        found: dict[Path, dict[tuple[object, ...], Diagnostic]] = {path: {} for path in self.workspace.texts}
+        for main in self.workspace.mains():
+            for each in self.workspace.mind(main).findings:
                 path = each.span.source.path if each.span else main
                 place = (each.span.start, each.span.end) if each.span else (0, 0)
                 found.setdefault(path, {}).setdefault((*place, each.code, each.message), each)
         return {path: _first(path, list(each.values())) for path, each in found.items()}
 
-    def follow(self, following: Following | None) -> None:
+    def follow(self, following: PendingRename | None) -> None:
         """Let locks follow an edit once its files are saved."""
         if following:
             self.following = [*self.following, following][-MOST:]
 
     def saved(self, path: Path) -> Iterator[str]:
         """A file lies on the disk as it is; what there is to say of the locks that have followed."""
-        self.desk.forget()
+        self.workspace.forget()
         for following in [each for each in self.following if path in each.files]:
             try:
                 if locks := keep_up(following):

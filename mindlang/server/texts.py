@@ -21,7 +21,7 @@ def register(server: MindServer) -> None:
 def begin(ls: MindServer, params: types.InitializeParams) -> None:
     """Count columns as the editor does."""
     encoding = ls.workspace.position_encoding
-    ls.session.wire.encoding = str(getattr(encoding, "value", encoding))
+    ls.session.lsp.encoding = str(getattr(encoding, "value", encoding))
 
 
 async def watch(ls: MindServer, params: types.InitializedParams) -> None:
@@ -39,7 +39,7 @@ def opened(ls: MindServer, params: types.DidOpenTextDocumentParams) -> None:
     """A file is open now: look at it at once."""
     document = params.text_document
     ls.session.set(document.uri, document.version, document.text)
-    ls.session.desk.forget()
+    ls.session.workspace.forget()
     ls.check()
 
 
@@ -53,7 +53,7 @@ def changed(ls: MindServer, params: types.DidChangeTextDocumentParams) -> None:
 
 def saved(ls: MindServer, params: types.DidSaveTextDocumentParams) -> None:
     """A file has been saved: the locks of an edit may follow now."""
-    for message in ls.session.saved(ls.session.wire.path(params.text_document.uri)):
+    for message in ls.session.saved(ls.session.lsp.path(params.text_document.uri)):
         ls.say(message)
     ls.check_soon()
 
@@ -66,5 +66,5 @@ def closed(ls: MindServer, params: types.DidCloseTextDocumentParams) -> None:
 
 def changed_outside(ls: MindServer, params: types.DidChangeWatchedFilesParams) -> None:
     """Files have changed on the disk: by git, by a training."""
-    ls.session.desk.forget()
+    ls.session.workspace.forget()
     ls.check_soon()

@@ -18,7 +18,7 @@ Stamp = tuple[int, int] | None  # when a file was written, and how long it is
 
 
 @dataclass
-class Desk:
+class Workspace:
     """The open texts by path. What has been made of them is kept until one of its files changes."""
 
     texts: dict[Path, str] = field(default_factory=dict)

@@ -12,8 +12,7 @@ from contextlib import redirect_stdout
 from pathlib import Path
 from typing import Any
 
-from mindrun import VERSION, arguments
-from mindrun import standard_streams as streams
+from mindrun import VERSION, arguments, standard_streams
 from mindrun.arguments import SEED, new_file, real, whole
 from mindrun.bundle import read_bundle
 from mindrun.describe import contents, describe
@@ -47,13 +46,13 @@ tools: mindrun adopt | calibrate | doctor | replay | report, each with --help"""
 
 def main() -> None:
     """Run the command line; whatever happens ends in one message and an exit code."""
-    streams.prepare(streams.Printable)
+    standard_streams.prepare(standard_streams.Printable)
     tool = len(sys.argv) > 1 and sys.argv[1] in tools()
     code = guarded((lambda: run_tool(sys.argv[1], sys.argv[2:])) if tool else (lambda: run(_options())))
-    if why := streams.finish():
+    if why := standard_streams.finish():
         _say(why)
         code = code or FAILED
-    streams.last_words()
+    standard_streams.last_words()
     sys.exit(code)
 
 
@@ -89,7 +88,7 @@ def run(options: argparse.Namespace) -> int:
     elif options.arm or options.record or options.ticks:
         raise MindError("this bundle is wired to no robot", "mindc build … --robot robot.yaml, or try it with --dry")
     elif options.json:
-        streams.document(_json(contents(bundle), indent=2))
+        standard_streams.document(_json(contents(bundle), indent=2))
     else:
         print(describe(bundle))
     return OK
@@ -99,7 +98,7 @@ def drive(options: argparse.Namespace) -> int:
     """Drive the robot, or a simulated one."""
     from mindrun.robot.command import run as run_robot
 
-    streams.tell_aside()
+    standard_streams.tell_aside()
     with redirect_stdout(sys.stderr):  # a procedure may print
         return run_robot(options)
 
@@ -146,8 +145,8 @@ def _run(engine: Engine, options: argparse.Namespace) -> None:
         line: dict[str, Any] = {"commands": dict(zip(names, commands.tolist(), strict=True))}
         if options.influence:
             line["influence"] = dict(zip(skills, engine.influence.tolist(), strict=True))
-        streams.document(_json(line))
-        if streams.lost():
+        standard_streams.document(_json(line))
+        if standard_streams.lost():
             break
     if engine.faults:
         what = "1 output was" if engine.faults == 1 else f"{engine.faults} outputs were"

@@ -12,7 +12,7 @@ from mindrun.errors import BundleError, MindError
 from mindrun.graph import Graph
 from mindrun.quantity import Quantity, Reference, fits
 from mindrun.registry import kinds, names
-from mindrun.validate import flaw
+from mindrun.validate import graph_flaw
 from mindrun.wiring import Wiring, flaws
 
 T = TypeVar("T")
@@ -38,7 +38,7 @@ def encode(value: object) -> Any:
 def decode(data: object) -> Graph:
     """The graph that `encode` made this data of; BundleError where anything is missing, unknown or out of range."""
     graph = decode_part(Graph, data, "graph")
-    found = flaw(graph)
+    found = graph_flaw(graph)
     if found:
         raise BundleError(f"this graph is damaged: {found}")
     return graph

@@ -10,7 +10,7 @@ from mindrun.printable import visible
 MOST = 1000  # pieces that wait; the oldest go first
 
 
-class Teller:
+class LineWriter:
     """Writes to a file descriptor from a thread of its own; what nobody takes is dropped."""
 
     def __init__(self, descriptor: int, prefix: str = "") -> None:
@@ -19,7 +19,7 @@ class Teller:
         self._waiting: deque[bytes] = deque(maxlen=MOST)
         self._idle = True
         self._change = Condition()
-        Thread(target=self._run, name="teller", daemon=True).start()
+        Thread(target=self._run, name="line_writer", daemon=True).start()
 
     def __call__(self, line: str) -> None:
         """Say a line, of which only what can be printed is said as it is; returns at once."""

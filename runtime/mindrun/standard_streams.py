@@ -11,7 +11,7 @@ from select import select
 from typing import Any, TextIO
 
 from mindrun.errors import reason
-from mindrun.line_writer import Teller
+from mindrun.line_writer import LineWriter
 from mindrun.printable import visible
 
 OUTPUT, ERRORS = 1, 2
@@ -53,7 +53,7 @@ class Aside(RawIOBase):
     """Standard error of a program that must not wait for who reads it: a thread of its own writes."""
 
     def __init__(self) -> None:
-        self.teller = Teller(ERRORS)
+        self.line_writer = LineWriter(ERRORS)
 
     def writable(self) -> bool:
         """It is."""
@@ -61,7 +61,7 @@ class Aside(RawIOBase):
 
     def write(self, data: Any) -> int:
         """All of it, or as if."""
-        self.teller.write(bytes(data))
+        self.line_writer.write(bytes(data))
         return memoryview(data).nbytes
 
 
@@ -99,7 +99,7 @@ def last_words() -> None:
     """Let be taken what has been told aside, for a moment."""
     if isinstance(raw := _raw(sys.stderr), Aside):
         sys.stderr.flush()
-        raw.teller.flush(LAST_WORDS)
+        raw.line_writer.flush(LAST_WORDS)
 
 
 def lost() -> OSError | None:

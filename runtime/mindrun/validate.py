@@ -16,7 +16,7 @@ NAME = re.compile(r"[^\W\d_]\w*([+.]\w+)*")
 SHORTEST, LONGEST = 1e-9, 1e9  # seconds of a tick
 
 
-def flaw(graph: Graph) -> str | None:
+def graph_flaw(graph: Graph) -> str | None:
     """The first thing that is wrong with a graph, if anything is."""
     return next(_flaws(graph), None)
 

@@ -16,11 +16,11 @@ from typing import Any
 import pytest
 
 from mindlang.compiler.compile import load
-from mindlang.editing.apply import carry_out
+from mindlang.editing.apply import apply_edit
 from mindlang.editing.project import EditError, open_project
 from mindlang.editing.writing import write
 from mindlang.edits.rename import rename
-from mindlang.transaction import NAME, JournalError, change, recover
+from mindlang.transaction import NAME, TransactionError, change, recover
 from tests.calling import Call
 from tests.edits.changing import ONE, OTHER, files
 
@@ -66,7 +66,7 @@ def changed_with(folder: Path, fails: Callable[[int, str], BaseException | None]
         failing(patch, fails)
         try:
             change(folder, files(folder, OTHER))
-        except (Crash, JournalError, KeyboardInterrupt) as error:
+        except (Crash, TransactionError, KeyboardInterrupt) as error:
             return error
     return None
 
@@ -100,7 +100,7 @@ def test_an_operation_that_fails_changes_nothing(folder: Path, error: BaseExcept
             assert isinstance(failed, KeyboardInterrupt)
             break
         assert now == ONE, f"after {place} operations"
-        assert isinstance(failed, JournalError if isinstance(error, OSError) else KeyboardInterrupt)
+        assert isinstance(failed, TransactionError if isinstance(error, OSError) else KeyboardInterrupt)
     assert place > 10
 
 
@@ -114,7 +114,7 @@ def test_on_a_full_disk_all_is_put_back_as_soon_as_there_is_room(folder: Path) -
         if failed is None:
             break
         assert "No space left on device" in str(failed)
-        assert isinstance(failed, JournalError)
+        assert isinstance(failed, TransactionError)
         ends.add(failed.hint)
         recover(folder)
         assert found(folder) == ONE, f"after {place} operations"
@@ -149,10 +149,10 @@ def test_what_was_changed_by_hand_since_is_not_overwritten(folder: Path) -> None
             change(folder, files(folder, OTHER))
     (folder / "a.lock").write_text("by hand")
     before = found(folder)
-    with pytest.raises(JournalError, match=r"a\.lock has been changed since an edit of a\.mind") as refused:
+    with pytest.raises(TransactionError, match=r"a\.lock has been changed since an edit of a\.mind") as refused:
         recover(folder)
     assert str(folder / NAME) in refused.value.hint
-    with pytest.raises(JournalError):
+    with pytest.raises(TransactionError):
         change(folder, files(folder, OTHER))
     assert found(folder) == before
     (folder / NAME).unlink()
@@ -167,7 +167,7 @@ def test_a_journal_from_somewhere_else_changes_nothing_outside(folder: Path, tmp
     (folder / "link").symlink_to(outside)
     (folder / "link.mind").symlink_to(outside / "out.mind")
     (folder / NAME).write_text(json.dumps({name: {"was": "eA==", "becomes": ""}}))
-    with pytest.raises(JournalError, match="is not what mindc wrote"):
+    with pytest.raises(TransactionError, match="is not what mindc wrote"):
         recover(folder)
     assert list(outside.iterdir()) == []
     assert not (folder.parent / "out.mind").exists()
@@ -198,7 +198,7 @@ def test_any_command_puts_back_what_an_edit_left(mindc: Call, rules: Path) -> No
 def test_what_was_written_since_the_file_was_read_is_not_lost(rules: Path) -> None:
     def edited(old: str, new: str) -> Any:
         project = open_project(load(rules))
-        return carry_out(project, rename(project, old, new, noun="skill"), keep_weights=False)
+        return apply_edit(project, rename(project, old, new, noun="skill"), keep_weights=False)
 
     first, second = edited("Turn", "Spin"), edited("Chase", "Hunt")
     write(first)
@@ -218,7 +218,7 @@ def test_what_was_written_since_the_file_was_read_is_not_lost(rules: Path) -> No
 def test_what_could_not_be_put_back_is_not_changed(folder: Path, name: str) -> None:
     (folder / "link.mind").symlink_to(folder / "a.mind")
     before = found(folder)
-    with pytest.raises(JournalError, match=rf"{name} cannot be changed together with others"):
+    with pytest.raises(TransactionError, match=rf"{name} cannot be changed together with others"):
         change(folder, {folder / "a.mind": b"other", folder / name: b"other"})
     assert found(folder) == before
 
@@ -227,7 +227,7 @@ def test_who_may_read_a_file_still_may(rules: Path) -> None:
     rules.chmod(0o640)
     rules.with_name("rules.mind.tmp").write_text("mine")
     project = open_project(load(rules))
-    write(carry_out(project, rename(project, "Turn", "Spin"), keep_weights=False))
+    write(apply_edit(project, rename(project, "Turn", "Spin"), keep_weights=False))
     assert "Spin" in rules.read_text()
     assert rules.stat().st_mode & 0o777 == 0o640
     assert rules.with_name("rules.mind.tmp").read_text() == "mine"
@@ -236,7 +236,7 @@ def test_who_may_read_a_file_still_may(rules: Path) -> None:
 def test_what_is_taken_back_is_said(mindc: Call, rules: Path) -> None:
     text = rules.read_text()
     project = open_project(load(rules))
-    edited = carry_out(project, rename(project, "Turn", "Spin"), keep_weights=False)
+    edited = apply_edit(project, rename(project, "Turn", "Spin"), keep_weights=False)
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr("mindlang.transaction._done", lambda folder: (_ for _ in ()).throw(Crash()))
         patch.setattr("mindlang.transaction._undo", lambda *_: None)

@@ -14,7 +14,7 @@ from mindlang.compiler.diagnostic import Findings
 from mindlang.compiler.parse import parse
 from mindlang.compiler.source import Source
 from mindlang.compiler.syntax import Influences
-from mindlang.editing.apply import carry_out
+from mindlang.editing.apply import apply_edit
 from mindlang.editing.project import EditError, Project
 from mindlang.edits import edit, names
 from tests.edits.sources import ACTUATORS, MAIN, PARTS, SENSORS, SKILLS, Texts, minds
@@ -67,7 +67,7 @@ def done(texts: Texts, asked: Asked) -> Texts:
     """The texts after an edit; EditError where it is refused."""
     project = texts.project()
     change = edit(asked.name).function(project, **asked.said)
-    return texts.changed(dict(carry_out(project, change, keep_weights=False).texts))
+    return texts.changed(dict(apply_edit(project, change, keep_weights=False).texts))
 
 
 def done_or_refused(texts: Texts, asked: Asked) -> Texts | EditError:

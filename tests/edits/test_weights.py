@@ -16,10 +16,10 @@ from mindrun.sensors import Battery
 from mindrun.weights import genes
 
 from mindlang.compiler.compile import load
-from mindlang.editing.apply import carry_out
-from mindlang.editing.lock_update import follow
+from mindlang.editing.apply import apply_edit
+from mindlang.editing.lock_update import update_locks
 from mindlang.editing.project import Change, EditError, open_project
-from mindlang.editing.summary import told
+from mindlang.editing.summary import summarise
 from mindlang.editing.writing import write
 from mindlang.edits import edit
 from mindlang.lock import lock_path, read_lock
@@ -45,8 +45,8 @@ def drive(tmp_path: Path) -> Path:
 def made(path: Path, name: str, keep_weights: bool = False, **said: Any) -> list[str]:
     """Make an edit of a file; what is said of the weights."""
     project = open_project(load(path))
-    edited = carry_out(project, edit(name).function(project, **said), keep_weights)
-    sentences = told(edited)
+    edited = apply_edit(project, edit(name).function(project, **said), keep_weights)
+    sentences = summarise(edited)
     write(edited)
     return sentences
 
@@ -314,7 +314,7 @@ def test_widened_skills_do_the_same_to_the_bit(
     lock = read_lock(path)
     graph = arrange(graph, lock)
     wide = _wider(graph, data.draw)
-    followed = follow({path: lock}, graph, wide, Change(()), keep_weights=True)
+    followed = update_locks({path: lock}, graph, wide, Change(()), keep_weights=True)
     after = arrange(wide, followed.locks[path])
     new = {
         name: followed.weights.get(blob(path.parent, entry.weights), weights[name])

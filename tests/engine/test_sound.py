@@ -14,7 +14,7 @@ from mindrun.measures import Advance, Progress, Retreat
 from mindrun.memory import Cell
 from mindrun.quantity import UNSAID, Span
 from mindrun.sensors import Battery, Derivative, RangeFinder, Sine
-from mindrun.validate import depths, flaw
+from mindrun.validate import depths, graph_flaw
 from mindrun.world import Arena, Content, Item, Obstacle, Plain, Zone
 
 from tests.minds import always, mind, rule, skill
@@ -47,7 +47,7 @@ def whole() -> Graph:
 
 
 def test_a_whole_one_has_no_flaw() -> None:
-    assert flaw(whole()) is None
+    assert graph_flaw(whole()) is None
 
 
 def with_sensor(index: int, **changes: object) -> Callable[[Graph], Graph]:
@@ -166,7 +166,7 @@ FLAWED: list[tuple[Callable[[Graph], Graph], str]] = [
 
 @pytest.mark.parametrize(("broken", "what"), FLAWED, ids=[f"{i}-{what}" for i, (_, what) in enumerate(FLAWED)])
 def test_a_broken_one_is_told(broken: Callable[[Graph], Graph], what: str) -> None:
-    said = flaw(broken(whole()))
+    said = graph_flaw(broken(whole()))
     assert said
     assert said.startswith(what)
 
@@ -194,7 +194,7 @@ FINE: list[Callable[[Graph], Graph]] = [
 
 @pytest.mark.parametrize("changed", FINE)
 def test_what_may_be_is_let_be(changed: Callable[[Graph], Graph]) -> None:
-    assert flaw(changed(whole())) is None
+    assert graph_flaw(changed(whole())) is None
 
 
 def test_a_derivative_is_one_deeper_than_what_it_is_of() -> None:

@@ -12,8 +12,8 @@ from mindlang.pictures.film import HEIGHT, WIDTH
 from mindlang.pictures.hierarchy_panel import LARGEST, fitting
 from mindlang.pictures.influence_flow import Flow, Link
 from mindlang.pictures.layout import Layout, Place
-from mindlang.pictures.recorded_run import tell
-from mindlang.run.setup import cast
+from mindlang.pictures.recorded_run import record_run
+from mindlang.run.setup import set_up
 from tests.calling import Call
 
 
@@ -56,8 +56,8 @@ def test_a_film_that_fails_leaves_the_old_one(mindc: Call, rules: Path, monkeypa
 
 
 def test_what_flows_adds_up_to_the_influence(rules: Path) -> None:
-    found = cast(str(rules), load(rules), "Roam", None)
-    story = tell(found, found.rollout(), 3)
+    found = set_up(str(rules), load(rules), "Roam", None)
+    story = record_run(found, found.rollout(), 3)
     flow = Flow(story)
     for tick in (1, story.ticks // 2, story.ticks):
         received = np.zeros(len(story.graph.skills))

@@ -14,25 +14,25 @@ from mindlang.compiler.compile import load
 from mindlang.pictures.canvas import Canvas, Image, View, blank
 from mindlang.pictures.caption import LINES, SMALLEST, fitted
 from mindlang.pictures.picture import ABOVE, BELOW, SIDE, SIZE, picture, view_of
-from mindlang.pictures.recorded_run import Story, tell
+from mindlang.pictures.recorded_run import RecordedRun, record_run
 from mindlang.pictures.scene import thing_colours
 from mindlang.pictures.theme import PAPER, mixed
 from mindlang.run.outcome import one
-from mindlang.run.session import NOBODY
-from mindlang.run.setup import cast
+from mindlang.run.session import NO_GENOME
+from mindlang.run.setup import set_up
 from tests.calling import RULES, Call
 
 
-def told(file: Path, task: str, seed: int = 3) -> tuple[Story, Image]:
+def told(file: Path, task: str, seed: int = 3) -> tuple[RecordedRun, Image]:
     """A story and its picture."""
-    found = cast(str(file), load(file), task, None)
+    found = set_up(str(file), load(file), task, None)
     rollout = found.rollout()
-    outcome = one(found.task, rollout.score(NOBODY, [seed]))
-    story = tell(found, rollout, seed)
+    outcome = one(found.task, rollout.score(NO_GENOME, [seed]))
+    story = record_run(found, rollout, seed)
     return story, picture(story, {"task": task, "master": found.master, "seed": seed} | outcome)
 
 
-def pixel(story: Story, image: Image, x: float, y: float) -> np.ndarray:
+def pixel(story: RecordedRun, image: Image, x: float, y: float) -> np.ndarray:
     """The colour at a place of the world."""
     view = view_of(story, SIZE - 2 * SIDE, SIZE - ABOVE - BELOW)
     column, row = SIDE + (x - view.left) * view.scale, ABOVE + (view.top - y) * view.scale
@@ -99,9 +99,9 @@ def test_a_legend_stays_within_its_lines(names: list[str]) -> None:
 
 
 def test_what_is_told_is_what_is_scored(rules: Path) -> None:
-    found = cast(str(rules), load(rules), "Chase", None)
+    found = set_up(str(rules), load(rules), "Chase", None)
     rollout = found.rollout()
-    story, scores = tell(found, rollout, 3), rollout.score(NOBODY, [3])
+    story, scores = record_run(found, rollout, 3), rollout.score(NO_GENOME, [3])
     assert story.ticks == scores.ticks[0, 0]
     assert story.counts[-1].sum() == scores.counts[0, 0] > 0
     assert np.array_equal(story.lines[-1], scores.by_line[0, 0])

@@ -6,7 +6,7 @@ from mindrun.functions import Mlp, Procedure
 from mindrun.graph import Graph
 from mindrun.weights import genes
 
-from mindlang.proofs import silence_search as silence
+from mindlang.proofs import silence_search
 from mindlang.proofs.branch_and_bound import readings_to_try
 from mindlang.proofs.paths import Paths
 from mindlang.proofs.proof import OfActuator, prove
@@ -133,8 +133,8 @@ def test_as_many_readings_are_tried_as_there_is_time_for(monkeypatch: pytest.Mon
     """64 at least and 4096 at most; a skill takes as long as 100 weights, and its own."""
     graph = mind(skill("Top", Mlp(hidden=0), (0, 1, 2), ("skill", 1), ("actuator", LEFT)), drives("A", 0.5), readings=3)
     tried = []
-    monkeypatch.setattr(silence, "WORK", work)
-    monkeypatch.setattr(silence, "readings_to_try", lambda *size: tried.append(size) or readings_to_try(*size))
+    monkeypatch.setattr(silence_search, "WORK", work)
+    monkeypatch.setattr(silence_search, "readings_to_try", lambda *size: tried.append(size) or readings_to_try(*size))
     assert genes(graph.skills[0]) == 6
     assert try_out(graph, {"Top": np.ones(6, np.float32)})
     assert tried == [(3, rows)]

@@ -8,7 +8,7 @@ from mindrun.functions import Mlp, Procedure
 from mindrun.graph import Edge, Graph, Program, Skill
 from mindrun.weights import NONE, genes
 
-from mindlang.proofs import branch_and_bound as sharpen
+from mindlang.proofs import branch_and_bound
 from mindlang.proofs.batch import values
 from mindlang.proofs.branch_and_bound import CLOSE, Range, by_itself, halves, ranges, readings_to_try, sway_of
 from mindlang.proofs.interval import Boxes, Sent
@@ -46,7 +46,7 @@ def test_only_so_many_boxes_are_cut_in_a_round() -> None:
 
 def test_what_says_least_is_cut_first(monkeypatch: pytest.MonkeyPatch) -> None:
     """One box at a time: three cuts leave four boxes, of which none is wider than a quarter."""
-    monkeypatch.setattr(sharpen, "AT_ONCE", 1)
+    monkeypatch.setattr(branch_and_bound, "AT_ONCE", 1)
     assert range_of(NOTHING, 4).high == 0.5
     assert range_of(NOTHING, 6).high == 0.25
     assert range_of(NOTHING, 14).high == 0.125
@@ -55,7 +55,7 @@ def test_what_says_least_is_cut_first(monkeypatch: pytest.MonkeyPatch) -> None:
 @pytest.mark.parametrize("at_once", [1, 2, 5])
 def test_boxes_that_wait_keep_what_is_sent_in_them(monkeypatch: pytest.MonkeyPatch, at_once: int) -> None:
     """1/2 + r² − r is 1/4 to 1/2; (r·s − 3r/4 − s/4) / 2 + 1/2, from 1/8 to 1/2, is least in one corner of four."""
-    monkeypatch.setattr(sharpen, "AT_ONCE", at_once)
+    monkeypatch.setattr(branch_and_bound, "AT_ONCE", at_once)
     bowl = range_of((*R0, *R0, ("*", 0), *R0, ("-", 0), *number(0.5), ("+", 0)), 3000)
     assert 0.25 - CLOSE <= bowl.low <= 0.25
     assert 0.5 <= bowl.high <= 0.5 + CLOSE
@@ -126,8 +126,8 @@ def test_of_python_code_nothing_is_seen() -> None:
 
 
 def test_nothing_is_cut_for_a_function_that_is_not_known(monkeypatch: pytest.MonkeyPatch) -> None:
-    looked, sent = [], sharpen.sent
-    monkeypatch.setattr(sharpen, "sent", lambda *arguments: looked.append(1) or sent(*arguments))
+    looked, sent = [], branch_and_bound.sent
+    monkeypatch.setattr(branch_and_bound, "sent", lambda *arguments: looked.append(1) or sent(*arguments))
     ranges(Skill("Top", Procedure("a.b"), (0,), (Edge("skill", 1, 0), always("skill", 2, 0.25))), None, 99)
     assert len(looked) == 1
 
@@ -215,4 +215,4 @@ def test_how_far_a_box_reaches_beyond_what_was_seen() -> None:
     found = Sent(
         np.array([r[0] for r in rows], np.float32), np.array([r[1] for r in rows], np.float32), np.ones((7, 3), bool)
     )
-    assert sharpen._excess(found, low, high).tolist() == pytest.approx([r[2] for r in rows], abs=1e-6)
+    assert branch_and_bound._excess(found, low, high).tolist() == pytest.approx([r[2] for r in rows], abs=1e-6)

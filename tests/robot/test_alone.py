@@ -9,7 +9,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
-from mindrun.robot.device_locks import DrivenError, alone, claims
+from mindrun.robot.device_locks import DrivenError, claims, hold_devices
 from mindrun.robot.drivers.ball_tracker import BallTracker
 from mindrun.robot.drivers.grove_motor import GroveMotor
 from mindrun.robot.drivers.mock import MockActuator
@@ -78,13 +78,13 @@ def wired(name: str, *drivers: object) -> Wiring:
 def test_a_device_has_one_driver_whatever_its_robot_is_called() -> None:
     address = 0x77 - os.getpid() % 2  # no test beside this one has it
     tracker = SensorWire("eye", BallTracker(pan=3, address=address, bus=7), 180.0, -180.0)
-    with alone(wired("one", Pca9685(0, address=address, bus=7), Pca9685(1, address=address, bus=7))) as held:
+    with hold_devices(wired("one", Pca9685(0, address=address, bus=7), Pca9685(1, address=address, bus=7))) as held:
         assert len(held) == 2
         for other in (wired("two", Pca9685(5, address=address, bus=7)), Wiring("three", (tracker,), ())):
             with pytest.raises(DrivenError, match=f"the device at /dev/i2c-7 {address:#04x} is driven already"):
-                alone(other).__enter__()
+                hold_devices(other).__enter__()
         assert claims(Wiring("three", (still(tracker),), ())) == ("robot three",)
-    with alone(wired("two", Pca9685(5, address=address, bus=7))):
+    with hold_devices(wired("two", Pca9685(5, address=address, bus=7))):
         pass
 
 
@@ -94,26 +94,26 @@ def test_what_is_claimed() -> None:
 
 
 def test_robots_of_other_names_and_devices_are_others() -> None:
-    with alone(wired(f"{NAME} a", MockActuator())), alone(wired(f"{NAME} b", MockActuator())):
+    with hold_devices(wired(f"{NAME} a", MockActuator())), hold_devices(wired(f"{NAME} b", MockActuator())):
         pass
 
 
 def test_standard_streams_are_no_place_for_what_is_held() -> None:
     """What the guardian gets as its own input would not be held by it."""
-    with alone(wired(f"{NAME} c")) as held:
+    with hold_devices(wired(f"{NAME} c")) as held:
         assert min(held) > 2
 
 
 def test_a_forked_process_holds_nothing() -> None:
     reading, writing = os.pipe()
-    with alone(wired(f"{NAME} d")):
+    with hold_devices(wired(f"{NAME} d")):
         child = os.fork()
         if not child:
             os.write(writing, b"here")
             time.sleep(60)
             os._exit(0)
         assert os.read(reading, 9) == b"here"
-    with alone(wired(f"{NAME} d")):
+    with hold_devices(wired(f"{NAME} d")):
         os.kill(child, signal.SIGKILL)
         os.waitpid(child, 0)
 

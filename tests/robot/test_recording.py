@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 from mindrun.engine import Engine
 from mindrun.robot.loop import Loop
-from mindrun.robot.rate import Pace
-from mindrun.robot.reading_filter import Senses
+from mindrun.robot.rate import Rate
+from mindrun.robot.reading_filter import ReadingFilter
 from mindrun.robot.recording import About, Recorder, RecordingError, read
 from mindrun.robot.replay import replay
 from mindrun.robot.sampling import Sampler
@@ -34,7 +34,9 @@ def day(tmp_path: Path) -> Path:
     ]
     sampler = Sampler(SensorWire("sense", Scripted(3, script), 0.0, 1.0, max_age=2 * TICK), clock)
     with Recorder(path, About.of(of, BUNDLE, of.master, ("sense",))) as recorder:
-        loop = Loop(Engine(of, {}), Senses(of, [sampler]), Sent(), Pace(TICK, clock, clock.sleep), True, recorder)
+        loop = Loop(
+            Engine(of, {}), ReadingFilter(of, [sampler]), Sent(), Rate(TICK, clock, clock.sleep), True, recorder
+        )
         loop.pace.begin()
         device = None
         for _ in range(TICKS):

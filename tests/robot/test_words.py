@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from mindrun.line_writer import Teller
+from mindrun.line_writer import LineWriter
 from mindrun.robot.recording import read
 
 from tests.robot.driving import MINDRUN, begun, children, mindrun, until, write_procedure
@@ -99,7 +99,7 @@ def test_a_reader_that_comes_back_is_told_what_is_new() -> None:
             os.write(writing, b"x" * 4096)
         except BlockingIOError:
             break
-    tell = Teller(writing, "guardian: ")
+    tell = LineWriter(writing, "guardian: ")
     for number in range(5000):
         tell(f"line {number}")
     tell.flush(0.1)
@@ -136,13 +136,13 @@ def test_no_terminal_obeys_a_name(bundle: Path, tmp_path: Path) -> None:
 def test_a_bundle_whose_names_cannot_be_printed_is_none(bundle: Path) -> None:
     from dataclasses import replace
 
-    from mindrun.validate import flaw
+    from mindrun.validate import graph_flaw
 
     from tests.robot.faults import graph
 
     fine = graph("bearing")
     first, *others = fine.actuators
     for name in ("wheel\x1b[2J", "wheel\n", "\u202e", ""):
-        found = flaw(replace(fine, actuators=(replace(first, name=name), *others)))
+        found = graph_flaw(replace(fine, actuators=(replace(first, name=name), *others)))
         assert found
         assert found.isprintable()

@@ -43,7 +43,7 @@ from mindrun.sim.trace import trace
 from mindrun.wiring import flaws
 
 from mindlang.compiler.compile import load
-from mindlang.run.setup import cast
+from mindlang.run.setup import set_up
 from tests.calling import RULES, write_rules
 from tests.sim.test_rollout import some_weights
 
@@ -109,7 +109,7 @@ def test_the_world_is_that_of_training(mind: str, task: str) -> None:
 
 def test_the_shipped_mind_does_there_what_it_has_learnt() -> None:
     path = COLLECT / "collect.mind"
-    ready = cast(str(path), load(path), "Collect", None).ready
+    ready = set_up(str(path), load(path), "Collect", None).ready
     weights = {name: np.asarray(genome) for name, genome in ready.weights.items()}
     assert follow(ready.graph, weights, "Collect", 5, 2000) > 500
 

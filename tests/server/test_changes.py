@@ -12,7 +12,7 @@ from mindlang.lock.status import Trained
 from mindlang.server.changing import perform, project
 from mindlang.server.proposals import Proposal, proposals
 from mindlang.server.selection import Selection
-from mindlang.server.workspace import Desk
+from mindlang.server.workspace import Workspace
 from tests.edits.taught import MIND, statuses, teach, write_mind
 from tests.language.examples import EXAMPLES
 from tests.server.client import Editor, ServerError, editing, uri
@@ -181,37 +181,37 @@ def test_an_editor_that_knows_no_more_than_texts(tmp_path: Path) -> None:
 def test_neighbours_count_as_they_are_in_the_editor(tmp_path: Path) -> None:
     path, other = write_mind(tmp_path.resolve()), tmp_path.resolve() / "other.mind"
     other.write_text(OTHER, encoding="utf-8")
-    desk = Desk({path: MIND, other: "# above\n" + OTHER.replace("influences Go", "influences Avoid")})
-    outcome = perform(desk, path, "rename", {"old": "Go", "new": "Come", "noun": "skill"})
+    workspace = Workspace({path: MIND, other: "# above\n" + OTHER.replace("influences Go", "influences Avoid")})
+    outcome = perform(workspace, path, "rename", {"old": "Go", "new": "Come", "noun": "skill"})
     assert {splice.source.path for splice in outcome.change.splices} == {path}
-    outcome = perform(desk, path, "rename", {"old": "Avoid", "new": "Dodge", "noun": "skill"})
+    outcome = perform(workspace, path, "rename", {"old": "Avoid", "new": "Dodge", "noun": "skill"})
     (splice,) = (splice for splice in outcome.change.splices if splice.source.path == other)
-    assert desk.texts[other][splice.start : splice.end] == "Avoid"
-    desk.texts[other] += "\nskill Come is rule\n  drives claw at 1\n"
+    assert workspace.texts[other][splice.start : splice.end] == "Avoid"
+    workspace.texts[other] += "\nskill Come is rule\n  drives claw at 1\n"
     with pytest.raises(EditError, match="already a skill called Come"):
-        perform(desk, path, "rename", {"old": "Go", "new": "Come", "noun": "skill"})
+        perform(workspace, path, "rename", {"old": "Go", "new": "Come", "noun": "skill"})
 
 
 def test_what_would_break_a_neighbour_is_refused(tmp_path: Path) -> None:
     path, other = write_mind(tmp_path.resolve()), tmp_path.resolve() / "other.mind"
     other.write_text(OTHER, encoding="utf-8")
     text = MIND.replace("  influences Go\n", "").replace("  teaches Go on Roam for 3 generations\n", "")
-    desk = Desk({path: text})
+    workspace = Workspace({path: text})
     with pytest.raises(EditError, match=r"other\.mind no longer compiles"):
-        perform(desk, path, "remove", {"what": ["skill", "Go"]})
-    desk.texts[other] = OTHER.replace("influences Go", "influences Avoid")
-    assert perform(desk, path, "remove", {"what": ["skill", "Go"]}).change.splices
+        perform(workspace, path, "remove", {"what": ["skill", "Go"]})
+    workspace.texts[other] = OTHER.replace("influences Go", "influences Avoid")
+    assert perform(workspace, path, "remove", {"what": ["skill", "Go"]}).change.splices
 
 
-def everywhere(path: Path, text: str) -> tuple[Desk, list[Proposal]]:
+def everywhere(path: Path, text: str) -> tuple[Workspace, list[Proposal]]:
     """The proposals on every line, and for every declaration as a whole, each once."""
-    desk = Desk({path: text})
-    on = project(desk, desk.view(path))
+    workspace = Workspace({path: text})
+    on = project(workspace, workspace.view(path))
     starts = [0, *(place + 1 for place, letter in enumerate(text) if letter == "\n")]
     places = [(start, start) for start in starts]
     places += [(d.header.span.start, d.facts[-1].span.end) for d in on.main.declarations if d.facts]
     found = [each for place in places for each in proposals(Selection(on, path, *place))]
-    return desk, list({(each.edit, repr(each.arguments)): each for each in found}.values())
+    return workspace, list({(each.edit, repr(each.arguments)): each for each in found}.values())
 
 
 def test_every_edit_is_proposed_somewhere_and_comes_to_what_compiles(tmp_path: Path) -> None:
@@ -219,19 +219,19 @@ def test_every_edit_is_proposed_somewhere_and_comes_to_what_compiles(tmp_path: P
     text = MIND.replace("  influences Grab at 1", "  influences Both at 1\n  influences Grab at 1")
     text += "\nskill Both is mlp hidden 1\n  reads eye\n  influences Go\n  influences Avoid\n\n"
     text += "skill Still is rule\n  drives claw at 0\n  stays frozen\n"
-    desk, found = everywhere(path, text)
+    workspace, found = everywhere(path, text)
     assert {each.edit for each in found} == set(names()) - {"rename"}
     for each in found:
         if each.edit in ("remove", "disconnect"):  # the compiler says why a line is needed
             with suppress(EditError):
-                perform(desk, path, each.edit, each.arguments)
+                perform(workspace, path, each.edit, each.arguments)
         else:
-            perform(desk, path, each.edit, each.arguments)
+            perform(workspace, path, each.edit, each.arguments)
 
 
 @pytest.mark.parametrize("path", EXAMPLES, ids=lambda path: path.stem)
 def test_proposals_for_every_example(path: Path) -> None:
-    desk = Desk({path: path.read_text(encoding="utf-8")})
-    if desk.main_of(path) == path:
-        _, found = everywhere(path, desk.texts[path])
+    workspace = Workspace({path: path.read_text(encoding="utf-8")})
+    if workspace.main_of(path) == path:
+        _, found = everywhere(path, workspace.texts[path])
         assert "split" in {each.edit for each in found}

@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 
 from mindlang.server.completing import complete
-from mindlang.server.workspace import Desk
+from mindlang.server.workspace import Workspace
 from tests.language.examples import TOUR
 
 TEXT = TOUR.read_text(encoding="utf-8")
@@ -75,9 +75,9 @@ CASES = [  # where the line is put, the line with | for the cursor, what must be
 def offered(place: str, line: str) -> dict[str, str]:
     at = TEXT.index(place) if place in TEXT else len(TEXT)
     text = f"{TEXT[:at]}{line.replace('|', '')}\n{TEXT[at:]}"
-    desk = Desk({TOUR: text})
+    workspace = Workspace({TOUR: text})
     offset = at + line.index("|")
-    found = complete(desk.view(TOUR), TOUR, text, offset)
+    found = complete(workspace.view(TOUR), TOUR, text, offset)
     assert text[found.start : offset] == line[line.index("|") - (offset - found.start) : line.index("|")]
     return {offer.label: offer.text for offer in found.offers}
 
@@ -99,4 +99,4 @@ def test_kinds_and_arguments_are_explained():
 def test_a_title_with_a_plus_is_replaced_as_a_whole(tmp_path: Path):
     path = tmp_path / "a.mind"
     text = "skill Go+Avoid is rule\nskill X is rule\n  influences Go+Av"
-    assert complete(Desk({path: text}).view(path), path, text, len(text)).start == text.index("Go+Av", 20)
+    assert complete(Workspace({path: text}).view(path), path, text, len(text)).start == text.index("Go+Av", 20)

@@ -5,7 +5,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
-from mindrun import standard_streams as streams
+from mindrun import standard_streams
 from mindrun.robot.identity import IdentityError, adopt, identity_file
 from mindrun.sim import cache
 
@@ -135,4 +135,4 @@ def test_a_missing_part_of_ours_is_a_fault_of_ours() -> None:
 
     assert surroundings(ModuleNotFoundError("no", name="mindlang.x")) == ""
     assert surroundings(ValueError("no")) == ""
-    assert streams.lost() is None
+    assert standard_streams.lost() is None

@@ -8,7 +8,7 @@ from mindrun.graph import Graph
 from mindrun.sim.rollout import Rollout
 from mindrun.sim.state import empty_state
 
-from mindlang import resource_limits as estimate
+from mindlang import resource_limits
 from mindlang.compiler.compile import load
 from mindlang.resource_limits import bytes_of
 from tests.calling import Call
@@ -53,7 +53,11 @@ def graph_of(folder: Path, **said: object) -> Graph:
 def test_the_estimate_is_near_what_the_lanes_take(tmp_path: Path, said: dict[str, object]) -> None:
     rollout = Rollout(graph_of(tmp_path, **said), {}, "Roam", "Go", ["Go"], lanes=64)
     taken = sum(array.nbytes for array in empty_state(rollout.tables, rollout.sizes, 64))
-    assert 0.8 * taken < bytes_of(rollout, 64, 1) - estimate.COPIES * 64 * 4 * rollout.genome_length < 2 * taken + 2**20
+    assert (
+        0.8 * taken
+        < bytes_of(rollout, 64, 1) - resource_limits.COPIES * 64 * 4 * rollout.genome_length
+        < 2 * taken + 2**20
+    )
 
 
 @pytest.mark.parametrize(
@@ -68,7 +72,7 @@ def test_the_estimate_is_near_what_the_lanes_take(tmp_path: Path, said: dict[str
 def test_a_lesson_that_fits_no_memory_is_refused(
     mindc: Call, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, said: dict[str, object], what: str
 ) -> None:
-    monkeypatch.setattr(estimate, "available", lambda: 1 << 30)
+    monkeypatch.setattr(resource_limits, "available", lambda: 1 << 30)
     graph_of(tmp_path, **said)
     ended = mindc("train", tmp_path / "m.mind", "--runs", tmp_path / "runs", "--seed", 1)
     assert ended.code == 1

@@ -14,7 +14,7 @@ from mindrun.arguments import parser
 from mindrun.bundle import write_bundle
 from mindrun.tools import tools
 
-from mindlang import resource_limits as estimate
+from mindlang import resource_limits
 from mindlang.cli import commands
 from mindlang.compiler.compile import load
 from tests.calling import Call, write_rules
@@ -61,8 +61,8 @@ def _still(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
 
     monkeypatch.chdir(tmp_path)
     monkeypatch.setenv("PATH", "")
-    monkeypatch.setattr("mindlang.run.session.Stage.score", stopped)
-    monkeypatch.setattr("mindlang.school.train", stopped)
+    monkeypatch.setattr("mindlang.run.session.RunSession.score", stopped)
+    monkeypatch.setattr("mindlang.training.train", stopped)
     write_rules(tmp_path)
     (tmp_path / "log.csv").write_text(LOG)
 
@@ -197,7 +197,7 @@ def test_no_option_can_be_half_said() -> None:
 def test_what_no_memory_could_hold_is_refused_before_it_begins(
     mindc: Call, rules: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(estimate, "available", lambda: 1 << 20)
+    monkeypatch.setattr(resource_limits, "available", lambda: 1 << 20)
     said = mindc("bench", rules, "--runs", 1_000_000)
     assert (said.code, said.out) == (2, "")
     assert "1,000,000 runs take about" in said.err

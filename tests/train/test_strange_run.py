@@ -17,7 +17,7 @@ from mindrun.train.run_folder import MANIFEST, RESULT, Run, create, open_run, re
 from mindrun.train.training import train
 
 from mindlang.compiler.compile import load
-from mindlang.school.book import open_book, refuse_changed
+from mindlang.training.subject import open_subject, refuse_changed
 from tests.calling import write_rules
 from tests.train.climbing import LENGTH, Sphere, lesson, manifest, unwatched
 
@@ -102,4 +102,4 @@ def test_weights_to_begin_with_that_are_no_genome_are_refused(tmp_path: Path) ->
 def test_a_run_of_a_skill_that_is_no_longer_there_cannot_go_on(run: Run, tmp_path: Path) -> None:
     source = write_rules(tmp_path)
     with pytest.raises(RunError, match="has changed since this run of Climb began"):
-        refuse_changed(open_book(source, load(source)), run)
+        refuse_changed(open_subject(source, load(source)), run)

@@ -11,8 +11,8 @@ from mindlang.compiler.compile import load
 from mindlang.lock import Entry, Signature, Taught
 from mindlang.lock.status import Trained, Untaught
 from mindlang.lock.world_facts import last_lesson
-from mindlang.school.book import open_book
-from mindlang.school.teaching import is_due, subskills
+from mindlang.training.lesson_choice import is_due, subskills
+from mindlang.training.subject import open_subject
 
 FOLDER = Path(__file__).parents[2] / "examples" / "collect"
 
@@ -64,7 +64,7 @@ def test_a_lesson_of_a_file_is_due_until_the_files_own_lock_has_it(tmp_path: Pat
     for name in ("collect.mind", "collect.lock", "avoid_longer.mind"):
         copy(FOLDER / name, tmp_path)
     path = tmp_path / "avoid_longer.mind"
-    book = open_book(path, load(path))
+    book = open_subject(path, load(path))
     own = [lesson for lesson in book.graph.lessons if lesson.curriculum == "AvoidLonger"]
     used = [lesson for lesson in book.graph.lessons if lesson.curriculum == "Collect"]
     assert {book.keep_path(lesson) for lesson in own} == {tmp_path / "avoid_longer.lock"}
@@ -82,10 +82,10 @@ def test_what_is_learnt_goes_where_it_counts(tmp_path: Path) -> None:
     (tmp_path / "lessons.mind").write_text(text[at:])
     (tmp_path / "collect.mind").write_text('use "lessons.mind"\n' + text[:at])
     path = tmp_path / "collect.mind"
-    book = open_book(path, load(path))
+    book = open_subject(path, load(path))
     assert {book.keep_path(lesson) for lesson in book.graph.lessons} == {tmp_path / "collect.lock"}
     (tmp_path / "collect.lock").unlink()
-    book = open_book(path, load(path))
+    book = open_subject(path, load(path))
     assert {book.keep_path(lesson) for lesson in book.graph.lessons} == {tmp_path / "lessons.lock"}
 
 

@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 from mindrun.train.lesson import Record
 from rich.console import Console
 
-from mindlang.school.watching import Bar, Line, Lines, Pace, Standing
+from mindlang.training.progress import PrintedLines, ProgressBarLine, ProgressLine, ProgressText, TimeLeft
 
 SHOWN = {
     200: "Follow ━━━━━━               attempt 2 of 2, generation 15 of 40, best 6.67, re-evaluated 5.97, "
@@ -18,13 +18,13 @@ SHOWN = {
     60: "Follow attempt 2 of 2, generation 15 of 40, 1 min 45 s left",
     40: "Follow attempt 2, 15/40, 1 min 45 s left",
 }
-STANDING = Standing(
+STANDING = ProgressText(
     "attempt 2 of 2, generation 15 of 40", "attempt 2, 15/40", "best 6.67", "re-evaluated 5.97", "811 k ticks/s",
     "1 min 45 s left",
 )  # fmt: skip
 
 
-def shown(line: Line, width: int) -> str:
+def shown(line: ProgressLine, width: int) -> str:
     out = StringIO()
     Console(file=out, width=width, force_terminal=True, color_system=None).print(line)
     return out.getvalue()
@@ -36,35 +36,35 @@ def record(attempt: int, generation: int, reevaluated: float | None = None) -> R
 
 @pytest.mark.parametrize("width", SHOWN)
 def test_what_a_terminal_shows(width: int) -> None:
-    assert shown(Line("Follow", STANDING, 0.3), width).rstrip() == SHOWN[width]
+    assert shown(ProgressLine("Follow", STANDING, 0.3), width).rstrip() == SHOWN[width]
 
 
 @given(st.text("Aabc+", min_size=1, max_size=60), st.integers(1, 10**6), st.integers(20, 220), st.booleans())
 def test_neither_the_name_nor_the_time_left_is_ever_cut(name: str, best: int, width: int, begun: bool) -> None:
     left = "1 min 45 s left"
-    standing = Standing("generation 15 of 40", "15/40", f"best {best}", f"re-evaluated {best}", "1 ticks/s", left)
-    text = shown(Line(name, standing if begun else None, 0.5), width)
+    standing = ProgressText("generation 15 of 40", "15/40", f"best {best}", f"re-evaluated {best}", "1 ticks/s", left)
+    text = shown(ProgressLine(name, standing if begun else None, 0.5), width)
     assert all(len(line) <= width for line in text.splitlines())
     assert "".join(text.split()).startswith("".join(name.split()))
     assert "".join(text.split()).endswith("1min45sleft" if begun else "thefirstgeneration…")
 
 
 def test_where_there_are_attempts_the_generation_is_one_of_them() -> None:
-    pace = Pace(80, 0.0, attempts=2)
+    pace = TimeLeft(80, 0.0, attempts=2)
     assert pace.standing(record(2, 2), 42, 1.0).text().startswith("attempt 2 of 2, generation 2 of 40, best 6.67, ")
-    assert Pace(80, 0.0).standing(record(1, 42), 42, 1.0).where == "generation 42 of 80"
+    assert TimeLeft(80, 0.0).standing(record(1, 42), 42, 1.0).where == "generation 42 of 80"
 
 
 def test_founders_are_as_many_generations_as_they_take() -> None:
-    pace = Pace(80, 0.0, attempts=2, first=10.0)
+    pace = TimeLeft(80, 0.0, attempts=2, first=10.0)
     assert pace.standing(record(1, 1), 1, 10.0).left == "1 min 28 s left", "79 generations and 9 for the next founders"
     assert pace.standing(record(1, 2), 2, 11.0).left == "1 min 27 s left"
     assert pace.standing(record(2, 1), 41, 60.0).left.startswith("1 min 51 s")
-    assert Pace(80, 0.0, attempts=2, first=10.0).standing(record(2, 1), 41, 10.0).left == "39 s left"
+    assert TimeLeft(80, 0.0, attempts=2, first=10.0).standing(record(2, 1), 41, 10.0).left == "39 s left"
 
 
 def test_the_last_score_is_told_until_there_is_another() -> None:
-    pace = Pace(40, 0.0, reevaluated=5.97)  # as of a run that goes on
+    pace = TimeLeft(40, 0.0, reevaluated=5.97)  # as of a run that goes on
     told = [pace.standing(record(1, n, score), n, 1.0).reevaluated for n, score in ((11, None), (20, 4.0), (21, None))]
     assert told == ["re-evaluated 5.97", "re-evaluated 4.00", "re-evaluated 4.00"]
 
@@ -72,13 +72,13 @@ def test_the_last_score_is_told_until_there_is_another() -> None:
 def test_the_bar_goes_away_and_lines_stay() -> None:
     out = StringIO()
     console = Console(file=out, width=80, force_terminal=True, color_system=None)
-    bar = Bar(console, "Follow", Pace(40, 0.0))
+    bar = ProgressBarLine(console, "Follow", TimeLeft(40, 0.0))
     bar.report(record(1, 20), 20, 1.0)
     bar.close()
     assert "generation 20 of 40" in out.getvalue()
     assert out.getvalue().endswith("\x1b[1A\x1b[2K")  # one line up, and empty
     out = StringIO()
-    lines = Lines(Console(file=out, width=200), "Follow", Pace(40, 0.0))
+    lines = PrintedLines(Console(file=out, width=200), "Follow", TimeLeft(40, 0.0))
     lines.report(record(1, 1, 5.0), 1, 0.5)
     lines.report(record(1, 2), 2, 1.0)
     lines.report(record(1, 40), 40, 2.0)

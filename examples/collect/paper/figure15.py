@@ -12,11 +12,11 @@ from mindlang.pictures.canvas import Image, View
 from mindlang.pictures.film import HEIGHT, WIDTH, Film
 from mindlang.pictures.hierarchy_panel import Panel
 from mindlang.pictures.path import Path as Trail
-from mindlang.pictures.recorded_run import Story, tell
+from mindlang.pictures.recorded_run import RecordedRun, record_run
 from mindlang.pictures.theme import NIGHT
 from mindlang.run import outcome
-from mindlang.run.session import NOBODY
-from mindlang.run.setup import CastingError, cast
+from mindlang.run.session import NO_GENOME
+from mindlang.run.setup import SetupError, set_up
 
 FILE, TASK, MASTER = "constant_skills.mind", "Collect", "Gather"
 SEEKER, DODGER = "SeekObject", "Dodge"
@@ -45,36 +45,36 @@ def passage(folder: Path) -> Image | None:
     """Five steps one below the other: the world at the left, the hierarchy at the right; None where there is none."""
     path = folder / FILE
     try:
-        found = cast(str(path), compiled(path), TASK, MASTER)
-    except CastingError:
+        found = set_up(str(path), compiled(path), TASK, MASTER)
+    except SetupError:
         return None
     rollout = found.rollout()
     for seed in SEEDS:
-        story = tell(found, rollout, seed)
-        for first, last in passages(story):
-            about = {"seed": seed, **outcome.one(found.task, rollout.score(NOBODY, [seed]))}
-            x, y = story.body[first : last + 1, :2].mean(axis=0)
+        recorded = record_run(found, rollout, seed)
+        for first, last in passages(recorded):
+            about = {"seed": seed, **outcome.one(found.task, rollout.score(NO_GENOME, [seed]))}
+            x, y = recorded.body[first : last + 1, :2].mean(axis=0)
             ticks = np.linspace(first - MARGIN, last + MARGIN, STEPS).astype(int)
-            return strip(Close(story, about, 1.0, float(x), float(y)), ticks.tolist())
+            return strip(Close(recorded, about, 1.0, float(x), float(y)), ticks.tolist())
     return None
 
 
-def passages(story: Story) -> Iterator[tuple[int, int]]:
+def passages(recorded: RecordedRun) -> Iterator[tuple[int, int]]:
     """The first and the last tick of each time in which the robot dodges on its way to the object, and hits nothing."""
-    names = [skill.name for skill in story.graph.skills]
-    dodging, seeking = (story.influence[:, names.index(name)] for name in (DODGER, SEEKER))
+    names = [skill.name for skill in recorded.graph.skills]
+    dodging, seeking = (recorded.influence[:, names.index(name)] for name in (DODGER, SEEKER))
     changes = np.diff(np.concatenate([[0], (dodging > seeking).astype(np.int8), [0]]))
     for first, last in np.flatnonzero(changes).reshape(-1, 2).tolist():
         around = slice(max(0, first - 2 * MARGIN), last + 2 * MARGIN)
-        whole = SHORTEST <= last - first <= LONGEST and first > 2 * MARGIN and last + 2 * MARGIN < story.ticks
-        calm = not story.touching[around].any() and (story.held[around] < 0).all()
+        whole = SHORTEST <= last - first <= LONGEST and first > 2 * MARGIN and last + 2 * MARGIN < recorded.ticks
+        calm = not recorded.touching[around].any() and (recorded.held[around] < 0).all()
         if whole and calm and min(seeking[around.start : first].max(), seeking[last : around.stop].max()) > 0.5:
             yield first, last
 
 
 def strip(film: Film, ticks: list[int]) -> Image:
     """The frames of some ticks one below the other."""
-    panel = Panel(film.story, NIGHT, HEIGHT + 8, 86, WIDTH - HEIGHT - 16, HEIGHT - 96)
-    trail = Trail.of(film.story, NIGHT)
+    panel = Panel(film.recorded, NIGHT, HEIGHT + 8, 86, WIDTH - HEIGHT - 16, HEIGHT - 96)
+    trail = Trail.of(film.recorded, NIGHT)
     frames = [film.frame(panel, trail, tick) for tick in ticks]
     return np.concatenate([cv2.resize(f, None, fx=SMALLER, fy=SMALLER, interpolation=cv2.INTER_AREA) for f in frames])

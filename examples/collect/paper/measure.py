@@ -15,8 +15,8 @@ from protocol import Case
 from mindlang.compiler.compile import Compiled, load
 from mindlang.lock import lock_path, read_lock
 from mindlang.lock.ready import make_ready
-from mindlang.run.session import NOBODY, layouts
-from mindlang.run.setup import cast
+from mindlang.run.session import NO_GENOME, layouts
+from mindlang.run.setup import set_up
 
 
 @dataclass(frozen=True, slots=True)
@@ -64,9 +64,9 @@ def is_taught(folder: Path, case: Case) -> bool:
 
 def measure(folder: Path, case: Case, runs: int, seed: int) -> Measured:
     """A case on so many layouts, with the weights that lie in a folder; CastingError where some are missing."""
-    found = cast(str(folder / case.file), compiled(folder / case.file), case.task, case.master)
+    found = set_up(str(folder / case.file), compiled(folder / case.file), case.task, case.master)
     rollout = found.rollout(case.interrupt, cores())
-    scores = rollout.score(NOBODY, layouts(seed, runs))
+    scores = rollout.score(NO_GENOME, layouts(seed, runs))
     counts = scores.counts[0]
     error = float(counts.std(ddof=1)) / sqrt(runs)
     return Measured(float(counts.mean()), error, float(scores.ticks[0].mean()) / rollout.task.ticks)

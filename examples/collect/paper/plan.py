@@ -9,7 +9,7 @@ from mindrun.graph import Lesson
 from mindrun.train.rungs import heights
 from protocol import FILES
 
-from mindlang.school.teaching import Wishes
+from mindlang.training.lesson_choice import TrainOptions
 
 PLAN = Path("logs") / "plan.json"
 
@@ -28,14 +28,14 @@ class Plan:
     seed: int
     rungs: int = 0
 
-    def wishes(self, file: str) -> Wishes:
+    def options(self, file: str) -> TrainOptions:
         """What is asked of a file's lessons."""
         attempts = self.attempts if file == FILES[0] else self.others
-        return Wishes(scale=self.scale, population=self.population, attempts=attempts, rungs=self.rungs)
+        return TrainOptions(scale=self.scale, population=self.population, attempts=attempts, rungs=self.rungs)
 
     def applied(self, file: str, lesson: Lesson) -> Lesson:
         """A lesson of a file as it is taught."""
-        return self.wishes(file).applied(lesson)
+        return self.options(file).applied(lesson)
 
     def __str__(self) -> str:
         """As `make paper-train` takes it; it leaves the population as the files say."""

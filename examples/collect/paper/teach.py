@@ -21,10 +21,10 @@ from mindrun.train.rungs import heights
 from plan import Plan, keep_plan, read_plan
 from protocol import FILES, FOLDER
 
-from mindlang import simulator_compilation as simulator
+from mindlang import simulator_compilation
 from mindlang.number_format import duration
 from mindlang.run.session import layouts
-from mindlang.school import School
+from mindlang.training import Trainer
 
 RUNS = 128  # of shipped champions, to see how fast this machine is; fewer would leave lanes empty
 
@@ -40,8 +40,8 @@ def main() -> None:
         foretell(plan, files, options.workers)
         if not options.dry_run:
             prepare(plan, options.out)
-            school = School(options.workers, as_json=False, quiet=False)
-            if not all(teach(school, options.out, file, plan) for file in files):
+            trainer = Trainer(options.workers, as_json=False, quiet=False)
+            if not all(teach(trainer, options.out, file, plan) for file in files):
                 sys.exit(130)
             print(f"the tables: make paper FOLDER={options.out}")
     except MindError as error:
@@ -91,12 +91,12 @@ def prepare(plan: Plan, out: Path) -> None:
     keep_plan(out, plan)
 
 
-def teach(school: School, out: Path, file: str, plan: Plan) -> bool:
+def teach(trainer: Trainer, out: Path, file: str, plan: Plan) -> bool:
     """Teach what is due in a file and keep the logs; False if it was interrupted."""
     runs = out / "runs" / Path(file).stem
     print(f"\n{file}", flush=True)
     try:
-        return school.teach_file(out / file, [], None, plan.wishes(file), force=False, seed=plan.seed, runs=runs)
+        return trainer.teach_file(out / file, [], None, plan.options(file), force=False, seed=plan.seed, runs=runs)
     finally:
         for run in sorted(runs.glob("*/*")):
             keep(run, out, file)
@@ -143,7 +143,7 @@ def share(rungs: int) -> float:
 def speed(file: str, lesson: Lesson, log: Log, workers: int) -> float:
     """Ticks a second of a lesson on this machine, with the champions that were shipped."""
     rollout = rollout_of(FOLDER, file, lesson, [*log.result["weights"]], workers)
-    simulator.make_ready(rollout, print)  # before the clock starts
+    simulator_compilation.ensure_compiled(rollout, print)  # before the clock starts
     begin = perf_counter()
     scores = rollout.score(log.champions, layouts(1, -(-RUNS // len(log.champions))))
     return float(scores.ticks.sum()) / (perf_counter() - begin)

@@ -21,7 +21,7 @@ FLATTEST, LONGEST = 0.14, 2.8  # how far a blob's area may be off a round one's;
 
 
 @dataclass(frozen=True, slots=True)
-class Look:
+class BallTarget:
     """What a ball looks like: its hue (0 red, 120 green, 240 blue), how strong its colour and how bright it is.
 
     `diameter` is the least, in pixels. `view` is how much the camera sees from left to right.
@@ -64,16 +64,16 @@ def blindness(frame: Frame) -> str:
     return "all white" if np.count_nonzero(brightest >= WHITE) > BLIND[1] * brightest.size else ""
 
 
-def find_ball(frame: Frame, look: Look) -> Ball | None:
+def find_ball(frame: Frame, target: BallTarget) -> Ball | None:
     """The largest round thing that is bright and of the right colour, None where there is none."""
     height, width = frame.shape[:2]
     if blindness(frame):
         return None
-    candidates = [blob for blob in blobs(frame, look) if blob.diameter >= look.diameter and blob.roundness > 0]
+    candidates = [blob for blob in blobs(frame, target) if blob.diameter >= target.diameter and blob.roundness > 0]
     if not candidates:
         return None
     best = max(candidates, key=lambda blob: blob.diameter)
-    focus = focal_length(width, look.view)
+    focus = focal_length(width, target.view)
     aside, up = (width - 1) / 2 - best.x, (height - 1) / 2 - best.y
     bearing, elevation = degrees(atan2(aside, focus)), degrees(atan2(up, hypot(focus, aside)))
     return Ball(bearing, elevation, best.diameter, best.roundness)
@@ -89,22 +89,22 @@ def focal_length(width: int, view: float) -> float:
     return width / 2 / tan(radians(view) / 2)
 
 
-def blobs(frame: Frame, look: Look) -> list[Blob]:
+def blobs(frame: Frame, target: BallTarget) -> list[Blob]:
     """Everything bright that has the colour, or is overexposed and has it around its rim."""
     cv2 = library("cv2")
     hsv = cv2.cvtColor(cv2.GaussianBlur(frame, (5, 5), 0), cv2.COLOR_BGR2HSV)
-    coloured = in_colour(cv2, hsv, look)
-    glare = cv2.inRange(hsv, (0, 0, OVEREXPOSED), (180, round(look.colour * 255), 255))
+    coloured = in_colour(cv2, hsv, target)
+    glare = cv2.inRange(hsv, (0, 0, OVEREXPOSED), (180, round(target.colour * 255), 255))
     mask = cv2.morphologyEx(coloured | glare, cv2.MORPH_OPEN, np.ones((3, 3), np.uint8))
     contours, _ = cv2.findContours(mask, cv2.RETR_EXTERNAL, cv2.CHAIN_APPROX_NONE)
-    large = [contour for contour in contours if len(contour) >= 2 * look.diameter]
+    large = [contour for contour in contours if len(contour) >= 2 * target.diameter]
     return [blob(cv2, contour, mask.shape) for contour in large if is_coloured(cv2, contour, coloured)]
 
 
-def in_colour(cv2: Any, hsv: Frame, look: Look) -> Frame:
+def in_colour(cv2: Any, hsv: Frame, target: BallTarget) -> Frame:
     """Which pixels are bright and of the colour; hues go round, and OpenCV counts them in steps of two degrees."""
-    floor = round(look.colour * 255), round(look.brightness * 255)
-    first, last = round((look.hue - look.tolerance) / 2) % 180, round((look.hue + look.tolerance) / 2) % 180
+    floor = round(target.colour * 255), round(target.brightness * 255)
+    first, last = round((target.hue - target.tolerance) / 2) % 180, round((target.hue + target.tolerance) / 2) % 180
     if first <= last:
         mask: Frame = cv2.inRange(hsv, (first, *floor), (last, 255, 255))
         return mask
@@ -143,7 +143,7 @@ class Aim:
 
 
 @dataclass(frozen=True, slots=True)
-class Neck:
+class PanTiltLimits:
     """How a camera is turned: by up to `pan` and `tilt` to either side, `speed` degrees a second at most."""
 
     pan: float = 90.0
@@ -153,15 +153,15 @@ class Neck:
     patience: float = 1.0  # seconds without a ball until it looks straight ahead again
 
 
-def follow(aim: Aim, ball: Ball | None, seconds: float, neck: Neck) -> Aim:
+def follow(aim: Aim, ball: Ball | None, seconds: float, limits: PanTiltLimits) -> Aim:
     """Where the camera should point so many seconds later."""
-    if ball is None and aim.alone + seconds < neck.patience:
+    if ball is None and aim.alone + seconds < limits.patience:
         return Aim(aim.pan, aim.tilt, aim.alone + seconds)
     pan, tilt = (ball.bearing, ball.elevation) if ball else (-aim.pan, -aim.tilt)
-    share, most = min(1.0, neck.gain * seconds), neck.speed * seconds
+    share, most = min(1.0, limits.gain * seconds), limits.speed * seconds
     return Aim(
-        clamp(aim.pan + clamp(share * pan, most), neck.pan),
-        clamp(aim.tilt + clamp(share * tilt, most), neck.tilt),
+        clamp(aim.pan + clamp(share * pan, most), limits.pan),
+        clamp(aim.tilt + clamp(share * tilt, most), limits.tilt),
         0.0 if ball else aim.alone + seconds,
     )
 

@@ -11,7 +11,7 @@ from typing import Any, Protocol
 import numpy as np
 
 from mindrun.driver import ActuatorDevice, DeviceError
-from mindrun.robot.ball_detection import Aim, Ball, Frame, Look, Neck, blindness, find_ball, follow
+from mindrun.robot.ball_detection import Aim, Ball, BallTarget, Frame, PanTiltLimits, blindness, find_ball, follow
 from mindrun.robot.driver_support import library
 
 STALE = 0.2  # seconds for which the same frame may come
@@ -78,7 +78,7 @@ class Joint:
 
 
 @dataclass(frozen=True, slots=True)
-class Sight:
+class BallSighting:
     """What was seen in a frame, where the camera pointed, and how wide the frame was; or why there was nothing."""
 
     number: int = 0
@@ -89,15 +89,15 @@ class Sight:
 
 
 @dataclass(slots=True, eq=False)
-class Eye:
+class TrackingCamera:
     """A camera, what it looks for, and the joints that turn it, pan and tilt, as far as it has them."""
 
     camera: Camera
-    look: Look
-    neck: Neck
+    target: BallTarget
+    limits: PanTiltLimits
     pan: Joint | None = None
     tilt: Joint | None = None
-    sight: Sight = field(default_factory=Sight)
+    sighting: BallSighting = field(default_factory=BallSighting)
     aim: Aim = AHEAD
     then: float = field(default_factory=monotonic)
     sample: Frame | None = None
@@ -115,12 +115,12 @@ class Eye:
                     continue  # who waits for a frame notices that none comes
                 self.tell(self.see(frame))
             except DeviceError as error:
-                self.tell(Sight(aim=self.aim, error=error))
+                self.tell(BallSighting(aim=self.aim, error=error))
             except Exception as error:  # whatever OpenCV raises must reach who waits, not end the thread
-                self.tell(Sight(aim=self.aim, error=DeviceError(f"the camera failed: {error}")))
+                self.tell(BallSighting(aim=self.aim, error=DeviceError(f"the camera failed: {error}")))
         self.let_go()
 
-    def see(self, frame: Frame) -> Sight:
+    def see(self, frame: Frame) -> BallSighting:
         """What is in a frame; turns the camera after it."""
         now = monotonic()
         sample = frame[::STILL_IMAGE, ::STILL_IMAGE]
@@ -130,10 +130,10 @@ class Eye:
             raise DeviceError("the camera repeats the same frame")
         if reason := blindness(frame):
             raise DeviceError(f"the camera sees nothing: its frames are {reason}")
-        sight = Sight(0, find_ball(frame, self.look), self.aim, frame.shape[1])
-        self.aim, self.then = follow(self.aim, sight.ball, now - self.then, self.neck), now
+        sighting = BallSighting(0, find_ball(frame, self.target), self.aim, frame.shape[1])
+        self.aim, self.then = follow(self.aim, sighting.ball, now - self.then, self.limits), now
         self.point()
-        return sight
+        return sighting
 
     def point(self) -> None:
         """Turn the camera to where it should point."""
@@ -142,21 +142,21 @@ class Eye:
         if self.tilt:
             self.tilt.point(self.aim.tilt)
 
-    def tell(self, sight: Sight) -> None:
+    def tell(self, sighting: BallSighting) -> None:
         """Tell who waits for a frame."""
         with self.news:
-            self.sight = replace(sight, number=self.sight.number + 1)
+            self.sighting = replace(sighting, number=self.sighting.number + 1)
             self.news.notify_all()
 
-    def after(self, number: int, seconds: float) -> Sight:
+    def after(self, number: int, seconds: float) -> BallSighting:
         """What was seen in a frame after the one of that number; DeviceError where none comes, or nothing is in it."""
         with self.news:
-            if not self.news.wait_for(lambda: self.sight.number > number, seconds):
+            if not self.news.wait_for(lambda: self.sighting.number > number, seconds):
                 raise DeviceError(f"the camera has given no frame for {seconds:g} s")
-            sight = self.sight
-        if sight.error:
-            raise DeviceError(str(sight.error), sight.error.hint)
-        return sight
+            sighting = self.sighting
+        if sighting.error:
+            raise DeviceError(str(sighting.error), sighting.error.hint)
+        return sighting
 
     def let_go(self) -> None:
         """Let go of the camera and of the servos, which stay where they are."""

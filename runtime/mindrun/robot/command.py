@@ -1,4 +1,4 @@
-"""`mindrun FILE.bundle` on a robot, or with --dry in a simulated world: what the command line wishes, carried out."""
+"""`mindrun FILE.bundle` on a robot, or with --dry in a simulated world: what the command line says, done."""
 
 import argparse
 import sys
@@ -13,8 +13,8 @@ from mindrun.default_task import default_task
 from mindrun.driver import DeviceError
 from mindrun.errors import MindError
 from mindrun.regular_files import read_whole
-from mindrun.robot.device_locks import alone
-from mindrun.robot.drive import Wishes, drive
+from mindrun.robot.device_locks import hold_devices
+from mindrun.robot.drive import DriveOptions, drive
 from mindrun.robot.drivers.mock import MockActuator
 from mindrun.robot.identity import IdentityError, is_adopted
 from mindrun.robot.loop import Loop
@@ -24,33 +24,33 @@ from mindrun.wiring import still
 def run(options: argparse.Namespace) -> int:
     """Drive until a signal comes; the exit code."""
     bundle = read_bundle(options.bundle)
-    wishes = Wishes(options.arm, options.record, options.ticks, options.master)
+    drive_options = DriveOptions(options.arm, options.record, options.ticks, options.master)
     tell = _quiet if options.quiet else _tell
     if not options.arm:
         tell("nothing will move: --arm lets it")
-    loop = _dry(options, bundle, wishes) if options.dry else _wired(options, bundle, wishes)
+    loop = _dry(options, bundle, drive_options) if options.dry else _wired(options, bundle, drive_options)
     tell(_summary(loop))
     return 0
 
 
-def _wired(options: argparse.Namespace, bundle: Bundle, wishes: Wishes) -> Loop:
+def _wired(options: argparse.Namespace, bundle: Bundle, drive_options: DriveOptions) -> Loop:
     if bundle.wiring is None:
         raise MindError("this bundle is wired to no robot", "mindc build … --robot robot.yaml, or try it with --dry")
     tell = _quiet if options.quiet else _tell
     wiring = bundle.wiring
     if not is_adopted(wiring, bundle.graph):
         remedy = f"if it is wired as this bundle has it: mindrun adopt {options.bundle}"
-        if wishes.armed:
+        if drive_options.armed:
             raise IdentityError("nothing may move yet: this robot has not said how it is wired", remedy)
         tell("this robot has not said how it is wired: no actuator is opened")
         wiring = replace(wiring, actuators=tuple(replace(wire, driver=MockActuator()) for wire in wiring.actuators))
-    if not wishes.armed:
+    if not drive_options.armed:
         wiring = replace(wiring, sensors=tuple(map(still, wiring.sensors)))
-    with alone(wiring) as held:
-        return drive(bundle, digest(options.bundle), wiring, wishes, tell, held)
+    with hold_devices(wiring) as held:
+        return drive(bundle, digest(options.bundle), wiring, drive_options, tell, held)
 
 
-def _dry(options: argparse.Namespace, bundle: Bundle, wishes: Wishes) -> Loop:
+def _dry(options: argparse.Namespace, bundle: Bundle, drive_options: DriveOptions) -> Loop:
     from mindrun.robot.drivers.simulated import dry, status
     from mindrun.robot.world import simulated
 
@@ -71,7 +71,7 @@ def _dry(options: argparse.Namespace, bundle: Bundle, wishes: Wishes) -> Loop:
     with simulated(options.bundle, task, options.seed, master=options.master or "") as socket:
         wiring = dry(bundle.graph, socket)
         tell(f"in a simulated world: {task}, seed {options.seed}; Ctrl-C ends it")
-        loop = drive(bundle, digest(options.bundle), wiring, wishes, tell)
+        loop = drive(bundle, digest(options.bundle), wiring, drive_options, tell)
         with suppress(DeviceError):  # the run was as good without it
             tell(_outcome(status(socket)))
         return loop

@@ -28,7 +28,7 @@ class DrivenError(MindError):
 
 
 @contextmanager
-def alone(wiring: Wiring) -> Iterator[tuple[int, ...]]:
+def hold_devices(wiring: Wiring) -> Iterator[tuple[int, ...]]:
     """Let no other process drive what is wired; descriptors that the guardian has to hold as well.
 
     DrivenError where one does already.

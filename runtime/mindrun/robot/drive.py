@@ -14,8 +14,8 @@ from mindrun.graph import Graph
 from mindrun.robot.guardian.client import Guardian
 from mindrun.robot.guardian.plan import plan_of
 from mindrun.robot.loop import Loop, Tick
-from mindrun.robot.rate import Pace
-from mindrun.robot.reading_filter import Senses
+from mindrun.robot.rate import Rate
+from mindrun.robot.reading_filter import ReadingFilter
 from mindrun.robot.recording import About, Recorder
 from mindrun.robot.sampling import Sampler
 from mindrun.robot.stop_signals import Stop, stopping
@@ -32,7 +32,7 @@ class DriveError(MindError):
 
 
 @dataclass(frozen=True, slots=True)
-class Wishes:
+class DriveOptions:
     """What is asked for: whether anything may move, where to record to, after how many ticks to end (0: never).
 
     `master` is another skill than the mind's own to be in charge.
@@ -45,7 +45,12 @@ class Wishes:
 
 
 def drive(
-    bundle: Bundle, digest: str, wiring: Wiring, wishes: Wishes, tell: Callable[[str], None], held: Sequence[int] = ()
+    bundle: Bundle,
+    digest: str,
+    wiring: Wiring,
+    options: DriveOptions,
+    tell: Callable[[str], None],
+    held: Sequence[int] = (),
 ) -> Loop:
     """Run a mind on a robot until a signal comes or the ticks are over; the loop as it ended.
 
@@ -53,21 +58,21 @@ def drive(
     then every actuator is at neutral, too.
     """
     graph = bundle.graph
-    engine = Engine(graph, bundle.weights, bundle.procedures, wishes.master)
-    _refuse_blind(graph, wishes.master or graph.master, wiring)
+    engine = Engine(graph, bundle.weights, bundle.procedures, options.master)
+    _refuse_blind(graph, options.master or graph.master, wiring)
     neutrals = {actuator.name: actuator.kind.neutral for actuator in graph.actuators}
     with ExitStack() as stack:
         stop = stack.enter_context(stopping(GRACE * max(1.0, graph.tick)))
-        about = About.of(graph, digest, wishes.master or graph.master, tuple(wire.sensor for wire in wiring.sensors))
-        recorder = stack.enter_context(_recorder(wishes.record, about))
+        about = About.of(graph, digest, options.master or graph.master, tuple(wire.sensor for wire in wiring.sensors))
+        recorder = stack.enter_context(_recorder(options.record, about))
         samplers = stack.enter_context(_sampling(wiring))
         guardian = stack.enter_context(Guardian(plan_of(graph.tick, neutrals, wiring), inherited=held))
-        loop = Loop(engine, Senses(graph, samplers), guardian, Pace(graph.tick), wishes.armed, recorder, tell)
+        loop = Loop(engine, ReadingFilter(graph, samplers), guardian, Rate(graph.tick), options.armed, recorder, tell)
         _wait(samplers, guardian, loop, stop)
         notify("READY=1")
         try:
             if not stop:
-                loop.run(lambda tick: _goes_on(tick, wishes.ticks, stop))
+                loop.run(lambda tick: _goes_on(tick, options.ticks, stop))
         finally:
             stop.in_order()
         return loop

@@ -106,7 +106,7 @@ def on_bus(number: int, address: int) -> str:
 
 
 @dataclass(slots=True)
-class Wire:
+class I2cDevice:
     """One part on an I2C bus. Every transfer is tried up to `TRIES` times and ends, in an answer or a DeviceError."""
 
     name: str

@@ -8,8 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mindrun.engine import Engine
-from mindrun.robot.rate import Pace
-from mindrun.robot.reading_filter import Sensed, Senses
+from mindrun.robot.rate import Rate
+from mindrun.robot.reading_filter import ReadingFilter, Sensed
 from mindrun.robot.recording import Recorder
 
 BEHIND = 3  # ticks in a row that were missed, after which every actuator is neutral until one is not
@@ -39,9 +39,9 @@ class Loop:
     """A mind in charge of a robot. `armed` lets the guardian move it; `tell` gets sentences as they become true."""
 
     engine: Engine
-    senses: Senses
+    senses: ReadingFilter
     guardian: Sends
-    pace: Pace
+    pace: Rate
     armed: bool = False
     recorder: Recorder | None = None
     tell: Callable[[str], None] = lambda sentence: None

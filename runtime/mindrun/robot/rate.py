@@ -11,7 +11,7 @@ BINS = 400  # of lateness, each a hundredth of a tick
 
 
 @dataclass(slots=True)
-class Pace:
+class Rate:
     """Ticks at `begin + n·tick`; how late each began is counted. One that would begin a whole tick late is left out."""
 
     tick: float

@@ -52,7 +52,7 @@ class _State:
     held: list[float] = field(default_factory=list)
 
 
-class Senses:
+class ReadingFilter:
     """The wired sensors of a mind."""
 
     def __init__(self, graph: Graph, sources: Sequence[Source]) -> None:

@@ -15,7 +15,7 @@ from mindrun.sensors import Physical
 
 
 @dataclass(frozen=True, slots=True)
-class Line:
+class TimingLine:
     """A promise of the source, what the robot had, and whether it keeps it; times in seconds, shares of 1."""
 
     what: str
@@ -24,7 +24,7 @@ class Line:
     kept: bool
 
 
-def report(path: Path, bundle: str, graph: Graph) -> list[Line]:
+def report(path: Path, bundle: str, graph: Graph) -> list[TimingLine]:
     """The lines for the tick and for every wired sensor.
 
     RecordingError where it cannot be read, holds nothing, or was made with another bundle than that of this SHA-256.
@@ -42,31 +42,31 @@ def report(path: Path, bundle: str, graph: Graph) -> list[Line]:
     return lines
 
 
-def _tick(rows: NDArray[Any], tick: float) -> Iterator[Line]:
+def _tick(rows: NDArray[Any], tick: float) -> Iterator[TimingLine]:
     if len(rows) < 2:
         return
     apart = np.diff(rows["time"])
     late = float(np.quantile(np.abs(apart - tick), 0.99))
     missed = float((apart > 1.5 * tick).mean())
-    yield Line(
+    yield TimingLine(
         "tick",
         f"{tick * 1e3:.1f} ms",
         f"{np.median(apart) * 1e3:.1f} ms, 99 % within {late * 1e3:.1f} ms",
         late < tick / 2,
     )
-    yield Line("ticks missed", "0 %", f"{missed:.2%}", missed < 0.01)
-    yield Line("ticks at neutral", "0 %", f"{rows['stopped'].mean():.2%}", not rows["stopped"].any())
+    yield TimingLine("ticks missed", "0 %", f"{missed:.2%}", missed < 0.01)
+    yield TimingLine("ticks at neutral", "0 %", f"{rows['stopped'].mean():.2%}", not rows["stopped"].any())
 
 
-def _sensor(rows: NDArray[Any], number: int, sensor: Sensor, tick: float) -> Iterator[Line]:
+def _sensor(rows: NDArray[Any], number: int, sensor: Sensor, tick: float) -> Iterator[TimingLine]:
     if not isinstance(sensor.kind, Physical) or not len(rows):
         return
     fine = rows["faults"][:, number] == FINE
     ages = rows["ages"][fine, number]
     lost = 1 - float(fine.mean())
     declared = (sensor.kind.delay + sensor.kind.every - 1) * tick  # the oldest that a skill saw in training
-    yield Line(f"{sensor.name} lost", f"{sensor.kind.lost:.1%}", f"{lost:.1%}", lost <= sensor.kind.lost + 0.01)
+    yield TimingLine(f"{sensor.name} lost", f"{sensor.kind.lost:.1%}", f"{lost:.1%}", lost <= sensor.kind.lost + 0.01)
     if len(ages):
         old = float(np.quantile(ages, 0.95))
         had = f"{np.median(ages) * 1e3:.0f} ms, 95 % within {old * 1e3:.0f} ms"
-        yield Line(f"{sensor.name} delay", f"{declared * 1e3:.0f} ms", had, old <= declared + 1.1 * tick)
+        yield TimingLine(f"{sensor.name} delay", f"{declared * 1e3:.0f} ms", had, old <= declared + 1.1 * tick)

@@ -8,7 +8,7 @@ from math import isfinite
 from pathlib import Path
 from types import TracebackType
 
-from mindrun import atomic_write as durable
+from mindrun import atomic_write
 from mindrun.regular_files import read_whole
 from mindrun.strict_json import is_whole, parsed
 from mindrun.train.errors import RunError
@@ -28,8 +28,8 @@ class Progress:
 
     def __init__(self, folder: Path, state: State) -> None:
         records = [record for record in read(folder) if _is_behind(record, state)]
-        durable.write(folder / LINES, b"".join(_line(record) for record in records))
-        durable.write(folder / TABLE, _row(list(COLUMNS)) + b"".join(_row(list(r.values())) for r in records))
+        atomic_write.write(folder / LINES, b"".join(_line(record) for record in records))
+        atomic_write.write(folder / TABLE, _row(list(COLUMNS)) + b"".join(_row(list(r.values())) for r in records))
         self._lines = os.open(folder / LINES, os.O_WRONLY | os.O_APPEND)
         self._table = os.open(folder / TABLE, os.O_WRONLY | os.O_APPEND)
 

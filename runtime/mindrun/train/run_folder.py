@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from mindrun import atomic_write as durable
+from mindrun import atomic_write
 from mindrun.archive import read_archive, write_archive
 from mindrun.npy import from_npy, to_npy
 from mindrun.regular_files import read_whole
@@ -63,9 +63,9 @@ def create(runs: Path, manifest: Manifest, sources: Mapping[str, str], weights: 
         folder = _unused(runs / manifest.name, f"{stamp}-{manifest.seed}")
         for path, text in sources.items():
             (folder / SOURCES / path).parent.mkdir(parents=True, exist_ok=True)
-            durable.write(folder / SOURCES / path, text.encode())
-        durable.write(folder / START, _packed(weights))
-        durable.write(folder / MANIFEST, to_json(manifest))  # last: with it the folder is a run
+            atomic_write.write(folder / SOURCES / path, text.encode())
+        atomic_write.write(folder / START, _packed(weights))
+        atomic_write.write(folder / MANIFEST, to_json(manifest))  # last: with it the folder is a run
     except OSError as error:
         raise RunError(
             f"cannot write a run under {runs}: {error.strerror}", "choose another folder with --runs"
@@ -105,19 +105,19 @@ def open_run(folder: Path) -> Run:
 
 def keep_weights(folder: Path, genome: Weights) -> None:
     """Write the best weights so far to the run folder."""
-    durable.write(folder / WEIGHTS, to_npy(genome))
+    atomic_write.write(folder / WEIGHTS, to_npy(genome))
 
 
 def keep_champions(folder: Path, champions: Genomes) -> None:
     """Write the best weights of each attempt [attempts, weights] that has ended."""
     file = BytesIO()
     np.save(file, champions.astype("<f4"), allow_pickle=False)
-    durable.write(folder / CHAMPIONS, file.getvalue())
+    atomic_write.write(folder / CHAMPIONS, file.getvalue())
 
 
 def keep_result(folder: Path, result: Mapping[str, Any]) -> None:
     """Write what came of the run, once it has been kept elsewhere too."""
-    durable.write(folder / RESULT, json.dumps(result, indent=2, allow_nan=False).encode() + b"\n")
+    atomic_write.write(folder / RESULT, json.dumps(result, indent=2, allow_nan=False).encode() + b"\n")
 
 
 def read_result(folder: Path) -> dict[str, Any] | None:

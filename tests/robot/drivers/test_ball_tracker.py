@@ -9,9 +9,9 @@ import cv2
 import numpy as np
 import pytest
 from mindrun.driver import DeviceError
-from mindrun.robot import camera as eye
-from mindrun.robot import driver_support as parts
-from mindrun.robot.ball_detection import Frame, focal_length
+from mindrun.robot import camera as watched
+from mindrun.robot import driver_support
+from mindrun.robot.ball_detection import Aim, Frame, focal_length
 from mindrun.robot.drivers import ball_tracker
 from mindrun.robot.drivers.ball_tracker import BallTracker
 from mindrun.wiring import SensorWire, reading
@@ -26,11 +26,11 @@ Install = Callable[[Draw], FakeCamera]
 @pytest.fixture
 def camera(monkeypatch: pytest.MonkeyPatch) -> Iterator[Install]:
     """Puts a camera there that draws its frames."""
-    monkeypatch.setattr(ball_tracker, "_eyes", {})
+    monkeypatch.setattr(ball_tracker, "_cameras", {})
 
     def install(draw: Draw) -> FakeCamera:
         made = FakeCamera(draw)
-        monkeypatch.setattr(eye, "open_camera", lambda path, width, height: made)
+        monkeypatch.setattr(watched, "open_camera", lambda path, width, height: made)
         return made
 
     yield install
@@ -110,7 +110,7 @@ def test_a_camera_that_sees_nothing_is_a_fault_in_time(camera: Install, broken: 
     assert monotonic() - begin < 1.0
     after[0] = 10**9
     sleep(0.05)
-    device.number = device.eye.sight.number
+    device.number = device.tracking.sighting.number
     assert device.read()[0] == pytest.approx(0, abs=0.4)
 
 
@@ -144,7 +144,7 @@ def test_a_camera_that_never_starts_is_told(camera: Install, monkeypatch: pytest
 def test_the_neck_follows_and_the_bearing_stays(camera: Install, monkeypatch: pytest.MonkeyPatch) -> None:
     card = FakePca9685()
     bus = FakeBus({0x40: card})
-    monkeypatch.setattr(parts, "open_bus", lambda number: bus)
+    monkeypatch.setattr(driver_support, "open_bus", lambda number: bus)
     monkeypatch.setattr(ball_tracker, "CENTRING", 0.05)
     driver = BallTracker(pan=0, tilt=1, travel=180.0, tilt_travel=-90.0)
 
@@ -158,7 +158,7 @@ def test_the_neck_follows_and_the_bearing_stays(camera: Install, monkeypatch: py
     device = driver.open()
     assert device.read() == (None,)
     card.write(bytes([0x06, 0, 0, 0x63, 0x01]))  # somebody turns the camera to where the ball is in sight
-    device.eye.aim = eye.Aim(pan=(card.pulse(0) - 1500) / 1000 * 180)
+    device.tracking.aim = Aim(pan=(card.pulse(0) - 1500) / 1000 * 180)
     sleep(0.6)
     assert device.read()[0] == pytest.approx(50, abs=2)
     assert (card.pulse(0) - 1500) / 1000 * 180 == pytest.approx(50, abs=2)
@@ -171,7 +171,7 @@ def test_the_neck_follows_and_the_bearing_stays(camera: Install, monkeypatch: py
 def test_a_neck_that_is_not_there_is_told_and_lets_the_camera_go(
     camera: Install, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(parts, "open_bus", lambda number: FakeBus({}))
+    monkeypatch.setattr(driver_support, "open_bus", lambda number: FakeBus({}))
     made = camera(at(0.0))
     with pytest.raises(DeviceError, match="servo card"):
         BallTracker(pan=0).open()

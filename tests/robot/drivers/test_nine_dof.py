@@ -2,7 +2,7 @@
 
 import pytest
 from mindrun.driver import DeviceError
-from mindrun.robot import driver_support as parts
+from mindrun.robot import driver_support
 from mindrun.robot.drivers.ads1115 import Ads1115
 from mindrun.robot.drivers.lsm9ds1 import Compass, Motion, Turn
 from mindrun.wiring import SensorWire, reading
@@ -14,7 +14,7 @@ MS2, MILLIGAUSS = 0.061e-3 * 9.80665, 0.14
 
 def on_bus(patch: pytest.MonkeyPatch, address: int, part: object) -> None:
     """Put a part on the bus."""
-    patch.setattr(parts, "open_bus", lambda number: FakeBus({address: part}))
+    patch.setattr(driver_support, "open_bus", lambda number: FakeBus({address: part}))
 
 
 @pytest.fixture

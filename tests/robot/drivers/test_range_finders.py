@@ -4,7 +4,7 @@ from time import monotonic
 
 import pytest
 from mindrun.driver import DeviceError
-from mindrun.robot import driver_support as parts
+from mindrun.robot import driver_support
 from mindrun.robot.drivers.grove_ultrasonic import GroveUltrasonic
 from mindrun.robot.drivers.ultrasonic import Ultrasonic, firing_order
 
@@ -73,7 +73,7 @@ def test_pins_must_make_pairs(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 def test_a_port_with_no_ranger_is_a_fault(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(parts, "open_bus", lambda number: FakeBus({4: FakeGrovePi({4: 35})}))
+    monkeypatch.setattr(driver_support, "open_bus", lambda number: FakeBus({4: FakeGrovePi({4: 35})}))
     assert GroveUltrasonic((4,)).open().read() == (0.35,)
     with pytest.raises(DeviceError, match="no ranger on port D5"):
         GroveUltrasonic((4, 5)).open().read()
@@ -81,7 +81,7 @@ def test_a_port_with_no_ranger_is_a_fault(monkeypatch: pytest.MonkeyPatch) -> No
 
 def test_a_board_that_is_busy_for_ever_is_given_up(monkeypatch: pytest.MonkeyPatch) -> None:
     board = FakeGrovePi({4: 35})
-    monkeypatch.setattr(parts, "open_bus", lambda number: FakeBus({4: board}))
+    monkeypatch.setattr(driver_support, "open_bus", lambda number: FakeBus({4: board}))
     device = GroveUltrasonic((4,)).open()
     board.takes = 60.0
     begin = monotonic()

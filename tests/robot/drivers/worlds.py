@@ -8,8 +8,7 @@ from typing import Any
 import pytest
 from gpiozero import Device
 from gpiozero.pins.mock import MockFactory
-from mindrun.robot import camera as eye
-from mindrun.robot import driver_support as parts
+from mindrun.robot import driver_support
 from mindrun.robot.drivers import ball_tracker as tracking
 from mindrun.robot.drivers import grove_motor as motors
 from mindrun.robot.drivers.ads1115 import Ads1115
@@ -50,7 +49,7 @@ def on_bus(patch: pytest.MonkeyPatch, address: int, part: Any, **world: Any) -> 
         bus.open += 1
         return bus
 
-    patch.setattr(parts, "open_bus", open_bus)
+    patch.setattr(driver_support, "open_bus", open_bus)
     return World(bus=bus, parts=[part], fail=lambda: setattr(bus, "failing", 1.0), **world)
 
 
@@ -115,10 +114,10 @@ def switch(patch: pytest.MonkeyPatch) -> World:
 
 def ball_tracker(patch: pytest.MonkeyPatch) -> World:
     x = frames.column(12.0)
-    camera = frames.FakeCamera(lambda count: frames.taken(frames.ball(frames.room(), x, 100, 25), seed=count))
-    patch.setattr(eye, "open_camera", lambda path, width, height: camera)
-    patch.setattr(tracking, "_eyes", {})
-    return World(BallTracker(), (12.0,), 0.5, parts=[camera], fail=camera.stopped.set)
+    fake = frames.FakeCamera(lambda count: frames.taken(frames.ball(frames.room(), x, 100, 25), seed=count))
+    patch.setattr(camera, "open_camera", lambda path, width, height: fake)
+    patch.setattr(tracking, "_cameras", {})
+    return World(BallTracker(), (12.0,), 0.5, parts=[fake], fail=fake.stopped.set)
 
 
 def mock_actuator(patch: pytest.MonkeyPatch) -> World:

@@ -13,7 +13,7 @@ from termios import FIONREAD
 from typing import Any
 
 import pytest
-from mindrun.robot import child_processes as children
+from mindrun.robot import child_processes
 from mindrun.robot.guardian.client import Guardian, GuardianError
 from mindrun.robot.guardian.frames import Frame, Reader, size
 from mindrun.robot.guardian.plan import from_json
@@ -134,11 +134,11 @@ def test_one_that_is_never_ready_is_made_to_end(start: Start, monkeypatch: pytes
         begun.append(popen(*given, **named))
         return begun[-1]
 
-    before, popen = set(children._let_go), subprocess.Popen
+    before, popen = set(child_processes._let_go), subprocess.Popen
     monkeypatch.setattr(subprocess, "Popen", begin)
     with pytest.raises(GuardianError, match=r"the guardian is not ready after 0\.3 s"):
         start("starting", then, patience=0.3)
-    assert children._let_go == before
+    assert child_processes._let_go == before
     assert [process.returncode for process in begun] == [-signal.SIGKILL]
 
 
@@ -201,7 +201,7 @@ def test_one_that_has_ended_by_itself_was_at_neutral(start: Start, code: int) ->
     guardian = start(then=f"exits {code}")
     assert guardian._process.wait(20) == code
     guardian.close()
-    assert guardian._let_go not in children._let_go
+    assert guardian._let_go not in child_processes._let_go
 
 
 def test_one_that_has_ended_at_neutral_is_not_replaced(start: Start, tmp_path: Path) -> None:
@@ -220,7 +220,7 @@ def test_one_that_does_not_end_goes_on_alone(start: Start, tmp_path: Path) -> No
     assert str(caught.value) == f"an actuator is not at neutral after 0.3 s; process {guardian.pid} goes on trying"
     assert caught.value.hint == "cut the actuators' power"
     assert guardian._process.poll() is None
-    assert guardian._let_go not in children._let_go
+    assert guardian._let_go not in child_processes._let_go
 
 
 BROUGHT = {

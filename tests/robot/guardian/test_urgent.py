@@ -10,7 +10,7 @@ from types import SimpleNamespace
 from typing import Any
 
 import pytest
-from mindrun.robot.guardian import realtime as urgent
+from mindrun.robot.guardian import realtime
 
 UNLIMITED = resource.RLIM_INFINITY
 ASKED = ["stack", "switch", "scheduler", "killed last", "locked", "frozen"]
@@ -42,12 +42,12 @@ def test_memory_is_locked_where_nothing_limits_it(
     monkeypatch.setattr("os.geteuid", lambda: user)
     # The hard limit is what could be asked for, not what holds.
     monkeypatch.setattr("resource.getrlimit", lambda which: (limit, UNLIMITED))
-    urgent.be_urgent()
+    realtime.set_realtime()
     assert list(asked) == [what for what in ASKED if what != "locked" or locks]
     assert asked["killed last"][1] == "-1000"
     assert asked["stack"] == (256 << 10,)
     assert asked["switch"][0] < 0.001
-    assert asked["scheduler"] == (0, os.SCHED_FIFO, os.sched_param(urgent.PRIORITY))
+    assert asked["scheduler"] == (0, os.SCHED_FIFO, os.sched_param(realtime.PRIORITY))
     assert asked.get("locked", (3,)) == (3,)
 
 
@@ -66,7 +66,7 @@ def test_what_is_refused_keeps_it_from_nothing_else(
             monkeypatch.setattr(Path, "write_text", refuse)
         case _:
             monkeypatch.setattr("ctypes.CDLL", lambda *given, **named: SimpleNamespace())  # a system without it
-    urgent.be_urgent()
+    realtime.set_realtime()
     assert list(asked) == [each for each in ASKED if each != what]
 
 
@@ -79,10 +79,10 @@ def test_a_module_is_imported_without_all_that_its_package_imports(
     monkeypatch.syspath_prepend(str(tmp_path))
     for name in ("loud_package", "loud_package.quiet"):
         monkeypatch.delitem(sys.modules, name, raising=False)
-    urgent.import_little("loud_package")
+    realtime.import_little("loud_package")
     little = sys.modules["loud_package"]
     assert import_module("loud_package.quiet").word == 7
-    urgent.import_little("loud_package")
+    realtime.import_little("loud_package")
     assert sys.modules["loud_package"] is little
     for name in ("loud_package", "loud_package.quiet"):
         del sys.modules[name]

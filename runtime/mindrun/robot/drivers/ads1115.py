@@ -6,7 +6,7 @@ from typing import Annotated
 
 from mindrun.quantity import Quantity
 from mindrun.registry import kind
-from mindrun.robot.driver_support import ADDRESS, BUS, Wire
+from mindrun.robot.driver_support import ADDRESS, BUS, I2cDevice
 
 INPUT = Quantity("an input", {"": 1.0}, low=0, high=3, whole=True)
 RATIO_OF_DIVIDER = Quantity("how many times more than the input gets", {"": 1.0}, low=1.0, high=100.0)
@@ -21,7 +21,7 @@ DONE_IN = 0.05  # seconds; at 128 a second it takes 8 ms
 class VoltageDevice:
     """One input of the converter."""
 
-    wire: Wire
+    wire: I2cDevice
     config: int
     divider: float
 
@@ -74,7 +74,7 @@ class Ads1115:
     def open(self) -> VoltageDevice:
         """The converter."""
         config = FROM_GROUND | self.channel << 12 | RANGE_4V | ONCE | RATE_128 | NO_COMPARATOR
-        device = VoltageDevice(Wire("the voltage converter", self.bus, self.address), config, self.divider)
+        device = VoltageDevice(I2cDevice("the voltage converter", self.bus, self.address), config, self.divider)
         try:
             device.read()
         except Exception:

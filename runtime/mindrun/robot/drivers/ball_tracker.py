@@ -9,9 +9,9 @@ from typing import Annotated
 from mindrun.driver import DeviceError
 from mindrun.quantity import COUNT, RATIO, Quantity, Reference
 from mindrun.registry import kind
-from mindrun.robot import camera as eye
-from mindrun.robot.ball_detection import Look, Neck, distance
-from mindrun.robot.camera import Eye, Joint, Sight
+from mindrun.robot import camera
+from mindrun.robot.ball_detection import BallTarget, PanTiltLimits, distance
+from mindrun.robot.camera import BallSighting, Joint, TrackingCamera
 from mindrun.robot.driver_support import ADDRESS, BUS, CHANNEL, DEGREES, METRES, MICROSECONDS, PATH, on_bus
 from mindrun.robot.drivers.pca9685 import Pca9685
 
@@ -24,21 +24,21 @@ FIRST = 5.0  # seconds until the first frame: cameras take their time to start
 CENTRING = 0.4  # seconds that servos need to the middle
 LETTING_GO = 1.0  # seconds that the thread may need to end
 
-_eyes: dict["BallTracker", tuple[Eye, Thread, int]] = {}  # of each, how many look through it
+_cameras: dict["BallTracker", tuple[TrackingCamera, Thread, int]] = {}  # of each, how many look through it
 _opening = Lock()
 
 
-def _end(through: Eye, thread: Thread) -> None:
+def _end(tracking: TrackingCamera, thread: Thread) -> None:
     """Tell a thread to end; it lets go of its camera, at the latest when that answers."""
-    through.stop.set()
+    tracking.stop.set()
     thread.join(LETTING_GO)
 
 
 @atexit.register
 def _end_all() -> None:
     """End all threads: Python must not, while they are inside OpenCV."""
-    for through, thread, _ in _eyes.values():
-        _end(through, thread)
+    for tracking, thread, _ in _cameras.values():
+        _end(tracking, thread)
 
 
 @dataclass(slots=True)
@@ -46,26 +46,26 @@ class BallTrackerDevice:
     """One thing that is measured of the ball."""
 
     driver: "BallTracker"
-    eye: Eye
+    tracking: TrackingCamera
     number: int = 0
     closed: bool = False
 
     def read(self) -> tuple[float | None]:
         """It, in the newest frame that was not read before; None where there is no ball in that."""
-        sight = self.eye.after(self.number, STALE)
-        self.number = sight.number
-        return (self.measured(sight),)
+        sighting = self.tracking.after(self.number, STALE)
+        self.number = sighting.number
+        return (self.measured(sighting),)
 
-    def measured(self, sight: Sight) -> float | None:
+    def measured(self, sighting: BallSighting) -> float | None:
         """The measure, in degrees or metres."""
-        if sight.ball is None:
+        if sighting.ball is None:
             return None
         match self.driver.measure:
             case "bearing":
-                return (sight.aim.pan + sight.ball.bearing + 180) % 360 - 180
+                return (sighting.aim.pan + sighting.ball.bearing + 180) % 360 - 180
             case "elevation":
-                return sight.aim.tilt + sight.ball.elevation
-        return distance(sight.ball.diameter, self.driver.size, sight.width, self.driver.view)
+                return sighting.aim.tilt + sighting.ball.elevation
+        return distance(sighting.ball.diameter, self.driver.size, sighting.width, self.driver.view)
 
     def close(self) -> None:
         """Let go; the last one who looks through a camera turns it off."""
@@ -74,11 +74,11 @@ class BallTrackerDevice:
         self.closed = True
         with _opening:
             key = self.driver.camera_alone()
-            through, thread, users = _eyes.pop(key)
+            tracking, thread, users = _cameras.pop(key)
             if users > 1:
-                _eyes[key] = through, thread, users - 1
+                _cameras[key] = tracking, thread, users - 1
                 return
-            _end(through, thread)
+            _end(tracking, thread)
 
 
 @kind("sensor driver", "ball_tracker")
@@ -149,39 +149,41 @@ class BallTracker:
         """The camera, which gives frames."""
         key = self.camera_alone()
         with _opening:
-            if key not in _eyes:
-                through = self.open_eye()
-                thread = Thread(target=through.watch, name=f"camera {self.camera}", daemon=True)
-                _eyes[key] = through, thread, 0
+            if key not in _cameras:
+                tracking = self.open_tracking()
+                thread = Thread(target=tracking.watch, name=f"camera {self.camera}", daemon=True)
+                _cameras[key] = tracking, thread, 0
                 thread.start()
-            through, thread, users = _eyes[key]
-            _eyes[key] = through, thread, users + 1
-        device = BallTrackerDevice(self, through)
+            tracking, thread, users = _cameras[key]
+            _cameras[key] = tracking, thread, users + 1
+        device = BallTrackerDevice(self, tracking)
         try:
-            through.after(0, FIRST)
+            tracking.after(0, FIRST)
         except Exception:
             device.close()
             raise
         return device
 
-    def open_eye(self) -> Eye:
+    def open_tracking(self) -> TrackingCamera:
         """The camera, and its servos, in the middle."""
-        look = Look(self.hue, self.tolerance, self.colour, self.brightness, view=self.view)
-        through = Eye(eye.open_camera(self.camera, self.width, self.height), look, Neck(pan=0.0, tilt=0.0))
+        target = BallTarget(self.hue, self.tolerance, self.colour, self.brightness, view=self.view)
+        tracking = TrackingCamera(
+            camera.open_camera(self.camera, self.width, self.height), target, PanTiltLimits(pan=0.0, tilt=0.0)
+        )
         try:
             if self.pan is not None:
-                through.pan = self.joint(self.pan, self.travel)
+                tracking.pan = self.joint(self.pan, self.travel)
             if self.tilt is not None:
-                through.tilt = self.joint(self.tilt, self.tilt_travel)
-            through.point()
+                tracking.tilt = self.joint(self.tilt, self.tilt_travel)
+            tracking.point()
         except Exception:
-            through.let_go()
+            tracking.let_go()
             raise
-        if through.pan or through.tilt:
+        if tracking.pan or tracking.tilt:
             sleep(CENTRING)
-        reach = [abs(joint.travel) / 2 if joint else 0.0 for joint in (through.pan, through.tilt)]
-        through.neck = Neck(*reach)
-        return through
+        reach = [abs(joint.travel) / 2 if joint else 0.0 for joint in (tracking.pan, tracking.tilt)]
+        tracking.limits = PanTiltLimits(*reach)
+        return tracking
 
     def joint(self, channel: int, travel: float) -> Joint:
         """A servo of the neck."""

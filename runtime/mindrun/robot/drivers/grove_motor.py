@@ -9,7 +9,7 @@ from typing import Annotated
 from mindrun.driver import DeviceError
 from mindrun.quantity import Quantity
 from mindrun.registry import kind
-from mindrun.robot.driver_support import ADDRESS, BUS, Wire, on_bus, share
+from mindrun.robot.driver_support import ADDRESS, BUS, I2cDevice, on_bus, share
 
 MOTOR = Quantity("a motor of the board", {"": 1.0}, low=1, high=2, whole=True)
 SPEED, FREQUENCY, DIRECTION = 0x82, 0x84, 0xAA
@@ -27,7 +27,7 @@ _opening = Lock()
 class Board:
     """Both motors of a board: their speeds travel in one command, their directions in another."""
 
-    wire: Wire
+    wire: I2cDevice
     users: int = 0
     speeds: list[int] = field(default_factory=lambda: [0, 0])  # signed, −255..255
     sent: int = -1  # the directions
@@ -118,7 +118,7 @@ class GroveMotor:
         """The motor; the first that is opened stops both."""
         key = (self.bus, self.address)
         with _opening:
-            board = _boards.get(key) or Board(Wire("the motor board", self.bus, self.address))
+            board = _boards.get(key) or Board(I2cDevice("the motor board", self.bus, self.address))
             if not board.users:
                 try:
                     board.start()

@@ -6,7 +6,7 @@ from typing import Annotated
 
 from mindrun.quantity import Quantity
 from mindrun.registry import kind
-from mindrun.robot.driver_support import ADDRESS, BUS, METRES, Wire
+from mindrun.robot.driver_support import ADDRESS, BUS, METRES, I2cDevice
 
 PORT = Quantity("a digital port of the GrovePi", {"": 1.0}, low=2, high=8, whole=True)
 RANGER, VERSION = 7, 8  # commands
@@ -21,7 +21,7 @@ FARTHEST = 5.2  # metres: where nothing echoes the ranger's pulse ends at about 
 class GroveUltrasonicDevice:
     """The rangers of one board."""
 
-    wire: Wire
+    wire: I2cDevice
     ports: tuple[int, ...]
     reach: float
 
@@ -89,7 +89,7 @@ class GroveUltrasonic:
 
     def open(self) -> GroveUltrasonicDevice:
         """All of them."""
-        device = GroveUltrasonicDevice(Wire("the GrovePi", self.bus, self.address), self.ports, self.range)
+        device = GroveUltrasonicDevice(I2cDevice("the GrovePi", self.bus, self.address), self.ports, self.range)
         try:
             device.ask(VERSION, count=4)
         except Exception:

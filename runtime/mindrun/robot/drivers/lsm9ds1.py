@@ -11,7 +11,7 @@ from typing import Annotated
 
 from mindrun.quantity import NUMBER, Quantity, Reference
 from mindrun.registry import kind
-from mindrun.robot.driver_support import ADDRESS, BUS, DEGREES, Wire
+from mindrun.robot.driver_support import ADDRESS, BUS, DEGREES, I2cDevice
 
 WHO_AM_I, INERTIAL, MAGNETIC = 0x0F, 0x68, 0x3D  # 7.11 and 8.4
 GYROSCOPE_ON = ((0x22, 0x44), (0x10, 0x60))  # CTRL_REG8: whole values only; CTRL_REG1_G: 119 Hz, ±245 °/s
@@ -35,7 +35,7 @@ Vector = tuple[float, float, float]
 class Chip:
     """One of the two chips in the LSM9DS1, set up to measure one thing."""
 
-    wire: Wire
+    wire: I2cDevice
     identity: int
     settings: tuple[tuple[int, int], ...]
     status: int
@@ -159,7 +159,7 @@ class Motion:
 
     def open(self) -> NineDofDevice:
         """The accelerometer."""
-        wire = Wire("the accelerometer", self.bus, self.address)
+        wire = I2cDevice("the accelerometer", self.bus, self.address)
         chip = Chip(wire, INERTIAL, ACCELEROMETER_ON, STATUS, 0x01, 0x80, OUT_ACCELEROMETER)
         return opened(chip, Shaking(wire.error, self.window))
 
@@ -184,7 +184,7 @@ class Turn:
 
     def open(self) -> NineDofDevice:
         """The gyroscope."""
-        wire = Wire("the gyroscope", self.bus, self.address)
+        wire = I2cDevice("the gyroscope", self.bus, self.address)
         sign = 1 if self.face == "up" else -1
         chip = Chip(wire, INERTIAL, GYROSCOPE_ON, STATUS, 0x02, 0x80, OUT_GYROSCOPE)
         return opened(chip, lambda counts: sign * (counts[2] * DEGREES_A_SECOND) - self.still)
@@ -215,7 +215,7 @@ class Compass:
 
     def open(self) -> NineDofDevice:
         """The magnetometer."""
-        wire = Wire("the compass", self.bus, self.address)
+        wire = I2cDevice("the compass", self.bus, self.address)
         chip = Chip(wire, MAGNETIC, MAGNETOMETER_ON, STATUS_MAGNETIC, 0x08, 0x00, OUT_MAGNETOMETER)
 
         def bearing(counts: tuple[int, int, int]) -> float:

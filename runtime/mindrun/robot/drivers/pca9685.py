@@ -5,7 +5,7 @@ from time import sleep
 from typing import Annotated
 
 from mindrun.registry import kind
-from mindrun.robot.driver_support import ADDRESS, BUS, CHANNEL, MICROSECONDS, Wire, on_bus, share
+from mindrun.robot.driver_support import ADDRESS, BUS, CHANNEL, MICROSECONDS, I2cDevice, on_bus, share
 
 MODE1, MODE2, LED0, ALL_OFF_HIGH, PRESCALE = 0x00, 0x01, 0x06, 0xFD, 0xFE  # table 4
 RESTART, AUTO_INCREMENT, SLEEP = 0x80, 0x20, 0x10  # bits of MODE1, table 5
@@ -21,7 +21,7 @@ WAKING = 0.001  # the oscillator is stable after 500 µs
 class ServoDevice:
     """One channel of a servo card."""
 
-    wire: Wire
+    wire: I2cDevice
     channel: int
     shortest: float
     longest: float
@@ -87,7 +87,7 @@ class Pca9685:
 
     def open(self) -> ServoDevice:
         """The servo, which does not move until it is commanded."""
-        wire = Wire("the servo card", self.bus, self.address)
+        wire = I2cDevice("the servo card", self.bus, self.address)
         device = ServoDevice(wire, self.channel, self.shortest, self.longest)
         try:
             device.prepare()

@@ -9,10 +9,10 @@ from pathlib import Path
 from time import monotonic, sleep
 
 from mindrun.errors import MindError
-from mindrun.line_writer import Teller
+from mindrun.line_writer import LineWriter
 from mindrun.robot.guardian.plan import DRIVERS, LARGEST, Plan, from_json, read_plan
 from mindrun.robot.guardian.process import Process
-from mindrun.robot.guardian.realtime import be_urgent, import_little, wake_on_signals
+from mindrun.robot.guardian.realtime import import_little, set_realtime, wake_on_signals
 
 OK, FAILED, USAGE, UNAVAILABLE, BROKEN = 0, 1, 64, 69, 70  # as in sysexits.h
 INPUT, OUTPUT, ERRORS = 0, 1, 2
@@ -24,9 +24,9 @@ def main() -> None:
     options = _options()
     if options.neutral in (None, "-"):  # a bundle needs all drivers to be read
         import_little(DRIVERS)
-    be_urgent()
-    errors = Teller(ERRORS, "guardian: ")
-    status = Teller(os.dup(OUTPUT))
+    set_realtime()
+    errors = LineWriter(ERRORS, "guardian: ")
+    status = LineWriter(os.dup(OUTPUT))
     os.dup2(ERRORS, OUTPUT)  # what a driver prints is no status
     try:
         plan = _plan(options.neutral or "-")
@@ -42,7 +42,7 @@ def main() -> None:
     os._exit(code)  # a thread that hangs in a device's write would never be joined
 
 
-def guard(plan: Plan, report: Teller, status: Teller) -> int:
+def guard(plan: Plan, report: LineWriter, status: LineWriter) -> int:
     """Follow the frames on standard input; however this ends, every actuator is at neutral first."""
     process = Process(plan, INPUT, report, status)
     wake_on_signals(process.wake)
@@ -67,7 +67,7 @@ def guard(plan: Plan, report: Teller, status: Teller) -> int:
     return code
 
 
-def bring(process: Process, report: Teller, seconds: float) -> int:
+def bring(process: Process, report: LineWriter, seconds: float) -> int:
     """Bring all that can be opened to neutral; whether that was all, and in time."""
     wake_on_signals(process.wake)  # whoever tells it to end is told that it does, when it is done
     until = monotonic() + seconds

@@ -26,7 +26,7 @@ def import_little(package: str) -> None:
         sys.modules[package] = module_from_spec(found)
 
 
-def be_urgent() -> None:
+def set_realtime() -> None:
     """Take what the system grants; without any of it the guardian works too, only later on a busy machine."""
     threading.stack_size(STACK)
     sys.setswitchinterval(0.0005)

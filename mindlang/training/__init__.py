@@ -20,18 +20,18 @@ from mindrun.weights import learners
 
 from mindlang.lock import LockError
 from mindlang.resource_limits import refuse_too_large, refuse_too_long
-from mindlang.school.book import Book, begin, open_book, refuse_changed
-from mindlang.school.interruption import Interruption
-from mindlang.school.keeping import Kept, keep
-from mindlang.school.results import Result, opening, outcome, result_of
-from mindlang.school.teaching import Wishes, is_due, lessons
-from mindlang.school.watching import Bar, Lines, Pace, Silent, Watcher
-from mindlang.simulator_compilation import make_ready
+from mindlang.simulator_compilation import ensure_compiled
 from mindlang.terminal import load_compiled, procedures_talk, talk
+from mindlang.training.interruption import Interruption
+from mindlang.training.lesson_choice import TrainOptions, chosen_lessons, is_due
+from mindlang.training.lock_update import Kept, keep
+from mindlang.training.progress import PrintedLines, ProgressBarLine, Silent, TimeLeft, Watcher
+from mindlang.training.results import Result, opening, outcome, result_of
+from mindlang.training.subject import Subject, begin_run, open_subject, refuse_changed
 
 
 @dataclass(frozen=True, slots=True)
-class School:
+class Trainer:
     """Teaches on so many cores (all where None); talks on stderr and, with `as_json`, prints results on stdout."""
 
     workers: int | None
@@ -43,7 +43,7 @@ class School:
         file: Path,
         skills: Sequence[str],
         curriculum: str | None,
-        wishes: Wishes,
+        options: TrainOptions,
         force: bool,
         seed: int | None,
         runs: Path,
@@ -51,20 +51,20 @@ class School:
         """Teach the lessons that are due, or those asked for; False if it was interrupted."""
         seed = secrets.randbits(31) if seed is None else seed
         compiled = load_compiled(file)
-        book = open_book(file, compiled)
-        chosen = lessons(book.graph, curriculum, skills)
+        subject = open_subject(file, compiled)
+        chosen = chosen_lessons(subject.graph, curriculum, skills)
         if skills or force:
-            _refuse_frozen(book, chosen)
+            _refuse_frozen(subject, chosen)
         taught = frozen = 0
         for lesson in chosen:
-            book = open_book(file, compiled)  # the lesson before has changed the lock
-            if not (standing := book.standing(lesson)):
+            subject = open_subject(file, compiled)  # the lesson before has changed the lock
+            if not (standing := subject.standing(lesson)):
                 frozen += 1
                 self._say(f"{lesson.skill} is frozen, and is not taught")
-            elif skills or force or is_due(book.graph, lesson, standing):
-                run = begin(book, wishes.applied(lesson), seed, runs, datetime.now(UTC))
+            elif skills or force or is_due(subject.graph, lesson, standing):
+                run = begin_run(subject, options.applied(lesson), seed, runs, datetime.now(UTC))
                 taught += 1
-                if not self._teach(run, book, force):
+                if not self._teach(run, subject, force):
                     return False
         if not taught:
             others = "all other lessons" if frozen else f"all {len(chosen)} lessons"
@@ -77,53 +77,53 @@ class School:
         source = Path(run.manifest.source)
         if not source.exists():
             raise RunError(f"{source}, from which this run began, is gone", f"its text is in {folder / 'source'}")
-        book = open_book(source, load_compiled(source))
-        refuse_changed(book, run)
-        return self._teach(run, book, force)
+        subject = open_subject(source, load_compiled(source))
+        refuse_changed(subject, run)
+        return self._teach(run, subject, force)
 
-    def _teach(self, run: Run, book: Book, force: bool) -> bool:
+    def _teach(self, run: Run, subject: Subject, force: bool) -> bool:
         if (result := read_result(run.folder)) is not None:
             self._say(f"{run.folder} has finished already")
             self._print(result)
             return True
-        rollout = self._rollout(run, book)
+        rollout = self._rollout(run, subject)
         state = self._watched(run, rollout)
         if state.attempt < run.manifest.lesson.learner.attempts:
             talk.print(f"saved; to go on: {_command(run)}", markup=False)
             return False
-        kept = self._kept(run, book, state, rollout, force)
+        kept = self._kept(run, subject, state, rollout, force)
         result = result_of(run, state, kept)
         keep_result(run.folder, result)
-        self._say(*outcome(run, result, kept, book.keep_path(run.manifest.lesson).name))
+        self._say(*outcome(run, result, kept, subject.keep_path(run.manifest.lesson).name))
         self._print(result)
         return True
 
     @procedures_talk()
-    def _kept(self, run: Run, book: Book, state: State, rollout: Rollout, force: bool) -> Kept:
+    def _kept(self, run: Run, subject: Subject, state: State, rollout: Rollout, force: bool) -> Kept:
         try:
-            return keep(run, book, state, rollout, force)
+            return keep(run, subject, state, rollout, force)
         except LockError as error:
             hint = f"what was learnt is safe; mend that, then: {_command(run)}"
             raise RunError(str(error), hint) from error
 
     @procedures_talk()
-    def _rollout(self, run: Run, book: Book) -> Rollout:
+    def _rollout(self, run: Run, subject: Subject) -> Rollout:
         lesson = run.manifest.lesson
         self._say(opening(run))
         rollout = Rollout(
-            book.graph,
+            subject.graph,
             run.weights,
             lesson.task,
             lesson.master,
             run.manifest.learners,
-            procedures=book.folder,
+            procedures=subject.folder,
             workers=self.workers or cores(),
         )
         learner = lesson.learner
         first = founder_count(learner)
         refuse_too_large(rollout, first, learner.layouts)
         refuse_too_long(rollout, (first + learner.population * (lesson.generations - 1)) * learner.layouts)
-        make_ready(rollout, self._say)  # before the clock of the lesson starts
+        ensure_compiled(rollout, self._say)  # before the clock of the lesson starts
         return rollout
 
     @procedures_talk()
@@ -148,7 +148,9 @@ class School:
     def _watcher(self, run: Run) -> Watcher:
         if self.quiet:
             return Silent()
-        return (Bar if talk.is_terminal else Lines)(talk, run.manifest.name, Pace.of(run, perf_counter()))
+        return (ProgressBarLine if talk.is_terminal else PrintedLines)(
+            talk, run.manifest.name, TimeLeft.of(run, perf_counter())
+        )
 
     def _say(self, *lines: str) -> None:
         for line in () if self.quiet else lines:
@@ -159,11 +161,11 @@ class School:
             print(json.dumps(result, allow_nan=False), flush=True)
 
 
-def _refuse_frozen(book: Book, chosen: Sequence[Lesson]) -> None:
+def _refuse_frozen(subject: Subject, chosen: Sequence[Lesson]) -> None:
     """RunError where a lesson has nobody to teach."""
     for lesson in chosen:
-        if not learners(book.graph, lesson):
-            hint = f"mindc edit unfreeze {lesson.skill} {book.shown} --write"
+        if not learners(subject.graph, lesson):
+            hint = f"mindc edit unfreeze {lesson.skill} {subject.shown} --write"
             raise RunError(f"{lesson.skill} is frozen", hint)
 
 

@@ -13,7 +13,7 @@ from mindlang.lock.world_facts import key_of, key_of_taught
 
 
 @dataclass(frozen=True, slots=True)
-class Wishes:
+class TrainOptions:
     """What the command line says instead of the source; None leaves it as it stands there.
 
     `scale` multiplies the generations of a lesson.
@@ -42,7 +42,7 @@ class Wishes:
         )
 
 
-def lessons(graph: Graph, curriculum: str | None, skills: Sequence[str]) -> tuple[Lesson, ...]:
+def chosen_lessons(graph: Graph, curriculum: str | None, skills: Sequence[str]) -> tuple[Lesson, ...]:
     """The lessons of a curriculum (the first where None), only those of `skills` where there are any.
 
     A skill that the first curriculum does not teach is looked for in the others. NotFoundError for an unknown name.

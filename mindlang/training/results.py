@@ -7,7 +7,7 @@ from mindrun.train.lesson import State
 from mindrun.train.run_folder import WEIGHTS, Run
 
 from mindlang.number_format import duration, number, rate
-from mindlang.school.keeping import Kept
+from mindlang.training.lock_update import Kept
 
 Result = dict[str, Any]
 

@@ -41,7 +41,7 @@ class Silent:
 
 
 @dataclass(frozen=True, slots=True)
-class Standing:
+class ProgressText:
     """Where a lesson stands after a generation: in words and, before them, in a few figures."""
 
     where: str
@@ -66,7 +66,7 @@ class Standing:
 
 
 @dataclass(slots=True)
-class Pace:
+class TimeLeft:
     """How fast generations pass since this process took the lesson up at `began`; `generations` are of all attempts.
 
     `first` says how many generations the first one of an attempt is worth, with all its founders.
@@ -81,7 +81,7 @@ class Pace:
     seen: float = 0.0
 
     @classmethod
-    def of(cls, run: Run, began: float) -> "Pace":
+    def of(cls, run: Run, began: float) -> "TimeLeft":
         """The pace of a run that is taken up, which may have scored before."""
         lesson = run.manifest.lesson
         scores = [record["reevaluated"] for record in read(run.folder)]
@@ -90,7 +90,7 @@ class Pace:
         first = founder_count(learner) / learner.population if run.begins_with_nothing else 1.0
         return cls(lesson.generations * learner.attempts, began, learner.attempts, known, first)
 
-    def standing(self, record: Record, done: int, now: float) -> Standing:
+    def standing(self, record: Record, done: int, now: float) -> ProgressText:
         """Where the lesson stands after a generation."""
         self.ticks += record.ticks
         self.seen += self.first if record.generation == 1 else 1.0
@@ -102,7 +102,7 @@ class Pace:
         if self.attempts > 1:
             attempt = f"attempt {record.attempt}"
             where, briefly = f"{attempt} of {self.attempts}, {where}", f"{attempt}, {briefly}"
-        return Standing(
+        return ProgressText(
             where,
             briefly,
             f"best {number(record.best)}",
@@ -112,10 +112,10 @@ class Pace:
         )
 
 
-class Lines:
+class PrintedLines:
     """A line every few seconds, and one for the first and the last generation."""
 
-    def __init__(self, console: Console, name: str, pace: Pace) -> None:
+    def __init__(self, console: Console, name: str, pace: TimeLeft) -> None:
         self._console, self._name, self._pace = console, name, pace
         self._due = pace.began
 
@@ -130,10 +130,10 @@ class Lines:
         """Nothing is open."""
 
 
-class Bar:
+class ProgressBarLine:
     """A progress bar that goes away when the lesson ends."""
 
-    def __init__(self, console: Console, name: str, pace: Pace) -> None:
+    def __init__(self, console: Console, name: str, pace: TimeLeft) -> None:
         self._name, self._pace = name, pace
         self._live = Live(self._line(None, 0), console=console, transient=True)
         self._live.start()
@@ -146,16 +146,16 @@ class Bar:
         """Take the bar away; the cursor is back."""
         self._live.stop()
 
-    def _line(self, standing: Standing | None, done: int) -> RenderableType:
-        return Line(self._name, standing, done / self._pace.generations)
+    def _line(self, standing: ProgressText | None, done: int) -> RenderableType:
+        return ProgressLine(self._name, standing, done / self._pace.generations)
 
 
 @dataclass(frozen=True, slots=True)
-class Line:
+class ProgressLine:
     """A lesson's name, how much of it is done, and as much of how it stands as the terminal has columns for."""
 
     name: str
-    standing: Standing | None
+    standing: ProgressText | None
     share: float
 
     def __rich_console__(self, console: Console, options: ConsoleOptions) -> Iterator[RenderableType]:

@@ -18,11 +18,11 @@ from mindlang.compiler.diagnostic import listed
 from mindlang.lock import Lock, lock_path, read_lock, read_locks
 from mindlang.lock.arrange import arrange
 from mindlang.lock.status import Status, status, trained_weights
-from mindlang.school.teaching import subskills
+from mindlang.training.lesson_choice import subskills
 
 
 @dataclass(frozen=True, slots=True)
-class Book:
+class Subject:
     """A mind in the order of its weights; `sources` has the text of its files, by path from the folder of `source`.
 
     `lock` has what its file's lock and those of the files that it uses say; `homes` where each curriculum stands.
@@ -61,7 +61,7 @@ class Book:
         return {skill: found[skill] for skill in learners(self.graph, lesson)}
 
 
-def open_book(path: Path, compiled: Compiled) -> Book:
+def open_subject(path: Path, compiled: Compiled) -> Subject:
     """The book of a file that compiled; LockError where its lock is damaged."""
     assert compiled.graph is not None
     assert compiled.mind is not None
@@ -70,43 +70,43 @@ def open_book(path: Path, compiled: Compiled) -> Book:
     sources = {file.path.relative_to(source.parent).as_posix(): file.text for file in compiled.sources}
     graph = arrange(compiled.graph, lock)
     homes = {lesson.curriculum: lesson.fact.span.source.path for lesson in compiled.mind.lessons}
-    return Book(source, sources, graph, lock, homes)
+    return Subject(source, sources, graph, lock, homes)
 
 
-def begin(book: Book, lesson: Lesson, seed: int, runs: Path, now: datetime) -> Run:
+def begin_run(subject: Subject, lesson: Lesson, seed: int, runs: Path, now: datetime) -> Run:
     """A run of a lesson, new unless the very same was stopped; it would come to the same end, bit for bit.
 
     RunError where it cannot begin, and what to train first where that is why.
     """
-    weights = _needed(book, lesson) | (_known(book, lesson) if not lesson.from_scratch else {})
+    weights = _needed(subject, lesson) | (_known(subject, lesson) if not lesson.from_scratch else {})
     manifest = Manifest(
         lesson=lesson,
-        learners=learners(book.graph, lesson),
+        learners=learners(subject.graph, lesson),
         seed=seed,
-        mind=fingerprint(book.graph, lesson, book.folder),
+        mind=fingerprint(subject.graph, lesson, subject.folder),
         weights=hashes(weights),
-        source=str(book.source),
-        sources={path: sha256(text.encode()).hexdigest() for path, text in book.sources.items()},
+        source=str(subject.source),
+        sources={path: sha256(text.encode()).hexdigest() for path, text in subject.sources.items()},
         command=("mindc", *sys.argv[1:]),
         started=now.strftime("%Y-%m-%dT%H:%M:%SZ"),
         versions=versions(),
         processor=processor(),
     )
-    return unfinished(runs, manifest) or create(runs, manifest, book.sources, weights)
+    return unfinished(runs, manifest) or create(runs, manifest, subject.sources, weights)
 
 
-def refuse_changed(book: Book, run: Run) -> None:
+def refuse_changed(subject: Subject, run: Run) -> None:
     """RunError where the run was begun with a mind that differs in something the lesson depends on."""
     lesson = run.manifest.lesson
     if (
-        not _is_named(book.graph, lesson)
-        or learners(book.graph, lesson) != run.manifest.learners  # one may have been frozen
-        or fingerprint(book.graph, lesson, book.folder) != run.manifest.mind
+        not _is_named(subject.graph, lesson)
+        or learners(subject.graph, lesson) != run.manifest.learners  # one may have been frozen
+        or fingerprint(subject.graph, lesson, subject.folder) != run.manifest.mind
     ):
         raise RunError(
-            f"{book.shown} has changed since this run of {lesson.skill} began, so it cannot go on",
+            f"{subject.shown} has changed since this run of {lesson.skill} began, so it cannot go on",
             f"undo the change ({run.folder / 'source'} has it as it was), or begin anew: "
-            f"mindc train {book.shown} {lesson.skill}",
+            f"mindc train {subject.shown} {lesson.skill}",
         )
 
 
@@ -116,17 +116,17 @@ def _is_named(graph: Graph, lesson: Lesson) -> bool:
     return {lesson.skill, lesson.master} <= skills and lesson.task in tasks
 
 
-def _needed(book: Book, lesson: Lesson) -> dict[str, Weights]:
-    skills = subskills(book.graph, lesson)
-    weights, refusals = trained_weights(book.graph, book.lock, skills)
+def _needed(subject: Subject, lesson: Lesson) -> dict[str, Weights]:
+    skills = subskills(subject.graph, lesson)
+    weights, refusals = trained_weights(subject.graph, subject.lock, skills)
     if refusals:
         first = [skill for skill in reversed(skills) if skill not in weights]
         raise RunError(
             f"{lesson.skill} cannot be taught yet: {listed(refusals, 'and')}",
-            f"first: mindc train {book.shown} {' '.join(first)}",
+            f"first: mindc train {subject.shown} {' '.join(first)}",
         )
     return weights
 
 
-def _known(book: Book, lesson: Lesson) -> dict[str, Weights]:
-    return trained_weights(book.graph, book.lock, learners(book.graph, lesson))[0]
+def _known(subject: Subject, lesson: Lesson) -> dict[str, Weights]:
+    return trained_weights(subject.graph, subject.lock, learners(subject.graph, lesson))[0]

@@ -20,8 +20,8 @@ from mindlang.lock.blobs import record
 from mindlang.lock.status import Trained, trained_weights
 from mindlang.lock.world_facts import Worlds, key_of
 from mindlang.number_format import number
-from mindlang.school.book import Book
-from mindlang.school.teaching import is_due
+from mindlang.training.lesson_choice import is_due
+from mindlang.training.subject import Subject
 
 COMPARED_LAYOUTS = 50  # common to the weights that a lock has and to the new ones, and to nothing else
 
@@ -55,22 +55,22 @@ class Kept:
     is_new: bool
 
 
-def keep(run: Run, book: Book, state: State, rollout: Rollout, force: bool) -> Kept:
+def keep(run: Run, subject: Subject, state: State, rollout: Rollout, force: bool) -> Kept:
     """Put what was learnt into the lock, or with `force` even where it is worse than what is there.
 
     RunError where nothing was learnt. LockError where the lock cannot be read or written.
     """
     refuse_nothing(run.manifest.lesson, state)
-    old = _genome_there(run, book)
+    old = _genome_there(run, subject)
     if old is None or np.array_equal(old, state.kept[0]):
-        return Kept(_record(run, book, state, state.kept[0], state.reevaluated), None, True)
+        return Kept(_record(run, subject, state, state.kept[0], state.reevaluated), None, True)
     found = compare(run, rollout, np.stack([old, state.kept[0]]))
     if force or not found.is_worse:
-        return Kept(_record(run, book, state, state.kept[0], state.reevaluated), found, True)
-    lesson = declared(book, run.manifest.lesson)
-    if is_due(book.graph, lesson, book.standing(lesson)):
-        return Kept(_record(run, book, state, old, found.old), found, False)
-    known = read_lock(book.keep_path(lesson))
+        return Kept(_record(run, subject, state, state.kept[0], state.reevaluated), found, True)
+    lesson = declared(subject, run.manifest.lesson)
+    if is_due(subject.graph, lesson, subject.standing(lesson)):
+        return Kept(_record(run, subject, state, old, found.old), found, False)
+    known = read_lock(subject.keep_path(lesson))
     return Kept({skill: known[skill] for skill in run.manifest.learners}, found, False)
 
 
@@ -99,34 +99,38 @@ def compare(run: Run, rollout: Rollout, genomes: Genomes) -> Comparison:
     return Comparison(float(old), float(new))
 
 
-def _genome_there(run: Run, book: Book) -> Genomes | None:
+def _genome_there(run: Run, subject: Subject) -> Genomes | None:
     """The weights of the learners in the lock to which the lesson goes; None where not all have some that fit."""
-    standing = book.standing(run.manifest.lesson)
+    standing = subject.standing(run.manifest.lesson)
     if not all(isinstance(standing.get(skill), Trained) for skill in run.manifest.learners):
         return None
     try:
-        known, _ = trained_weights(book.graph, read_lock(book.keep_path(run.manifest.lesson)), run.manifest.learners)
+        known, _ = trained_weights(
+            subject.graph, read_lock(subject.keep_path(run.manifest.lesson)), run.manifest.learners
+        )
     except LockError:  # their file is gone or damaged
         return None
     return np.concatenate([known[skill] for skill in run.manifest.learners])
 
 
-def _record(run: Run, book: Book, state: State, genome: Genomes, score: float) -> dict[str, Entry]:
+def _record(run: Run, subject: Subject, state: State, genome: Genomes, score: float) -> dict[str, Entry]:
     lesson, learners = run.manifest.lesson, run.manifest.learners
     population, seed = lesson.learner.population, run.manifest.seed
     where = lesson.task, lesson.master, lesson.with_subskills
     taught = Taught(*where, state.kept_after, population, seed, score, lesson.number, lesson.curriculum)
-    begun_with = {} if lesson.from_scratch else {skill: book.lock[skill] for skill in learners if skill in run.weights}
-    learnt = parts(book.graph, learners, genome)
-    world = Worlds(book.graph, book.folder).of(declared(book, lesson))
-    return record(book.keep_path(lesson), book.graph, learnt, taught, run.weights, world, begun_with)
+    begun_with = (
+        {} if lesson.from_scratch else {skill: subject.lock[skill] for skill in learners if skill in run.weights}
+    )
+    learnt = parts(subject.graph, learners, genome)
+    world = Worlds(subject.graph, subject.folder).of(declared(subject, lesson))
+    return record(subject.keep_path(lesson), subject.graph, learnt, taught, run.weights, world, begun_with)
 
 
-def declared(book: Book, lesson: Lesson) -> Lesson:
+def declared(subject: Subject, lesson: Lesson) -> Lesson:
     """A lesson as it stands in the source: what the command line said of it once is no reason to teach it again."""
     alike = (
         each
-        for each in book.graph.lessons
+        for each in subject.graph.lessons
         if (each.skill, each.curriculum, key_of(each)) == (lesson.skill, lesson.curriculum, key_of(lesson))
         and each.number == (lesson.number or each.number)
     )
