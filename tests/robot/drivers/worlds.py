@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 from gpiozero import Device
 from gpiozero.pins.mock import MockFactory
-from mindrun.robot import driver_support
+from mindrun.robot import camera, driver_support
 from mindrun.robot.drivers import ball_tracker as tracking
 from mindrun.robot.drivers import grove_motor as motors
 from mindrun.robot.drivers.ads1115 import Ads1115
