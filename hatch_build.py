@@ -31,7 +31,7 @@ def _compiled(root: Path, place: str) -> list[Path]:
     from mindrun.sim import cache
 
     kind = cache.fitting()[0]
-    settings = {"NUMBA_CPU_NAME": kind, "NUMBA_CPU_FEATURES": cache.KINDS[kind], "NUMBA_CACHE_DIR": place}
+    settings = {"NUMBA_CPU_NAME": kind, "NUMBA_CPU_FEATURES": cache.PROCESSORS[kind], "NUMBA_CACHE_DIR": place}
     environment = os.environ | settings | {"PYTHONPATH": str(root / "runtime")}
     subprocess.run([sys.executable, "-m", "mindrun.sim.warmup"], env=environment, check=True)
     return sorted(Path(place).glob("*/*.code"))

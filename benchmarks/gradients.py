@@ -16,7 +16,7 @@ import numpy as np
 from commanded import Commanded
 from learning import FRESH, prepared
 from mindrun.functions.mlp import Mlp, first_weights, layers, matrices
-from mindrun.train.population import LIMIT, Genomes
+from mindrun.train.population import MAX_WEIGHT, Genomes
 from numpy.typing import NDArray
 from workloads import collect
 
@@ -155,7 +155,7 @@ class Learner:
                     steps += 1
                     self.improve(batch.rows(rows), moments, steps)
             genome = np.concatenate([matrix.ravel() for matrix in self.actor.weights])
-            yield self.worlds.ticks, np.clip(genome, -LIMIT, LIMIT).astype(np.float32)[None]
+            yield self.worlds.ticks, np.clip(genome, -MAX_WEIGHT, MAX_WEIGHT).astype(np.float32)[None]
 
     def collected(self, coming: Array) -> "Batch":
         """Some steps in all lanes; `coming` is what they earned of late, discounted, from batch to batch."""

@@ -22,13 +22,13 @@ from multiprocessing import get_context
 from typing import Any
 
 import numpy as np
-from learning import FRESH, prepared
+from learning import REEVALUATION_LAYOUTS, prepared
 from mindrun.graph import Lesson
 from mindrun.learners import EvolutionStrategy, Genetic, Restarting
 from mindrun.sim.rollout import Rollout, cores
-from mindrun.train.lesson import CANDIDATES, EVERY, Course, begin, generation, judge
-from mindrun.train.lesson import FRESH as TRIES
-from mindrun.train.population import LIMIT, Genomes, order
+from mindrun.train.lesson import REEVALUATED_CANDIDATES, REEVALUATION_GENERATIONS, Course, begin, generation, judge
+from mindrun.train.lesson import REEVALUATION_LAYOUTS as TRIES
+from mindrun.train.population import MAX_WEIGHT, Genomes, order
 from mindrun.train.training import best
 from mindrun.weights import learners
 from workloads import COLLECT, collect, shipped
@@ -83,7 +83,7 @@ def tried(trial: Trial) -> Outcome:
     learn = by_covariance if trial.kind == "cmaes" else by_lesson
     champion, ticks = learn(trial, teaching)
     seconds = time.process_time() - began
-    scores = teaching.rollout.score(champion, [int(word) for word in FRESH])
+    scores = teaching.rollout.score(champion, [int(word) for word in REEVALUATION_LAYOUTS])
     return Outcome(float(scores.total.mean()), float(scores.counts.mean()), ticks, seconds)
 
 
@@ -127,16 +127,16 @@ def by_covariance(trial: Trial, teaching: Teaching) -> tuple[Genomes, int]:
     options: dict[str, Any] = {"sigma": 2.0, **dict(trial.said)}
     mean = champion[0].astype(float) if len(champion) else np.zeros(rollout.genome_length)
     cma = CMA(mean=mean, seed=int(rng.integers(2**31)), **options)
-    while taken < trial.ticks or generations % EVERY:
+    while taken < trial.ticks or generations % REEVALUATION_GENERATIONS:
         asked = np.array([cma.ask() for _ in range(cma.population_size)])
-        genomes = np.clip(asked, -LIMIT, LIMIT).astype(np.float32)
+        genomes = np.clip(asked, -MAX_WEIGHT, MAX_WEIGHT).astype(np.float32)
         scores = rollout.score(genomes, seeds(rng, layouts))
         totals = scores.total.mean(axis=1)
         worst = np.where(np.isfinite(totals), -totals, 1e9)
         cma.tell([(genome.astype(float), float(bad)) for genome, bad in zip(genomes, worst, strict=True)])
         taken, generations = taken + int(scores.ticks.sum()), generations + 1
-        if generations % EVERY == 0:
-            candidates = np.concatenate([champion, genomes[order(totals)][:CANDIDATES]])
+        if generations % REEVALUATION_GENERATIONS == 0:
+            candidates = np.concatenate([champion, genomes[order(totals)][:REEVALUATED_CANDIDATES]])
             scores = rollout.score(candidates, seeds(rng, TRIES))
             taken += int(scores.ticks.sum())
             champion = candidates[order(scores.total.mean(axis=1))][:1]

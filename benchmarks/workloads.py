@@ -11,7 +11,7 @@ from pathlib import Path
 
 import numpy as np
 from mindrun.graph import Graph
-from mindrun.sim.rollout import LANES, Rollout
+from mindrun.sim.rollout import DEFAULT_LANES, Rollout
 from mindrun.weights import genes
 from numpy.typing import NDArray
 
@@ -93,7 +93,7 @@ class Lanes:
     """Some tiles of lanes, one per worker, that have left their beginning behind."""
 
     def __init__(
-        self, graph: Graph, weights: Weights, learner: str | None = None, lanes: int = LANES, workers: int = 1
+        self, graph: Graph, weights: Weights, learner: str | None = None, lanes: int = DEFAULT_LANES, workers: int = 1
     ) -> None:
         self.rollout = Rollout(
             _endless(graph), weights, "Collect", graph.master, [learner] if learner else [], interrupt=False

@@ -8,13 +8,13 @@ from unicodedata import combining, east_asian_width
 
 from mindrun.printable import visible
 
-from mindlang.compiler.diagnostic import MOST, Diagnostic
+from mindlang.compiler.diagnostic import MAX_DIAGNOSTICS, Diagnostic
 from mindlang.compiler.source import Span
 
 if TYPE_CHECKING:
     from rich.console import Console
 
-WIDE = 100  # columns of an excerpt
+EXCERPT_COLUMNS = 100
 
 Segment = tuple[str, str]  # text and style
 
@@ -25,10 +25,10 @@ def print_report(diagnostics: Sequence[Diagnostic], console: Console) -> None:
         return
     from rich.text import Text
 
-    for diagnostic in diagnostics[:MOST]:
+    for diagnostic in diagnostics[:MAX_DIAGNOSTICS]:
         console.print(Text.assemble(*_segments(diagnostic)))
-    if len(diagnostics) > MOST:
-        console.print(f"… and {len(diagnostics) - MOST} more.")
+    if len(diagnostics) > MAX_DIAGNOSTICS:
+        console.print(f"… and {len(diagnostics) - MAX_DIAGNOSTICS} more.")
 
 
 def plain(diagnostic: Diagnostic) -> str:
@@ -81,13 +81,13 @@ def _excerpt(span: Span, mark: str, style: str) -> Iterator[Segment]:
     """The line of a span, as much of it as fits, and marks below the span."""
     line = span.source.line(span.line)
     column = span.column - 1
-    first = max(0, column - WIDE // 2) if len(line) > WIDE else 0
-    shown = line[first : first + WIDE]
+    first = max(0, column - EXCERPT_COLUMNS // 2) if len(line) > EXCERPT_COLUMNS else 0
+    shown = line[first : first + EXCERPT_COLUMNS]
     indent = visible(line[first:column])
     marked = visible(shown[column - first : column - first + span.end - span.start])
     number = str(span.line)
     yield f"  {number} | ", "dim"
-    yield f"{'…' if first else ''}{visible(shown)}{'…' if first + WIDE < len(line) else ''}\n", ""
+    yield f"{'…' if first else ''}{visible(shown)}{'…' if first + EXCERPT_COLUMNS < len(line) else ''}\n", ""
     yield f"  {' ' * len(number)} | {' ' * (_cells(indent) + bool(first))}", "dim"
     yield f"{mark * max(1, _cells(marked))}\n", style
 

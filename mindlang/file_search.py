@@ -11,28 +11,30 @@ from pathlib import Path
 
 from mindrun.regular_files import read_regular
 
-from mindlang.compiler.source import LIMIT, decode
+from mindlang.compiler.source import MAX_SOURCE_BYTES, decode
 
-ENTRIES = 20_000  # of a folder, or of all folders below one, that are looked at
-FILES = 500  # files that are read of all those around one
-CHARACTERS = 8 << 20  # of all of them together
-HIDDEN = ("node_modules", "build", "dist", "runs")
+MAX_FOLDER_ENTRIES = 20_000  # of a folder, or of all folders below one, that are looked at
+MAX_READ_FILES = 500  # that are read of all those around one
+MAX_READ_CHARACTERS = 8 << 20  # of all of them together
+SKIPPED_FOLDERS = ("node_modules", "build", "dist", "runs")
 
 
 def beside(folder: Path, suffix: str = ".mind") -> list[Path]:
     """The files in a folder whose names end so, in order; none where it cannot be read."""
     try:
         with os.scandir(folder) as entries:
-            return sorted(folder / entry.name for entry in islice(entries, ENTRIES) if entry.name.endswith(suffix))
+            return sorted(
+                folder / entry.name for entry in islice(entries, MAX_FOLDER_ENTRIES) if entry.name.endswith(suffix)
+            )
     except (OSError, ValueError):
         return []
 
 
 def below(folder: Path, suffix: str = ".mind") -> Iterator[Path]:
     """The files in a folder and in those below it, but for hidden ones and those in which nobody writes."""
-    left = ENTRIES
+    left = MAX_FOLDER_ENTRIES
     for at, folders, files in os.walk(folder):
-        folders[:] = sorted(name for name in folders if not name.startswith(".") and name not in HIDDEN)
+        folders[:] = sorted(name for name in folders if not name.startswith(".") and name not in SKIPPED_FOLDERS)
         yield from (Path(at, name) for name in sorted(files)[:left] if name.endswith(suffix))
         left -= len(folders) + len(files)
         if left <= 0:
@@ -47,15 +49,15 @@ def above(path: Path) -> list[Path]:
 def text_of(path: Path) -> str:
     """The text of a source file; nothing where it cannot be one."""
     try:
-        return decode(read_regular(path, LIMIT + 1))
+        return decode(read_regular(path, MAX_SOURCE_BYTES + 1))
     except (OSError, RuntimeError, ValueError):  # a loop of links is a RuntimeError
         return ""
 
 
 def as_many(texts: Iterable[tuple[Path, str]]) -> Iterator[tuple[Path, str]]:
     """Files with their texts, as many of them as one can wait for."""
-    left = CHARACTERS
-    for path, text in islice(texts, FILES):
+    left = MAX_READ_CHARACTERS
+    for path, text in islice(texts, MAX_READ_FILES):
         left -= len(text)
         if left < 0:
             return

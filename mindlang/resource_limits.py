@@ -14,11 +14,11 @@ if TYPE_CHECKING:
     from mindrun.sim.rollout import Rollout
     from mindrun.sim.tables import Sizes
 
-RUN, ENTRY = 512, 64  # bytes that a run takes, and each of its rewards and events
-LANE, COPIES = 2048, 6
-FASTEST = 20_000_000  # agent-ticks in a second and worker, which no lesson reaches
-YEAR = 366 * 24 * 3600  # seconds; nobody waits for longer
-LIMITS = "/sys/fs/cgroup/memory.max", "/sys/fs/cgroup/memory/memory.limit_in_bytes"  # of a container
+RUN_BYTES, ENTRY_BYTES = 512, 64  # bytes that a run takes, and each of its rewards and events
+LANE_BYTES, GENOME_COPIES = 2048, 6
+MAX_TICKS_PER_SECOND = 20_000_000  # agent-ticks in a second and worker, which no lesson reaches
+YEAR_SECONDS = 366 * 24 * 3600  # nobody waits for longer
+CGROUP_LIMIT_FILES = "/sys/fs/cgroup/memory.max", "/sys/fs/cgroup/memory/memory.limit_in_bytes"  # of a container
 
 
 def refuse_too_many(task: Task, runs: int) -> None:
@@ -31,7 +31,7 @@ def refuse_too_many(task: Task, runs: int) -> None:
 
 def bytes_for(task: Task) -> int:
     """What the results of one run take while many are gathered."""
-    return RUN + ENTRY * (len(task.rewards) + len(task.events))
+    return RUN_BYTES + ENTRY_BYTES * (len(task.rewards) + len(task.events))
 
 
 def refuse_too_large(rollout: Rollout, genomes: int, layouts: int) -> None:
@@ -44,7 +44,7 @@ def refuse_too_large(rollout: Rollout, genomes: int, layouts: int) -> None:
 
 def refuse_too_long(rollout: Rollout, runs: int) -> None:
     """MindError where so many runs of a task could take more than a year, however fast the machine is."""
-    years = runs * rollout.task.ticks // (FASTEST * rollout.workers) // YEAR
+    years = runs * rollout.task.ticks // (MAX_TICKS_PER_SECOND * rollout.workers) // YEAR_SECONDS
     if years:
         message = f"{runs:,} runs of {rollout.task.name} take up to {years:,} year{'s' * (years > 1)} and more"
         raise MindError(message, f"A run lasts up to {rollout.task.ticks:,} ticks.")
@@ -54,8 +54,8 @@ def bytes_of(rollout: Rollout, genomes: int, layouts: int) -> int:
     """What a rollout takes: its lanes, and the genomes with their parents and copies of both."""
     lanes = min(genomes * layouts, rollout.workers * rollout.lanes)
     rays, things = len(rollout.tables.ray_row), len(rollout.tables.things)
-    each = LANE + 4 * rays + 48 * things + sum(_parts(rollout.sizes).values())
-    return lanes * each + COPIES * genomes * 4 * rollout.genome_length
+    each = LANE_BYTES + 4 * rays + 48 * things + sum(_parts(rollout.sizes).values())
+    return lanes * each + GENOME_COPIES * genomes * 4 * rollout.genome_length
 
 
 def _parts(sizes: Sizes) -> dict[str, int]:
@@ -77,7 +77,7 @@ def _largest(sizes: Sizes) -> str:
 
 def available() -> int | None:
     """The bytes of memory that this process may still take; None where nobody knows."""
-    found = [_free(), *map(_number_in, LIMITS)]
+    found = [_free(), *map(_number_in, CGROUP_LIMIT_FILES)]
     limit = resource.getrlimit(resource.RLIMIT_AS)[0]
     known = [number for number in (*found, limit) if number is not None and number >= 0]
     return min(known, default=None)

@@ -9,7 +9,7 @@ from mindrun.sim.rollout import Rollout
 
 from mindlang.terminal import INTERRUPTED
 
-WAIT = "compiling the simulator once (about half a minute)…"
+COMPILING = "compiling the simulator once (about half a minute)…"
 
 
 def is_compiled() -> bool:
@@ -21,11 +21,11 @@ def ensure_compiled(rollout: Rollout, say: Callable[[str], None]) -> None:
     """Compile the simulator if need be, and say so; Ctrl-C ends the program meanwhile, because numba may swallow it."""
     had = is_compiled()
     if not had:
-        say(WAIT)
+        say(COMPILING)
     before = signal.signal(signal.SIGINT, lambda number, frame: os._exit(INTERRUPTED))
     try:
         rollout.compile()
     finally:
         signal.signal(signal.SIGINT, before)
     if had and not warmup.is_native():  # it was shipped, for any processor of its kind
-        warmup.start(warmup.BEHIND)
+        warmup.start(warmup.IN_BACKGROUND)

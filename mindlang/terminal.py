@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 OK, FINDINGS, MISUSE, INTERRUPTED = 0, 1, 2, 130  # how a program ends
 talk: Console
-WIDE = 1000  # columns
+PIPE_COLUMNS = 1000
 
 
 def __getattr__(name: str) -> Any:
@@ -34,7 +34,7 @@ def console(stderr: bool = False) -> Console:
     from rich.console import Console
 
     plain = bool(os.environ.get("CI")) or not (sys.stderr if stderr else sys.stdout).isatty()
-    width = WIDE if plain else None  # a file or a pipe has no edge to cut lines at
+    width = PIPE_COLUMNS if plain else None  # a file or a pipe has no edge to cut lines at
     return Console(stderr=stderr, force_terminal=False if plain else None, highlight=False, soft_wrap=True, width=width)
 
 

@@ -18,9 +18,9 @@ from mindrun.atomic_write import alone, exchange, spare, sync_folder, write
 from mindrun.errors import MindError
 from mindrun.regular_files import read_whole
 
-NAME = ".mind-edit"
-LARGEST = 1 << 28  # bytes of a file that is changed, and of a journal
-KINDS = (".mind", ".lock", ".npy")  # of files that mindc changes
+JOURNAL_NAME = ".mind-edit"
+MAX_FILE_BYTES = 1 << 28  # of a file that is changed, and of a journal
+CHANGED_SUFFIXES = (".mind", ".lock", ".npy")  # of files that mindc changes
 
 
 class TransactionError(MindError):
@@ -43,7 +43,7 @@ def change(folder: Path, files: Mapping[Path, bytes], check: Callable[[], None] 
     """
     for path in files:
         if not _is_ours(folder, path):
-            kinds = ", ".join(KINDS[:-1]) + f" and {KINDS[-1]}"
+            kinds = ", ".join(CHANGED_SUFFIXES[:-1]) + f" and {CHANGED_SUFFIXES[-1]}"
             raise TransactionError(f"{path} cannot be changed together with others: it is a link, or none of {kinds}")
     waiting = set[Path]()
     with alone(folder):
@@ -51,7 +51,7 @@ def change(folder: Path, files: Mapping[Path, bytes], check: Callable[[], None] 
             _put_back(folder)
             check()
             were = {path: _get(path) for path in files}
-            write(folder / NAME, _journal(folder, files, were))
+            write(folder / JOURNAL_NAME, _journal(folder, files, were))
             waiting.update(files)
             for path, data in files.items():
                 _change(path, data, were[path])
@@ -75,7 +75,7 @@ def recover(folder: Path) -> bool:
 def _is_left(folder: Path) -> bool:
     """Whether a journal lies in a folder; one of somebody else does not count, nor what is no file."""
     try:
-        found = (folder / NAME).lstat()
+        found = (folder / JOURNAL_NAME).lstat()
     except OSError:
         return False
     return S_ISREG(found.st_mode) and found.st_uid == os.getuid()
@@ -90,7 +90,7 @@ def _undo(folder: Path, waiting: Collection[Path]) -> None:
     """Put back at once what a failed change has written; where that fails too, the journal stays."""
     if not _is_left(folder):  # nothing had been written yet
         with suppress(OSError):
-            spare(folder / NAME).unlink(missing_ok=True)
+            spare(folder / JOURNAL_NAME).unlink(missing_ok=True)
         return
     try:
         _put_back(folder, waiting)
@@ -111,7 +111,7 @@ def _journal(folder: Path, files: Mapping[Path, bytes], were: Mapping[Path, byte
 
 def _put_back(folder: Path, waiting: Collection[Path] = ()) -> bool:
     """Put back what a journal says, if there is one; of the `waiting` files what somebody else has written stays."""
-    spare(folder / NAME).unlink(missing_ok=True)
+    spare(folder / JOURNAL_NAME).unlink(missing_ok=True)
     if (noted := _read(folder)) is None:
         return False
     names = ", ".join(path.name for path in noted if path.suffix != ".npy")
@@ -120,7 +120,7 @@ def _put_back(folder: Path, waiting: Collection[Path] = ()) -> bool:
         if now != note.was and _hash(now) != note.becomes and path not in waiting:
             raise TransactionError(
                 f"{path} has been changed since an edit of {names} was interrupted",
-                f"keep them as they are by deleting {folder / NAME}, or get {path.name} back",
+                f"keep them as they are by deleting {folder / JOURNAL_NAME}, or get {path.name} back",
             )
     for path, note in noted.items():
         spare(path).unlink(missing_ok=True)
@@ -135,15 +135,15 @@ def _read(folder: Path) -> dict[Path, _Noted] | None:
     if not _is_left(folder):
         return None
     try:
-        plain = json.loads(_get(folder / NAME) or b"")
+        plain = json.loads(_get(folder / JOURNAL_NAME) or b"")
         return {
             _inside(folder, path): _Noted(_unpacked(told["was"]), str(told["becomes"])) for path, told in plain.items()
         }
     except OSError as error:
-        raise TransactionError(f"{folder / NAME} cannot be read: {error.strerror}", "delete it") from error
+        raise TransactionError(f"{folder / JOURNAL_NAME} cannot be read: {error.strerror}", "delete it") from error
     except (ValueError, TypeError, KeyError, AttributeError, RuntimeError) as error:
         # a RuntimeError is of what nests too deep, or of links in a circle
-        raise TransactionError(f"{folder / NAME} is not what mindc wrote", "delete it") from error
+        raise TransactionError(f"{folder / JOURNAL_NAME} is not what mindc wrote", "delete it") from error
 
 
 def _inside(folder: Path, name: str) -> Path:
@@ -158,18 +158,18 @@ def _inside(folder: Path, name: str) -> Path:
 
 
 def _is_ours(folder: Path, path: Path) -> bool:
-    return path.suffix in KINDS and not path.is_symlink() and path.resolve().is_relative_to(folder.resolve())
+    return path.suffix in CHANGED_SUFFIXES and not path.is_symlink() and path.resolve().is_relative_to(folder.resolve())
 
 
 def _done(folder: Path) -> None:
-    (folder / NAME).unlink()
+    (folder / JOURNAL_NAME).unlink()
     with suppress(OSError):  # at worst a power cut brings the journal back, and all is as it was
         sync_folder(folder)
 
 
 def _get(path: Path) -> bytes | None:
     try:
-        return read_whole(path, LARGEST)
+        return read_whole(path, MAX_FILE_BYTES)
     except FileNotFoundError:
         return None
 

@@ -7,9 +7,9 @@ from difflib import SequenceMatcher
 from io import StringIO
 from typing import Literal
 
-CONTEXT = 3  # lines around a change
-SHORT = 100  # lines that difflib compares; it may take as long as the square of their number
-MARGIN = 100  # lines over which difflib may slide a change that begins or ends as what is beside it
+CONTEXT_LINES = 3  # around a change
+MAX_COMPARED_LINES = 100  # that difflib compares; it may take as long as the square of their number
+MARGIN_LINES = 100  # lines over which difflib may slide a change that begins or ends as what is beside it
 
 Opcode = tuple[Literal["replace", "delete", "insert", "equal"], int, int, int, int]
 
@@ -21,8 +21,8 @@ def unified(name: str, old: str, new: str) -> str:
     # the last difference alone, with some around them.
     first = _common(before, after)
     last = _common(before[first:][::-1], after[first:][::-1])
-    start = max(0, first - MARGIN)
-    keep = max(0, last - MARGIN)
+    start = max(0, first - MARGIN_LINES)
+    keep = max(0, last - MARGIN_LINES)
     lines = _hunks(before[start : len(before) - keep], after[start : len(after) - keep], start)
     ended = f"{name}\t" if " " in name else name  # patch takes a blank for the end of a name, unless a tab follows
     heads = [f"--- {f'a/{ended}' if old else '/dev/null'}\n", f"+++ b/{ended}\n"]
@@ -31,7 +31,7 @@ def unified(name: str, old: str, new: str) -> str:
 
 def _hunks(before: list[str], after: list[str], start: int) -> Iterator[str]:
     """The hunks of a diff, whose lines are counted from `start` on."""
-    for group in _Matcher(before, after).get_grouped_opcodes(CONTEXT):
+    for group in _Matcher(before, after).get_grouped_opcodes(CONTEXT_LINES):
         (_, i, _, j, _), (_, _, i_end, _, j_end) = group[0], group[-1]
         yield f"@@ -{_counted(i + start, i_end + start)} +{_counted(j + start, j_end + start)} @@\n"
         for tag, i, i_end, j, j_end in group:
@@ -52,14 +52,14 @@ class _Matcher(SequenceMatcher[str]):
 
     def get_opcodes(self) -> list[Opcode]:
         """What differs, in stretches that are equal and not."""
-        is_short = sum(map(len, self._texts)) <= SHORT
+        is_short = sum(map(len, self._texts)) <= MAX_COMPARED_LINES
         return super().get_opcodes() if is_short else _merged(_aligned(*self._texts))
 
 
 def _aligned(before: list[str], after: list[str]) -> Iterator[Opcode]:
     i = j = 0
     for i_next, j_next in [*_anchors(before, after), (len(before), len(after))]:
-        if i_next - i + j_next - j > SHORT:
+        if i_next - i + j_next - j > MAX_COMPARED_LINES:
             yield "replace", i, i_next, j, j_next
         else:
             between = SequenceMatcher(None, before[i:i_next], after[j:j_next], autojunk=False).get_opcodes()

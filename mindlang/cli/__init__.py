@@ -12,7 +12,9 @@ from mindrun import standard_streams
 
 from mindlang.terminal import FINDINGS, INTERRUPTED, MISUSE, OK, say
 
-SELDOM = 200_000  # objects made before Python looks for garbage: a large mind is millions, and none of them garbage
+GARBAGE_COLLECTION_OBJECTS = (
+    200_000  # objects made before Python looks for garbage: a large mind is millions, and none of them garbage
+)
 
 
 class Suggesting(click.Group):
@@ -58,7 +60,7 @@ def commands() -> None:
 
 def main() -> None:
     """Run one command; whatever happens ends in one message and an exit code, never in a traceback."""
-    set_threshold(SELDOM)
+    set_threshold(GARBAGE_COLLECTION_OBJECTS)
     standard_streams.prepare()
     code = _run()
     if why := standard_streams.finish():

@@ -8,7 +8,7 @@ from typing import Any
 
 import click
 
-SHOWN = 20  # characters of what is refused
+SHOWN_CHARACTERS = 20  # of what is refused
 
 
 class Whole(click.IntRange):
@@ -57,4 +57,4 @@ WORKERS = Whole(1, 1024)
 
 def _shortened(value: object) -> str:
     text = str(value)
-    return repr(text if len(text) <= SHOWN else f"{text[:SHOWN]}…")
+    return repr(text if len(text) <= SHOWN_CHARACTERS else f"{text[:SHOWN_CHARACTERS]}…")

@@ -21,12 +21,12 @@ def command(as_json: bool) -> None:
     """
     from mindrun.sim import cache, warmup
 
-    from mindlang.simulator_compilation import WAIT
+    from mindlang.simulator_compilation import COMPILING
     from mindlang.terminal import FINDINGS, OK, console, fail, print_json
 
     had = warmup.is_native()
     if not had:
-        console(stderr=True).print(WAIT, markup=False)
+        console(stderr=True).print(COMPILING, markup=False)
         warmup.start().wait()
         if not warmup.is_native():
             fail("The simulator could not be compiled.", "python -m mindrun.sim.warmup says why", FINDINGS)

@@ -13,12 +13,12 @@ from mindlang.compiler.diagnostic import Diagnostic, Findings
 from mindlang.compiler.lower import lower
 from mindlang.compiler.model import Mind
 from mindlang.compiler.resolve import resolve
-from mindlang.compiler.source import LIMIT, Source, Span, decode, within
+from mindlang.compiler.source import MAX_SOURCE_BYTES, Source, Span, decode, within
 from mindlang.compiler.syntax import File
 from mindlang.compiler.use import files, read
 
 STDIN = "<stdin>"
-NOTHING: Mapping[Path, str] = {}
+NO_TEXTS: Mapping[Path, str] = {}
 
 
 @dataclass(frozen=True, slots=True)
@@ -36,7 +36,7 @@ class Compiled:
         return bool(self.sources)
 
 
-def load(path: Path | str, texts: Mapping[Path, str] = NOTHING) -> Compiled:
+def load(path: Path | str, texts: Mapping[Path, str] = NO_TEXTS) -> Compiled:
     """The file at `path`, or with "-" standard input, compiled; whatever is wrong is in the diagnostics.
 
     Files that stand in `texts` are taken from there.
@@ -47,28 +47,28 @@ def load(path: Path | str, texts: Mapping[Path, str] = NOTHING) -> Compiled:
     return compile_source(source, Path(path).resolve(), texts)
 
 
-def read_main(path: Path | str, texts: Mapping[Path, str] = NOTHING) -> Source | Diagnostic:
+def read_main(path: Path | str, texts: Mapping[Path, str] = NO_TEXTS) -> Source | Diagnostic:
     """The source at `path`, or with "-" standard input, or why it cannot be read."""
     try:
         resolved = Path(path).resolve()
         if resolved in texts:
             return Source(str(path), within(texts[resolved]), resolved.parent)
         if str(path) == "-":
-            return Source(STDIN, decode(sys.stdin.buffer.read(LIMIT + 1)), Path.cwd().resolve())
+            return Source(STDIN, decode(sys.stdin.buffer.read(MAX_SOURCE_BYTES + 1)), Path.cwd().resolve())
         if descriptor_of(Path(path)) is not None:
             with Path(path).open("rb") as stream:  # that a shell has opened: <(git show HEAD:collect.mind)
-                return Source(str(path), decode(stream.read(LIMIT + 1)), Path.cwd().resolve())
+                return Source(str(path), decode(stream.read(MAX_SOURCE_BYTES + 1)), Path.cwd().resolve())
         return read(Path(path), str(path))
     except (OSError, RuntimeError) as error:
         # a loop of links is a RuntimeError
         name, hint = (STDIN, "") if str(path) == "-" else (path, "Is the path right?")
         return Diagnostic("unreadable", f"{name} cannot be read: {reason(error)}.", None, hint)
     except ValueError as error:
-        hint = f"A .mind file is UTF-8 text of at most {LIMIT >> 20} MiB."
+        hint = f"A .mind file is UTF-8 text of at most {MAX_SOURCE_BYTES >> 20} MiB."
         return Diagnostic("unreadable", f"{path} {error}.", None, hint)
 
 
-def compile_source(source: Source, path: Path = Path("-"), texts: Mapping[Path, str] = NOTHING) -> Compiled:
+def compile_source(source: Source, path: Path = Path("-"), texts: Mapping[Path, str] = NO_TEXTS) -> Compiled:
     """A source that has been read, compiled together with the files that it uses; those in `texts` are not read."""
     findings = Findings()
     if not any(line.strip() and not line.lstrip().startswith("#") for line in source.text.split("\n")):

@@ -8,8 +8,8 @@ from itertools import chain
 from mindlang.compiler.source import Span
 from mindlang.compiler.splice import Splice
 
-MOST = 100  # diagnostics that are read
-COMPARED = 50_000  # names that are held against words
+MAX_DIAGNOSTICS = 100  # diagnostics that are read
+MAX_COMPARED_NAMES = 50_000  # names that are held against words
 
 
 @dataclass(frozen=True, slots=True)
@@ -50,7 +50,7 @@ class Findings:
     """Where a stage of the compiler collects what it finds."""
 
     diagnostics: list[Diagnostic] = field(default_factory=list)
-    comparisons: int = COMPARED  # of names, which are left
+    comparisons: int = MAX_COMPARED_NAMES  # of names, which are left
 
     def error(self, code: str, span: Span, message: str, hint: str = "", *labels: Label) -> None:
         """Collect an error."""
@@ -58,7 +58,7 @@ class Findings:
 
     def suggest(self, word: str, *known: Iterable[str]) -> str:
         """`did_you_mean` for the first diagnostics: comparing names takes time, and nobody reads more."""
-        if len(self.diagnostics) >= MOST or self.comparisons <= 0:
+        if len(self.diagnostics) >= MAX_DIAGNOSTICS or self.comparisons <= 0:
             return ""
         names = [*chain(*known)]
         self.comparisons -= len(names)

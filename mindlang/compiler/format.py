@@ -11,7 +11,7 @@ from typing import Any
 
 from mindlang.compiler import syntax
 from mindlang.compiler.parse import BLANKS, code_of
-from mindlang.compiler.parse.shape import SHAPES, grammar, pieces, said, shape_of
+from mindlang.compiler.parse.shape import MAX_SHAPES, grammar, pieces, said, shape_of
 from mindlang.compiler.source import Source
 from mindlang.compiler.syntax import NOUNS, SETTINGS
 
@@ -117,7 +117,7 @@ def spaced(code: str) -> str:
 Plan = tuple[tuple[int, int, str], ...]  # which pieces of a line are a word, and what stands after it
 
 
-@lru_cache(SHAPES)
+@lru_cache(MAX_SHAPES)
 def _plan(shape: str) -> Plan | None:
     """How the words of the lines of a shape are set apart; None where Lark cannot read it."""
     from lark import UnexpectedInput

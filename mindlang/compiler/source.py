@@ -8,10 +8,10 @@ from pathlib import Path
 
 from mindrun.regular_files import read_regular
 
-LIMIT = 1 << 20  # bytes
-LARGE = f"is larger than {LIMIT >> 20} MiB"
+MAX_SOURCE_BYTES = 1 << 20
+TOO_LARGE = f"is larger than {MAX_SOURCE_BYTES >> 20} MiB"
 BOM = b"\xef\xbb\xbf"
-SOURCES = 64  # whose line starts are remembered
+CACHED_SOURCES = 64  # whose line starts are remembered
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -58,7 +58,7 @@ class Span:
         return self.start - _line_starts(self.source)[self.line - 1] + 1
 
 
-@lru_cache(SOURCES)
+@lru_cache(CACHED_SOURCES)
 def _line_starts(source: Source) -> list[int]:
     """Where the lines of a source begin."""
     return [0, *(found.end() for found in re.finditer("\n", source.text))]
@@ -75,15 +75,17 @@ def encoded(path: Path, text: str) -> bytes:
 
 def within(text: str) -> str:
     """A text that no file has yet, if it is no larger than one may be; else ValueError says so as `decode` does."""
-    if len(text) > LIMIT or (not text.isascii() and len(text.encode("utf-8", "surrogatepass")) > LIMIT):
-        raise ValueError(LARGE)
+    if len(text) > MAX_SOURCE_BYTES or (
+        not text.isascii() and len(text.encode("utf-8", "surrogatepass")) > MAX_SOURCE_BYTES
+    ):
+        raise ValueError(TOO_LARGE)
     return text
 
 
 def decode(data: bytes) -> str:
     """The text of a source file; ValueError says in the user's words why the bytes are none."""
-    if len(data) > LIMIT:
-        raise ValueError(LARGE)
+    if len(data) > MAX_SOURCE_BYTES:
+        raise ValueError(TOO_LARGE)
     if b"\0" in data:
         raise ValueError("is a binary file")
     try:

@@ -9,10 +9,10 @@ from mindrun.regular_files import read_regular
 
 from mindlang.compiler.diagnostic import Findings
 from mindlang.compiler.parse import parse
-from mindlang.compiler.source import LIMIT, Source, decode, within
+from mindlang.compiler.source import MAX_SOURCE_BYTES, Source, decode, within
 from mindlang.compiler.syntax import File, Use
 
-DEEP = 64
+MAX_USE_DEPTH = 64
 
 
 @dataclass(slots=True)
@@ -34,7 +34,7 @@ def read(path: Path, name: str) -> Source:
     """The source at a path; OSError or ValueError says why it cannot be read."""
     if path.is_dir():
         raise ValueError("is a folder: name the files in it")
-    return Source(name, decode(read_regular(path, LIMIT + 1)), path.resolve().parent)
+    return Source(name, decode(read_regular(path, MAX_SOURCE_BYTES + 1)), path.resolve().parent)
 
 
 def files(source: Source, path: Path, findings: Findings, texts: Mapping[Path, str]) -> tuple[list[File], bool]:
@@ -64,8 +64,8 @@ def _follow(use: Use, project: _Project) -> None:
         names = " → ".join(path.relative_to(project.root).as_posix() for path in loop)
         hint = "Move what both need into a third file, and use that in both."
         project.refuse("use-loop", use, f"Files use one another in a circle: {names}.", hint)
-    elif len(project.open) > DEEP:
-        hint = f"Files may use one another {DEEP} deep; use this one from nearer to the top."
+    elif len(project.open) > MAX_USE_DEPTH:
+        hint = f"Files may use one another {MAX_USE_DEPTH} deep; use this one from nearer to the top."
         project.refuse("use-too-deep", use, "Files use one another too deep.", hint)
     elif target and target not in project.files:
         _read(target, use, project)

@@ -9,7 +9,7 @@ from hashlib import sha256
 from pathlib import Path
 
 import mindrun
-from mindrun.bundle import LARGEST, Bundle
+from mindrun.bundle import MAX_BUNDLE_BYTES, Bundle
 from mindrun.regular_files import read_whole
 
 from mindlang.deploying.unit import ARMED, SERVICE, unit
@@ -32,7 +32,7 @@ class Release:
 
 def make_release(path: Path, bundle: Bundle, folder: Path) -> Release:
     """Lay a release out in an empty folder. The same bundle and the same mindrun have the same fingerprint."""
-    data = read_whole(path, LARGEST)
+    data = read_whole(path, MAX_BUNDLE_BYTES)
     made_of = {"bundle": path.name, "sha256": sha256(data).hexdigest(), "master": bundle.graph.master}
     files = {
         "mind.bundle": data,  # never by its own name: no text of a user becomes a path on the robot

@@ -19,7 +19,7 @@ from mindlang.deploying.errors import DeployError
 
 UNREACHABLE = 255  # ssh's own exit code
 SCRIPTS = ("robot.sh", "switch.sh")
-BEAT = 5.0  # seconds; after thirty without one the robot is free again
+HEARTBEAT_SECONDS = 5.0  # after thirty without one the robot is free again
 Told = tuple[str, str]  # an event, and its detail
 HELD: Told = ("held", "")
 WAITING: Told = ("waiting", "")
@@ -97,7 +97,7 @@ def _until_held(said: IO[bytes]) -> Iterator[Told]:
 def _beat(there: IO[bytes], ended: Event) -> None:
     """Let the robot hear now and then that this deployment goes on; the end of its input says that it does not."""
     with suppress(OSError):
-        while not ended.wait(BEAT):
+        while not ended.wait(HEARTBEAT_SECONDS):
             there.write(b".")
 
 

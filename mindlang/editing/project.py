@@ -17,10 +17,10 @@ from mindlang.compiler.source import Span
 from mindlang.compiler.splice import Splice
 from mindlang.compiler.syntax import NOUNS, Declaration, Drives, Fact, File, Influences, Master, Reads
 from mindlang.editing.neighbours import neighbours
-from mindlang.editing.references import READ, Mention, mentions
+from mindlang.editing.references import READABLE_NOUNS, Mention, mentions
 
 F = TypeVar("F", bound=Fact)
-MOST = 8  # names in a message
+MAX_SUGGESTED_NAMES = 8  # names in a message
 OWNERS = {
     "skill": ("reads", "drives", "influences", "stays"),
     "task": ("contains", "lasts", "ends", "rewards", "counts"),
@@ -90,7 +90,7 @@ class Project:
 
     def refuse_taken(self, noun: str, name: str) -> None:
         """EditError where a noun has the name already, or a measure that a reading would hide."""
-        if noun in READ and name in kinds("measure"):
+        if noun in READABLE_NOUNS and name in kinds("measure"):
             message = f"{name} is a measure: rewards that say it would mean the reading then."
             raise EditError(message, "Choose another name.")
         for taken in (noun, *SHARED.get(noun, ())):
@@ -211,8 +211,8 @@ def influence(kind: str, skill: str) -> str:
 
 def suggestion(name: str, known: Sequence[str]) -> str:
     """The known name that a name was meant to be, or else what is known."""
-    more = ", …" if len(known) > MOST else ""
-    declared = f"Declared are {', '.join(known[:MOST])}{more}." if known else "None is declared."
+    more = ", …" if len(known) > MAX_SUGGESTED_NAMES else ""
+    declared = f"Declared are {', '.join(known[:MAX_SUGGESTED_NAMES])}{more}." if known else "None is declared."
     return did_you_mean(name, known) or declared
 
 

@@ -27,8 +27,8 @@ from mindlang.compiler.syntax import (
     Teaches,
 )
 
-READ = ("sensor", "memory")
-DRIVEN = ("actuator", "memory")
+READABLE_NOUNS = ("sensor", "memory")
+DRIVABLE_NOUNS = ("actuator", "memory")
 
 
 @dataclass(frozen=True, slots=True)
@@ -61,9 +61,9 @@ class _Reader:
         """The names in a fact."""
         match fact:
             case Reads(name):
-                yield from self.one(name, *READ)
+                yield from self.one(name, *READABLE_NOUNS)
             case Drives(name, at):
-                yield from self.one(name, *DRIVEN)
+                yield from self.one(name, *DRIVABLE_NOUNS)
                 yield from self.expression(at, "")
             case Influences(name, at):
                 yield from self.one(name, "skill")
@@ -85,7 +85,7 @@ class _Reader:
         if fact.on:
             yield from self.phrase("event", fact.on)
         if fact.each:
-            yield from self.one(fact.each.sensor, *READ)
+            yield from self.one(fact.each.sensor, *READABLE_NOUNS)
         if fact.when:
             yield from self.expression(fact.when.left, own)
             yield from self.expression(fact.when.right, own)
@@ -102,8 +102,8 @@ class _Reader:
         for term in expression.terms if expression else ():
             if not isinstance(term, Phrase) or (term.kind.text == own and not term.arguments):
                 continue
-            if not term.arguments and self.names.noun_of(term.kind.text, READ):
-                yield from self.one(term.kind, *READ)
+            if not term.arguments and self.names.noun_of(term.kind.text, READABLE_NOUNS):
+                yield from self.one(term.kind, *READABLE_NOUNS)
             else:
                 yield from self.phrase("measure", term)
 
@@ -121,7 +121,7 @@ class _Reader:
             case Name() as name, Noun(noun="thing"):
                 yield Mention("thing", name, self.by)
             case Name() as name, Noun(noun="sensor"):
-                yield from self.one(name, *READ)
+                yield from self.one(name, *READABLE_NOUNS)
 
 
 def mentions(files: Iterable[File], names: Names) -> Iterator[Mention]:

@@ -17,16 +17,16 @@ from mindlang import simulator_compilation
 from mindlang.editing.apply import Edited
 from mindlang.editing.lock_update import Names, merged, new_names, now_called
 from mindlang.editing.project import EditError
-from mindlang.editing.references import READ
+from mindlang.editing.references import READABLE_NOUNS
 from mindlang.lock import Lock
 from mindlang.lock.arrange import arrange
 from mindlang.lock.blobs import blob, load_weights
 from mindlang.lock.status import Trained, status
 from mindlang.terminal import procedures_talk, say
 
-TICKS = 2000  # of a run that is recorded
-SEED = 1
-ROUNDING = (
+VERIFIED_TICKS = 2000  # of a run that is recorded
+VERIFIED_SEED = 1
+ROUNDING_DIFFERS = (
     "Nothing has been changed. Only the rounding differs: what skills send adds up in the order of their names, "
     "and this edit changes that order."
 )
@@ -103,7 +103,7 @@ def _shape(side: MindVersion, skill: Skill, names: Names) -> object:
 
     def called(index: float) -> tuple[str, int]:
         name, number = readings[int(index)]
-        return now_called(name, names, *READ), number
+        return now_called(name, names, *READABLE_NOUNS), number
 
     edges = [
         (
@@ -127,7 +127,7 @@ def _hold(before: MindVersion, after: MindVersion, skill: str, master: str, stat
     """Run a skill before and after on the same readings; EditError at the first tick that differs."""
     recorded = _recorded(before, skill, state)
     columns = {
-        (now_called(name, names, *READ), number): column
+        (now_called(name, names, *READABLE_NOUNS), number): column
         for column, (name, number) in enumerate(_readings(before.graph))
     }
     places = [columns.get(reading, -1) for reading in _readings(after.graph)]
@@ -144,7 +144,7 @@ def _hold(before: MindVersion, after: MindVersion, skill: str, master: str, stat
             raise EditError(
                 f"{master} would do something else: at tick {tick} of a recorded run it commands "
                 f"{commands[1].tolist()} instead of {commands[0].tolist()}.",
-                ROUNDING if np.allclose(*commands, rtol=0, atol=1e-6) else "Nothing has been changed.",
+                ROUNDING_DIFFERS if np.allclose(*commands, rtol=0, atol=1e-6) else "Nothing has been changed.",
             )
 
 
@@ -156,4 +156,4 @@ def _recorded(side: MindVersion, skill: str, state: Trained) -> NDArray[np.float
     assert weights is not None
     rollout = Rollout(side.graph, weights, task, skill, procedures=side.folder)
     simulator_compilation.ensure_compiled(rollout, say)
-    return np.array([moment.readings for moment in islice(trace(rollout, SEED).moments, TICKS)])
+    return np.array([moment.readings for moment in islice(trace(rollout, VERIFIED_SEED).moments, VERIFIED_TICKS)])

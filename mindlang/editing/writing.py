@@ -8,7 +8,7 @@ from mindrun.npy import to_npy
 from mindrun.regular_files import read_regular
 
 from mindlang import transaction
-from mindlang.compiler.source import LIMIT, decode, encoded
+from mindlang.compiler.source import MAX_SOURCE_BYTES, decode, encoded
 from mindlang.editing.apply import Edited
 from mindlang.editing.lock_update import locks_of
 from mindlang.editing.project import EditError
@@ -54,6 +54,6 @@ def _refuse_changed(edited: Edited) -> None:
 
 def _read(path: Path) -> str | None:
     try:
-        return decode(read_regular(path, LIMIT + 1))
+        return decode(read_regular(path, MAX_SOURCE_BYTES + 1))
     except (FileNotFoundError, ValueError):
         return None

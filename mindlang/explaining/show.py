@@ -7,7 +7,7 @@ from typing import Any
 
 from mindlang.explaining.explanation import ERRORS, Explanation
 
-WIDE = 80
+PAGE_COLUMNS = 80
 Segment = tuple[str, str]  # text and style
 
 
@@ -17,7 +17,7 @@ def page(explanation: Explanation) -> Iterator[Segment]:
     yield f" ({explanation.sort})\n", "dim"
     yield f"{explanation.title}\n", ""
     for paragraph in explanation.text.split("\n\n"):
-        yield f"\n{fill(paragraph, WIDE, break_on_hyphens=False)}\n", ""
+        yield f"\n{fill(paragraph, PAGE_COLUMNS, break_on_hyphens=False)}\n", ""
     for heading, style, minds in (("Wrong", "red", explanation.bad), ("Right", "green", explanation.good)):
         for mind in minds:
             yield f"\n{heading}:\n", style

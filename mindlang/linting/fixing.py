@@ -7,8 +7,8 @@ from mindlang.compiler.diagnostic import Diagnostic
 from mindlang.compiler.source import Source
 from mindlang.compiler.splice import Splice, spliced
 
-ROUNDS = 100  # a fix may make room for another
-CHARACTERS = 4 << 20  # that are looked at in all rounds: what is left of a long file is for the next time
+MAX_FIX_ROUNDS = 100  # a fix may make room for another
+MAX_FIXED_CHARACTERS = 4 << 20  # that are looked at in all rounds: what is left of a long file is for the next time
 
 
 def fixed(source: Source, look: Callable[[Source], Iterable[Diagnostic]]) -> tuple[Source, int]:
@@ -16,7 +16,7 @@ def fixed(source: Source, look: Callable[[Source], Iterable[Diagnostic]]) -> tup
     from dataclasses import replace
 
     made = 0
-    for _ in range(min(ROUNDS, CHARACTERS // max(len(source.text), 1) + 1)):
+    for _ in range(min(MAX_FIX_ROUNDS, MAX_FIXED_CHARACTERS // max(len(source.text), 1) + 1)):
         splices, number = _first(source, look(source))
         if not number:
             break

@@ -22,7 +22,7 @@ VERSIONS = ("# mind lock 1:", "# mind lock 2:", "# mind lock 3:")
 HEADER = (
     f"{VERSIONS[-1]} what has been taught. `mindc train` writes it; it belongs under version control, with weights/."
 )
-LARGEST = 64 << 20  # bytes
+MAX_LOCK_BYTES = 64 << 20
 
 _NAMES = r"[^\s|]+(?: [^\s|]+)*"
 _LINE = re.compile(
@@ -136,7 +136,7 @@ def lock_path(source: Path) -> Path:
 def read_lock(path: Path) -> dict[str, Entry]:
     """The entries of a lock by skill, none where there is no such file; LockError where a line cannot be read."""
     try:
-        text = read_regular(path, LARGEST + 1).decode()
+        text = read_regular(path, MAX_LOCK_BYTES + 1).decode()
     except FileNotFoundError:
         return {}
     except OSError as error:
@@ -144,7 +144,7 @@ def read_lock(path: Path) -> dict[str, Entry]:
     except UnicodeDecodeError as error:
         raise LockError(f"{path} is damaged: it is not text; get it back, or delete it and train") from error
     header, *lines = text.replace("\r\n", "\n").split("\n")  # git may have written it for Windows
-    if not header.startswith(VERSIONS) or lines[-1:] != [""] or len(text) > LARGEST:
+    if not header.startswith(VERSIONS) or lines[-1:] != [""] or len(text) > MAX_LOCK_BYTES:
         raise LockError(f"{path} is damaged: it is not a whole lock of this mindc; get it back, or delete it and train")
     lines = lines[:-1]
     end = lines.index("") if "" in lines else len(lines)

@@ -20,8 +20,8 @@ from mindlang.lock.signature import signature
 from mindlang.lock.training_world import TrainingWorld
 
 FOLDER = "weights"
-LARGEST = 1 << 27  # bytes of the weights of a skill; a bundle cannot hold more than half of that
-NOTHING: Lock = {}
+MAX_WEIGHTS_BYTES = 1 << 27  # of the weights of a skill; a bundle cannot hold more than half of that
+EMPTY_LOCK: Lock = {}
 
 
 def load_weights(entry: Entry, skill: Skill) -> Weights:
@@ -31,7 +31,7 @@ def load_weights(entry: Entry, skill: Skill) -> Weights:
     try:
         if not path.resolve().is_relative_to(entry.folder.resolve()):
             raise LockError(f"{path} leads out of {entry.folder}")
-        data = read_whole(path, LARGEST)
+        data = read_whole(path, MAX_WEIGHTS_BYTES)
         if sha256(data).hexdigest() != entry.weights:
             raise LockError(f"{path}, the weights of {entry.skill}, is damaged: {remedy}")
         return weights_of(skill, {skill.name: read_weights(data)})
@@ -48,7 +48,7 @@ def record(
     taught: Taught,
     others: Mapping[str, Weights],
     world: TrainingWorld | None = None,
-    begun_with: Lock = NOTHING,
+    begun_with: Lock = EMPTY_LOCK,
 ) -> dict[str, Entry]:
     """Keep what a lesson taught: weights as files, the skills' lines in the lock at `path`; the other lines stay.
 

@@ -7,12 +7,12 @@ from mindrun.world import Item
 
 from mindlang.number_format import score
 from mindlang.pictures.canvas import Canvas, square, text_width
-from mindlang.pictures.path import LEAST, Path, draw_cross
+from mindlang.pictures.path import MIN_CONTROL_SHARE, Path, draw_cross
 from mindlang.pictures.recorded_run import RecordedRun
 from mindlang.pictures.scene import thing_colours
 from mindlang.pictures.theme import Theme, mixed
 
-GAP = 22.0  # between two entries
+ENTRY_GAP_PIXELS = 22.0  # between two entries
 SMALL, LARGE, SMALLEST = 11.0, 14.0, 5.0
 LINES, LINE, MARK = 2, 22.0, 26.0  # of the legend: how many, how high, and how wide what stands before a name
 
@@ -23,8 +23,10 @@ def draw_title(
     """The task, and the facts of the run side by side up to `right`, each below its name."""
     canvas.text(x, y, run.task.name, 24, theme.ink, bold=True)
     facts = _facts(run, found)
-    wide = [max(_width(canvas, name, SMALL), _width(canvas, value, LARGE)) + 1.6 * GAP for name, value in facts]
-    fit = min(1.0, (right - x) / (sum(wide) - 1.6 * GAP))  # smaller, where much is counted
+    wide = [
+        max(_width(canvas, name, SMALL), _width(canvas, value, LARGE)) + 1.6 * ENTRY_GAP_PIXELS for name, value in facts
+    ]
+    fit = min(1.0, (right - x) / (sum(wide) - 1.6 * ENTRY_GAP_PIXELS))  # smaller, where much is counted
     for (name, value), width in zip(facts, wide, strict=True):
         canvas.text(x, y + 25, name, fit * SMALL, theme.faint)
         canvas.text(x, y + 46, value, fit * LARGE, theme.ink)
@@ -66,7 +68,7 @@ def _places(widths: Sequence[float], room: float) -> list[tuple[float, int]]:
         if along and along + MARK + width > room:
             along, line = 0.0, line + 1
         places.append((along, line))
-        along += MARK + width + GAP
+        along += MARK + width + ENTRY_GAP_PIXELS
     return places
 
 
@@ -85,7 +87,7 @@ def _entries(canvas: Canvas, run: RecordedRun, path: Path, theme: Theme) -> list
     entries: list[Any] = [
         (bar(colour), f"{name} {share:.0%}")
         for colour, (name, share) in zip(path.colours, path.shares.items(), strict=False)
-        if share >= LEAST
+        if share >= MIN_CONTROL_SHARE
     ] or [(ramp, f"path, 0 to {seconds:.0f} s")]
     entries.append((lambda x, y: canvas.disc(x + 9, y, 4.5, theme.ink, width=1.6), "start"))
     for thing, colour in zip(run.contents, thing_colours(run.contents, theme), strict=True):

@@ -13,14 +13,14 @@ from mindlang.pictures.canvas import Canvas, Image, View, blank, pasted, text_wi
 from mindlang.pictures.hierarchy_panel import Panel
 from mindlang.pictures.path import Path, draw_cross
 from mindlang.pictures.recorded_run import RecordedRun
-from mindlang.pictures.scene import WALL, draw_floor, draw_items, draw_names, draw_robot, draw_zones
+from mindlang.pictures.scene import WALL_UNITS, draw_floor, draw_items, draw_names, draw_robot, draw_zones
 from mindlang.pictures.theme import NIGHT
 
 WIDTH, HEIGHT = 1280, 720
-MINUTE = 60.0  # seconds that a whole run lasts, sped up
-WINDOW = 84.0  # units of a plain scene that are seen around the robot
-TRAIL = 8.0  # seconds of the film for which the path stays
-FLASH = 0.7  # seconds of the film for which a collision does
+FILM_SECONDS = 60.0  # that a whole run lasts, sped up
+WINDOW_UNITS = 84.0  # of a plain scene that are seen around the robot
+TRAIL_SECONDS = 8.0  # of the film for which the path stays
+COLLISION_SECONDS = 0.7  # of the film for which a collision does
 
 
 class FilmError(Exception):
@@ -40,7 +40,7 @@ class Film:
     def of(cls, run: RecordedRun, found: dict[str, Any], speed: float | None) -> "Film":
         """A film; without a speed one that shows the whole of the task's time in a minute, if that is not slower."""
         long = run.task.ticks * run.graph.tick
-        return cls(run, found, speed or max(1.0, round(long / MINUTE, 1)))
+        return cls(run, found, speed or max(1.0, round(long / FILM_SECONDS, 1)))
 
     @property
     def step(self) -> float:
@@ -85,7 +85,7 @@ class Film:
         return Path.of(self.run, NIGHT)
 
     def _world(self, trail: Path, tick: int) -> Image:
-        run, past = self.run, round(TRAIL * self.FPS * self.step)
+        run, past = self.run, round(TRAIL_SECONDS * self.FPS * self.step)
         canvas = Canvas(blank(HEIGHT, HEIGHT, self._ground), self.view(tick))
         draw_floor(canvas, run, NIGHT)
         draw_zones(canvas, run, NIGHT, tick)
@@ -93,7 +93,7 @@ class Film:
         draw_items(canvas, run, NIGHT, tick)
         draw_robot(canvas, run, NIGHT, tick)
         draw_names(canvas, run, NIGHT, tick)
-        recent = tick - FLASH * self.FPS * self.step
+        recent = tick - COLLISION_SECONDS * self.FPS * self.step
         for x, y, _ in run.body[run.collisions[(run.collisions > recent) & (run.collisions <= tick)]]:
             draw_cross(canvas, x, y, 9 / canvas.view.scale, NIGHT)
         return canvas.image
@@ -101,7 +101,7 @@ class Film:
     def view(self, tick: int) -> View:
         """What is seen of the world in a tick: the whole arena; of a plain scene what is around the robot."""
         scene = self.run.task.scene
-        half = scene.size / 2 + 2 * WALL if isinstance(scene, Arena) else WINDOW / 2
+        half = scene.size / 2 + 2 * WALL_UNITS if isinstance(scene, Arena) else WINDOW_UNITS / 2
         middle = self.run.body[tick, :2] * (not isinstance(scene, Arena))
         return View.around(middle - half, middle + half, HEIGHT, HEIGHT)
 

@@ -7,7 +7,7 @@ from statistics import fmean
 
 from mindlang.pictures.influence_flow import Link, Sink
 
-SWEEPS = 8
+CROSSING_SWEEPS = 8
 WIDEST, HIGHEST = 210.0, 50.0  # pixels of a box
 PASSAGE = 0.3  # of a box's room: that of a link which passes a row
 
@@ -74,7 +74,7 @@ def _ordered(rows: list[list[Sink]], routes: Iterable[Sequence[Sink]]) -> list[l
         near[upper].append(lower)
         near[lower].append(upper)
     at = {sink: (number + 0.5) / len(row) for row in rows for number, sink in enumerate(row)}
-    for _ in range(SWEEPS):
+    for _ in range(CROSSING_SWEEPS):
         for row in (*rows, *reversed(rows)):
             row.sort(key=lambda sink: fmean([at[other] for other in near[sink]] or [at[sink]]))
             at |= {sink: (number + 0.5) / len(row) for number, sink in enumerate(row)}

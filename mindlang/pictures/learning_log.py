@@ -13,13 +13,13 @@ from pathlib import Path
 from mindrun.regular_files import read_whole
 from mindrun.strict_json import is_whole
 from mindrun.train.errors import NotFoundError, RunError
-from mindrun.train.progress import COUNTED, LINES, TABLE, read
+from mindrun.train.progress import COUNT_COLUMNS, LINES, TABLE, read
 from mindrun.train.run_folder import MANIFEST, open_run
 
 TABLES = (".csv", ".csv.gz")
 HINT = f"a run is a folder like runs/GoToObject/20260714T120000Z-1, a table ends in {' or '.join(TABLES)}"
 SCORES = ("best", "reevaluated", "verdict")
-LARGEST = 64 << 20  # bytes of a table
+MAX_TABLE_BYTES = 64 << 20
 NEEDED = ("attempt", "generation", "best")
 
 Records = Sequence[Mapping[str, float | None]]
@@ -95,11 +95,11 @@ def _from_table(path: Path) -> Curve:
 
 def _text(path: Path) -> str:
     """The text of a table, which may be packed; RunError where there is more of it than any run writes."""
-    data = read_whole(path, LARGEST)
+    data = read_whole(path, MAX_TABLE_BYTES)
     if path.suffix == ".gz":
-        data = gzip.GzipFile(fileobj=BytesIO(data)).read(LARGEST + 1)
-    if len(data) > LARGEST:
-        raise RunError(f"{path} is larger than {LARGEST >> 20} MiB, and not the log of a run")
+        data = gzip.GzipFile(fileobj=BytesIO(data)).read(MAX_TABLE_BYTES + 1)
+    if len(data) > MAX_TABLE_BYTES:
+        raise RunError(f"{path} is larger than {MAX_TABLE_BYTES >> 20} MiB, and not the log of a run")
     return data.decode("utf-8-sig")
 
 
@@ -108,7 +108,7 @@ def _records(path: Path, header: list[str], rows: list[list[str]]) -> Iterator[d
         try:
             cells = dict(zip(header, row, strict=True))
             scores = {name: float(cells[name]) if cells[name] else None for name in SCORES if name in cells}
-            counts = {name: int(cells[name]) for name in COUNTED}
+            counts = {name: int(cells[name]) for name in COUNT_COLUMNS}
             if not all(map(is_whole, counts.values())):
                 raise ValueError("it has no number")
             yield counts | scores

@@ -12,8 +12,8 @@ from mindlang.pictures.recorded_run import RecordedRun
 from mindlang.pictures.scene import thing_colours
 from mindlang.pictures.theme import Colour, Theme, mixed
 
-STEPS = 64  # shades of a path by time
-LEAST = 0.005  # of the run: a skill that was in control for less does not count
+TIME_SHADES = 64  # shades of a path by time
+MIN_CONTROL_SHARE = 0.005  # of the run: a skill that was in control for less does not count
 MOST_NUMBERED = 40
 
 
@@ -36,11 +36,11 @@ class Path:
         places = run.body[:, :2]
         keys = run.in_control() if movers else np.zeros(run.ticks, np.int64)
         shares = np.bincount(keys, minlength=len(movers)) / max(1, run.ticks)
-        if np.count_nonzero(shares >= LEAST) > 1:
+        if np.count_nonzero(shares >= MIN_CONTROL_SHARE) > 1:
             colours = [theme.skills[i % len(theme.skills)] for i in range(len(movers))]
             return cls(places, keys, colours, dict(zip(movers, shares.tolist(), strict=True)))
-        keys = np.arange(run.ticks) * STEPS // max(1, run.ticks)
-        return cls(places, keys, [mixed(theme.early, theme.late, i / STEPS) for i in range(STEPS)], {})
+        keys = np.arange(run.ticks) * TIME_SHADES // max(1, run.ticks)
+        return cls(places, keys, [mixed(theme.early, theme.late, i / TIME_SHADES) for i in range(TIME_SHADES)], {})
 
     def draw(self, canvas: Canvas, first: int, last: int, width: float) -> None:
         """The path from tick `first` to tick `last`."""

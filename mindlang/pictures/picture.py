@@ -10,36 +10,36 @@ from mindlang.pictures.canvas import Canvas, Image, View, blank, pasted
 from mindlang.pictures.caption import draw_legend, draw_scale, draw_title
 from mindlang.pictures.path import Path, draw_collisions, draw_former, draw_start
 from mindlang.pictures.recorded_run import RecordedRun
-from mindlang.pictures.scene import WALL, draw_floor, draw_items, draw_names, draw_robot, draw_zones
+from mindlang.pictures.scene import WALL_UNITS, draw_floor, draw_items, draw_names, draw_robot, draw_zones
 from mindlang.pictures.theme import PAPER
 
-SIZE = 1000
+PICTURE_PIXELS = 1000
 ABOVE, BELOW, SIDE = 96, 74, 28  # what stands around the world
-FINE = 2  # drawn so many times larger, then averaged
-MARGIN = 6.0  # units around a plain scene
+SUPERSAMPLING = 2  # drawn so many times larger, then averaged
+PLAIN_MARGIN_UNITS = 6.0  # around a plain scene
 
 
 def picture(run: RecordedRun, found: dict[str, Any]) -> Image:
     """The picture of a run with the outcome `found`."""
-    page = blank(FINE * SIZE, FINE * SIZE, PAPER.page)
-    wide, high = FINE * (SIZE - 2 * SIDE), FINE * (SIZE - ABOVE - BELOW)
+    page = blank(SUPERSAMPLING * PICTURE_PIXELS, SUPERSAMPLING * PICTURE_PIXELS, PAPER.page)
+    wide, high = SUPERSAMPLING * (PICTURE_PIXELS - 2 * SIDE), SUPERSAMPLING * (PICTURE_PIXELS - ABOVE - BELOW)
     view = view_of(run, wide, high)
-    pasted(page, _world(run, view, wide, high), FINE * SIDE, FINE * ABOVE)
-    canvas = Canvas(page, View(0.0, 0.0, FINE), pen=FINE, down=True)
-    draw_title(canvas, run, found, PAPER, SIDE, 34, SIZE - SIDE)
-    draw_legend(canvas, run, Path.of(run, PAPER), PAPER, SIDE, SIZE - 46, SIZE - SIDE - 170)
-    draw_scale(canvas, FINE / view.scale, PAPER, SIZE - SIDE, SIZE - 44)
-    return cv2.resize(page, (SIZE, SIZE), interpolation=cv2.INTER_AREA).astype(np.uint8)
+    pasted(page, _world(run, view, wide, high), SUPERSAMPLING * SIDE, SUPERSAMPLING * ABOVE)
+    canvas = Canvas(page, View(0.0, 0.0, SUPERSAMPLING), pen=SUPERSAMPLING, down=True)
+    draw_title(canvas, run, found, PAPER, SIDE, 34, PICTURE_PIXELS - SIDE)
+    draw_legend(canvas, run, Path.of(run, PAPER), PAPER, SIDE, PICTURE_PIXELS - 46, PICTURE_PIXELS - SIDE - 170)
+    draw_scale(canvas, SUPERSAMPLING / view.scale, PAPER, PICTURE_PIXELS - SIDE, PICTURE_PIXELS - 44)
+    return cv2.resize(page, (PICTURE_PIXELS, PICTURE_PIXELS), interpolation=cv2.INTER_AREA).astype(np.uint8)
 
 
 def view_of(run: RecordedRun, width: int, height: int) -> View:
     """The arena, or in a plain scene all that happened."""
     if isinstance(run.task.scene, Arena):
-        half = run.task.scene.size / 2 + WALL
+        half = run.task.scene.size / 2 + WALL_UNITS
         return View.around([-half, -half], [half, half], width, height)
     places = [run.body[:, :2], *(run.placements(i)[:, :2] for i in range(len(run.contents)))]
     seen = np.concatenate([*places, run.boxes[:, :2]])
-    return View.around(seen.min(axis=0) - MARGIN, seen.max(axis=0) + MARGIN, width, height)
+    return View.around(seen.min(axis=0) - PLAIN_MARGIN_UNITS, seen.max(axis=0) + PLAIN_MARGIN_UNITS, width, height)
 
 
 def png(image: Image) -> bytes:
@@ -52,7 +52,7 @@ def png(image: Image) -> bytes:
 def _world(run: RecordedRun, view: View, width: int, height: int) -> Image:
     is_plain = not isinstance(run.task.scene, Arena)
     image = blank(width, height, PAPER.floor if is_plain else PAPER.page)
-    canvas = Canvas(image, view, pen=FINE)
+    canvas = Canvas(image, view, pen=SUPERSAMPLING)
     draw_floor(canvas, run, PAPER)
     draw_former(canvas, run, PAPER)
     draw_zones(canvas, run, PAPER, run.ticks)

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from mindlang.run.setup import RunSetup
 
 Floats = NDArray[np.float64]
-JUMP = 0.5  # units: nothing moves that far in a tick but what reappears elsewhere
+REAPPEARANCE_UNITS = 0.5  # nothing moves that far in a tick but what reappears elsewhere
 
 
 @dataclass(frozen=True, slots=True)
@@ -64,7 +64,7 @@ class RecordedRun:
     def placements(self, thing: int) -> Floats:
         """Every place and size [n, 3] where a thing appeared; the claw that takes it up makes no new place."""
         track = self.things[:, thing]
-        jumps = (np.linalg.norm(np.diff(track[:, :2], axis=0), axis=1) > JUMP) & (self.held[1:] != thing)
+        jumps = (np.linalg.norm(np.diff(track[:, :2], axis=0), axis=1) > REAPPEARANCE_UNITS) & (self.held[1:] != thing)
         placed: Floats = track[np.concatenate([[True], jumps])]
         return placed
 

@@ -15,16 +15,16 @@ from mindlang.pictures.canvas import Canvas, square, text_width
 from mindlang.pictures.recorded_run import RecordedRun
 from mindlang.pictures.theme import Colour, Theme, mixed
 
-GRID = 10.0  # units
-WALL = 0.8
-NAME = 10.0  # pixels: the capitals of a thing's name
+GRID_UNITS = 10.0
+WALL_UNITS = 0.8
+NAME_PIXELS = 10.0  # the capitals of a thing's name
 
 
 def draw_floor(canvas: Canvas, run: RecordedRun, theme: Theme) -> None:
     """The floor with a line every ten units, the walls and the obstacles."""
     half = run.task.scene.size / 2 if isinstance(run.task.scene, Arena) else 0.0
     if half:
-        canvas.polygon(square(0, 0, half + WALL), theme.wall)
+        canvas.polygon(square(0, 0, half + WALL_UNITS), theme.wall)
         canvas.polygon(square(0, 0, half), theme.floor)
     _grid(canvas, theme, half)
     for x, y, size in run.boxes:
@@ -36,9 +36,9 @@ def _grid(canvas: Canvas, theme: Theme, half: float) -> None:
     view, (height, width) = canvas.view, canvas.image.shape[:2]
     left, right = (-half, half) if half else (view.left, view.left + width / view.scale)
     low, high = (-half, half) if half else (view.top - height / view.scale, view.top)
-    for x in np.arange(np.floor(left / GRID) * GRID + GRID, right - 1e-6, GRID):
+    for x in np.arange(np.floor(left / GRID_UNITS) * GRID_UNITS + GRID_UNITS, right - 1e-6, GRID_UNITS):
         canvas.line([(x, low), (x, high)], theme.grid)
-    for y in np.arange(np.floor(low / GRID) * GRID + GRID, high - 1e-6, GRID):
+    for y in np.arange(np.floor(low / GRID_UNITS) * GRID_UNITS + GRID_UNITS, high - 1e-6, GRID_UNITS):
         canvas.line([(left, y), (right, y)], theme.grid)
 
 
@@ -76,17 +76,17 @@ def draw_names(canvas: Canvas, run: RecordedRun, theme: Theme, tick: int) -> Non
     (height, width), (left, top) = canvas.image.shape[:2], (canvas.view.left, canvas.view.top)
     right, low = left + width * pixel, top - height * pixel
     robot, radius = run.body[tick, :2], run.graph.body.size / 2
-    high, gap = NAME * canvas.pen * pixel, 4 * canvas.pen * pixel
+    high, gap = NAME_PIXELS * canvas.pen * pixel, 4 * canvas.pen * pixel
     for thing, _, (x, y, size) in _each(run, theme, tick):
         if not (left < x < right and low < y < top):
             continue
-        half = text_width(thing.name, NAME * canvas.pen) * pixel / 2
+        half = text_width(thing.name, NAME_PIXELS * canvas.pen) * pixel / 2
         middle = min(max(x, left + half), right - half)
         line = y - size / 2 - gap - high
         is_covered = abs(robot[0] - middle) < half + radius and abs(robot[1] - line - high / 2) < high / 2 + radius
         if is_covered or line < low + gap:
             line = y + size / 2 + gap
-        canvas.text(middle, line, thing.name, NAME, theme.ink, align="centre", halo=theme.floor)
+        canvas.text(middle, line, thing.name, NAME_PIXELS, theme.ink, align="centre", halo=theme.floor)
 
 
 def draw_robot(canvas: Canvas, run: RecordedRun, theme: Theme, tick: int) -> None:

@@ -16,9 +16,9 @@ from numpy.typing import NDArray
 from mindlang.proofs.batch import values
 from mindlang.proofs.interval import Boxes, Sent, Singles, is_known, perceptron, sent
 
-CLOSE = 1e-3  # a bound this near to a value that was seen is sharp enough, but for 0 and 1
-AT_ONCE = 256  # boxes that are cut in one round
-TRIED = 2048  # readings, half of them corners of the box
+SHARP_ENOUGH = 1e-3  # a bound this near to a value that was seen is sharp enough, but for 0 and 1
+BOXES_PER_ROUND = 256  # boxes that are cut in one round
+SAMPLED_READINGS = 2048  # readings, half of them corners of the box
 
 
 @dataclass(frozen=True, slots=True)
@@ -81,7 +81,7 @@ def by_itself(skill: Skill) -> Skill:
 
 def _seen(skill: Skill, weights: Weights | None) -> tuple[Singles, Singles]:
     """The least and the most that each edge sends for readings that are tried; 0 and 1 where it cannot be known."""
-    tried = readings_to_try(len(skill.inputs), TRIED)
+    tried = readings_to_try(len(skill.inputs), SAMPLED_READINGS)
     known = is_known(skill, weights)
     found = values(skill if known else _without_function(skill), weights, tried)
     sound = np.isfinite(found)
@@ -115,16 +115,16 @@ def _cut(skill: Skill, weights: Weights | None, low: Singles, high: Singles, mos
         if not len(excess) or made >= most or sides == 0:
             return [pool for pool in (*done, open_) if len(pool.sent.low)]
         order = np.argsort(-excess, kind="stable")
-        cut = halves(open_[order[:AT_ONCE]].boxes, sway)
+        cut = halves(open_[order[:BOXES_PER_ROUND]].boxes, sway)
         made += len(cut.low)
-        open_ = _joined(open_[order[AT_ONCE:]], Pool(cut, sent(skill, weights, cut)))
+        open_ = _joined(open_[order[BOXES_PER_ROUND:]], Pool(cut, sent(skill, weights, cut)))
 
 
 def _excess(found: Sent, low: Singles, high: Singles) -> Singles:
     """How much farther than what was seen the bounds of each box reach, over all edges; 0 where that is close."""
     below, above = np.maximum(low - found.low, 0), np.maximum(found.high - high, 0)
-    below[(below <= CLOSE) & (low < 1)] = 0  # "always 1" and "always 0" are to be proved exactly
-    above[(above <= CLOSE) & (high > 0)] = 0
+    below[(below <= SHARP_ENOUGH) & (low < 1)] = 0  # "always 1" and "always 0" are to be proved exactly
+    above[(above <= SHARP_ENOUGH) & (high > 0)] = 0
     farthest: Singles = np.maximum(below, above).max(axis=1)
     return farthest
 

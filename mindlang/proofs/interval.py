@@ -2,7 +2,7 @@
 
 Rounding to nearest is monotone: where a ≤ b, the rounded a + x is at most the rounded b + x, and so with − × ÷. A bound
 that is computed by the engine's operations, in its precision and its order, is therefore a bound of what the engine
-computes, rounding included. Only the sigmoid, a quotient, needs a margin: `DIP`.
+computes, rounding included. Only the sigmoid, a quotient, needs a margin: `SIGMOID_ERROR`.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ Singles = NDArray[np.float32]
 Doubles = NDArray[np.float64]
 
 # More than the rounded sigmoid falls while its argument rises: 3.58e-7, measured over all float32 (docs/proofs.md).
-DIP = np.float32(5e-7)
+SIGMOID_ERROR = np.float32(5e-7)
 
 
 @dataclass(frozen=True, slots=True)
@@ -85,7 +85,7 @@ def perceive(layer_matrices: Sequence[Singles], low: Singles, high: Singles) -> 
     *hidden, last = layer_matrices
     for matrix in hidden:
         low, high = _dense(matrix, low, high)
-        low, high = np.maximum(sigmoid(low) - DIP, 0), np.minimum(sigmoid(high) + DIP, 1)
+        low, high = np.maximum(sigmoid(low) - SIGMOID_ERROR, 0), np.minimum(sigmoid(high) + SIGMOID_ERROR, 1)
     return _dense(last, low, high)
 
 

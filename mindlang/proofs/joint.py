@@ -19,7 +19,7 @@ from mindlang.proofs.interval import Boxes, Sent, Singles, sent
 from mindlang.proofs.reach import Bound, Flow, Reach, as_sent, flow
 
 BOXES, FEWEST, WORK = 8192, 16, 100_000  # boxes, and boxes times skills
-AT_ONCE = 256
+BOXES_PER_ROUND = 256
 
 
 def together(graph: Graph, weights: Mapping[str, Weights], found: Reach, can_be_zero: Sequence[bool]) -> Reach:
@@ -40,7 +40,7 @@ def _least(graph: Graph, weights: Mapping[str, Weights], found: Reach, actuator:
     waiting = Boxes(np.zeros((1, graph.width), np.float32), np.ones((1, graph.width), np.float32))
     least, made = np.inf, 1
     while len(waiting.low):
-        now, waiting = _part(waiting, slice(AT_ONCE)), _part(waiting, slice(AT_ONCE, None))
+        now, waiting = _part(waiting, slice(BOXES_PER_ROUND)), _part(waiting, slice(BOXES_PER_ROUND, None))
         low = _flow(graph, weights, skills, found, now).total_low[:, actuator]
         is_open = low <= 0
         made += 2 * int(is_open.sum())

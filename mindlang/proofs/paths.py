@@ -16,7 +16,7 @@ from mindrun.weights import reachable
 
 from mindlang.proofs.interval import Boxes, evaluate
 
-MANY = 10**15  # stands for itself and for more
+MAX_COUNTED_PATHS = 10**15  # stands for itself and for more
 
 
 @dataclass(frozen=True, slots=True)
@@ -83,7 +83,7 @@ def _counts(found: Ways, actuators: int) -> dict[int, list[int]]:
     for skill in reversed(found.skills):
         own = [int(actuator in found.drives[skill]) for actuator in range(actuators)]
         for way in found.onward[skill]:
-            own = [min(MANY, a + b) for a, b in zip(own, counts[way.target], strict=True)]
+            own = [min(MAX_COUNTED_PATHS, a + b) for a, b in zip(own, counts[way.target], strict=True)]
         counts[skill] = own
     return counts
 

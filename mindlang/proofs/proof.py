@@ -14,10 +14,10 @@ from mindlang.proofs.interval import is_known
 from mindlang.proofs.joint import together
 from mindlang.proofs.leak import Leak, leaks
 from mindlang.proofs.paths import Paths, paths, ways
-from mindlang.proofs.reach import TINY, Driven, Reach, reach
+from mindlang.proofs.reach import MIN_INFLUENCE, Driven, Reach, reach
 from mindlang.proofs.silence_search import Tried, try_out
 
-LISTED = 10  # paths
+MAX_LISTED_PATHS = 10
 DECLARATION = "the declaration alone"
 
 
@@ -55,7 +55,7 @@ class OfActuator:
     def is_rough(self) -> bool:
         """Whether the bounds of the command leave out influence so small that rounding decides."""
         bound = self.driven.command
-        return bound is not None and self.driven.total.low < TINY and not {bound.low, bound.high} <= {0.0, 1.0}
+        return bound is not None and self.driven.total.low < MIN_INFLUENCE and not {bound.low, bound.high} <= {0.0, 1.0}
 
 
 @dataclass(frozen=True, slots=True)
@@ -90,7 +90,7 @@ def prove(graph: Graph, weights: Mapping[str, Weights], delta: float) -> Proof:
         bounds,
         together(graph, weights, bounds, [bool(seen and seen.readings is not None) for seen in tried]),
     )
-    listed, leaking = paths(found, count, LISTED), leaks(found, count, delta)
+    listed, leaking = paths(found, count, MAX_LISTED_PATHS), leaks(found, count, delta)
     rests = _Rests(graph, weights, bounds)
     below = reachable(graph, graph.master)
     names = {skill.name for skill in below}

@@ -18,8 +18,8 @@ from mindlang.proofs.branch_and_bound import Range, ranges
 from mindlang.proofs.interval import Sent, Singles
 
 BOXES, ALL_BOXES = 20_000, 500_000  # for one skill, for all of them
-MARGIN = 2.0**-22
-TINY = 1e-30  # below this, influence is so small that rounding alone may decide a command
+ROUNDING_MARGIN = 2.0**-22
+MIN_INFLUENCE = 1e-30  # below this, influence is so small that rounding alone may decide a command
 
 
 @dataclass(frozen=True, slots=True)
@@ -115,6 +115,6 @@ def _mean(drivers: Sequence[Range]) -> Bound | None:
     """The bounds of a weighted mean. All 0 and all 1 stay what they are: 0/Σ and Σ/Σ round to 0 and 1."""
     if not drivers:
         return None
-    margin = MARGIN * (len(drivers) + 2)
+    margin = ROUNDING_MARGIN * (len(drivers) + 2)
     low, high = min(sends.low for sends in drivers), max(sends.high for sends in drivers)
     return Bound(low if low == 1 else low * (1 - margin), min(1.0, high * (1 + margin)))

@@ -11,12 +11,12 @@ from rich.text import Text
 from mindlang.compiler.diagnostic import listed
 from mindlang.proofs.data import Hashes, rests_on, run_of
 from mindlang.proofs.leak import Leak
-from mindlang.proofs.paths import MANY
+from mindlang.proofs.paths import MAX_COUNTED_PATHS
 from mindlang.proofs.proof import DECLARATION, OfActuator, Proof
 from mindlang.proofs.recorded import Recorded
 
-NAMED = 3  # skills in a list, above which it says how many
-STEPS = 6  # skills of a path
+MAX_NAMED_SKILLS = 3  # skills in a list, above which it says how many
+MAX_PATH_SKILLS = 6  # skills of a path
 MEANS = {
     "can be": "keeps still: there are readings for which it has influence, and passes none on",
     "not excluded": "not ruled out: not proved to be impossible, and seen for no readings that were tried",
@@ -57,7 +57,7 @@ def _table(*columns: str) -> Table:
 def _leaks(proof: Proof) -> Table:
     table = _table("actuator", "paths", "leaks take", "worst path", "most of it leaks from")
     for found in proof.actuators:
-        count = f"{found.paths.count:,}" if found.paths.count < MANY else "10^15 or more"
+        count = f"{found.paths.count:,}" if found.paths.count < MAX_COUNTED_PATHS else "10^15 or more"
         table.add_row(Text(found.actuator.name), count, *map(Text, _leak(found.leak)))
     return table
 
@@ -66,7 +66,11 @@ def _leak(leak: Leak | None) -> tuple[str, str, str]:
     if leak is None:
         return "", "none", ""
     names = [level.skill for level in leak.levels]
-    path = names if len(names) <= STEPS else [*names[: STEPS // 2], "…", *names[-STEPS // 2 :]]
+    path = (
+        names
+        if len(names) <= MAX_PATH_SKILLS
+        else [*names[: MAX_PATH_SKILLS // 2], "…", *names[-MAX_PATH_SKILLS // 2 :]]
+    )
     worst = leak.worst
     cause = "" if worst is None else f"{worst.skill} {worst.share:.1%}, into {some(worst.into)}"
     return f"{leak.share:.1%}", " → ".join(path), cause
@@ -105,7 +109,11 @@ def _legend(proof: Proof) -> Iterator[Text]:
 
 def _rests(found: OfActuator, hashes: Hashes) -> str:
     names = list(hashes) if found.neutral == "can be" else list(found.weights)
-    few = listed(rests_on(names, hashes), "and") if len(names) <= NAMED - 1 else f"the weights of {len(names)} skills"
+    few = (
+        listed(rests_on(names, hashes), "and")
+        if len(names) <= MAX_NAMED_SKILLS - 1
+        else f"the weights of {len(names)} skills"
+    )
     return few + ", where Σ influence is 0 or at least 1e-30" * found.is_rough
 
 
@@ -152,8 +160,8 @@ def _line_of(names: Sequence[str], why: str) -> Text:
 def some(names: Iterable[str]) -> str:
     """Names, one at least, as a sentence lists them; of many the first, and how many more."""
     found = list(names)
-    if len(found) > NAMED + 1:
-        found = [*found[:NAMED], f"{len(found) - NAMED:,} more"]
+    if len(found) > MAX_NAMED_SKILLS + 1:
+        found = [*found[:MAX_NAMED_SKILLS], f"{len(found) - MAX_NAMED_SKILLS:,} more"]
     return listed(found, "and")
 
 

@@ -15,7 +15,7 @@ from mindlang.server.procedures import functions
 from mindlang.server.sentence import Line
 from mindlang.server.view import View, declaration_at
 
-MOST = 200  # files that are offered
+MAX_OFFERED_FILES = 200  # that are offered
 
 _PARTIAL = re.compile(r"(?:[A-Z]\w*(?:\+(?:[A-Z]\w*)?)*|[a-z_]\w*(?:\.\w*)*)?\Z")
 _PIECE = re.compile(r'"[^"]*"|[A-Za-z_][\w.]*(?:\+[A-Z]\w*)*|[0-9./]+|%|[<>]=?|\S')
@@ -81,4 +81,4 @@ def _header(line: Line, noun: str, rest: Sequence[str]) -> list[Offer]:
 def _paths(path: Path) -> list[Offer]:
     """The files that a file can use: those beside it and below."""
     found = (other for other in below(path.parent) if other != path)
-    return [Offer(other.relative_to(path.parent).as_posix(), "file") for other in islice(found, MOST)]
+    return [Offer(other.relative_to(path.parent).as_posix(), "file") for other in islice(found, MAX_OFFERED_FILES)]

@@ -5,7 +5,7 @@ from collections.abc import Callable, Mapping, Sequence
 from mindrun.registry import kinds
 
 from mindlang.compiler.syntax import Drives, Influences, Reads
-from mindlang.editing.references import DRIVEN, READ
+from mindlang.editing.references import DRIVABLE_NOUNS, READABLE_NOUNS
 from mindlang.server import offers, rewarding
 from mindlang.server.offers import NUMBER, Offer, arguments_of, kinds_of, names, units, words
 from mindlang.server.sentence import Line
@@ -14,11 +14,11 @@ Answer = Callable[[Line, Sequence[str]], list[Offer]]
 
 
 def _reads(line: Line, rest: Sequence[str]) -> list[Offer]:
-    return [] if rest else names(line.view, *READ, but=line.said(Reads))
+    return [] if rest else names(line.view, *READABLE_NOUNS, but=line.said(Reads))
 
 
 def _drives(line: Line, rest: Sequence[str]) -> list[Offer]:
-    return _at(line, rest) if rest else names(line.view, *DRIVEN, but=line.said(Drives))
+    return _at(line, rest) if rest else names(line.view, *DRIVABLE_NOUNS, but=line.said(Drives))
 
 
 def _influences(line: Line, rest: Sequence[str]) -> list[Offer]:
@@ -32,7 +32,7 @@ def _at(line: Line, rest: Sequence[str]) -> list[Offer]:
         return words("at")
     if rest[-1] == "at" or rest[-1] in "+-*/(":
         read = line.said(Reads)
-        return [offer for offer in names(line.view, *READ) if offer.label in read]
+        return [offer for offer in names(line.view, *READABLE_NOUNS) if offer.label in read]
     return []
 
 

@@ -5,14 +5,14 @@ import re
 from collections.abc import Iterator
 from typing import BinaryIO
 
-MOST = 64 << 20  # bytes of a message
+MAX_MESSAGE_BYTES = 64 << 20
 LINE, LINES = 1 << 16, 100  # bytes of a header, and how many there may be
-PART = 1 << 20  # bytes passed over at once
+SKIPPED_BYTES = 1 << 20  # passed over at once
 
 _LENGTH = re.compile(rb"content-length:[ \t]*([-+]?[0-9]{1,18})[ \t]*\r?\n?\Z", re.IGNORECASE)
 HEADLESS = "A message begins with Content-Length: and the number of its bytes, which is above 0."
-LARGE = f"A message has at most {MOST >> 20} MiB."
-REFUSALS = (HEADLESS, LARGE)
+TOO_LARGE = f"A message has at most {MAX_MESSAGE_BYTES >> 20} MiB."
+REFUSALS = (HEADLESS, TOO_LARGE)
 
 
 class Frames:
@@ -43,9 +43,9 @@ class Frames:
 def bodies(stream: BinaryIO) -> Iterator[bytes]:
     """The messages of a stream, and a refusal for each that is none."""
     while (length := _length(stream)) is not None:
-        if not 0 < length <= MOST:
+        if not 0 < length <= MAX_MESSAGE_BYTES:
             _pass(stream, length)
-            yield json.dumps(LARGE if length > MOST else HEADLESS).encode()
+            yield json.dumps(TOO_LARGE if length > MAX_MESSAGE_BYTES else HEADLESS).encode()
         elif len(body := stream.read(length)) == length:
             yield body
 
@@ -66,5 +66,5 @@ def _length(stream: BinaryIO) -> int | None:
 
 def _pass(stream: BinaryIO, length: int) -> None:
     """Pass over a message."""
-    while length > 0 and (part := stream.read(min(length, PART))):
+    while length > 0 and (part := stream.read(min(length, SKIPPED_BYTES))):
         length -= len(part)

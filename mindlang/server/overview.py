@@ -12,8 +12,8 @@ from mindlang.file_search import as_many, below
 from mindlang.server.navigating import Symbol, symbols
 from mindlang.server.workspace import Workspace
 
-MOST = 500  # symbols that are found
-KNOWN = 1000  # files whose symbols are remembered
+MAX_SYMBOLS = 500  # that are found
+CACHED_FILES = 1000  # files whose symbols are remembered
 
 
 def everything(workspace: Workspace, folders: Iterable[Path], query: str) -> list[Symbol]:
@@ -21,10 +21,10 @@ def everything(workspace: Workspace, folders: Iterable[Path], query: str) -> lis
     paths = dict.fromkeys(chain(workspace.texts, (path for folder in folders for path in below(folder))))
     files = as_many((path, workspace.text(path)) for path in paths)
     found = (symbol for path, text in files for symbol in _declared(path, text))
-    return list(islice((symbol for symbol in found if _fits(query.lower(), symbol.name.lower())), MOST))
+    return list(islice((symbol for symbol in found if _fits(query.lower(), symbol.name.lower())), MAX_SYMBOLS))
 
 
-@lru_cache(KNOWN)
+@lru_cache(CACHED_FILES)
 def _declared(path: Path, text: str) -> tuple[Symbol, ...]:
     return tuple(symbols(parse(Source(str(path), text, path.parent), Findings())))
 

@@ -5,7 +5,7 @@ from bisect import bisect_right
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
 
-RULERS = 16  # of texts that are remembered
+CACHED_RULERS = 16  # of texts that are remembered
 _LINE_END = re.compile(r"\r\n|\n|\r")
 
 
@@ -66,7 +66,7 @@ class Ruler:
         return low
 
 
-@lru_cache(RULERS)
+@lru_cache(CACHED_RULERS)
 def ruler(text: str, encoding: str) -> Ruler:
     """The ruler of a text."""
     return Ruler(text, encoding)

@@ -5,11 +5,11 @@ from collections.abc import Sequence
 from mindrun.registry import kinds
 
 from mindlang.compiler.syntax import Declaration
-from mindlang.editing.references import READ
+from mindlang.editing.references import READABLE_NOUNS
 from mindlang.server.offers import Offer, arguments_of, kinds_of, names, said, words
 from mindlang.server.view import View
 
-OPEN = ("+", "-", "*", "/", "(", "<", ">", "<=", ">=", "when")
+UNFINISHED_WORDS = ("+", "-", "*", "/", "(", "<", ">", "<=", ">=", "when")
 
 
 def offered(view: View, task: Declaration | None, rest: Sequence[str]) -> list[Offer]:
@@ -24,7 +24,7 @@ def offered(view: View, task: Declaration | None, rest: Sequence[str]) -> list[O
         case [*_, "each"] | [*_, "each", _]:
             return words("in") if rest[-1] != "each" else []
         case [*_, "each", _, "in"]:
-            return names(view, *READ)
+            return names(view, *READABLE_NOUNS)
         case [*_, "each", _, "in", _]:
             return words("when")
         case [*_, "per", "tick"]:
@@ -34,14 +34,14 @@ def offered(view: View, task: Declaration | None, rest: Sequence[str]) -> list[O
     if "on" in rest:
         kind, *arguments = rest[rest.index("on") + 1 :]
         return [*arguments_of(view, "event", kind, arguments, task), *words("when")]
-    joints = words("per tick", "on") if rest and rest[-1] not in OPEN and not _waits(rest) else []
+    joints = words("per tick", "on") if rest and rest[-1] not in UNFINISHED_WORDS and not _waits(rest) else []
     return [*_term(view, task, rest), *joints]
 
 
 def _term(view: View, task: Declaration | None, rest: Sequence[str]) -> list[Offer]:
     """A reading or a measure, or what the measure that was begun still needs."""
-    if not rest or rest[-1] in OPEN:
-        return [*names(view, *READ), *kinds_of("measure")]
+    if not rest or rest[-1] in UNFINISHED_WORDS:
+        return [*names(view, *READABLE_NOUNS), *kinds_of("measure")]
     begun = _begun(rest)
     return arguments_of(view, "measure", begun[0], begun[1:], task) if begun else []
 
@@ -49,7 +49,7 @@ def _term(view: View, task: Declaration | None, rest: Sequence[str]) -> list[Off
 def _begun(rest: Sequence[str]) -> Sequence[str]:
     """The measure that was begun last, with its arguments; nothing where it is over."""
     begun = max((place for place, word in enumerate(rest) if word in kinds("measure")), default=len(rest))
-    return () if any(word in OPEN for word in rest[begun:]) else rest[begun:]
+    return () if any(word in UNFINISHED_WORDS for word in rest[begun:]) else rest[begun:]
 
 
 def _waits(rest: Sequence[str]) -> bool:

@@ -14,8 +14,8 @@ from mindlang.server.changing import Outcome, perform
 from mindlang.server.protocol import NO_JSON, MindProtocol
 from mindlang.server.session import Session
 
-PAUSE = 0.15  # seconds without typing, after which a text is checked
-FAILED = -32803  # RequestFailed
+TYPING_PAUSE_SECONDS = 0.15  # seconds without typing, after which a text is checked
+REQUEST_FAILED = -32803  # RequestFailed
 
 
 class MindServer(LanguageServer):
@@ -31,7 +31,7 @@ class MindServer(LanguageServer):
         """Check what is open when the user pauses."""
         if self._due:
             self._due.cancel()
-        self._due = asyncio.get_running_loop().call_later(PAUSE, self.check)
+        self._due = asyncio.get_running_loop().call_later(TYPING_PAUSE_SECONDS, self.check)
 
     def check(self) -> None:
         """Say what is new about the open files."""
@@ -83,4 +83,4 @@ class MindServer(LanguageServer):
 
 def failed(error: MindError) -> JsonRpcException:
     """A request that cannot be answered, with the reason in the user's words."""
-    return JsonRpcException(f"{error} {error.hint}".strip(), FAILED)
+    return JsonRpcException(f"{error} {error.hint}".strip(), REQUEST_FAILED)

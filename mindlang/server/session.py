@@ -14,8 +14,8 @@ from mindlang.server.view import View
 from mindlang.server.workspace import Workspace
 
 Report = tuple[int | None, list[types.Diagnostic]]
-MOST = 8  # edits whose locks are looked after
-TOLD = 1000  # findings in a file
+MAX_PENDING_EDITS = 8  # edits whose locks are looked after
+MAX_PUBLISHED_DIAGNOSTICS = 1000  # findings in a file
 
 
 @dataclass
@@ -68,7 +68,7 @@ class Session:
     def follow(self, following: PendingRename | None) -> None:
         """Let locks follow an edit once its files are saved."""
         if following:
-            self.following = [*self.following, following][-MOST:]
+            self.following = [*self.following, following][-MAX_PENDING_EDITS:]
 
     def saved(self, path: Path) -> Iterator[str]:
         """A file lies on the disk as it is; what there is to say of the locks that have followed."""
@@ -83,7 +83,9 @@ class Session:
 
 def _first(path: Path, found: list[Diagnostic]) -> list[Diagnostic]:
     """The first findings of a file, and how many more there are: nobody reads them all, and editors wait for them."""
-    if len(found) <= TOLD:
+    if len(found) <= MAX_PUBLISHED_DIAGNOSTICS:
         return found
-    more = Diagnostic("", f"There are {len(found) - TOLD} more findings in {path.name}.", severity="warning")
-    return [*found[:TOLD], more]
+    more = Diagnostic(
+        "", f"There are {len(found) - MAX_PUBLISHED_DIAGNOSTICS} more findings in {path.name}.", severity="warning"
+    )
+    return [*found[:MAX_PUBLISHED_DIAGNOSTICS], more]

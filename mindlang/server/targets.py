@@ -10,24 +10,24 @@ from mindlang.compiler.hierarchy import above, reached
 from mindlang.compiler.syntax import Declaration, Drives, Influences, Reads
 from mindlang.editing.project import Project
 
-MOST = 6  # of each sort; the command line and the editor's own dialogue know them all
+MAX_TARGETS = 6  # of each sort; the command line and the editor's own dialogue know them all
 
 
 def connectable(project: Project, declaration: Declaration) -> Iterator[tuple[str, str]]:
     """What a skill could read, drive or influence besides, with the verb."""
     said = {fact.name.text for fact in declaration.facts if isinstance(fact, Reads | Drives | Influences)}
     names = project.names
-    free = [name for name in names.of("sensor", "memory") if name not in said][:MOST]
+    free = [name for name in names.of("sensor", "memory") if name not in said][:MAX_TARGETS]
     yield from (("read", name) for name in free)
-    free = [name for name in names.of("actuator", "memory") if name not in said][:MOST]
+    free = [name for name in names.of("actuator", "memory") if name not in said][:MAX_TARGETS]
     yield from (("drive", name) for name in free)
-    yield from (("influence", name) for name in _below(project, declaration.header.name.text)[:MOST])
+    yield from (("influence", name) for name in _below(project, declaration.header.name.text)[:MAX_TARGETS])
 
 
 def not_yet_below(project: Project, skill: str) -> Iterator[tuple[str, list[str]]]:
     """Skills that another could influence besides, with what they read and it does not."""
     reads = {known.name: known.reads for known in project.mind.skills}
-    for other in _below(project, skill)[:MOST]:
+    for other in _below(project, skill)[:MAX_TARGETS]:
         yield other, [reading for reading in reads[other] if reading not in reads[skill]]
 
 
@@ -42,7 +42,7 @@ def replacements(project: Project, skill: str) -> list[str]:
         if name != skill
         and (name not in higher or (name in parents and not (parents - {name}) & reached(skills, name)))
     )
-    return [*islice(others, 8 * MOST)]
+    return [*islice(others, 8 * MAX_TARGETS)]
 
 
 def lesson(project: Project, skill: str) -> dict[str, Any]:

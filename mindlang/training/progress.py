@@ -16,8 +16,8 @@ from rich.text import Text
 
 from mindlang.number_format import duration, number, rate
 
-SECONDS = 5.0  # between two lines
-WIDE, NARROW = 20, 8  # columns of a bar, the space behind it with the narrowest
+LINE_SECONDS = 5.0  # between two lines
+MAX_BAR_COLUMNS, MIN_BAR_COLUMNS = 20, 8  # columns of a bar, the space behind it with the narrowest
 
 
 class Watcher(Protocol):
@@ -57,8 +57,8 @@ class ProgressText:
 
     def shorter(self) -> Iterator[tuple[str, int]]:
         """Ever shorter texts, each with the columns that its bar needs; how long it will take is in all of them."""
-        yield self.text(), NARROW
-        yield ", ".join((self.where, self.best, self.reevaluated, self.left)), NARROW
+        yield self.text(), MIN_BAR_COLUMNS
+        yield ", ".join((self.where, self.best, self.reevaluated, self.left)), MIN_BAR_COLUMNS
         yield ", ".join((self.where, self.best, self.reevaluated, self.left)), 0
         yield ", ".join((self.where, self.best, self.left)), 0
         yield ", ".join((self.where, self.left)), 0
@@ -124,7 +124,7 @@ class PrintedLines:
         text = self._pace.standing(record, done, now).text()
         if now >= self._due or done == self._pace.generations:
             self._console.print(f"{self._name}: {text}", markup=False)
-            self._due = now + SECONDS
+            self._due = now + LINE_SECONDS
 
     def close(self) -> None:
         """Nothing is open."""
@@ -166,9 +166,9 @@ class ProgressLine:
             room = options.max_width - len(self.name) - len(text) - 1
             if room >= least:
                 break
-        if room < NARROW:
+        if room < MIN_BAR_COLUMNS:
             yield Text(f"{self.name} {text}", overflow="fold")
             return
         line = Table.grid(padding=(0, 1, 0, 0))
-        line.add_row(self.name, ProgressBar(1.0, self.share, width=min(WIDE, room - 1)), text)
+        line.add_row(self.name, ProgressBar(1.0, self.share, width=min(MAX_BAR_COLUMNS, room - 1)), text)
         yield line

@@ -13,8 +13,8 @@ from mindlang.wiring.misread import misread, odd_line
 from mindlang.wiring.nodes import Items, Lost, Node, shortened, tell
 from mindlang.wiring.written import keyed, scalar, unmarked
 
-DEEP = 8
-MANY = 20_000  # values
+MAX_NESTING = 8
+MAX_VALUES = 20_000
 
 
 @dataclass(slots=True)
@@ -107,18 +107,18 @@ def _begin(event: yaml.DocumentStartEvent, reader: _Reader) -> bool:
 
 
 def _shallow(event: yaml.Event, reader: _Reader) -> bool:
-    if len(reader.open) <= DEEP + 1:
+    if len(reader.open) <= MAX_NESTING + 1:
         return True
     span = Span(reader.source, event.start_mark.index, event.start_mark.index + 1)
-    message = f"Lists and tables stand more than {DEEP} deep in one another here."
+    message = f"Lists and tables stand more than {MAX_NESTING} deep in one another here."
     tell(reader.findings, "yaml-deep", span, message, "Four are enough for any robot: look for a bracket too many.")
     return False
 
 
 def _few(event: yaml.Event, reader: _Reader) -> bool:
     reader.values += 1
-    if reader.values <= MANY:
+    if reader.values <= MAX_VALUES:
         return True
-    message = f"This file has more than {MANY} values."
+    message = f"This file has more than {MAX_VALUES} values."
     tell(reader.findings, "yaml-large", reader.span(event), message, "Write only what is wired to this robot.")
     return False

@@ -13,7 +13,7 @@ from mindlang.wiring.nodes import Items, Lost, Node, Scalar, Table, shortened, t
 from mindlang.wiring.options import Option
 
 AMOUNT = re.compile(r"(0x[0-9a-fA-F]{1,8}|-?[0-9]+(?:\.[0-9]+)?(?:/[0-9]+)?) *((?![0-9.,]).*)?")
-LONGEST = 200  # characters of a text
+MAX_TEXT_CHARACTERS = 200
 
 
 def value(option: Option, node: Node, findings: Findings) -> Any:
@@ -100,8 +100,8 @@ def text(node: Node, findings: Findings) -> str | None:
     """A text of one line."""
     if not isinstance(node, Scalar):
         _not_so(node, "not-a-word", "Here stands a text.", "Write it without brackets.", findings)
-    elif not node.text.strip() or len(node.text) > LONGEST or not node.text.isprintable():
-        hint = f"Write 1 to {LONGEST} characters that can be printed."
+    elif not node.text.strip() or len(node.text) > MAX_TEXT_CHARACTERS or not node.text.isprintable():
+        hint = f"Write 1 to {MAX_TEXT_CHARACTERS} characters that can be printed."
         tell(findings, "not-a-text", node.span, "This text cannot stand here.", hint)
     else:
         return node.text

@@ -17,7 +17,7 @@ from mindlang.wiring.section import actuators, sensors
 from mindlang.wiring.tables import is_empty, missing_key, table, unknown_key
 from mindlang.wiring.values import text
 
-LIMIT = 256 << 10  # bytes
+MAX_WIRING_BYTES = 256 << 10
 KEYS = {
     "robot": "paper, or another name",
     "sensors": "and below it each of them with its driver",
@@ -39,14 +39,14 @@ def load_wiring(path: Path, graph: Graph) -> Checked:
     try:
         if path.is_dir():
             raise ValueError("is a folder")
-        data = read_regular(path, LIMIT + 1)
-        if len(data) > LIMIT:
-            raise ValueError(f"is larger than {LIMIT >> 10} kB")
+        data = read_regular(path, MAX_WIRING_BYTES + 1)
+        if len(data) > MAX_WIRING_BYTES:
+            raise ValueError(f"is larger than {MAX_WIRING_BYTES >> 10} kB")
         return check_wiring(Source(str(path), decode(data), path.resolve().parent), graph)
     except (OSError, RuntimeError) as error:  # a loop of links is a RuntimeError
         return _unreadable(f"{path} cannot be read: {reason(error)}.", "Is the path right?")
     except ValueError as error:
-        return _unreadable(f"{path} {error}.", f"A robot.yaml is UTF-8 text of at most {LIMIT >> 10} kB.")
+        return _unreadable(f"{path} {error}.", f"A robot.yaml is UTF-8 text of at most {MAX_WIRING_BYTES >> 10} kB.")
 
 
 def _unreadable(message: str, hint: str) -> Checked:

@@ -13,7 +13,7 @@ from pathlib import Path
 from typing import Any
 
 from mindrun import VERSION, arguments, standard_streams
-from mindrun.arguments import SEED, new_file, real, whole
+from mindrun.arguments import MAX_SEED, new_file, real, whole
 from mindrun.bundle import read_bundle
 from mindrun.describe import contents, describe
 from mindrun.engine import Engine
@@ -24,8 +24,8 @@ from mindrun.tools import run_tool, tools
 from mindrun.wiring import read_by
 
 OK, FAILED, MISUSE, INTERRUPTED = 0, 1, 2, 130
-LONGEST = 1 << 20  # characters of one line of readings
-LAST = 2**63 - 1  # tick
+MAX_LINE_CHARACTERS = 1 << 20  # of one line of readings
+MAX_TICK = 2**63 - 1  # tick
 
 EXAMPLES = """examples:
   mindrun ball.bundle                                       on its robot, nothing moves yet
@@ -118,11 +118,11 @@ def _options() -> argparse.Namespace:
     robot.add_argument("--arm", action="store_true", help="let the actuators move: without it they stay neutral")
     robot.add_argument("--record", type=new_file, metavar="FILE", help="every reading, influence and command, per tick")
     robot.add_argument(
-        "--ticks", type=whole(0, LAST), default=0, metavar="N", help="end after so many ticks (default: never)"
+        "--ticks", type=whole(0, MAX_TICK), default=0, metavar="N", help="end after so many ticks (default: never)"
     )
     robot.add_argument("--dry", action="store_true", help="no hardware: a simulated world (needs the simulator)")
     robot.add_argument("--task", metavar="TASK", help="with --dry: the task of that world (default: the master's)")
-    robot.add_argument("--seed", type=whole(0, SEED), default=1, help="with --dry: the layout of that world")
+    robot.add_argument("--seed", type=whole(0, MAX_SEED), default=1, help="with --dry: the layout of that world")
     robot.add_argument("-q", "--quiet", action="store_true", help="say nothing but errors")
     return parser.parse_args()
 
@@ -158,7 +158,7 @@ def _lines(name: str) -> Iterator[tuple[int, dict[str, Any]]]:
     try:
         with open(0 if name == "-" else name, encoding="utf-8", closefd=name != "-") as file:
             number = 0
-            while text := file.readline(LONGEST):
+            while text := file.readline(MAX_LINE_CHARACTERS):
                 number += 1
                 if text.strip():
                     yield number, _object(text, f"{_source(name)}, line {number}")

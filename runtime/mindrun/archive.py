@@ -5,8 +5,8 @@ import zipfile
 from collections.abc import Iterable
 from io import BytesIO
 
-ENTRY = b"PK\x01\x02"  # how each entry of a zip's directory begins
-MOST = 20_000  # entries
+DIRECTORY_ENTRY = b"PK\x01\x02"  # how each entry of a zip's directory begins
+MAX_ENTRIES = 20_000  # entries
 
 
 def write_archive(members: Iterable[tuple[str, bytes]], comment: bytes = b"") -> bytes:
@@ -21,7 +21,7 @@ def write_archive(members: Iterable[tuple[str, bytes]], comment: bytes = b"") ->
 
 def read_archive(data: bytes) -> dict[str, bytes]:
     """The files in these bytes by name; ValueError where they are no zip, or one that was made by something else."""
-    if data.count(ENTRY) > MOST:
+    if data.count(DIRECTORY_ENTRY) > MAX_ENTRIES:
         raise ValueError("it has too many files")
     try:
         with zipfile.ZipFile(BytesIO(data)) as archive:

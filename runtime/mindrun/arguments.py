@@ -5,8 +5,8 @@ from collections.abc import Callable
 from math import isfinite
 from pathlib import Path
 
-SEED = 2**64 - 1  # the largest of a layout
-SHOWN = 20  # characters of what is refused
+MAX_SEED = 2**64 - 1  # the largest of a layout
+SHOWN_CHARACTERS = 20  # of what is refused
 
 
 def parser(program: str, about: str | None, examples: str | None = None) -> argparse.ArgumentParser:
@@ -21,7 +21,7 @@ def whole(least: int, most: int) -> Callable[[str], int]:
     """A whole number in a range."""
 
     def convert(text: str) -> int:
-        if text.isascii() and text.isdigit() and len(text) <= SHOWN and least <= int(text) <= most:
+        if text.isascii() and text.isdigit() and len(text) <= SHOWN_CHARACTERS and least <= int(text) <= most:
             return int(text)
         raise argparse.ArgumentTypeError(f"{shortened(text)} is not a whole number from {least} to {most}")
 
@@ -53,4 +53,4 @@ def new_file(text: str) -> Path:
 
 def shortened(text: str) -> str:
     """What a user has written, as much of it as a sentence can bear."""
-    return text if 0 < len(text) <= SHOWN else f"{text[:SHOWN]}…" if text else "nothing"
+    return text if 0 < len(text) <= SHOWN_CHARACTERS else f"{text[:SHOWN_CHARACTERS]}…" if text else "nothing"

@@ -25,12 +25,14 @@ from mindrun.wiring import Wiring
 # A mindrun that knows nothing of wirings refuses a bundle that has one, and one that knows nothing of what becomes of
 # things those of which the tasks say it.
 FORMAT, WIRED = "mind bundle 3", "mind bundle 4"
-OLDER = {"mind bundle 1": FORMAT, "mind bundle 2": WIRED}
+OLDER_FORMATS = {"mind bundle 1": FORMAT, "mind bundle 2": WIRED}
 MANIFEST, GRAPH, WIRING = "manifest.json", "graph.json", "wiring.json"
 WEIGHTS, MODULES = "weights/", "procedures/"
-LARGEST = 64 << 20  # bytes; nothing is compressed, so this also limits what is read
-LONGEST = 4 << 20  # bytes of JSON: it takes up to twenty times as much memory, and half a second for each million
-DIGEST = 64
+MAX_BUNDLE_BYTES = 64 << 20  # nothing is compressed, so this also limits what is read
+MAX_JSON_BYTES = (
+    4 << 20
+)  # bytes of JSON: it takes up to twenty times as much memory, and half a second for each million
+DIGEST_CHARACTERS = 64
 
 
 @dataclass(frozen=True, slots=True)
@@ -68,7 +70,7 @@ def write_bundle(
 def read_bundle(path: Path) -> Bundle:
     """Read a mind from a file; BundleError unless it is byte for byte what was written."""
     try:
-        data = read_whole(path, LARGEST)
+        data = read_whole(path, MAX_BUNDLE_BYTES)
     except OSError as error:
         raise BundleError(f"cannot read {path}: {error.strerror}") from error
     try:
@@ -81,20 +83,20 @@ def pack(bundle: Bundle) -> bytes:
     """A bundle as bytes."""
     members = _members(bundle)
     files = [(MANIFEST, _json(_manifest(bundle, members))), *sorted(members.items())]
-    data = write_archive(files, comment=bytes(DIGEST))[:-DIGEST]
+    data = write_archive(files, comment=bytes(DIGEST_CHARACTERS))[:-DIGEST_CHARACTERS]
     data += sha256(data).hexdigest().encode()
-    if len(data) > LARGEST:
-        raise BundleError(f"a bundle cannot be larger than {LARGEST >> 20} MiB")
+    if len(data) > MAX_BUNDLE_BYTES:
+        raise BundleError(f"a bundle cannot be larger than {MAX_BUNDLE_BYTES >> 20} MiB")
     return data
 
 
 def unpack(data: bytes) -> Bundle:
     """The bundle in these bytes; BundleError unless they are what `pack` gave."""
-    if len(data) > LARGEST:
-        raise BundleError(f"this is larger than a bundle can be ({LARGEST >> 20} MiB)")
+    if len(data) > MAX_BUNDLE_BYTES:
+        raise BundleError(f"this is larger than a bundle can be ({MAX_BUNDLE_BYTES >> 20} MiB)")
     if not data.startswith(b"PK"):
         raise BundleError("this is not a bundle")
-    if sha256(data[:-DIGEST]).hexdigest().encode() != data[-DIGEST:]:
+    if sha256(data[:-DIGEST_CHARACTERS]).hexdigest().encode() != data[-DIGEST_CHARACTERS:]:
         raise BundleError("this bundle is damaged: build or copy it again")
     try:
         return _bundle(read_archive(data))
@@ -124,12 +126,12 @@ def _manifest(bundle: Bundle, members: Mapping[str, bytes]) -> dict[str, Any]:
 def _bundle(members: dict[str, bytes]) -> Bundle:
     """The bundle of these files; BundleError or ValueError where they are none."""
     manifest = parsed(members.pop(MANIFEST, b""))
-    if not isinstance(manifest, dict) or manifest.get("format") not in (FORMAT, WIRED, *OLDER):
+    if not isinstance(manifest, dict) or manifest.get("format") not in (FORMAT, WIRED, *OLDER_FORMATS):
         raise BundleError(_foreign(manifest))
     data = with_whole_lessons(_document(members, GRAPH))
-    if manifest["format"] in OLDER:
+    if manifest["format"] in OLDER_FORMATS:
         data = brought_along(data)
-        manifest = manifest | {"format": OLDER[manifest["format"]]}
+        manifest = manifest | {"format": OLDER_FORMATS[manifest["format"]]}
     graph = decode(data)
     weights = {name: read_weights(content) for name, content in _below(members, WEIGHTS, ".npy")}
     procedures = {name.replace("/", "."): content.decode() for name, content in _below(members, MODULES, ".py")}
@@ -164,7 +166,7 @@ def _below(members: Mapping[str, bytes], folder: str, suffix: str) -> Iterator[t
 def _document(members: Mapping[str, bytes], name: str) -> Any:
     if name not in members:
         raise BundleError(f"this bundle has no {name}")
-    return parsed(members[name], LONGEST)
+    return parsed(members[name], MAX_JSON_BYTES)
 
 
 def _foreign(manifest: object) -> str:

@@ -19,7 +19,7 @@ T = TypeVar("T")
 _known_hints: dict[type[Any], dict[str, Any]] = {}  # of each class that was decoded
 
 PLAIN = (bool, int, float, str)
-LARGEST = 2**53 - 1  # of a whole number: what any reader of JSON takes
+MAX_WHOLE_NUMBER = 2**53 - 1  # of a whole number: what any reader of JSON takes
 
 DRIVERS: Mapping[Any, str] = {SensorDriver: "sensor driver", ActuatorDriver: "actuator driver"}  # nouns of the registry
 
@@ -75,7 +75,7 @@ def _decode(hint: Any, data: Any, where: str) -> Any:
 
 
 def _decode_plain(hint: Any, data: Any, where: str) -> Any:
-    if type(data) is int and abs(data) > LARGEST:
+    if type(data) is int and abs(data) > MAX_WHOLE_NUMBER:
         raise BundleError(f"this is damaged: {where} is no number that can be")
     if hint is float and type(data) is int:
         data = float(data)

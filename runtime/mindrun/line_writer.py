@@ -7,7 +7,7 @@ from threading import Condition, Thread
 
 from mindrun.printable import visible
 
-MOST = 1000  # pieces that wait; the oldest go first
+MAX_WAITING_PIECES = 1000  # pieces that wait; the oldest go first
 
 
 class LineWriter:
@@ -16,7 +16,7 @@ class LineWriter:
     def __init__(self, descriptor: int, prefix: str = "") -> None:
         self._descriptor = descriptor
         self._prefix = prefix
-        self._waiting: deque[bytes] = deque(maxlen=MOST)
+        self._waiting: deque[bytes] = deque(maxlen=MAX_WAITING_PIECES)
         self._idle = True
         self._change = Condition()
         Thread(target=self._run, name="line_writer", daemon=True).start()

@@ -9,8 +9,8 @@ import re
 import numpy as np
 from numpy.typing import NDArray
 
-START = b"\x93NUMPY\x01\x00"
-LENGTH = 2  # bytes of the header's length
+MAGIC = b"\x93NUMPY\x01\x00"
+LENGTH_BYTES = 2  # of the header's length
 HEADER = re.compile(rb"\{'descr': '<f4', 'fortran_order': False, 'shape': \((0|[1-9][0-9]{0,9}),\), \} *\n")
 GROWTH, ALIGNED = 21, 64  # columns that numpy leaves for the number to grow, bytes that a header fills
 
@@ -19,17 +19,22 @@ def to_npy(vector: NDArray[np.float32]) -> bytes:
     """A vector as a .npy file; the same bytes with any version of numpy."""
     size = str(len(vector))
     header = f"{{'descr': '<f4', 'fortran_order': False, 'shape': ({size},), }}{' ' * (GROWTH - len(size))}"
-    length = -(-(len(START) + LENGTH + len(header) + 1) // ALIGNED) * ALIGNED - len(START) - LENGTH
+    length = -(-(len(MAGIC) + LENGTH_BYTES + len(header) + 1) // ALIGNED) * ALIGNED - len(MAGIC) - LENGTH_BYTES
     header = f"{header:<{length - 1}}\n"
-    return START + length.to_bytes(LENGTH, "little") + header.encode() + np.ascontiguousarray(vector, "<f4").tobytes()
+    return (
+        MAGIC
+        + length.to_bytes(LENGTH_BYTES, "little")
+        + header.encode()
+        + np.ascontiguousarray(vector, "<f4").tobytes()
+    )
 
 
 def from_npy(data: bytes) -> NDArray[np.float32]:
     """The vector in a .npy file; ValueError unless it is one of finite float32, as it is written here."""
-    begin = len(START) + LENGTH
-    end = begin + int.from_bytes(data[len(START) : begin], "little")
+    begin = len(MAGIC) + LENGTH_BYTES
+    end = begin + int.from_bytes(data[len(MAGIC) : begin], "little")
     found = HEADER.fullmatch(data[begin:end])
-    if not data.startswith(START) or found is None or len(data) != end + 4 * int(found[1]):
+    if not data.startswith(MAGIC) or found is None or len(data) != end + 4 * int(found[1]):
         raise ValueError("these are not whole weights as mindc writes them")
     vector = np.frombuffer(data, "<f4", offset=end).astype(np.float32)
     if not np.isfinite(vector).all():

@@ -8,7 +8,7 @@ import os
 import stat
 from pathlib import Path
 
-PART = 1 << 20  # bytes read at once
+READ_BYTES = 1 << 20  # read at once
 
 
 def read_regular(path: Path, most: int) -> bytes:
@@ -16,7 +16,7 @@ def read_regular(path: Path, most: int) -> bytes:
     descriptor = open_regular(path)
     try:
         parts, left = [], most
-        while left and (part := os.read(descriptor, min(left, PART))):
+        while left and (part := os.read(descriptor, min(left, READ_BYTES))):
             parts.append(part)
             left -= len(part)
         return b"".join(parts)

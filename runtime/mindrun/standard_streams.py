@@ -15,9 +15,9 @@ from mindrun.line_writer import LineWriter
 from mindrun.printable import visible
 
 OUTPUT, ERRORS = 1, 2
-SIZES = "COLUMNS", "LINES"  # of the terminal, as the environment may say them
-WIDEST = 9999
-LAST_WORDS = 1.0  # seconds in which what has been told aside must be taken
+SIZE_VARIABLES = "COLUMNS", "LINES"  # of the terminal, as the environment may say them
+MAX_TERMINAL_SIZE = 9999
+FLUSH_SECONDS = 1.0  # in which what has been told aside must be taken
 
 
 class Output(FileIO):
@@ -84,7 +84,7 @@ def prepare(kind: type[TextIOWrapper] = TextIOWrapper) -> None:
         sys.stdout = _text(kind, Output(OUTPUT, "w", closefd=False), sys.__stdout__)
     if sys.stderr is sys.__stderr__:
         sys.stderr = _text(kind, Errors(ERRORS, "w", closefd=False), sys.__stderr__)
-    for name in SIZES:
+    for name in SIZE_VARIABLES:
         if not _is_size(os.environ.get(name, "80")):
             del os.environ[name]
 
@@ -99,7 +99,7 @@ def last_words() -> None:
     """Let be taken what has been told aside, for a moment."""
     if isinstance(raw := _raw(sys.stderr), Aside):
         sys.stderr.flush()
-        raw.line_writer.flush(LAST_WORDS)
+        raw.line_writer.flush(FLUSH_SECONDS)
 
 
 def lost() -> OSError | None:
@@ -158,4 +158,4 @@ def _text(kind: type[TextIOWrapper], raw: RawIOBase, old: TextIO | None) -> Text
 
 
 def _is_size(text: str) -> bool:
-    return text.isascii() and text.isdigit() and 0 < int(text[:5]) <= WIDEST
+    return text.isascii() and text.isdigit() and 0 < int(text[:5]) <= MAX_TERMINAL_SIZE

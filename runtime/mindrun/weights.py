@@ -11,7 +11,7 @@ from mindrun.graph import Graph, Lesson, Skill
 from mindrun.npy import from_npy
 
 Weights = NDArray[np.float32]  # of one skill: [genes]
-NONE = np.zeros(0, np.float32)
+NO_WEIGHTS = np.zeros(0, np.float32)
 
 
 def genes(skill: Skill) -> int:
@@ -23,7 +23,7 @@ def weights_of(skill: Skill, weights: Mapping[str, Weights]) -> Weights:
     """A skill's weights, checked: as many as its function has, float32, finite; else WeightsError."""
     expected = genes(skill)
     if expected == 0:
-        return NONE
+        return NO_WEIGHTS
     if skill.name not in weights:
         raise WeightsError(f"skill {skill.name} has no weights")
     found = weights[skill.name]

@@ -20,7 +20,7 @@ from mindlang.editing.apply import apply_edit
 from mindlang.editing.project import EditError, open_project
 from mindlang.editing.writing import write
 from mindlang.edits.rename import rename
-from mindlang.transaction import NAME, TransactionError, change, recover
+from mindlang.transaction import JOURNAL_NAME, TransactionError, change, recover
 from tests.calling import Call
 from tests.edits.changing import ONE, OTHER, files
 
@@ -75,10 +75,10 @@ def test_a_crash_between_any_two_operations_leaves_all_files_as_they_were_or_cha
     ends = []
     for last in count():
         crashed = changed_with(folder, lambda number, _, last=last: Crash() if number >= last else None)
-        interrupted = (folder / NAME).exists()
+        interrupted = (folder / JOURNAL_NAME).exists()
         assert recover(folder) == interrupted
         now = found(folder)
-        now.pop(f".{NAME}.mind-tmp", None)  # nobody reads it, and it goes with the next edit
+        now.pop(f".{JOURNAL_NAME}.mind-tmp", None)  # nobody reads it, and it goes with the next edit
         assert now in (ONE, OTHER), f"after {last} operations"
         ends.append(now == OTHER)
         change(folder, files(folder, ONE))
@@ -135,7 +135,7 @@ def test_whatever_moment_a_process_is_killed_at(folder: Path) -> None:
             process.send_signal(signal.SIGKILL)
         interrupted += recover(folder)
         now = found(folder)
-        now.pop(f".{NAME}.mind-tmp", None)
+        now.pop(f".{JOURNAL_NAME}.mind-tmp", None)
         assert now in (ONE, OTHER, ONE | {"new.mind": OTHER["new.mind"]})
     assert interrupted
 
@@ -151,11 +151,11 @@ def test_what_was_changed_by_hand_since_is_not_overwritten(folder: Path) -> None
     before = found(folder)
     with pytest.raises(TransactionError, match=r"a\.lock has been changed since an edit of a\.mind") as refused:
         recover(folder)
-    assert str(folder / NAME) in refused.value.hint
+    assert str(folder / JOURNAL_NAME) in refused.value.hint
     with pytest.raises(TransactionError):
         change(folder, files(folder, OTHER))
     assert found(folder) == before
-    (folder / NAME).unlink()
+    (folder / JOURNAL_NAME).unlink()
     assert not recover(folder)
 
 
@@ -166,7 +166,7 @@ def test_a_journal_from_somewhere_else_changes_nothing_outside(folder: Path, tmp
     outside = tmp_path_factory.mktemp("outside")
     (folder / "link").symlink_to(outside)
     (folder / "link.mind").symlink_to(outside / "out.mind")
-    (folder / NAME).write_text(json.dumps({name: {"was": "eA==", "becomes": ""}}))
+    (folder / JOURNAL_NAME).write_text(json.dumps({name: {"was": "eA==", "becomes": ""}}))
     with pytest.raises(TransactionError, match="is not what mindc wrote"):
         recover(folder)
     assert list(outside.iterdir()) == []
@@ -177,10 +177,10 @@ def test_a_journal_from_somewhere_else_changes_nothing_outside(folder: Path, tmp
     "text", ["", "{", "[]", '{"a.mind": 1}', '{"a.mind": {"was": "?", "becomes": 1}}', "{1}", "\udcff"]
 )
 def test_a_damaged_journal_is_told(mindc: Call, rules: Path, text: str) -> None:
-    (rules.parent / NAME).write_bytes(text.encode("utf-8", "surrogateescape"))
+    (rules.parent / JOURNAL_NAME).write_bytes(text.encode("utf-8", "surrogateescape"))
     said = mindc("check", rules)
     assert said.code == 2
-    assert f"{NAME} is not what mindc wrote" in said.err
+    assert f"{JOURNAL_NAME} is not what mindc wrote" in said.err
 
 
 def test_any_command_puts_back_what_an_edit_left(mindc: Call, rules: Path) -> None:

@@ -133,9 +133,9 @@ def test_what_is_larger_than_a_bundle_can_be_is_refused(tmp_path: Path) -> None:
 
 def test_what_would_be_too_large_is_not_packed(monkeypatch: pytest.MonkeyPatch) -> None:
     data = pack(example())
-    monkeypatch.setattr("mindrun.bundle.LARGEST", len(data))
+    monkeypatch.setattr("mindrun.bundle.MAX_BUNDLE_BYTES", len(data))
     assert pack(example()) == data
-    monkeypatch.setattr("mindrun.bundle.LARGEST", len(data) - 1)
+    monkeypatch.setattr("mindrun.bundle.MAX_BUNDLE_BYTES", len(data) - 1)
     with pytest.raises(BundleError, match="cannot be larger than"):
         pack(example())
 

@@ -18,10 +18,10 @@ ALLOWED = {
 @pytest.mark.parametrize("shape", ALL)
 def test_twice_the_lines_are_twice_the_work(shape: str, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(
-        "mindlang.compiler.diagnostic.MOST", 4
+        "mindlang.compiler.diagnostic.MAX_DIAGNOSTICS", 4
     )  # what is done for the first few lines only is done here, too
-    monkeypatch.setattr("mindlang.unified_diff.SHORT", 10)
-    monkeypatch.setattr("mindlang.linting.fixing.ROUNDS", 2)
+    monkeypatch.setattr("mindlang.unified_diff.MAX_COMPARED_LINES", 10)
+    monkeypatch.setattr("mindlang.linting.fixing.MAX_FIX_ROUNDS", 2)
     first = WORDS if shape.startswith("one long") else LINES
     slow = {}
     for command in COMMANDS:

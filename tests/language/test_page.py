@@ -71,7 +71,7 @@ def test_lines_are_those_of_the_text(source: Source, data: st.DataObject) -> Non
 @given(sources(), sources())
 def test_a_diff_makes_the_new_text_of_the_old_one(short: int, old: Source, new: Source) -> None:
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr("mindlang.unified_diff.SHORT", short)
+        patch.setattr("mindlang.unified_diff.MAX_COMPARED_LINES", short)
         diff = unified("any", old.text, new.text)
     assert (diff == "") == (old.text == new.text)
     assert patched(old.text, diff) == new.text

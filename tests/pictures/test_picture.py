@@ -13,7 +13,7 @@ from mindrun.world import Item
 from mindlang.compiler.compile import load
 from mindlang.pictures.canvas import Canvas, Image, View, blank
 from mindlang.pictures.caption import LINES, SMALLEST, fitted
-from mindlang.pictures.picture import ABOVE, BELOW, SIDE, SIZE, picture, view_of
+from mindlang.pictures.picture import ABOVE, BELOW, PICTURE_PIXELS, SIDE, picture, view_of
 from mindlang.pictures.recorded_run import RecordedRun, record_run
 from mindlang.pictures.scene import thing_colours
 from mindlang.pictures.theme import PAPER, mixed
@@ -34,7 +34,7 @@ def told(file: Path, task: str, seed: int = 3) -> tuple[RecordedRun, Image]:
 
 def pixel(story: RecordedRun, image: Image, x: float, y: float) -> np.ndarray:
     """The colour at a place of the world."""
-    view = view_of(story, SIZE - 2 * SIDE, SIZE - ABOVE - BELOW)
+    view = view_of(story, PICTURE_PIXELS - 2 * SIDE, PICTURE_PIXELS - ABOVE - BELOW)
     column, row = SIDE + (x - view.left) * view.scale, ABOVE + (view.top - y) * view.scale
     return image[round(row), round(column)].astype(int)
 
@@ -45,7 +45,7 @@ def near(found: np.ndarray, colour: tuple[int, int, int]) -> bool:
 
 def test_the_robot_stands_where_the_run_ended(rules: Path) -> None:
     story, image = told(rules, "Chase")
-    assert image.shape == (SIZE, SIZE, 3)
+    assert image.shape == (PICTURE_PIXELS, PICTURE_PIXELS, 3)
     x, y, angle = story.body[-1]
     assert near(pixel(story, image, x - 0.6 * np.cos(angle), y - 0.6 * np.sin(angle)), PAPER.robot)
     assert near(pixel(story, image, *story.things[-1, 0, :2]), PAPER.items[0])
@@ -116,7 +116,7 @@ def test_the_picture_is_a_png_and_the_result_is_printed(mindc: Call, rules: Path
     assert path.read_bytes()[:8] == b"\x89PNG\r\n\x1a\n"
     image = cv2.imread(str(path))
     assert image is not None
-    assert image.shape == (SIZE, SIZE, 3)
+    assert image.shape == (PICTURE_PIXELS, PICTURE_PIXELS, 3)
 
 
 @pytest.mark.parametrize(

@@ -18,9 +18,9 @@ from mindrun.weights import Weights, genes, reachable
 from mindlang.compiler.compile import load
 from mindlang.lock.ready import make_ready
 from mindlang.proofs.batch import think, values
-from mindlang.proofs.interval import DIP
+from mindlang.proofs.interval import SIGMOID_ERROR
 from mindlang.proofs.proof import OfActuator, Proof, prove
-from mindlang.proofs.reach import TINY, Reach, reach
+from mindlang.proofs.reach import MIN_INFLUENCE, Reach, reach
 from tests.hierarchies import SCALES, random_graph
 from tests.minds import always, mind, rule, skill
 
@@ -68,7 +68,7 @@ def commanded(claim: OfActuator, total: np.ndarray, command: np.ndarray) -> None
     assert not driven.any() or claim.neutral != "always"
     assert (total[driven] >= claim.driven.total.low).all()
     assert (total[driven] <= claim.driven.total.high).all()
-    meant = driven & (total >= TINY) if claim.is_rough else driven
+    meant = driven & (total >= MIN_INFLUENCE) if claim.is_rough else driven
     low, high = claim.command
     assert driven.all() or low <= claim.actuator.kind.neutral <= high
     assert ((low <= command[meant]) & (command[meant] <= high)).all()
@@ -203,7 +203,7 @@ def test_the_sigmoid_falls_less_than_the_margin() -> None:
         first = np.float32(abs(begin)).view(np.uint32)
         arguments = (first + np.arange(1 << 20, dtype=np.uint32)).view(np.float32)
         found = sigmoid(np.sort(-arguments if begin < 0 else arguments))
-        assert float((np.maximum.accumulate(found) - found).max()) < float(DIP)
+        assert float((np.maximum.accumulate(found) - found).max()) < float(SIGMOID_ERROR)
         assert 0 <= found.min() <= found.max() <= 1
 
 

@@ -10,7 +10,7 @@ from mindlang.proofs import silence_search
 from mindlang.proofs.branch_and_bound import readings_to_try
 from mindlang.proofs.paths import Paths
 from mindlang.proofs.proof import OfActuator, prove
-from mindlang.proofs.reach import TINY, Bound, Driven
+from mindlang.proofs.reach import MIN_INFLUENCE, Bound, Driven
 from mindlang.proofs.recorded import Undriven, _undriven
 from mindlang.proofs.silence_search import Tried, try_out
 from tests.minds import CLAW, WHEELS, always, mind, rule, skill
@@ -48,8 +48,8 @@ def test_whether_neutral_is_sent(
     ("low", "command", "rough"),
     [
         (0.0, Bound(0.25, 0.5), True),
-        (TINY / 2, Bound(0.25, 0.5), True),
-        (TINY, Bound(0.25, 0.5), False),
+        (MIN_INFLUENCE / 2, Bound(0.25, 0.5), True),
+        (MIN_INFLUENCE, Bound(0.25, 0.5), False),
         (0.99e-30, Bound(0.25, 0.5), True),
         (1.01e-30, Bound(0.25, 0.5), False),
         (0.0, Bound(0, 1), False),

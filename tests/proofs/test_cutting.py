@@ -6,11 +6,11 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from mindrun.functions import Mlp, Procedure
 from mindrun.graph import Edge, Graph, Program, Skill
-from mindrun.weights import NONE, genes
+from mindrun.weights import NO_WEIGHTS, genes
 
 from mindlang.proofs import branch_and_bound
 from mindlang.proofs.batch import values
-from mindlang.proofs.branch_and_bound import CLOSE, Range, by_itself, halves, ranges, readings_to_try, sway_of
+from mindlang.proofs.branch_and_bound import SHARP_ENOUGH, Range, by_itself, halves, ranges, readings_to_try, sway_of
 from mindlang.proofs.interval import Boxes, Sent
 from tests.hierarchies import random_graph
 from tests.minds import always, rule, skill
@@ -46,7 +46,7 @@ def test_only_so_many_boxes_are_cut_in_a_round() -> None:
 
 def test_what_says_least_is_cut_first(monkeypatch: pytest.MonkeyPatch) -> None:
     """One box at a time: three cuts leave four boxes, of which none is wider than a quarter."""
-    monkeypatch.setattr(branch_and_bound, "AT_ONCE", 1)
+    monkeypatch.setattr(branch_and_bound, "BOXES_PER_ROUND", 1)
     assert range_of(NOTHING, 4).high == 0.5
     assert range_of(NOTHING, 6).high == 0.25
     assert range_of(NOTHING, 14).high == 0.125
@@ -55,10 +55,10 @@ def test_what_says_least_is_cut_first(monkeypatch: pytest.MonkeyPatch) -> None:
 @pytest.mark.parametrize("at_once", [1, 2, 5])
 def test_boxes_that_wait_keep_what_is_sent_in_them(monkeypatch: pytest.MonkeyPatch, at_once: int) -> None:
     """1/2 + r² − r is 1/4 to 1/2; (r·s − 3r/4 − s/4) / 2 + 1/2, from 1/8 to 1/2, is least in one corner of four."""
-    monkeypatch.setattr(branch_and_bound, "AT_ONCE", at_once)
+    monkeypatch.setattr(branch_and_bound, "BOXES_PER_ROUND", at_once)
     bowl = range_of((*R0, *R0, ("*", 0), *R0, ("-", 0), *number(0.5), ("+", 0)), 3000)
-    assert 0.25 - CLOSE <= bowl.low <= 0.25
-    assert 0.5 <= bowl.high <= 0.5 + CLOSE
+    assert 0.25 - SHARP_ENOUGH <= bowl.low <= 0.25
+    assert 0.5 <= bowl.high <= 0.5 + SHARP_ENOUGH
     terms = (*R0, *R1, ("*", 0), *R0, *number(0.75), ("*", 0), ("-", 0), *R1, *number(0.25), ("*", 0), ("-", 0))
     saddle = range_of((*terms, *number(0.5), ("*", 0), *number(0.5), ("+", 0)), 3000, (0, 1))
     assert 0.125 - 0.02 <= saddle.low <= 0.125
@@ -69,20 +69,20 @@ def test_a_parabola_is_as_high_as_it_is() -> None:
     """r·(1 − r) is 1/4 at most; 1/2 + r·(1 − r) − r·(1 − r) is 1/2."""
     hill = (*R0, *number(1), *R0, ("-", 0), ("*", 0))
     found = range_of(hill, 20_000)
-    assert 0.25 <= found.high <= 0.25 + CLOSE
+    assert 0.25 <= found.high <= 0.25 + SHARP_ENOUGH
     assert found.low == 0
     assert found.sure
     level = range_of((*number(0.5), *hill, ("+", 0), *hill, ("-", 0)), 20_000)
-    assert 0.5 - CLOSE <= level.low <= 0.5 <= level.high <= 0.5 + CLOSE
+    assert 0.5 - SHARP_ENOUGH <= level.low <= 0.5 <= level.high <= 0.5 + SHARP_ENOUGH
 
 
 def test_always_nothing_and_always_all_are_proved_exactly() -> None:
     """Bounds that are close are not enough there: a line is dead, or fully on, or it is not."""
     less = (*R0, *number(0.0004), ("*", 0), *R0, *number(0.0005), ("*", 0), ("-", 0), *number(1e-6), ("-", 0))
-    assert 0 < range_of(less, 1).high < CLOSE
+    assert 0 < range_of(less, 1).high < SHARP_ENOUGH
     assert range_of(less, 20_000).is_dead
     more = (*number(1), *less, ("-", 0))
-    assert 1 - CLOSE < range_of(more, 1).low < 1
+    assert 1 - SHARP_ENOUGH < range_of(more, 1).low < 1
     assert range_of(more, 20_000).low == 1
 
 
@@ -109,7 +109,7 @@ def test_what_is_sure_is_sure_everywhere() -> None:
     assert not range_of(value, 1).sure
     found = range_of(value, 20_000)
     assert found.sure
-    assert 0.1 / 0.35 - CLOSE <= found.low <= 0.1 / 0.35
+    assert 0.1 / 0.35 - SHARP_ENOUGH <= found.low <= 0.1 / 0.35
     assert not range_of((*number(0.1), *R0, ("/", 0)), 2000).sure
 
 
@@ -197,7 +197,7 @@ def test_how_much_a_reading_matters() -> None:
     assert sway_of(taught, weights).tolist() == pytest.approx([3.5, 1e6 + 0.25, 1e-6])
     assert sway_of(taught, None).tolist() == pytest.approx([2, 1e-6, 1e-6])
     assert sway_of(skill("Top", Procedure("a.b"), (0,), ("skill", 1)), weights).tolist() == pytest.approx([1e-6])
-    assert sway_of(rule("Top", always("skill", 1, 1.0)), NONE).tolist() == []
+    assert sway_of(rule("Top", always("skill", 1, 1.0)), NO_WEIGHTS).tolist() == []
 
 
 def test_how_far_a_box_reaches_beyond_what_was_seen() -> None:

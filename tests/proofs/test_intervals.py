@@ -11,7 +11,7 @@ from mindrun.graph import Edge, Program, Skill
 from mindrun.weights import genes
 
 from mindlang.proofs.batch import values
-from mindlang.proofs.interval import DIP, Boxes, Sent, evaluate, is_known, perceive, sent
+from mindlang.proofs.interval import SIGMOID_ERROR, Boxes, Sent, evaluate, is_known, perceive, sent
 from tests.minds import always, rule, skill
 
 SHARES = st.floats(0, 1, width=32)
@@ -79,17 +79,17 @@ def test_the_margin_of_a_hidden_layer_is_that_of_its_sigmoids(weights: list[floa
     found = values(skill("Top", Mlp(hidden=1, width=2), (0, 1), ("skill", 1)), genome, np.array([[x, y]], np.float32))
     assert low[0, 0] <= found[0, 0] <= high[0, 0]
     weight = float(np.abs(genome[4:]).sum())
-    assert high[0, 0] - low[0, 0] <= 2 * float(DIP) * weight + 1e-6 * weight
+    assert high[0, 0] - low[0, 0] <= 2 * float(SIGMOID_ERROR) * weight + 1e-6 * weight
 
 
-@pytest.mark.parametrize(("out", "expected"), [(1.0, (1.0 - DIP, 1.0)), (-1.0, (-1.0, DIP - 1.0))])
+@pytest.mark.parametrize(("out", "expected"), [(1.0, (1.0 - SIGMOID_ERROR, 1.0)), (-1.0, (-1.0, SIGMOID_ERROR - 1.0))])
 def test_a_sigmoid_stays_in_its_range(out: float, expected: tuple[float, float]) -> None:
     """However far out it is looked at, its bounds are of 0..1."""
     ends = [np.array([[x]], np.float32) for x in (1.0, 1.0)]
     low, high = perceive([np.array([[1e30]], np.float32), np.array([[out]], np.float32)], *ends)
     assert (low[0, 0], high[0, 0]) == pytest.approx(expected, abs=1e-9)
     low, high = perceive([np.array([[-1e30]], np.float32), np.array([[1.0]], np.float32)], *ends)
-    assert (low[0, 0], high[0, 0]) == (0.0, DIP)
+    assert (low[0, 0], high[0, 0]) == (0.0, SIGMOID_ERROR)
 
 
 def test_what_may_overflow_is_not_sure() -> None:

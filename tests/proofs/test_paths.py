@@ -10,7 +10,7 @@ from mindrun.functions import Mlp
 from mindrun.graph import Edge, Graph, Skill
 
 from mindlang.proofs.leak import leaks
-from mindlang.proofs.paths import MANY, Way, Ways, paths, ways
+from mindlang.proofs.paths import MAX_COUNTED_PATHS, Way, Ways, paths, ways
 from tests.hierarchies import random_graph
 from tests.minds import always, mind, rule, skill
 
@@ -147,7 +147,7 @@ def test_ways_without_number() -> None:
         onward = [("skill", 2 * layer + 3 + i) for i in range(2)] if layer + 1 < layers else [("actuator", 0)]
         skills.append(skill(f"S{layer}.{side}", Mlp(), (0,), *onward))
     found = ways(mind(*skills))
-    assert paths(found, 1, 5)[0].count == MANY
+    assert paths(found, 1, 5)[0].count == MAX_COUNTED_PATHS
     assert len(paths(found, 1, 5)[0].first) == 5
     leak = leaks(found, 1, 1e-12)[0]
     assert leak

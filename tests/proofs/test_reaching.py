@@ -11,7 +11,7 @@ from mindrun.graph import Edge, Graph, Program, Skill
 from mindlang.proofs import joint, reach
 from mindlang.proofs.batch import think
 from mindlang.proofs.proof import OfActuator, prove
-from mindlang.proofs.reach import MARGIN, Bound, Driven
+from mindlang.proofs.reach import ROUNDING_MARGIN, Bound, Driven
 from tests.hierarchies import doubling
 from tests.minds import CLAW, WHEELS, always, mind, rule, skill
 from tests.proofs.samples import ONE_LESS_R0, R0, drives, sends
@@ -93,7 +93,7 @@ def test_by_hand() -> None:
     found = reach.reach(graph, {})
     assert found.influence == {"Top": Bound(1, 1), "A": Bound(0.5, 0.5), "B": Bound(0, 1.5)}
     left, right = found.actuators
-    assert left == Driven(Bound(0.5, 2), Bound(0.25 * (1 - 4 * MARGIN), 0.75 * (1 + 4 * MARGIN)))
+    assert left == Driven(Bound(0.5, 2), Bound(0.25 * (1 - 4 * ROUNDING_MARGIN), 0.75 * (1 + 4 * ROUNDING_MARGIN)))
     assert right == Driven(Bound(0, 1.5), Bound(1, 1))
     assert (left.is_always_driven, right.is_always_driven) == (True, False)
 
@@ -101,7 +101,7 @@ def test_by_hand() -> None:
 def test_a_margin_does_not_lead_beyond_one() -> None:
     nearly = float(np.nextafter(np.float32(1), np.float32(0)))
     found = reach.reach(mind(drives("Top", nearly)), {}).actuators[LEFT]
-    assert found == Driven(Bound(1, 1), Bound(nearly * (1 - 3 * MARGIN), 1))
+    assert found == Driven(Bound(1, 1), Bound(nearly * (1 - 3 * ROUNDING_MARGIN), 1))
 
 
 def test_what_may_be_no_number_gives_no_influence_for_certain() -> None:
@@ -220,7 +220,7 @@ def test_boxes_beyond_one_round_are_waited_for(monkeypatch: pytest.MonkeyPatch) 
     """However few are looked at at once."""
     expected = claim(*bisected(0.002))
     for at_once in (1, 2, 3):
-        monkeypatch.setattr(joint, "AT_ONCE", at_once)
+        monkeypatch.setattr(joint, "BOXES_PER_ROUND", at_once)
         assert claim(*bisected(0.002)) == expected
 
 

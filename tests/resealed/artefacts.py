@@ -20,7 +20,7 @@ from mindrun.engine import Engine
 from mindrun.graph import Graph
 from mindrun.npy import to_npy
 from mindrun.robot.guardian import plan
-from mindrun.robot.recording import CHECK, About, Recorder
+from mindrun.robot.recording import CHECKSUM_FIELD, About, Recorder
 from mindrun.robot.replay import replay
 from mindrun.robot.timing_report import report
 from mindrun.sim.commanded_world import World
@@ -173,7 +173,7 @@ def tampered_recording(rng: Random) -> dict[str, bytes]:
         said = json.loads(line)
         del said["check"]
         changed = tampering.document(json.dumps(said).encode(), rng)
-        line = changed[:-1] + CHECK + f"{zlib.crc32(changed[:-1]):08x}".encode() + b'"}'
+        line = changed[:-1] + CHECKSUM_FIELD + f"{zlib.crc32(changed[:-1]):08x}".encode() + b'"}'
         line = rng.choice((line, line, changed))
     return {"x.rec": line + b"\n" + rest}
 

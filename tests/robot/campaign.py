@@ -20,7 +20,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from mindrun.bundle import write_bundle
-from mindrun.robot.guardian.client import REPLACEMENTS
+from mindrun.robot.guardian.client import MAX_REPLACEMENTS
 from mindrun.robot.identity import adopt
 
 from tests.robot.devices import Devices, devices
@@ -72,7 +72,7 @@ class Round:
         own = {process.pid for process in self.controllers}
         victims = Counter(parent for pid, parent in self.guardians.items() if pid in self.lost)
         return any(
-            parent in self.lost or parent not in own or times > REPLACEMENTS for parent, times in victims.items()
+            parent in self.lost or parent not in own or times > MAX_REPLACEMENTS for parent, times in victims.items()
         )
 
     def _is_ours(self, process: Path) -> bool:

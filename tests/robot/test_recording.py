@@ -236,7 +236,7 @@ def test_a_full_disk_is_told_with_the_name_of_the_file(day: Path) -> None:
 @pytest.mark.parametrize(("rows", "parts"), [(128, [128, 128, 44]), (100, [100, 100, 100]), (0, [1] * TICKS)])
 def test_it_is_read_in_parts(day: Path, monkeypatch: pytest.MonkeyPatch, rows: int, parts: list[int]) -> None:
     size = read(day)[0].row.itemsize
-    monkeypatch.setattr("mindrun.robot.recording.READ", max(1, rows * size + size // 2 * (rows > 0)))
+    monkeypatch.setattr("mindrun.robot.recording.READ_BYTES", max(1, rows * size + size // 2 * (rows > 0)))
     assert [len(part) for part in read(day)[1]] == parts
     told: list[int] = []
     replay(day, BUNDLE, Engine(graph("range_finder"), {}), told.append)

@@ -330,7 +330,7 @@ def test_runs_follow_one_another(roam: Graph) -> None:
 def test_the_guardian_can_still_stop_the_wheels_of_a_world_that_ends(
     roam: Graph, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("mindrun.robot.world.LINGER", PATIENCE)
+    monkeypatch.setattr("mindrun.robot.world.NEUTRAL_SECONDS", PATIENCE)
     world = Counting(roam)
     with served(world) as (path, server):
         wheel = SimulatedActuator(path, "left_wheel").open()

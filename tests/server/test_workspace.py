@@ -67,7 +67,7 @@ def test_what_is_no_file_is_said_when_it_is_used(odd: Path) -> None:
 
 
 def test_no_more_is_looked_through_than_one_can_wait_for(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(file_search, "ENTRIES", 10)
+    monkeypatch.setattr(file_search, "MAX_FOLDER_ENTRIES", 10)
     for number in range(30):
         (tmp_path / f"f{number:02}.mind").write_text("x")
         (tmp_path / f"d{number:02}").mkdir()
@@ -75,7 +75,7 @@ def test_no_more_is_looked_through_than_one_can_wait_for(tmp_path: Path, monkeyp
     assert len(file_search.beside(tmp_path)) <= 10
     assert 0 < len([*file_search.below(tmp_path)]) <= 10
     assert len([*file_search.as_many((Path(str(n)), "x" * (1 << 20)) for n in range(99))]) == 8
-    assert len([*file_search.as_many((Path(str(n)), "") for n in range(9999))]) == file_search.FILES
+    assert len([*file_search.as_many((Path(str(n)), "") for n in range(9999))]) == file_search.MAX_READ_FILES
 
 
 def test_many_findings_are_told_once(tmp_path: Path) -> None:

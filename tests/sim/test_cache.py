@@ -76,7 +76,7 @@ def test_where_nothing_can_be_written_it_is_compiled_each_time(place: Path, monk
 @pytest.fixture
 def shipped(place: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     """Machine code as in a wheel, for a kind of processors of which this one is."""
-    monkeypatch.setattr(cache, "KINDS", {"any": cpu_target.target_context.codegen().magic_tuple()[2]})
+    monkeypatch.setattr(cache, "PROCESSORS", {"any": cpu_target.target_context.codegen().magic_tuple()[2]})
     monkeypatch.setattr(cache, "fitting", lambda: ["any"])
     monkeypatch.setattr(numba.config, "CPU_NAME", "any")
     assert not loads()
@@ -93,7 +93,7 @@ def test_what_was_shipped_is_found_where_nothing_is_kept(place: Path, shipped: P
 
 def test_what_was_shipped_for_others_is_not_found(place: Path, shipped: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(cache, "fitting", lambda: ["other"])
-    monkeypatch.setattr(cache, "KINDS", {"other": ""})
+    monkeypatch.setattr(cache, "PROCESSORS", {"other": ""})
     assert not loads()
 
 
@@ -101,7 +101,7 @@ def test_which_kinds_a_processor_is_of(monkeypatch: pytest.MonkeyPatch) -> None:
     has = [name for name, is_there in cache.get_host_cpu_features().items() if is_there]
     lacks = [name for name, is_there in cache.get_host_cpu_features().items() if not is_there]
     kinds = {"all": f"+{has[0]},+{has[1]}", "one": f"+{has[0]},+{(lacks or ['x'])[0]}", "none": "+what-is-this"}
-    monkeypatch.setattr(cache, "KINDS", kinds)
+    monkeypatch.setattr(cache, "PROCESSORS", kinds)
     assert cache.fitting() == ["all"]
     monkeypatch.setattr(numba.config, "CPU_NAME", cache.processor())
     assert cache.fitting() == [], "who names a processor gets what is made for it"
@@ -122,7 +122,7 @@ def test_native_code_is_made_behind_what_was_shipped(
     monkeypatch.setattr(warmup, "is_native", lambda: native)
     monkeypatch.setattr(warmup, "start", lambda *words: started.extend(words))
     simulator.make_ready(Compiled(), lambda words: None)  # type: ignore[arg-type]
-    assert started == ([warmup.BEHIND] if is_there and not native else [])
+    assert started == ([warmup.IN_BACKGROUND] if is_there and not native else [])
 
 
 def test_a_warm_simulator_says_where_it_lies(mindc: Call) -> None:
@@ -157,7 +157,7 @@ def test_vectors_of_any_width_have_the_same_bits(tmp_path: Path) -> None:
     kinds = {"native": {}, "generic": {"NUMBA_CPU_NAME": "generic", "NUMBA_CPU_FEATURES": "+sse2"}}
     kinds |= {
         kind: {"NUMBA_CPU_NAME": kind, "NUMBA_CPU_FEATURES": features}
-        for kind, features in cache.KINDS.items()
+        for kind, features in cache.PROCESSORS.items()
         if kind in cache.fitting()
     }
     found = {}

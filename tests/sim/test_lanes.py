@@ -17,7 +17,7 @@ from mindrun.quantity import Span
 from mindrun.sensors import Battery, Bearing, Derivative, RangeFinder, Sine
 from mindrun.sim.lanes.placement import uniform
 from mindrun.sim.lanes.sense import in_claw
-from mindrun.sim.lanes.step import LINGER
+from mindrun.sim.lanes.step import CONTACT_TICKS
 from mindrun.sim.rollout import Rollout
 from mindrun.sim.trace import trace
 from mindrun.world import Arena, Item, Obstacle, Plain, Power, Zone
@@ -187,7 +187,7 @@ def test_a_robot_that_leaps_meets_what_stands_where_it_arrives() -> None:
 @pytest.mark.parametrize("away", [1, 2, 3, 4, 5, 7])
 def test_a_contact_that_was_left_is_forgotten_as_chipmunk_forgets(away: int) -> None:
     """A robot that slides along rocks and comes back after some ticks: as if Chipmunk had stepped all the time."""
-    assert pymunk.Space().collision_persistence < LINGER
+    assert pymunk.Space().collision_persistence < CONTACT_TICKS
     push = mind(rule("Top"), actuators=wheels(0.9, 0.75))
     things = (Thing("rock", Obstacle(Span(1.0, 3.0), grid=3.5, jitter=0.5)),)
     wave = replace(push.sensors[0], kind=Sine((4 + 3 * away) / 60))

@@ -55,7 +55,7 @@ def test_the_estimate_is_near_what_the_lanes_take(tmp_path: Path, said: dict[str
     taken = sum(array.nbytes for array in empty_state(rollout.tables, rollout.sizes, 64))
     assert (
         0.8 * taken
-        < bytes_of(rollout, 64, 1) - resource_limits.COPIES * 64 * 4 * rollout.genome_length
+        < bytes_of(rollout, 64, 1) - resource_limits.GENOME_COPIES * 64 * 4 * rollout.genome_length
         < 2 * taken + 2**20
     )
 

@@ -14,7 +14,7 @@ from mindrun.regular_files import read_regular
 from mindrun.robot.guardian.plan import read_plan
 from mindrun.robot.recording import read as read_recording
 
-from mindlang.transaction import NAME
+from mindlang.transaction import JOURNAL_NAME
 from mindlang.wiring.wire import load_wiring
 from tests.calling import Call
 from tests.surroundings.kinds import IRREGULAR
@@ -109,7 +109,7 @@ def test_a_lock(mindc: Call, rules: Path, kind: str) -> None:
 
 @pytest.mark.parametrize("kind", READ)
 def test_what_an_edit_left(mindc: Call, rules: Path, kind: str) -> None:
-    journal = rules.with_name(NAME)
+    journal = rules.with_name(JOURNAL_NAME)
     with in_place_of(journal, kind):
         said = mindc("check", rules)
     assert said.code == (2 if kind == "huge" else 0), said
@@ -119,10 +119,10 @@ def test_what_an_edit_left(mindc: Call, rules: Path, kind: str) -> None:
 @pytest.mark.parametrize("text", ["[" * 100_000, '{"a/b.mind": {"was": null, "becomes": ""}}', '{"x": 1}', "\x00"])
 def test_a_journal_that_is_none(mindc: Call, rules: Path, text: str) -> None:
     rules.with_name("a").symlink_to("a")
-    rules.with_name(NAME).write_text(text)
+    rules.with_name(JOURNAL_NAME).write_text(text)
     said = mindc("check", rules)
     assert (said.code, said.out) == (2, "")
-    assert said.err.startswith(f"{rules.with_name(NAME)} is not what mindc wrote.")
+    assert said.err.startswith(f"{rules.with_name(JOURNAL_NAME)} is not what mindc wrote.")
 
 
 @pytest.mark.parametrize("kind", READ)

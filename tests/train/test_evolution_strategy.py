@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from mindrun.learners import EvolutionStrategy, Genetic
 from mindrun.train.ask_and_tell import ask, kept_count, tell
-from mindrun.train.lesson import FRESH, Course, begin, could_be, fresh_count, teach
+from mindrun.train.lesson import REEVALUATION_LAYOUTS, Course, begin, could_be, fresh_count, teach
 from mindrun.train.population import Genomes, Population, nobody
 
 from .climbing import LENGTH, Sphere, lesson
@@ -91,4 +91,4 @@ def test_a_lesson_finishes_what_is_known_and_keeps_the_centre() -> None:
 
 
 def test_a_single_candidate_is_tried_on_twice_as_many_layouts_as_four() -> None:
-    assert fresh_count(EvolutionStrategy()) == 2 * FRESH == 2 * fresh_count(Genetic())
+    assert fresh_count(EvolutionStrategy()) == 2 * REEVALUATION_LAYOUTS == 2 * fresh_count(Genetic())

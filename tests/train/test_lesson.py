@@ -5,10 +5,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from mindrun.train.lesson import (
-    CANDIDATES,
-    EVERY,
-    FRESH,
-    VERDICT,
+    REEVALUATED_CANDIDATES,
+    REEVALUATION_GENERATIONS,
+    REEVALUATION_LAYOUTS,
+    VERDICT_LAYOUTS,
     Course,
     Record,
     State,
@@ -142,8 +142,8 @@ def test_attempts_in_the_worse_half_at_a_rung_end_there() -> None:
 def test_all_attempts_meet_the_same_layouts_at_a_rung_and_no_others_do() -> None:
     told = Told()
     state, _ = taught(Course(lesson(20, attempts=3, rungs=1), 1, UNKNOWN), told)
-    at_rungs = [seeds for count, seeds in told.asked if (count, len(seeds)) == (1, VERDICT)]
-    known = layouts(1, 0, 10, VERDICT, Purpose.RUNG).tolist()
+    at_rungs = [seeds for count, seeds in told.asked if (count, len(seeds)) == (1, VERDICT_LAYOUTS)]
+    known = layouts(1, 0, 10, VERDICT_LAYOUTS, Purpose.RUNG).tolist()
     assert [[int(seed) for seed in seeds] for seeds in at_rungs] == [known] * 3
     assert [int(seed) for _, seeds in told.asked for seed in seeds].count(known[0]) == 3
     assert (state.rungs[:3] > -np.inf).all()
@@ -203,9 +203,13 @@ def test_nothing_is_chosen_and_reported_on_the_same_layouts() -> None:
     told = Told()
     _, records = taught(Course(lesson(25), 1, UNKNOWN), told)
     tried = [record.generation for record in records if record.reevaluated is not None]
-    assert tried == [1, EVERY, 2 * EVERY, 25]
-    again = [seeds for count, seeds in told.asked if count <= CANDIDATES + 2 and len(seeds) == FRESH]
-    verdicts = [seeds for count, seeds in told.asked if len(seeds) == 2 * VERDICT]
+    assert tried == [1, REEVALUATION_GENERATIONS, 2 * REEVALUATION_GENERATIONS, 25]
+    again = [
+        seeds
+        for count, seeds in told.asked
+        if count <= REEVALUATED_CANDIDATES + 2 and len(seeds) == REEVALUATION_LAYOUTS
+    ]
+    verdicts = [seeds for count, seeds in told.asked if len(seeds) == 2 * VERDICT_LAYOUTS]
     assert (len(again), len(verdicts), len(told.asked)) == (4, 1, 30)
     seeds = [seed for _, asked in told.asked for seed in asked]
     assert len(set(seeds)) == len(seeds)
@@ -214,10 +218,10 @@ def test_nothing_is_chosen_and_reported_on_the_same_layouts() -> None:
 def test_all_attempts_have_their_verdict_on_the_same_layouts() -> None:
     told = Told()
     taught(Course(lesson(3, attempts=3), 1, UNKNOWN), told)
-    verdicts = [seeds for _, seeds in told.asked if len(seeds) == 2 * VERDICT]
+    verdicts = [seeds for _, seeds in told.asked if len(seeds) == 2 * VERDICT_LAYOUTS]
     assert len(verdicts) == 3
     assert verdicts[0] == verdicts[1] == verdicts[2]
-    known = layouts(1, 0, 3, 2 * VERDICT, Purpose.VERDICT).tolist()
+    known = layouts(1, 0, 3, 2 * VERDICT_LAYOUTS, Purpose.VERDICT).tolist()
     assert [int(seed) for seed in verdicts[0]] == known, "whoever has the seed can score it again"
 
 
@@ -265,22 +269,22 @@ def test_a_fault_in_its_verdict_makes_an_attempt_the_worst() -> None:
     ended, said = judge(course, Listed(), state)
     assert said == -np.inf
     assert ended.verdicts.tolist() == [[-np.inf, -np.inf]]
-    assert ended.ticks == 2 * VERDICT
-    assert ended.faults == 2 * VERDICT
+    assert ended.ticks == 2 * VERDICT_LAYOUTS
+    assert ended.faults == 2 * VERDICT_LAYOUTS
 
 
 def tried(champion: np.ndarray, rival: np.ndarray, *scored: float) -> tuple[State, float]:
     genomes = genomes_of(*scored)
     state = begin(Course(lesson(5), 1, UNKNOWN))
     state = replace(state, population=Population(genomes, genomes[:, 0].astype(np.float64), 12))
-    return try_again(replace(state, champion=champion, rival=rival, since=3), Listed(), np.arange(FRESH))
+    return try_again(replace(state, champion=champion, rival=rival, since=3), Listed(), np.arange(REEVALUATION_LAYOUTS))
 
 
 def test_the_best_on_fresh_layouts_becomes_champion_but_never_the_rival() -> None:
     state, score = tried(genomes_of(4.0), genomes_of(9.0), 1.0, 5.0, 3.0)
     assert (state.champion[0, 0], score) == (5.0, 5.0)
     assert (state.rival[0, 0], state.since) == (9.0, 3)
-    assert state.ticks == FRESH * 5
+    assert state.ticks == REEVALUATION_LAYOUTS * 5
 
 
 def test_a_champion_that_is_best_stays_and_is_a_better_rival() -> None:
@@ -294,8 +298,8 @@ def test_only_the_best_of_a_generation_are_tried_again() -> None:
     genomes = genomes_of(*range(10))
     state = begin(Course(lesson(5), 1, UNKNOWN))
     state = replace(state, population=Population(genomes, -genomes[:, 0].astype(np.float64), 12))
-    try_again(state, told, np.arange(FRESH, dtype=np.uint64))
-    assert [count for count, _ in told.asked] == [CANDIDATES]
+    try_again(state, told, np.arange(REEVALUATION_LAYOUTS, dtype=np.uint64))
+    assert [count for count, _ in told.asked] == [REEVALUATED_CANDIDATES]
 
 
 def test_a_record_tells_of_its_generation_alone() -> None:
@@ -303,7 +307,7 @@ def test_a_record_tells_of_its_generation_alone() -> None:
     state, first = generation(course, Sphere(noise=0.0), begin(course))
     scores = state.population.scores
     assert (first.best, first.mean) == (scores.max(), scores.mean())
-    assert first.ticks == 100 * (20 * course.lesson.learner.layouts + CANDIDATES * FRESH)
+    assert first.ticks == 100 * (20 * course.lesson.learner.layouts + REEVALUATED_CANDIDATES * REEVALUATION_LAYOUTS)
     assert first.generation == state.generations == state.population.generation == 1
     after, second = generation(course, Sphere(noise=0.0), state)
     assert second.reevaluated is None

@@ -9,7 +9,7 @@ from pathlib import Path
 from string import Template
 
 from figures import draw
-from mindrun.arguments import SEED, whole
+from mindrun.arguments import MAX_SEED, whole
 from mindrun.errors import MindError
 from plan import PLAN, read_plan
 from protocol import FOLDER, TABLES
@@ -28,7 +28,7 @@ def main() -> None:
     parser.add_argument(
         "--runs", type=whole(2, 10_000_000), default=1000, help="layouts that each row of a table is measured on"
     )
-    parser.add_argument("--seed", type=whole(0, SEED), default=1, help="draws the layouts")
+    parser.add_argument("--seed", type=whole(0, MAX_SEED), default=1, help="draws the layouts")
     options = parser.parse_args()
     try:
         report(options)

@@ -13,7 +13,7 @@ from time import perf_counter
 
 from logs import Log, keep, logs_of
 from measure import compiled, rollout_of
-from mindrun.arguments import SEED, real, whole
+from mindrun.arguments import MAX_SEED, real, whole
 from mindrun.errors import MindError
 from mindrun.graph import Lesson
 from mindrun.sim.rollout import cores
@@ -58,7 +58,7 @@ def arguments() -> argparse.ArgumentParser:
     parser.add_argument("--others", type=whole(1, 10_000), help="attempts of all other lessons (default: as many)")
     parser.add_argument("--scale", type=real(0, 1000), default=1.0, help="times the paper's generations")
     parser.add_argument("--population", type=whole(4, 1_000_000), help="instead of the 100 genomes that the files say")
-    parser.add_argument("--seed", type=whole(0, SEED), default=1)
+    parser.add_argument("--seed", type=whole(0, MAX_SEED), default=1)
     parser.add_argument(
         "--rungs", type=whole(0, 16), default=0, help="where attempts are compared and half of them end"
     )

@@ -12,8 +12,8 @@ from mindlang.compiler.parse.shape import said
 from mindlang.compiler.source import Source, Span
 from mindlang.compiler.syntax import NOUNS, SETTINGS, VERBS
 
-NESTING = 64
-MOST = 1000  # unreadable lines, after which this is no mind
+MAX_NESTING = 64
+MAX_UNREADABLE_LINES = 1000  # unreadable lines, after which this is no mind
 
 BLANKS = " \t\r"  # at the end of a line, and of its code where a comment follows
 
@@ -71,7 +71,7 @@ def _lines(source: Source, findings: Findings) -> Iterator[syntax.Line | _Unread
         code = code_of(text).rstrip(BLANKS)
         if code:
             span = Span(source, offset, offset + len(code))
-            if len(findings.diagnostics) > MOST:
+            if len(findings.diagnostics) > MAX_UNREADABLE_LINES:
                 hint = "Is this a .mind file?"
                 findings.error("too-many-mistakes", span, "Too many lines cannot be read; this is where I stop.", hint)
                 return
@@ -83,8 +83,8 @@ def _line(span: Span, code: str, findings: Findings) -> Iterator[syntax.Line | _
     """What the line says, or after reporting it what can be saved of it."""
     from lark import UnexpectedInput
 
-    if code.count("(") + code.count("-") > NESTING and _depth(code) > NESTING:
-        hint = f"At most {NESTING} parentheses and signs may stand inside one another."
+    if code.count("(") + code.count("-") > MAX_NESTING and _depth(code) > MAX_NESTING:
+        hint = f"At most {MAX_NESTING} parentheses and signs may stand inside one another."
         findings.error("nested-too-deep", span, "This expression is nested too deep.", hint)
         yield _Unread()
         return

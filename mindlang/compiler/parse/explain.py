@@ -16,7 +16,7 @@ from mindlang.compiler.syntax import NOUNS, PARTS, SETTINGS, VERBS
 if TYPE_CHECKING:
     from lark import UnexpectedInput
 
-LONG = 400  # a longer line is no common mistake, and patterns would take their time over it
+MAX_EXPLAINED_CHARACTERS = 400  # a longer line is no common mistake, and patterns would take their time over it
 
 _WORDS = {
     "$END": "the end of the line", "NAME": "a name in small letters", "TITLE": "a Capitalised name",
@@ -137,7 +137,7 @@ def _keys() -> frozenset[str]:
 
 
 def _common(mistakes: Sequence[Mistake], code: str, line: Span) -> Diagnostic | None:
-    if len(code.strip()) > LONG:
+    if len(code.strip()) > MAX_EXPLAINED_CHARACTERS:
         return None
     for mistake in mistakes:
         if found := re.search(mistake.pattern, code):

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from lark import Lark
 
 _PIECE = re.compile(r"(?<!\w)[0-9]+|\w+|[ \t]+|\W")
-SHAPES = 4096  # of a line that are remembered; a file has some dozens
+MAX_SHAPES = 4096  # of a line that are remembered; a file has some dozens
 
 
 @dataclass(frozen=True, slots=True)
@@ -94,7 +94,7 @@ def _parsed(code: str, source: Source, offset: int) -> syntax.Line:
     return build(grammar().parse(code, start="line"), source, offset)
 
 
-@lru_cache(SHAPES)
+@lru_cache(MAX_SHAPES)
 def _maker(shape: str) -> Maker | None:
     """What makes the lines of a shape; None where Lark cannot read it."""
     from lark import UnexpectedInput

@@ -20,9 +20,9 @@ ABOUT: Mapping[tuple[str, str], Set[str]] = {
     ("sensor", "inside"): {"zone", "power"},
     ("event", "delivery"): {"item"},
 }
-SAID = {"content": "thing", "task": "scene"}  # nouns of the registry in the user's words
+USER_NOUNS = {"content": "thing", "task": "scene"}  # nouns of the registry in the user's words
 PLACES: Set[str] = {"item", "zone", "power"}
-WHY = {
+UNKNOWN_KIND_HINTS = {
     "neutral": "It is what the actuator is sent when nothing influences it and whenever something fails: "
     "a wheel's 0 is full reverse. Write neutral 0.5 for a wheel that stands still."
 }
@@ -45,7 +45,7 @@ def make(noun: str, phrase: Phrase, scope: Scope, findings: Findings) -> Any:
     """The kind that a phrase names, with its arguments, or None after reporting what is wrong with it."""
     cls = kinds(noun).get(phrase.kind.text)
     if cls is None:
-        message = f"There is no kind of {SAID.get(noun, noun)} called {phrase.kind.text}."
+        message = f"There is no kind of {USER_NOUNS.get(noun, noun)} called {phrase.kind.text}."
         findings.error("unknown-kind", phrase.kind.span, message, _known_kinds(noun, phrase.kind.text, scope))
         return None
     before = len(findings.diagnostics)
@@ -127,7 +127,7 @@ def _unknown(kind: str, key: Name, parameters: Mapping[str, Parameter], findings
 
 def _missing(phrase: Phrase, key: str, findings: Findings) -> None:
     kind = phrase.kind.text
-    hint = WHY.get(key, f"Add it and its value: {kind} {key} ….")
+    hint = UNKNOWN_KIND_HINTS.get(key, f"Add it and its value: {kind} {key} ….")
     findings.error("missing-argument", phrase.span, f"{kind} needs {key}.", hint)
 
 

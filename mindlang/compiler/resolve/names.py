@@ -14,7 +14,7 @@ from mindlang.compiler.syntax import Contains, Declaration, Fact, File, Name
 # A memory is read like a sensor and driven like an actuator, so its name must be neither's.
 SHARED = {"sensor": ("memory",), "actuator": ("memory",), "memory": ("sensor", "actuator")}
 _WORD = re.compile(r"\w[\w.+-]*")
-DOES = {
+NOUN_USES = {
     "sensor": "a skill reads sensors",
     "memory": "a skill reads and drives memories",
     "actuator": "a skill drives actuators",
@@ -51,9 +51,9 @@ class Names:
         if name.text in self.unread:
             return None
         wanted = listed(nouns)
-        other = self.noun_of(name.text, [noun for noun in DOES if noun not in nouns])
+        other = self.noun_of(name.text, [noun for noun in NOUN_USES if noun not in nouns])
         if other:
-            hint = f"There is {a(other)} of that name, but {DOES[other]}."
+            hint = f"There is {a(other)} of that name, but {NOUN_USES[other]}."
         else:
             known = (self.table.get(noun, {}) for noun in nouns)
             hint = self._thing(name.text, nouns) or findings.suggest(name.text, *known) or self._offer(nouns)

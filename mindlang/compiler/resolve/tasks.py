@@ -17,8 +17,8 @@ from mindlang.compiler.resolve.parts import refuse_facts
 from mindlang.compiler.resolve.quantities import convert
 from mindlang.compiler.syntax import Contains, Counts, Declaration, Ends, Fact, Lasts, Phrase, Rewards
 
-LONGEST = 10_000_000  # ticks of a run
-LASTS = replace(TICKS, low=1.0, high=LONGEST)
+MAX_RUN_TICKS = 10_000_000  # of a run
+LASTS = replace(TICKS, low=1.0, high=MAX_RUN_TICKS)
 
 F = TypeVar("F", bound=Fact)
 
@@ -128,7 +128,7 @@ def _ticks(declaration: Declaration, tick: float, findings: Findings) -> int:
     amount = lasts[0].amount
     if amount.unit == "s":
         # What would be a single tick, or none, was surely meant otherwise.
-        seconds = convert(amount, replace(SECONDS, low=1.5 * tick, high=LONGEST * tick), findings)
+        seconds = convert(amount, replace(SECONDS, low=1.5 * tick, high=MAX_RUN_TICKS * tick), findings)
         return round(seconds / tick) if seconds else 1
     return int(convert(amount, LASTS, findings) or 1)
 

@@ -15,7 +15,7 @@ WIDTH = Quantity("a whole number", {"": 1.0}, low=0, high=1000, whole=True)
 # Of the weights that learning begins with, 4: without biases, small weights leave every sigmoid near 1/2. Tried on a
 # stand-in for GoToObject, 6 seeds each, until 17 targets: with 1 one seed got there in 100 M ticks, with 2 all by the
 # 10th generation, with 4 five in the first; 6 (until 22 targets) was no better than 4.
-SPREAD = 4.0
+INITIAL_SPREAD = 4.0
 HIDDEN = Quantity("a whole number", {"": 1.0}, low=0, high=16, whole=True)
 
 
@@ -46,7 +46,7 @@ def first_weights(count: int, shape: tuple[tuple[int, int], ...], rng: np.random
 
     Without biases the outputs would otherwise lie anywhere, most beyond 0..1, where they answer to no input.
     """
-    genomes = SPREAD * rng.standard_normal((count, sum(before * after for before, after in shape)), np.float32)
+    genomes = INITIAL_SPREAD * rng.standard_normal((count, sum(before * after for before, after in shape)), np.float32)
     for before, after in shape[-1:]:
         last = genomes[:, -before * after :].reshape(count, after, before)
         last += (1 - last.sum(axis=2, keepdims=True)) / before

@@ -21,7 +21,7 @@ from mindrun.quantity import FUNCTION
 from mindrun.registry import kind
 from mindrun.regular_files import read_regular
 
-LONGEST = 1 << 20  # bytes of source
+MAX_SOURCE_BYTES = 1 << 20  # of source
 
 
 @kind("skill", "procedure")
@@ -50,7 +50,7 @@ def module_source(procedure: Procedure, folder: Path) -> str:
     try:
         if not path.resolve().is_relative_to(folder.resolve()):
             raise ProcedureError(f"procedure from {procedure.from_}: {path} lies outside {folder}")
-        if len(data := read_regular(path, LONGEST + 1)) > LONGEST:
+        if len(data := read_regular(path, MAX_SOURCE_BYTES + 1)) > MAX_SOURCE_BYTES:
             raise ProcedureError(f"procedure from {procedure.from_}: {path} is larger than 1 MiB")
         return StringIO(data.decode("utf-8-sig"), newline=None).read()
     except (OSError, RuntimeError, UnicodeError) as error:  # a loop of links is a RuntimeError

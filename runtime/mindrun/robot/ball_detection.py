@@ -15,8 +15,8 @@ from mindrun.robot.driver_support import library
 Frame = NDArray[np.uint8]
 
 BLACK, WHITE = 12, 250  # a brightness at and below which there is no light, and from which there is only light
-BLIND = 0.005, 0.6  # shares of the frame: at least so much must not be black, at most so much may be white
-OVEREXPOSED = 245  # a brightness from which a colour may be gone
+BLIND_SHARES = 0.005, 0.6  # shares of the frame: at least so much must not be black, at most so much may be white
+OVEREXPOSED_BRIGHTNESS = 245  # a brightness from which a colour may be gone
 FLATTEST, LONGEST = 0.14, 2.8  # how far a blob's area may be off a round one's; a streak, as lengths of its width
 
 
@@ -59,9 +59,9 @@ class Blob:
 def blindness(frame: Frame) -> str:
     """Why nothing could be seen in a frame, "" where something could."""
     brightest = library("cv2").cvtColor(frame, library("cv2").COLOR_BGR2GRAY)
-    if np.count_nonzero(brightest > BLACK) < BLIND[0] * brightest.size:
+    if np.count_nonzero(brightest > BLACK) < BLIND_SHARES[0] * brightest.size:
         return "black"
-    return "all white" if np.count_nonzero(brightest >= WHITE) > BLIND[1] * brightest.size else ""
+    return "all white" if np.count_nonzero(brightest >= WHITE) > BLIND_SHARES[1] * brightest.size else ""
 
 
 def find_ball(frame: Frame, target: BallTarget) -> Ball | None:
@@ -94,7 +94,7 @@ def blobs(frame: Frame, target: BallTarget) -> list[Blob]:
     cv2 = library("cv2")
     hsv = cv2.cvtColor(cv2.GaussianBlur(frame, (5, 5), 0), cv2.COLOR_BGR2HSV)
     coloured = in_colour(cv2, hsv, target)
-    glare = cv2.inRange(hsv, (0, 0, OVEREXPOSED), (180, round(target.colour * 255), 255))
+    glare = cv2.inRange(hsv, (0, 0, OVEREXPOSED_BRIGHTNESS), (180, round(target.colour * 255), 255))
     mask = cv2.morphologyEx(coloured | glare, cv2.MORPH_OPEN, np.ones((3, 3), np.uint8))
     contours, _ = cv2.findContours(mask, cv2.RETR_EXTERNAL, cv2.CHAIN_APPROX_NONE)
     large = [contour for contour in contours if len(contour) >= 2 * target.diameter]

@@ -14,10 +14,10 @@ from mindrun.driver import ActuatorDevice, DeviceError
 from mindrun.robot.ball_detection import Aim, Ball, BallTarget, Frame, PanTiltLimits, blindness, find_ball, follow
 from mindrun.robot.driver_support import library
 
-STALE = 0.2  # seconds for which the same frame may come
-RETRY = 0.02  # seconds between two questions to a camera that has no frame
+STALE_SECONDS = 0.2  # for which the same frame may come
+RETRY_SECONDS = 0.02  # between two questions to a camera that has no frame
 AHEAD = Aim()
-STILL_IMAGE = 8  # every so many pixels are compared with the frame before
+STILL_IMAGE_STRIDE = 8  # every so many pixels are compared with the frame before
 
 
 class Camera(Protocol):
@@ -111,7 +111,7 @@ class TrackingCamera:
             try:
                 seen, frame = self.camera.read()
                 if not seen:
-                    self.stop.wait(RETRY)
+                    self.stop.wait(RETRY_SECONDS)
                     continue  # who waits for a frame notices that none comes
                 self.tell(self.see(frame))
             except DeviceError as error:
@@ -123,10 +123,10 @@ class TrackingCamera:
     def see(self, frame: Frame) -> BallSighting:
         """What is in a frame; turns the camera after it."""
         now = monotonic()
-        sample = frame[::STILL_IMAGE, ::STILL_IMAGE]
+        sample = frame[::STILL_IMAGE_STRIDE, ::STILL_IMAGE_STRIDE]
         if self.sample is None or not np.array_equal(sample, self.sample):
             self.sample, self.changed = sample.copy(), now
-        if now - self.changed > STALE:
+        if now - self.changed > STALE_SECONDS:
             raise DeviceError("the camera repeats the same frame")
         if reason := blindness(frame):
             raise DeviceError(f"the camera sees nothing: its frames are {reason}")

@@ -8,7 +8,7 @@ from hashlib import sha256
 from pathlib import Path
 from typing import Any
 
-from mindrun.bundle import LARGEST, Bundle, read_bundle
+from mindrun.bundle import MAX_BUNDLE_BYTES, Bundle, read_bundle
 from mindrun.default_task import default_task
 from mindrun.driver import DeviceError
 from mindrun.errors import MindError
@@ -86,7 +86,7 @@ def _outcome(run: dict[str, Any]) -> str:
 
 def digest(path: Path) -> str:
     """The SHA-256 of a bundle's file."""
-    return sha256(read_whole(path, LARGEST)).hexdigest()
+    return sha256(read_whole(path, MAX_BUNDLE_BYTES)).hexdigest()
 
 
 def _summary(loop: Loop) -> str:

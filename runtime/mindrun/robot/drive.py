@@ -22,9 +22,9 @@ from mindrun.robot.stop_signals import Stop, stopping
 from mindrun.robot.systemd import notify
 from mindrun.wiring import Wiring, read_by
 
-PATIENCE = 10.0  # seconds for every sensor to have been measured once
-GRACE = 2.0  # seconds, or ticks where these are longer, in which a tick has to end once a signal has come
-LETTING_GO = 1.0  # seconds for all sensors to be closed
+FIRST_READING_SECONDS = 10.0  # for every sensor to have been measured once
+STOP_SECONDS = 2.0  # or ticks where these are longer, in which a tick has to end once a signal has come
+CLOSE_SECONDS = 1.0  # for all sensors to be closed
 
 
 class DriveError(MindError):
@@ -62,7 +62,7 @@ def drive(
     _refuse_blind(graph, options.master or graph.master, wiring)
     neutrals = {actuator.name: actuator.kind.neutral for actuator in graph.actuators}
     with ExitStack() as stack:
-        stop = stack.enter_context(stopping(GRACE * max(1.0, graph.tick)))
+        stop = stack.enter_context(stopping(STOP_SECONDS * max(1.0, graph.tick)))
         about = About.of(graph, digest, options.master or graph.master, tuple(wire.sensor for wire in wiring.sensors))
         recorder = stack.enter_context(_recorder(options.record, about))
         samplers = stack.enter_context(_sampling(wiring))
@@ -103,7 +103,7 @@ def _goes_on(tick: Tick, ticks: int, stop: Stop) -> bool:
 
 def _wait(samplers: list[Sampler], guardian: Guardian, loop: Loop, stop: Stop) -> None:
     """Until every sensor has been measured once, or for some seconds; the guardian hears all the while, unarmed."""
-    until = monotonic() + PATIENCE
+    until = monotonic() + FIRST_READING_SECONDS
     while monotonic() < until and not stop and not all(sampler.latest for sampler in samplers):
         guardian.send(loop.neutral.tolist(), False)
         sleep(loop.pace.tick)
@@ -117,7 +117,7 @@ def _sampling(wiring: Wiring) -> Iterator[list[Sampler]]:
     try:
         yield samplers
     finally:
-        until = monotonic() + LETTING_GO
+        until = monotonic() + CLOSE_SECONDS
         for sampler in samplers:
             sampler.stop(0.0)
         for sampler in samplers:  # together: each may hang

@@ -23,9 +23,9 @@ PATH = Reference("path")
 
 INSTALL = "pip install 'mindrun[robot]'"
 INSTALL_PINS = "sudo apt install python3-lgpio, or in a virtual environment: pip install lgpio"
-TRIES = 3
-PAUSE = 0.002  # seconds between two tries
-DEADLINE = 0.1  # seconds after which a transfer that failed is not tried again
+MAX_TRIES = 3
+RETRY_SECONDS = 0.002  # between two tries
+TRANSFER_SECONDS = 0.1  # seconds after which a transfer that failed is not tried again
 I2C_TIMEOUT, KERNEL_TICKS = 0x0702, 5  # <linux/i2c-dev.h>; in units of 10 ms: for how long a part may hold the clock
 
 
@@ -107,7 +107,7 @@ def on_bus(number: int, address: int) -> str:
 
 @dataclass(slots=True)
 class I2cDevice:
-    """One part on an I2C bus. Every transfer is tried up to `TRIES` times and ends, in an answer or a DeviceError."""
+    """One part on an I2C bus. Every transfer ends, after up to `MAX_TRIES` tries, in an answer or a DeviceError."""
 
     name: str
     number: int
@@ -131,7 +131,7 @@ class I2cDevice:
         if self.closed:
             raise self.error("is closed")
         begin, failure = monotonic(), "no answer"
-        for _ in range(TRIES):
+        for _ in range(MAX_TRIES):
             try:
                 answer = self.bus.transfer(self.address, out, count)
                 if len(answer) == count:
@@ -139,9 +139,9 @@ class I2cDevice:
                 failure = f"it gave {len(answer)} bytes, not {count}"
             except OSError as error:
                 failure = str(error)
-            if monotonic() - begin > DEADLINE:
+            if monotonic() - begin > TRANSFER_SECONDS:
                 break
-            sleep(PAUSE)
+            sleep(RETRY_SECONDS)
         raise self.error(f"does not answer: {failure}")
 
     def error(self, what: str) -> DeviceError:

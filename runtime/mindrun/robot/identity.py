@@ -15,7 +15,7 @@ from mindrun.graph import Graph
 from mindrun.regular_files import read_regular
 from mindrun.wiring import Wiring
 
-LONGEST = 4096  # bytes of what a robot says
+MAX_IDENTITY_BYTES = 4096  # of what a robot says
 
 
 class IdentityError(MindError):
@@ -51,7 +51,7 @@ def is_adopted(wiring: Wiring, graph: Graph) -> bool:
     """Whether this robot has adopted just this wiring; False where it has adopted none, IdentityError for another."""
     path = identity_file()
     try:
-        name, _, known = read_regular(path, LONGEST).decode().strip().rpartition(" ")
+        name, _, known = read_regular(path, MAX_IDENTITY_BYTES).decode().strip().rpartition(" ")
     except FileNotFoundError:
         return False
     except (OSError, UnicodeDecodeError) as error:

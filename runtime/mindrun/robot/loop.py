@@ -12,8 +12,8 @@ from mindrun.robot.rate import Rate
 from mindrun.robot.reading_filter import ReadingFilter, Sensed
 from mindrun.robot.recording import Recorder
 
-BEHIND = 3  # ticks in a row that were missed, after which every actuator is neutral until one is not
-OLD = 2  # ticks that thinking may take
+MISSED_TICKS_LIMIT = 3  # ticks in a row that were missed, after which every actuator is neutral until one is not
+MAX_THINKING_TICKS = 2  # that thinking may take
 
 
 class Sends(Protocol):
@@ -59,11 +59,11 @@ class Loop:
         """One tick, when it is due."""
         missed = self.pace.missed
         time = self.pace.wait()
-        behind = self.pace.missed - missed >= BEHIND
+        behind = self.pace.missed - missed >= MISSED_TICKS_LIMIT
         sensed = self.senses.now(time)
         self._tell(sensed)
         commands = self.engine.tick(sensed.readings)
-        too_old = self.pace.clock() - time >= OLD * self.pace.tick  # to act on what was sensed then
+        too_old = self.pace.clock() - time >= MAX_THINKING_TICKS * self.pace.tick  # to act on what was sensed then
         stopped = sensed.must_stop or behind or too_old
         sent = self.neutral if stopped else commands
         self.guardian.send(sent.tolist(), self.armed and not stopped)  # unarmed, neutral is not slowed down by slew

@@ -7,7 +7,7 @@ from time import monotonic, sleep
 import numpy as np
 from numpy.typing import NDArray
 
-BINS = 400  # of lateness, each a hundredth of a tick
+LATENESS_BINS = 400  # of lateness, each a hundredth of a tick
 
 
 @dataclass(slots=True)
@@ -20,7 +20,7 @@ class Rate:
     ticks: int = 0
     missed: int = 0
     latest: float = 0.0
-    counts: NDArray[np.int64] = field(default_factory=lambda: np.zeros(BINS, np.int64))
+    counts: NDArray[np.int64] = field(default_factory=lambda: np.zeros(LATENESS_BINS, np.int64))
     _due: float = 0.0
 
     def begin(self) -> None:
@@ -38,7 +38,7 @@ class Rate:
         self.missed += skipped
         self.ticks += 1
         self.latest = max(self.latest, late)
-        self.counts[min(BINS - 1, int(late / self.tick * 100))] += 1
+        self.counts[min(LATENESS_BINS - 1, int(late / self.tick * 100))] += 1
         self._due += (skipped + 1) * self.tick
         return now
 
@@ -47,7 +47,7 @@ class Rate:
         if not self.ticks:
             return 0.0
         place = int(np.searchsorted(np.cumsum(self.counts), share * self.ticks))
-        return (min(place, BINS - 1) + 1) * self.tick / 100
+        return (min(place, LATENESS_BINS - 1) + 1) * self.tick / 100
 
     def __str__(self) -> str:
         """A sentence."""

@@ -15,7 +15,7 @@ from mindrun.robot.sampling import Sample
 from mindrun.wiring import SensorWire, reading
 
 FINE, UNMEASURED, FAILED, STALE = range(4)  # what is wrong with a sensor in a tick
-WORDS = ("fine", "not measured yet", "failed", "too old")
+FAULT_WORDS = ("fine", "not measured yet", "failed", "too old")
 
 
 class Source(Protocol):

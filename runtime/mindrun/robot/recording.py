@@ -27,9 +27,9 @@ from mindrun.strict_json import are_names, is_whole, parsed
 from mindrun.validate import LONGEST, SHORTEST
 
 FORMAT, UNSEALED = "mind recording 2", "mind recording 1"
-LARGEST = 1 << 20  # bytes of the line
-READ = 1 << 22  # bytes of rows at once, or one row where that is more
-CHECK = b', "check": "'  # the checksum of the line before it, which is the last that it says
+MAX_HEADER_BYTES = 1 << 20
+READ_BYTES = 1 << 22  # of rows at once, or one row where that is more
+CHECKSUM_FIELD = b', "check": "'  # the checksum of the line before it, which is the last that it says
 SHA256 = re.compile("[0-9a-f]{64}")
 
 
@@ -139,7 +139,7 @@ def read(path: Path) -> tuple[About, Iterator[NDArray[Any]]]:
     """What a recording is of, and its rows in parts; RecordingError where it is none, or a row is damaged."""
     try:
         with open(open_regular(path), "rb") as file:  # noqa: PTH123
-            about = _about(file.readline(LARGEST), path)
+            about = _about(file.readline(MAX_HEADER_BYTES), path)
             return about, _rows(path, file.tell(), about)
     except OSError as error:
         raise RecordingError(f"cannot read {path}: {error.strerror}") from error
@@ -149,7 +149,7 @@ def _rows(path: Path, offset: int, about: About) -> Iterator[NDArray[Any]]:
     size, number = about.row.itemsize, 0
     with open(open_regular(path), "rb") as file:  # noqa: PTH123
         file.seek(offset)
-        while data := file.read(size * max(1, READ // size)):
+        while data := file.read(size * max(1, READ_BYTES // size)):
             rows = np.frombuffer(data[: len(data) // size * size], about.row)
             for row in rows:
                 _check(row, path, number)
@@ -166,12 +166,12 @@ def _check(row: Any, path: Path, number: int) -> None:
 
 def _line(about: About) -> bytes:
     said = json.dumps({"format": FORMAT, **{name: getattr(about, name) for name in About.__slots__}}).encode()[:-1]
-    return _sealed(said + CHECK)
+    return _sealed(said + CHECKSUM_FIELD)
 
 
 def _about(line: bytes, path: Path) -> About:
     try:
-        plain = parsed(line, LARGEST)
+        plain = parsed(line, MAX_HEADER_BYTES)
         if not isinstance(plain, dict) or plain.get("format") not in (FORMAT, UNSEALED):
             raise ValueError("it is of another form")
         if plain["format"] == FORMAT and line != _sealed(line):
@@ -183,8 +183,8 @@ def _about(line: bytes, path: Path) -> About:
 
 def _sealed(line: bytes) -> bytes:
     """The line with the checksum of what it says before that."""
-    said = line.rpartition(CHECK)[0]
-    return said + CHECK + f"{zlib.crc32(said):08x}".encode() + b'"}\n'
+    said = line.rpartition(CHECKSUM_FIELD)[0]
+    return said + CHECKSUM_FIELD + f"{zlib.crc32(said):08x}".encode() + b'"}\n'
 
 
 def _typed(plain: dict[str, Any]) -> About:
@@ -196,6 +196,6 @@ def _typed(plain: dict[str, Any]) -> About:
         raise ValueError("it does not say of which bundle it is")
     if type(plain["tick"]) not in (int, float) or not SHORTEST <= plain["tick"] <= LONGEST:
         raise ValueError("it does not say how long a tick is")
-    if not is_whole(plain["readings"], high=LARGEST):
+    if not is_whole(plain["readings"], high=MAX_HEADER_BYTES):
         raise ValueError("it does not say how many readings there are")
     return About(**plain | {name: tuple(plain[name]) for name in ("sensors", "actuators", "skills")})

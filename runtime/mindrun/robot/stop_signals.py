@@ -6,9 +6,9 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from types import FrameType
 
-SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
+STOP_SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 INTERRUPTED = 130
-TRIES = 5  # to interrupt what hangs, or to end in order, before the process is ended as it is
+MAX_INTERRUPTIONS = 5  # to interrupt what hangs, or to end in order, before the process is ended as it is
 
 
 class Stop:
@@ -41,7 +41,7 @@ class Stop:
     def hurry(self, _number: int, _frame: FrameType | None) -> None:
         """It takes too long."""
         self._tries += 1
-        if self._tries >= TRIES:  # a procedure that catches everything, or a disk that does not answer
+        if self._tries >= MAX_INTERRUPTIONS:  # a procedure that catches everything, or a disk that does not answer
             os._exit(INTERRUPTED)
         self._interrupt()
 
@@ -55,7 +55,7 @@ class Stop:
 def stopping(grace: float) -> Iterator[Stop]:
     """Hear the signals that end programs, and let them end this one in order."""
     stop = Stop(grace)
-    handlers = dict.fromkeys(SIGNALS, stop.note) | {signal.SIGALRM: stop.hurry}
+    handlers = dict.fromkeys(STOP_SIGNALS, stop.note) | {signal.SIGALRM: stop.hurry}
     before = {number: signal.signal(number, handler) for number, handler in handlers.items()}
     try:
         yield stop

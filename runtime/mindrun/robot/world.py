@@ -27,10 +27,10 @@ from mindrun.errors import MindError
 from mindrun.graph import Graph
 from mindrun.robot.drivers.simulated import ANSWER, READ, REQUEST, STATUS, WRITE
 
-CLIENTS = 64
-SEEDS = 1 << 64
-CHUNK = 4096  # bytes of requests that one client may have answered before the others
-LINGER = 2.0  # seconds that the guardian has to bring a robot to neutral whose controller is gone
+MAX_CLIENTS = 64
+SEED_COUNT = 1 << 64
+CHUNK_BYTES = 4096  # of requests that one client may have answered before the others
+NEUTRAL_SECONDS = 2.0  # that the guardian has to bring a robot to neutral whose controller is gone
 PARENT_DIED = 1  # PR_SET_PDEATHSIG
 
 
@@ -75,7 +75,7 @@ class Scene:
         self.world.step(list(self.commands.values()))
         if self.again and self.world.ended:
             self.past[self.world.ended] += 1
-            self.world.begin((self.world.seed + 1) % SEEDS)
+            self.world.begin((self.world.seed + 1) % SEED_COUNT)
         self._sense()
 
     def answer(self, what: bytes, name: str, value: float) -> bytes:
@@ -119,7 +119,7 @@ class Server:
 
     def end(self, *_signal: object) -> None:
         """Serve only the clients there are, and those not for long."""
-        self._until = monotonic() + LINGER
+        self._until = monotonic() + NEUTRAL_SECONDS
 
     def serve(self, listener: socket, period: float) -> None:
         """Tick every so many seconds, until the end; a tick that is past is missed, not made up for."""
@@ -144,12 +144,12 @@ class Server:
             client.setblocking(False)
             self._clients[client] = bytearray()
             self._selector.register(client, EVENT_READ, self._hear)
-            if len(self._clients) > CLIENTS:
+            if len(self._clients) > MAX_CLIENTS:
                 self._part(client)
 
     def _hear(self, client: socket) -> None:
         try:
-            said = client.recv(CHUNK)
+            said = client.recv(CHUNK_BYTES)
             self._clients[client] += said
             answers = b"".join(self.scene.answer(*request) for request in requests(self._clients[client]))
             if not said or client.send(answers) < len(answers):
@@ -202,7 +202,7 @@ def simulated(
             finally:
                 process.terminate()
                 try:
-                    process.wait(2 * LINGER)
+                    process.wait(2 * NEUTRAL_SECONDS)
                 except subprocess.TimeoutExpired:
                     process.kill()
 
@@ -294,7 +294,7 @@ def _options() -> argparse.Namespace:
 
 
 def _seed(text: str) -> int:
-    if not 0 <= int(text) < SEEDS:
+    if not 0 <= int(text) < SEED_COUNT:
         raise argparse.ArgumentTypeError(f"{text} is not a seed")
     return int(text)
 

@@ -8,11 +8,11 @@ from mindrun.trigonometry import C1, C2, C3, C4, C5, C6, PART_1, PART_2, PART_3,
 
 F = np.float32
 ZERO, HALF, ONE = F(0), F(0.5), F(1)
-TINY = F(1e-7)
+MIN_DENOMINATOR = F(1e-7)
 A1, A3, A5, A7, A9, A11, A13 = (F(a) for a in NUMERATOR)
 B0, B2, B4, B6 = (F(b) for b in DENOMINATOR)
-TOP = F(LIMIT)
-HUGE = np.finfo(F).max
+SIGMOID_LIMIT = F(LIMIT)
+MAX_FLOAT32 = np.finfo(F).max
 
 
 @inlined
@@ -25,7 +25,7 @@ def clamp(v):
 @inlined
 def finite(v):
     """Whether a float32 is neither infinite nor NaN."""
-    return abs(v) <= HUGE
+    return abs(v) <= MAX_FLOAT32
 
 
 @inlined
@@ -61,7 +61,7 @@ def bearing(x, y):
     ax, ay = abs(x), abs(y)
     low = ax if ax < ay else ay
     high = ax if ax > ay else ay
-    t = low / (high if high > TINY else ONE)
+    t = low / (high if high > MIN_DENOMINATOR else ONE)
     z = t * t
     p = T15
     p = p * z + T13

@@ -26,8 +26,8 @@ from numba.core.serialize import dumps
 HERE = Path(__file__).parent
 SHIPPED = HERE / "compiled"  # in the wheel
 # The kinds of processors for which wheels have machine code, and what one must have to run it, as LLVM writes it.
-KINDS = {"x86-64-v3": "+avx,+avx2,+bmi,+bmi2,+f16c,+fma,+lzcnt,+movbe,+popcnt,+sse4.2", "generic": "+neon"}
-HASH = 32  # bytes
+PROCESSORS = {"x86-64-v3": "+avx,+avx2,+bmi,+bmi2,+f16c,+fma,+lzcnt,+movbe,+popcnt,+sse4.2", "generic": "+neon"}
+HASH_BYTES = 32
 
 
 @cache
@@ -83,7 +83,7 @@ class MachineCode(_Cache):  # type: ignore[misc]
         """The compiled function, or None."""
         triple, *processor = target_context.codegen().magic_tuple()
         kept = folder() / self.file(sig, triple, *processor)
-        for path in (kept, *(SHIPPED / self.file(sig, triple, kind, KINDS[kind]) for kind in fitting())):
+        for path in (kept, *(SHIPPED / self.file(sig, triple, kind, PROCESSORS[kind]) for kind in fitting())):
             if (data := _read(path)) is not None:
                 return CompileResult._rebuild(target_context, *pickle.loads(data))
         return None
@@ -129,15 +129,15 @@ def fitting() -> list[str]:
     if numba.config.CPU_NAME:
         return []
     has = {f"+{name}" for name, is_there in get_host_cpu_features().items() if is_there}
-    return [kind for kind, needs in KINDS.items() if {*needs.split(",")} <= has]
+    return [kind for kind, needs in PROCESSORS.items() if {*needs.split(",")} <= has]
 
 
 def _read(path: Path) -> bytes | None:
     """What was written, or None where nothing was, or something else."""
     with suppress(OSError):
         data = path.read_bytes()
-        if sha256(data[HASH:]).digest() == data[:HASH]:
-            return data[HASH:]
+        if sha256(data[HASH_BYTES:]).digest() == data[:HASH_BYTES]:
+            return data[HASH_BYTES:]
     return None
 
 

@@ -17,8 +17,8 @@ from typing import Any, NoReturn
 
 from mindrun.sim import exact
 
-EXACT = 2**53  # whole numbers up to here are floats
-POWERS = 64
+EXACT_INTEGERS = 2**53  # whole numbers up to here are floats
+MAX_POWER = 64
 OPERATORS: Mapping[type[ast.operator], str] = {ast.Add: "+", ast.Sub: "-", ast.Mult: "*"}
 COMPARISONS: Mapping[type[ast.cmpop], str] = {
     ast.Lt: "<", ast.LtE: "<=", ast.Gt: ">", ast.GtE: ">=", ast.Eq: "==", ast.NotEq: "!=",
@@ -254,7 +254,7 @@ def _constant(value: Any, node: ast.expr) -> Term:
     match value:
         case bool():
             return Term(str(value), Kind.TRUTH)
-        case int() if abs(value) <= EXACT:
+        case int() if abs(value) <= EXACT_INTEGERS:
             return Term(f"({float(value)!r})", Kind.NUMBER, abs(value), value)
         case float():
             return Term({"inf": "INF", "-inf": "(-INF)", "nan": "NAN"}.get(repr(value), f"({value!r})"), Kind.FLOAT)
@@ -280,12 +280,12 @@ def _unary(op: ast.unaryop, term: Term, node: ast.expr) -> Term:
 def _binary(op: ast.operator, left: Term, right: Term, node: ast.expr) -> Term:
     a, b = _number(left), _number(right)
     if isinstance(op, ast.Pow):
-        if b.whole is None or abs(b.whole) > POWERS:
+        if b.whole is None or abs(b.whole) > MAX_POWER:
             _refuse(node)
         text, size = f"power(wrong, {a.text}, {b.text})", a.size ** abs(b.whole)
         if a.kind is Kind.FLOAT or b.whole < 0:
             return Term(text, Kind.FLOAT)
-        return Term(text, Kind.NUMBER, size) if size <= EXACT else _refuse(node)
+        return Term(text, Kind.NUMBER, size) if size <= EXACT_INTEGERS else _refuse(node)
     if isinstance(op, ast.Div):
         return Term(f"divide(wrong, {a.text}, {b.text})", Kind.FLOAT)
     if isinstance(op, ast.Mod):
@@ -297,7 +297,7 @@ def _binary(op: ast.operator, left: Term, right: Term, node: ast.expr) -> Term:
         _refuse(node)
     if Kind.FLOAT in (a.kind, b.kind):
         return Term(text, Kind.FLOAT)
-    return Term(text, Kind.NUMBER, size) if size <= EXACT else _refuse(node)
+    return Term(text, Kind.NUMBER, size) if size <= EXACT_INTEGERS else _refuse(node)
 
 
 def _truths(*terms: Term) -> bool:

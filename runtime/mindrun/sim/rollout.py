@@ -22,7 +22,7 @@ from mindrun.sim.tables import Sizes, Tables, build, genome_length
 from mindrun.sim.threads import in_threads
 
 Array = NDArray[Any]
-LANES = 256
+DEFAULT_LANES = 256
 SLICE, SLOW_SLICE = 1000, 20  # ticks between two looks at whether to stop; where procedures run in Python
 
 
@@ -68,7 +68,7 @@ class Rollout:
         procedures: Path | None = None,
         interrupt: bool = True,
         workers: int = 1,
-        lanes: int = LANES,
+        lanes: int = DEFAULT_LANES,
     ) -> None:
         self.graph = graph
         self.task = next(t for t in graph.tasks if t.name == task)

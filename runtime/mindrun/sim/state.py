@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from mindrun.sim.codes import AWAY, INERTIAL_TICKS
 from mindrun.sim.tables import Sizes, Tables
-from mindrun.sim.vector import WIDE
+from mindrun.sim.vector import VECTOR_LANES
 
 Array = NDArray[Any]
 
@@ -101,7 +101,7 @@ HANDLES = 3
 
 def empty_state(tables: Tables, sizes: Sizes, lanes: int) -> State:
     """Room for so many lanes, all idle."""
-    whole = -(-lanes // WIDE) * WIDE  # the perceptrons take sixteen lanes at a time
+    whole = -(-lanes // VECTOR_LANES) * VECTOR_LANES  # the perceptrons take sixteen lanes at a time
     things, boxes, rays, events = len(tables.things), sizes.boxes, len(tables.ray_row), len(tables.events)
     actuators = len(tables.actuators)
     doubles = {

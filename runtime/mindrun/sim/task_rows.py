@@ -31,8 +31,8 @@ from mindrun.sim.codes import (
 from mindrun.sim.programs import Programs
 
 Array = NDArray[Any]
-CELL = 20.0  # units: the side of a cell of Chipmunk's hash, in which what is large takes only so many
-CELLS, WALL_CELLS = 4, 64
+MIN_CELL_UNITS = 20.0  # the side of a cell of Chipmunk's hash, in which what is large takes only so many
+CELLS_PER_SHAPE, CELLS_PER_WALL = 4, 64
 
 
 def things_of(task: Task) -> list[Thing]:
@@ -162,8 +162,8 @@ def world_row(graph: Graph, task: Task, rays: int, used: Sequence[Sensor], maste
     solid = [
         max(t.kind.size.first, t.kind.size.last) for t in task.things if isinstance(t.kind, world.Item | world.Obstacle)
     ]
-    spread = 0.0 if half == inf else 2 * half / WALL_CELLS
-    cell = max([CELL, spread, *(size / CELLS for size in (body.size, *sizes, *solid))])
+    spread = 0.0 if half == inf else 2 * half / CELLS_PER_WALL
+    cell = max([MIN_CELL_UNITS, spread, *(size / CELLS_PER_SHAPE for size in (body.size, *sizes, *solid))])
     row = (
         dt, 1.0 / (1.0 + dt * body.linear_damping), 1.0 / (1.0 + dt * body.angular_damping), mass, moment,
         1.0 / mass, 1.0 / moment, radius, half, task.ticks, battery.start, battery.drain, battery.charge,

@@ -13,12 +13,12 @@ from numba import types
 from numba.core import cgutils
 from numba.extending import intrinsic, models, overload, register_model
 
-from mindrun.sim.arithmetic import A1, A3, A5, A7, A9, A11, A13, B0, B2, B4, B6, HALF, TOP
+from mindrun.sim.arithmetic import A1, A3, A5, A7, A9, A11, A13, B0, B2, B4, B6, HALF, SIGMOID_LIMIT
 from mindrun.sim.compiling import compiled
 
-WIDE = 16
+VECTOR_LANES = 16
 _FLOAT = ir.FloatType()
-_VECTOR = ir.VectorType(_FLOAT, WIDE)
+_VECTOR = ir.VectorType(_FLOAT, VECTOR_LANES)
 
 
 class Vector(types.Type):
@@ -39,7 +39,7 @@ class _VectorModel(models.PrimitiveModel):
 
 def _splat(builder: Any, value: Any) -> Any:
     first = builder.insert_element(ir.Constant(_VECTOR, ir.Undefined), value, ir.Constant(ir.IntType(32), 0))
-    zeros = ir.Constant(ir.VectorType(ir.IntType(32), WIDE), [0] * WIDE)
+    zeros = ir.Constant(ir.VectorType(ir.IntType(32), VECTOR_LANES), [0] * VECTOR_LANES)
     return builder.shuffle_vector(first, ir.Constant(_VECTOR, ir.Undefined), zeros)
 
 
@@ -151,8 +151,8 @@ def sigmoids(x):
     """1 / (1 + e^−x) in sixteen lanes, as a rational function of x/2: the arithmetic of `mindrun.sigmoid`."""
     half = splat(HALF)
     x = x * half
-    x = HIGHEST(x, splat(-TOP))
-    x = LOWEST(x, splat(TOP))
+    x = HIGHEST(x, splat(-SIGMOID_LIMIT))
+    x = LOWEST(x, splat(SIGMOID_LIMIT))
     y = x * x
     p = splat(A13)
     p = p * y + splat(A11)

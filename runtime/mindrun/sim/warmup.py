@@ -18,8 +18,8 @@ from mindrun.sim.lanes.advance import advance
 from mindrun.sim.rollout import Rollout
 from mindrun.world import Disc, Plain
 
-BEHIND = "behind"
-LEAST = 19  # how little a process matters that works while others wait for nothing
+IN_BACKGROUND = "behind"
+LOWEST_NICENESS = 19  # how little a process matters that works while others wait for nothing
 
 
 def code() -> cache.MachineCode:
@@ -58,14 +58,14 @@ def warm_up() -> None:
 
 def main(words: Sequence[str]) -> None:
     """Compile; once another process that is at it has done so, or, with `behind`, not at all then."""
-    behind = BEHIND in words
+    behind = IN_BACKGROUND in words
     with (cache.folder() / "warming").open("w") as file:
         try:
             fcntl.flock(file, fcntl.LOCK_EX | (fcntl.LOCK_NB if behind else 0))
         except OSError:
             return
         if behind:
-            os.nice(LEAST)
+            os.nice(LOWEST_NICENESS)
         warm_up()
 
 

@@ -25,8 +25,8 @@ from mindrun.sensors import Bearing, RangeFinder
 from mindrun.standard_streams import draw
 from mindrun.wiring import SensorWire, reading, still
 
-MOST = 3600.0  # seconds
-REST = 10  # values that follow one another, over which noise is measured
+MAX_SECONDS = 3600.0
+NOISE_VALUES = 10  # that follow one another, over which noise is measured
 
 
 def options(parser: argparse.ArgumentParser) -> None:
@@ -34,7 +34,7 @@ def options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("bundle", type=Path)
     parser.add_argument("sensor")
     parser.add_argument(
-        "--seconds", type=real(0, MOST), default=20.0, metavar="S", help="how long to watch (default: 20)"
+        "--seconds", type=real(0, MAX_SECONDS), default=20.0, metavar="S", help="how long to watch (default: 20)"
     )
 
 
@@ -108,7 +108,7 @@ def found(values: Sequence[float | None]) -> Found | None:
     there = [value for value in values if value is not None]
     if not there:
         return None
-    spans = [there[i : i + REST] for i in range(max(1, len(there) - REST + 1))]
+    spans = [there[i : i + NOISE_VALUES] for i in range(max(1, len(there) - NOISE_VALUES + 1))]
     noise = min(pstdev(span) for span in spans)
     return Found(min(there), max(there), noise, 1 - len(there) / len(values))
 

@@ -22,7 +22,7 @@ from mindrun.registry import names
 from mindrun.robot.sampling import Sample, Sampler
 from mindrun.wiring import SensorWire, Wiring, still
 
-PATIENCE = 3.0  # seconds for a sensor to answer
+SENSOR_SECONDS = 3.0  # for a sensor to answer
 PACKAGES = {  # that drivers may need, and the line that installs each
     "numpy": "pip install numpy",
     "smbus2": "pip install smbus2",
@@ -87,7 +87,7 @@ def wired(wiring: Wiring) -> Iterator[Finding]:
         sample = answered(wire)
         kind = names()[type(wire.driver)]
         if sample is None:
-            yield Finding(wire.sensor, WRONG, f"{kind} has not answered within {PATIENCE:g} s")
+            yield Finding(wire.sensor, WRONG, f"{kind} has not answered within {SENSOR_SECONDS:g} s")
         else:
             values = " ".join("-" if value is None else f"{value:.3g}" for value in sample.values)
             words = sample.fault or f"{kind} reads {values} {wire.driver.unit}".rstrip()
@@ -102,5 +102,5 @@ def answered(wire: SensorWire) -> Sample | None:
     came: list[Sample] = []
     thread = Thread(target=lambda: came.append(sampler.measured_once()), daemon=True)
     thread.start()
-    thread.join(PATIENCE)
+    thread.join(SENSOR_SECONDS)
     return came[0] if came else None

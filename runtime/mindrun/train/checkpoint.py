@@ -24,8 +24,8 @@ from mindrun.train.population import Population
 NAME, PREVIOUS = "checkpoint", "checkpoint.previous"
 MAGIC = b"mind checkpoint 5\n"
 DIGEST = 32
-LARGEST = 1 << 32  # bytes of a file
-MOST = 2**53  # of any count
+MAX_CHECKPOINT_BYTES = 1 << 32
+MAX_COUNT = 2**53  # of any count
 
 Arrays = dict[str, NDArray[Any]]
 TYPES = {  # of each array in the order of the file: what its numbers are, and how many dimensions it has
@@ -150,7 +150,7 @@ def _hold_together(arrays: Arrays) -> bool:
     return bool(
         all(np.isfinite(arrays[name]).all() for name in ("genomes", "champion", "rival", "champions"))
         and not any(np.isnan(arrays[name]).any() for name in ("scores", "rungs", "verdicts", "floats"))
-        and all(((arrays[name] >= 0) & (arrays[name] <= MOST)).all() for name in ("lengths", "counts"))
+        and all(((arrays[name] >= 0) & (arrays[name] <= MAX_COUNT)).all() for name in ("lengths", "counts"))
         and (attempt, generation > 0) == (ended, population > 0)
         and told_apart <= 1
     )
@@ -167,7 +167,7 @@ def _state(arrays: Arrays) -> State:
 
 def _read(path: Path, run: str) -> State | None:
     try:
-        return unpack(read_whole(path, LARGEST), run)
+        return unpack(read_whole(path, MAX_CHECKPOINT_BYTES), run)
     except FileNotFoundError:
         return None
     except OSError as error:

@@ -10,7 +10,7 @@ from stat import S_ISREG
 from mindrun.regular_files import irregular, read_regular
 from mindrun.train.errors import RunError
 
-DIGITS = 20  # of the number of a process
+MAX_PID_DIGITS = 20  # of the number of a process
 
 
 @contextmanager
@@ -40,5 +40,5 @@ def _opened(path: Path) -> int:
 
 
 def _holder(path: Path) -> str:
-    number = read_regular(path, DIGITS).strip()
+    number = read_regular(path, MAX_PID_DIGITS).strip()
     return number.decode() if number.isdigit() else "unknown"

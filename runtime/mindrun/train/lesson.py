@@ -15,10 +15,10 @@ from mindrun.train.rungs import is_behind, not_climbed, rung_at
 from mindrun.train.scoring import Scorer, mark
 from mindrun.train.seeds import Purpose, Seeds, breeding, layouts
 
-EVERY = 10  # generations between two re-evaluations
-CANDIDATES = 4  # of a generation, that are re-evaluated beside the champion
-FRESH = 16  # layouts of a re-evaluation of so many candidates
-VERDICT = 50  # layouts on which attempts are compared, and as many others on which the best is reported
+REEVALUATION_GENERATIONS = 10  # between two re-evaluations
+REEVALUATED_CANDIDATES = 4  # of a generation, that are re-evaluated beside the champion
+REEVALUATION_LAYOUTS = 16  # layouts of a re-evaluation of so many candidates
+VERDICT_LAYOUTS = 50  # layouts on which attempts are compared, and as many others on which the best is reported
 
 Clock = Callable[[], float]
 
@@ -159,10 +159,10 @@ def generation(course: Course, scorer: Scorer, state: State) -> tuple[State, Rec
     )
     number, reevaluated, verdict = population.generation, None, None
     rung = rung_at(course.lesson, number)
-    if number == 1 or number % EVERY == 0 or rung is not None or has_ended(course.lesson, now):
+    if number == 1 or number % REEVALUATION_GENERATIONS == 0 or rung is not None or has_ended(course.lesson, now):
         now, reevaluated = try_again(now, scorer, layouts(*key, fresh_count(learner), Purpose.REEVALUATION))
     if rung is not None:
-        now = climb(now, scorer, rung, layouts(course.seed, 0, number, VERDICT, Purpose.RUNG))
+        now = climb(now, scorer, rung, layouts(course.seed, 0, number, VERDICT_LAYOUTS, Purpose.RUNG))
     if has_ended(course.lesson, now):
         now, verdict = judge(course, scorer, now)
     ticks, faults = now.ticks - state.ticks, now.faults - state.faults
@@ -183,7 +183,7 @@ def has_ended(lesson: Lesson, state: State) -> bool:
 
 def fresh_count(learner: Learner) -> int:
     """On how many layouts candidates are tried again: the fewer there are beside champion and rival, the more."""
-    return FRESH * (CANDIDATES + 2) // (min(CANDIDATES, kept_count(learner)) + 2)
+    return REEVALUATION_LAYOUTS * (REEVALUATED_CANDIDATES + 2) // (min(REEVALUATED_CANDIDATES, kept_count(learner)) + 2)
 
 
 def climb(state: State, scorer: Scorer, rung: int, seeds: Seeds) -> State:
@@ -197,7 +197,7 @@ def climb(state: State, scorer: Scorer, rung: int, seeds: Seeds) -> State:
 def try_again(state: State, scorer: Scorer, fresh: Seeds) -> tuple[State, float]:
     """The champion is who does best on fresh layouts, it or the best of the generation; and its score on them."""
     ranked = state.population.genomes[order(state.population.scores)]
-    candidates = np.concatenate([state.champion, ranked[:CANDIDATES], state.rival])
+    candidates = np.concatenate([state.champion, ranked[:REEVALUATED_CANDIDATES], state.rival])
     marks = mark(scorer, candidates, fresh)
     winner = int(order(marks.scores[: len(candidates) - len(state.rival)])[0])
     now = replace(
@@ -227,9 +227,9 @@ def are_different(scores: Scores) -> bool:
 
 def judge(course: Course, scorer: Scorer, state: State) -> tuple[State, float]:
     """The end of an attempt: its champion tried on layouts common to all attempts; its score on the second half."""
-    seeds = layouts(course.seed, 0, course.lesson.generations, 2 * VERDICT, Purpose.VERDICT)
+    seeds = layouts(course.seed, 0, course.lesson.generations, 2 * VERDICT_LAYOUTS, Purpose.VERDICT)
     marks = mark(scorer, state.champion, seeds)
-    verdict = marks.each[0].reshape(2, VERDICT).mean(axis=1)
+    verdict = marks.each[0].reshape(2, VERDICT_LAYOUTS).mean(axis=1)
     ended = replace(
         state,
         attempt=state.attempt + 1,

@@ -22,7 +22,7 @@ from mindrun.validate import lesson_flaws
 from mindrun.weights import Weights, reachable
 
 FORMAT = 2
-LAST = 2**63 - 1  # seed
+MAX_SEED = 2**63 - 1  # seed
 
 
 @dataclass(frozen=True, slots=True)
@@ -132,7 +132,9 @@ def _manifest(plain: Any) -> Manifest:
     texts += [text for each in tables if isinstance(each, dict) for pair in each.items() for text in pair]
     if not all(isinstance(each, list) for each in lists) or not all(isinstance(each, dict) for each in tables):
         raise ValueError("it has parts of another form")
-    if not all(isinstance(text, str) and "\0" not in text for text in texts) or not is_whole(plain["seed"], high=LAST):
+    if not all(isinstance(text, str) and "\0" not in text for text in texts) or not is_whole(
+        plain["seed"], high=MAX_SEED
+    ):
         raise ValueError("it has parts of another kind")
     for found in lesson_flaws(lesson):
         raise ValueError(found)

@@ -12,7 +12,7 @@ Genomes = NDArray[np.float32]
 Scores = NDArray[np.float64]
 Draw = Callable[[int, np.random.Generator], Genomes]  # so many random genomes
 
-LIMIT = 100.0  # no weight grows beyond it, so a genome is finite always
+MAX_WEIGHT = 100.0  # no weight grows beyond it, so a genome is finite always
 
 
 @dataclass(frozen=True, slots=True)
@@ -44,7 +44,7 @@ def order(scores: Scores) -> NDArray[np.intp]:
 
 def bounded(genomes: Genomes) -> Genomes:
     """The genomes with every weight finite and within ±LIMIT."""
-    return np.clip(np.nan_to_num(genomes, nan=0.0), -LIMIT, LIMIT).astype(np.float32, copy=False)
+    return np.clip(np.nan_to_num(genomes, nan=0.0), -MAX_WEIGHT, MAX_WEIGHT).astype(np.float32, copy=False)
 
 
 def worst_if_nan(scores: Scores) -> Scores:

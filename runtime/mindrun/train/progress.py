@@ -16,11 +16,11 @@ from mindrun.train.lesson import Record, State
 
 LINES, TABLE = "progress.jsonl", "progress.csv"
 Logged = dict[str, float | None]  # a generation: as Record, None where a score is not finite
-COUNTED = "attempt", "generation"
+COUNT_COLUMNS = "attempt", "generation"
 COLUMNS = tuple(field.name for field in fields(Record))
-LARGEST = 1 << 28  # bytes of the log
-LONGEST = 1 << 12  # bytes of a line
-MOST = 2**53
+MAX_LOG_BYTES = 1 << 28
+MAX_LINE_BYTES = 1 << 12
+MAX_COUNT = 2**53
 
 
 class Progress:
@@ -55,7 +55,7 @@ class Progress:
 def read(folder: Path) -> list[Logged]:
     """The whole lines of a run's log; what follows a line that a crash damaged is left out."""
     try:
-        lines = read_whole(folder / LINES, LARGEST).split(b"\n")[:-1]
+        lines = read_whole(folder / LINES, MAX_LOG_BYTES).split(b"\n")[:-1]
     except FileNotFoundError:
         return []
     except OSError as error:
@@ -68,17 +68,17 @@ def read(folder: Path) -> list[Logged]:
 def _record(line: bytes) -> Logged:
     """The generation that a line says; an empty one where it says none."""
     try:
-        record = parsed(line, LONGEST)
+        record = parsed(line, MAX_LINE_BYTES)
     except ValueError:
         return {}
     if not isinstance(record, dict) or tuple(record) != COLUMNS:
         return {}
-    counted = all(is_whole(record[name], 1) for name in COUNTED)
+    counted = all(is_whole(record[name], 1) for name in COUNT_COLUMNS)
     return record if counted and all(map(_is_plain, record.values())) else {}
 
 
 def _is_plain(value: object) -> bool:
-    return value is None or is_whole(value, -MOST, MOST) or (isinstance(value, float) and isfinite(value))
+    return value is None or is_whole(value, -MAX_COUNT, MAX_COUNT) or (isinstance(value, float) and isfinite(value))
 
 
 def _is_behind(record: Logged, state: State) -> bool:

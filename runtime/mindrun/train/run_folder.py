@@ -24,7 +24,7 @@ from mindrun.weights import Weights
 
 MANIFEST, SOURCES, START, WEIGHTS = "manifest.json", "source", "start.npz", "weights.npy"
 CHAMPIONS, RESULT = "champions.npy", "result.json"
-LARGEST = 1 << 27  # bytes of a manifest, a result, or the weights of all skills
+MAX_FILE_BYTES = 1 << 27  # of a manifest, a result, or the weights of all skills
 
 
 @dataclass(frozen=True, slots=True)
@@ -89,8 +89,8 @@ def unfinished(runs: Path, manifest: Manifest) -> Run | None:
 def open_run(folder: Path) -> Run:
     """The run in a folder; RunError where there is none or a part of it is damaged."""
     try:
-        manifest = from_json(read_whole(folder / MANIFEST, LARGEST))
-        weights = _unpacked(read_whole(folder / START, LARGEST))
+        manifest = from_json(read_whole(folder / MANIFEST, MAX_FILE_BYTES))
+        weights = _unpacked(read_whole(folder / START, MAX_FILE_BYTES))
     except OSError as error:
         raise NotFoundError(
             f"{folder} is not a run: {error.strerror} ({error.filename})",
@@ -123,7 +123,7 @@ def keep_result(folder: Path, result: Mapping[str, Any]) -> None:
 def read_result(folder: Path) -> dict[str, Any] | None:
     """What came of the run; None while it is not finished."""
     try:
-        result = parsed(read_whole(folder / RESULT, LARGEST), LARGEST)
+        result = parsed(read_whole(folder / RESULT, MAX_FILE_BYTES), MAX_FILE_BYTES)
     except (OSError, ValueError):
         return None
     return result if isinstance(result, dict) else None

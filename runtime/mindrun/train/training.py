@@ -14,7 +14,7 @@ from mindrun.train.progress import Progress
 from mindrun.train.run_folder import Run, keep_champions, keep_weights
 from mindrun.train.scoring import Scorer
 
-EVERY = 2.0  # seconds between two checkpoints
+CHECKPOINT_SECONDS = 2.0  # between two checkpoints
 
 
 @dataclass(frozen=True, slots=True)
@@ -25,7 +25,7 @@ class Watch:
     warn: Callable[[str], None]
     stop: Callable[[], bool]
     clock: Clock
-    save_every: float = EVERY
+    save_every: float = CHECKPOINT_SECONDS
 
 
 def train(run: Run, scorer: Scorer, watch: Watch) -> State:

@@ -134,7 +134,7 @@ def test_a_camera_that_hangs_does_not_hold_up_closing(camera: Install) -> None:
 
 
 def test_a_camera_that_never_starts_is_told(camera: Install, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(ball_tracker, "FIRST", 0.1)
+    monkeypatch.setattr(ball_tracker, "FIRST_FRAME_SECONDS", 0.1)
     made = camera(lambda count: None)
     with pytest.raises(DeviceError, match=r"no frame for 0\.1 s"):
         BallTracker().open()

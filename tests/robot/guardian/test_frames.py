@@ -7,7 +7,7 @@ from zlib import crc32
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from mindrun.robot.guardian.frames import CHECK, HEAD, MOST, FrameError, Reader, pack, size
+from mindrun.robot.guardian.frames import CHECK, HEAD, MAX_COMMANDS, FrameError, Reader, pack, size
 
 SHARES = st.floats(0, 1, width=32)
 
@@ -101,4 +101,4 @@ def test_the_number_of_commands_must_be_that_of_the_actuators() -> None:
 
 
 def test_the_longest_frame_is_written_at_once() -> None:
-    assert size(MOST) <= 4096
+    assert size(MAX_COMMANDS) <= 4096

@@ -10,7 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from mindrun.robot.drivers.mock import MockActuator
 from mindrun.robot.guardian.frames import Frame, pack
-from mindrun.robot.guardian.guard import FAILURES, FOLLOWING, LATCHED, NEUTRAL
+from mindrun.robot.guardian.guard import FOLLOWING, LATCHED, MAX_FAILURES, NEUTRAL
 from mindrun.robot.guardian.plan import Channel
 
 from tests.robot.guardian.faked import TICK, Faked, faked
@@ -142,7 +142,7 @@ def test_a_device_that_fails_now_and_then_goes_on(moving: Faked) -> None:
 
 
 def test_too_many_failures_latch(moving: Faked) -> None:
-    for _ in range(FAILURES):
+    for _ in range(MAX_FAILURES):
         moving.devices[0].fails = True
         for _ in range(4):
             moving.wait(TICK)

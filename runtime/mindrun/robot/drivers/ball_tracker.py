@@ -20,7 +20,7 @@ HUE = Quantity("a hue", {"deg": 1.0}, low=0.0, high=360.0)
 TOLERANCE = Quantity("how far a hue may be off", {"deg": 1.0}, low=1.0, high=90.0)
 VIEW = Quantity("an angle of view", {"deg": 1.0}, low=5.0, high=170.0)
 STALE = 0.2  # seconds without a frame that are a fault
-FIRST = 5.0  # seconds until the first frame: cameras take their time to start
+FIRST_FRAME_SECONDS = 5.0  # until the first frame: cameras take their time to start
 CENTRING = 0.4  # seconds that servos need to the middle
 LETTING_GO = 1.0  # seconds that the thread may need to end
 
@@ -158,7 +158,7 @@ class BallTracker:
             _cameras[key] = tracking, thread, users + 1
         device = BallTrackerDevice(self, tracking)
         try:
-            tracking.after(0, FIRST)
+            tracking.after(0, FIRST_FRAME_SECONDS)
         except Exception:
             device.close()
             raise

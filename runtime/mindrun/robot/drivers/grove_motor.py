@@ -13,7 +13,7 @@ from mindrun.robot.driver_support import ADDRESS, BUS, I2cDevice, on_bus, share
 
 MOTOR = Quantity("a motor of the board", {"": 1.0}, low=1, high=2, whole=True)
 SPEED, FREQUENCY, DIRECTION = 0x82, 0x84, 0xAA
-NOTHING = 0x01  # the third byte of commands that need only two
+UNUSED_BYTE = 0x01  # the third byte of commands that need only two
 KILOHERTZ_4 = 0x02  # 3921 Hz, the board's default
 GAP = 0.004  # seconds that the board needs for a command; what comes sooner is lost
 REMEMBERED = 1.0  # seconds after which directions are sent again: a board that lost power forgets them
@@ -38,7 +38,7 @@ class Board:
     def start(self) -> None:
         """Stop both motors, before anything else."""
         self.send(SPEED, 0, 0)
-        self.send(FREQUENCY, KILOHERTZ_4, NOTHING)
+        self.send(FREQUENCY, KILOHERTZ_4, UNUSED_BYTE)
 
     def drive(self, motor: int, speed: int) -> None:
         """Change the speed of one motor; where a command is lost the motor stands still or goes on as before."""
@@ -52,7 +52,7 @@ class Board:
                 self.speeds[motor] = 0
             if directions != self.sent or monotonic() - self.sent_at > REMEMBERED:
                 self.sent = -1  # until it is acknowledged nobody knows
-                self.send(DIRECTION, directions, NOTHING)
+                self.send(DIRECTION, directions, UNUSED_BYTE)
                 self.sent, self.sent_at = directions, monotonic()
             self.send(SPEED, *(abs(value) for value in wanted))
             self.speeds = wanted

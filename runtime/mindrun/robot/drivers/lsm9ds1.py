@@ -24,7 +24,7 @@ MS2, DEGREES_A_SECOND, MILLIGAUSS = 0.061e-3 * G, 8.75e-3, 0.14  # of one count,
 MEASURED_IN = 0.1  # seconds until a new value must be there; they come every 8 to 13 ms
 READ_IN = 0.5  # seconds until there must be enough of them
 RAIL = 32767
-ENOUGH = 5  # values until a deviation means something
+MIN_VALUES = 5  # until a deviation means something
 WINDOW = Quantity("a time", {"s": 1.0}, low=0.2, high=10.0)
 FACE = Reference("face", ("up", "down"))
 MILLIGAUSS_OFFSET = Quantity("a magnetic field in milligauss", {"": 1.0}, low=-4000.0, high=4000.0)
@@ -130,7 +130,7 @@ class Shaking:
         self.kept.append((now, (x, y, z)))
         while self.kept[0][0] < now - self.window:
             self.kept.popleft()
-        if len(self.kept) < ENOUGH:
+        if len(self.kept) < MIN_VALUES:
             return None
         axes = [*zip(*(vector for _, vector in self.kept), strict=True)]
         means = [fmean(axis) for axis in axes]

@@ -10,13 +10,13 @@ from time import monotonic, sleep
 
 from mindrun.errors import MindError
 from mindrun.line_writer import LineWriter
-from mindrun.robot.guardian.plan import DRIVERS, LARGEST, Plan, from_json, read_plan
+from mindrun.robot.guardian.plan import DRIVERS, MAX_PLAN_BYTES, Plan, from_json, read_plan
 from mindrun.robot.guardian.process import Process
 from mindrun.robot.guardian.realtime import import_little, set_realtime, wake_on_signals
 
 OK, FAILED, USAGE, UNAVAILABLE, BROKEN = 0, 1, 64, 69, 70  # as in sysexits.h
 INPUT, OUTPUT, ERRORS = 0, 1, 2
-AGAIN = 0.05  # seconds between two tries to open what could not be
+RETRY_SECONDS = 0.05  # between two tries to open what could not be
 
 
 def main() -> None:
@@ -72,8 +72,8 @@ def bring(process: Process, report: LineWriter, seconds: float) -> int:
     wake_on_signals(process.wake)  # whoever tells it to end is told that it does, when it is done
     until = monotonic() + seconds
     while (wrong := process.open()) and monotonic() < until:  # a bus that is busy is free again
-        sleep(AGAIN)
-    if not process.settle(max(until - monotonic(), AGAIN)):
+        sleep(RETRY_SECONDS)
+    if not process.settle(max(until - monotonic(), RETRY_SECONDS)):
         wrong.append(f"not everything was at neutral after {seconds:g} s")
     process.close()
     for line in wrong:
@@ -86,7 +86,7 @@ def _plan(path: str) -> Plan:
     if path != "-":
         return read_plan(Path(path))
     with open(INPUT, "rb", buffering=0, closefd=False) as file:
-        return from_json(file.readline(LARGEST))
+        return from_json(file.readline(MAX_PLAN_BYTES))
 
 
 def _options() -> argparse.Namespace:

@@ -20,11 +20,11 @@ from mindrun.robot.guardian.plan import Plan, to_json
 
 # -P: a file of the user's folder that is named like a module must not be imported.
 PROGRAM = (sys.executable, "-P", "-m", "mindrun.robot.guardian")
-PIPE = 4096  # bytes that can wait in the pipe
-CHILD = 70  # exit code of a forked process that took itself for the controller
-REPLACEMENTS = 3  # of a guardian, where these are killed as well
-SOON = 0.002  # seconds
-HANGS = 0.5  # seconds in which the guardian has not once read all that was there
+PIPE_BYTES = 4096  # that can wait in the pipe
+FORKED_EXIT_CODE = 70  # exit code of a forked process that took itself for the controller
+MAX_REPLACEMENTS = 3  # of a guardian, where these are killed as well
+POLL_SECONDS = 0.002
+HANG_SECONDS = 0.5  # in which the guardian has not once read all that was there
 
 
 class GuardianError(MindError):
@@ -144,14 +144,14 @@ class Guardian:
         os.set_blocking(self._output.fileno(), False)
         os.set_blocking(self._input.fileno(), False)
         with suppress(OSError):
-            fcntl.fcntl(self._input, fcntl.F_SETPIPE_SZ, PIPE)
+            fcntl.fcntl(self._input, fcntl.F_SETPIPE_SZ, PIPE_BYTES)
 
     def _see_it_read(self) -> None:
         """BlockingIOError where what was sent before has not been read for long."""
         now = monotonic()
         if not self._unread():
             self._read_at = now
-        elif now - self._read_at > HANGS:
+        elif now - self._read_at > HANG_SECONDS:
             raise BlockingIOError
 
     def _hears(self) -> bool:
@@ -160,7 +160,7 @@ class Guardian:
             os.write(self._input.fileno(), pack(self._number, monotonic_ns(), False, self._rest))
             self._read_at = monotonic()
             while self._unread() and self._process.poll() is None:
-                sleep(SOON)
+                sleep(POLL_SECONDS)
                 self._see_it_read()
         except BlockingIOError:
             return False
@@ -197,7 +197,7 @@ class Guardian:
 
     def _replaced(self) -> str:
         try:
-            codes = (self._replacement().wait(self._patience) for _ in range(REPLACEMENTS))
+            codes = (self._replacement().wait(self._patience) for _ in range(MAX_REPLACEMENTS))
             code = next((code for code in codes if code >= 0), None)
         except (OSError, subprocess.TimeoutExpired):  # it may still come to it
             return "nothing has brought the actuators to neutral yet"
@@ -224,7 +224,7 @@ class Guardian:
     def _end_in_children(self) -> None:
         """End a process that a procedure has forked and that has come back from it: it is no controller."""
         if os.getpid() != self._controller:
-            os._exit(CHILD)
+            os._exit(FORKED_EXIT_CODE)
 
     def _abandon(self) -> None:
         """It never was of use: let it end by itself if it does, since that is at neutral, or make it end."""

@@ -9,7 +9,7 @@ from zlib import crc32
 MAGIC, VERSION = b"MIND", 2
 HEAD = Struct("<4sBBHQq")  # magic, version, armed, how many commands, number, when it was sent
 CHECK = Struct("<I")
-MOST = 1000  # commands: a write of up to 4096 bytes is atomic
+MAX_COMMANDS = 1000  # commands: a write of up to 4096 bytes is atomic
 
 
 class FrameError(Exception):

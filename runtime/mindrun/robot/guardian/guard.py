@@ -13,8 +13,8 @@ from mindrun.robot.guardian.plan import Channel, Plan
 
 NEUTRAL, FOLLOWING, LATCHED = "neutral", "following", "latched"
 NOT_ARMED = "not armed"  # why it is at neutral where the controller wants just that
-SILENCE = 2  # ticks, after which the controller hangs, or an actuator does not answer
-FAILURES = 3  # of actuators: the third latches
+SILENT_TICKS = 2  # after which the controller hangs, or an actuator does not answer
+MAX_FAILURES = 3  # of actuators: the third latches
 
 
 @dataclass(frozen=True, slots=True)
@@ -39,7 +39,7 @@ class Guard:
         self._plan = plan
         self._rest = tuple(map(resting, plan.channels))
         self._values, self._then = self._rest, -inf
-        self.limit = SILENCE * plan.tick
+        self.limit = SILENT_TICKS * plan.tick
         self.state, self.why = NEUTRAL, "started"
         self.deadline = inf
         self.silences = self.failures = 0
@@ -79,8 +79,8 @@ class Guard:
         if self.state != FOLLOWING:
             return None
         self.failures += 1
-        if self.failures >= FAILURES:
-            return self.broken(f"{actuator} failed, as did {FAILURES - 1} before: {why}")
+        if self.failures >= MAX_FAILURES:
+            return self.broken(f"{actuator} failed, as did {MAX_FAILURES - 1} before: {why}")
         return self._neutral(f"{actuator} failed: {why}")
 
     def broken(self, why: str) -> Order:

@@ -17,13 +17,13 @@ from mindrun.errors import MindError
 from mindrun.quantity import RATIO, SECONDS, Quantity, Reference, fits
 from mindrun.registry import kinds, names
 from mindrun.regular_files import read_regular
-from mindrun.robot.guardian.frames import MOST
+from mindrun.robot.guardian.frames import MAX_COMMANDS
 
 if TYPE_CHECKING:
     from mindrun.wiring import Wiring  # which needs numpy
 
 DRIVERS = "mindrun.robot.drivers"
-LARGEST = 1 << 20  # bytes
+MAX_PLAN_BYTES = 1 << 20
 RATIO_EITHER_WAY = Quantity("a share of the travel", {}, low=-1.0, high=1.0)
 NOT_NEGATIVE = Quantity("a number", {}, low=0.0)
 
@@ -65,8 +65,8 @@ def plan_of(tick: float, neutrals: Mapping[str, float], wiring: "Wiring") -> Pla
 
 def checked(plan: Plan) -> Plan:
     """The plan itself; PlanError where it makes no sense."""
-    if not 1 <= len(plan.channels) <= MOST:
-        raise PlanError(f"a robot has 1 to {MOST} actuators, not {len(plan.channels)}")
+    if not 1 <= len(plan.channels) <= MAX_COMMANDS:
+        raise PlanError(f"a robot has 1 to {MAX_COMMANDS} actuators, not {len(plan.channels)}")
     for channel in plan.channels:
         if channel.low > channel.high:
             raise PlanError(f"{channel.actuator}: `low` {channel.low:g} is above `high` {channel.high:g}")
@@ -90,7 +90,7 @@ def from_json(text: str | bytes) -> Plan:
 def read_plan(path: Path) -> Plan:
     """The plan in a file, which may be a bundle with a wiring; MindError where there is none."""
     try:
-        data = read_regular(path, LARGEST)
+        data = read_regular(path, MAX_PLAN_BYTES)
     except OSError as error:
         raise PlanError(f"cannot read {path}: {error.strerror}") from error
     return _of_bundle(path) if data.startswith(b"PK") else from_json(data)

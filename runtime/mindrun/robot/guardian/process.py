@@ -12,8 +12,8 @@ from mindrun.robot.guardian.guard import FOLLOWING, LATCHED, NEUTRAL, NOT_ARMED,
 from mindrun.robot.guardian.output import Output
 from mindrun.robot.guardian.plan import Plan
 
-EVERY = 1.0  # seconds between two reports on an actuator that is not at neutral
-CLOSING = 0.5  # seconds that a device may take to close
+REPORT_SECONDS = 1.0  # between two reports on an actuator that is not at neutral
+CLOSE_SECONDS = 0.5  # that a device may take to close
 Say = Callable[[str], None]
 Clock = Callable[[], float]
 
@@ -73,7 +73,7 @@ class Process:
             left = until - self._clock()
             if left <= 0:
                 return False
-            self._wait([], min(left, EVERY))
+            self._wait([], min(left, REPORT_SECONDS))
             self._complain(self._clock())
         return True
 
@@ -101,7 +101,7 @@ class Process:
     def close(self) -> None:
         """Let go of every device that can."""
         for output in self._opened:
-            output.close(CLOSING)
+            output.close(CLOSE_SECONDS)
 
     def hang_up(self) -> None:
         """Let go of its own pipe, where the process goes on without it."""
@@ -125,7 +125,7 @@ class Process:
             why = output.error or "it does not answer"
             if self.guard.state == FOLLOWING and output.late(now) > self.guard.limit:
                 return self.guard.failed(output.name, why)
-            if self.guard.state == NEUTRAL and output.late(now) > EVERY:
+            if self.guard.state == NEUTRAL and output.late(now) > REPORT_SECONDS:
                 return self.guard.broken(f"{output.name} does not come to neutral: {why}")
         return None
 
@@ -141,10 +141,10 @@ class Process:
 
     def _complain(self, now: float) -> None:
         """Say once a second which actuator is not at neutral but should be."""
-        if self.guard.state == FOLLOWING or now - self._told < EVERY:
+        if self.guard.state == FOLLOWING or now - self._told < REPORT_SECONDS:
             return
         for output in self._opened:
-            if output.late(now) >= EVERY:
+            if output.late(now) >= REPORT_SECONDS:
                 self._told = now
                 late = ceil(output.late(now))
                 self._report(f"{output.name} is not at neutral after {late} s: {output.error or 'it does not answer'}")
@@ -155,7 +155,7 @@ class Process:
     def _patience(self, now: float) -> float | None:
         if self.guard.state == FOLLOWING:
             return max(self.guard.deadline - now, 0.0)
-        return None if self._settled() else EVERY
+        return None if self._settled() else REPORT_SECONDS
 
     def _wait(self, descriptors: list[int], seconds: float | None) -> list[int]:
         ready = select([self._woken, *descriptors], [], [], seconds)[0]

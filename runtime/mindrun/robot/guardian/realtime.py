@@ -12,10 +12,10 @@ from importlib.util import find_spec, module_from_spec
 from pathlib import Path
 
 PRIORITY = 20
-ALL = 1 | 2  # MCL_CURRENT | MCL_FUTURE
-STACK = 256 << 10  # bytes for each thread: locked memory is not for stacks that nobody uses
-IGNORED = ("SIGINT", "SIGTSTP", "SIGTTIN", "SIGTTOU", "SIGPIPE", "SIGUSR1", "SIGUSR2", "SIGALRM")
-ENDING = ("SIGTERM", "SIGHUP", "SIGQUIT")
+LOCK_ALL_MEMORY = 1 | 2  # MCL_CURRENT | MCL_FUTURE
+STACK_BYTES = 256 << 10  # for each thread: locked memory is not for stacks that nobody uses
+IGNORED_SIGNALS = ("SIGINT", "SIGTSTP", "SIGTTIN", "SIGTTOU", "SIGPIPE", "SIGUSR1", "SIGUSR2", "SIGALRM")
+ENDING_SIGNALS = ("SIGTERM", "SIGHUP", "SIGQUIT")
 
 
 def import_little(package: str) -> None:
@@ -28,7 +28,7 @@ def import_little(package: str) -> None:
 
 def set_realtime() -> None:
     """Take what the system grants; without any of it the guardian works too, only later on a busy machine."""
-    threading.stack_size(STACK)
+    threading.stack_size(STACK_BYTES)
     sys.setswitchinterval(0.0005)
     with suppress(OSError):
         os.sched_setscheduler(0, os.SCHED_FIFO, os.sched_param(PRIORITY))
@@ -37,7 +37,7 @@ def set_realtime() -> None:
     with suppress(OSError, AttributeError):
         # Under a limit, what is locked now would be missing later.
         if os.geteuid() == 0 or resource.getrlimit(resource.RLIMIT_MEMLOCK)[0] == resource.RLIM_INFINITY:
-            ctypes.CDLL(None, use_errno=True).mlockall(ALL)
+            ctypes.CDLL(None, use_errno=True).mlockall(LOCK_ALL_MEMORY)
     gc.freeze()
 
 
@@ -46,8 +46,8 @@ def wake_on_signals(descriptor: int) -> None:
 
     Ctrl-C is the controller's to answer: when that ends, so do its frames.
     """
-    for name in IGNORED:
+    for name in IGNORED_SIGNALS:
         signal.signal(signal.Signals[name], signal.SIG_IGN)
     signal.set_wakeup_fd(descriptor, warn_on_full_buffer=False)
-    for name in ENDING:
+    for name in ENDING_SIGNALS:
         signal.signal(signal.Signals[name], lambda number, frame: None)

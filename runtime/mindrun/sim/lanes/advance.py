@@ -13,7 +13,7 @@ from mindrun.sim.lanes.sense import sense
 from mindrun.sim.lanes.step import is_lost, step, within
 from mindrun.sim.lanes.think import begin, think
 
-ASIDE = np.uint64(0xD1B54A32D192ED03)  # what no skill reads draws from a generator of its own
+MEASURED_ASIDE = np.uint64(0xD1B54A32D192ED03)  # what no skill reads draws from a generator of its own
 
 
 @entry
@@ -101,7 +101,7 @@ def begin_job(t, s, jobs, p):
     jobs.next[0] = job + 1
     s.job[p] = job
     s.random[p] = jobs.seeds[jobs.seed[job]]
-    s.aside[p] = s.random[p] ^ ASIDE
+    s.aside[p] = s.random[p] ^ MEASURED_ASIDE
     draw(t, s, p)
     genome = jobs.genomes[jobs.genome[job]]
     for i in range(len(genome)):

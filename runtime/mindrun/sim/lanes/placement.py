@@ -13,7 +13,7 @@ from mindrun.sim.compiling import compiled
 GOLDEN, MIX_1, MIX_2 = np.uint64(0x9E3779B97F4A7C15), np.uint64(0xBF58476D1CE4E5B9), np.uint64(0x94D049BB133111EB)
 S30, S27, S31, S11 = np.uint64(30), np.uint64(27), np.uint64(31), np.uint64(11)
 UNIT = 2.0**-53
-TRIES = 1000
+MAX_TRIES = 1000
 
 
 @compiled
@@ -69,7 +69,7 @@ def start(s, half, radius, p):
     """The robot at rest: in the origin of a plain scene, anywhere clear in an arena; facing anywhere."""
     s.body[:, p] = 0.0
     if half < 1e300:
-        for _ in range(TRIES):
+        for _ in range(MAX_TRIES):
             s.body[0, p] = uniform(s.random, p, -half + 3 * radius, half - 3 * radius)
             s.body[1, p] = uniform(s.random, p, -half + 3 * radius, half - 3 * radius)
             if clear(s, s.body[0, p], s.body[1, p], 3 * radius, p):
@@ -94,7 +94,7 @@ def find(s, half, radius, low, high, extent, but, p):
     The last one tried where no try succeeds.
     """
     x, y = 0.0, 0.0
-    for _ in range(TRIES):
+    for _ in range(MAX_TRIES):
         if half < 1e300:
             room = max(half - extent - 2 * radius, 0.0)
             x, y = uniform(s.random, p, -room, room), uniform(s.random, p, -room, room)

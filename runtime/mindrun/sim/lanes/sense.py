@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from mindrun.sim.arithmetic import HALF, HUGE, ONE, ZERO, F, bearing, clamp, sine_cosine
+from mindrun.sim.arithmetic import HALF, MAX_FLOAT32, ONE, ZERO, F, bearing, clamp, sine_cosine
 from mindrun.sim.codes import (
     AWAY,
     BATTERY,
@@ -18,9 +18,9 @@ from mindrun.sim.codes import (
 )
 from mindrun.sim.compiling import compiled
 from mindrun.sim.lanes.placement import uniform
-from mindrun.sim.vector import HIGHEST, LOWEST, WIDE, load, splat, store, where_ordered
+from mindrun.sim.vector import HIGHEST, LOWEST, VECTOR_LANES, load, splat, store, where_ordered
 
-SLACK = 2.0  # how far a robot may move before the boxes near it are chosen anew
+CULLING_SLACK_UNITS = 2.0  # how far a robot may move before the boxes near it are chosen anew
 
 
 @compiled
@@ -28,7 +28,7 @@ def sense(t, s, n, clock):
     """Fill the rows of the sensors that somebody reads, in the order of the table (sources before derivatives)."""
     world = t.world[0]
     see(s.body, s.things, len(t.things), n)
-    s.slot_most[0] = choose(s.body, s.boxes, s.anchor, s.nearby, s.slot_count, world.near + SLACK, n)
+    s.slot_most[0] = choose(s.body, s.boxes, s.anchor, s.nearby, s.slot_count, world.near + CULLING_SLACK_UNITS, n)
     if world.rays > 0:
         look(t, s, n)
     for i in range(len(t.sensors)):
@@ -178,7 +178,7 @@ def look(t, s, n):
     for p in range(n):
         s.sight[0, p], s.sight[1, p] = F(s.heading[0, p]), F(s.heading[1, p])
         s.sight[2, p], s.sight[3, p] = F(s.body[0, p]), F(s.body[1, p])
-    for p in range(0, n, WIDE):
+    for p in range(0, n, VECTOR_LANES):
         for ray in range(len(t.ray_row)):
             store(s.sight, 4 + ray, p, along(s.sight, t.rays[0, ray], t.rays[1, ray], F(world.half), s.slots, count, p))
 
@@ -198,8 +198,8 @@ def along(sight, cosine, sine, half, slots, count, p):
         c, d = load(slots, 4 * k + 2, p) * iy, load(slots, 4 * k + 3, p) * iy
         enter = HIGHEST(LOWEST(a, b), LOWEST(c, d))
         leave = LOWEST(HIGHEST(a, b), HIGHEST(c, d))
-        hit = where_ordered(enter, leave, enter, splat(HUGE))
-        nearest = LOWEST(where_ordered(splat(ZERO), hit, hit, splat(HUGE)), nearest)
+        hit = where_ordered(enter, leave, enter, splat(MAX_FLOAT32))
+        nearest = LOWEST(where_ordered(splat(ZERO), hit, hit, splat(MAX_FLOAT32)), nearest)
     return nearest
 
 
@@ -222,7 +222,7 @@ def choose(body, boxes, anchor, nearby, slot_count, reach, n):
     most = 0
     for p in range(n):
         dx, dy = body[0, p] - anchor[0, p], body[1, p] - anchor[1, p]
-        if not dx * dx + dy * dy < (SLACK * 0.9) ** 2:
+        if not dx * dx + dy * dy < (CULLING_SLACK_UNITS * 0.9) ** 2:
             x, y = body[0, p], body[1, p]
             anchor[0, p], anchor[1, p] = x, y
             found = 0

@@ -5,10 +5,10 @@ from mindrun.sim.codes import FAR, FORCE, FORCE_X, FORCE_Y, TORQUE, WHEEL_LEFT, 
 from mindrun.sim.compiling import compiled
 from mindrun.sim.lanes.act import carry
 from mindrun.sim.lanes.chipmunk import open_space, push_body, step_space
-from mindrun.sim.lanes.sense import SLACK
+from mindrun.sim.lanes.sense import CULLING_SLACK_UNITS
 
-MARGIN = 0.01  # beyond the rounding of any distance here
-LINGER = 5  # ticks: Chipmunk forgets a contact after three
+CONTACT_MARGIN_UNITS = 0.01  # beyond the rounding of any distance here
+CONTACT_TICKS = 5  # Chipmunk forgets a contact after three
 
 
 @compiled
@@ -89,7 +89,7 @@ def find_near(t, s, n):
     A robot that would leave all places flies there alone.
     """
     world = t.world[0]
-    reach = world.radius + MARGIN
+    reach = world.radius + CONTACT_MARGIN_UNITS
     gap = s.gap
     clearance(s.body, world.half, world.dt, gap, n)
     for k in range(s.slot_most[0]):
@@ -98,13 +98,14 @@ def find_near(t, s, n):
         s.near[p] = max(0, s.near[p] - 1)
         if s.held[p] >= 0:
             thing = 4 * s.held[p]
-            item_reach = t.things[s.held[p]].hold + s.things[thing + 2, p] / 2 + MARGIN
+            item_reach = t.things[s.held[p]].hold + s.things[thing + 2, p] / 2 + CONTACT_MARGIN_UNITS
             if gap[p] < item_reach:
-                s.near[p] = LINGER
+                s.near[p] = CONTACT_TICKS
         x, y = s.body[0, p] + s.body[3, p] * world.dt, s.body[1, p] + s.body[4, p] * world.dt
-        leap = (x - s.anchor[0, p]) ** 2 + (y - s.anchor[1, p]) ** 2 > SLACK * SLACK  # away from the boxes it knows
+        away = (x - s.anchor[0, p]) ** 2 + (y - s.anchor[1, p]) ** 2
+        leap = away > CULLING_SLACK_UNITS * CULLING_SLACK_UNITS  # away from the boxes it knows
         if leap or gap[p] < reach:
-            s.near[p] = LINGER
+            s.near[p] = CONTACT_TICKS
         if not within(x, y, s.body[2, p] + s.body[5, p] * world.dt):
             s.near[p] = 0
 

@@ -5,7 +5,7 @@ from mindrun.sim.codes import MLP, PROCEDURE
 from mindrun.sim.compiling import compiled
 from mindrun.sim.lanes.evaluate import evaluate
 from mindrun.sim.procedures import call
-from mindrun.sim.vector import WIDE, broadcast, load, sigmoids, splat, store
+from mindrun.sim.vector import VECTOR_LANES, broadcast, load, sigmoids, splat, store
 
 NOT_SENT = F(-1)
 
@@ -106,7 +106,7 @@ def dense(w, source, inputs, target, outputs, last, n):
 
     Sixteen lanes and four outputs at a time; w is flat, output after output.
     """
-    for p in range(0, n, WIDE):
+    for p in range(0, n, VECTOR_LANES):
         for q in range(0, outputs - 3, 4):
             a, b, c, d = splat(ZERO), splat(ZERO), splat(ZERO), splat(ZERO)
             first = q * inputs
@@ -130,7 +130,7 @@ def dense(w, source, inputs, target, outputs, last, n):
 @compiled
 def dense_own(w, source, inputs, target, outputs, last, n):
     """As `dense`, with weights [weight, lane] of each lane's own."""
-    for p in range(0, n, WIDE):
+    for p in range(0, n, VECTOR_LANES):
         for q in range(outputs):
             a = splat(ZERO)
             for j in range(inputs):
