@@ -21,7 +21,7 @@ from benchmarks.shapes import SHAPES
 from mindlang.compiler.comparison import differences
 from mindlang.compiler.compile import Compiled, compile_source
 from mindlang.compiler.drawing import dot, tree
-from mindlang.compiler.format import formatted
+from mindlang.compiler.format import format_splices, formatted
 from mindlang.compiler.source import Source
 from mindlang.diagnostic_printer import as_data, print_report
 from mindlang.editing.apply import apply_edit
@@ -36,12 +36,9 @@ from mindlang.server.changing import perform
 from mindlang.server.completing import complete
 from mindlang.server.hovering import hover
 from mindlang.server.mending import all_mended, mendings
-from mindlang.server.navigating import definitions, highlights, references, symbols
-from mindlang.server.overview import everything
-from mindlang.server.proposals import proposals
-from mindlang.server.selection import Selection
+from mindlang.server.navigating import definitions, everything, highlights, references, symbols
+from mindlang.server.proposals import Selection, proposals
 from mindlang.server.session import Session
-from mindlang.server.tidying import tidied
 from mindlang.unified_diff import unified
 
 LINEAR = 2.8  # what shapes with names of more digits, or that change into one another, come to by themselves
@@ -171,7 +168,7 @@ def _outlined(case: Case) -> None:
         for symbol in symbols(file):
             session.lsp.range(symbol.whole)
     everything(session.workspace, [case.path.parent], "g")
-    for splice in tidied(Source("mind.mind", case.text, case.path.parent)):
+    for splice in format_splices(Source("mind.mind", case.text, case.path.parent)):
         session.lsp.text_edit(splice)
 
 

@@ -21,7 +21,7 @@ from mindrun.printable import visible
 from benchmarks.sources import source
 from mindlang.compiler.comparison import differences
 from mindlang.compiler.compile import Compiled, compile_source
-from mindlang.compiler.format import formatted
+from mindlang.compiler.format import format_splices, formatted
 from mindlang.compiler.source import Source
 from mindlang.compiler.splice import spliced
 from mindlang.diagnostic_printer import as_data, plain
@@ -34,7 +34,6 @@ from mindlang.server.hovering import hover
 from mindlang.server.lsp_types import LspConverter
 from mindlang.server.mending import all_mended, mendings
 from mindlang.server.navigating import definitions, highlights, references, symbols
-from mindlang.server.tidying import tidied
 from mindlang.server.workspace import Workspace
 
 SOON = 2.0  # seconds of the processor
@@ -128,7 +127,7 @@ def _answers(place: Place, found: Compiled, text: str, random: Random) -> None:
     if file := view.file(path):
         symbols(file)
     all_mended(view, path, workspace.texts)
-    tidied(Source("case.mind", text, place.folder))
+    format_splices(Source("case.mind", text, place.folder))
     for _ in range(3):
         offset = random.randrange(len(text) + 1)
         hover(view, path, offset)

@@ -7,15 +7,18 @@ by a blank line. Nothing is reordered or aligned, and no comment changes.
 from collections.abc import Iterator
 from dataclasses import dataclass, fields, is_dataclass
 from functools import lru_cache
+from itertools import pairwise
 from typing import Any
 
 from mindlang.compiler import syntax
 from mindlang.compiler.parse import BLANKS, code_of
 from mindlang.compiler.parse.shape import MAX_SHAPES, grammar, pieces, said, shape_of
 from mindlang.compiler.source import Source
+from mindlang.compiler.splice import Splice
 from mindlang.compiler.syntax import NOUNS, SETTINGS
 
 INDENT = "  "
+Stretch = tuple[int, int]
 OPEN = ("skill", "task", "curriculum")  # nouns that own facts
 
 
@@ -155,3 +158,28 @@ def _signs(node: Any) -> Iterator[int]:
         case _ if is_dataclass(node):
             for field in fields(node):
                 yield from _signs(getattr(node, field.name))
+
+
+def format_splices(source: Source) -> list[Splice]:
+    """What has to change, as few lines as may be, so that an editor's cursor and marks stay where they are.
+
+    No line comes or goes but for blank ones, so each that says something is held against the one in its place.
+    """
+    text = formatted(source.text)
+    before, after = [*_stretches(source.text)], [*_stretches(text)]
+    if len(before) != len(after):
+        return [Splice(source, 0, len(source.text), text)]
+    pairs = zip(before, after, strict=True)
+    return [
+        Splice(source, *old, text[slice(*new)]) for old, new in pairs if source.text[slice(*old)] != text[slice(*new)]
+    ]
+
+
+def _stretches(text: str) -> Iterator[Stretch]:
+    """From where to where the lines go that say something, and what stands between them."""
+    ends, at = [0], 0
+    for line in text.split("\n"):
+        if line.strip(BLANKS):
+            ends += [at, at + len(line)]
+        at += len(line) + 1
+    return pairwise([*ends, len(text)])

@@ -1,14 +1,15 @@
 """What there is to know of something declared, as Markdown: what an editor shows when the mouse rests on its name."""
 
 from collections.abc import Iterator
+from itertools import takewhile
 
 from mindrun.errors import MindError
 from mindrun.registry import kinds
 
 from mindlang.compiler.syntax import Contains, Declaration, Drives, Influences, Reads, Teaches
+from mindlang.editing.lines import first_line
 from mindlang.lock.report import Row, made_by, rows
 from mindlang.lock.status import Trained
-from mindlang.server.comments import leading
 from mindlang.server.describing import kind_card
 from mindlang.server.view import View
 
@@ -152,3 +153,11 @@ def _of_kind(noun: str, declaration: Declaration) -> str:
     phrase = declaration.header.phrase
     cls = kinds(noun).get(phrase.kind.text) if phrase else None
     return f"---\n{kind_card(noun, phrase.kind.text, cls)}" if phrase and cls else ""
+
+
+def leading(declaration: Declaration) -> str:
+    """The comments right above a declaration as one paragraph, and the one at the end of its line."""
+    line = first_line(declaration.header.span)
+    above = [each.text for each in takewhile(lambda each: each.is_comment, line.above())]
+    behind = declaration.header.span.source.text[declaration.header.span.end : line.end]
+    return " ".join(text.strip().lstrip("# ") for text in [*reversed(above), behind]).strip()

@@ -9,10 +9,8 @@ from pathlib import Path
 from mindlang.compiler.syntax import NOUNS, SETTINGS
 from mindlang.editing.project import OWNERS
 from mindlang.file_search import below
-from mindlang.server.facts import FACTS
-from mindlang.server.offers import Offer, arguments_of, kinds_of, words
-from mindlang.server.procedures import functions
-from mindlang.server.sentence import Line
+from mindlang.server.facts import FACTS, Line
+from mindlang.server.offers import Offer, arguments_of, functions, kinds_of, words
 from mindlang.server.view import View, declaration_at
 
 MAX_OFFERED_FILES = 200  # that are offered

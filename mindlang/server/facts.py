@@ -1,14 +1,40 @@
 """What may be written in a fact, by its verb and the words that stand behind it."""
 
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
 
 from mindrun.registry import kinds
 
-from mindlang.compiler.syntax import Drives, Influences, Reads
+from mindlang.compiler.syntax import Declaration, Drives, Influences, Reads
 from mindlang.editing.references import DRIVABLE_NOUNS, READABLE_NOUNS
-from mindlang.server import offers, rewarding
-from mindlang.server.offers import NUMBER, Offer, arguments_of, kinds_of, names, units, words
-from mindlang.server.sentence import Line
+from mindlang.server import offers
+from mindlang.server.offers import NUMBER, Offer, arguments_of, kinds_of, names, said, units, words
+from mindlang.server.view import View, on_line
+
+UNFINISHED_WORDS = ("+", "-", "*", "/", "(", "<", ">", "<=", ">=", "when")
+
+
+@dataclass(frozen=True, slots=True)
+class Line:
+    """What stands before a place in its line, and the declaration to which the line belongs."""
+
+    view: View
+    folder: Path
+    words: Sequence[str]
+    above: Declaration | None
+    offset: int
+
+    @property
+    def noun(self) -> str:
+        """The noun of the declaration above."""
+        return self.above.header.noun.text if self.above else ""
+
+    def said(self, *forms: type[Reads | Drives | Influences]) -> set[str]:
+        """What the skill above says with these verbs on its other lines."""
+        facts = [fact for fact in (self.above.facts if self.above else ()) if isinstance(fact, forms)]
+        return {fact.name.text for fact in facts if not on_line(fact.span, self.offset)}
+
 
 Answer = Callable[[Line, Sequence[str]], list[Offer]]
 
@@ -56,7 +82,7 @@ def _ends(line: Line, rest: Sequence[str]) -> list[Offer]:
 
 
 def _rewards(line: Line, rest: Sequence[str]) -> list[Offer]:
-    return rewarding.offered(line.view, line.above, rest)
+    return reward_offers(line.view, line.above, rest)
 
 
 def _teaches(line: Line, rest: Sequence[str]) -> list[Offer]:
@@ -121,3 +147,50 @@ FACTS: Mapping[str, Answer] = {
     "master": lambda line, rest: [] if rest else names(line.view, "skill"),
     "tick": _number("s"),
 }
+
+
+def reward_offers(view: View, task: Declaration | None, rest: Sequence[str]) -> list[Offer]:
+    """What can come after the words `rest` of a reward."""
+    if "when" in rest:
+        return _term(view, task, rest[rest.index("when") :])
+    match rest:
+        case [*_, "per"]:
+            return [Offer("tick", "word")]
+        case [*_, "for"]:
+            return [Offer("each", "word")]
+        case [*_, "each"] | [*_, "each", _]:
+            return words("in") if rest[-1] != "each" else []
+        case [*_, "each", _, "in"]:
+            return names(view, *READABLE_NOUNS)
+        case [*_, "each", _, "in", _]:
+            return words("when")
+        case [*_, "per", "tick"]:
+            return words("for each", "when")
+        case [*_, "on"]:
+            return kinds_of("event")
+    if "on" in rest:
+        kind, *arguments = rest[rest.index("on") + 1 :]
+        return [*arguments_of(view, "event", kind, arguments, task), *words("when")]
+    joints = words("per tick", "on") if rest and rest[-1] not in UNFINISHED_WORDS and not _waits(rest) else []
+    return [*_term(view, task, rest), *joints]
+
+
+def _term(view: View, task: Declaration | None, rest: Sequence[str]) -> list[Offer]:
+    """A reading or a measure, or what the measure that was begun still needs."""
+    if not rest or rest[-1] in UNFINISHED_WORDS:
+        return [*names(view, *READABLE_NOUNS), *kinds_of("measure")]
+    begun = _begun(rest)
+    return arguments_of(view, "measure", begun[0], begun[1:], task) if begun else []
+
+
+def _begun(rest: Sequence[str]) -> Sequence[str]:
+    """The measure that was begun last, with its arguments; nothing where it is over."""
+    begun = max((place for place, word in enumerate(rest) if word in kinds("measure")), default=len(rest))
+    return () if any(word in UNFINISHED_WORDS for word in rest[begun:]) else rest[begun:]
+
+
+def _waits(rest: Sequence[str]) -> bool:
+    """Whether an argument of a measure waits for its value."""
+    begun = _begun(rest)
+    state = said(kinds("measure")[begun[0]], begun[1:]) if begun else None
+    return state is not None and (state.awaits_name or state.awaits_number)

@@ -1,7 +1,9 @@
 """What an editor may offer to be written at a place, and the names from which it is chosen."""
 
+import re
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any
 
 from mindrun.quantity import Quantity, Reference
@@ -10,11 +12,14 @@ from mindrun.registry import Argument, arguments, kinds
 from mindlang.compiler.resolve.kinds import ABOUT, PLACES
 from mindlang.compiler.resolve.names import things_of
 from mindlang.compiler.syntax import Declaration
+from mindlang.file_search import beside, text_of
 from mindlang.server.describing import argument_line, kind_card, meaning
 from mindlang.server.view import View
 from mindlang.server.words import WORDS
 
 NUMBER = "0123456789"
+_FUNCTION = re.compile(r"^def ([a-z]\w*)\(", re.MULTILINE)
+MAX_MODULES = 100  # modules that are read
 
 
 @dataclass(frozen=True, slots=True)
@@ -147,3 +152,9 @@ def _named(view: View, noun: str, kind: str, parameter: Argument, task: Declarat
             return []
         case Reference(words=allowed):
             return [Offer(word, "word") for word in allowed]
+
+
+def functions(folder: Path) -> list[str]:
+    """`module.function` for each function of the modules in a folder that has a name of the language."""
+    modules = [path for path in beside(folder, ".py") if "a" <= path.name[0] <= "z"][:MAX_MODULES]
+    return [f"{path.stem}.{name}" for path in modules for name in _FUNCTION.findall(text_of(path))]

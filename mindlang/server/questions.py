@@ -2,16 +2,15 @@
 
 from lsprotocol import types
 
+from mindlang.compiler.format import format_splices
 from mindlang.compiler.source import Source
 from mindlang.compiler.splice import Splice
 from mindlang.server.completing import complete
 from mindlang.server.hovering import hover
 from mindlang.server.lsp_types import LspConverter
-from mindlang.server.navigating import Symbol, definitions, highlights, references, symbols
+from mindlang.server.navigating import Symbol, definitions, everything, highlights, references, symbols
 from mindlang.server.offers import Offer
-from mindlang.server.overview import everything
 from mindlang.server.server import MindServer
-from mindlang.server.tidying import tidied
 
 SYMBOLS = {
     "body": types.SymbolKind.Object,
@@ -137,4 +136,4 @@ def formatted(ls: MindServer, params: types.DocumentFormattingParams) -> list[ty
     """The file as it should be written."""
     path = ls.session.lsp.path(params.text_document.uri)
     source = Source(str(path), ls.session.workspace.text(path), path.parent)
-    return [ls.session.lsp.text_edit(splice) for splice in tidied(source)]
+    return [ls.session.lsp.text_edit(splice) for splice in format_splices(source)]

@@ -10,8 +10,7 @@ from mindlang.edits import names
 from mindlang.lock import read_lock
 from mindlang.lock.status import Trained
 from mindlang.server.changing import perform, project
-from mindlang.server.proposals import Proposal, proposals
-from mindlang.server.selection import Selection
+from mindlang.server.proposals import Proposal, Selection, proposals
 from mindlang.server.workspace import Workspace
 from tests.edits.taught import MIND, statuses, teach, write_mind
 from tests.language.examples import EXAMPLES

@@ -4,7 +4,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from mindlang.server.positions import Ruler
+from mindlang.server.lsp_types import Ruler
 from tests.server.client import offset, position
 
 TEXTS = st.text(st.sampled_from("ab é😀\u2028\x85\x0b#\n\r"), max_size=40)
