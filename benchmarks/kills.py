@@ -26,8 +26,9 @@ sys.path.insert(0, str(Path(__file__).parents[1]))
 
 from mindrun.train.progress import read
 
-from mindlang import cli, training
+from mindlang import cli
 from mindlang.lock import read_lock
+from mindlang.training import trainer
 from tests.train.test_train_command import MIND
 
 LESSONS = ("Go", "Drive")
@@ -44,7 +45,7 @@ def main() -> None:
     parser.add_argument("--kills", type=int, default=1000, help="how many (default 1000)")
     parser.add_argument("--log", type=Path, help="a file that the campaign is written to, and goes on from")
     options = parser.parse_args()
-    training.Watch = partial(training.Watch, save_every=SAVED)  # type: ignore[assignment,misc]
+    trainer.Watch = partial(trainer.Watch, save_every=SAVED)  # type: ignore[assignment,misc]
     known = [json.loads(line) for line in options.log.read_text().splitlines()] if reads(options.log) else []
     with tempfile.TemporaryDirectory(prefix="mind-kills-") as name:
         seconds = undisturbed(Path(name) / "undisturbed")

@@ -36,7 +36,7 @@ def command(files: tuple[str, ...], fix: bool, select: tuple[str, ...], ignore: 
     from mindrun.errors import MindError
 
     from mindlang.editing.neighbours import minds
-    from mindlang.linting.command import Linted, linted
+    from mindlang.linting.lint_file import Linted, linted
     from mindlang.terminal import FINDINGS, MISUSE, OK, fail, take_back
 
     if fix and "-" in files:
@@ -89,11 +89,11 @@ def _print(found: Sequence[Diagnostic], as_: str) -> None:
         case "json":
             print_json({"diagnostics": [as_data(each) for each in found]})
         case "github":
-            from mindlang.linting.github import annotations
+            from mindlang.linting.formats import annotations
 
             click.echo("".join(annotations(found)), nl=False)
         case "sarif":
-            from mindlang.linting.sarif import sarif
+            from mindlang.linting.formats import sarif
 
             print_json(sarif(found))
 

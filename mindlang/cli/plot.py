@@ -39,7 +39,7 @@ def command(runs: tuple[Path, ...], output: Path, as_json: bool, quiet: bool) ->
     from importlib.util import find_spec
 
     from mindrun.errors import MindError
-    from mindrun.train.errors import NotFoundError
+    from mindrun.train import NotFoundError
 
     from mindlang.pictures.learning_log import load_curves
     from mindlang.terminal import MISUSE, fail, print_json, refuse_unwritable, write_picture

@@ -61,10 +61,10 @@ def command(
     --seed. The weights go to the lock of the file in which the lesson stands, or to the one that says them now.
     """
     from mindrun.errors import MindError
-    from mindrun.train.errors import NotFoundError
+    from mindrun.train import NotFoundError
 
-    from mindlang.training import Trainer
     from mindlang.training.lesson_choice import TrainOptions
+    from mindlang.training.trainer import Trainer
 
     if file == "-":
         fail("Standard input cannot be taught: what is learnt is kept beside a file.", "Save it as a file.", MISUSE)

@@ -11,7 +11,7 @@ from mindrun.functions import Procedure
 from mindrun.functions.procedure_text import fit
 from mindrun.weights import reachable
 
-from mindlang.deploying.errors import DeployError
+from mindlang.deploying import DeployError
 
 if TYPE_CHECKING:
     from mindrun.bundle import Bundle

@@ -15,7 +15,7 @@ from pathlib import Path
 from threading import Event, Thread
 from typing import IO
 
-from mindlang.deploying.errors import DeployError
+from mindlang.deploying import DeployError
 
 UNREACHABLE = 255  # ssh's own exit code
 SCRIPTS = ("robot.sh", "switch.sh")

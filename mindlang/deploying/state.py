@@ -9,7 +9,7 @@ from datetime import UTC, datetime, timedelta
 
 from mindrun.strict_json import parsed
 
-from mindlang.deploying.errors import DeployError
+from mindlang.deploying import DeployError
 from mindlang.deploying.robot import Robot, Told
 
 MOMENT = "%Y%m%dT%H%M%SZ"

@@ -1,5 +1,6 @@
 """What a lint rule looks at, and what it finds."""
 
+import re
 from collections.abc import Container, Iterable, Iterator
 from dataclasses import dataclass
 from functools import cached_property
@@ -18,6 +19,8 @@ from mindlang.compiler.resolve.names import Names, gather
 from mindlang.compiler.source import Source, Span
 from mindlang.editing.references import Mention, mentions
 from mindlang.lock import Lock, read_locks
+
+_WORD = re.compile(r"[A-Z]?[a-z]+|[A-Z]+(?![a-z])")
 
 
 @dataclass(frozen=True)
@@ -159,3 +162,8 @@ def study(compiled: Compiled) -> Study:
     assert compiled.graph is not None
     lock = read_locks(source.path for source in compiled.sources)
     return Study(compiled.mind, compiled.graph, gather(compiled.mind.files, Findings()), lock)
+
+
+def words(name: str) -> list[str]:
+    """The words of a name in lower case, whether underscores or capitals part them: left_wheel, LeftWheel."""
+    return [word.lower() for word in _WORD.findall(name)]

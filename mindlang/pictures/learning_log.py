@@ -12,7 +12,7 @@ from pathlib import Path
 
 from mindrun.regular_files import read_whole
 from mindrun.strict_json import is_whole
-from mindrun.train.errors import NotFoundError, RunError
+from mindrun.train import NotFoundError, RunError
 from mindrun.train.progress import COUNT_COLUMNS, LINES, TABLE, read
 from mindrun.train.run_folder import MANIFEST, open_run
 

@@ -11,8 +11,7 @@ from mindrun.actuators import Wheel
 from mindrun.sensors import RangeFinder
 
 from mindlang.compiler.source import Span
-from mindlang.linting.study import Finding, Found, Study
-from mindlang.linting.words import words
+from mindlang.linting.study import Finding, Found, Study, words
 
 OTHER = {"left": "right", "right": "left"}
 GOOD = ("sensor left_eye is range_finder at 30 60 deg\n", "sensor left_eye is range_finder at 0 deg\n")

@@ -4,7 +4,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 from mindrun.graph import Graph, Lesson
-from mindrun.train.errors import NotFoundError, RunError
+from mindrun.train import NotFoundError, RunError
 from mindrun.weights import genes, learners, reachable
 
 from mindlang.compiler.diagnostic import did_you_mean, listed

@@ -7,7 +7,7 @@ from math import isfinite
 import numpy as np
 from mindrun.graph import Lesson
 from mindrun.sim.rollout import Rollout
-from mindrun.train.errors import RunError
+from mindrun.train import RunError
 from mindrun.train.lesson import State
 from mindrun.train.population import Genomes
 from mindrun.train.run_folder import Run

@@ -8,7 +8,7 @@ from hashlib import sha256
 from pathlib import Path
 
 from mindrun.graph import Graph, Lesson
-from mindrun.train.errors import RunError
+from mindrun.train import RunError
 from mindrun.train.manifest import Manifest, fingerprint, hashes, processor, versions
 from mindrun.train.run_folder import Run, create, unfinished
 from mindrun.weights import Weights, learners

@@ -11,8 +11,7 @@ from mindlang.compiler.diagnostic import Findings, errors, listed, nearest
 from mindlang.compiler.source import Span
 from mindlang.wiring.nodes import Entry, Scalar, Table, shortened, tell
 from mindlang.wiring.options import DRIVER, Option, driver_options, drivers, own_options
-from mindlang.wiring.tables import by_option, is_empty, missing_key, unknown_key
-from mindlang.wiring.values import first_line
+from mindlang.wiring.values import by_option, first_line, is_empty, missing_key, unknown_key
 
 ENDS = ("from", "to")  # are in the unit of the driver, so they are read when there is one
 OTHER = {"sensor": "actuator", "actuator": "sensor"}

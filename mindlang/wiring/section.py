@@ -8,11 +8,10 @@ from mindrun.named_readings import physical
 from mindrun.wiring import ActuatorWire, SensorWire, read_by
 
 from mindlang.compiler.diagnostic import Findings, a, listed, nearest
-from mindlang.wiring.actuator import actuator_wire
 from mindlang.wiring.driver import Wired, wired
 from mindlang.wiring.nodes import Entry, Scalar, Table, shortened, tell
 from mindlang.wiring.sensor import sensor_wire
-from mindlang.wiring.tables import is_empty, table
+from mindlang.wiring.values import is_empty, table
 
 P = TypeVar("P", Sensor, Actuator)
 W = TypeVar("W", SensorWire, ActuatorWire)
@@ -92,3 +91,22 @@ def _stranger(noun: str, key: Scalar, known: Mapping[str, Any], graph: Graph, fi
         add = f"Remove it, or add a line {noun} {shortened(name)} is … to the mind."
         hint = findings.suggest(name, known) or add
         tell(findings, f"unknown-{noun}", key.span, f"The mind has no {noun} called {shortened(name)}.", hint)
+
+
+def actuator_wire(wired: Wired, actuator: Actuator, findings: Findings) -> ActuatorWire | None:
+    """The wire of an actuator, or None after reporting why it cannot be wired so."""
+    own = {**wired.own}
+    low, high = own.pop("limits", (0.0, 1.0))
+    neutral = actuator.kind.neutral
+    if low >= high:
+        hint = "Write the smaller share first, [0.2, 0.8]; reversed: true turns the actuator round."
+        tell(findings, "no-travel", wired.span("limits"), "Between these limits nothing can move.", hint)
+        return None
+    rest = neutral + own.get("trim", 0.0)
+    if not low <= rest <= high:
+        trimmed = " with its trim" * (rest != neutral)
+        message = f"The neutral of {actuator.name}{trimmed}, {rest:g}, is outside of its limits."
+        hint = f"It is what the mind says is safe: write limits that have {rest:g} between them."
+        tell(findings, "neutral-outside", wired.span("limits"), message, hint)
+        return None
+    return ActuatorWire(actuator.name, wired.driver, low=float(low), high=float(high), **own)

@@ -11,8 +11,7 @@ from mindlang.wiring.direction import check_direction
 from mindlang.wiring.driver import Wired
 from mindlang.wiring.nodes import tell
 from mindlang.wiring.options import driver_options
-from mindlang.wiring.tables import is_empty
-from mindlang.wiring.values import first_line, number
+from mindlang.wiring.values import first_line, is_empty, number
 
 # What a driver may measure in, and how people may write it.
 UNITS = {"m": {"m": 1.0, "cm": 0.01, "mm": 0.001}, "V": {"V": 1.0, "mV": 0.001}, "m/s²": {"m/s²": 1.0, "m/s2": 1.0}}

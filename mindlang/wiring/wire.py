@@ -14,8 +14,7 @@ from mindlang.wiring.claims import check_claims
 from mindlang.wiring.nodes import Entry, Node, tell
 from mindlang.wiring.read import read
 from mindlang.wiring.section import actuators, sensors
-from mindlang.wiring.tables import is_empty, missing_key, table, unknown_key
-from mindlang.wiring.values import text
+from mindlang.wiring.values import is_empty, missing_key, table, text, unknown_key
 
 MAX_WIRING_BYTES = 256 << 10
 KEYS = {

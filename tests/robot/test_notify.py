@@ -4,7 +4,7 @@ import socket
 from pathlib import Path
 
 import pytest
-from mindrun.robot.systemd import notify
+from mindrun.robot.drive import notify
 
 
 def test_systemd_is_told(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

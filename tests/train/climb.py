@@ -5,7 +5,7 @@ from pathlib import Path
 from time import perf_counter, sleep
 
 from climbing import Sphere, forget
-from mindrun.train.errors import RunError
+from mindrun.train import RunError
 from mindrun.train.run_folder import open_run
 from mindrun.train.training import Watch, train
 

@@ -8,9 +8,8 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from mindrun.train import checkpoint
+from mindrun.train import RunError, checkpoint
 from mindrun.train.checkpoint import load, pack, save, unpack
-from mindrun.train.errors import RunError
 from mindrun.train.lesson import Course, State, begin, teach
 
 from tests.train.climbing import LENGTH, Sphere, lesson

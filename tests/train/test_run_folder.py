@@ -8,8 +8,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from mindrun.train import checkpoint
-from mindrun.train.errors import RunError
+from mindrun.train import RunError, checkpoint
 from mindrun.train.folder_lock import claim
 from mindrun.train.lesson import Record, State
 from mindrun.train.progress import read

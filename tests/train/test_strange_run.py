@@ -8,8 +8,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from mindrun.train import checkpoint
-from mindrun.train.errors import RunError
+from mindrun.train import RunError, checkpoint
 from mindrun.train.lesson import State
 from mindrun.train.population import Population
 from mindrun.train.progress import LINES, read

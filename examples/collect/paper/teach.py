@@ -24,7 +24,7 @@ from protocol import FILES, FOLDER
 from mindlang import simulator_compilation
 from mindlang.number_format import duration
 from mindlang.run.session import layouts
-from mindlang.training import Trainer
+from mindlang.training.trainer import Trainer
 
 RUNS = 128  # of shipped champions, to see how fast this machine is; fewer would leave lanes empty
 

@@ -1,7 +1,9 @@
 """A bundle in charge of its robot: opened, run until somebody says stop, and brought to neutral whatever happens."""
 
+import os
+import socket
 from collections.abc import Callable, Iterator, Sequence
-from contextlib import AbstractContextManager, ExitStack, contextmanager, nullcontext
+from contextlib import AbstractContextManager, ExitStack, contextmanager, nullcontext, suppress
 from dataclasses import dataclass
 from pathlib import Path
 from time import monotonic, sleep
@@ -19,7 +21,6 @@ from mindrun.robot.reading_filter import ReadingFilter
 from mindrun.robot.recording import About, Recorder
 from mindrun.robot.sampling import Sampler
 from mindrun.robot.stop_signals import Stop, stopping
-from mindrun.robot.systemd import notify
 from mindrun.wiring import Wiring, read_by
 
 FIRST_READING_SECONDS = 10.0  # for every sensor to have been measured once
@@ -122,3 +123,15 @@ def _sampling(wiring: Wiring) -> Iterator[list[Sampler]]:
             sampler.stop(0.0)
         for sampler in samplers:  # together: each may hang
             sampler.stop(max(0.0, until - monotonic()))
+
+
+def notify(state: str) -> None:
+    """Tell systemd "READY=1", "WATCHDOG=1" or "STOPPING=1"; nothing happens where it is not the one who started us."""
+    address = os.environ.get("NOTIFY_SOCKET", "")
+    if not address:
+        return
+    if address.startswith("@"):
+        address = f"\0{address[1:]}"
+    with suppress(OSError), socket.socket(socket.AF_UNIX, socket.SOCK_DGRAM | socket.SOCK_CLOEXEC) as manager:
+        manager.setblocking(False)
+        manager.sendto(state.encode(), address)

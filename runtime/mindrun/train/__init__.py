@@ -1,1 +1,11 @@
 """Training: a learner teaches one skill one lesson, in a run folder that survives anything."""
+
+from mindrun.errors import MindError
+
+
+class RunError(MindError):
+    """A run that cannot begin or go on."""
+
+
+class NotFoundError(RunError):
+    """What was asked for is not there."""

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from mindrun.atomic_write import sync_folder, write_beside
 from mindrun.regular_files import read_whole
 from mindrun.strict_json import is_whole, parsed
-from mindrun.train.errors import RunError
+from mindrun.train import RunError
 from mindrun.train.lesson import State
 from mindrun.train.population import Population
 

@@ -8,7 +8,7 @@ from pathlib import Path
 from stat import S_ISREG
 
 from mindrun.regular_files import irregular, read_regular
-from mindrun.train.errors import RunError
+from mindrun.train import RunError
 
 MAX_PID_DIGITS = 20  # of the number of a process
 

@@ -17,7 +17,7 @@ from mindrun.functions import Procedure
 from mindrun.functions.procedure import module_source
 from mindrun.graph import Graph, Lesson
 from mindrun.strict_json import is_whole, parsed
-from mindrun.train.errors import RunError
+from mindrun.train import RunError
 from mindrun.validate import lesson_flaws
 from mindrun.weights import Weights, reachable
 

@@ -11,7 +11,7 @@ from types import TracebackType
 from mindrun import atomic_write
 from mindrun.regular_files import read_whole
 from mindrun.strict_json import is_whole, parsed
-from mindrun.train.errors import RunError
+from mindrun.train import RunError
 from mindrun.train.lesson import Record, State
 
 LINES, TABLE = "progress.jsonl", "progress.csv"

@@ -5,8 +5,7 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 
-from mindrun.train import checkpoint
-from mindrun.train.errors import RunError
+from mindrun.train import RunError, checkpoint
 from mindrun.train.folder_lock import claim
 from mindrun.train.lesson import Clock, Course, Record, State, begin, could_be, teach
 from mindrun.train.population import Genomes

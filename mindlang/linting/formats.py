@@ -1,11 +1,13 @@
-"""Diagnostics as SARIF 2.1.0, which code hosts and editors read."""
+"""Findings for other programs: SARIF 2.1.0, which code hosts and editors read, and GitHub's workflow commands."""
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from hashlib import sha256
 from importlib.metadata import version
 from pathlib import PurePath
 from typing import Any
 from urllib.parse import quote
+
+from mindrun.printable import visible
 
 from mindlang.compiler.diagnostic import Diagnostic
 from mindlang.compiler.source import Span
@@ -54,3 +56,27 @@ def _location(span: Span) -> dict[str, Any]:
     region = {"startLine": span.line, "startColumn": span.column, "endLine": end.line, "endColumn": end.column}
     uri = quote(PurePath(span.source.name).as_posix())
     return {"physicalLocation": {"artifactLocation": {"uri": uri}, "region": region}}
+
+
+def annotations(found: Iterable[Diagnostic]) -> Iterator[str]:
+    """A line for each."""
+    for each in found:
+        place = f"{_place(each.span)}," if each.span else ""
+        text = _data(f"{each.message} {each.hint}".strip())
+        yield f"::{each.severity} {place}title={_property(each.code)}::{text}\n"
+
+
+def _place(span: Span) -> str:
+    end = Span(span.source, span.end, span.end)
+    return (
+        f"file={_property(span.source.name)},line={span.line},col={span.column},"
+        f"endLine={end.line},endColumn={end.column}"
+    )
+
+
+def _data(text: str) -> str:
+    return visible(text).replace("%", "%25")
+
+
+def _property(text: str) -> str:
+    return _data(text).replace(":", "%3A").replace(",", "%2C")

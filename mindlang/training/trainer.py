@@ -1,0 +1,197 @@
+"""Teaching one lesson after the other, with something to look at, and keeping what was learnt."""
+
+import json
+import secrets
+import shlex
+import signal
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from datetime import UTC, datetime
+from pathlib import Path
+from time import perf_counter
+from types import FrameType
+from typing import Any
+
+from mindrun.graph import Lesson
+from mindrun.sim.rollout import Rollout, cores
+from mindrun.train import RunError
+from mindrun.train.lesson import Record, State
+from mindrun.train.population import founder_count
+from mindrun.train.run_folder import Run, keep_result, open_run, read_result
+from mindrun.train.training import Watch, train
+from mindrun.weights import learners
+
+from mindlang.lock import LockError
+from mindlang.resource_limits import refuse_too_large, refuse_too_long
+from mindlang.simulator_compilation import ensure_compiled
+from mindlang.terminal import load_compiled, procedures_talk, talk
+from mindlang.training.lesson_choice import TrainOptions, chosen_lessons, is_due
+from mindlang.training.lock_update import Kept, keep
+from mindlang.training.progress import PrintedLines, ProgressBarLine, Silent, TimeLeft, Watcher
+from mindlang.training.results import Result, opening, outcome, result_of
+from mindlang.training.subject import Subject, begin_run, open_subject, refuse_changed
+
+
+@dataclass(frozen=True, slots=True)
+class Trainer:
+    """Teaches on so many cores (all where None); talks on stderr and, with `as_json`, prints results on stdout."""
+
+    workers: int | None
+    as_json: bool
+    quiet: bool
+
+    def teach_file(
+        self,
+        file: Path,
+        skills: Sequence[str],
+        curriculum: str | None,
+        options: TrainOptions,
+        force: bool,
+        seed: int | None,
+        runs: Path,
+    ) -> bool:
+        """Teach the lessons that are due, or those asked for; False if it was interrupted."""
+        seed = secrets.randbits(31) if seed is None else seed
+        compiled = load_compiled(file)
+        subject = open_subject(file, compiled)
+        chosen = chosen_lessons(subject.graph, curriculum, skills)
+        if skills or force:
+            _refuse_frozen(subject, chosen)
+        taught = frozen = 0
+        for lesson in chosen:
+            subject = open_subject(file, compiled)  # the lesson before has changed the lock
+            if not (standing := subject.standing(lesson)):
+                frozen += 1
+                self._say(f"{lesson.skill} is frozen, and is not taught")
+            elif skills or force or is_due(subject.graph, lesson, standing):
+                run = begin_run(subject, options.applied(lesson), seed, runs, datetime.now(UTC))
+                taught += 1
+                if not self._teach(run, subject, force):
+                    return False
+        if not taught:
+            others = "all other lessons" if frozen else f"all {len(chosen)} lessons"
+            self._say(f"nothing to do: {others} have been taught (--force teaches them again)")
+        return True
+
+    def resume(self, folder: Path, force: bool) -> bool:
+        """Go on with a run; False if it was interrupted."""
+        run = open_run(folder)
+        source = Path(run.manifest.source)
+        if not source.exists():
+            raise RunError(f"{source}, from which this run began, is gone", f"its text is in {folder / 'source'}")
+        subject = open_subject(source, load_compiled(source))
+        refuse_changed(subject, run)
+        return self._teach(run, subject, force)
+
+    def _teach(self, run: Run, subject: Subject, force: bool) -> bool:
+        if (result := read_result(run.folder)) is not None:
+            self._say(f"{run.folder} has finished already")
+            self._print(result)
+            return True
+        rollout = self._rollout(run, subject)
+        state = self._watched(run, rollout)
+        if state.attempt < run.manifest.lesson.learner.attempts:
+            talk.print(f"saved; to go on: {_command(run)}", markup=False)
+            return False
+        kept = self._kept(run, subject, state, rollout, force)
+        result = result_of(run, state, kept)
+        keep_result(run.folder, result)
+        self._say(*outcome(run, result, kept, subject.keep_path(run.manifest.lesson).name))
+        self._print(result)
+        return True
+
+    @procedures_talk()
+    def _kept(self, run: Run, subject: Subject, state: State, rollout: Rollout, force: bool) -> Kept:
+        try:
+            return keep(run, subject, state, rollout, force)
+        except LockError as error:
+            hint = f"what was learnt is safe; mend that, then: {_command(run)}"
+            raise RunError(str(error), hint) from error
+
+    @procedures_talk()
+    def _rollout(self, run: Run, subject: Subject) -> Rollout:
+        lesson = run.manifest.lesson
+        self._say(opening(run))
+        rollout = Rollout(
+            subject.graph,
+            run.weights,
+            lesson.task,
+            lesson.master,
+            run.manifest.learners,
+            procedures=subject.folder,
+            workers=self.workers or cores(),
+        )
+        learner = lesson.learner
+        first = founder_count(learner)
+        refuse_too_large(rollout, first, learner.layouts)
+        refuse_too_long(rollout, (first + learner.population * (lesson.generations - 1)) * learner.layouts)
+        ensure_compiled(rollout, self._say)  # before the clock of the lesson starts
+        return rollout
+
+    @procedures_talk()
+    def _watched(self, run: Run, rollout: Rollout) -> State:
+        lesson = run.manifest.lesson
+        watcher = self._watcher(run)
+
+        def asked() -> None:
+            watcher.close()
+            self._say(f"finishing this generation; Ctrl-C again stops at once, to go on then: {_command(run)}")
+
+        def report(state: State, record: Record) -> None:
+            done = state.attempt * lesson.generations + state.population.generation
+            watcher.report(record, done, perf_counter())
+
+        try:
+            with Interruption(asked) as interruption:
+                return train(run, rollout, Watch(report, self._say, lambda: interruption.asked, perf_counter))
+        finally:
+            watcher.close()
+
+    def _watcher(self, run: Run) -> Watcher:
+        if self.quiet:
+            return Silent()
+        return (ProgressBarLine if talk.is_terminal else PrintedLines)(
+            talk, run.manifest.name, TimeLeft.of(run, perf_counter())
+        )
+
+    def _say(self, *lines: str) -> None:
+        for line in () if self.quiet else lines:
+            talk.print(line, markup=False)
+
+    def _print(self, result: Result) -> None:
+        if self.as_json:
+            print(json.dumps(result, allow_nan=False), flush=True)
+
+
+def _refuse_frozen(subject: Subject, chosen: Sequence[Lesson]) -> None:
+    """RunError where a lesson has nobody to teach."""
+    for lesson in chosen:
+        if not learners(subject.graph, lesson):
+            hint = f"mindc edit unfreeze {lesson.skill} {subject.shown} --write"
+            raise RunError(f"{lesson.skill} is frozen", hint)
+
+
+def _command(run: Run) -> str:
+    """What goes on with a run."""
+    return f"mindc train --resume {shlex.quote(str(run.folder))}"
+
+
+class Interruption:
+    """While entered, the first SIGINT sets `asked` and calls `when_asked`; a second one ends the process."""
+
+    def __init__(self, when_asked: Callable[[], None]) -> None:
+        self.asked = False
+        self._when_asked = when_asked
+
+    def __enter__(self) -> "Interruption":
+        self._before: Any = signal.signal(signal.SIGINT, self._first)
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        signal.signal(signal.SIGINT, self._before)
+
+    def _first(self, number: int, frame: FrameType | None) -> None:
+        # The default action, and no handler: compiled code may keep Python from running one for a while.
+        signal.signal(signal.SIGINT, signal.SIG_DFL)
+        self.asked = True
+        self._when_asked()
