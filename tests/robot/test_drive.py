@@ -217,7 +217,9 @@ def test_a_dry_run_says_where_it_drives_and_what_came_of_it(bundle: Path) -> Non
 def test_a_dry_run_ends_when_its_world_does(bundle: Path) -> None:
     words = [*MINDRUN, bundle, "--dry", "--arm", "--task", "Play"]
     process = subprocess.Popen(words, stderr=subprocess.PIPE, text=True, start_new_session=True)
-    while not (worlds := children(process.pid, "mindrun.robot.world")) or not children(process.pid, "guardian"):
+    while not (worlds := children(process.pid, "mindrun.robot.simulated_world")) or not children(
+        process.pid, "guardian"
+    ):
         assert process.poll() is None
         sleep(0.1)
     sleep(1)

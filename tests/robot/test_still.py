@@ -3,7 +3,9 @@
 import pytest
 from mindrun.driver import SensorDriver
 from mindrun.robot.drivers.ball_tracker import BallTracker
-from mindrun.robot.drivers.lsm9ds1 import Compass, Motion, Turn
+from mindrun.robot.drivers.lsm9ds1_compass import Compass
+from mindrun.robot.drivers.lsm9ds1_motion import Motion
+from mindrun.robot.drivers.lsm9ds1_turn import Turn
 from mindrun.robot.drivers.mock import MockSensor
 from mindrun.wiring import SensorWire, still
 

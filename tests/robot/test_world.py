@@ -25,18 +25,11 @@ from mindrun.engine import Engine
 from mindrun.errors import MindError
 from mindrun.graph import Graph
 from mindrun.registry import kinds
-from mindrun.robot.drivers.simulated import (
-    READ,
-    REQUEST,
-    STATUS,
-    WRITE,
-    Link,
-    SimulatedActuator,
-    SimulatedSensor,
-    dry,
-    status,
-)
-from mindrun.robot.world import Scene, Server, listening, requests, simulated
+from mindrun.robot.drivers.simulated import Link, SimulatedActuator, SimulatedSensor, dry, status
+from mindrun.robot.simulated_world.process import simulated
+from mindrun.robot.simulated_world.protocol import READ, REQUEST, STATUS, WRITE, requests
+from mindrun.robot.simulated_world.scene import Scene
+from mindrun.robot.simulated_world.server import Server, listening
 from mindrun.sim.commanded_world import World
 from mindrun.sim.rollout import Rollout
 from mindrun.sim.trace import trace
@@ -330,7 +323,7 @@ def test_runs_follow_one_another(roam: Graph) -> None:
 def test_the_guardian_can_still_stop_the_wheels_of_a_world_that_ends(
     roam: Graph, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("mindrun.robot.world.NEUTRAL_SECONDS", PATIENCE)
+    monkeypatch.setattr("mindrun.robot.simulated_world.server.NEUTRAL_SECONDS", PATIENCE)
     world = Counting(roam)
     with served(world) as (path, server):
         wheel = SimulatedActuator(path, "left_wheel").open()
@@ -428,7 +421,7 @@ def test_a_world_that_cannot_be_says_why(bundle: Path, tmp_path: Path) -> None:
 PARENT = """
 import sys, time
 from pathlib import Path
-from mindrun.robot.world import simulated
+from mindrun.robot.simulated_world.process import simulated
 with simulated(Path(sys.argv[1]), "Chase", 1) as path:
     print(path, flush=True)
     time.sleep(600)

@@ -52,7 +52,7 @@ def _wired(options: argparse.Namespace, bundle: Bundle, drive_options: DriveOpti
 
 def _dry(options: argparse.Namespace, bundle: Bundle, drive_options: DriveOptions) -> Loop:
     from mindrun.robot.drivers.simulated import dry, status
-    from mindrun.robot.world import simulated
+    from mindrun.robot.simulated_world.process import simulated
 
     tasks = [task.name for task in bundle.graph.tasks]
     task, why = options.task or "", ""

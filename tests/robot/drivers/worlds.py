@@ -15,7 +15,9 @@ from mindrun.robot.drivers.ads1115 import Ads1115
 from mindrun.robot.drivers.ball_tracker import BallTracker
 from mindrun.robot.drivers.grove_motor import GroveMotor
 from mindrun.robot.drivers.grove_ultrasonic import GroveUltrasonic
-from mindrun.robot.drivers.lsm9ds1 import Compass, Motion, Turn
+from mindrun.robot.drivers.lsm9ds1_compass import Compass
+from mindrun.robot.drivers.lsm9ds1_motion import Motion
+from mindrun.robot.drivers.lsm9ds1_turn import Turn
 from mindrun.robot.drivers.mock import MockActuator, MockSensor
 from mindrun.robot.drivers.pca9685 import Pca9685
 from mindrun.robot.drivers.switch import Switch

@@ -1,8 +1,4 @@
-"""Sensors and actuators of a simulated world, which is another process: see `mindrun.robot.world`.
-
-An exchange is a REQUEST with a name, then an ANSWER with what it holds. READ a sensor: its readings, float64. WRITE an
-actuator: nothing, it has the value now. STATUS: JSON. Where one is refused, the reason.
-"""
+"""Sensors and actuators of a simulated world, which is another process: see `mindrun.robot.simulated_world`."""
 
 import json
 import socket as sockets  # AF_UNIX by its name: there is none on Windows, where every driver is known all the same
@@ -17,11 +13,9 @@ from mindrun.graph import Graph
 from mindrun.named_readings import physical
 from mindrun.quantity import COUNT, Reference
 from mindrun.registry import kind
+from mindrun.robot.simulated_world.protocol import ANSWER, READ, REQUEST, STATUS, WRITE
 from mindrun.wiring import ActuatorWire, SensorWire, Wiring
 
-READ, WRITE, STATUS = b"R", b"W", b"S"
-REQUEST = Struct("<cHd")  # what, length of the name, value; then the name in UTF-8
-ANSWER = Struct("<?Id")  # whether it was done, length of what it holds, when the tick began (monotonic seconds)
 DEADLINE = 0.2  # seconds for a whole exchange
 TEXT = Reference("text")
 VALUE = Struct("<d")

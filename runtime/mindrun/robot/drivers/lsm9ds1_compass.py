@@ -1,0 +1,61 @@
+"""Where north is, by the magnetometer of an LSM9DS1."""
+
+from dataclasses import dataclass
+from math import atan2, degrees, hypot
+from typing import Annotated
+
+from mindrun.quantity import Quantity
+from mindrun.registry import kind
+from mindrun.robot.driver_support import ADDRESS, BUS, DEGREES, I2cDevice
+from mindrun.robot.lsm9ds1 import (
+    FACE,
+    MAGNETIC,
+    MAGNETOMETER_ON,
+    MILLIGAUSS,
+    OUT_MAGNETOMETER,
+    STATUS_MAGNETIC,
+    Chip,
+    NineDofDevice,
+    opened,
+)
+
+MILLIGAUSS_OFFSET = Quantity("a magnetic field in milligauss", {"": 1.0}, low=-4000.0, high=4000.0)
+
+
+@kind("sensor driver", "lsm9ds1_compass")
+@dataclass(frozen=True, slots=True)
+class Compass:
+    """Where magnetic north is, seen from the robot, in degrees: 0 straight ahead, to the left positive, −180 to 180.
+
+    So it reads as a bearing: 0.5 facing north, less where north is on the left. An LSM9DS1 that lies flat, far from the
+    motors; `turn` is how far its x axis points to the left of straight ahead, `face` down if it goes the wrong way
+    round. Iron on the robot is taken off by `x` and `y`: turn it once round, each is half way between the most and the
+    least milligauss that its axis measured.
+    """
+
+    turn: Annotated[float, DEGREES] = 0.0
+    face: Annotated[str, FACE] = "up"
+    x: Annotated[float, MILLIGAUSS_OFFSET] = 0.0
+    y: Annotated[float, MILLIGAUSS_OFFSET] = 0.0
+    bus: Annotated[int, BUS] = 1
+    address: Annotated[int, ADDRESS] = 0x1E
+
+    unit = "deg"
+    readings = 1
+    usual = (180.0, -180.0)
+    possible = (-180.0, 180.0)
+
+    def open(self) -> NineDofDevice:
+        """The magnetometer."""
+        wire = I2cDevice("the compass", self.bus, self.address)
+        chip = Chip(wire, MAGNETIC, MAGNETOMETER_ON, STATUS_MAGNETIC, 0x08, 0x00, OUT_MAGNETOMETER)
+
+        def bearing(counts: tuple[int, int, int]) -> float:
+            x, y, z = (count * MILLIGAUSS for count in counts)
+            if hypot(x, y, z) < 50:  # the earth's is 250 to 650
+                raise wire.error("feels no magnetic field")
+            y = y - self.y if self.face == "up" else self.y - y
+            angle = degrees(atan2(y, x - self.x)) + self.turn
+            return (angle + 180) % 360 - 180
+
+        return opened(chip, bearing)

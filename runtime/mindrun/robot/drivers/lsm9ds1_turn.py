@@ -1,0 +1,45 @@
+"""How fast the robot turns, by the gyroscope of an LSM9DS1."""
+
+from dataclasses import dataclass
+from typing import Annotated
+
+from mindrun.quantity import NUMBER
+from mindrun.registry import kind
+from mindrun.robot.driver_support import ADDRESS, BUS, I2cDevice
+from mindrun.robot.lsm9ds1 import (
+    DEGREES_A_SECOND,
+    FACE,
+    GYROSCOPE_ON,
+    INERTIAL,
+    OUT_GYROSCOPE,
+    STATUS,
+    Chip,
+    NineDofDevice,
+    opened,
+)
+
+
+@kind("sensor driver", "lsm9ds1_turn")
+@dataclass(frozen=True, slots=True)
+class Turn:
+    """How fast the robot turns, in degrees a second, to the left (counterclockwise) positive.
+
+    An LSM9DS1 that lies flat, its printed side `face` up or down. `still` is what it reads at rest.
+    """
+
+    face: Annotated[str, FACE] = "up"
+    still: Annotated[float, NUMBER] = 0.0
+    bus: Annotated[int, BUS] = 1
+    address: Annotated[int, ADDRESS] = 0x6B
+
+    unit = "deg/s"
+    readings = 1
+    usual = (180.0, -180.0)
+    possible = (-600.0, 600.0)
+
+    def open(self) -> NineDofDevice:
+        """The gyroscope."""
+        wire = I2cDevice("the gyroscope", self.bus, self.address)
+        sign = 1 if self.face == "up" else -1
+        chip = Chip(wire, INERTIAL, GYROSCOPE_ON, STATUS, 0x02, 0x80, OUT_GYROSCOPE)
+        return opened(chip, lambda counts: sign * (counts[2] * DEGREES_A_SECOND) - self.still)

@@ -1,0 +1,86 @@
+"""A world with the commands that its actuators hold, and what can be asked of it."""
+
+import json
+from collections import Counter
+from collections.abc import Sequence
+from time import monotonic
+from typing import Any, Protocol
+
+from mindrun.graph import Graph
+from mindrun.robot.simulated_world.protocol import ANSWER, READ, STATUS
+
+SEED_COUNT = 1 << 64
+
+
+class World(Protocol):
+    """What `mindrun.sim.commanded_world` simulates."""
+
+    graph: Graph
+    seed: int
+
+    @property
+    def tick(self) -> int: ...
+
+    @property
+    def pose(self) -> tuple[float, float, float]: ...
+
+    @property
+    def events(self) -> dict[str, int]: ...
+
+    @property
+    def ended(self) -> str | None: ...
+
+    def readings(self) -> Any: ...
+
+    def step(self, commands: Sequence[float]) -> None: ...
+
+    def begin(self, seed: int) -> None: ...
+
+
+class Scene:
+    """A world, the command that each actuator holds, and what clients may ask; `again`: runs follow one another."""
+
+    def __init__(self, world: World, again: bool = False) -> None:
+        self.world, self.again = world, again
+        self.commands = {actuator.name: float(actuator.kind.neutral) for actuator in world.graph.actuators}
+        self.past: Counter[str] = Counter()  # what has ended the runs before
+        self.missed = 0
+        self._places = {s.name: slice(s.start, s.start + s.width) for s in world.graph.sensors}
+        self._sense()
+
+    def tick(self) -> None:
+        """One tick under the commands that the actuators hold; a world that has ended stands still."""
+        self.world.step(list(self.commands.values()))
+        if self.again and self.world.ended:
+            self.past[self.world.ended] += 1
+            self.world.begin((self.world.seed + 1) % SEED_COUNT)
+        self._sense()
+
+    def answer(self, what: bytes, name: str, value: float) -> bytes:
+        """The answer to a request."""
+        if what == STATUS:
+            return self._packed(json.dumps(self.status()).encode())
+        if what == READ and name in self._places:
+            return self._packed(self._readings[self._places[name]].tobytes())
+        if what == READ:
+            return self._packed(f"there is no sensor {name}".encode(), done=False)
+        if name not in self.commands:
+            return self._packed(f"there is no actuator {name}".encode(), done=False)
+        if not 0.0 <= value <= 1.0:
+            return self._packed(f"a command of {value} is not between 0 and 1".encode(), done=False)
+        self.commands[name] = value
+        return self._packed(b"")
+
+    def status(self) -> dict[str, Any]:
+        """How the run stands, and the runs before; `missed` are ticks for which the computer was too slow."""
+        world = self.world
+        return {
+            "seed": world.seed, "tick": world.tick, "pose": world.pose, "events": world.events, "ended": world.ended,
+            "commands": self.commands, "past": self.past, "missed": self.missed,
+        }  # fmt: skip
+
+    def _sense(self) -> None:
+        self._readings, self._time = self.world.readings().astype("<f8"), monotonic()
+
+    def _packed(self, held: bytes, done: bool = True) -> bytes:
+        return ANSWER.pack(done, len(held), self._time) + held
