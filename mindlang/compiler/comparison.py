@@ -8,8 +8,8 @@ from typing import Any
 from mindlang.compiler.diagnostic import Findings
 from mindlang.compiler.format import spaced
 from mindlang.compiler.model import Lesson, Mind, Part, Skill, Task
+from mindlang.compiler.names import Names
 from mindlang.compiler.resolve.kinds import Scope, make
-from mindlang.compiler.resolve.names import Names
 from mindlang.compiler.syntax import (
     NOUNS,
     Contains,

@@ -6,10 +6,8 @@ from typing import Any, TypeVar
 from mindrun import graph
 
 from mindlang.compiler import model
-from mindlang.compiler.diagnostic import Findings
 from mindlang.compiler.format import spaced
 from mindlang.compiler.hierarchy import in_order
-from mindlang.compiler.resolve.parts import widths
 from mindlang.compiler.syntax import Operator
 
 T = TypeVar("T")
@@ -38,12 +36,11 @@ def lower(mind: model.Mind) -> graph.Graph:
 
 
 def _sensors(mind: model.Mind) -> tuple[graph.Sensor, ...]:
-    width = widths(mind.sensors, Findings())
     sensors: list[graph.Sensor] = []
     start = 0
     for sensor in mind.sensors:
-        sensors.append(graph.Sensor(sensor.name, sensor.kind, start, width[sensor.name]))
-        start += width[sensor.name]
+        sensors.append(graph.Sensor(sensor.name, sensor.kind, start, sensor.width))
+        start += sensor.width
     return tuple(sensors)
 
 

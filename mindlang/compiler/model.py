@@ -11,6 +11,7 @@ from mindrun.measures import Measure
 from mindrun.memory import Cell
 from mindrun.world import Content, Disc, Scene
 
+from mindlang.compiler.names import Names
 from mindlang.compiler.source import Span
 from mindlang.compiler.syntax import Declaration, Drives, File, Influences, Operator, Rewards, Teaches
 
@@ -19,11 +20,15 @@ K = TypeVar("K")
 
 @dataclass(frozen=True, slots=True)
 class Part(Generic[K]):
-    """Something with a name and a kind: a sensor, an actuator, a memory, a body, a thing of a task."""
+    """Something with a name and a kind: a sensor, an actuator, a memory, a body, a thing of a task.
+
+    `width` is how many readings a sensor has.
+    """
 
     name: str
     kind: K
     span: Span
+    width: int = 1
 
 
 @dataclass(frozen=True, slots=True)
@@ -147,7 +152,7 @@ class Lesson:
 
 @dataclass(frozen=True, slots=True)
 class Mind:
-    """A whole mind, in the order of its sources. `tick` is in seconds."""
+    """A whole mind, in the order of its sources. `tick` is in seconds; `names` are all declarations."""
 
     tick: float
     master: str
@@ -159,3 +164,4 @@ class Mind:
     tasks: tuple[Task, ...]
     lessons: tuple[Lesson, ...]
     files: tuple[File, ...]
+    names: Names

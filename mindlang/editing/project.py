@@ -10,9 +10,9 @@ from mindrun.graph import Graph
 from mindrun.registry import kinds
 
 from mindlang.compiler.compile import Compiled
-from mindlang.compiler.diagnostic import Diagnostic, Findings, Label, a, did_you_mean, listed
+from mindlang.compiler.diagnostic import Diagnostic, Label, a, did_you_mean, listed
 from mindlang.compiler.model import Mind
-from mindlang.compiler.resolve.names import SHARED, Names, gather
+from mindlang.compiler.names import SHARED, Names
 from mindlang.compiler.source import Span
 from mindlang.compiler.splice import Splice
 from mindlang.compiler.syntax import NOUNS, Declaration, Drives, Fact, File, Influences, Master, Reads
@@ -69,8 +69,12 @@ class Project:
 
     mind: Mind
     graph: Graph
-    names: Names
     neighbours: tuple["Project", ...] = ()
+
+    @property
+    def names(self) -> Names:
+        """All declarations by noun and name."""
+        return self.mind.names
 
     @property
     def files(self) -> tuple[File, ...]:
@@ -185,7 +189,7 @@ def open_project(compiled: Compiled) -> Project:
 def _project(compiled: Compiled) -> Project:
     assert compiled.mind is not None
     assert compiled.graph is not None
-    return Project(compiled.mind, compiled.graph, gather(compiled.mind.files, Findings()))
+    return Project(compiled.mind, compiled.graph)
 
 
 def facts(declaration: Declaration, form: type[F]) -> list[F]:

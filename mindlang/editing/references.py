@@ -7,7 +7,7 @@ from typing import Any
 from mindrun.quantity import Reference as Noun
 from mindrun.registry import arguments, kinds
 
-from mindlang.compiler.resolve.names import Names
+from mindlang.compiler.names import Names
 from mindlang.compiler.syntax import (
     Argument,
     Contains,

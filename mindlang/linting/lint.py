@@ -4,8 +4,7 @@ import re
 from collections.abc import Collection, Iterator
 
 from mindlang.compiler.compile import Compiled
-from mindlang.compiler.diagnostic import Diagnostic, Findings
-from mindlang.compiler.resolve.names import gather
+from mindlang.compiler.diagnostic import Diagnostic
 from mindlang.editing.neighbours import neighbours
 from mindlang.editing.references import mentions
 from mindlang.linting.study import Finding, study
@@ -41,7 +40,7 @@ def _named_elsewhere(compiled: Compiled) -> set[str]:
     """
     main, own = compiled.sources[0].path, {source.path for source in compiled.sources}
     users = (user.mind for user in neighbours([main]) if user.mind)
-    found = (each for user in users for each in mentions(user.files, gather(user.files, Findings())))
+    found = (each for user in users for each in mentions(user.files, user.names))
     return {each.name.text for each in found if not each.is_own and each.name.span.source.path not in own}
 
 

@@ -12,10 +12,9 @@ from mindrun.graph import Graph, Lesson, SensorKind
 from mindrun.sensors import Bearing, Contact, Derivative, Held, Inside
 
 from mindlang.compiler.compile import Compiled
-from mindlang.compiler.diagnostic import Findings, Fix, Label
+from mindlang.compiler.diagnostic import Fix, Label
 from mindlang.compiler.hierarchy import in_order
 from mindlang.compiler.model import Mind, Skill, Task
-from mindlang.compiler.resolve.names import Names, gather
 from mindlang.compiler.source import Source, Span
 from mindlang.editing.references import Mention, mentions
 from mindlang.lock import Lock, read_locks
@@ -29,7 +28,6 @@ class Study:
 
     mind: Mind
     graph: Graph
-    names: Names
     lock: Lock
 
     @cached_property
@@ -99,7 +97,7 @@ class Study:
     @cached_property
     def mentions(self) -> tuple[Mention, ...]:
         """Every name in the files."""
-        return tuple(mentions(self.mind.files, self.names))
+        return tuple(mentions(self.mind.files, self.mind.names))
 
     @cached_property
     def is_exhausted(self) -> bool:
@@ -161,7 +159,7 @@ def study(compiled: Compiled) -> Study:
     assert compiled.mind is not None
     assert compiled.graph is not None
     lock = read_locks(source.path for source in compiled.sources)
-    return Study(compiled.mind, compiled.graph, gather(compiled.mind.files, Findings()), lock)
+    return Study(compiled.mind, compiled.graph, lock)
 
 
 def words(name: str) -> list[str]:

@@ -22,7 +22,7 @@ BAD = (GOOD[0].replace("ahead", "forward"),)
 def check(study: Study) -> Found:
     """Sensors and memories called as a measure that is said in a single word."""
     measures = {name for name, kind in kinds("measure").items() if not any(a.required for a in arguments(kind))}
-    for name, declaration in (*study.names.declarations("sensor"), *study.names.declarations("memory")):
+    for name, declaration in (*study.mind.names.declarations("sensor"), *study.mind.names.declarations("memory")):
         if name in measures:
             hint = f"Give it another name: mindc edit rename {name} NAME."
             span = declaration.header.name.span

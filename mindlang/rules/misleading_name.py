@@ -23,7 +23,7 @@ BAD = (GOOD[0].replace("battery_drift", "battery_bearing"),)
 
 def check(study: Study) -> Found:
     """Declarations whose last words are those of another kind of their noun."""
-    for noun, declarations in study.names.table.items():
+    for noun, declarations in study.mind.names.table.items():
         known = {name: name.split("_") for name in kinds(noun) if name not in EVERYDAY}
         for name, declaration in declarations.items():
             said, phrase = words(name), declaration.header.phrase

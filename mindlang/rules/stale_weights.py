@@ -35,7 +35,7 @@ def check(study: Study) -> Found:
         if found:
             first = f"Unfreeze {skill.name} first: then " if skill.frozen else ""
             hint = f"{first}mindc train teaches it again."
-            span = study.names.table["skill"][skill.name].header.name.span
+            span = study.mind.names.table["skill"][skill.name].header.name.span
             yield Finding(span, f"The weights of {skill.name} are stale: {'; '.join(found)}.", hint)
 
 

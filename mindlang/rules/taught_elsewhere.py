@@ -52,7 +52,7 @@ def check(study: Study) -> Found:
     """Skills that were taught in a world that the lock knows and the mind no longer has."""
     for name, state in status(study.graph, study.lock, study.main.folder).items():
         if isinstance(state, Trained) and state.is_elsewhere:
-            span = study.names.table["skill"][name].header.name.span
+            span = study.mind.names.table["skill"][name].header.name.span
             message = f"{name} was taught elsewhere: {'; '.join(state.changes)}."
             hint = (
                 f"mindc train teaches it again; mindc status {study.main.path.name} --accept {name} leaves it as it is."

@@ -28,7 +28,7 @@ def check(study: Study) -> Found:
     """Actuators that stand in no line but their own."""
     for part in study.mind.actuators:
         if part.name not in study.used.get("actuator", set()):
-            declaration = study.names.table["actuator"][part.name]
+            declaration = study.mind.names.table["actuator"][part.name]
             fix = Fix(f"Remove {part.name}", without_declarations([declaration]), is_safe=False)
             hint = f"Add drives {part.name} to a skill, or take the actuator out."
             message = f"Nobody drives {part.name}: it stays at {part.kind.neutral:g}."

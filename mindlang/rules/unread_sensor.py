@@ -34,7 +34,7 @@ skill Go is rule
 
 def check(study: Study) -> Found:
     """Sensors that stand in no line but their own."""
-    for name, declaration in study.names.declarations("sensor"):
+    for name, declaration in study.mind.names.declarations("sensor"):
         phrase = declaration.header.phrase
         is_battery = phrase is not None and phrase.kind.text == "battery"
         if name not in study.used.get("sensor", set()) and not (is_battery and study.is_exhausted):

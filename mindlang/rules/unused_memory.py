@@ -52,7 +52,7 @@ def check(study: Study) -> Found:
     for part in study.mind.memories:
         name, cell = part.name, part.kind
         if name not in read:
-            removal = Fix(f"Remove {name}", without_declarations([study.names.table["memory"][name]]))
+            removal = Fix(f"Remove {name}", without_declarations([study.mind.names.table["memory"][name]]))
             hint = f"Add reads {name} to a skill, or take the memory out."
             yield Finding(part.span, f"Nobody reads {name}.", hint, fix=None if name in driven else removal)
         elif name not in driven and (cell.start == 0 or cell.decay == 1):

@@ -5,8 +5,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
-from mindlang.compiler.diagnostic import Findings, did_you_mean, listed
-from mindlang.compiler.resolve.names import gather
+from mindlang.compiler.diagnostic import did_you_mean, listed
 from mindlang.compiler.splice import Splice
 from mindlang.editing.apply import apply_edit
 from mindlang.editing.project import Change, EditError, Project
@@ -67,7 +66,7 @@ def perform(workspace: Workspace, path: Path, name: str, arguments: Mapping[str,
 def _project(view: View) -> Project:
     assert view.compiled.mind is not None
     assert view.compiled.graph is not None
-    return Project(view.compiled.mind, view.compiled.graph, gather(view.files, Findings()))
+    return Project(view.compiled.mind, view.compiled.graph)
 
 
 def _said(of: Edit, arguments: Mapping[str, Any]) -> dict[str, Any]:

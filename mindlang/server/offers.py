@@ -9,8 +9,8 @@ from typing import Any
 from mindrun.quantity import Quantity, Reference
 from mindrun.registry import Argument, arguments, kinds
 
+from mindlang.compiler.names import things_of
 from mindlang.compiler.resolve.kinds import ABOUT, PLACES
-from mindlang.compiler.resolve.names import things_of
 from mindlang.compiler.syntax import Declaration
 from mindlang.file_search import beside, text_of
 from mindlang.server.describing import argument_line, kind_card, meaning

@@ -13,8 +13,6 @@ from mindrun.graph import Graph
 
 from mindlang import transaction
 from mindlang.compiler.compile import Compiled, load
-from mindlang.compiler.diagnostic import Findings
-from mindlang.compiler.resolve.names import gather
 from mindlang.editing.lock_update import Locks, locks_of, merged, update_locks
 from mindlang.editing.project import Change, EditError, Renamed, Replaced
 from mindlang.lock import Lock, lock_text
@@ -71,7 +69,7 @@ def _followed(minds: Sequence[Compiled], locks: Locks, change: Change) -> Locks:
 def _is_renamed(mind: Compiled, change: Change) -> bool:
     """Whether a mind has the new names and not the old ones."""
     assert mind.mind is not None
-    names = gather(mind.mind.files, Findings())
+    names = mind.mind.names
     return bool(change.renamed) and all(
         each.new in names.of(each.noun) and each.old not in names.of(each.noun) for each in change.renamed
     )

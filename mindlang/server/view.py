@@ -9,7 +9,7 @@ from mindrun.errors import MindError
 
 from mindlang.compiler.compile import Compiled, load
 from mindlang.compiler.diagnostic import Diagnostic, Findings
-from mindlang.compiler.resolve.names import Names, gather
+from mindlang.compiler.names import Names, gather
 from mindlang.compiler.source import Span
 from mindlang.compiler.syntax import Declaration, Fact, File, Setting
 from mindlang.compiler.use import files

@@ -10,9 +10,9 @@ from mindrun.world import Disc
 from mindlang.compiler import model
 from mindlang.compiler.diagnostic import Findings, Label
 from mindlang.compiler.hierarchy import check_cycles
+from mindlang.compiler.names import Names, gather
 from mindlang.compiler.resolve.curricula import lessons
-from mindlang.compiler.resolve.names import Names, gather
-from mindlang.compiler.resolve.parts import parts, widths
+from mindlang.compiler.resolve.parts import measured_widths, parts
 from mindlang.compiler.resolve.quantities import convert
 from mindlang.compiler.resolve.skills import skills
 from mindlang.compiler.resolve.tasks import Robot, tasks
@@ -27,8 +27,8 @@ def resolve(files: Sequence[File], findings: Findings) -> model.Mind | None:
     all_read = not findings.diagnostics
     names = gather(files, findings)
     tick = _tick(files, findings)
-    sensors = parts("sensor", names, findings)
-    width = dict.fromkeys(names.of("sensor", "memory"), 1) | widths(sensors, findings)
+    sensors = measured_widths(parts("sensor", names, findings), findings)
+    width = dict.fromkeys(names.of("sensor", "memory"), 1) | {sensor.name: sensor.width for sensor in sensors}
     memories, actuators = parts("memory", names, findings), parts("actuator", names, findings)
     known_skills = skills(names, width, findings)
     check_cycles(known_skills, findings)
@@ -42,7 +42,7 @@ def resolve(files: Sequence[File], findings: Findings) -> model.Mind | None:
     if findings.diagnostics or body is None:
         return None
     return model.Mind(
-        tick, master, body, sensors, memories, actuators, known_skills, known_tasks, known_lessons, tuple(files)
+        tick, master, body, sensors, memories, actuators, known_skills, known_tasks, known_lessons, tuple(files), names
     )
 
 

@@ -11,8 +11,8 @@ from mindrun.registry import kinds
 from mindlang.compiler import model
 from mindlang.compiler.diagnostic import Findings, listed
 from mindlang.compiler.hierarchy import reached
+from mindlang.compiler.names import Names
 from mindlang.compiler.resolve.kinds import Scope, a_name, make, once, overrides
-from mindlang.compiler.resolve.names import Names
 from mindlang.compiler.resolve.parts import refuse_facts
 from mindlang.compiler.resolve.quantities import convert
 from mindlang.compiler.syntax import Argument, Name, Phrase, Teaches

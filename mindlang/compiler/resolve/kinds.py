@@ -9,8 +9,8 @@ from mindrun.registry import Argument as Parameter
 from mindrun.registry import arguments, kinds
 
 from mindlang.compiler.diagnostic import Findings, Label, a, did_you_mean, listed
+from mindlang.compiler.names import Names
 from mindlang.compiler.resolve import quantities
-from mindlang.compiler.resolve.names import Names
 from mindlang.compiler.syntax import VERBS, Argument, Name, Phrase
 
 # What a kind can be about where not every item, zone and power will do. Obstacles are many: no kind is about one.

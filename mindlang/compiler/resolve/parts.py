@@ -1,13 +1,14 @@
 """Sensors, memories, actuators and the body; how many readings each sensor has."""
 
+from dataclasses import replace
 from typing import Any
 
 from mindrun.sensors import Derivative, RangeFinder
 
 from mindlang.compiler.diagnostic import Findings, a, listed
 from mindlang.compiler.model import Part
+from mindlang.compiler.names import Names
 from mindlang.compiler.resolve.kinds import Scope, make
-from mindlang.compiler.resolve.names import Names
 from mindlang.compiler.syntax import Declaration, Fact
 
 MOST_READINGS = 20_000
@@ -43,8 +44,8 @@ def refuse_facts(declaration: Declaration, allowed: tuple[type[Fact], ...], find
             findings.error("foreign-fact", fact.span, f"{verb} does not belong to {a(noun)}.", hint)
 
 
-def widths(sensors: tuple[Part[Any], ...], findings: Findings) -> dict[str, int]:
-    """How many readings each sensor has; derivatives of one another are reported."""
+def measured_widths(sensors: tuple[Part[Any], ...], findings: Findings) -> tuple[Part[Any], ...]:
+    """The sensors with their widths; derivatives of one another are reported."""
     found = {sensor.name: 1 for sensor in sensors}
     derived = {sensor.name: sensor for sensor in sensors if isinstance(sensor.kind, Derivative)}
     found |= {sensor.name: len(sensor.kind.at) for sensor in sensors if isinstance(sensor.kind, RangeFinder)}
@@ -63,7 +64,7 @@ def widths(sensors: tuple[Part[Any], ...], findings: Findings) -> dict[str, int]
         widest = max(sensors, key=lambda sensor: found[sensor.name])
         message = f"With these {found[widest.name]} the mind has {readings} readings."
         findings.error("too-many-readings", widest.span, message, f"A mind takes {MOST_READINGS}: leave some out.")
-    return found
+    return tuple(replace(sensor, width=found[sensor.name]) for sensor in sensors)
 
 
 def _loop(chain: list[str], again: str, derived: dict[str, Part[Any]], findings: Findings) -> None:

@@ -7,9 +7,9 @@ from mindrun.functions import Function, Mlp, Rule
 
 from mindlang.compiler import model
 from mindlang.compiler.diagnostic import Findings, Label
+from mindlang.compiler.names import Names
 from mindlang.compiler.resolve.expressions import Visible, resolve
 from mindlang.compiler.resolve.kinds import Scope, make
-from mindlang.compiler.resolve.names import Names
 from mindlang.compiler.resolve.parts import refuse_facts
 from mindlang.compiler.source import Span
 from mindlang.compiler.syntax import Declaration, Drives, Influences, Reads, Stays

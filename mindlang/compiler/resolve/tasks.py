@@ -10,9 +10,9 @@ from mindrun.world import MOST_OBSTACLES, MOST_THINGS, Arena, Obstacle, Plain, Z
 
 from mindlang.compiler import model, syntax
 from mindlang.compiler.diagnostic import Findings, Label
+from mindlang.compiler.names import Names, things_of
 from mindlang.compiler.resolve.expressions import Visible, resolve
 from mindlang.compiler.resolve.kinds import Scope, make
-from mindlang.compiler.resolve.names import Names, things_of
 from mindlang.compiler.resolve.parts import refuse_facts
 from mindlang.compiler.resolve.quantities import convert
 from mindlang.compiler.syntax import Contains, Counts, Declaration, Ends, Fact, Lasts, Phrase, Rewards
