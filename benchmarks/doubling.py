@@ -14,7 +14,7 @@ from io import StringIO
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
-from mindrun.encoding import encode
+from mindrun.codec import encode
 from rich.console import Console
 
 from benchmarks.shapes import SHAPES

@@ -15,7 +15,7 @@ from typing import Self
 import numpy as np
 from commanded import Commanded
 from learning import FRESH, prepared
-from mindrun.functions.mlp import Mlp, first_weights, layers, matrices
+from mindrun.functions.mlp import Mlp, matrices
 from mindrun.train.population import MAX_WEIGHT, Genomes
 from numpy.typing import NDArray
 from workloads import collect
@@ -138,8 +138,8 @@ class Learner:
         worlds = Worlds(skill, hold, rng)
         function, count, outputs = worlds.skill.function, len(worlds.skill.inputs), worlds.skill.outputs
         assert isinstance(function, Mlp)
-        shape = layers(count, outputs, function)
-        first = [matrix.astype(np.float64) for matrix in matrices(first_weights(1, shape, rng)[0], shape)]
+        shape = function.layers(count, outputs)
+        first = [matrix.astype(np.float64) for matrix in matrices(function.draw(count, outputs, 1, rng)[0], shape)]
         first[-1] = 1 / shape[-1][0] + 0.1 * rng.standard_normal(first[-1].shape)
         wide = [rng.standard_normal((b, a + 1)) / np.sqrt(a) for a, b in pairwise((count, *CRITIC, 1))]
         actor, critic = Network(first, biased=False), Network(wide, biased=True)

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 import numpy as np
 import pymunk
 from mindrun.functions import Mlp
-from mindrun.functions.mlp import layers, matrices
+from mindrun.functions.mlp import matrices
 from mindrun.graph import Graph, Skill
 from mindrun.sim.trace import Run
 from numpy.typing import NDArray
@@ -144,7 +144,7 @@ class Robot:
 def _layers(skill: Skill, weights: Mapping[str, NDArray[np.float32]]) -> tuple[NDArray[np.float32], ...]:
     if not isinstance(skill.function, Mlp):
         return ()
-    return matrices(weights[skill.name], layers(len(skill.inputs), skill.outputs, skill.function))
+    return matrices(weights[skill.name], skill.function.layers(len(skill.inputs), skill.outputs))
 
 
 def perceive(layer_matrices: tuple[NDArray[np.float32], ...], values: NDArray[np.float32]) -> NDArray[np.float32]:

@@ -4,7 +4,6 @@ import math
 
 import numpy as np
 from mindrun.functions import Mlp
-from mindrun.functions.mlp import layers
 from mindrun.sensors import Bearing, Derivative, Sine
 from mindrun.sigmoid import DENOMINATOR, LIMIT, NUMERATOR
 from mindrun.trigonometry import sine
@@ -101,7 +100,7 @@ class Plain:
         """The internal function's outputs."""
         if not isinstance(skill.function, Mlp):
             return []
-        shape = layers(len(inputs), skill.outputs, skill.function)
+        shape = skill.function.layers(len(inputs), skill.outputs)
         if not shape:
             return [f(0)] * skill.outputs
         weights = iter(self.weights[skill.name])

@@ -5,9 +5,6 @@ from dataclasses import replace
 from pathlib import Path
 from typing import NoReturn
 
-import numpy as np
-from mindrun.functions import Mlp
-from mindrun.functions.mlp import layers, matrices
 from mindrun.graph import Graph, Skill
 from mindrun.weights import Weights
 
@@ -81,13 +78,12 @@ def widen(entry: Entry, old: Skill, graph: Graph, new: Skill) -> tuple[Entry, We
     influenced = {graph.named("skill", edge.target) for edge in new.edges if edge.to == "skill"}
     if reads is None or sends is None or not set(sends[len(was.sends) :]) <= influenced:
         return None
-    if not isinstance(old.function, Mlp) or not isinstance(new.function, Mlp):
+    before, after = (_width(was.reads), len(was.sends)), (_width(reads), len(sends))
+    if type(old.function) is not type(new.function):
         return None
-    before = layers(_width(was.reads), len(was.sends), old.function)
-    after = layers(_width(reads), len(sends), new.function)
-    if len(before) != len(after) or any(map(_is_smaller, after, before)):
+    weights = old.function.widened(load_weights(entry, old), before, new.function, after)
+    if weights is None:
         return None
-    weights = _embedded(load_weights(entry, old), before, after)
     made = replace(entry, signature=Signature(now.function, reads, sends), weights=digest(weights))
     return made, weights
 
@@ -95,18 +91,6 @@ def widen(entry: Entry, old: Skill, graph: Graph, new: Skill) -> tuple[Entry, We
 def _longer(old: tuple[str, ...], new: tuple[str, ...]) -> tuple[str, ...] | None:
     """The old names in their order, then those that are new; None where one is gone."""
     return (*old, *(name for name in new if name not in old)) if set(old) <= set(new) else None
-
-
-def _is_smaller(layer: tuple[int, int], than: tuple[int, int]) -> bool:
-    return layer[0] < than[0] or layer[1] < than[1]
-
-
-def _embedded(genome: Weights, before: tuple[tuple[int, int], ...], after: tuple[tuple[int, int], ...]) -> Weights:
-    """A genome in a larger one whose other weights are zero."""
-    larger = [np.zeros((out, into), np.float32) for into, out in after]
-    for large, small in zip(larger, matrices(genome, before), strict=True):
-        large[: small.shape[0], : small.shape[1]] = small
-    return np.concatenate([large.ravel() for large in larger])
 
 
 def _width(reads: tuple[str, ...]) -> int:

@@ -7,7 +7,6 @@ from functools import cached_property
 
 from mindrun.actuators import Gripper
 from mindrun.events import Event, Exhaustion
-from mindrun.functions import Mlp
 from mindrun.graph import Graph, Lesson, SensorKind
 from mindrun.sensors import Bearing, Contact, Derivative, Held, Inside
 
@@ -63,7 +62,7 @@ class Study:
     @cached_property
     def learning(self) -> set[str]:
         """The skills that lessons can teach: those with weights that are not frozen."""
-        return {skill.name for skill in self.mind.skills if isinstance(skill.function, Mlp) and not skill.frozen}
+        return {skill.name for skill in self.mind.skills if skill.function.learns and not skill.frozen}
 
     @cached_property
     def can_hold(self) -> bool:

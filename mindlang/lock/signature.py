@@ -1,13 +1,10 @@
 """What a genome fits, by name: taken from a graph, and compared with another."""
 
-from collections.abc import Iterator
-from dataclasses import fields, replace
+from collections.abc import Collection, Iterator
 from typing import Any
 
-from mindrun.functions import Mlp
-from mindrun.functions.mlp import layers
 from mindrun.graph import Graph, SensorKind, Skill
-from mindrun.registry import names
+from mindrun.registry import arguments, names
 from mindrun.sensors import RangeFinder
 
 from mindlang.lock import Entry, Signature
@@ -20,17 +17,17 @@ def signature(graph: Graph, skill: Skill) -> Signature:
     return Signature(_function(skill), tuple(reads), tuple(sends))
 
 
-def differences(old: Signature, new: Signature, derived: bool) -> tuple[str, ...]:
+def differences(old: Signature, new: Signature, derived: Collection[str]) -> tuple[str, ...]:
     """What keeps weights from fitting, as sentences; order is no difference.
 
-    With `derived`, a width that follows from Eq. 5 is not told where what is read or sent tells it already.
+    The arguments in `derived` are not told where what is read or sent tells it already, from which they follow.
     """
     found = [*_read_differences(_widths(old), _widths(new)), *_changes("sends", set(old.sends), set(new.sends))]
     (old_kind, before), (new_kind, now) = _arguments(old), _arguments(new)
     if old_kind != new_kind:
         return (f"was {old_kind}, now {new_kind}", *found)
     for key in before | now:
-        if before.get(key) != now.get(key) and not (key == "width" and derived and found):
+        if before.get(key) != now.get(key) and not (key in derived and found):
             found.append(f"{key} was {before.get(key, 'not there')}, now {now.get(key, 'not there')}")
     return tuple(found)
 
@@ -63,12 +60,9 @@ def _reads(graph: Graph, skill: Skill) -> Iterator[tuple[str, int]]:
 
 def _function(skill: Skill) -> str:
     """The function as a phrase, every argument said: mlp hidden 2 width 14."""
-    function = skill.function
-    if isinstance(function, Mlp):
-        shape = layers(len(skill.inputs), skill.outputs, function)
-        function = replace(function, width=shape[0][1] if len(shape) > 1 else function.width)
-    arguments = (f"{field.name} {getattr(function, field.name)}" for field in fields(function))
-    return " ".join([names()[type(function)], *arguments])
+    function = skill.function.explicit(len(skill.inputs), skill.outputs)
+    said = (f"{each.key} {getattr(function, each.field)}" for each in arguments(type(function)))
+    return " ".join([names()[type(function)], *said])
 
 
 def _arguments(of: Signature) -> tuple[str, dict[str, str]]:

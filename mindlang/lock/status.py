@@ -5,8 +5,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
 
-from mindrun.functions import Mlp
-from mindrun.graph import Graph, Lesson, Skill
+from mindrun.graph import Graph, Lesson
 from mindrun.weights import Weights, below, genes, learners, reachable
 
 from mindlang.lock import Entry, Lock
@@ -88,7 +87,7 @@ class _Standing:
         if entry is None:
             return Untaught()
         found = (
-            *differences(entry.signature, signature(self.graph, skill), _width_is_derived(skill)),
+            *differences(entry.signature, signature(self.graph, skill), skill.function.derived),
             *reordered(entry, self.graph),
         )
         return Stale(found) if found else self._trained(index, entry)
@@ -161,10 +160,6 @@ class _Standing:
         for lesson in self.graph.lessons:
             found.setdefault(key_of(lesson), []).append(lesson)
         return found
-
-
-def _width_is_derived(skill: Skill) -> bool:
-    return isinstance(skill.function, Mlp) and skill.function.width == 0
 
 
 def trained_weights(graph: Graph, lock: Lock, skills: Collection[str]) -> tuple[dict[str, Weights], list[str]]:

@@ -13,7 +13,7 @@ from pathlib import Path
 from typing import Any
 
 from mindrun.actuators import Gripper, Wheel
-from mindrun.encoding import encode
+from mindrun.codec import encode
 from mindrun.errors import ProcedureError
 from mindrun.events import Exhaustion
 from mindrun.expression import leaves

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 
 import numpy as np
 from mindrun.expression import OPERATORS
+from mindrun.functions.mlp import perceive
 from mindrun.graph import Graph, Program, Skill
-from mindrun.sigmoid import sigmoid
 from mindrun.weights import Weights, reachable
 
 from mindlang.proofs.interval import Doubles, Singles, perceptron
@@ -57,19 +57,8 @@ def _outputs(skill: Skill, weights: Weights | None, readings: Singles) -> Single
     layers = perceptron(skill, weights)
     if not layers:
         return np.zeros((len(readings), skill.outputs), np.float32)
-    *hidden, last = layers
-    found = readings[:, list(skill.inputs)]
     with np.errstate(all="ignore"):
-        for matrix in hidden:
-            found = sigmoid(_dense(matrix, found))
-        return _dense(last, found)
-
-
-def _dense(matrix: Singles, found: Singles) -> Singles:
-    total = matrix[:, 0] * found[:, 0, None]
-    for j in range(1, matrix.shape[1]):
-        total += matrix[:, j] * found[:, j, None]
-    return total
+        return perceive(layers, readings[:, list(skill.inputs)])
 
 
 def _evaluate(program: Program, readings: Singles) -> Singles:

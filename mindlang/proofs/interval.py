@@ -12,8 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from mindrun.expression import OPERATORS
-from mindrun.functions import Mlp
-from mindrun.functions.mlp import layers, matrices
+from mindrun.functions.mlp import matrices
 from mindrun.graph import Program, Skill
 from mindrun.sigmoid import sigmoid
 from mindrun.weights import Weights, genes
@@ -45,7 +44,7 @@ class Sent:
 
 def is_known(skill: Skill, weights: Weights | None) -> bool:
     """Whether its function can be looked into: not where it is untaught, and not where it is Python code."""
-    return skill.outputs == 0 or (isinstance(skill.function, Mlp) and (weights is not None or genes(skill) == 0))
+    return skill.outputs == 0 or (not skill.function.opaque and (weights is not None or genes(skill) == 0))
 
 
 def sent(skill: Skill, weights: Weights | None, boxes: Boxes) -> Sent:
@@ -64,9 +63,7 @@ def sent(skill: Skill, weights: Weights | None, boxes: Boxes) -> Sent:
 
 def perceptron(skill: Skill, weights: Weights | None) -> tuple[Singles, ...]:
     """The matrices of its layers; none where it has nothing to learn, or was not taught."""
-    if weights is None or not isinstance(skill.function, Mlp):
-        return ()
-    return matrices(weights, layers(len(skill.inputs), skill.outputs, skill.function))
+    return () if weights is None else matrices(weights, skill.function.layers(len(skill.inputs), skill.outputs))
 
 
 def _outputs(skill: Skill, weights: Weights | None, boxes: Boxes) -> tuple[Singles, Singles] | None:

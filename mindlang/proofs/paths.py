@@ -10,7 +10,6 @@ from dataclasses import dataclass
 from itertools import islice
 
 import numpy as np
-from mindrun.functions import Mlp
 from mindrun.graph import Edge, Graph, Skill
 from mindrun.weights import reachable
 
@@ -61,7 +60,7 @@ def ways(graph: Graph) -> Ways:
 
 def _way(skill: Skill, edge: Edge, whole: Boxes) -> Way:
     if edge.output is not None:
-        return Way(edge.target, 1.0, isinstance(skill.function, Mlp))  # Python code is as exact as it is written
+        return Way(edge.target, 1.0, skill.function.learns)  # Python code is as exact as it is written
     with np.errstate(all="ignore"):
         most = evaluate(edge.value, whole)[1][0]
     return Way(edge.target, float(np.clip(most, 0, 1)), False)

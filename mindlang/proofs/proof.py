@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
-from mindrun.functions import Procedure
 from mindrun.graph import Actuator, Edge, Graph, Skill
 from mindrun.weights import Weights, reachable
 
@@ -116,7 +115,7 @@ def prove(graph: Graph, weights: Mapping[str, Weights], delta: float) -> Proof:
 
 
 def _why(skill: Skill) -> str:
-    return "is Python code" if isinstance(skill.function, Procedure) else "has no weights that fit"
+    return skill.function.opaque or "has no weights that fit"
 
 
 def _edges(graph: Graph, below: Sequence[Skill], bounds: Reach, rests: _Rests) -> Iterator[OfEdge]:

@@ -5,7 +5,6 @@ What it reads or sends, or its function, has changed since it was taught, so the
 a skill that only reads or influences more go on as before.
 """
 
-from mindrun.functions import Mlp
 from mindrun.graph import Graph, Skill
 
 from mindlang.linting.study import Finding, Found, Study
@@ -41,6 +40,6 @@ def check(study: Study) -> Found:
 
 def _differences(graph: Graph, skill: Skill, entry: Entry) -> tuple[str, ...]:
     """As `mindc status` finds them, without its notes on subskills, for which it goes down from every skill."""
-    if not isinstance(skill.function, Mlp):
+    if not skill.function.learns:
         return ()
-    return differences(entry.signature, signature(graph, skill), skill.function.width == 0)
+    return differences(entry.signature, signature(graph, skill), skill.function.derived)

@@ -4,8 +4,6 @@ Only the values after `at` say what a rule does. A reading in none of them chang
 silent when that sensor fails.
 """
 
-from mindrun.functions import Rule
-
 from mindlang.compiler.diagnostic import Fix
 from mindlang.compiler.model import Reading
 from mindlang.compiler.syntax import Reads
@@ -21,7 +19,7 @@ BAD = (f"{EYES}{GO}  drives left_wheel at right_eye\n  drives right_wheel at rig
 def check(study: Study) -> Found:
     """Lines of rules that read what stands after none of their `at`."""
     for skill in study.mind.skills:
-        if isinstance(skill.function, Rule):
+        if not skill.function.has_outputs:
             values = [edge.at for edge in skill.edges if edge.at]
             used = {term.name for value in values for term in value.terms if isinstance(term, Reading)}
             for fact in skill.declaration.facts:

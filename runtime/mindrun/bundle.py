@@ -13,7 +13,8 @@ from typing import Any
 from mindrun.archive import read_archive, write_archive
 from mindrun.atomic_write import write_out
 from mindrun.bundle_migration import brought_along, with_whole_lessons
-from mindrun.encoding import decode, decode_wiring, encode
+from mindrun.codec import encode
+from mindrun.encoding import decode, decode_wiring
 from mindrun.errors import BundleError, WeightsError
 from mindrun.graph import Graph
 from mindrun.npy import to_npy

@@ -4,7 +4,7 @@ from collections.abc import Iterator
 from typing import Any
 
 from mindrun.bundle import Bundle, fingerprint
-from mindrun.encoding import encode
+from mindrun.codec import encode
 from mindrun.named_readings import physical
 from mindrun.registry import names
 from mindrun.wiring import Wiring

@@ -8,6 +8,7 @@ from collections.abc import Sequence
 from typing import Protocol
 
 from mindrun.errors import MindError
+from mindrun.registry import base
 
 
 class DeviceError(MindError):
@@ -41,6 +42,7 @@ class ActuatorDevice(Protocol):
         ...
 
 
+@base("sensor driver")
 class SensorDriver(Protocol):
     """How a sensor is wired: `unit` and number of its values; those that are `usual`ly the readings 0 and 1.
 
@@ -62,6 +64,7 @@ class SensorDriver(Protocol):
         ...
 
 
+@base("actuator driver")
 class ActuatorDriver(Protocol):
     """How an actuator is wired; `device` is what only one process may drive, named as others would name it.
 

@@ -10,6 +10,7 @@ T = TypeVar("T")
 
 _kinds: dict[str, dict[str, type[Any]]] = {}
 _names: dict[type[Any], str] = {}
+_bases: dict[type[Any], str] = {}
 _arguments: dict[Any, tuple["Argument", ...]] = {}  # of each kind that was asked for
 
 
@@ -43,6 +44,21 @@ def kind(noun: str, name: str) -> Callable[[type[T]], type[T]]:
 def kinds(noun: str) -> dict[str, type[Any]]:
     """Every kind of a noun, by name."""
     return _kinds.get(noun, {})
+
+
+def base(noun: str) -> Callable[[type[T]], type[T]]:
+    """Say that a class is what the kinds of a noun have in common: an annotation with it takes each of them."""
+
+    def register(cls: type[T]) -> type[T]:
+        _bases[cls] = noun
+        return cls
+
+    return register
+
+
+def bases() -> Mapping[type[Any], str]:
+    """The noun of every class that kinds have in common."""
+    return _bases
 
 
 def names() -> Mapping[type[Any], str]:

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mindrun.expression import evaluate
-from mindrun.functions import Compute, computes
+from mindrun.functions import Compute
 from mindrun.graph import Edge, Graph, Program
 from mindrun.weights import Weights, reachable, weights_of
 
@@ -66,7 +66,7 @@ def hierarchy(graph: Graph, weights: Mapping[str, Weights], sources: Mapping[str
             Ready(
                 numbers[skill.name],
                 np.array(skill.inputs, np.intp),
-                computes(skill.function, len(skill.inputs), skill.outputs, weights_of(skill, weights), sources),
+                skill.function.ready(len(skill.inputs), skill.outputs, weights_of(skill, weights), sources),
                 tuple(_sent(edge, len(graph.actuators)) for edge in skill.edges),
             )
             for skill in reachable(graph, master)

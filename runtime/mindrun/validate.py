@@ -5,7 +5,6 @@ from collections.abc import Container, Iterator
 
 from mindrun.events import Visit
 from mindrun.expression import OPERATORS, is_sound, leaves
-from mindrun.functions import Rule
 from mindrun.graph import Graph, Lesson, Program, Skill, Task
 from mindrun.quantity import THING, UNSAID
 from mindrun.registry import arguments
@@ -108,7 +107,7 @@ def _skill_flaws(graph: Graph, number: int, skill: Skill, width: int) -> Iterato
     if not all(edge.target in targets.get(edge.to, ()) for edge in skill.edges):
         yield "sends to what is not there"
     outputs = [edge.output for edge in skill.edges if edge.output is not None]
-    if outputs != list(range(len(outputs))) or (outputs and isinstance(skill.function, Rule)):
+    if outputs != list(range(len(outputs))) or (outputs and not skill.function.has_outputs):
         yield "has outputs that are not its function's"
     readings = set(skill.inputs)
     if not all(_computes(edge.value, readings) for edge in skill.edges if edge.output is None):

@@ -3,20 +3,18 @@
 from collections.abc import Iterable, Mapping
 
 import numpy as np
-from numpy.typing import NDArray
 
 from mindrun.errors import WeightsError
-from mindrun.functions import genome_length
+from mindrun.functions.function import Weights as Weights
 from mindrun.graph import Graph, Lesson, Skill
 from mindrun.npy import from_npy
 
-Weights = NDArray[np.float32]  # of one skill: [genes]
 NO_WEIGHTS = np.zeros(0, np.float32)
 
 
 def genes(skill: Skill) -> int:
     """How many weights a skill learns; 0 where it does not learn."""
-    return genome_length(skill.function, len(skill.inputs), skill.outputs)
+    return skill.function.genome_length(len(skill.inputs), skill.outputs)
 
 
 def weights_of(skill: Skill, weights: Mapping[str, Weights]) -> Weights:

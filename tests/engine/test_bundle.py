@@ -17,8 +17,9 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from mindrun.actuators import Wheel
 from mindrun.bundle import Bundle, fingerprint, pack, read_bundle, unpack, write_bundle
+from mindrun.codec import encode
 from mindrun.describe import contents, describe
-from mindrun.encoding import decode, decode_wiring, encode
+from mindrun.encoding import decode, decode_wiring
 from mindrun.engine import Engine
 from mindrun.errors import BundleError
 from mindrun.graph import Graph

@@ -7,7 +7,7 @@ import pytest
 from mindrun.engine import Engine
 from mindrun.errors import MindError, ReadingsError, WeightsError
 from mindrun.functions import Mlp
-from mindrun.functions.mlp import first_weights, layers, matrices, weight_count
+from mindrun.functions.mlp import matrices
 from mindrun.graph import Edge, Sensor
 from mindrun.memory import Cell
 from mindrun.sensors import Battery, Derivative
@@ -51,21 +51,21 @@ def test_neutral_where_nothing_influences() -> None:
 
 
 def test_the_papers_weight_counts() -> None:
-    assert sum(weight_count(inputs, 2, Mlp(2)) for inputs in (1, 1, 12, 13, 13, 7)) == 1510
-    assert weight_count(21, 3, Mlp(3)) == 1610
-    assert weight_count(0, 2, Mlp(2)) == 0
+    assert sum(Mlp(2).genome_length(inputs, 2) for inputs in (1, 1, 12, 13, 13, 7)) == 1510
+    assert Mlp(3).genome_length(21, 3) == 1610
+    assert Mlp(2).genome_length(0, 2) == 0
 
 
 def test_learning_begins_with_large_weights_and_outputs_that_lie_about_one_half() -> None:
     """The last layer's weights of an output add up to 1, so that it is 1/2 where all neurons say 1/2."""
-    shape = layers(12, 2, Mlp(2))
-    genomes = first_weights(500, shape, np.random.default_rng(1))
-    assert (genomes.shape, genomes.dtype) == ((500, weight_count(12, 2, Mlp(2))), np.float32)
+    shape = Mlp(2).layers(12, 2)
+    genomes = Mlp(2).draw(12, 2, 500, np.random.default_rng(1))
+    assert (genomes.shape, genomes.dtype) == ((500, Mlp(2).genome_length(12, 2)), np.float32)
     last = np.stack([matrices(genome, shape)[-1] for genome in genomes])
     np.testing.assert_allclose(last.sum(axis=2), 1.0, atol=1e-4)
     for weights in (genomes, last):
         assert (weights.mean(), weights.std()) == (pytest.approx(0.0, abs=0.1), pytest.approx(4.0, rel=0.05))
-    assert first_weights(3, layers(0, 2, Mlp(2)), np.random.default_rng(1)).shape == (3, 0)
+    assert Mlp(2).draw(0, 2, 3, np.random.default_rng(1)).shape == (3, 0)
 
 
 def test_memory_reads_on_the_next_tick() -> None:

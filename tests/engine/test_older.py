@@ -6,7 +6,8 @@ from typing import Any
 import pytest
 from mindrun.bundle import Bundle, pack, unpack
 from mindrun.bundle_migration import with_whole_lessons
-from mindrun.encoding import decode, encode
+from mindrun.codec import encode
+from mindrun.encoding import decode
 from mindrun.errors import BundleError
 from mindrun.graph import Task
 from mindrun.learners import Restarting

@@ -29,7 +29,7 @@ def test_a_run_without_influence(mindc: Call, tmp_path: Path, monkeypatch: pytes
     )
     path = tmp_path / "turning.mind"
     path.write_text(text)
-    monkeypatch.setattr(simulator_compilation, "make_ready", lambda _, tell: tell("this may take a minute"))
+    monkeypatch.setattr(simulator_compilation, "ensure_compiled", lambda _, tell: tell("this may take a minute"))
     assert mindc("prove", path, "--run").err == "this may take a minute\n"
     found = proved(mindc, path, "--run", "--seed", 3)
     assert (found["run"]["ticks"], found["run"]["seed"]) == (30, 3)

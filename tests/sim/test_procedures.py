@@ -7,7 +7,6 @@ from pathlib import Path
 import numpy as np
 import pytest
 from mindrun.errors import ProcedureError
-from mindrun.functions import computes
 from mindrun.sim.rollout import Rollout
 from mindrun.sim.trace import trace
 
@@ -90,7 +89,7 @@ def test_what_fails_ends_the_run_as_it_does_on_the_robot(tmp_path: Path, name: s
             rollout.score(np.zeros((1, 0), np.float32), range(20))
         given = np.array(ast.literal_eval(str(error.value).split("for ")[1].split(" in fails")[0]), np.float32)
         with pytest.raises(ProcedureError) as there:
-            computes(graph.skills[0].function, 4, 3, np.zeros(0, np.float32), {"fails": source})(given)
+            graph.skills[0].function.ready(4, 3, np.zeros(0, np.float32), {"fails": source})(given)
         assert str(there.value) == str(error.value)
 
 

@@ -4,7 +4,6 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from mindrun.functions import drawn
 from mindrun.graph import Graph
 from mindrun.sim.rollout import Rollout, Scores
 from mindrun.weights import genes
@@ -73,7 +72,7 @@ def test_random_genomes_are_drawn_skill_by_skill_in_the_order_of_the_genome(coll
     rollout = Rollout(collect, some_weights(collect), "Avoid", "Avoid", [skill.name for skill in reversed(taught)])
     genomes, rng = rollout.draw(5, np.random.default_rng(1)), np.random.default_rng(1)
     assert genomes.shape == (5, rollout.genome_length)
-    each = [drawn(skill.function, len(skill.inputs), skill.outputs, 5, rng) for skill in taught]
+    each = [skill.function.draw(len(skill.inputs), skill.outputs, 5, rng) for skill in taught]
     np.testing.assert_array_equal(genomes, np.concatenate(each, axis=1))
     none = Rollout(collect, some_weights(collect), "Avoid", "Avoid")
     assert none.draw(5, rng).shape == (5, 0)

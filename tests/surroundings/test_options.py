@@ -62,7 +62,7 @@ def _still(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     monkeypatch.chdir(tmp_path)
     monkeypatch.setenv("PATH", "")
     monkeypatch.setattr("mindlang.run.session.RunSession.score", stopped)
-    monkeypatch.setattr("mindlang.training.train", stopped)
+    monkeypatch.setattr("mindlang.training.trainer.train", stopped)
     write_rules(tmp_path)
     (tmp_path / "log.csv").write_text(LOG)
 

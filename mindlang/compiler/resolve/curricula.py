@@ -4,7 +4,6 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from typing import Any
 
-from mindrun.functions import Mlp
 from mindrun.quantity import GENERATIONS
 from mindrun.registry import kinds
 
@@ -107,7 +106,7 @@ def _check_learns(fact: Teaches, skills: Mapping[str, model.Skill], with_subskil
     """Report a lesson in which nobody learns."""
     taught = reached(skills, fact.skill.text) if with_subskills else {fact.skill.text}
     functions = [skills[name].function for name in taught]
-    if None in functions or any(isinstance(function, Mlp) for function in functions):
+    if None in functions or any(function.learns for function in functions):
         return
     skill = skills[fact.skill.text]
     kind = type(skill.function).__name__.lower()

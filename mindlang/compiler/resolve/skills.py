@@ -3,7 +3,7 @@
 from collections.abc import Mapping
 from typing import Any
 
-from mindrun.functions import Function, Mlp, Rule
+from mindrun.functions import Function
 
 from mindlang.compiler import model
 from mindlang.compiler.diagnostic import Findings, Label
@@ -102,7 +102,7 @@ def _check(
     if not any(isinstance(fact, Drives | Influences) for fact in declaration.facts):
         hint = "Add drives and an actuator, or influences and a skill."
         findings.error("idle-skill", name.span, f"{name.text} drives nothing and influences nothing.", hint)
-    elif isinstance(function, Rule):
+    elif not function.has_outputs:
         for edge in edges:
             if edge.at is None:
                 hint = "A rule has no function of its own: write at and the value, for example at 1."
@@ -112,6 +112,6 @@ def _check(
         findings.error(
             "no-outputs", name.span, f"Every line of {name.text} says its value, so its function has none.", hint
         )
-    if isinstance(function, Mlp) and not any(isinstance(fact, Reads) for fact in declaration.facts):
+    if function.learns and not any(isinstance(fact, Reads) for fact in declaration.facts):
         hint = "Add reads and a sensor, or make it a rule with at on every line."
         findings.error("no-inputs", name.span, f"{name.text} reads nothing, so it has nothing to learn from.", hint)

@@ -1,12 +1,15 @@
 """The multi-layer perceptron of the paper (4.1): no biases, sigmoid hidden layers, a linear last layer in 0..1."""
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from functools import partial
 from itertools import pairwise
-from typing import Annotated
+from typing import Annotated, ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
 
+from mindrun.functions.function import Compute, Function, Layers, Weights
 from mindrun.quantity import Quantity
 from mindrun.registry import kind
 from mindrun.sigmoid import sigmoid
@@ -21,39 +24,69 @@ HIDDEN = Quantity("a whole number", {"": 1.0}, low=0, high=16, whole=True)
 
 @kind("skill", "mlp")
 @dataclass(frozen=True, slots=True)
-class Mlp:
+class Mlp(Function):
     """A perceptron with `hidden` layers of `width` neurons (0: Eq. 5, max(inputs, outputs) + 2)."""
 
     hidden: Annotated[int, HIDDEN] = 2
     width: Annotated[int, WIDTH] = 0
 
+    learns: ClassVar[bool] = True
 
-def layers(inputs: int, outputs: int, mlp: Mlp) -> tuple[tuple[int, int], ...]:
-    """(values in, values out) of each layer, hidden width from Eq. 5; none where the skill has no inputs or outputs."""
-    if inputs == 0 or outputs == 0:
-        return ()
-    width = mlp.width or max(inputs, outputs) + 2
-    return tuple(pairwise((inputs, *[width] * mlp.hidden, outputs)))
+    @property
+    def derived(self) -> tuple[str, ...]:
+        """The width, where Eq. 5 says it."""
+        return () if self.width else ("width",)
+
+    def explicit(self, inputs: int, outputs: int) -> "Mlp":
+        """The perceptron with its width said; it has none without a hidden layer."""
+        shape = self.layers(inputs, outputs)
+        return replace(self, width=shape[0][1]) if len(shape) > 1 else self
+
+    def layers(self, inputs: int, outputs: int) -> Layers:
+        """(values in, values out) of each layer; none where the skill has no inputs or outputs."""
+        if inputs == 0 or outputs == 0:
+            return ()
+        width = self.width or max(inputs, outputs) + 2
+        return tuple(pairwise((inputs, *[width] * self.hidden, outputs)))
+
+    def genome_length(self, inputs: int, outputs: int) -> int:
+        """One weight per connection, no biases."""
+        return sum(before * after for before, after in self.layers(inputs, outputs))
+
+    def draw(self, inputs: int, outputs: int, count: int, rng: np.random.Generator) -> Weights:
+        """Random genomes [count, weights] whose outputs are 1/2 where all neurons say 1/2.
+
+        Without biases the outputs would otherwise lie anywhere, most beyond 0..1, where they answer to no input.
+        """
+        genomes = INITIAL_SPREAD * rng.standard_normal((count, self.genome_length(inputs, outputs)), np.float32)
+        for before, after in self.layers(inputs, outputs)[-1:]:
+            last = genomes[:, -before * after :].reshape(count, after, before)
+            last += (1 - last.sum(axis=2, keepdims=True)) / before
+        return genomes
+
+    def widened(
+        self, weights: Weights, before: tuple[int, int], now: Function, after: tuple[int, int]
+    ) -> Weights | None:
+        """The genome in a larger one whose other weights are 0; None where a layer is missing or smaller."""
+        small, large = self.layers(*before), now.layers(*after)
+        if len(small) != len(large) or any(a < b or c < d for (a, c), (b, d) in zip(large, small, strict=True)):
+            return None
+        found = [np.zeros((out, into), np.float32) for into, out in large]
+        for matrix, old in zip(found, matrices(weights, small), strict=True):
+            matrix[: old.shape[0], : old.shape[1]] = old
+        return np.concatenate([matrix.ravel() for matrix in found])
+
+    def ready(self, inputs: int, outputs: int, weights: Weights, sources: Mapping[str, str]) -> Compute:
+        """Eq. 1 with these weights."""
+        shape = self.layers(inputs, outputs)
+        return (
+            partial(perceive, matrices(weights, shape))
+            if shape
+            else Function.ready(self, inputs, outputs, weights, sources)
+        )
 
 
-def weight_count(inputs: int, outputs: int, mlp: Mlp) -> int:
-    """The length of the genome: one weight per connection, no biases."""
-    return sum(before * after for before, after in layers(inputs, outputs, mlp))
-
-
-def first_weights(count: int, shape: tuple[tuple[int, int], ...], rng: np.random.Generator) -> NDArray[np.float32]:
-    """Random genomes [count, weights] for learning to begin with: their outputs are 1/2 where all neurons say 1/2.
-
-    Without biases the outputs would otherwise lie anywhere, most beyond 0..1, where they answer to no input.
-    """
-    genomes = INITIAL_SPREAD * rng.standard_normal((count, sum(before * after for before, after in shape)), np.float32)
-    for before, after in shape[-1:]:
-        last = genomes[:, -before * after :].reshape(count, after, before)
-        last += (1 - last.sum(axis=2, keepdims=True)) / before
-    return genomes
-
-
-def matrices(weights: NDArray[np.float32], shape: tuple[tuple[int, int], ...]) -> tuple[NDArray[np.float32], ...]:
+def matrices(weights: Weights, shape: Layers) -> tuple[NDArray[np.float32], ...]:
     """A genome as one matrix [values out, values in] per layer: it holds them layer by layer, row by row."""
     ends = np.cumsum([before * after for before, after in shape])[:-1]
     parts = np.split(weights, ends) if shape else []
@@ -61,7 +94,7 @@ def matrices(weights: NDArray[np.float32], shape: tuple[tuple[int, int], ...]) -
 
 
 def perceive(layer_matrices: tuple[NDArray[np.float32], ...], inputs: NDArray[np.float32]) -> NDArray[np.float32]:
-    """The function's outputs for float32 inputs (Eq. 1), before the clamp."""
+    """The outputs [..., outputs] for float32 inputs [..., inputs] (Eq. 1), before the clamp."""
     *hidden, last = layer_matrices
     values = inputs
     for matrix in hidden:
@@ -71,5 +104,5 @@ def perceive(layer_matrices: tuple[NDArray[np.float32], ...], inputs: NDArray[np
 
 def _dense(matrix: NDArray[np.float32], values: NDArray[np.float32]) -> NDArray[np.float32]:
     # accumulate adds strictly from left to right; sum and @ leave the order, and with it the last bit, open.
-    products = matrix * values
-    return np.add.accumulate(products, axis=1, out=products)[:, -1]
+    products = matrix * values[..., None, :]
+    return np.add.accumulate(products, axis=-1, out=products)[..., -1]

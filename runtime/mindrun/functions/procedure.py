@@ -3,19 +3,20 @@
 import sys
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from functools import lru_cache
+from functools import lru_cache, partial
 from hashlib import sha256
 from io import StringIO
 from pathlib import Path
 from traceback import walk_tb
 from types import CodeType, ModuleType
-from typing import Annotated, Any
+from typing import Annotated, Any, ClassVar
 from warnings import catch_warnings
 
 import numpy as np
 from numpy.typing import NDArray
 
 from mindrun.errors import ProcedureError, reason
+from mindrun.functions.function import Compute, Function, Weights
 from mindrun.functions.procedure_text import examine, file_of
 from mindrun.quantity import FUNCTION
 from mindrun.registry import kind
@@ -26,7 +27,7 @@ MAX_SOURCE_BYTES = 1 << 20  # of source
 
 @kind("skill", "procedure")
 @dataclass(frozen=True, slots=True)
-class Procedure:
+class Procedure(Function):
     """A Python function `module.function`: one float per reading in, one float (or a tuple) per output out.
 
     The module stands beside the source, in one file. Its code is run by `train`, `run` and `bench` only, never by
@@ -35,10 +36,16 @@ class Procedure:
 
     from_: Annotated[str, FUNCTION]
 
+    opaque: ClassVar[str] = "is Python code"
+
     @property
     def module(self) -> str:
         """The module's dotted name."""
         return self.from_.rpartition(".")[0]
+
+    def ready(self, inputs: int, outputs: int, weights: Weights, sources: Mapping[str, str]) -> Compute:
+        """The Python function, in a module of its own."""
+        return partial(call, self, load(self, sources), outputs)
 
 
 def module_source(procedure: Procedure, folder: Path) -> str:

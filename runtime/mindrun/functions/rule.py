@@ -1,11 +1,15 @@
 """A rule: every edge says its own value."""
 
 from dataclasses import dataclass
+from typing import ClassVar
 
+from mindrun.functions.function import Function
 from mindrun.registry import kind
 
 
 @kind("skill", "rule")
 @dataclass(frozen=True, slots=True)
-class Rule:
+class Rule(Function):
     """No function of its own: every edge of the skill has `at`."""
+
+    has_outputs: ClassVar[bool] = False

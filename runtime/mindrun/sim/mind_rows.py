@@ -9,8 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mindrun import actuators, sensors
-from mindrun.functions import Mlp, Procedure, Rule
-from mindrun.functions.mlp import layers
+from mindrun.functions import Mlp, Procedure
 from mindrun.graph import Actuator, Graph, Sensor, Skill, Task
 from mindrun.memory import Cell
 from mindrun.sim.codes import (
@@ -79,12 +78,11 @@ def skill_rows(
 def _function(skill: Skill) -> tuple[int, int, int]:
     match skill.function:
         case Mlp(hidden=hidden) as mlp:
-            shape = layers(len(skill.inputs), skill.outputs, mlp)
+            shape = mlp.layers(len(skill.inputs), skill.outputs)
             return MLP, hidden if shape else 0, shape[0][1] if hidden and shape else 0
         case Procedure():
             return PROCEDURE, 0, 0
-        case Rule():
-            return RULE, 0, 0
+    return RULE, 0, 0
 
 
 @dataclass(frozen=True, slots=True)

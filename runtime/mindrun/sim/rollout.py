@@ -10,7 +10,6 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from mindrun.functions import drawn
 from mindrun.graph import Graph
 from mindrun.sim.codes import ITEM
 from mindrun.sim.lanes import chipmunk
@@ -105,7 +104,7 @@ class Rollout:
     def draw(self, count: int, rng: np.random.Generator) -> NDArray[np.float32]:
         """Random genomes [count, genome_length] for learning to begin with."""
         none = np.empty((count, 0), np.float32)
-        each = (drawn(skill.function, len(skill.inputs), skill.outputs, count, rng) for skill in self.learners)
+        each = (skill.function.draw(len(skill.inputs), skill.outputs, count, rng) for skill in self.learners)
         return np.concatenate([none, *each], axis=1)
 
     def jobs(self, genomes: NDArray[np.float32], seeds: NDArray[np.uint64]) -> Jobs:

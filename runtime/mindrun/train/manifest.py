@@ -11,7 +11,8 @@ from typing import Any, Self
 
 import numpy as np
 
-from mindrun.encoding import decode_part, encode
+from mindrun.codec import encode
+from mindrun.encoding import decode_part
 from mindrun.errors import BundleError
 from mindrun.functions import Procedure
 from mindrun.functions.procedure import module_source

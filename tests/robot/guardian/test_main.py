@@ -138,7 +138,7 @@ def test_what_cannot_be_opened_in_time_is_told_and_the_others_are_brought(time: 
     process = Asked(wrong=iter([["left is missing", "claw is missing"]] * 99))
     assert brought(process, 1.0) == (1, ["left is missing", "claw is missing"])
     assert process.asked.count("open") in (21, 22)  # every 0.05 s
-    assert process.asked[-3:] == ["settle", main.AGAIN, "close"]
+    assert process.asked[-3:] == ["settle", main.RETRY_SECONDS, "close"]
 
 
 def test_what_is_not_at_neutral_in_time_is_told(time: Time, woken: list[int]) -> None:

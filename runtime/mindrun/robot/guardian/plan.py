@@ -6,16 +6,15 @@ Not the bundle itself: to read that takes numpy, and the guardian has no use for
 import json
 from collections.abc import Mapping
 from contextlib import suppress
-from dataclasses import dataclass, fields, is_dataclass
+from dataclasses import dataclass
 from importlib import import_module
-from math import isfinite
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, NoReturn, get_args, get_origin, get_type_hints
+from typing import TYPE_CHECKING, Annotated, NoReturn
 
+from mindrun.codec import Options, decode, encode
 from mindrun.driver import ActuatorDriver
 from mindrun.errors import MindError
-from mindrun.quantity import RATIO, SECONDS, Quantity, Reference, fits
-from mindrun.registry import kinds, names
+from mindrun.quantity import RATIO, SECONDS, Quantity
 from mindrun.regular_files import read_regular
 from mindrun.robot.guardian.frames import MAX_COMMANDS
 
@@ -75,13 +74,13 @@ def checked(plan: Plan) -> Plan:
 
 def to_json(plan: Plan) -> str:
     """A plan as one line."""
-    return json.dumps(_encode(plan), ensure_ascii=True, allow_nan=False)
+    return json.dumps(encode(plan, _module), ensure_ascii=True, allow_nan=False)
 
 
 def from_json(text: str | bytes) -> Plan:
     """The plan in this text; PlanError unless it is one."""
     try:
-        plan: Plan = _decode(Plan, json.loads(text, parse_constant=_no_number), "plan")
+        plan: Plan = decode(Plan, json.loads(text, parse_constant=_no_number), "plan", _imported)
     except (ValueError, RecursionError) as error:
         raise PlanError(f"this is no plan of a robot: {error}") from error
     return checked(plan)
@@ -105,56 +104,19 @@ def _of_bundle(path: Path) -> Plan:
     return plan_of(bundle.graph.tick, {each.name: each.kind.neutral for each in bundle.graph.actuators}, bundle.wiring)
 
 
-def _encode(value: Any) -> Any:
-    if isinstance(value, tuple):
-        return [_encode(part) for part in value]
-    if not is_dataclass(value):
-        return value
-    data = {field.name: _encode(getattr(value, field.name)) for field in fields(value)}
-    name = names().get(type(value))
-    return data if name is None else {"is": name, "in": type(value).__module__.rpartition(".")[2], **data}
+def _module(value: object) -> Mapping[str, str]:
+    """The module of a driver: to import all of them would take numpy, and longer."""
+    return {"in": type(value).__module__.rpartition(".")[2]}
 
 
-def _decode(hint: Any, data: Any, where: str) -> Any:
-    """The value of type `hint` that stands at `where`."""
-    parts = get_args(hint)
-    if get_origin(hint) is Annotated:
-        return _in_range(parts[1], _decode(parts[0], data, where), where)
-    if get_origin(hint) is tuple and isinstance(data, list):
-        return tuple(_decode(parts[0], part, f"{where}[{place}]") for place, part in enumerate(data))
-    if hint is ActuatorDriver:
-        return _decode_driver(data, where)
-    if is_dataclass(hint):
-        return _decode_fields(hint, data, where)
-    if hint is float and type(data) is int and abs(data) < 2**53:
-        data = float(data)
-    if type(data) is not hint or (hint is float and not isfinite(data)):
-        raise ValueError(f"{where} cannot be {data!r:.40}")
-    return data
-
-
-def _decode_driver(data: Any, where: str) -> Any:
-    """A driver, from the only module that has it: to import all of them would take numpy, and longer."""
+def _imported(noun: str, data: Options) -> Options:
+    """The options of a driver, when the only module that has it is imported."""
     match data:
-        case {"is": str(name), "in": str(module), **options} if module.isidentifier():
+        case {"in": str(module), **options} if module.isidentifier():
             with suppress(ModuleNotFoundError):
                 import_module(f"{DRIVERS}.{module}")
-            return _decode_fields(kinds("actuator driver").get(name), options, where)
-    raise ValueError(f"{where} is no driver")
-
-
-def _decode_fields(cls: Any, data: Any, where: str) -> Any:
-    known = {field.name for field in fields(cls)} if is_dataclass(cls) else None
-    if not isinstance(data, dict) or set(data) != known:
-        raise ValueError(f"{where} is none that this version knows")
-    hints = get_type_hints(cls, include_extras=True)
-    return cls(**{name: _decode(hints[name], value, f"{where}.{name}") for name, value in data.items()})
-
-
-def _in_range(meaning: Quantity | Reference, value: Any, where: str) -> Any:
-    if not fits(meaning, value):
-        raise ValueError(f"{where} cannot be {value!r:.40}")
-    return value
+            return options
+    return {}
 
 
 def _no_number(text: str) -> NoReturn:

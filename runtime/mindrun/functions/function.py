@@ -1,0 +1,56 @@
+"""What every kind of internal function says of itself (Eq. 1); the rest of the program asks, and knows no kind."""
+
+from collections.abc import Callable, Mapping
+from typing import ClassVar, Self
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mindrun.registry import base
+
+Compute = Callable[[NDArray[np.float32]], NDArray[np.float32]]
+Weights = NDArray[np.float32]  # of one skill: [genes]
+Layers = tuple[tuple[int, int], ...]  # (values in, values out) of each
+
+
+@base("skill")
+class Function:
+    """A function that learns nothing and whose outputs are 0; a kind says what is different about it.
+
+    `inputs` and `outputs` are how many its skill has.
+    """
+
+    __slots__ = ()
+
+    learns: ClassVar[bool] = False
+    has_outputs: ClassVar[bool] = True  # whether edges without `at` can send one
+    opaque: ClassVar[str] = ""  # why nothing can be proved of its outputs, even with its weights
+
+    @property
+    def derived(self) -> tuple[str, ...]:
+        """The arguments that nobody has said and that follow from what its skill reads and sends."""
+        return ()
+
+    def explicit(self, inputs: int, outputs: int) -> Self:
+        """The function with every argument said that follows from its inputs and outputs."""
+        return self
+
+    def layers(self, inputs: int, outputs: int) -> Layers:
+        """The layers of a feed-forward network without biases; none where it is something else."""
+        return ()
+
+    def genome_length(self, inputs: int, outputs: int) -> int:
+        """How many weights it learns."""
+        return 0
+
+    def draw(self, inputs: int, outputs: int, count: int, rng: np.random.Generator) -> Weights:
+        """Random genomes [count, weights] for learning to begin with."""
+        return np.empty((count, 0), np.float32)
+
+    def widened(self, weights: Weights, before: tuple[int, int], now: Self, after: tuple[int, int]) -> Weights | None:
+        """Weights with which `now`, of more inputs or outputs, does the same, 0 for what is new; None if it cannot."""
+        return None
+
+    def ready(self, inputs: int, outputs: int, weights: Weights, sources: Mapping[str, str]) -> Compute:
+        """Its float32 inputs to its float32 outputs, not yet clamped; `sources` are the texts of modules by name."""
+        return lambda values: np.zeros(outputs, np.float32)
