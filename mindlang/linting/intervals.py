@@ -4,9 +4,10 @@ from collections.abc import Callable
 from itertools import product
 from math import inf, isnan
 
+from mindrun.expression import fold
 from mindrun.measures import Forward, Measure, Progress
 
-from mindlang.compiler.model import EachReading, Expression, Measured, Number, Reading
+from mindlang.compiler.model import Expression, Measured, Number, Reading, Term
 from mindlang.compiler.syntax import Operator
 
 Interval = tuple[float, float]
@@ -21,24 +22,19 @@ def share(name: str) -> Interval:
 
 def interval(of: Expression, reading: Callable[[str], Interval] = share, each: Interval = SHARE) -> Interval:
     """The range of an expression whose readings have these ranges, that of `for each` the range `each`."""
-    stack: list[Interval] = []
-    for term in of.terms:
+
+    def leaf(_: str, term: Term) -> Interval:
         match term:
             case Number(value):
-                stack.append((value, value))
+                return value, value
             case Reading(name):
-                stack.append(reading(name))
-            case EachReading():
-                stack.append(each)
+                return reading(name)
             case Measured(measure):
-                stack.append(_measured(measure))
-            case Operator("negate"):
-                low, high = stack.pop()
-                stack.append((-high, -low))
-            case Operator(symbol):
-                right = stack.pop()
-                stack.append(_combined(symbol, stack.pop(), right))
-    return stack[0]
+                return _measured(measure)
+        return each
+
+    words = ((term.symbol if isinstance(term, Operator) else "term", term) for term in of.terms)
+    return fold(words, leaf, lambda value: (-value[1], -value[0]), _combined)
 
 
 def is_constant(of: Expression) -> bool:

@@ -3,6 +3,7 @@
 from collections.abc import Callable
 from typing import Any
 
+from mindrun.expression import fold
 from mindrun.graph import Program
 from mindrun.quantity import Quantity, Reference
 from mindrun.registry import arguments, kinds
@@ -11,25 +12,26 @@ PRECEDENCE = {"+": 1, "-": 1, "*": 2, "/": 2}
 TIGHTEST = 4
 
 Leaf = Callable[[str, float], str]
+Part = tuple[str, int]  # of an expression: its text, and how tightly it binds
 
 
 def infix(program: Program, leaf: Leaf) -> str:
     """An expression as it is written; `leaf` says a reading or a measure by its word and its index."""
-    stack: list[tuple[str, int]] = []
-    for word, operand in program:
-        if word == "number":
-            stack.append((number(operand), TIGHTEST))
-        elif word == "negate":
-            stack.append((f"-{_within(stack.pop(), 3)}", 3))
-        elif word in PRECEDENCE:
-            right, left, here = stack.pop(), stack.pop(), PRECEDENCE[word]
-            stack.append((f"{_within(left, here)} {word} {_within(right, here + 1)}", here))
-        else:
-            stack.append((leaf(word, operand), TIGHTEST))
-    return stack[-1][0] if stack else ""
+
+    def part(word: str, operand: float | int) -> Part:
+        return number(operand) if word == "number" else leaf(word, operand), TIGHTEST
+
+    def negated(value: Part) -> Part:
+        return f"-{_within(value, 3)}", 3
+
+    def combined(operator: str, left: Part, right: Part) -> Part:
+        here = PRECEDENCE[operator]
+        return f"{_within(left, here)} {operator} {_within(right, here + 1)}", here
+
+    return fold(program, part, negated, combined)[0] if program else ""
 
 
-def _within(part: tuple[str, int], binding: int) -> str:
+def _within(part: Part, binding: int) -> str:
     text, own = part
     return text if own >= binding else f"({text})"
 

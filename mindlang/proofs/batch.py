@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
-from mindrun.expression import OPERATORS
+from mindrun.expression import OPERATORS, fold
 from mindrun.functions.mlp import perceive
 from mindrun.graph import Graph, Program, Skill
 from mindrun.weights import Weights, reachable
@@ -62,16 +62,14 @@ def _outputs(skill: Skill, weights: Weights | None, readings: Singles) -> Single
 
 
 def _evaluate(program: Program, readings: Singles) -> Singles:
-    stack: list[Doubles] = []
-    for operator, operand in program:
-        match operator:
-            case "number":
-                stack.append(np.full(len(readings), operand, np.float64))
-            case "reading":
-                stack.append(readings[:, int(operand)].astype(np.float64))
-            case "negate":
-                stack.append(-stack.pop())
-            case _:
-                right, left = stack.pop(), stack.pop()
-                stack.append(OPERATORS[operator](left, right))
-    return stack.pop().astype(np.float32)
+    def leaf(word: str, operand: float | int) -> Doubles:
+        if word == "reading":
+            return readings[:, int(operand)].astype(np.float64)
+        return np.full(len(readings), operand, np.float64)
+
+    def combined(operator: str, left: Doubles, right: Doubles) -> Doubles:
+        found: Doubles = OPERATORS[operator](left, right)
+        return found
+
+    found: Singles = fold(program, leaf, np.negative, combined).astype(np.float32)
+    return found

@@ -11,7 +11,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from mindrun.expression import OPERATORS
+from mindrun.expression import OPERATORS, fold
 from mindrun.functions.mlp import matrices
 from mindrun.graph import Program, Skill
 from mindrun.sigmoid import sigmoid
@@ -102,21 +102,13 @@ def _dense(matrix: Singles, low: Singles, high: Singles) -> tuple[Singles, Singl
 
 def evaluate(program: Program, boxes: Boxes) -> tuple[Singles, Singles]:
     """The bounds of an `at` expression, which the engine computes in float64; infinite where it may be no number."""
-    stack: list[tuple[Doubles, Doubles]] = []
-    for operator, operand in program:
-        match operator:
-            case "number":
-                stack.append((np.full(len(boxes.low), operand, np.float64),) * 2)
-            case "reading":
-                place = int(operand)
-                stack.append((boxes.low[:, place].astype(np.float64), boxes.high[:, place].astype(np.float64)))
-            case "negate":
-                low, high = stack.pop()
-                stack.append((-high, -low))
-            case _:
-                right, left = stack.pop(), stack.pop()
-                stack.append(_combined(operator, left, right))
-    low, high = stack.pop()
+
+    def leaf(word: str, operand: float | int) -> tuple[Doubles, Doubles]:
+        if word == "reading":
+            return boxes.low[:, int(operand)].astype(np.float64), boxes.high[:, int(operand)].astype(np.float64)
+        return (np.full(len(boxes.low), operand, np.float64),) * 2
+
+    low, high = fold(program, leaf, lambda value: (-value[1], -value[0]), _combined)
     return low.astype(np.float32), high.astype(np.float32)
 
 

@@ -4,6 +4,7 @@ from dataclasses import dataclass
 
 from mindrun.actuators import Gripper, Servo, Wheel
 from mindrun.events import Event
+from mindrun.expression import Program as Program
 from mindrun.functions import Function
 from mindrun.learners import Learner
 from mindrun.measures import Measure
@@ -13,10 +14,6 @@ from mindrun.world import Content, Disc, Scene
 
 SensorKind = RangeFinder | Bearing | Contact | Held | Inside | Inertial | Battery | Derivative | Sine
 ActuatorKind = Wheel | Gripper | Servo
-
-# An expression in postfix order: ("number", x), ("reading", index), ("each", 0), ("measure", index into the task's
-# measures), or (operator, 0) with one of + - * / negate.
-Program = tuple[tuple[str, float | int], ...]
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,7 +1,7 @@
 """What every kind of internal function says of itself (Eq. 1); the rest of the program asks, and knows no kind."""
 
 from collections.abc import Callable, Mapping
-from typing import ClassVar, Self
+from typing import Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,9 +22,9 @@ class Function:
 
     __slots__ = ()
 
-    learns: ClassVar[bool] = False
-    has_outputs: ClassVar[bool] = True  # whether edges without `at` can send one
-    opaque: ClassVar[str] = ""  # why nothing can be proved of its outputs, even with its weights
+    learns = False
+    has_outputs = True  # whether edges without `at` can send one
+    opaque = ""  # why nothing can be proved of its outputs, even with its weights
 
     @property
     def derived(self) -> tuple[str, ...]:

@@ -4,7 +4,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import partial
 from itertools import pairwise
-from typing import Annotated, ClassVar
+from typing import Annotated
 
 import numpy as np
 from numpy.typing import NDArray
@@ -30,7 +30,7 @@ class Mlp(Function):
     hidden: Annotated[int, HIDDEN] = 2
     width: Annotated[int, WIDTH] = 0
 
-    learns: ClassVar[bool] = True
+    learns = True
 
     @property
     def derived(self) -> tuple[str, ...]:

@@ -9,7 +9,7 @@ from io import StringIO
 from pathlib import Path
 from traceback import walk_tb
 from types import CodeType, ModuleType
-from typing import Annotated, Any, ClassVar
+from typing import Annotated, Any
 from warnings import catch_warnings
 
 import numpy as np
@@ -36,7 +36,7 @@ class Procedure(Function):
 
     from_: Annotated[str, FUNCTION]
 
-    opaque: ClassVar[str] = "is Python code"
+    opaque = "is Python code"
 
     @property
     def module(self) -> str:

@@ -1,7 +1,6 @@
 """A rule: every edge says its own value."""
 
 from dataclasses import dataclass
-from typing import ClassVar
 
 from mindrun.functions.function import Function
 from mindrun.registry import kind
@@ -12,4 +11,4 @@ from mindrun.registry import kind
 class Rule(Function):
     """No function of its own: every edge of the skill has `at`."""
 
-    has_outputs: ClassVar[bool] = False
+    has_outputs = False
