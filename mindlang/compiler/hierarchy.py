@@ -4,6 +4,8 @@ from collections.abc import Iterable, Mapping
 from heapq import heapify, heappop, heappush
 from typing import Any, TypeVar
 
+from mindrun.reachability import reached_from
+
 from mindlang.compiler.diagnostic import Findings, Label
 from mindlang.compiler.model import Skill
 
@@ -49,12 +51,7 @@ def parents_first(children: Mapping[T, Iterable[T]]) -> list[T]:
 
 def reached(skills: Mapping[str, Skill], master: str) -> set[str]:
     """The names of the skills that a master influences, itself among them; there may be cycles yet."""
-    found, waiting = {master}, [master]
-    while waiting:
-        new = [name for name in skills[waiting.pop()].subskills if name not in found]
-        found.update(new)
-        waiting += new
-    return found
+    return reached_from([master], lambda name: skills[name].subskills)
 
 
 def above(skills: Iterable[Skill], names: Iterable[str]) -> set[str]:
@@ -63,13 +60,7 @@ def above(skills: Iterable[Skill], names: Iterable[str]) -> set[str]:
     for skill in skills:
         for name in skill.subskills:
             parents.setdefault(name, []).append(skill.name)
-    found = {*names}
-    waiting = [*found]
-    while waiting:
-        new = [name for name in parents.get(waiting.pop(), ()) if name not in found]
-        found.update(new)
-        waiting += new
-    return found
+    return reached_from(names, lambda name: parents.get(name, ()))
 
 
 def check_cycles(skills: tuple[Skill, ...], findings: Findings) -> None:

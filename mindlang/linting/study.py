@@ -8,7 +8,7 @@ from functools import cached_property
 from mindrun.actuators import Gripper
 from mindrun.events import Event, Exhaustion
 from mindrun.graph import Graph, Lesson, SensorKind
-from mindrun.sensors import Bearing, Contact, Derivative, Held, Inside
+from mindrun.reachability import reached_from
 
 from mindlang.compiler.compile import Compiled
 from mindlang.compiler.diagnostic import Fix, Label
@@ -77,21 +77,17 @@ class Study:
         found: dict[str, str] = {}
         for name in self.sensors:
             path, end = [], name
-            while end not in found and isinstance(kind := self.sensors.get(end), Derivative):
+            while end not in found and end in self.sensors and self.sensors[end].source:
                 path.append(end)
-                end = kind.of
+                end = self.sensors[end].source
             found.update(dict.fromkeys([*path, end], found.get(end, end)))
         return found
 
     @cached_property
     def senses(self) -> dict[str, str]:
         """The thing that each sensor is about, those left out that are about none."""
-        found = {}
-        for name, root in self.roots.items():
-            match self.sensors.get(root):
-                case Bearing(thing) | Contact(thing) | Held(thing) | Inside(thing):
-                    found[name] = thing
-        return found
+        things = {name: self.sensors[root].thing for name, root in self.roots.items() if root in self.sensors}
+        return {name: thing for name, thing in things.items() if thing}
 
     @cached_property
     def mentions(self) -> tuple[Mention, ...]:
@@ -120,13 +116,11 @@ class Study:
 
     def below(self, names: Iterable[str], known: Container[str] = ()) -> set[str]:
         """These skills and all that they influence; what is `known`, and what only stands below that, is left out."""
-        found = {name for name in names if name not in known}
-        waiting = [*found]
-        while waiting:
-            new = {name for name in self.skills[waiting.pop()].subskills if name not in found and name not in known}
-            found |= new
-            waiting += new
-        return found
+
+        def unknown(names: Iterable[str]) -> Iterator[str]:
+            return (name for name in names if name not in known)
+
+        return reached_from(unknown(names), lambda name: unknown(self.skills[name].subskills))
 
     def learners(self, lesson: Lesson) -> tuple[str, ...]:
         """The skills that a lesson of the graph teaches."""

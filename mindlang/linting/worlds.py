@@ -2,10 +2,9 @@
 
 from collections.abc import Iterable
 from dataclasses import dataclass
-from math import isclose
 
 from mindrun.events import Collision, Delivery, Event, Exhaustion
-from mindrun.sensors import Battery, Bearing, Contact, Derivative, Held, Inside, RangeFinder, Sine
+from mindrun.sensors import Battery, Physical
 from mindrun.world import STAYS, Arena, Item, Obstacle, Power
 
 from mindlang.compiler.model import Condition, Expression, Reward, Task
@@ -26,25 +25,23 @@ class World:
     def constant(self, name: str) -> float | None:
         """What a sensor always reads in this world; None where that varies, or nobody knows."""
         kind = self.study.sensors.get(name)
-        if getattr(kind, "noise", 0.0):  # of those that measure something
+        if kind is None or (isinstance(kind, Physical) and kind.noise):
             return None
-        match kind:
-            case Bearing(of, dead_zone=dead_zone) if of not in self.things or dead_zone > 0.5:
-                return 0.5
-            case Contact(of) | Held(of) | Inside(of) if of not in self.things:
-                return 0.0
-            case Held() if not self.study.can_hold:
-                return 0.0
-            case RangeFinder() if not self.is_solid:
-                return 1.0
-            case Battery(start, drain=0, charge=charge) if start == 1 or not (charge and self.charges):
-                return start
-            case Sine(period) if _is_whole(2 * self.study.mind.tick / period):
-                return 0.5
-            case Derivative(dead_zone=dead_zone):
-                root = self.study.roots[name]
-                return 0.5 if dead_zone > 0.5 or self.constant(root) is not None else None
-        return None
+        return kind.constant(self)
+
+    def is_constant(self, reading: str) -> bool:
+        """Whether what a reading comes from in the end always reads the same."""
+        return self.constant(self.study.roots.get(reading, reading)) is not None
+
+    @property
+    def can_hold(self) -> bool:
+        """Whether a claw may ever close."""
+        return self.study.can_hold
+
+    @property
+    def tick(self) -> float:
+        """The length of a tick in seconds."""
+        return self.study.mind.tick
 
     def reading(self, name: str) -> Interval:
         """The range of a reading in this world."""
@@ -104,7 +101,3 @@ def _named(tasks: Iterable[Task]) -> frozenset[str]:
 
 def _charges(tasks: Iterable[Task]) -> bool:
     return any(isinstance(thing.kind, Power) for task in tasks for thing in task.things)
-
-
-def _is_whole(value: float) -> bool:
-    return value > 0.5 and isclose(value, round(value))

@@ -5,7 +5,6 @@ from typing import Any
 
 from mindrun.graph import Graph, SensorKind, Skill
 from mindrun.registry import arguments, names
-from mindrun.sensors import RangeFinder
 
 from mindlang.lock import Entry, Signature
 
@@ -46,9 +45,9 @@ def reordered(entry: Entry, graph: Graph) -> tuple[str, ...]:
 
 def _is_reordered(old: Any, now: SensorKind | None) -> bool:
     """Whether a range finder looks at the same angles, in another order."""
-    if not isinstance(old, list) or not isinstance(now, RangeFinder):
+    if not isinstance(old, list) or now is None:
         return False
-    return tuple(old) != now.at and sorted(old) == sorted(now.at)
+    return tuple(old) != now.rays and sorted(old) == sorted(now.rays)
 
 
 def _reads(graph: Graph, skill: Skill) -> Iterator[tuple[str, int]]:

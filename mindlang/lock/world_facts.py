@@ -20,8 +20,9 @@ from mindrun.expression import leaves
 from mindrun.functions import Procedure
 from mindrun.functions.procedure import module_source
 from mindrun.graph import Actuator, Graph, Lesson, Reward, Skill, Task
+from mindrun.reachability import reached_from
 from mindrun.registry import names
-from mindrun.sensors import Battery, Derivative
+from mindrun.sensors import Battery, SensorKind
 from mindrun.weights import genes, reachable
 from mindrun.world import Item
 
@@ -119,16 +120,15 @@ class Worlds:
 
     def _with_sources(self, read: set[str]) -> set[str]:
         """The sensors of these names, and those that they are derivatives of."""
-        found, waiting = set(read), [*read]
-        while waiting:
-            kind = self._sensors.get(waiting.pop())
-            if isinstance(kind, Derivative) and kind.of not in found:
-                found.add(kind.of)
-                waiting.append(kind.of)
-        return found
+
+        def source(name: str) -> list[str]:
+            kind = self._sensors.get(name)
+            return [kind.source] if kind and kind.source else []
+
+        return reached_from(read, source)
 
     @cached_property
-    def _sensors(self) -> Mapping[str, Any]:
+    def _sensors(self) -> Mapping[str, SensorKind]:
         return {sensor.name: sensor.kind for sensor in self.graph.sensors}
 
     @cached_property

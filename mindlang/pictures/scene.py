@@ -7,7 +7,6 @@ from math import cos, sin
 import numpy as np
 from mindrun.actuators import Gripper
 from mindrun.graph import Thing
-from mindrun.sensors import RangeFinder
 from mindrun.world import Arena, Item, Power, Zone
 from numpy.typing import NDArray
 
@@ -107,11 +106,11 @@ def _rays(canvas: Canvas, run: RecordedRun, theme: Theme, tick: int) -> None:
     radius = run.graph.body.size / 2
     for sensor in run.graph.sensors:
         rows = slice(sensor.start, sensor.start + sensor.width)
-        if not isinstance(sensor.kind, RangeFinder) or not run.readings[:, rows].any():  # nobody reads it
+        if not sensor.kind.rays or not run.readings[:, rows].any():  # nobody reads it
             continue
-        for at, reading in zip(sensor.kind.at, run.readings[tick - 1, rows], strict=True):
+        for at, reading in zip(sensor.kind.rays, run.readings[tick - 1, rows], strict=True):
             way = np.array([cos(angle + at), sin(angle + at)])
-            end = (x, y) + way * (radius + float(reading) * sensor.kind.range)
+            end = (x, y) + way * (radius + float(reading) * sensor.kind.reach)
             canvas.line([(x, y) + way * radius, end], theme.ray, 1.0, 0.3 + 0.4 * (reading < 1.0))
             if reading < 1.0:
                 canvas.disc(end[0], end[1], 2.5 * canvas.pen / canvas.view.scale, theme.ray)

@@ -4,9 +4,6 @@ A claw that no skill closes never holds anything, a sine of one or two ticks is 
 without drain stays as it is, and what never changes has no derivative. Whoever reads such a sensor learns nothing.
 """
 
-from mindrun.graph import SensorKind
-from mindrun.sensors import Battery, Derivative, Held, Sine
-
 from mindlang.linting.study import Finding, Found, Study
 from mindlang.linting.worlds import any_world
 
@@ -37,17 +34,4 @@ def check(study: Study) -> Found:
     for part in study.mind.sensors:
         constant = place.constant(part.name)
         if constant is not None:
-            yield Finding(part.span, f"{part.name} always reads {constant:g}.", f"{_cure(part.kind)}, or take it out.")
-
-
-def _cure(kind: SensorKind) -> str:
-    match kind:
-        case Held():
-            return "Let a skill that acts drive a gripper"
-        case Battery():
-            return "Give it a drain above 0"
-        case Sine():
-            return "Give it a period of more than two ticks"
-        case Derivative(of, dead_zone=dead_zone) if dead_zone <= 0.5:
-            return f"Derive it from another sensor than {of}, which never changes"
-    return "Give it a dead_zone below 0.5"
+            yield Finding(part.span, f"{part.name} always reads {constant:g}.", f"{part.kind.remedy}, or take it out.")

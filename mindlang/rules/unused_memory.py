@@ -6,8 +6,6 @@ One that starts above 0 and decays is a clock, and needs no driver.
 
 from collections.abc import Iterator
 
-from mindrun.sensors import Derivative
-
 from mindlang.compiler.diagnostic import Fix
 from mindlang.compiler.model import Expression, Reading
 from mindlang.editing.insertion import without_declarations
@@ -65,7 +63,7 @@ def _read(study: Study) -> Iterator[str]:
     for skill in study.mind.skills:
         yield from skill.reads
     for kind in study.sensors.values():
-        yield from [kind.of] if isinstance(kind, Derivative) else []
+        yield from [kind.source] if kind.source else []
     for reward in (reward for task in study.mind.tasks for reward in task.rewards):
         yield from [reward.each] if reward.each else []
         yield from _readings(reward.amount)

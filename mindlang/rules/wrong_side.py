@@ -8,7 +8,6 @@ from collections.abc import Iterator
 from math import sin
 
 from mindrun.actuators import Wheel
-from mindrun.sensors import RangeFinder
 
 from mindlang.compiler.source import Span
 from mindlang.linting.study import Finding, Found, Study, words
@@ -39,10 +38,9 @@ def _sided(study: Study) -> Iterator[tuple[str, str, Span]]:
         if isinstance(actuator.kind, Wheel):
             yield actuator.name, actuator.kind.side, actuator.span
     for sensor in study.mind.sensors:
-        if isinstance(sensor.kind, RangeFinder):
-            sides = {_side(angle) for angle in sensor.kind.at}
-            if len(sides) == 1 and (side := sides.pop()):
-                yield sensor.name, side, sensor.span
+        sides = {_side(angle) for angle in sensor.kind.rays}
+        if len(sides) == 1 and (side := sides.pop()):
+            yield sensor.name, side, sensor.span
 
 
 def _side(angle: float) -> str:

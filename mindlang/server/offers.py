@@ -10,7 +10,7 @@ from mindrun.quantity import Quantity, Reference
 from mindrun.registry import Argument, arguments, kinds
 
 from mindlang.compiler.names import things_of
-from mindlang.compiler.resolve.kinds import ABOUT, PLACES
+from mindlang.compiler.resolve.kinds import about
 from mindlang.compiler.syntax import Declaration
 from mindlang.file_search import beside, text_of
 from mindlang.server.describing import argument_line, kind_card, meaning
@@ -145,7 +145,7 @@ def _named(view: View, noun: str, kind: str, parameter: Argument, task: Declarat
     assert isinstance(parameter.type, Reference)
     match parameter.type:
         case Reference(noun="thing"):
-            return things(view, task, ABOUT.get((noun, kind), PLACES))
+            return things(view, task, about(noun, kind))
         case Reference(noun="sensor"):
             return names(view, "sensor", "memory")
         case Reference(noun="Python function"):

@@ -1,21 +1,19 @@
 """Whether a sensor reads forwards: what is near on the robot must be what was near in training."""
 
 from mindrun.graph import Sensor
-from mindrun.sensors import Contact, Held, RangeFinder
 from mindrun.wiring import SensorWire
 
 from mindlang.compiler.diagnostic import Findings, Label
 from mindlang.wiring.driver import Wired
 from mindlang.wiring.nodes import warn
 
-NEAR_IS = {RangeFinder: 0, Contact: 1, Held: 1}  # the reading of what is near
 ENDS = ("from", "to")
 METRES = "m"
 
 
 def check_direction(wired: Wired, wire: SensorWire, sensor: Sensor, findings: Findings) -> None:
     """Warn where a sensor would read as near what is far; it may be meant so, and then it is taken."""
-    near, is_near = near_value(wired.driver), NEAR_IS.get(type(sensor.kind))
+    near, is_near = near_value(wired.driver), sensor.kind.near
     if near is None or is_near is None:
         return
     ends = wire.low, wire.high
@@ -23,7 +21,7 @@ def check_direction(wired: Wired, wire: SensorWire, sensor: Sensor, findings: Fi
         return
     said = [Label(wired.span(end), f"the reading {ENDS.index(end)}") for end in ENDS if wired.entry(end)]
     first, *others = [*said, Label(wired.span("driver"), "")][: max(1, len(said))]
-    kind = "range finder" if isinstance(sensor.kind, RangeFinder) else "contact"
+    kind = "range finder" if sensor.kind.rays else "contact"
     message = f"A {kind} reads {is_near} for what is near, and this one for what is far."
     at_0, at_1 = (f"{value:g} {wired.driver.unit}".strip() for value in ends[::-1])
     hint = f"{_meaning(wired, near)} Write from: {at_0} and to: {at_1}."

@@ -3,7 +3,6 @@
 from mindrun.graph import Sensor
 from mindrun.quantity import Quantity
 from mindrun.robot.driver_support import PIN
-from mindrun.sensors import Bearing, RangeFinder
 from mindrun.wiring import SensorWire
 
 from mindlang.compiler.diagnostic import Findings, Label, errors
@@ -24,9 +23,9 @@ def sensor_wire(wired: Wired, sensor: Sensor, findings: Findings) -> SensorWire 
     low, high = (_end(wired, index, findings) for index in (0, 1))
     if low is None or high is None:
         return None
-    blank, rest = nothing(sensor)
-    defaults = {"blank": blank, "dead_zone": float(getattr(sensor.kind, "dead_zone", 0.0))}
-    wire = SensorWire(sensor.name, wired.driver, low, high, rest=rest, **{**defaults, **wired.own})
+    kind = sensor.kind
+    defaults = {"blank": kind.blank, "dead_zone": float(getattr(kind, "dead_zone", 0.0))}
+    wire = SensorWire(sensor.name, wired.driver, low, high, rest=kind.rest, **{**defaults, **wired.own})
     _check_readings(wired, sensor, findings)
     _check_range(wired, wire, sensor, findings)
     if wire.median % 2 == 0:
@@ -37,16 +36,6 @@ def sensor_wire(wired: Wired, sensor: Sensor, findings: Findings) -> SensorWire 
         return None
     check_direction(wired, wire, sensor, findings)
     return wire
-
-
-def nothing(sensor: Sensor) -> tuple[float, float]:
-    """What a sensor of this kind reads where there is nothing to measure, and in its dead zone; as in training."""
-    match sensor.kind:
-        case RangeFinder():
-            return 1.0, 0.0
-        case Bearing():
-            return 0.5, 0.5
-    return 0.0, 0.0
 
 
 def _end(wired: Wired, index: int, findings: Findings) -> float | None:
@@ -95,7 +84,7 @@ def _check_range(wired: Wired, wire: SensorWire, sensor: Sensor, findings: Findi
             hint,
             *labels,
         )
-    elif isinstance(sensor.kind, Bearing) and wired.driver.unit == "deg" and abs(wire.high - wire.low) != TURN:
+    elif sensor.kind.circular and wired.driver.unit == "deg" and abs(wire.high - wire.low) != TURN:
         message = f"A bearing's readings 0 to 1 are a whole turn, and these are {abs(wire.high - wire.low):g} degrees."
         usual = wired.driver.usual
         hint = f"Leave both out, or write from: {usual[0]:g} deg and to: {usual[1]:g} deg."

@@ -74,8 +74,8 @@ class Engine:
         if now.shape != (self.graph.width,):
             raise ReadingsError(f"this mind has {self.graph.width} readings, not {now.shape}")
         now[self._places] = self._cells
-        for sensor in self._virtual:
-            now[sensor.place] = sensor.read(self._tick, now, self._before)
+        for place, read in self._virtual:
+            now[place] = read(self._tick, now, self._before)
         return now
 
     def _remember(self, command: NDArray[np.float32], driven: NDArray[np.bool_]) -> None:

@@ -24,6 +24,8 @@ class Delivery:
 
     of: Annotated[str, THING]
 
+    about = frozenset({"item"})
+
 
 @kind("event", "visit")
 @dataclass(frozen=True, slots=True)

@@ -9,10 +9,9 @@ from mindrun.functions import Function
 from mindrun.learners import Learner
 from mindrun.measures import Measure
 from mindrun.memory import Cell
-from mindrun.sensors import Battery, Bearing, Contact, Derivative, Held, Inertial, Inside, RangeFinder, Sine
+from mindrun.sensors import SensorKind as SensorKind
 from mindrun.world import Content, Disc, Scene
 
-SensorKind = RangeFinder | Bearing | Contact | Held | Inside | Inertial | Battery | Derivative | Sine
 ActuatorKind = Wheel | Gripper | Servo
 
 

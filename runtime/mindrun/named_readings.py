@@ -9,12 +9,12 @@ from numpy.typing import NDArray
 
 from mindrun.errors import ReadingsError
 from mindrun.graph import Graph, Sensor
-from mindrun.sensors import Derivative, Sine
+from mindrun.sensors import Physical
 
 
 def physical(graph: Graph) -> dict[str, Sensor]:
     """The sensors that someone has to read; the engine computes the others."""
-    return {sensor.name: sensor for sensor in graph.sensors if not isinstance(sensor.kind, Derivative | Sine)}
+    return {sensor.name: sensor for sensor in graph.sensors if isinstance(sensor.kind, Physical)}
 
 
 def vector(

@@ -8,7 +8,6 @@ from mindrun.expression import OPERATORS, is_sound, leaves
 from mindrun.graph import Graph, Lesson, Program, Skill, Task
 from mindrun.quantity import THING, UNSAID
 from mindrun.registry import arguments
-from mindrun.sensors import Derivative, RangeFinder
 from mindrun.world import MOST_OBSTACLES, MOST_THINGS, Obstacle, Plain, obstacle_count
 
 NAME = re.compile(r"[^\W\d_]\w*([+.]\w+)*")
@@ -64,13 +63,7 @@ def _sense_flaws(graph: Graph) -> Iterator[str]:
     start = 0
     widths = {memory.name: 1 for memory in graph.memories} | {sensor.name: sensor.width for sensor in graph.sensors}
     for sensor in graph.sensors:
-        match sensor.kind:
-            case RangeFinder(at=angles):
-                width: int | None = len(angles)
-            case Derivative(of=of):
-                width = widths.get(of)
-            case _:
-                width = 1
+        width = widths.get(sensor.kind.source) if sensor.kind.width is None else sensor.kind.width
         if sensor.width != width or sensor.start != start or sensor.width < 1:
             yield f"sensor {sensor.name} has not the readings of its kind"
         start += sensor.width
@@ -82,7 +75,7 @@ def _sense_flaws(graph: Graph) -> Iterator[str]:
 
 def depths(graph: Graph) -> dict[str, int]:
     """How many derivatives stand between a sensor or memory and what is measured; without those that never end."""
-    sources = {sensor.name: sensor.kind.of for sensor in graph.sensors if isinstance(sensor.kind, Derivative)}
+    sources = {sensor.name: sensor.kind.source for sensor in graph.sensors if sensor.kind.source}
     derived: dict[str, list[str]] = {}
     for name, source in sources.items():
         derived.setdefault(source, []).append(name)

@@ -8,6 +8,7 @@ from mindrun.errors import WeightsError
 from mindrun.functions.function import Weights as Weights
 from mindrun.graph import Graph, Lesson, Skill
 from mindrun.npy import from_npy
+from mindrun.reachability import reached_from
 
 NO_WEIGHTS = np.zeros(0, np.float32)
 
@@ -40,12 +41,11 @@ def reachable(graph: Graph, master: str) -> tuple[Skill, ...]:
 
 def below(graph: Graph, index: int) -> tuple[Skill, ...]:
     """The skill of an index and all that it can influence, parents first."""
-    found, waiting = {index}, [index]
-    while waiting:
-        targets = {edge.target for edge in graph.skills[waiting.pop()].edges if edge.to == "skill"} - found
-        found |= targets
-        waiting += targets
-    return tuple(graph.skills[index] for index in sorted(found))
+
+    def influenced(index: int) -> Iterable[int]:
+        return (edge.target for edge in graph.skills[index].edges if edge.to == "skill")
+
+    return tuple(graph.skills[number] for number in sorted(reached_from([index], influenced)))
 
 
 def learners(graph: Graph, lesson: Lesson) -> tuple[str, ...]:

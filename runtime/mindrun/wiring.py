@@ -12,7 +12,7 @@ from mindrun.driver import ActuatorDriver, SensorDriver
 from mindrun.graph import Graph
 from mindrun.named_readings import physical
 from mindrun.quantity import NUMBER, RATIO, Quantity, Reference
-from mindrun.sensors import Derivative
+from mindrun.reachability import reached_from
 from mindrun.weights import reachable
 
 VALUES = Quantity("a number of values", {"": 1.0}, low=1, high=15, whole=True)
@@ -97,14 +97,8 @@ def read_by(graph: Graph, master: str) -> Set[str]:
     """The physical sensors that `master`, or a skill that it can influence, reads, even as a derivative."""
     sensors = {sensor.name: sensor for sensor in graph.sensors}
     inputs = {index for skill in reachable(graph, master) for index in skill.inputs}
-    waiting = [s.name for s in graph.sensors if not inputs.isdisjoint(range(s.start, s.start + s.width))]
-    found = set(waiting)
-    while waiting:
-        match sensors[waiting.pop()].kind:
-            case Derivative(of=of) if of in sensors and of not in found:
-                found.add(of)
-                waiting.append(of)
-    return found & physical(graph).keys()
+    read = [s.name for s in graph.sensors if not inputs.isdisjoint(range(s.start, s.start + s.width))]
+    return reached_from(read, lambda name: {sensors[name].kind.source} & sensors.keys()) & physical(graph).keys()
 
 
 def flaws(wiring: Wiring, graph: Graph) -> Iterator[str]:

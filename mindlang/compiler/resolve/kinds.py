@@ -13,15 +13,8 @@ from mindlang.compiler.names import Names
 from mindlang.compiler.resolve import quantities
 from mindlang.compiler.syntax import VERBS, Argument, Name, Phrase
 
-# What a kind can be about where not every item, zone and power will do. Obstacles are many: no kind is about one.
-ABOUT: Mapping[tuple[str, str], Set[str]] = {
-    ("sensor", "contact"): {"item"},
-    ("sensor", "held"): {"item"},
-    ("sensor", "inside"): {"zone", "power"},
-    ("event", "delivery"): {"item"},
-}
 USER_NOUNS = {"content": "thing", "task": "scene"}  # nouns of the registry in the user's words
-PLACES: Set[str] = {"item", "zone", "power"}
+PLACES: Set[str] = {"item", "zone", "power"}  # what a kind can be about; obstacles are many: no kind is about one
 UNKNOWN_KIND_HINTS = {
     "neutral": "It is what the actuator is sent when nothing influences it and whenever something fails: "
     "a wheel's 0 is full reverse. Write neutral 0.5 for a wheel that stands still."
@@ -157,7 +150,7 @@ def _number(parameter: Parameter, argument: Argument, findings: Findings) -> Any
 def _check(noun: str, phrase: Phrase, type_: Reference, name: Name, scope: Scope, findings: Findings) -> None:
     match type_.noun:
         case "thing":
-            _check_thing(name, ABOUT.get((noun, phrase.kind.text), PLACES), phrase.kind.text, scope, findings)
+            _check_thing(name, about(noun, phrase.kind.text), phrase.kind.text, scope, findings)
         case "sensor":
             scope.names.find(name, ("sensor", "memory"), findings)
         case "Python function":
@@ -167,6 +160,12 @@ def _check(noun: str, phrase: Phrase, type_: Reference, name: Name, scope: Scope
         case _ if name.text not in type_.words:
             hint = did_you_mean(name.text, type_.words) or f"It is {listed(type_.words)}."
             findings.error(f"unknown-{type_.noun}", name.span, f"There is no {type_.noun} called {name.text}.", hint)
+
+
+def about(noun: str, kind: str) -> Set[str]:
+    """The kinds of things that a kind can be about."""
+    found: Set[str] = getattr(kinds(noun).get(kind), "about", PLACES)
+    return found
 
 
 def _check_thing(name: Name, about: Set[str], kind: str, scope: Scope, findings: Findings) -> None:

@@ -3,8 +3,6 @@
 from dataclasses import replace
 from typing import Any
 
-from mindrun.sensors import Derivative, RangeFinder
-
 from mindlang.compiler.diagnostic import Findings, a, listed
 from mindlang.compiler.model import Part
 from mindlang.compiler.names import Names
@@ -46,14 +44,13 @@ def refuse_facts(declaration: Declaration, allowed: tuple[type[Fact], ...], find
 
 def measured_widths(sensors: tuple[Part[Any], ...], findings: Findings) -> tuple[Part[Any], ...]:
     """The sensors with their widths; derivatives of one another are reported."""
-    found = {sensor.name: 1 for sensor in sensors}
-    derived = {sensor.name: sensor for sensor in sensors if isinstance(sensor.kind, Derivative)}
-    found |= {sensor.name: len(sensor.kind.at) for sensor in sensors if isinstance(sensor.kind, RangeFinder)}
+    found = {sensor.name: sensor.kind.width or 1 for sensor in sensors}
+    derived = {sensor.name: sensor for sensor in sensors if sensor.kind.source}
     done: set[str] = set()
     for name in derived:
         chain, last = {name: None}, name
         while last in derived and last not in done:
-            last = derived[last].kind.of
+            last = derived[last].kind.source
             if last in chain:
                 _loop([*chain], last, derived, findings)
                 break

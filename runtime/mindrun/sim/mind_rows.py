@@ -120,8 +120,8 @@ def _measured(graph: Graph, rows: set[int]) -> list[Sensor]:
     for sensor in graph.sensors:
         if rows.intersection(range(sensor.start, sensor.start + sensor.width)):
             chain = [sensor]
-            while isinstance(chain[-1].kind, sensors.Derivative) and chain[-1].kind.of in by_name:
-                chain.append(by_name[chain[-1].kind.of])
+            while chain[-1].kind.source in by_name:
+                chain.append(by_name[chain[-1].kind.source])
             for link in reversed(chain):
                 ordered.setdefault(link.name, link)
     return list(ordered.values())
@@ -149,14 +149,14 @@ def sensor_rows(graph: Graph, used: Used, task: Task) -> Sensed:
     """
     things = {thing.name: i for i, thing in enumerate(things_of(task))}
     starts = {m.name: m.start for m in graph.memories} | {s.name: s.start for s in graph.sensors}
-    circular = {s.name for s in graph.sensors if isinstance(s.kind, sensors.Bearing)}
+    circular = {s.name for s in graph.sensors if s.kind.circular}
     rows: list[Any] = []
     angles: list[float] = []
     ray_row: list[int] = []
     before = held = ring = 0
     for is_aside, sensor in [(False, s) for s in used.skills] + [(True, s) for s in used.aside]:
         code, thing, source, reach, dead_zone, gain, period = _sensor(sensor, graph, things, starts)
-        turns = isinstance(sensor.kind, sensors.Derivative) and sensor.kind.of in circular
+        turns = sensor.kind.source in circular
         rows.append((
             code, sensor.start, sensor.width, thing, source, len(angles), before, turns, reach, dead_zone, gain, period,
             *_roughness(sensor, is_aside), held, ring,
@@ -164,9 +164,8 @@ def sensor_rows(graph: Graph, used: Used, task: Task) -> Sensed:
         if isinstance(sensor.kind, sensors.Physical):
             held += sensor.width
             ring += sensor.width * sensor.kind.delay
-        if isinstance(sensor.kind, sensors.RangeFinder):
-            angles.extend(sensor.kind.at)
-            ray_row.extend(range(sensor.start, sensor.start + sensor.width))
+        angles.extend(sensor.kind.rays)
+        ray_row.extend(range(sensor.start, sensor.start + len(sensor.kind.rays)))
         before += sensor.width if code == DERIVATIVE else 0
     turn = np.array(angles, np.float64)
     directions = np.array([np.cos(turn), np.sin(turn)], np.float32)
@@ -178,15 +177,7 @@ def _roughness(sensor: Sensor, is_aside: bool) -> tuple[bool, bool, float, float
     kind = sensor.kind
     if not isinstance(kind, sensors.Physical):
         return False, is_aside, 0.0, 0.0, 0.0, 1, 0
-    match kind:
-        case sensors.RangeFinder():
-            blank = 1.0
-        case sensors.Bearing():
-            blank = 0.5
-        case sensors.Battery():
-            blank = -1.0
-        case _:
-            blank = 0.0
+    blank = -1.0 if isinstance(kind, sensors.Battery) else kind.blank
     is_rough = kind.noise > 0 or kind.lost > 0 or kind.every > 1 or kind.delay > 0
     return is_rough, is_aside, kind.noise, kind.lost, blank, max(1, kind.every), kind.delay
 
@@ -214,6 +205,7 @@ def _sensor(
             return DERIVATIVE, -1, starts[of], 0.0, zone, 0.5 / (graph.tick * spread), 1.0
         case sensors.Sine(period=period):
             return SINE, -1, 0, 0.0, 0.0, 0.0, period / graph.tick
+    raise TypeError(f"the lanes have no {sensor.kind}")
 
 
 def actuator_rows(graph: Graph) -> tuple[list[Any], int]:

@@ -21,7 +21,6 @@ from mindrun.bundle import read_bundle
 from mindrun.errors import MindError
 from mindrun.printable import visible
 from mindrun.robot.sampling import Sample, Sampler
-from mindrun.sensors import Bearing, RangeFinder
 from mindrun.standard_streams import draw
 from mindrun.wiring import SensorWire, reading, still
 
@@ -62,7 +61,7 @@ def _wire(path: Path, sensor: str) -> tuple[SensorWire, bool]:
     if sensor not in names:
         raise MindError(f"no sensor {sensor} is wired", f"there are {', '.join(names)}")
     kind = next(known.kind for known in bundle.graph.sensors if known.name == sensor)
-    return still(wiring.sensors[names.index(sensor)]), isinstance(kind, RangeFinder | Bearing)
+    return still(wiring.sensors[names.index(sensor)]), kind.scaled
 
 
 def _watched(wire: SensorWire, seconds: float) -> list[Sample]:

@@ -1,0 +1,27 @@
+"""Kinds of sensors, one file each. What each reads in a simulated world is in `sim/lanes/sense.py`; on a robot a driver
+reads it, and the engine computes the others.
+
+Every reading is a real number in 0..1. `range` and `dead_zone` are as for a range finder where a kind has them.
+"""
+
+from importlib import import_module
+from pkgutil import iter_modules
+
+from mindrun.sensors.battery import Battery
+from mindrun.sensors.bearing import Bearing
+from mindrun.sensors.contact import Contact
+from mindrun.sensors.derivative import Derivative
+from mindrun.sensors.held import Held
+from mindrun.sensors.inertial import Inertial
+from mindrun.sensors.inside import Inside
+from mindrun.sensors.range_finder import RangeFinder
+from mindrun.sensors.sensor import Physical, SensorKind
+from mindrun.sensors.sine import Sine
+
+for _module in iter_modules(__path__):
+    import_module(f"{__name__}.{_module.name}")
+
+__all__ = [
+    "Battery", "Bearing", "Contact", "Derivative", "Held", "Inertial", "Inside", "Physical", "RangeFinder",
+    "SensorKind", "Sine",
+]  # fmt: skip

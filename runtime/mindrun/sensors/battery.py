@@ -1,0 +1,25 @@
+"""How full the battery is."""
+
+from dataclasses import dataclass
+from typing import Annotated
+
+from mindrun.quantity import RATIO
+from mindrun.registry import kind
+from mindrun.sensors.sensor import Physical, World
+
+
+@kind("sensor", "battery")
+@dataclass(frozen=True, slots=True)
+class Battery(Physical):
+    """Charge of the battery: `start`s there, loses `drain` every tick, gains `charge` every tick inside a `power`."""
+
+    start: Annotated[float, RATIO] = 0.4
+    drain: Annotated[float, RATIO] = 0.00005
+    charge: Annotated[float, RATIO] = 0.005
+
+    remedy = "Give it a drain above 0"
+
+    def constant(self, world: World) -> float | None:
+        """Its start, where nothing drains it, and nothing charges it or it is full."""
+        is_still = self.drain == 0 and (self.start == 1 or not (self.charge and world.charges))
+        return self.start if is_still else None

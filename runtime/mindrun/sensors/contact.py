@@ -1,0 +1,28 @@
+"""Whether the claw can take a thing."""
+
+from dataclasses import dataclass
+from typing import Annotated
+
+from mindrun.quantity import THING
+from mindrun.registry import kind
+from mindrun.sensors.sensor import Physical, World
+
+
+@kind("sensor", "contact")
+@dataclass(frozen=True, slots=True)
+class Contact(Physical):
+    """1 while the thing is in the claw's reach, else 0."""
+
+    of: Annotated[str, THING]
+
+    about = frozenset({"item"})
+    near = 1
+
+    @property
+    def thing(self) -> str:
+        """What it feels."""
+        return self.of
+
+    def constant(self, world: World) -> float | None:
+        """0 without the thing."""
+        return None if self.of in world.things else 0.0

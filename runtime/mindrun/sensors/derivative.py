@@ -1,0 +1,60 @@
+"""How fast another sensor changes."""
+
+from dataclasses import dataclass
+from typing import Annotated
+
+import numpy as np
+
+from mindrun.quantity import POSITIVE, RATIO, SENSOR
+from mindrun.registry import kind
+from mindrun.sensors.sensor import Reader, Readings, SensorKind, World
+
+_HALF, _ONE, _NAN = np.float32(0.5), np.float32(1.0), np.float32(np.nan)
+
+
+@kind("sensor", "derivative")
+@dataclass(frozen=True, slots=True)
+class Derivative(SensorKind):
+    """Change of another sensor's readings: 0.5 none, 1 rising by `range` a second. A bearing turns the short way."""
+
+    of: Annotated[str, SENSOR]
+    range: Annotated[float, POSITIVE] = 1.0
+    dead_zone: Annotated[float, RATIO] = 0.0
+
+    @property
+    def remedy(self) -> str:  # type: ignore[override]
+        """What to do about one that never changes."""
+        if self.dead_zone > 0.5:
+            return SensorKind.remedy
+        return f"Derive it from another sensor than {self.of}, which never changes"
+
+    @property
+    def width(self) -> None:
+        """As many as its source."""
+        return
+
+    @property
+    def source(self) -> str:
+        """The sensor whose change it is."""
+        return self.of
+
+    def constant(self, world: World) -> float | None:
+        """0.5 where the sensor never changes, and where every change is in the dead zone."""
+        return 0.5 if self.dead_zone > 0.5 or world.is_constant(self.of) else None
+
+    def reader(self, tick: float, source: slice, turns: bool) -> Reader:
+        """0.5 in the first tick, NaN where a reading of the source is not finite now or was not."""
+        gain, dead_zone = np.float32(0.5 / (tick * self.range)), np.float32(self.dead_zone)
+
+        def read(number: int, now: Readings, before: Readings | None) -> Readings | np.float32:
+            if before is None:
+                return _HALF
+            change = now[source] - before[source]
+            is_finite = np.isfinite(now[source]) & np.isfinite(before[source])
+            if turns:
+                change = np.where(change > _HALF, change - _ONE, np.where(change < -_HALF, change + _ONE, change))
+            value = np.fmin(np.fmax(_HALF + change * gain, np.float32(0.0)), _ONE)
+            value = np.where(np.abs(value - _HALF) < dead_zone, _HALF, value)
+            return np.where(is_finite, value, _NAN)
+
+        return read

@@ -1,0 +1,29 @@
+"""Whether the claw holds a thing."""
+
+from dataclasses import dataclass
+from typing import Annotated
+
+from mindrun.quantity import THING
+from mindrun.registry import kind
+from mindrun.sensors.sensor import Physical, World
+
+
+@kind("sensor", "held")
+@dataclass(frozen=True, slots=True)
+class Held(Physical):
+    """1 while the claw holds the thing, else 0."""
+
+    of: Annotated[str, THING]
+
+    about = frozenset({"item"})
+    near = 1
+    remedy = "Let a skill that acts drive a gripper"
+
+    @property
+    def thing(self) -> str:
+        """What is held."""
+        return self.of
+
+    def constant(self, world: World) -> float | None:
+        """0 without the thing, and where no claw ever closes."""
+        return None if self.of in world.things and world.can_hold else 0.0

@@ -1,0 +1,112 @@
+"""What every kind of sensor says of itself: the rest of the program asks, and knows no kind by name."""
+
+from collections.abc import Callable, Set
+from dataclasses import dataclass
+from typing import Annotated, Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mindrun.quantity import RATIO, TICKS
+from mindrun.registry import base
+
+Readings = NDArray[np.float32]
+Reader = Callable[[int, Readings, Readings | None], Readings | np.float32]
+
+
+class World(Protocol):
+    """What is known of the worlds of a mind's tasks before anything runs in them."""
+
+    @property
+    def things(self) -> Set[str]:
+        """The things that a sensor can be about."""
+        ...
+
+    @property
+    def is_solid(self) -> bool:
+        """Whether there is anything to collide with."""
+        ...
+
+    @property
+    def charges(self) -> bool:
+        """Whether a battery can charge."""
+        ...
+
+    @property
+    def can_hold(self) -> bool:
+        """Whether a claw may ever close."""
+        ...
+
+    @property
+    def tick(self) -> float:
+        """The length of a tick in seconds."""
+        ...
+
+    def is_constant(self, reading: str) -> bool:
+        """Whether a sensor or memory always reads the same."""
+        ...
+
+
+@base("sensor")
+class SensorKind:
+    """A sensor of one reading that varies; a kind says what is different about it."""
+
+    __slots__ = ()
+
+    about: Set[str] = frozenset({"item", "zone", "power"})  # the kinds of things that it can be `of`
+    circular = False  # whether the readings 0 and 1 are neighbours
+    scaled = False  # whether its values mean something by themselves, so that they need no calibration
+    near: int | None = None  # the reading of what is near
+    blank, rest = 0.0, 0.0  # what it reads where there is nothing to measure, and in its dead zone
+    remedy = "Give it a dead_zone below 0.5"  # for one that is constant
+
+    @property
+    def width(self) -> int | None:
+        """How many readings it has; None where as many as its source."""
+        return 1
+
+    @property
+    def source(self) -> str:
+        """The sensor or memory from which it is computed, if there is one."""
+        return ""
+
+    @property
+    def thing(self) -> str:
+        """The thing that it is about, if there is one."""
+        return ""
+
+    @property
+    def rays(self) -> tuple[float, ...]:
+        """The directions in which it looks, counterclockwise from straight ahead, one for each reading."""
+        return ()
+
+    @property
+    def reach(self) -> float:
+        """How far it looks, in world units."""
+        return 0.0
+
+    def constant(self, world: World) -> float | None:
+        """What it always reads in a world; None where that varies, or nobody knows."""
+        return None
+
+    def reader(self, tick: float, source: slice, turns: bool) -> Reader | None:
+        """How the engine computes it, from the number of the tick and the readings now and before; None where measured.
+
+        `tick` is in seconds, `source` says where the readings of its source stand, and `turns` that they are circular.
+        """
+        return None
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Physical(SensorKind):
+    """What is not perfect about a sensor that measures something, and is so in training.
+
+    It is read `every` so many ticks and says the same in between. `noise` is how far off a reading may be, `lost` the
+    share of readings that fail: they read as if there were nothing (of a battery: as before). What a skill sees is
+    `delay` ticks old.
+    """
+
+    noise: Annotated[float, RATIO] = 0.0
+    lost: Annotated[float, RATIO] = 0.0
+    every: Annotated[int, TICKS] = 1
+    delay: Annotated[int, TICKS] = 0
