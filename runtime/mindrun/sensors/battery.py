@@ -1,8 +1,9 @@
 """How full the battery is."""
 
 from dataclasses import dataclass
-from typing import Annotated
+from typing import Annotated, Any
 
+from mindrun.arithmetic import F
 from mindrun.quantity import RATIO
 from mindrun.registry import kind
 from mindrun.sensors.sensor import Physical, World
@@ -17,9 +18,16 @@ class Battery(Physical):
     drain: Annotated[float, RATIO] = 0.00005
     charge: Annotated[float, RATIO] = 0.005
 
+    keeps_lost = True
     remedy = "Give it a drain above 0"
 
     def constant(self, world: World) -> float | None:
         """Its start, where nothing drains it, and nothing charges it or it is full."""
         is_still = self.drain == 0 and (self.start == 1 or not (self.charge and world.charges))
         return self.start if is_still else None
+
+    @staticmethod
+    def lane(t: Any, s: Any, n: int, clock: int, sensor: Any) -> None:
+        """The battery of each robot."""
+        for p in range(n):
+            s.readings[sensor.start, p] = F(s.battery[p])

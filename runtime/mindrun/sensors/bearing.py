@@ -1,11 +1,13 @@
 """In which direction a thing is."""
 
 from dataclasses import dataclass
-from typing import Annotated
+from math import inf
+from typing import Annotated, Any
 
+from mindrun.arithmetic import HALF, F, bearing
 from mindrun.quantity import LENGTH, RATIO, THING
 from mindrun.registry import kind
-from mindrun.sensors.sensor import Physical, World
+from mindrun.sensors.sensor import Physical, Row, Scene, World
 
 
 @kind("sensor", "bearing")
@@ -33,3 +35,23 @@ class Bearing(Physical):
     def constant(self, world: World) -> float | None:
         """0.5 without the thing, and where all directions are in the dead zone."""
         return 0.5 if self.of not in world.things or self.dead_zone > 0.5 else None
+
+    def row(self, scene: Scene) -> Row:
+        """The thing, and how far away it may be."""
+        return {"range": self.range or inf, "dead_zone": self.dead_zone}
+
+    @staticmethod
+    def lane(t: Any, s: Any, n: int, clock: int, sensor: Any) -> None:
+        """0.5 − atan2/2π in the body's frame."""
+        out = s.readings[sensor.start]
+        if sensor.thing < 0:
+            for p in range(n):
+                out[p] = HALF
+            return
+        x, y, away = s.things[4 * sensor.thing], s.things[4 * sensor.thing + 1], s.things[4 * sensor.thing + 3]
+        for p in range(n):
+            dx, dy = F(x[p] - s.body[0, p]), F(y[p] - s.body[1, p])
+            cosine, sine = F(s.heading[0, p]), F(s.heading[1, p])
+            v = bearing(cosine * dx + sine * dy, cosine * dy - sine * dx)
+            v = HALF if abs(v - HALF) < sensor.dead_zone else v
+            out[p] = v if away[p] <= sensor.range else HALF

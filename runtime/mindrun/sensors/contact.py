@@ -1,8 +1,9 @@
 """Whether the claw can take a thing."""
 
 from dataclasses import dataclass
-from typing import Annotated
+from typing import Annotated, Any
 
+from mindrun.arithmetic import ONE, ZERO, in_claw
 from mindrun.quantity import THING
 from mindrun.registry import kind
 from mindrun.sensors.sensor import Physical, World
@@ -26,3 +27,13 @@ class Contact(Physical):
     def constant(self, world: World) -> float | None:
         """0 without the thing."""
         return None if self.of in world.things else 0.0
+
+    @staticmethod
+    def lane(t: Any, s: Any, n: int, clock: int, sensor: Any) -> None:
+        """1 where the claw could take the thing."""
+        world = t.world[0]
+        for p in range(n):
+            there = sensor.thing >= 0 and in_claw(
+                s.body, s.heading, s.things, world.radius, world.claw, sensor.thing, p
+            )
+            s.readings[sensor.start, p] = ONE if there else ZERO

@@ -1,13 +1,14 @@
 """How fast another sensor changes."""
 
 from dataclasses import dataclass
-from typing import Annotated
+from typing import Annotated, Any
 
 import numpy as np
 
+from mindrun.arithmetic import HALF, F, clamp
 from mindrun.quantity import POSITIVE, RATIO, SENSOR
 from mindrun.registry import kind
-from mindrun.sensors.sensor import Reader, Readings, SensorKind, World
+from mindrun.sensors.sensor import Reader, Readings, Row, Scene, SensorKind, World
 
 _HALF, _ONE, _NAN = np.float32(0.5), np.float32(1.0), np.float32(np.nan)
 
@@ -20,6 +21,8 @@ class Derivative(SensorKind):
     of: Annotated[str, SENSOR]
     range: Annotated[float, POSITIVE] = 1.0
     dead_zone: Annotated[float, RATIO] = 0.0
+
+    remembers = True
 
     @property
     def remedy(self) -> str:  # type: ignore[override]
@@ -58,3 +61,24 @@ class Derivative(SensorKind):
             return np.where(is_finite, value, _NAN)
 
         return read
+
+    def row(self, scene: Scene) -> Row:
+        """The change that reads 1 as a gain, and where its source stands."""
+        return {
+            "source": scene.starts[self.of], "gain": 0.5 / (scene.tick * self.range), "dead_zone": self.dead_zone,
+        }  # fmt: skip
+
+    @staticmethod
+    def lane(t: Any, s: Any, n: int, clock: int, sensor: Any) -> None:
+        """0.5 + change · gain, the short way round a circle; 0.5 in the first tick."""
+        for k in range(sensor.width):
+            out, now, before = s.readings[sensor.start + k], s.readings[sensor.source + k], s.before[sensor.before + k]
+            for p in range(n):
+                d = now[p] - before[p]
+                over = F(1 if d > HALF else 0) - F(1 if d < -HALF else 0)
+                d = d - over if sensor.turns else d
+                v = clamp(HALF + d * sensor.gain)
+                v = HALF if abs(v - HALF) < sensor.dead_zone else v
+                out[p] = v if s.tick[p] > 0 else HALF
+            for p in range(n):
+                before[p] = now[p]

@@ -1,8 +1,9 @@
 """Whether the claw holds a thing."""
 
 from dataclasses import dataclass
-from typing import Annotated
+from typing import Annotated, Any
 
+from mindrun.arithmetic import ONE, ZERO
 from mindrun.quantity import THING
 from mindrun.registry import kind
 from mindrun.sensors.sensor import Physical, World
@@ -27,3 +28,9 @@ class Held(Physical):
     def constant(self, world: World) -> float | None:
         """0 without the thing, and where no claw ever closes."""
         return None if self.of in world.things and world.can_hold else 0.0
+
+    @staticmethod
+    def lane(t: Any, s: Any, n: int, clock: int, sensor: Any) -> None:
+        """1 where the claw holds the thing."""
+        for p in range(n):
+            s.readings[sensor.start, p] = ONE if sensor.thing >= 0 and s.held[p] == sensor.thing else ZERO

@@ -1,11 +1,16 @@
 """Whether the robot moves."""
 
 from dataclasses import dataclass
-from typing import Annotated
+from typing import Annotated, Any
 
+import numpy as np
+
+from mindrun.arithmetic import ZERO, F, clamp
 from mindrun.quantity import POSITIVE, RATIO
 from mindrun.registry import kind
-from mindrun.sensors.sensor import Physical
+from mindrun.sensors.sensor import Physical, Row, Scene
+
+TRAIL_TICKS = 20  # over which the displacement is taken
 
 
 @kind("sensor", "inertial")
@@ -15,3 +20,17 @@ class Inertial(Physical):
 
     range: Annotated[float, POSITIVE] = 1.0
     dead_zone: Annotated[float, RATIO] = 0.0
+
+    def row(self, scene: Scene) -> Row:
+        """The speed that reads 1 as a gain of the displacement."""
+        return {"gain": 1.0 / (TRAIL_TICKS * scene.tick * self.range), "dead_zone": self.dead_zone}
+
+    @staticmethod
+    def lane(t: Any, s: Any, n: int, clock: int, sensor: Any) -> None:
+        """The displacement since the oldest place of the trail, as a share of `range`."""
+        oldest = clock % TRAIL_TICKS
+        out, x, y = s.readings[sensor.start], s.trail[2 * oldest], s.trail[2 * oldest + 1]
+        for p in range(n):
+            dx, dy = s.body[0, p] - x[p], s.body[1, p] - y[p]
+            v = clamp(F(np.sqrt(dx * dx + dy * dy)) * sensor.gain)
+            out[p] = ZERO if v < sensor.dead_zone else v

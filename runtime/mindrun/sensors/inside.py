@@ -1,8 +1,9 @@
 """Whether the robot is inside of a thing."""
 
 from dataclasses import dataclass
-from typing import Annotated
+from typing import Annotated, Any
 
+from mindrun.arithmetic import ONE, ZERO, inside
 from mindrun.quantity import THING
 from mindrun.registry import kind
 from mindrun.sensors.sensor import Physical, World
@@ -25,3 +26,10 @@ class Inside(Physical):
     def constant(self, world: World) -> float | None:
         """0 without the thing."""
         return None if self.of in world.things else 0.0
+
+    @staticmethod
+    def lane(t: Any, s: Any, n: int, clock: int, sensor: Any) -> None:
+        """1 where the robot's centre is in the square of the thing."""
+        for p in range(n):
+            there = sensor.thing >= 0 and inside(s.things, sensor.thing, s.body[0, p], s.body[1, p], p)
+            s.readings[sensor.start, p] = ONE if there else ZERO

@@ -1,11 +1,12 @@
 """How far the nearest obstacle is, in some directions."""
 
 from dataclasses import dataclass
-from typing import Annotated
+from typing import Annotated, Any
 
+from mindrun.arithmetic import ONE, ZERO, F, clamp
 from mindrun.quantity import ANGLE, POSITIVE, RATIO
 from mindrun.registry import kind
-from mindrun.sensors.sensor import Physical, World
+from mindrun.sensors.sensor import Physical, Row, Scene, World
 
 
 @kind("sensor", "range_finder")
@@ -42,3 +43,17 @@ class RangeFinder(Physical):
     def constant(self, world: World) -> float | None:
         """1 where nothing is solid."""
         return None if world.is_solid else 1.0
+
+    def row(self, scene: Scene) -> Row:
+        """How far it looks."""
+        return {"range": self.range, "dead_zone": self.dead_zone}
+
+    @staticmethod
+    def lane(t: Any, s: Any, n: int, clock: int, sensor: Any) -> None:
+        """The distance along each ray, from the body's rim."""
+        radius, scale = F(t.world[0].radius), ONE / F(sensor.range)
+        for ray in range(sensor.width):
+            out, far = s.readings[sensor.start + ray], s.sight[4 + sensor.ray + ray]
+            for p in range(n):
+                v = clamp((far[p] - radius) * scale)
+                out[p] = ZERO if v < sensor.dead_zone else v

@@ -1,8 +1,8 @@
 """What every kind of sensor says of itself: the rest of the program asks, and knows no kind by name."""
 
-from collections.abc import Callable, Set
+from collections.abc import Callable, Mapping, Set
 from dataclasses import dataclass
-from typing import Annotated, Protocol
+from typing import Annotated, Any, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,6 +12,23 @@ from mindrun.registry import base
 
 Readings = NDArray[np.float32]
 Reader = Callable[[int, Readings, Readings | None], Readings | np.float32]
+
+
+Row = Mapping[str, float]  # columns of the lanes' table of sensors
+
+
+class Scene(Protocol):
+    """What the row of a sensor in the lanes can depend on beside its own arguments."""
+
+    @property
+    def tick(self) -> float:
+        """The length of a tick in seconds."""
+        ...
+
+    @property
+    def starts(self) -> Mapping[str, int]:
+        """Where the readings of each sensor and memory begin."""
+        ...
 
 
 class World(Protocol):
@@ -57,6 +74,8 @@ class SensorKind:
     circular = False  # whether the readings 0 and 1 are neighbours
     scaled = False  # whether its values mean something by themselves, so that they need no calibration
     near: int | None = None  # the reading of what is near
+    keeps_lost = False  # whether a reading that fails is the one before, and not `blank`
+    remembers = False  # whether the lanes keep its readings of the tick before
     blank, rest = 0.0, 0.0  # what it reads where there is nothing to measure, and in its dead zone
     remedy = "Give it a dead_zone below 0.5"  # for one that is constant
 
@@ -84,6 +103,18 @@ class SensorKind:
     def reach(self) -> float:
         """How far it looks, in world units."""
         return 0.0
+
+    def row(self, scene: Scene) -> Row:
+        """What its lane function is told: range, dead_zone, gain, period or source, those that it reads."""
+        return {}
+
+    @staticmethod
+    def lane(t: Any, s: Any, n: int, clock: int, sensor: Any) -> None:
+        """Write its readings in n lanes of a simulated world: `s.readings[sensor.start, p]`.
+
+        Compiled, in the terms of `mindrun.arithmetic`. `t` are the tables of the program, `s` is the state of the
+        lanes (`sim/state.py` has every array), `clock` counts ticks, `sensor` is the row of the table.
+        """
 
     def constant(self, world: World) -> float | None:
         """What it always reads in a world; None where that varies, or nobody knows."""

@@ -2,13 +2,14 @@
 
 from dataclasses import dataclass
 from math import floor, isclose, pi
-from typing import Annotated
+from typing import Annotated, Any
 
 import numpy as np
 
+from mindrun.arithmetic import F, sine_cosine
 from mindrun.quantity import SECONDS
 from mindrun.registry import kind
-from mindrun.sensors.sensor import Reader, Readings, SensorKind, World
+from mindrun.sensors.sensor import Reader, Readings, Row, Scene, SensorKind, World
 from mindrun.trigonometry import sine
 
 
@@ -35,3 +36,16 @@ class Sine(SensorKind):
             return np.float32(0.5 + 0.5 * sine(2 * pi * (turned - floor(turned))))
 
         return read
+
+    def row(self, scene: Scene) -> Row:
+        """The period in ticks."""
+        return {"period": self.period / scene.tick}
+
+    @staticmethod
+    def lane(t: Any, s: Any, n: int, clock: int, sensor: Any) -> None:
+        """0.5 + 0.5 sin(2πt/T)."""
+        out = s.readings[sensor.start]
+        for p in range(n):
+            turns = s.tick[p] / sensor.period
+            wave, _ = sine_cosine(2 * np.pi * (turns - np.floor(turns)))
+            out[p] = F(0.5 + 0.5 * wave)

@@ -1,78 +1,33 @@
-"""Arithmetic that gives the same bits on every processor: + − × ÷ only, in a fixed order, no fused operations."""
+"""`mindrun.arithmetic`, compiled; and what kinds say in its terms."""
 
-import numpy as np
+from collections.abc import Callable
+from types import FunctionType
+from typing import Any
 
-from mindrun.sigmoid import DENOMINATOR, LIMIT, NUMERATOR
-from mindrun.sim.compiling import inlined
-from mindrun.trigonometry import C1, C2, C3, C4, C5, C6, PART_1, PART_2, PART_3, S1, S2, S3, S4, S5, S6
+from mindrun import arithmetic
+from mindrun.arithmetic import HALF as HALF
+from mindrun.arithmetic import ONE as ONE
+from mindrun.arithmetic import ZERO as ZERO
+from mindrun.arithmetic import F as F
+from mindrun.sim.compiling import compiled, inlined
 
-F = np.float32
-ZERO, HALF, ONE = F(0), F(0.5), F(1)
-MIN_DENOMINATOR = F(1e-7)
-A1, A3, A5, A7, A9, A11, A13 = (F(a) for a in NUMERATOR)
-B0, B2, B4, B6 = (F(b) for b in DENOMINATOR)
-SIGMOID_LIMIT = F(LIMIT)
-MAX_FLOAT32 = np.finfo(F).max
-
-
-@inlined
-def clamp(v):
-    """`v` within 0..1; the caller has looked whether it is finite."""
-    v = v if v > ZERO else ZERO
-    return v if v < ONE else ONE
-
-
-@inlined
-def finite(v):
-    """Whether a float32 is neither infinite nor NaN."""
-    return abs(v) <= MAX_FLOAT32
+bearing, clamp = inlined(arithmetic.bearing), inlined(arithmetic.clamp)
+finite, sine_cosine = inlined(arithmetic.finite), inlined(arithmetic.sine_cosine)
+in_claw, inside = compiled(arithmetic.in_claw), compiled(arithmetic.inside)
+_COMPILED: dict[Callable[..., Any], Callable[..., Any]] = {
+    arithmetic.bearing: bearing,
+    arithmetic.clamp: clamp,
+    arithmetic.finite: finite,
+    arithmetic.sine_cosine: sine_cosine,
+    arithmetic.in_claw: in_claw,
+    arithmetic.inside: inside,
+}
 
 
-@inlined
-def sine_cosine(x):
-    """(sin x, cos x) of a float64: the arithmetic of `mindrun.trigonometry`, with selects for its branches."""
-    k = np.floor(x * 0.6366197723675814 + 0.5)
-    r = ((x - k * PART_1) - k * PART_2) - k * PART_3
-    z = r * r
-    s = r + z * r * (S1 + z * (S2 + z * (S3 + z * (S4 + z * (S5 + z * S6)))))
-    half = 0.5 * z
-    rest = 1.0 - half
-    tail = z * z * (C1 + z * (C2 + z * (C3 + z * (C4 + z * (C5 + z * C6)))))
-    c = rest + (((1.0 - rest) - half) + tail)
-    q = k - 4.0 * np.floor(k * 0.25)
-    odd = (q == 1.0) | (q == 3.0)
-    sine = c if odd else s
-    cosine = s if odd else c
-    sine = -sine if q >= 2.0 else sine
-    cosine = -cosine if (q == 1.0) | (q == 2.0) else cosine
-    return sine, cosine
-
-
-PI32, HALF_PI32 = F(np.pi), F(np.pi / 2)
-# Abramowitz and Stegun 4.4.49: within 2e-8.
-T1, T3, T5, T7 = F(0.9999993329), F(-0.3332985605), F(0.1994653599), F(-0.1390853351)
-T9, T11, T13, T15 = F(0.0964200441), F(-0.0559098861), F(0.0218612288), F(-0.0040540580)
-PER_TURN = F(0.5 / np.pi)
-
-
-@inlined
-def bearing(x, y):
-    """0.5 − atan2(y, x)/2π of float32s; 0.5 at the origin."""
-    ax, ay = abs(x), abs(y)
-    low = ax if ax < ay else ay
-    high = ax if ax > ay else ay
-    t = low / (high if high > MIN_DENOMINATOR else ONE)
-    z = t * t
-    p = T15
-    p = p * z + T13
-    p = p * z + T11
-    p = p * z + T9
-    p = p * z + T7
-    p = p * z + T5
-    p = p * z + T3
-    p = p * z + T1
-    angle = p * t
-    angle = HALF_PI32 - angle if ay > ax else angle
-    angle = PI32 - angle if x < ZERO else angle
-    angle = -angle if y < ZERO else angle
-    return HALF - angle * PER_TURN
+def compiled_lane(function: Any) -> Callable[..., Any]:
+    """The lane function of a kind, which calls the compiled ones of those that it names."""
+    names = {name: function.__globals__[name] for name in function.__code__.co_names if name in function.__globals__}
+    known = {name: _COMPILED.get(value, value) if callable(value) else value for name, value in names.items()}
+    plain = FunctionType(function.__code__, known, function.__name__)
+    plain.__module__, plain.__qualname__ = function.__module__, function.__qualname__
+    return compiled(plain)

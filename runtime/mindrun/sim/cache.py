@@ -35,8 +35,8 @@ def stamp() -> str:
     """What all machine code depends on but the processor: numba would not notice when a callee elsewhere changes."""
     versions = f"{sys.implementation.cache_tag} {numba.__version__} {llvmlite.__version__}"
     digest = sha256(versions.encode())
-    beside = [HERE.parent / name for name in ("sigmoid.py", "trigonometry.py")]
-    for path in sorted([*HERE.glob("*.py"), *HERE.glob("lanes/*.py"), *beside]):
+    beside = [HERE.parent / name for name in ("arithmetic.py", "sigmoid.py", "trigonometry.py")]
+    for path in sorted([*HERE.glob("*.py"), *HERE.glob("lanes/*.py"), *HERE.parent.glob("sensors/*.py"), *beside]):
         digest.update(path.read_bytes())
     return digest.hexdigest()[:16]
 

@@ -4,7 +4,9 @@ from typing import Any
 
 import numpy as np
 
-RANGE, BEARING, CONTACT, HELD, INSIDE, INERTIAL, BATTERY, DERIVATIVE, SINE = range(9)
+import mindrun.sensors  # noqa: F401  # which registers them
+from mindrun.registry import kinds
+
 WHEEL_LEFT, WHEEL_RIGHT, GRIPPER, SERVO = range(4)
 MLP, RULE, PROCEDURE = range(3)
 ITEM, ZONE, POWER = range(3)
@@ -22,7 +24,11 @@ FORCE, TORQUE, FORCE_X, FORCE_Y = range(4)  # rows of what pushes a body
 
 OPERATIONS = {name: code for code, name in enumerate(("number", "reading", "each", "measure", *"+-*/", "negate"))}
 COMPARES = {"<": LESS, "<=": LESS_EQUAL, ">": GREATER, ">=": GREATER_EQUAL}
-INERTIAL_TICKS = 20
+
+
+def sensor_codes() -> dict[str, int]:
+    """The number of every kind of sensor, by its name."""
+    return {name: code for code, name in enumerate(sorted(kinds("sensor")))}
 
 
 def _row(**columns: str) -> np.dtype[Any]:

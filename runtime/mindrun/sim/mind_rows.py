@@ -2,35 +2,18 @@
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from math import inf
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from mindrun import actuators, sensors
+from mindrun import actuators
 from mindrun.functions import Mlp, Procedure
 from mindrun.graph import Actuator, Graph, Sensor, Skill, Task
 from mindrun.memory import Cell
-from mindrun.sim.codes import (
-    BATTERY,
-    BEARING,
-    CONTACT,
-    DERIVATIVE,
-    GRIPPER,
-    HELD,
-    INERTIAL,
-    INERTIAL_TICKS,
-    INSIDE,
-    MLP,
-    PROCEDURE,
-    RANGE,
-    RULE,
-    SERVO,
-    SINE,
-    WHEEL_LEFT,
-    WHEEL_RIGHT,
-)  # fmt: skip
+from mindrun.registry import names
+from mindrun.sensors import Physical
+from mindrun.sim.codes import GRIPPER, MLP, PROCEDURE, RULE, SENSOR, SERVO, WHEEL_LEFT, WHEEL_RIGHT, sensor_codes
 from mindrun.sim.programs import Programs
 from mindrun.sim.task_rows import things_of
 from mindrun.weights import genes, weights_of
@@ -128,13 +111,21 @@ def _measured(graph: Graph, rows: set[int]) -> list[Sensor]:
 
 
 @dataclass(frozen=True, slots=True)
+class Scene:
+    """What the row of a sensor can depend on beside its own arguments."""
+
+    tick: float
+    starts: Mapping[str, int]
+
+
+@dataclass(frozen=True, slots=True)
 class Sensed:
     """Rows of SENSOR, the directions [2, rays] of all rays and the reading that each writes, and how many readings.
 
     Those are: derived ones, rough ones, and what waits in their rings.
     """
 
-    rows: list[Any]
+    rows: Array
     rays: Array
     ray_row: Array
     derived: int
@@ -150,62 +141,48 @@ def sensor_rows(graph: Graph, used: Used, task: Task) -> Sensed:
     things = {thing.name: i for i, thing in enumerate(things_of(task))}
     starts = {m.name: m.start for m in graph.memories} | {s.name: s.start for s in graph.sensors}
     circular = {s.name for s in graph.sensors if s.kind.circular}
-    rows: list[Any] = []
+    codes, scene = sensor_codes(), Scene(graph.tick, starts)
+    rows: list[Mapping[str, float]] = []
     angles: list[float] = []
     ray_row: list[int] = []
     before = held = ring = 0
     for is_aside, sensor in [(False, s) for s in used.skills] + [(True, s) for s in used.aside]:
-        code, thing, source, reach, dead_zone, gain, period = _sensor(sensor, graph, things, starts)
-        turns = sensor.kind.source in circular
-        rows.append((
-            code, sensor.start, sensor.width, thing, source, len(angles), before, turns, reach, dead_zone, gain, period,
-            *_roughness(sensor, is_aside), held, ring,
-        ))  # fmt: skip
-        if isinstance(sensor.kind, sensors.Physical):
+        kind = sensor.kind
+        row: dict[str, float] = {
+            "kind": codes[names()[type(kind)]], "start": sensor.start, "width": sensor.width,
+            "thing": things.get(kind.thing, -1), "turns": kind.source in circular,
+            "ray": len(angles), "before": before, "held": held, "ring": ring, "is_aside": is_aside, "every": 1,
+        }  # fmt: skip
+        if isinstance(kind, Physical):
+            row |= _roughness(kind)
             held += sensor.width
-            ring += sensor.width * sensor.kind.delay
-        angles.extend(sensor.kind.rays)
-        ray_row.extend(range(sensor.start, sensor.start + len(sensor.kind.rays)))
-        before += sensor.width if code == DERIVATIVE else 0
+            ring += sensor.width * kind.delay
+        rows.append({**row, **kind.row(scene)})
+        angles.extend(kind.rays)
+        ray_row.extend(range(sensor.start, sensor.start + len(kind.rays)))
+        before += sensor.width if kind.remembers else 0
     turn = np.array(angles, np.float64)
     directions = np.array([np.cos(turn), np.sin(turn)], np.float32)
-    return Sensed(rows, directions, np.array(ray_row, np.int64), before, held, ring)
+    return Sensed(records(rows, SENSOR), directions, np.array(ray_row, np.int64), before, held, ring)
 
 
-def _roughness(sensor: Sensor, is_aside: bool) -> tuple[bool, bool, float, float, float, int, int]:
-    """(whether there is any, is_aside, noise, lost, what is read then or −1 for the same as before, every, delay)."""
-    kind = sensor.kind
-    if not isinstance(kind, sensors.Physical):
-        return False, is_aside, 0.0, 0.0, 0.0, 1, 0
-    blank = -1.0 if isinstance(kind, sensors.Battery) else kind.blank
+def _roughness(kind: Physical) -> dict[str, float]:
+    """What is not perfect about it; `blank` is what is read where one is lost, −1 for the same as before."""
     is_rough = kind.noise > 0 or kind.lost > 0 or kind.every > 1 or kind.delay > 0
-    return is_rough, is_aside, kind.noise, kind.lost, blank, max(1, kind.every), kind.delay
+    blank = -1.0 if kind.keeps_lost else kind.blank
+    return {
+        "is_rough": is_rough, "noise": kind.noise, "lost": kind.lost, "blank": blank,
+        "every": max(1, kind.every), "delay": kind.delay,
+    }  # fmt: skip
 
 
-def _sensor(
-    sensor: Sensor, graph: Graph, things: Mapping[str, int], starts: Mapping[str, int]
-) -> tuple[int, int, int, float, float, float, float]:
-    """(code, thing or −1, source row, range, dead zone, gain, period in ticks)."""
-    match sensor.kind:
-        case sensors.RangeFinder(range=reach, dead_zone=zone):
-            return RANGE, -1, 0, reach, zone, 0.0, 1.0
-        case sensors.Bearing(of=of, range=reach, dead_zone=zone):
-            return BEARING, things.get(of, -1), 0, reach or inf, zone, 0.0, 1.0
-        case sensors.Contact(of=of):
-            return CONTACT, things.get(of, -1), 0, 0.0, 0.0, 0.0, 1.0
-        case sensors.Held(of=of):
-            return HELD, things.get(of, -1), 0, 0.0, 0.0, 0.0, 1.0
-        case sensors.Inside(of=of):
-            return INSIDE, things.get(of, -1), 0, 0.0, 0.0, 0.0, 1.0
-        case sensors.Inertial(range=reach, dead_zone=zone):
-            return INERTIAL, -1, 0, 0.0, zone, 1.0 / (INERTIAL_TICKS * graph.tick * reach), 1.0
-        case sensors.Battery():
-            return BATTERY, -1, 0, 0.0, 0.0, 0.0, 1.0
-        case sensors.Derivative(of=of, range=spread, dead_zone=zone):
-            return DERIVATIVE, -1, starts[of], 0.0, zone, 0.5 / (graph.tick * spread), 1.0
-        case sensors.Sine(period=period):
-            return SINE, -1, 0, 0.0, 0.0, 0.0, period / graph.tick
-    raise TypeError(f"the lanes have no {sensor.kind}")
+def records(rows: Sequence[Mapping[str, float]], columns: Any) -> Array:
+    """Rows of a table by the names of its columns; what a row does not say is 0."""
+    table = np.zeros(len(rows), columns)
+    for record, row in zip(table, rows, strict=True):
+        for column, value in row.items():
+            record[column] = value
+    return table
 
 
 def actuator_rows(graph: Graph) -> tuple[list[Any], int]:

@@ -5,7 +5,8 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from mindrun.sim.codes import AWAY, INERTIAL_TICKS
+from mindrun.sensors.inertial import TRAIL_TICKS
+from mindrun.sim.codes import AWAY
 from mindrun.sim.tables import Sizes, Tables
 from mindrun.sim.vector import VECTOR_LANES
 
@@ -105,7 +106,7 @@ def empty_state(tables: Tables, sizes: Sizes, lanes: int) -> State:
     things, boxes, rays, events = len(tables.things), sizes.boxes, len(tables.ray_row), len(tables.events)
     actuators = len(tables.actuators)
     doubles = {
-        "body": 6, "heading": 2, "things": 4 * things, "trail": 2 * INERTIAL_TICKS,
+        "body": 6, "heading": 2, "things": 4 * things, "trail": 2 * TRAIL_TICKS,
         "changes": 2 * sizes.changes, "measures": len(tables.measures), "events": events,
         "lines": len(tables.rewards), "stack": sizes.depth, "push": 4, "was": 2, "anchor": 2,
     }  # fmt: skip

@@ -17,7 +17,6 @@ from mindrun.sim.codes import (
     MEMORY,
     OBSTACLE,
     REWARD,
-    SENSOR,
     SKILL,
     THING,
 )  # fmt: skip
@@ -102,7 +101,7 @@ def build(
         world=world_row(
             graph, task, len(sensed.ray_row), [*used.skills, *used.aside], [s.name for s in graph.skills].index(master)
         ),
-        sensors=np.array(sensed.rows, SENSOR),
+        sensors=sensed.rows,
         rays=sensed.rays,
         ray_row=sensed.ray_row,
         skills=np.array(skills, SKILL),

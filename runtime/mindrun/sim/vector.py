@@ -13,7 +13,7 @@ from numba import types
 from numba.core import cgutils
 from numba.extending import intrinsic, models, overload, register_model
 
-from mindrun.sim.arithmetic import A1, A3, A5, A7, A9, A11, A13, B0, B2, B4, B6, HALF, SIGMOID_LIMIT
+from mindrun.arithmetic import A1, A3, A5, A7, A9, A11, A13, B0, B2, B4, B6, HALF, SIGMOID_LIMIT
 from mindrun.sim.compiling import compiled
 
 VECTOR_LANES = 16

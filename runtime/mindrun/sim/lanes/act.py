@@ -1,9 +1,8 @@
 """Act: the commands that the influence makes (Eq. 3), their delays, and the claw; the memory cells when all is done."""
 
-from mindrun.sim.arithmetic import HALF, ONE, ZERO, F, clamp, finite
+from mindrun.sim.arithmetic import HALF, ONE, ZERO, F, clamp, finite, in_claw
 from mindrun.sim.codes import GRIPPER, ITEM
 from mindrun.sim.compiling import compiled
-from mindrun.sim.lanes.sense import in_claw
 
 UNDRIVEN = F(-1)
 

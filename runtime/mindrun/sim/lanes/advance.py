@@ -2,8 +2,9 @@
 
 import numpy as np
 
+from mindrun.sensors.inertial import TRAIL_TICKS
 from mindrun.sim.arithmetic import sine_cosine
-from mindrun.sim.codes import GOING_ON, INERTIAL_TICKS, LOST, VISIT
+from mindrun.sim.codes import GOING_ON, LOST, VISIT
 from mindrun.sim.compiling import compiled, entry
 from mindrun.sim.lanes.act import act, recall
 from mindrun.sim.lanes.chipmunk import close_space
@@ -122,7 +123,7 @@ def reset(t, s, p):
     s.reached[:, p], s.delivered[:, p] = 0, 0
     s.changes[:, p] = 0.0
     s.anchor[:, p] = np.nan
-    for i in range(INERTIAL_TICKS):
+    for i in range(TRAIL_TICKS):
         s.trail[2 * i, p], s.trail[2 * i + 1, p] = s.body[0, p], s.body[1, p]
     for i in range(len(t.actuators)):
         actuator = t.actuators[i]

@@ -2,6 +2,8 @@
 
 import numpy as np
 
+from mindrun.sensors.inertial import TRAIL_TICKS
+from mindrun.sim.arithmetic import inside
 from mindrun.sim.codes import (
     ADVANCE,
     CHANGE,
@@ -10,7 +12,6 @@ from mindrun.sim.codes import (
     EXHAUSTION,
     FORWARD,
     GREATER,
-    INERTIAL_TICKS,
     LESS,
     LESS_EQUAL,
     POWER,
@@ -23,7 +24,6 @@ from mindrun.sim.codes import (
 from mindrun.sim.compiling import compiled
 from mindrun.sim.lanes.evaluate import evaluate
 from mindrun.sim.lanes.reach import BEGUN, become, meet
-from mindrun.sim.lanes.sense import inside
 
 
 @compiled
@@ -49,7 +49,7 @@ def judge(t, s, n, clock, interrupt):
             settle(t, s, i, n, interrupt)
     if begun > 0:
         become(t, s, n)
-    oldest = clock % INERTIAL_TICKS
+    oldest = clock % TRAIL_TICKS
     for p in range(n):
         s.tick[p] += 1
         s.trail[2 * oldest, p], s.trail[2 * oldest + 1, p] = s.was[0, p], s.was[1, p]

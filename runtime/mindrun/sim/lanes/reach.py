@@ -3,10 +3,10 @@
 Nothing here depends on whether a line of the task names the event: what measures changes nothing.
 """
 
+from mindrun.sim.arithmetic import in_claw, inside
 from mindrun.sim.codes import ITEM, MOVES, STAYS, VANISHES, ZONE
 from mindrun.sim.compiling import compiled
 from mindrun.sim.lanes.placement import succeed, vanish
-from mindrun.sim.lanes.sense import in_claw, inside
 
 BEGUN = 1  # in this tick and not in the one before
 

@@ -1,21 +1,14 @@
 """Sense: every reading of every lane, from where the robots and the things are."""
 
+from collections.abc import Callable, Sequence
+from typing import Any
+
 import numpy as np
 
-from mindrun.sim.arithmetic import HALF, MAX_FLOAT32, ONE, ZERO, F, bearing, clamp, sine_cosine
-from mindrun.sim.codes import (
-    AWAY,
-    BATTERY,
-    BEARING,
-    CONTACT,
-    DERIVATIVE,
-    HELD,
-    INERTIAL,
-    INERTIAL_TICKS,
-    INSIDE,
-    RANGE,
-    SINE,
-)
+from mindrun.arithmetic import MAX_FLOAT32
+from mindrun.registry import kinds
+from mindrun.sim.arithmetic import ONE, ZERO, F, clamp, compiled_lane
+from mindrun.sim.codes import AWAY, sensor_codes
 from mindrun.sim.compiling import compiled
 from mindrun.sim.lanes.placement import uniform
 from mindrun.sim.vector import HIGHEST, LOWEST, VECTOR_LANES, load, splat, store, where_ordered
@@ -23,50 +16,38 @@ from mindrun.sim.vector import HIGHEST, LOWEST, VECTOR_LANES, load, splat, store
 CULLING_SLACK_UNITS = 2.0  # how far a robot may move before the boxes near it are chosen anew
 
 
+def _chain(kinds_left: Sequence[Any], code: int = 0) -> Callable[..., None]:
+    """A function that calls the lane function of a sensor's kind: one compilation, whatever the mind is."""
+    lane, *rest = kinds_left
+    own = compiled_lane(lane)
+    if not rest:
+        return own
+    other = _chain(rest, code + 1)
+
+    @compiled
+    def read(t, s, n, clock, sensor):
+        if sensor.kind == code:
+            own(t, s, n, clock, sensor)
+        else:
+            other(t, s, n, clock, sensor)
+
+    return read
+
+
+read = _chain([kinds("sensor")[name].lane for name in sensor_codes()])
+
+
 @compiled
 def sense(t, s, n, clock):
     """Fill the rows of the sensors that somebody reads, in the order of the table (sources before derivatives)."""
-    world = t.world[0]
     see(s.body, s.things, len(t.things), n)
-    s.slot_most[0] = choose(s.body, s.boxes, s.anchor, s.nearby, s.slot_count, world.near + CULLING_SLACK_UNITS, n)
-    if world.rays > 0:
+    reach = t.world[0].near + CULLING_SLACK_UNITS
+    s.slot_most[0] = choose(s.body, s.boxes, s.anchor, s.nearby, s.slot_count, reach, n)
+    if t.world[0].rays > 0:
         look(t, s, n)
     for i in range(len(t.sensors)):
         sensor = t.sensors[i]
-        kind, row = sensor.kind, sensor.start
-        if kind == RANGE:
-            for ray in range(sensor.width):
-                distance(s.readings[row + ray], s.sight[4 + sensor.ray + ray], F(world.radius), F(sensor.range),
-                         sensor.dead_zone, n)  # fmt: skip
-        elif kind == SINE:
-            wave(s.readings[row], s.tick, sensor.period, n)
-        elif kind == DERIVATIVE:
-            for k in range(sensor.width):
-                derive(s.readings[row + k], s.readings[sensor.source + k], s.before[sensor.before + k], s.tick,
-                       sensor.gain, sensor.dead_zone, sensor.turns, n)  # fmt: skip
-        elif kind == INERTIAL:
-            oldest = clock % INERTIAL_TICKS
-            moved(s.readings[row], s.body, s.trail[2 * oldest], s.trail[2 * oldest + 1], sensor.gain,
-                  sensor.dead_zone, n)  # fmt: skip
-        elif kind == BATTERY:
-            for p in range(n):
-                s.readings[row, p] = F(s.battery[p])
-        elif sensor.thing < 0:
-            s.readings[row, :n] = HALF if kind == BEARING else ZERO
-        elif kind == BEARING:
-            turn(s.readings[row], s.body, s.heading, s.things[4 * sensor.thing : 4 * sensor.thing + 4], sensor.range,
-                 sensor.dead_zone, n)  # fmt: skip
-        elif kind == CONTACT:
-            for p in range(n):
-                s.readings[row, p] = (
-                    ONE if in_claw(s.body, s.heading, s.things, world.radius, world.claw, sensor.thing, p) else ZERO
-                )
-        elif kind == HELD:
-            for p in range(n):
-                s.readings[row, p] = ONE if s.held[p] == sensor.thing else ZERO
-        elif kind == INSIDE:
-            for p in range(n):
-                s.readings[row, p] = ONE if inside(s.things, sensor.thing, s.body[0, p], s.body[1, p], p) else ZERO
+        read(t, s, n, clock, sensor)
         if sensor.is_rough:
             for k in range(sensor.width):
                 roughen(s, sensor, k, n)
@@ -109,66 +90,6 @@ def see(body, things, count, n):
 
 
 @compiled
-def turn(out, body, heading, thing, reach, dead_zone, n):
-    """A bearing: 0.5 − atan2/2π in the body's frame."""
-    for p in range(n):
-        dx, dy = F(thing[0, p] - body[0, p]), F(thing[1, p] - body[1, p])
-        c, q = F(heading[0, p]), F(heading[1, p])
-        v = bearing(c * dx + q * dy, c * dy - q * dx)
-        v = HALF if abs(v - HALF) < dead_zone else v
-        out[p] = v if thing[3, p] <= reach else HALF
-
-
-@compiled
-def wave(out, tick, period, n):
-    """0.5 + 0.5 sin(2πt/T)."""
-    for p in range(n):
-        turns = tick[p] / period
-        sine, _ = sine_cosine(2 * np.pi * (turns - np.floor(turns)))
-        out[p] = F(0.5 + 0.5 * sine)
-
-
-@compiled
-def derive(out, now, before, tick, gain, dead_zone, turns, n):
-    """0.5 + change · gain, the short way round a circle; 0.5 in the first tick."""
-    for p in range(n):
-        d = now[p] - before[p]
-        over = F(1 if d > HALF else 0) - F(1 if d < -HALF else 0)
-        d = d - over if turns else d
-        v = clamp(HALF + d * gain)
-        v = HALF if abs(v - HALF) < dead_zone else v
-        out[p] = v if tick[p] > 0 else HALF
-    for p in range(n):
-        before[p] = now[p]
-
-
-@compiled
-def moved(out, body, x, y, gain, dead_zone, n):
-    """The displacement since the oldest place of the trail, as a share of `range`."""
-    for p in range(n):
-        dx, dy = body[0, p] - x[p], body[1, p] - y[p]
-        v = clamp(F(np.sqrt(dx * dx + dy * dy)) * gain)
-        out[p] = ZERO if v < dead_zone else v
-
-
-@compiled
-def in_claw(body, heading, things, radius, reach, i, p):
-    """Whether thing i is ahead of the claw and its rim within the claw's reach."""
-    dx, dy = things[4 * i, p] - body[0, p], things[4 * i + 1, p] - body[1, p]
-    ahead = heading[0, p] * dx + heading[1, p] * dy - radius
-    aside = heading[0, p] * dy - heading[1, p] * dx
-    far = reach + things[4 * i + 2, p] / 2
-    return ahead >= 0 and ahead * ahead + aside * aside <= far * far
-
-
-@compiled
-def inside(things, i, x, y, p):
-    """Whether a point is inside the square of thing i."""
-    half = things[4 * i + 2, p] / 2
-    return abs(things[4 * i, p] - x) <= half and abs(things[4 * i + 1, p] - y) <= half
-
-
-@compiled
 def look(t, s, n):
     """The distance from each robot's centre along each ray: rows 4 and on of `sight`, after heading and place."""
     world = t.world[0]
@@ -201,15 +122,6 @@ def along(sight, cosine, sine, half, slots, count, p):
         hit = where_ordered(enter, leave, enter, splat(MAX_FLOAT32))
         nearest = LOWEST(where_ordered(splat(ZERO), hit, hit, splat(MAX_FLOAT32)), nearest)
     return nearest
-
-
-@compiled
-def distance(out, far, radius, reach, dead_zone, n):
-    """A range finder's reading from the distance along its ray."""
-    scale = ONE / reach
-    for p in range(n):
-        v = clamp((far[p] - radius) * scale)
-        out[p] = ZERO if v < dead_zone else v
 
 
 @compiled

@@ -1,0 +1,93 @@
+"""Arithmetic of the lanes: + − × ÷ only, in a fixed order, nothing fused, so that every processor gives the same bits.
+
+Plain functions, which `mindrun.sim.arithmetic` compiles: the kinds of sensors say in their terms what they read.
+"""
+
+from typing import Any
+
+import numpy as np
+
+from mindrun.sigmoid import DENOMINATOR, LIMIT, NUMERATOR
+from mindrun.trigonometry import C1, C2, C3, C4, C5, C6, PART_1, PART_2, PART_3, S1, S2, S3, S4, S5, S6
+
+F = np.float32
+ZERO, HALF, ONE = F(0), F(0.5), F(1)
+MIN_DENOMINATOR = F(1e-7)
+A1, A3, A5, A7, A9, A11, A13 = (F(a) for a in NUMERATOR)
+B0, B2, B4, B6 = (F(b) for b in DENOMINATOR)
+SIGMOID_LIMIT = F(LIMIT)
+MAX_FLOAT32 = np.finfo(F).max
+
+
+def clamp(v: Any) -> Any:
+    """`v` within 0..1; the caller has looked whether it is finite."""
+    v = v if v > ZERO else ZERO
+    return v if v < ONE else ONE
+
+
+def finite(v: Any) -> Any:
+    """Whether a float32 is neither infinite nor NaN."""
+    return abs(v) <= MAX_FLOAT32
+
+
+def sine_cosine(x: Any) -> Any:
+    """(sin x, cos x) of a float64: the arithmetic of `mindrun.trigonometry`, with selects for its branches."""
+    k = np.floor(x * 0.6366197723675814 + 0.5)
+    r = ((x - k * PART_1) - k * PART_2) - k * PART_3
+    z = r * r
+    s = r + z * r * (S1 + z * (S2 + z * (S3 + z * (S4 + z * (S5 + z * S6)))))
+    half = 0.5 * z
+    rest = 1.0 - half
+    tail = z * z * (C1 + z * (C2 + z * (C3 + z * (C4 + z * (C5 + z * C6)))))
+    c = rest + (((1.0 - rest) - half) + tail)
+    q = k - 4.0 * np.floor(k * 0.25)
+    odd = (q == 1.0) | (q == 3.0)
+    sine = c if odd else s
+    cosine = s if odd else c
+    sine = -sine if q >= 2.0 else sine
+    cosine = -cosine if (q == 1.0) | (q == 2.0) else cosine
+    return sine, cosine
+
+
+PI32, HALF_PI32 = F(np.pi), F(np.pi / 2)
+# Abramowitz and Stegun 4.4.49: within 2e-8.
+T1, T3, T5, T7 = F(0.9999993329), F(-0.3332985605), F(0.1994653599), F(-0.1390853351)
+T9, T11, T13, T15 = F(0.0964200441), F(-0.0559098861), F(0.0218612288), F(-0.0040540580)
+PER_TURN = F(0.5 / np.pi)
+
+
+def bearing(x: Any, y: Any) -> Any:
+    """0.5 − atan2(y, x)/2π of float32s; 0.5 at the origin."""
+    ax, ay = abs(x), abs(y)
+    low = ax if ax < ay else ay
+    high = ax if ax > ay else ay
+    t = low / (high if high > MIN_DENOMINATOR else ONE)
+    z = t * t
+    p = T15
+    p = p * z + T13
+    p = p * z + T11
+    p = p * z + T9
+    p = p * z + T7
+    p = p * z + T5
+    p = p * z + T3
+    p = p * z + T1
+    angle = p * t
+    angle = HALF_PI32 - angle if ay > ax else angle
+    angle = PI32 - angle if x < ZERO else angle
+    angle = -angle if y < ZERO else angle
+    return HALF - angle * PER_TURN
+
+
+def in_claw(body: Any, heading: Any, things: Any, radius: Any, reach: Any, i: Any, p: Any) -> Any:
+    """Whether thing i is ahead of the claw and its rim within the claw's reach, in lane p."""
+    dx, dy = things[4 * i, p] - body[0, p], things[4 * i + 1, p] - body[1, p]
+    ahead = heading[0, p] * dx + heading[1, p] * dy - radius
+    aside = heading[0, p] * dy - heading[1, p] * dx
+    far = reach + things[4 * i + 2, p] / 2
+    return ahead >= 0 and ahead * ahead + aside * aside <= far * far
+
+
+def inside(things: Any, i: Any, x: Any, y: Any, p: Any) -> Any:
+    """Whether a point is inside the square of thing i, in lane p."""
+    half = things[4 * i + 2, p] / 2
+    return abs(things[4 * i, p] - x) <= half and abs(things[4 * i + 1, p] - y) <= half
