@@ -5,11 +5,12 @@ from importlib import import_module
 
 import pytest
 from mindrun.registry import kinds
+from mindrun.sensors import SensorKind
 
 from tests.project.sources import RUNTIME, modules, tree
 
 NOUNS = ("body", "actuator", "sensor", "memory", "skill", "task", "content", "curriculum", "measure", "event")
-SIMULATED = ("actuator", "sensor", "skill", "measure", "event")
+SIMULATED = ("actuator", "measure", "event")
 for room in ("sensors", "actuators", "memory", "measures", "events", "world", "functions", "learners"):
     import_module(f"mindrun.{room}")
 
@@ -26,6 +27,11 @@ def matched() -> set[str]:
 )
 def test_every_kind_is_simulated(noun: str, name: str) -> None:
     assert kinds(noun)[name].__name__ in matched()
+
+
+@pytest.mark.parametrize("name", kinds("sensor"))
+def test_every_sensor_has_a_lane_function(name: str) -> None:
+    assert kinds("sensor")[name].lane is not SensorKind.lane
 
 
 @pytest.mark.parametrize("noun", NOUNS)

@@ -8,6 +8,7 @@ import numpy as np
 import pymunk
 import pytest
 from mindrun.actuators import Gripper, Wheel
+from mindrun.arithmetic import in_claw
 from mindrun.engine import Engine
 from mindrun.events import Reach, Visit
 from mindrun.functions import Mlp
@@ -16,7 +17,6 @@ from mindrun.memory import Cell
 from mindrun.quantity import Span
 from mindrun.sensors import Battery, Bearing, Derivative, RangeFinder, Sine
 from mindrun.sim.lanes.placement import uniform
-from mindrun.sim.lanes.sense import in_claw
 from mindrun.sim.lanes.step import CONTACT_TICKS
 from mindrun.sim.rollout import Rollout
 from mindrun.sim.trace import trace
@@ -70,7 +70,7 @@ def as_python(function: Callable[..., Any]) -> Callable[..., Any]:
 def at(x: float, y: float, size: float, heading: float = 0.0) -> bool:
     """Whether a thing there is in the claw of a robot of radius 1 in the origin, whose reach is 1.5."""
     body, things = np.zeros((6, 1)), np.array([[x], [y], [size], [0.0]])
-    return bool(as_python(in_claw)(body, np.array([[np.cos(heading)], [np.sin(heading)]]), things, 1.0, 1.5, 0, 0))
+    return bool(in_claw(body, np.array([[np.cos(heading)], [np.sin(heading)]]), things, 1.0, 1.5, 0, 0))
 
 
 def test_the_claw_takes_what_is_ahead_of_it() -> None:

@@ -1,0 +1,40 @@
+"""In which direction north is."""
+
+from dataclasses import dataclass
+from typing import Annotated, Any
+
+from mindrun.arithmetic import HALF, F, bearing
+from mindrun.quantity import RATIO
+from mindrun.registry import kind
+from mindrun.sensors.sensor import Physical, Row, Scene, World
+
+
+@kind("sensor", "compass")
+@dataclass(frozen=True, slots=True)
+class Compass(Physical):
+    """Direction of north, where the world's y axis points: 0.5 straight ahead, less on the left, more on the right.
+
+    Within `dead_zone` of straight ahead it reads 0.5; the seam is behind.
+    """
+
+    dead_zone: Annotated[float, RATIO] = 0.0
+
+    circular = True
+    scaled = True
+    blank = rest = 0.5
+
+    def constant(self, world: World) -> float | None:
+        """0.5 where all directions are in the dead zone."""
+        return 0.5 if self.dead_zone > 0.5 else None
+
+    def row(self, scene: Scene) -> Row:
+        """The dead zone."""
+        return {"dead_zone": self.dead_zone}
+
+    @staticmethod
+    def lane(t: Any, s: Any, n: int, clock: int, sensor: Any) -> None:
+        """0.5 − atan2/2π of north in the body's frame."""
+        out = s.readings[sensor.start]
+        for p in range(n):
+            v = bearing(F(s.heading[1, p]), F(s.heading[0, p]))
+            out[p] = HALF if abs(v - HALF) < sensor.dead_zone else v
