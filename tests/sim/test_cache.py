@@ -121,7 +121,7 @@ def test_native_code_is_made_behind_what_was_shipped(
     monkeypatch.setattr(simulator, "is_compiled", lambda: is_there)
     monkeypatch.setattr(warmup, "is_native", lambda: native)
     monkeypatch.setattr(warmup, "start", lambda *words: started.extend(words))
-    simulator.make_ready(Compiled(), lambda words: None)  # type: ignore[arg-type]
+    simulator.ensure_compiled(Compiled(), lambda words: None)  # type: ignore[arg-type]
     assert started == ([warmup.IN_BACKGROUND] if is_there and not native else [])
 
 
