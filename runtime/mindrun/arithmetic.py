@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from mindrun.sigmoid import DENOMINATOR, LIMIT, NUMERATOR
+from mindrun.sigmoid import DENOMINATOR, LIMIT, NUMERATOR, sigmoid
 from mindrun.trigonometry import C1, C2, C3, C4, C5, C6, PART_1, PART_2, PART_3, S1, S2, S3, S4, S5, S6
 
 F = np.float32
@@ -91,3 +91,31 @@ def inside(things: Any, i: Any, x: Any, y: Any, p: Any) -> Any:
     """Whether a point is inside the square of thing i, in lane p."""
     half = things[4 * i + 2, p] / 2
     return abs(things[4 * i, p] - x) <= half and abs(things[4 * i + 1, p] - y) <= half
+
+
+LANES = 16  # side by side, as one value
+
+
+def splat(value: Any) -> Any:
+    """The same number in sixteen lanes."""
+    return np.full(LANES, value, F)
+
+
+def broadcast(array: Any, index: Any) -> Any:
+    """An element of a flat array in sixteen lanes."""
+    return splat(array[index])
+
+
+def load(array: Any, row: Any, lane: Any) -> Any:
+    """Sixteen lanes of a row of an array [row, lane], from `lane` on."""
+    return array[row, lane : lane + LANES].copy()
+
+
+def store(array: Any, row: Any, lane: Any, value: Any) -> None:
+    """Sixteen lanes into a row of an array [row, lane], from `lane` on."""
+    array[row, lane : lane + LANES] = value
+
+
+def sigmoids(values: Any) -> Any:
+    """The sigmoid in sixteen lanes."""
+    return sigmoid(values)

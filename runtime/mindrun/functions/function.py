@@ -1,7 +1,7 @@
 """What every kind of internal function says of itself (Eq. 1); the rest of the program asks, and knows no kind."""
 
 from collections.abc import Callable, Mapping
-from typing import Self
+from typing import Any, Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -38,6 +38,24 @@ class Function:
     def layers(self, inputs: int, outputs: int) -> Layers:
         """The layers of a feed-forward network without biases; none where it is something else."""
         return ()
+
+    def row(self, inputs: int, outputs: int) -> Mapping[str, int]:
+        """What its lane function is told: the `hidden` layers and their `width`."""
+        return {}
+
+    def state_length(self, inputs: int, outputs: int) -> int:
+        """How many numbers it remembers from one tick to the next, 0 at the beginning of a run."""
+        return 0
+
+    @staticmethod
+    def lane(t: Any, s: Any, skill: Any, n: int) -> int:
+        """Write its outputs in n simulated worlds into rows of `s.hidden`; return the first of these rows.
+
+        Compiled, in the terms of `mindrun.arithmetic`. The inputs stand in `s.gathered`, the weights from
+        `skill.weights` on: with `skill.own` in the rows of `s.genome`, else in `t.weights`. World number k is lane
+        `s.active[k]`; what it remembers stands in `s.recurrent` from `skill.state` on.
+        """
+        return 0
 
     def genome_length(self, inputs: int, outputs: int) -> int:
         """How many weights it learns."""

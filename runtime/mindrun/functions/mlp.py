@@ -4,11 +4,12 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import partial
 from itertools import pairwise
-from typing import Annotated
+from typing import Annotated, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from mindrun.arithmetic import LANES, ZERO, broadcast, load, sigmoids, splat, store
 from mindrun.functions.function import Compute, Function, Layers, Weights
 from mindrun.quantity import Quantity
 from mindrun.registry import kind
@@ -52,6 +53,30 @@ class Mlp(Function):
     def genome_length(self, inputs: int, outputs: int) -> int:
         """One weight per connection, no biases."""
         return sum(before * after for before, after in self.layers(inputs, outputs))
+
+    def row(self, inputs: int, outputs: int) -> Mapping[str, int]:
+        """Its hidden layers; it has none where it has nothing to compute."""
+        shape = self.layers(inputs, outputs)
+        return {"hidden": self.hidden, "width": shape[0][1]} if len(shape) > 1 else {}
+
+    @staticmethod
+    def lane(t: Any, s: Any, skill: Any, n: int) -> int:
+        """Layer after layer, in the two halves of `s.hidden` by turns."""
+        half: int = s.hidden.shape[0] // 2
+        source, inputs, place = s.gathered, skill.inputs, skill.weights
+        base = half
+        for layer in range(skill.hidden + 1):
+            base = half - base
+            target = s.hidden[base : base + half]
+            last = layer == skill.hidden
+            outputs = skill.outputs if last else skill.width
+            if skill.own:
+                dense_own(s.genome[place:], source, inputs, target, outputs, last, n)
+            else:
+                dense(t.weights[place:], source, inputs, target, outputs, last, n)
+            place += inputs * outputs
+            source, inputs = target, outputs
+        return base
 
     def draw(self, inputs: int, outputs: int, count: int, rng: np.random.Generator) -> Weights:
         """Random genomes [count, weights] whose outputs are 1/2 where all neurons say 1/2.
@@ -106,3 +131,39 @@ def _dense(matrix: NDArray[np.float32], values: NDArray[np.float32]) -> NDArray[
     # accumulate adds strictly from left to right; sum and @ leave the order, and with it the last bit, open.
     products = matrix * values[..., None, :]
     return np.add.accumulate(products, axis=-1, out=products)[..., -1]
+
+
+def dense(w: Any, source: Any, inputs: int, target: Any, outputs: int, last: bool, n: int) -> None:
+    """target[q] = Σ weight · source[j], summed in the order of j; then the sigmoid, but for the last layer.
+
+    Sixteen lanes and four outputs at a time; w is flat, output after output.
+    """
+    for p in range(0, n, LANES):
+        for q in range(0, outputs - 3, 4):
+            a, b, c, d = splat(ZERO), splat(ZERO), splat(ZERO), splat(ZERO)
+            first = q * inputs
+            for j in range(inputs):
+                x = load(source, j, p)
+                a = a + broadcast(w, first + j) * x
+                b = b + broadcast(w, first + inputs + j) * x
+                c = c + broadcast(w, first + 2 * inputs + j) * x
+                d = d + broadcast(w, first + 3 * inputs + j) * x
+            store(target, q, p, a if last else sigmoids(a))
+            store(target, q + 1, p, b if last else sigmoids(b))
+            store(target, q + 2, p, c if last else sigmoids(c))
+            store(target, q + 3, p, d if last else sigmoids(d))
+        for q in range(outputs - outputs % 4, outputs):
+            a = splat(ZERO)
+            for j in range(inputs):
+                a = a + broadcast(w, q * inputs + j) * load(source, j, p)
+            store(target, q, p, a if last else sigmoids(a))
+
+
+def dense_own(w: Any, source: Any, inputs: int, target: Any, outputs: int, last: bool, n: int) -> None:
+    """As `dense`, with weights [weight, lane] of each lane's own."""
+    for p in range(0, n, LANES):
+        for q in range(outputs):
+            a = splat(ZERO)
+            for j in range(inputs):
+                a = a + load(w, q * inputs + j, p) * load(source, j, p)
+            store(target, q, p, a if last else sigmoids(a))

@@ -36,7 +36,8 @@ def stamp() -> str:
     versions = f"{sys.implementation.cache_tag} {numba.__version__} {llvmlite.__version__}"
     digest = sha256(versions.encode())
     beside = [HERE.parent / name for name in ("arithmetic.py", "sigmoid.py", "trigonometry.py")]
-    for path in sorted([*HERE.glob("*.py"), *HERE.glob("lanes/*.py"), *HERE.parent.glob("sensors/*.py"), *beside]):
+    kinds = (path for noun in ("sensors", "functions") for path in HERE.parent.glob(f"{noun}/*.py"))
+    for path in sorted([*HERE.glob("*.py"), *HERE.glob("lanes/*.py"), *kinds, *beside]):
         digest.update(path.read_bytes())
     return digest.hexdigest()[:16]
 

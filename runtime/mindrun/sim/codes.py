@@ -4,11 +4,11 @@ from typing import Any
 
 import numpy as np
 
+import mindrun.functions
 import mindrun.sensors  # noqa: F401  # which registers them
 from mindrun.registry import kinds
 
 WHEEL_LEFT, WHEEL_RIGHT, GRIPPER, SERVO = range(4)
-MLP, RULE, PROCEDURE = range(3)
 ITEM, ZONE, POWER = range(3)
 STAYS, MOVES, VANISHES = range(3)
 PROGRESS, ADVANCE, RETREAT, FORWARD, CHANGE = range(5)
@@ -31,6 +31,11 @@ def sensor_codes() -> dict[str, int]:
     return {name: code for code, name in enumerate(sorted(kinds("sensor")))}
 
 
+def function_codes() -> dict[str, int]:
+    """The number of every kind of function, by its name."""
+    return {name: code for code, name in enumerate(sorted(kinds("skill")))}
+
+
 def _row(**columns: str) -> np.dtype[Any]:
     return np.dtype(list(columns.items()), align=True)
 
@@ -42,7 +47,7 @@ SENSOR = _row(
 )  # fmt: skip
 SKILL = _row(
     kind="i8", index="i8", input="i8", inputs="i8", outputs="i8", hidden="i8", width="i8", weights="i8", own="i8",
-    edge="i8", edges="i8", address="u8",
+    edge="i8", edges="i8", address="u8", state="i8",
 )  # fmt: skip
 EDGE = _row(to_skill="i8", target="i8", output="i8", code="i8", length="i8")
 CODE = _row(op="i8", arg="i8", value="f8")

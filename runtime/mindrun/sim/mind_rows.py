@@ -8,12 +8,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mindrun import actuators
-from mindrun.functions import Mlp, Procedure
 from mindrun.graph import Actuator, Graph, Sensor, Skill, Task
 from mindrun.memory import Cell
 from mindrun.registry import names
 from mindrun.sensors import Physical
-from mindrun.sim.codes import GRIPPER, MLP, PROCEDURE, RULE, SENSOR, SERVO, WHEEL_LEFT, WHEEL_RIGHT, sensor_codes
+from mindrun.sim.codes import GRIPPER, SENSOR, SERVO, SKILL, WHEEL_LEFT, WHEEL_RIGHT, function_codes, sensor_codes
 from mindrun.sim.programs import Programs
 from mindrun.sim.task_rows import things_of
 from mindrun.weights import genes, weights_of
@@ -29,43 +28,52 @@ def skill_rows(
     learners: Sequence[str],
     addresses: Mapping[str, int],
     codes: Programs,
-) -> tuple[list[Any], list[int], list[Any], list[Floats]]:
-    """Rows of SKILL, the inputs one after the other, rows of EDGE, and the weights of the skills that do not learn.
+) -> "Skills":
+    """What the tables say of the skills that a master reaches.
 
     A learner's weights begin at a place in the genome, the others' at one in what is shared.
     """
     lengths = {skill.name: genes(skill) for skill in reached}
     starts = dict(zip(learners, np.cumsum([0, *(lengths.get(name, 0) for name in learners)]), strict=False))
-    rows: list[Any] = []
+    numbers = function_codes()
+    rows: list[Mapping[str, float]] = []
     inputs: list[int] = []
     edges: list[Any] = []
     shared: list[Floats] = []
+    state = 0
     for skill in reached:
-        kind, hidden, width = _function(skill)
+        function, count, outputs = skill.function, len(skill.inputs), skill.outputs
         own = skill.name in starts
-        place = int(starts[skill.name]) if own else sum(len(part) for part in shared)
-        rows.append((
-            kind, graph.skills.index(skill), len(inputs), len(skill.inputs), skill.outputs, hidden, width, place,
-            own, len(edges), len(skill.edges), addresses.get(skill.name, 0),
-        ))  # fmt: skip
+        rows.append({
+            "kind": numbers[names()[type(function)]], "index": graph.skills.index(skill),
+            "input": len(inputs), "inputs": count, "outputs": outputs,
+            "weights": int(starts[skill.name]) if own else sum(len(part) for part in shared), "own": own,
+            "edge": len(edges), "edges": len(skill.edges), "address": addresses.get(skill.name, 0), "state": state,
+            **function.row(count, outputs),
+        })  # fmt: skip
         inputs.extend(skill.inputs)
         for edge in skill.edges:
             target = edge.target + (len(graph.actuators) if edge.to == "memory" else 0)
             output = -1 if edge.output is None else edge.output
             edges.append((edge.to == "skill", target, output, *codes.add(edge.value)))
-        if kind == MLP and not own:
+        if genes(skill) and not own:
             shared.append(weights_of(skill, weights))
-    return rows, inputs, edges, shared
+        state += function.state_length(count, outputs)
+    return Skills(records(rows, SKILL), inputs, edges, shared, state)
 
 
-def _function(skill: Skill) -> tuple[int, int, int]:
-    match skill.function:
-        case Mlp(hidden=hidden) as mlp:
-            shape = mlp.layers(len(skill.inputs), skill.outputs)
-            return MLP, hidden if shape else 0, shape[0][1] if hidden and shape else 0
-        case Procedure():
-            return PROCEDURE, 0, 0
-    return RULE, 0, 0
+@dataclass(frozen=True, slots=True)
+class Skills:
+    """Rows of SKILL, the inputs one after the other, rows of EDGE, the weights of the skills that do not learn.
+
+    `state` is how many numbers all of them remember.
+    """
+
+    rows: Array
+    inputs: list[int]
+    edges: list[Any]
+    weights: list[Floats]
+    state: int
 
 
 @dataclass(frozen=True, slots=True)

@@ -33,6 +33,7 @@ class State(NamedTuple):
     measured: Array  # [rough readings] float32: what was measured last
     rings: Array  # [rough readings · delay] float32: what was measured and is not seen yet
     genome: Array  # [weights] float32, of the learner
+    recurrent: Array  # [numbers that skills remember] float32
     influence: Array  # [skills] float32
     sums: Array  # [2·(actuators + memories)] float32: command sums, then influence sums
     commands: Array  # [actuators] float32, as they act
@@ -112,7 +113,7 @@ def empty_state(tables: Tables, sizes: Sizes, lanes: int) -> State:
     }  # fmt: skip
     singles = {
         "readings": sizes.readings, "before": sizes.before, "measured": sizes.rough, "rings": sizes.rings,
-        "genome": sizes.genome, "influence": sizes.skills,
+        "genome": sizes.genome, "recurrent": sizes.recurrent, "influence": sizes.skills,
         "sums": 2 * (actuators + len(tables.memories)), "commands": actuators, "late": sizes.delays,
         "last": actuators, "gathered": sizes.inputs, "hidden": 2 * sizes.width, "sight": 4 + rays,
         "slots": 4 * boxes,

@@ -17,7 +17,6 @@ from mindrun.sim.codes import (
     MEMORY,
     OBSTACLE,
     REWARD,
-    SKILL,
     THING,
 )  # fmt: skip
 from mindrun.sim.mind_rows import actuator_rows, memory_row, sensor_rows, skill_rows, used_sensors
@@ -71,6 +70,7 @@ class Sizes:
     inputs: int
     width: int
     genome: int
+    recurrent: int
     delays: int
     changes: int
     patches: int
@@ -90,7 +90,7 @@ def build(
     """The tables of a task under a master; `addresses` are those of the compiled procedures, by skill."""
     codes = Programs()
     reached = reachable(graph, master)
-    skills, inputs, edges, shared = skill_rows(graph, reached, weights, learners, addresses, codes)
+    skills = skill_rows(graph, reached, weights, learners, addresses, codes)
     rewards = [reward_row(reward, codes) for reward in task.rewards]
     used = used_sensors(graph, reached, task)
     sensed = sensor_rows(graph, used, task)
@@ -104,11 +104,11 @@ def build(
         sensors=sensed.rows,
         rays=sensed.rays,
         ray_row=sensed.ray_row,
-        skills=np.array(skills, SKILL),
-        inputs=np.array(inputs, np.int64),
-        edges=np.array(edges, EDGE),
+        skills=skills.rows,
+        inputs=np.array(skills.inputs, np.int64),
+        edges=np.array(skills.edges, EDGE),
         codes=np.array(codes.rows, CODE),
-        weights=np.concatenate([np.zeros(0, np.float32), *shared]).astype(np.float32),
+        weights=np.concatenate([np.zeros(0, np.float32), *skills.weights]).astype(np.float32),
         actuators=np.array(driven, ACTUATOR),
         memories=np.array([memory_row(m.start, m.kind) for m in graph.memories], MEMORY),
         things=np.array(thing_rows(graph, task), THING),
@@ -118,15 +118,17 @@ def build(
         rewards=np.array(rewards, REWARD),
         library=library,
     )
+    states = np.diff(skills.rows["state"], append=skills.state)
     sizes = Sizes(
         readings=max(1, graph.width),
         skills=len(graph.skills),
         before=sensed.derived,
         rough=sensed.rough,
         rings=sensed.rings,
-        inputs=max([1, *(len(s.inputs) for s in reached)]),
-        width=max([1, *(row[6] for row in skills), *(row[4] for row in skills)]),
+        inputs=max(1, *skills.rows["inputs"] + states),
+        width=max(1, *skills.rows["width"], *skills.rows["outputs"], *states),
         genome=genome_length(graph, learners),
+        recurrent=skills.state,
         delays=delays,
         changes=changes,
         patches=patches,

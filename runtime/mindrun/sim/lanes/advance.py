@@ -122,6 +122,7 @@ def reset(t, s, p):
     s.counts[:, p] = 0
     s.reached[:, p], s.delivered[:, p] = 0, 0
     s.changes[:, p] = 0.0
+    s.recurrent[:, p] = 0.0
     s.anchor[:, p] = np.nan
     for i in range(TRAIL_TICKS):
         s.trail[2 * i, p], s.trail[2 * i + 1, p] = s.body[0, p], s.body[1, p]
@@ -158,7 +159,7 @@ def move(s, a, b):
     for rows in (s.body, s.heading, s.nearby, s.things, s.trail, s.changes, s.lines, s.anchor):
         for i in range(rows.shape[0]):
             rows[i, b] = rows[i, a]
-    for rows in (s.readings, s.before, s.measured, s.rings, s.genome, s.late, s.last, s.commands):
+    for rows in (s.readings, s.before, s.measured, s.rings, s.genome, s.recurrent, s.late, s.last, s.commands):
         for i in range(rows.shape[0]):
             rows[i, b] = rows[i, a]
     for row in (s.held, s.tick, s.ended, s.faults, s.job, s.near, s.touching, s.slot_count):

@@ -1,13 +1,35 @@
 """Think: influence flows down the hierarchy (Eq. 2) and the skills that have some compute what they send (Eq. 1)."""
 
-from mindrun.sim.arithmetic import ONE, ZERO, F, clamp, finite
-from mindrun.sim.codes import MLP, PROCEDURE
+from collections.abc import Callable, Sequence
+from typing import Any
+
+from mindrun.registry import kinds
+from mindrun.sim.arithmetic import ONE, ZERO, F, clamp, compiled_lane, finite
+from mindrun.sim.codes import function_codes
 from mindrun.sim.compiling import compiled
 from mindrun.sim.lanes.evaluate import evaluate
 from mindrun.sim.procedures import call
-from mindrun.sim.vector import VECTOR_LANES, broadcast, load, sigmoids, splat, store
 
 NOT_SENT = F(-1)
+
+
+def _chain(functions: Sequence[Any], code: int = 0) -> Callable[..., int]:
+    """A function that calls the lane function of a skill's kind: one compilation, whatever the mind is."""
+    own = compiled_lane(functions[0])
+    if len(functions) == 1:
+        return own
+    other = _chain(functions[1:], code + 1)
+
+    @compiled
+    def compute(t, s, skill, n):
+        if skill.kind == code:
+            return own(t, s, skill, n)
+        return other(t, s, skill, n)
+
+    return compute
+
+
+compute = _chain([kinds("skill")[name].lane for name in function_codes()])
 
 
 @compiled
@@ -28,9 +50,9 @@ def think(t, s, n, first, last):
         count = wake(t, s, n, i)
         if count > 0:
             skill, out = t.skills[i], 0
-            if skill.kind == MLP:
-                out = perceive(t, s, skill, count)
-            elif skill.kind == PROCEDURE and skill.outputs > 0:
+            if skill.address == 0:
+                out = compute(t, s, skill, count)
+            else:
                 s.failed[1] = call(skill.address, s.gathered, s.hidden, count)
                 if s.failed[1] >= 0:
                     s.failed[0] = i
@@ -78,64 +100,6 @@ def gather(rows, readings, gathered, active, sound, count, everywhere):
                 target[k] = source[active[k]]
             for k in range(count):
                 sound[k] += target[k] - target[k]
-
-
-@compiled
-def perceive(t, s, skill, n):
-    """The perceptron's outputs; returns the row of `hidden` where they begin."""
-    half = s.hidden.shape[0] // 2
-    source, inputs, place = s.gathered, skill.inputs, skill.weights
-    base = half
-    for layer in range(skill.hidden + 1):
-        base = half - base
-        target = s.hidden[base : base + half]
-        last = layer == skill.hidden
-        outputs = skill.outputs if last else skill.width
-        if skill.own:
-            dense_own(s.genome[place:], source, inputs, target, outputs, last, n)
-        else:
-            dense(t.weights[place:], source, inputs, target, outputs, last, n)
-        place += inputs * outputs
-        source, inputs = target, outputs
-    return base
-
-
-@compiled
-def dense(w, source, inputs, target, outputs, last, n):
-    """target[q] = Σ weight · source[j], summed in the order of j; then the sigmoid, but for the last layer.
-
-    Sixteen lanes and four outputs at a time; w is flat, output after output.
-    """
-    for p in range(0, n, VECTOR_LANES):
-        for q in range(0, outputs - 3, 4):
-            a, b, c, d = splat(ZERO), splat(ZERO), splat(ZERO), splat(ZERO)
-            first = q * inputs
-            for j in range(inputs):
-                x = load(source, j, p)
-                a = a + broadcast(w, first + j) * x
-                b = b + broadcast(w, first + inputs + j) * x
-                c = c + broadcast(w, first + 2 * inputs + j) * x
-                d = d + broadcast(w, first + 3 * inputs + j) * x
-            store(target, q, p, a if last else sigmoids(a))
-            store(target, q + 1, p, b if last else sigmoids(b))
-            store(target, q + 2, p, c if last else sigmoids(c))
-            store(target, q + 3, p, d if last else sigmoids(d))
-        for q in range(outputs - outputs % 4, outputs):
-            a = splat(ZERO)
-            for j in range(inputs):
-                a = a + broadcast(w, q * inputs + j) * load(source, j, p)
-            store(target, q, p, a if last else sigmoids(a))
-
-
-@compiled
-def dense_own(w, source, inputs, target, outputs, last, n):
-    """As `dense`, with weights [weight, lane] of each lane's own."""
-    for p in range(0, n, VECTOR_LANES):
-        for q in range(outputs):
-            a = splat(ZERO)
-            for j in range(inputs):
-                a = a + load(w, q * inputs + j, p) * load(source, j, p)
-            store(target, q, p, a if last else sigmoids(a))
 
 
 @compiled
