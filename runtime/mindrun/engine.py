@@ -8,6 +8,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from mindrun.errors import MindError, ReadingsError
 from mindrun.functions import Procedure
+from mindrun.functions.function import Stateful
 from mindrun.functions.procedure import module_source
 from mindrun.graph import Graph
 from mindrun.think import hierarchy, think
@@ -51,6 +52,9 @@ class Engine:
 
     def reset(self) -> None:
         """Back to the state before the first tick."""
+        for skill in self._hierarchy.skills:
+            if isinstance(skill.compute, Stateful):
+                skill.compute.reset()
         self._tick = 0
         self._before: NDArray[np.float32] | None = None
         self._cells = np.array([memory.kind.start for memory in self.graph.memories], np.float32)

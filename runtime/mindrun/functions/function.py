@@ -1,7 +1,7 @@
 """What every kind of internal function says of itself (Eq. 1); the rest of the program asks, and knows no kind."""
 
 from collections.abc import Callable, Mapping
-from typing import Any, Self
+from typing import Any, Protocol, Self, runtime_checkable
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,6 +11,15 @@ from mindrun.registry import base
 Compute = Callable[[NDArray[np.float32]], NDArray[np.float32]]
 Weights = NDArray[np.float32]  # of one skill: [genes]
 Layers = tuple[tuple[int, int], ...]  # (values in, values out) of each
+
+
+@runtime_checkable
+class Stateful(Protocol):
+    """A function made ready that remembers from one tick to the next."""
+
+    def reset(self) -> None:
+        """As before the first tick of a run."""
+        ...
 
 
 @base("skill")

@@ -1,0 +1,111 @@
+"""A recurrent network: what its hidden neurons said in the tick before is among their inputs (Elman, 1990)."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+from typing import Annotated, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mindrun.arithmetic import ZERO
+from mindrun.functions.function import Compute, Function, Weights
+from mindrun.functions.mlp import WIDTH, Mlp, dense, dense_own, matrices, perceive
+from mindrun.registry import kind
+from mindrun.sigmoid import sigmoid
+
+
+@kind("skill", "elman")
+@dataclass(frozen=True, slots=True)
+class Elman(Function):
+    """A recurrent network with one hidden layer of `width` neurons (0: Eq. 5, max(inputs, outputs) + 2), no biases.
+
+    Its neurons read the skill's inputs and what they all said when the skill last computed, 0 at the beginning of a
+    run. A skill without influence does not compute, and remembers.
+    """
+
+    width: Annotated[int, WIDTH] = 0
+
+    learns = True
+    opaque = "remembers what it computed"
+
+    @property
+    def derived(self) -> tuple[str, ...]:
+        """The width, where Eq. 5 says it."""
+        return () if self.width else ("width",)
+
+    def explicit(self, inputs: int, outputs: int) -> "Elman":
+        """The network with its width said."""
+        return replace(self, width=self.state_length(inputs, outputs)) if inputs and outputs else self
+
+    def state_length(self, inputs: int, outputs: int) -> int:
+        """What its hidden neurons said."""
+        return (self.width or max(inputs, outputs) + 2) if inputs and outputs else 0
+
+    def genome_length(self, inputs: int, outputs: int) -> int:
+        """One weight per connection: each hidden neuron reads the inputs and all hidden ones, each output these."""
+        return self._unrolled(inputs, outputs).genome_length(inputs + self.state_length(inputs, outputs), outputs)
+
+    def draw(self, inputs: int, outputs: int, count: int, rng: np.random.Generator) -> Weights:
+        """Random genomes as those of a perceptron that has the hidden neurons among its inputs."""
+        return self._unrolled(inputs, outputs).draw(inputs + self.state_length(inputs, outputs), outputs, count, rng)
+
+    def ready(self, inputs: int, outputs: int, weights: Weights, sources: Mapping[str, str]) -> Compute:
+        """Eq. 1 with these weights, from tick to tick."""
+        width = self.state_length(inputs, outputs)
+        if not width:
+            return Function.ready(self, inputs, outputs, weights, sources)
+        hidden, last = matrices(weights, self._unrolled(inputs, outputs).layers(inputs + width, outputs))
+        return Recurrent(hidden, last)
+
+    def row(self, inputs: int, outputs: int) -> Mapping[str, int]:
+        """Its width."""
+        return {"hidden": 1, "width": self.state_length(inputs, outputs)}
+
+    @staticmethod
+    def lane(t: Any, s: Any, skill: Any, n: int) -> int:
+        """As a perceptron that has the hidden neurons among its inputs; what is not sound is not remembered."""
+        half: int = s.hidden.shape[0] // 2
+        inputs, width = skill.inputs, skill.width
+        for j in range(width):
+            for k in range(n):
+                s.gathered[inputs + j, k] = s.recurrent[skill.state + j, s.active[k]]
+        first, last = s.hidden[:half], s.hidden[half:]
+        place = skill.weights + (inputs + width) * width
+        if width == 0:
+            return 0
+        if skill.own:
+            dense_own(s.genome[skill.weights :], s.gathered, inputs + width, first, width, False, n)
+            dense_own(s.genome[place:], first, width, last, skill.outputs, True, n)
+        else:
+            dense(t.weights[skill.weights :], s.gathered, inputs + width, first, width, False, n)
+            dense(t.weights[place:], first, width, last, skill.outputs, True, n)
+        for j in range(width):
+            for k in range(n):
+                if s.sound[k] == ZERO and s.influence[skill.index, s.active[k]] != ZERO:
+                    s.recurrent[skill.state + j, s.active[k]] = first[j, k]
+        return half
+
+    def _unrolled(self, inputs: int, outputs: int) -> Mlp:
+        return Mlp(1, self.state_length(inputs, outputs))
+
+
+@dataclass(slots=True)
+class Recurrent:
+    """A network at work: its matrices [values out, values in], and what its hidden neurons said last."""
+
+    hidden: NDArray[np.float32]
+    last: NDArray[np.float32]
+    said: NDArray[np.float32] = field(init=False)
+
+    def __post_init__(self) -> None:
+        """Begin with nothing said."""
+        self.reset()
+
+    def reset(self) -> None:
+        """Forget."""
+        self.said = np.zeros(len(self.hidden), np.float32)
+
+    def __call__(self, inputs: NDArray[np.float32]) -> NDArray[np.float32]:
+        """Its outputs, before the clamp."""
+        self.said = sigmoid(perceive((self.hidden,), np.concatenate([inputs, self.said])))
+        return perceive((self.last,), self.said)
