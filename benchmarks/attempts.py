@@ -12,7 +12,8 @@ import numpy as np
 from learning import FRESH
 from mindrun.graph import Graph, Lesson
 from mindrun.sim.rollout import Rollout, cores
-from mindrun.train.lesson import Course, begin, teach
+from mindrun.train.lesson import teach
+from mindrun.train.lesson_state import Course, begin
 from workloads import COLLECT, collect
 
 sys.path.append(str(COLLECT.parent / "paper"))

@@ -26,8 +26,9 @@ from learning import REEVALUATION_LAYOUTS, prepared
 from mindrun.graph import Lesson
 from mindrun.learners import EvolutionStrategy, Genetic, Restarting
 from mindrun.sim.rollout import Rollout, cores
-from mindrun.train.lesson import REEVALUATED_CANDIDATES, REEVALUATION_GENERATIONS, Course, begin, generation, judge
+from mindrun.train.lesson import REEVALUATED_CANDIDATES, REEVALUATION_GENERATIONS, generation, judge
 from mindrun.train.lesson import REEVALUATION_LAYOUTS as TRIES
+from mindrun.train.lesson_state import Course, begin
 from mindrun.train.population import MAX_WEIGHT, Genomes, order
 from mindrun.train.training import best
 from mindrun.weights import learners

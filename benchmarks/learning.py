@@ -14,7 +14,8 @@ from typing import Any
 import numpy as np
 from mindrun.graph import Graph, Lesson
 from mindrun.sim.rollout import Rollout, cores
-from mindrun.train.lesson import Course, begin, teach
+from mindrun.train.lesson import teach
+from mindrun.train.lesson_state import Course, begin
 from workloads import collect
 
 FRESH = np.random.SeedSequence(20_211_121).generate_state(100, np.uint64)

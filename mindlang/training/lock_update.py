@@ -8,7 +8,7 @@ import numpy as np
 from mindrun.graph import Lesson
 from mindrun.sim.rollout import Rollout
 from mindrun.train import RunError
-from mindrun.train.lesson import State
+from mindrun.train.lesson_state import State
 from mindrun.train.population import Genomes
 from mindrun.train.run_folder import Run
 from mindrun.train.scoring import mark

@@ -4,7 +4,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Protocol
 
-from mindrun.train.lesson import Record
+from mindrun.train.lesson_state import Record
 from mindrun.train.population import founder_count
 from mindrun.train.progress import read
 from mindrun.train.run_folder import Run

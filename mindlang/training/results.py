@@ -3,7 +3,7 @@
 from math import isfinite
 from typing import Any
 
-from mindrun.train.lesson import State
+from mindrun.train.lesson_state import State
 from mindrun.train.run_folder import WEIGHTS, Run
 
 from mindlang.number_format import duration, number, rate

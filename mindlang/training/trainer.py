@@ -15,7 +15,7 @@ from typing import Any
 from mindrun.graph import Lesson
 from mindrun.sim.rollout import Rollout, cores
 from mindrun.train import RunError
-from mindrun.train.lesson import Record, State
+from mindrun.train.lesson_state import Record, State
 from mindrun.train.population import founder_count
 from mindrun.train.run_folder import Run, keep_result, open_run, read_result
 from mindrun.train.training import Watch, train

@@ -11,7 +11,8 @@ from hypothesis import strategies as st
 from mindrun.functions import Procedure
 from mindrun.functions.procedure import load
 from mindrun.sim.exact import OPERATIONS, exactly
-from mindrun.sim.formulas import NoFormulaError, formula
+from mindrun.sim.formula_terms import NoFormulaError
+from mindrun.sim.formulas import formula
 
 HEAD = "import math\nfrom math import sin, pi as PI\nGAIN, STEPS, ON = 0.3, 7, True\n"
 NUMBERS = (

@@ -10,7 +10,8 @@ import numpy as np
 import pytest
 from mindrun.train import RunError, checkpoint
 from mindrun.train.checkpoint import load, pack, save, unpack
-from mindrun.train.lesson import Course, State, begin, teach
+from mindrun.train.lesson import teach
+from mindrun.train.lesson_state import Course, State, begin
 
 from tests.train.climbing import LENGTH, Sphere, lesson
 

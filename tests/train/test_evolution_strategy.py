@@ -7,7 +7,8 @@ import numpy as np
 import pytest
 from mindrun.learners import EvolutionStrategy, Genetic
 from mindrun.train.ask_and_tell import ask, kept_count, tell
-from mindrun.train.lesson import REEVALUATION_LAYOUTS, Course, begin, could_be, fresh_count, teach
+from mindrun.train.lesson import REEVALUATION_LAYOUTS, fresh_count, teach
+from mindrun.train.lesson_state import Course, begin, could_be
 from mindrun.train.population import Genomes, Population, nobody
 
 from .climbing import LENGTH, Sphere, lesson

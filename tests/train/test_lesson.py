@@ -9,16 +9,13 @@ from mindrun.train.lesson import (
     REEVALUATION_GENERATIONS,
     REEVALUATION_LAYOUTS,
     VERDICT_LAYOUTS,
-    Course,
-    Record,
-    State,
-    begin,
     generation,
     is_better,
     judge,
     teach,
     try_again,
 )
+from mindrun.train.lesson_state import Course, Record, State, begin
 from mindrun.train.population import Population
 from mindrun.train.rungs import is_behind, rung_at
 from mindrun.train.scoring import mark

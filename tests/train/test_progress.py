@@ -13,7 +13,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from mindrun.train import training
-from mindrun.train.lesson import Course, Record, State, begin
+from mindrun.train.lesson_state import Course, Record, State, begin
 from mindrun.train.population import Population
 from mindrun.train.progress import LINES, TABLE, Progress, read
 

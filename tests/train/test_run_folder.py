@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from mindrun.train import RunError, checkpoint
 from mindrun.train.folder_lock import claim
-from mindrun.train.lesson import Record, State
+from mindrun.train.lesson_state import Record, State
 from mindrun.train.progress import read
 from mindrun.train.run_folder import Run, create, open_run
 from mindrun.train.training import Watch, train

@@ -5,7 +5,8 @@ from math import inf
 
 import numpy as np
 import pytest
-from mindrun.train.lesson import Course, State, are_different, begin, could_be, has_ended
+from mindrun.train.lesson import are_different, has_ended
+from mindrun.train.lesson_state import Course, State, begin, could_be
 from mindrun.train.population import Population
 
 from tests.train.climbing import LENGTH, lesson

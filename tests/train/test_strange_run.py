@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from mindrun.train import RunError, checkpoint
-from mindrun.train.lesson import State
+from mindrun.train.lesson_state import State
 from mindrun.train.population import Population
 from mindrun.train.progress import LINES, read
 from mindrun.train.run_folder import MANIFEST, RESULT, Run, create, open_run, read_result, unfinished

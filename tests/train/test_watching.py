@@ -5,7 +5,7 @@ from io import StringIO
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from mindrun.train.lesson import Record
+from mindrun.train.lesson_state import Record
 from rich.console import Console
 
 from mindlang.training.progress import PrintedLines, ProgressBarLine, ProgressLine, ProgressText, TimeLeft

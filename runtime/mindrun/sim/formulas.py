@@ -10,50 +10,26 @@ import ast
 import builtins
 import math
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, replace
-from enum import Enum
+from dataclasses import replace
 from types import BuiltinFunctionType, FunctionType
-from typing import Any, NoReturn
+from typing import Any
 
 from mindrun.sim import exact
-
-EXACT_INTEGERS = 2**53  # whole numbers up to here are floats
-MAX_POWER = 64
-OPERATORS: Mapping[type[ast.operator], str] = {ast.Add: "+", ast.Sub: "-", ast.Mult: "*"}
-COMPARISONS: Mapping[type[ast.cmpop], str] = {
-    ast.Lt: "<", ast.LtE: "<=", ast.Gt: ">", ast.GtE: ">=", ast.Eq: "==", ast.NotEq: "!=",
-}  # fmt: skip
-
-
-class NoFormulaError(Exception):
-    """A procedure is more than arithmetic with floats; the text says where."""
-
-
-class Kind(Enum):
-    """What Python makes of a term: a float, a whole number or a float, a truth."""
-
-    FLOAT, NUMBER, TRUTH = range(3)
-
-
-@dataclass(frozen=True, slots=True)
-class Term:
-    """A term of the new text. Where it is a whole number, it is at most `size` from 0; `whole` is which, if known."""
-
-    text: str
-    kind: Kind
-    size: int = 1
-    whole: int | None = None
-
-    @property
-    def number(self) -> str:
-        """The term as a float."""
-        return f"(1.0 if {self.text} else 0.0)" if self.kind is Kind.TRUTH else self.text
-
-    @property
-    def truth(self) -> str:
-        """The term as a truth."""
-        return self.text if self.kind is Kind.TRUTH else f"({self.text} != 0.0)"
-
+from mindrun.sim.formula_terms import (
+    COMPARISONS,
+    Kind,
+    NoFormulaError,
+    Term,
+    are_truths,
+    binary,
+    constant,
+    either,
+    has_truth,
+    named,
+    number_of,
+    refuse,
+    unary,
+)
 
 Known = dict[str, Term]  # the variables that surely have a value
 
@@ -100,11 +76,11 @@ class Translation:
         if self._definition.decorator_list:
             raise NoFormulaError("it is decorated")
         lines, known = self._block(
-            self._definition.body, {name: Term(_named(name), Kind.FLOAT) for name in self._parameters}
+            self._definition.body, {name: Term(named(name), Kind.FLOAT) for name in self._parameters}
         )
         if known is not None:
             raise NoFormulaError("it does not always return something")
-        head = ", ".join(["wrong", *map(_named, self._parameters)])
+        head = ", ".join(["wrong", *map(named, self._parameters)])
         return "\n ".join([f"def formula({head}):", *lines])
 
     def _block(self, statements: Sequence[ast.stmt], known: Known) -> tuple[list[str], Known | None]:
@@ -134,7 +110,7 @@ class Translation:
                         return lines, None
                     now = after
                 case _:
-                    _refuse(statement)
+                    refuse(statement)
         return lines, now
 
     def _branches(self, statement: ast.If, known: Known) -> tuple[list[str], Known | None]:
@@ -145,21 +121,21 @@ class Translation:
         if then is None or otherwise is None:
             return lines, then if otherwise is None else otherwise
         both = [(name, term, otherwise[name]) for name, term in then.items() if name in otherwise]
-        return lines, {name: _either(a.text, a, b) for name, a, b in both if (a.kind is b.kind) or not _truths(a, b)}
+        return lines, {name: either(a.text, a, b) for name, a, b in both if (a.kind is b.kind) or not has_truth(a, b)}
 
     def _assigned(self, target: ast.expr, value: ast.expr, known: Known) -> str:
         match target, value:
             case ast.Name(id=name), _:
                 term = self._term(value, known)
-                known[name] = replace(term, text=_named(name), whole=None)
-                return f"{_named(name)} = {term.text}"
+                known[name] = replace(term, text=named(name), whole=None)
+                return f"{named(name)} = {term.text}"
             case ast.Tuple(elts=targets), ast.Tuple(elts=values) if len(targets) == len(values):
-                names = [each.id if isinstance(each, ast.Name) else _refuse(target) for each in targets]
+                names = [each.id if isinstance(each, ast.Name) else refuse(target) for each in targets]
                 terms = [self._term(each, known) for each in values]
                 for name, term in zip(names, terms, strict=True):
-                    known[name] = replace(term, text=_named(name), whole=None)
-                return f"{', '.join(map(_named, names))}, = {', '.join(term.text for term in terms)},"
-        return _refuse(target)
+                    known[name] = replace(term, text=named(name), whole=None)
+                return f"{', '.join(map(named, names))}, = {', '.join(term.text for term in terms)},"
+        return refuse(target)
 
     def _returned(self, value: ast.expr, known: Known) -> str:
         parts = value.elts if isinstance(value, ast.Tuple | ast.List) else [value]
@@ -173,46 +149,46 @@ class Translation:
     def _term(self, node: ast.expr, known: Known) -> Term:
         match node:
             case ast.Constant(value=value):
-                return _constant(value, node)
+                return constant(value, node)
             case ast.Name(id=name) if name in self._locals:
-                return known[name] if name in known else _refuse(node)
+                return known[name] if name in known else refuse(node)
             case ast.Name() | ast.Attribute():
-                return _constant(self._object(node), node)
+                return constant(self._object(node), node)
             case ast.UnaryOp(op=op, operand=operand):
-                return _unary(op, self._term(operand, known), node)
+                return unary(op, self._term(operand, known), node)
             case ast.BinOp(left=left, op=op, right=right):
-                return _binary(op, self._term(left, known), self._term(right, known), node)
+                return binary(op, self._term(left, known), self._term(right, known), node)
             case ast.BoolOp(op=op, values=values):
                 word = " and " if isinstance(op, ast.And) else " or "
                 terms = [self._term(value, known) for value in values]
-                texts = [term.text if _all_truths(terms) else term.number for term in terms]
-                return _either(f"({word.join(texts)})", *terms)
+                texts = [term.text if are_truths(terms) else term.number for term in terms]
+                return either(f"({word.join(texts)})", *terms)
             case ast.Compare(left=left, ops=ops, comparators=others) if all(type(op) in COMPARISONS for op in ops):
                 first, *rest = (self._term(each, known).number for each in (left, *others))
                 compared = (f" {COMPARISONS[type(op)]} {text}" for op, text in zip(ops, rest, strict=True))
                 return Term(f"({first}{''.join(compared)})", Kind.TRUTH)
             case ast.IfExp(test=test, body=body, orelse=orelse):
                 condition, *both = (self._term(each, known) for each in (test, body, orelse))
-                texts = [term.text if _all_truths(both) else term.number for term in both]
-                return _either(f"({texts[0]} if {condition.truth} else {texts[1]})", *both)
+                texts = [term.text if are_truths(both) else term.number for term in both]
+                return either(f"({texts[0]} if {condition.truth} else {texts[1]})", *both)
             case ast.Call(func=func, args=args, keywords=[]):
                 return self._call(self._object(func), [self._term(each, known) for each in args], node)
-        return _refuse(node)
+        return refuse(node)
 
     def _call(self, called: Any, terms: Sequence[Term], node: ast.expr) -> Term:
         texts = [term.number for term in terms]
         if called is float and len(terms) == 1:
             return Term(texts[0], Kind.FLOAT)
         if called is abs and len(terms) == 1:
-            return replace(_number(terms[0]), text=f"abs({texts[0]})", whole=None)
+            return replace(number_of(terms[0]), text=f"abs({texts[0]})", whole=None)
         if (called is max or called is min) and len(terms) > 1:
             text = texts[0]
             for other in texts[1:]:
                 text = f"{'larger' if called is max else 'smaller'}({text}, {other})"
-            return _either(text, *map(_number, terms))
+            return either(text, *map(number_of, terms))
         if len(terms) == 1 and isinstance(called, BuiltinFunctionType) and called in exact.MATH:
             return Term(f"{exact.MATH[called]}(wrong, {texts[0]})", Kind.FLOAT)
-        return _refuse(node)
+        return refuse(node)
 
     def _object(self, node: ast.expr) -> Any:
         """What a name stands for outside the function, where that cannot change."""
@@ -223,8 +199,8 @@ class Translation:
                 if name not in self._globals:
                     return getattr(builtins, name, None)
                 found = self._globals[name]
-                return found if type(found) not in (int, float, bool) or self._is_steady(name) else _refuse(node)
-        return _refuse(node)
+                return found if type(found) not in (int, float, bool) or self._is_steady(name) else refuse(node)
+        return refuse(node)
 
     def _is_steady(self, name: str) -> bool:
         """Whether the module gives a name its value in one place and never again."""
@@ -238,77 +214,3 @@ class Translation:
                 case ast.alias(name=imported, asname=known_as):
                     given += (known_as or imported) in (name, "*")
         return given == 1
-
-
-def _named(name: str) -> str:
-    return f"v_{name}"
-
-
-def _refuse(node: ast.AST) -> NoReturn:
-    text = ast.unparse(node).split("\n")[0]
-    said = text if len(text) <= 40 else f"{text[:39]}…"
-    raise NoFormulaError(f"`{said}` in line {getattr(node, 'lineno', '?')} is more than arithmetic with floats")
-
-
-def _constant(value: Any, node: ast.expr) -> Term:
-    match value:
-        case bool():
-            return Term(str(value), Kind.TRUTH)
-        case int() if abs(value) <= EXACT_INTEGERS:
-            return Term(f"({float(value)!r})", Kind.NUMBER, abs(value), value)
-        case float():
-            return Term({"inf": "INF", "-inf": "(-INF)", "nan": "NAN"}.get(repr(value), f"({value!r})"), Kind.FLOAT)
-    return _refuse(node)
-
-
-def _number(term: Term) -> Term:
-    """A term that is calculated with: a truth is 1 or 0."""
-    return Term(term.number, Kind.NUMBER) if term.kind is Kind.TRUTH else term
-
-
-def _unary(op: ast.unaryop, term: Term, node: ast.expr) -> Term:
-    match op:
-        case ast.Not():
-            return Term(f"(not {term.truth})", Kind.TRUTH)
-        case ast.USub() | ast.UAdd():
-            sign, number = "-" if isinstance(op, ast.USub) else "+", _number(term)
-            whole = None if term.whole is None else -term.whole if sign == "-" else term.whole
-            return replace(number, text=f"({sign}{number.text})", whole=whole)
-    return _refuse(node)
-
-
-def _binary(op: ast.operator, left: Term, right: Term, node: ast.expr) -> Term:
-    a, b = _number(left), _number(right)
-    if isinstance(op, ast.Pow):
-        if b.whole is None or abs(b.whole) > MAX_POWER:
-            _refuse(node)
-        text, size = f"power(wrong, {a.text}, {b.text})", a.size ** abs(b.whole)
-        if a.kind is Kind.FLOAT or b.whole < 0:
-            return Term(text, Kind.FLOAT)
-        return Term(text, Kind.NUMBER, size) if size <= EXACT_INTEGERS else _refuse(node)
-    if isinstance(op, ast.Div):
-        return Term(f"divide(wrong, {a.text}, {b.text})", Kind.FLOAT)
-    if isinstance(op, ast.Mod):
-        text, size = f"modulo(wrong, {a.text}, {b.text})", b.size
-    elif type(op) in OPERATORS:
-        text = f"({a.text} {OPERATORS[type(op)]} {b.text})"
-        size = a.size * b.size if isinstance(op, ast.Mult) else a.size + b.size
-    else:
-        _refuse(node)
-    if Kind.FLOAT in (a.kind, b.kind):
-        return Term(text, Kind.FLOAT)
-    return Term(text, Kind.NUMBER, size) if size <= EXACT_INTEGERS else _refuse(node)
-
-
-def _truths(*terms: Term) -> bool:
-    return any(term.kind is Kind.TRUTH for term in terms)
-
-
-def _all_truths(terms: Sequence[Term]) -> bool:
-    return all(term.kind is Kind.TRUTH for term in terms)
-
-
-def _either(text: str, *terms: Term) -> Term:
-    """One of several terms, whichever it is."""
-    kinds = {term.kind for term in terms}
-    return Term(text, kinds.pop() if len(kinds) == 1 else Kind.NUMBER, max(term.size for term in terms))

@@ -25,7 +25,8 @@ from mindrun.graph import Graph, Skill
 from mindrun.sim.arithmetic import F
 from mindrun.sim.compiling import compiled
 from mindrun.sim.exact import exactly
-from mindrun.sim.formulas import NoFormulaError, formula
+from mindrun.sim.formula_terms import NoFormulaError
+from mindrun.sim.formulas import formula
 from mindrun.weights import reachable
 
 # the lane in which it fails or −1; inputs, outputs, lanes, the distance between rows in floats

@@ -18,7 +18,7 @@ from mindrun.atomic_write import sync_folder, write_beside
 from mindrun.regular_files import read_whole
 from mindrun.strict_json import is_whole, parsed
 from mindrun.train import RunError
-from mindrun.train.lesson import State
+from mindrun.train.lesson_state import State
 from mindrun.train.population import Population
 
 NAME, PREVIOUS = "checkpoint", "checkpoint.previous"

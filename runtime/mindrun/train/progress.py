@@ -12,7 +12,7 @@ from mindrun import atomic_write
 from mindrun.regular_files import read_whole
 from mindrun.strict_json import is_whole, parsed
 from mindrun.train import RunError
-from mindrun.train.lesson import Record, State
+from mindrun.train.lesson_state import Record, State
 
 LINES, TABLE = "progress.jsonl", "progress.csv"
 Logged = dict[str, float | None]  # a generation: as Record, None where a score is not finite

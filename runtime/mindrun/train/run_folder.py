@@ -16,7 +16,7 @@ from mindrun.npy import from_npy, to_npy
 from mindrun.regular_files import read_whole
 from mindrun.strict_json import parsed
 from mindrun.train import NotFoundError, RunError, checkpoint
-from mindrun.train.lesson import Course
+from mindrun.train.lesson_state import Course
 from mindrun.train.manifest import Manifest, from_json, hashes, to_json
 from mindrun.train.population import Genomes
 from mindrun.weights import Weights

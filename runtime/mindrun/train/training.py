@@ -7,7 +7,8 @@ from pathlib import Path
 
 from mindrun.train import RunError, checkpoint
 from mindrun.train.folder_lock import claim
-from mindrun.train.lesson import Clock, Course, Record, State, begin, could_be, teach
+from mindrun.train.lesson import Clock, teach
+from mindrun.train.lesson_state import Course, Record, State, begin, could_be
 from mindrun.train.population import Genomes
 from mindrun.train.progress import Progress
 from mindrun.train.run_folder import Run, keep_champions, keep_weights

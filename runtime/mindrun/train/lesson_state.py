@@ -1,0 +1,121 @@
+"""Where a lesson stands: all that it needs to go on, and what is written down of each generation."""
+
+from dataclasses import dataclass
+from math import inf
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mindrun.graph import Lesson
+from mindrun.train.ask_and_tell import kept_count
+from mindrun.train.population import Genomes, Population, Scores, nobody, order
+from mindrun.train.rungs import not_climbed
+
+
+@dataclass(frozen=True, slots=True)
+class Course:
+    """What stays the same throughout a run; `start` [0 or 1, weights] is what the skill knows before the lesson."""
+
+    lesson: Lesson
+    seed: int
+    start: Genomes
+
+    @property
+    def generations(self) -> int:
+        """How many generations all attempts have together."""
+        return self.lesson.generations * self.lesson.learner.attempts
+
+
+@dataclass(frozen=True, slots=True)
+class State:
+    """Where a run stands, all that is needed to go on.
+
+    `champion` [0 or 1, weights] is the best of this attempt; `rival` [0 or 1, weights] the last one that was better
+    beyond doubt than the one before it, found in generation `since`.
+
+    `rungs` [attempts begun, rungs] has the score of each attempt's champion at each rung, the lowest first, on layouts
+    that all attempts have there; -inf where it has not come so far.
+
+    Of the attempts that have ended, `champions` [ended, weights] are the best, `lengths` [ended] their generations, and
+    `verdicts` [ended, 2] their scores on layouts that chose nothing before: the first decides between the attempts, the
+    second, on yet others, is what is reported.
+
+    `told_apart` says whether the task has ever given two genomes of a generation different scores: if not, there was
+    nothing to learn from.
+    """
+
+    attempt: int
+    population: Population
+    champion: Genomes
+    rival: Genomes
+    since: int
+    rungs: Scores
+    champions: Genomes
+    lengths: NDArray[np.int64]
+    verdicts: Scores
+    best: float
+    generations: int
+    ticks: int
+    seconds: float
+    faults: int
+    told_apart: bool
+
+    @property
+    def _best(self) -> NDArray[np.intp]:
+        """Which attempt is kept [0 or 1]: the one that did best, the first of equals."""
+        return order(self.verdicts[:, 0])[:1]
+
+    @property
+    def kept(self) -> Genomes:
+        """The champion that is kept [0 or 1, weights]."""
+        return self.champions[self._best]
+
+    @property
+    def kept_after(self) -> int:
+        """The generations of the attempt whose champion is kept; 0 before one has ended."""
+        return int(self.lengths[self._best[0]]) if len(self.lengths) else 0
+
+    @property
+    def reevaluated(self) -> float:
+        """The score of the kept one on layouts that chose nothing; -inf before an attempt has ended."""
+        return float(self.verdicts[self._best[0], 1]) if len(self.verdicts) else -inf
+
+
+@dataclass(frozen=True, slots=True)
+class Record:
+    """One generation in the log; attempts and generations count from 1.
+
+    `reevaluated` is the champion's score where it was tried on fresh layouts, `verdict` its score at the attempt's end.
+    """
+
+    attempt: int
+    generation: int
+    best: float
+    mean: float
+    reevaluated: float | None
+    verdict: float | None
+    ticks: int
+    seconds: float
+    faults: int
+
+
+def begin(course: Course) -> State:
+    """The state before the first generation."""
+    empty = course.start[:0]
+    ended = empty, np.empty(0, np.int64), np.empty((0, 2))
+    rungs = not_climbed(course.lesson)
+    return State(0, nobody(empty.shape[1]), course.start, empty, 0, rungs, *ended, -inf, 0, 0, 0.0, 0, False)
+
+
+def could_be(course: Course, state: State) -> bool:
+    """Whether a state that was read is one to which a run of this course could have come."""
+    individuals, weights = state.population.genomes.shape
+    generation = state.population.generation
+    return (
+        weights == course.start.shape[1]
+        and individuals in (0, kept_count(course.lesson.learner))
+        and state.attempt <= course.lesson.learner.attempts
+        and state.rungs.shape[1] == course.lesson.learner.rungs
+        and state.since <= generation < max(1, course.lesson.generations)
+        and not (state.lengths > course.lesson.generations).any()
+    )
