@@ -11,6 +11,14 @@ from mindrun.sigmoid import DENOMINATOR, LIMIT, NUMERATOR, sigmoid
 from mindrun.trigonometry import C1, C2, C3, C4, C5, C6, PART_1, PART_2, PART_3, S1, S2, S3, S4, S5, S6
 
 F = np.float32
+X, Y, ANGLE, SPEED_X, SPEED_Y, SPIN = range(6)  # rows of a body; of all else that has a place the first two
+COSINE, SINE = range(2)  # rows of a heading
+THING_ROWS, SIZE, DISTANCE = (
+    4,
+    2,
+    3,
+)  # the rows of a thing; of these its size, and how far the robot was when the tick began
+BOX_COLUMNS, HALF_SIDE = 3, 2  # of a box: how many, and half its side
 ZERO, HALF, ONE = F(0), F(0.5), F(1)
 MIN_DENOMINATOR = F(1e-7)
 A1, A3, A5, A7, A9, A11, A13 = (F(a) for a in NUMERATOR)
@@ -80,17 +88,17 @@ def bearing(x: Any, y: Any) -> Any:
 
 def in_claw(body: Any, heading: Any, things: Any, radius: Any, reach: Any, i: Any, p: Any) -> Any:
     """Whether thing i is ahead of the claw and its rim within the claw's reach, in lane p."""
-    dx, dy = things[4 * i, p] - body[0, p], things[4 * i + 1, p] - body[1, p]
-    ahead = heading[0, p] * dx + heading[1, p] * dy - radius
-    aside = heading[0, p] * dy - heading[1, p] * dx
-    far = reach + things[4 * i + 2, p] / 2
+    dx, dy = things[THING_ROWS * i + X, p] - body[X, p], things[THING_ROWS * i + Y, p] - body[Y, p]
+    ahead = heading[COSINE, p] * dx + heading[SINE, p] * dy - radius
+    aside = heading[COSINE, p] * dy - heading[SINE, p] * dx
+    far = reach + things[THING_ROWS * i + SIZE, p] / 2
     return ahead >= 0 and ahead * ahead + aside * aside <= far * far
 
 
 def inside(things: Any, i: Any, x: Any, y: Any, p: Any) -> Any:
     """Whether a point is inside the square of thing i, in lane p."""
-    half = things[4 * i + 2, p] / 2
-    return abs(things[4 * i, p] - x) <= half and abs(things[4 * i + 1, p] - y) <= half
+    half = things[THING_ROWS * i + SIZE, p] / 2
+    return abs(things[THING_ROWS * i + X, p] - x) <= half and abs(things[THING_ROWS * i + Y, p] - y) <= half
 
 
 LANES = 16  # side by side, as one value

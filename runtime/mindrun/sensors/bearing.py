@@ -4,7 +4,7 @@ from dataclasses import dataclass
 from math import inf
 from typing import Annotated, Any
 
-from mindrun.arithmetic import HALF, F, bearing
+from mindrun.arithmetic import COSINE, DISTANCE, HALF, SINE, THING_ROWS, F, X, Y, bearing
 from mindrun.quantity import LENGTH, RATIO, THING
 from mindrun.registry import kind
 from mindrun.sensors.sensor import Physical, Row, Scene, World
@@ -48,10 +48,14 @@ class Bearing(Physical):
             for p in range(n):
                 out[p] = HALF
             return
-        x, y, away = s.things[4 * sensor.thing], s.things[4 * sensor.thing + 1], s.things[4 * sensor.thing + 3]
+        x, y, away = (
+            s.things[THING_ROWS * sensor.thing + X],
+            s.things[THING_ROWS * sensor.thing + Y],
+            s.things[THING_ROWS * sensor.thing + DISTANCE],
+        )
         for p in range(n):
-            dx, dy = F(x[p] - s.body[0, p]), F(y[p] - s.body[1, p])
-            cosine, sine = F(s.heading[0, p]), F(s.heading[1, p])
+            dx, dy = F(x[p] - s.body[X, p]), F(y[p] - s.body[Y, p])
+            cosine, sine = F(s.heading[COSINE, p]), F(s.heading[SINE, p])
             v = bearing(cosine * dx + sine * dy, cosine * dy - sine * dx)
             v = HALF if abs(v - HALF) < sensor.dead_zone else v
             out[p] = v if away[p] <= sensor.range else HALF

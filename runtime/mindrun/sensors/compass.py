@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 from typing import Annotated, Any
 
-from mindrun.arithmetic import HALF, F, bearing
+from mindrun.arithmetic import COSINE, HALF, SINE, F, bearing
 from mindrun.quantity import RATIO
 from mindrun.registry import kind
 from mindrun.sensors.sensor import Physical, Row, Scene, World
@@ -36,5 +36,5 @@ class Compass(Physical):
         """0.5 − atan2/2π of north in the body's frame."""
         out = s.readings[sensor.start]
         for p in range(n):
-            v = bearing(F(s.heading[1, p]), F(s.heading[0, p]))
+            v = bearing(F(s.heading[SINE, p]), F(s.heading[COSINE, p]))
             out[p] = HALF if abs(v - HALF) < sensor.dead_zone else v

@@ -5,7 +5,7 @@ from typing import Annotated, Any
 
 import numpy as np
 
-from mindrun.arithmetic import ZERO, F, clamp
+from mindrun.arithmetic import ZERO, F, X, Y, clamp
 from mindrun.quantity import POSITIVE, RATIO
 from mindrun.registry import kind
 from mindrun.sensors.sensor import Physical, Row, Scene
@@ -31,6 +31,6 @@ class Inertial(Physical):
         oldest = clock % TRAIL_TICKS
         out, x, y = s.readings[sensor.start], s.trail[2 * oldest], s.trail[2 * oldest + 1]
         for p in range(n):
-            dx, dy = s.body[0, p] - x[p], s.body[1, p] - y[p]
+            dx, dy = s.body[X, p] - x[p], s.body[Y, p] - y[p]
             v = clamp(F(np.sqrt(dx * dx + dy * dy)) * sensor.gain)
             out[p] = ZERO if v < sensor.dead_zone else v

@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 from typing import Annotated, Any
 
-from mindrun.arithmetic import ONE, ZERO, inside
+from mindrun.arithmetic import ONE, ZERO, X, Y, inside
 from mindrun.quantity import THING
 from mindrun.registry import kind
 from mindrun.sensors.sensor import Physical, World
@@ -31,5 +31,5 @@ class Inside(Physical):
     def lane(t: Any, s: Any, n: int, clock: int, sensor: Any) -> None:
         """1 where the robot's centre is in the square of the thing."""
         for p in range(n):
-            there = sensor.thing >= 0 and inside(s.things, sensor.thing, s.body[0, p], s.body[1, p], p)
+            there = sensor.thing >= 0 and inside(s.things, sensor.thing, s.body[X, p], s.body[Y, p], p)
             s.readings[sensor.start, p] = ONE if there else ZERO

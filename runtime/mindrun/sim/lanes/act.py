@@ -1,5 +1,6 @@
 """Act: the commands that the influence makes (Eq. 3), their delays, and the claw; the memory cells when all is done."""
 
+from mindrun.arithmetic import COSINE, SINE, THING_ROWS, X, Y
 from mindrun.sim.arithmetic import HALF, ONE, ZERO, F, clamp, finite, in_claw
 from mindrun.sim.codes import GRIPPER, ITEM
 from mindrun.sim.compiling import compiled
@@ -78,5 +79,5 @@ def carry(held, body, heading, things, kinds, n):
     for p in range(n):
         if held[p] >= 0:
             i, ahead = held[p], kinds[held[p]].hold
-            things[4 * i, p] = body[0, p] + heading[0, p] * ahead
-            things[4 * i + 1, p] = body[1, p] + heading[1, p] * ahead
+            things[THING_ROWS * i + X, p] = body[X, p] + heading[COSINE, p] * ahead
+            things[THING_ROWS * i + Y, p] = body[Y, p] + heading[SINE, p] * ahead

@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from mindrun.arithmetic import ANGLE, COSINE, SINE, X, Y
 from mindrun.sensors.inertial import TRAIL_TICKS
 from mindrun.sim.arithmetic import sine_cosine
 from mindrun.sim.codes import GOING_ON, LOST, VISIT
@@ -46,7 +47,7 @@ def after(t, s, jobs, interrupt):
     n, clock = jobs.lanes[0], jobs.clock[0]
     act(t, s, n, clock)
     for p in range(n):
-        s.was[0, p], s.was[1, p] = s.body[0, p], s.body[1, p]
+        s.was[X, p], s.was[Y, p] = s.body[X, p], s.body[Y, p]
     step(t, s, n)
     judge(t, s, n, clock, interrupt)
     recall(t, s, n)
@@ -64,7 +65,7 @@ def going_on(body, ended, tick, ticks, n):
     """In how many lanes the run is not over: most often in all of them, and then nothing else looks."""
     count = 0
     for p in range(n):
-        placed = within(body[0, p], body[1, p], body[2, p])
+        placed = within(body[X, p], body[Y, p], body[ANGLE, p])
         count += 1 if placed & (ended[p] == GOING_ON) & (tick[p] < ticks) else 0
     return count
 
@@ -117,7 +118,7 @@ def reset(t, s, p):
     s.held[p], s.near[p], s.touching[p], s.faults[p] = -1, 0, 0, 0
     s.tick[p], s.ended[p] = 0, GOING_ON
     s.battery[p] = t.world[0].start
-    s.heading[1, p], s.heading[0, p] = sine_cosine(s.body[2, p])
+    s.heading[SINE, p], s.heading[COSINE, p] = sine_cosine(s.body[ANGLE, p])
     s.lines[:, p] = 0.0
     s.counts[:, p] = 0
     s.reached[:, p], s.delivered[:, p] = 0, 0
@@ -125,7 +126,7 @@ def reset(t, s, p):
     s.recurrent[:, p] = 0.0
     s.anchor[:, p] = np.nan
     for i in range(TRAIL_TICKS):
-        s.trail[2 * i, p], s.trail[2 * i + 1, p] = s.body[0, p], s.body[1, p]
+        s.trail[2 * i, p], s.trail[2 * i + 1, p] = s.body[X, p], s.body[Y, p]
     for i in range(len(t.actuators)):
         actuator = t.actuators[i]
         s.last[i, p] = actuator.neutral

@@ -12,6 +12,7 @@ from numba import types
 from numba.extending import intrinsic
 from pymunk import _chipmunk
 
+from mindrun.arithmetic import BOX_COLUMNS, HALF_SIDE, SIZE, THING_ROWS, X, Y
 from mindrun.sim.codes import FORCE_X, FORCE_Y, TORQUE
 from mindrun.sim.compiling import callback, compiled
 
@@ -101,7 +102,8 @@ def open_space(t, s, p):
     static = call(c[SPACE_STATIC], space)
     shape = 3 + things
     for b in range(s.boxes.shape[1] // 3):
-        x, y, half = s.boxes[p, 3 * b], s.boxes[p, 3 * b + 1], s.boxes[p, 3 * b + 2]
+        box = BOX_COLUMNS * b
+        x, y, half = s.boxes[p, box + X], s.boxes[p, box + Y], s.boxes[p, box + HALF_SIDE]
         s.handles[p, shape + b] = add_box(c, space, static, s.floats[p], x - half, y - half, x + half, y + half)
     shape += s.boxes.shape[1] // 3
     if world.half < 1e300:
@@ -165,7 +167,7 @@ def push_body(t, s, p):
         if circle != 0:
             call(c[SHAPE_SENSOR], circle, 0 if s.held[p] == i else 1)
             if s.held[p] == i:
-                call(c[CIRCLE_RADIUS], circle, s.things[4 * i + 2, p] / 2)
+                call(c[CIRCLE_RADIUS], circle, s.things[THING_ROWS * i + SIZE, p] / 2)
 
 
 @compiled

@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from mindrun.arithmetic import COSINE, DISTANCE, SINE, THING_ROWS, X, Y
 from mindrun.sensors.inertial import TRAIL_TICKS
 from mindrun.sim.arithmetic import inside
 from mindrun.sim.codes import (
@@ -52,15 +53,15 @@ def judge(t, s, n, clock, interrupt):
     oldest = clock % TRAIL_TICKS
     for p in range(n):
         s.tick[p] += 1
-        s.trail[2 * oldest, p], s.trail[2 * oldest + 1, p] = s.was[0, p], s.was[1, p]
+        s.trail[2 * oldest, p], s.trail[2 * oldest + 1, p] = s.was[X, p], s.was[Y, p]
 
 
 @compiled
 def progress(out, body, things, i, kind, n):
     """The distance to thing i that this tick closed, or its positive or negative part; 0 where it has vanished."""
     for p in range(n):
-        dx, dy = things[4 * i, p] - body[0, p], things[4 * i + 1, p] - body[1, p]
-        closed = things[4 * i + 3, p] - np.sqrt(dx * dx + dy * dy)
+        dx, dy = things[THING_ROWS * i + X, p] - body[X, p], things[THING_ROWS * i + Y, p] - body[Y, p]
+        closed = things[THING_ROWS * i + DISTANCE, p] - np.sqrt(dx * dx + dy * dy)
         if kind == ADVANCE:
             closed = closed if closed > 0.0 else 0.0
         elif kind == RETREAT:
@@ -72,7 +73,7 @@ def progress(out, body, things, i, kind, n):
 def forward(out, body, heading, before, n):
     """1 where the robot moved forward; `before` holds x and y of the tick's beginning."""
     for p in range(n):
-        along = (body[0, p] - before[0, p]) * heading[0, p] + (body[1, p] - before[1, p]) * heading[1, p]
+        along = (body[X, p] - before[X, p]) * heading[COSINE, p] + (body[Y, p] - before[Y, p]) * heading[SINE, p]
         out[p] = 1.0 if along > 1e-6 else 0.0
 
 
@@ -107,7 +108,7 @@ def drain(t, s, n):
     for p in range(n):
         charged = False
         for i in range(len(t.things)):
-            if t.things[i].kind == POWER and inside(s.things, i, s.body[0, p], s.body[1, p], p):
+            if t.things[i].kind == POWER and inside(s.things, i, s.body[X, p], s.body[Y, p], p):
                 charged = True
         left = s.battery[p] + world.charge if charged else s.battery[p] - world.drain
         s.battery[p] = min(1.0, max(0.0, left))
@@ -140,8 +141,8 @@ def notice(t, s, event, out, n):
 @compiled
 def patch_of(body, half, patch, columns, p):
     """The number of the patch that the robot's centre is in."""
-    x = min(columns - 1, max(0, int((body[0, p] + half) / patch)))
-    y = min(columns - 1, max(0, int((body[1, p] + half) / patch)))
+    x = min(columns - 1, max(0, int((body[X, p] + half) / patch)))
+    y = min(columns - 1, max(0, int((body[Y, p] + half) / patch)))
     return y * columns + x
 
 

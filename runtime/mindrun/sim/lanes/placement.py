@@ -6,6 +6,7 @@ the same world. Everything is placed clear of everything else, with room for the
 
 import numpy as np
 
+from mindrun.arithmetic import ANGLE, BOX_COLUMNS, HALF_SIDE, SIZE, THING_ROWS, X, Y
 from mindrun.sim.arithmetic import sine_cosine
 from mindrun.sim.codes import FAR
 from mindrun.sim.compiling import compiled
@@ -42,12 +43,20 @@ def draw(t, s, p):
         for _ in range(obstacles[i].count):
             size = uniform(s.random, p, obstacles[i].first, obstacles[i].last)
             x, y = find(s, world.half, world.radius, obstacles[i].low, obstacles[i].high, size / 2, -1, p)
-            s.boxes[p, 3 * box], s.boxes[p, 3 * box + 1], s.boxes[p, 3 * box + 2] = x, y, size / 2
+            put_box(s.boxes, box, x, y, size / 2, p)
             box += 1
     for i in range(len(t.things)):
         thing = t.things[i]
-        s.things[4 * i + 2, p] = uniform(s.random, p, thing.first, thing.last) if thing.drawn else thing.first
+        size = uniform(s.random, p, thing.first, thing.last) if thing.drawn else thing.first
+        s.things[THING_ROWS * i + SIZE, p] = size
         put(t, s, i, p)
+
+
+@compiled
+def put_box(boxes, b, x, y, half, p):
+    """Box number b stands at a place."""
+    box = BOX_COLUMNS * b
+    boxes[p, box + X], boxes[p, box + Y], boxes[p, box + HALF_SIDE] = x, y, half
 
 
 @compiled
@@ -59,7 +68,7 @@ def draw_grid(s, obstacle, box, p):
             x = (column - middle) * obstacle.grid + uniform(s.random, p, -obstacle.jitter, obstacle.jitter)
             y = (row - middle) * obstacle.grid + uniform(s.random, p, -obstacle.jitter, obstacle.jitter)
             size = uniform(s.random, p, obstacle.first, obstacle.last)
-            s.boxes[p, 3 * box], s.boxes[p, 3 * box + 1], s.boxes[p, 3 * box + 2] = x, y, size / 2
+            put_box(s.boxes, box, x, y, size / 2, p)
             box += 1
     return box
 
@@ -70,19 +79,20 @@ def start(s, half, radius, p):
     s.body[:, p] = 0.0
     if half < 1e300:
         for _ in range(MAX_TRIES):
-            s.body[0, p] = uniform(s.random, p, -half + 3 * radius, half - 3 * radius)
-            s.body[1, p] = uniform(s.random, p, -half + 3 * radius, half - 3 * radius)
-            if clear(s, s.body[0, p], s.body[1, p], 3 * radius, p):
+            s.body[X, p] = uniform(s.random, p, -half + 3 * radius, half - 3 * radius)
+            s.body[Y, p] = uniform(s.random, p, -half + 3 * radius, half - 3 * radius)
+            if clear(s, s.body[X, p], s.body[Y, p], 3 * radius, p):
                 break
-    s.body[2, p] = uniform(s.random, p, 0.0, 2 * np.pi)
+    s.body[ANGLE, p] = uniform(s.random, p, 0.0, 2 * np.pi)
 
 
 @compiled
 def clear(s, x, y, margin, p):
     """Whether no obstacle comes within `margin` of a point, along the axes."""
     for b in range(s.boxes.shape[1] // 3):
-        gap = s.boxes[p, 3 * b + 2] + margin
-        if abs(s.boxes[p, 3 * b] - x) < gap and abs(s.boxes[p, 3 * b + 1] - y) < gap:
+        box = BOX_COLUMNS * b
+        gap = s.boxes[p, box + HALF_SIDE] + margin
+        if abs(s.boxes[p, box + X] - x) < gap and abs(s.boxes[p, box + Y] - y) < gap:
             return False
     return True
 
@@ -101,13 +111,14 @@ def find(s, half, radius, low, high, extent, but, p):
         else:
             sine, cosine = sine_cosine(uniform(s.random, p, 0.0, 2 * np.pi))
             far = uniform(s.random, p, low, high)
-            x, y = s.body[0, p] + far * cosine, s.body[1, p] + far * sine
-        dx, dy = x - s.body[0, p], y - s.body[1, p]
+            x, y = s.body[X, p] + far * cosine, s.body[Y, p] + far * sine
+        dx, dy = x - s.body[X, p], y - s.body[Y, p]
         far = np.sqrt(dx * dx + dy * dy)
         ok = far > low - 1e-9 and far < high + 1e-9 and clear(s, x, y, extent + 2 * radius, p)
         for i in range(s.things.shape[0] // 4):
-            gap = extent + s.things[4 * i + 2, p] / 2
-            if i != but and abs(s.things[4 * i, p] - x) < gap and abs(s.things[4 * i + 1, p] - y) < gap:
+            thing = THING_ROWS * i
+            gap = extent + s.things[thing + SIZE, p] / 2
+            if i != but and abs(s.things[thing + X, p] - x) < gap and abs(s.things[thing + Y, p] - y) < gap:
                 ok = False
         if ok:
             break
@@ -118,22 +129,22 @@ def find(s, half, radius, low, high, extent, but, p):
 def put(t, s, i, p):
     """Thing i somewhere else in lane p."""
     world, thing = t.world[0], t.things[i]
-    x, y = find(s, world.half, world.radius, thing.low, thing.high, s.things[4 * i + 2, p] / 2, i, p)
-    s.things[4 * i, p], s.things[4 * i + 1, p] = x, y
+    x, y = find(s, world.half, world.radius, thing.low, thing.high, s.things[THING_ROWS * i + SIZE, p] / 2, i, p)
+    s.things[THING_ROWS * i + X, p], s.things[THING_ROWS * i + Y, p] = x, y
 
 
 @compiled
 def succeed(t, s, i, p):
     """Thing i moves: it takes the next step of its schedule and appears elsewhere, let go and not yet reached."""
     thing = t.things[i]
-    size = s.things[4 * i + 2, p]
+    size = s.things[THING_ROWS * i + SIZE, p]
     if thing.drawn:
         size = uniform(s.random, p, thing.first, thing.last)
     elif thing.first > thing.last:
         size = max(thing.last, size - thing.by)
     elif thing.first < thing.last:
         size = min(thing.last, size + thing.by)
-    s.things[4 * i + 2, p] = size
+    s.things[THING_ROWS * i + SIZE, p] = size
     forget(s, i, p)
     put(t, s, i, p)
 
@@ -142,7 +153,7 @@ def succeed(t, s, i, p):
 def vanish(s, i, p):
     """Thing i is nowhere for the rest of the run: a place that is no number is in nobody's reach or way."""
     forget(s, i, p)
-    s.things[4 * i, p], s.things[4 * i + 1, p] = np.nan, np.nan
+    s.things[THING_ROWS * i + X, p], s.things[THING_ROWS * i + Y, p] = np.nan, np.nan
 
 
 @compiled

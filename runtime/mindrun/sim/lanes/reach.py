@@ -3,6 +3,7 @@
 Nothing here depends on whether a line of the task names the event: what measures changes nothing.
 """
 
+from mindrun.arithmetic import THING_ROWS, X, Y
 from mindrun.sim.arithmetic import in_claw, inside
 from mindrun.sim.codes import ITEM, MOVES, STAYS, VANISHES, ZONE
 from mindrun.sim.compiling import compiled
@@ -26,7 +27,7 @@ def meet(t, s, n):
                 begun += note(s.reached, i, p, now)
         elif thing.is_reached:
             for p in range(n):
-                begun += note(s.reached, i, p, inside(s.things, i, s.body[0, p], s.body[1, p], p))
+                begun += note(s.reached, i, p, inside(s.things, i, s.body[X, p], s.body[Y, p], p))
         if thing.is_delivered:
             for p in range(n):
                 was = s.delivered[i, p] & 1 == 1
@@ -44,8 +45,9 @@ def note(rows, i, p, now):
 @compiled
 def in_zone(t, things, i, p):
     """Whether the middle of thing i is inside any zone."""
+    x, y = things[THING_ROWS * i + X, p], things[THING_ROWS * i + Y, p]
     for z in range(len(t.things)):
-        if t.things[z].kind == ZONE and inside(things, z, things[4 * i, p], things[4 * i + 1, p], p):
+        if t.things[z].kind == ZONE and inside(things, z, x, y, p):
             return True
     return False
 

@@ -5,7 +5,7 @@ from typing import Any
 
 import numpy as np
 
-from mindrun.arithmetic import MAX_FLOAT32
+from mindrun.arithmetic import BOX_COLUMNS, COSINE, DISTANCE, HALF_SIDE, MAX_FLOAT32, SINE, THING_ROWS, X, Y
 from mindrun.registry import kinds
 from mindrun.sim.arithmetic import ONE, ZERO, F, clamp, compiled_lane
 from mindrun.sim.codes import AWAY, sensor_codes
@@ -85,8 +85,8 @@ def see(body, things, count, n):
     """The distance of every thing when the tick begins."""
     for i in range(count):
         for p in range(n):
-            dx, dy = things[4 * i, p] - body[0, p], things[4 * i + 1, p] - body[1, p]
-            things[4 * i + 3, p] = np.sqrt(dx * dx + dy * dy)
+            dx, dy = things[THING_ROWS * i + X, p] - body[X, p], things[THING_ROWS * i + Y, p] - body[Y, p]
+            things[THING_ROWS * i + DISTANCE, p] = np.sqrt(dx * dx + dy * dy)
 
 
 @compiled
@@ -95,10 +95,10 @@ def look(t, s, n):
     world = t.world[0]
     count = s.slot_most[0]
     for k in range(count):
-        place(s.body, s.nearby[3 * k : 3 * k + 3], s.slots[4 * k : 4 * k + 4], n)
+        place(s.body, s.nearby[BOX_COLUMNS * k : BOX_COLUMNS * (k + 1)], s.slots[4 * k : 4 * k + 4], n)
     for p in range(n):
-        s.sight[0, p], s.sight[1, p] = F(s.heading[0, p]), F(s.heading[1, p])
-        s.sight[2, p], s.sight[3, p] = F(s.body[0, p]), F(s.body[1, p])
+        s.sight[0, p], s.sight[1, p] = F(s.heading[COSINE, p]), F(s.heading[SINE, p])
+        s.sight[2, p], s.sight[3, p] = F(s.body[X, p]), F(s.body[Y, p])
     for p in range(0, n, VECTOR_LANES):
         for ray in range(len(t.ray_row)):
             store(s.sight, 4 + ray, p, along(s.sight, t.rays[0, ray], t.rays[1, ray], F(world.half), s.slots, count, p))
@@ -133,19 +133,21 @@ def choose(body, boxes, anchor, nearby, slot_count, reach, n):
     total = boxes.shape[1] // 3
     most = 0
     for p in range(n):
-        dx, dy = body[0, p] - anchor[0, p], body[1, p] - anchor[1, p]
+        dx, dy = body[X, p] - anchor[X, p], body[Y, p] - anchor[Y, p]
         if not dx * dx + dy * dy < (CULLING_SLACK_UNITS * 0.9) ** 2:
-            x, y = body[0, p], body[1, p]
-            anchor[0, p], anchor[1, p] = x, y
+            x, y = body[X, p], body[Y, p]
+            anchor[X, p], anchor[Y, p] = x, y
             found = 0
             for b in range(total):
-                margin = boxes[p, 3 * b + 2] + reach
-                if abs(boxes[p, 3 * b] - x) < margin and abs(boxes[p, 3 * b + 1] - y) < margin:
-                    for i in range(3):
-                        nearby[3 * found + i, p] = boxes[p, 3 * b + i]
+                box = BOX_COLUMNS * b
+                margin = boxes[p, box + HALF_SIDE] + reach
+                if abs(boxes[p, box + X] - x) < margin and abs(boxes[p, box + Y] - y) < margin:
+                    for i in range(BOX_COLUMNS):
+                        nearby[BOX_COLUMNS * found + i, p] = boxes[p, box + i]
                     found += 1
             for k in range(found, slot_count[p]):
-                nearby[3 * k, p], nearby[3 * k + 1, p], nearby[3 * k + 2, p] = AWAY, AWAY, 0.0
+                box = BOX_COLUMNS * k
+                nearby[box + X, p], nearby[box + Y, p], nearby[box + HALF_SIDE, p] = AWAY, AWAY, 0.0
             slot_count[p] = found
         most = max(most, slot_count[p])
     return most
@@ -155,6 +157,6 @@ def choose(body, boxes, anchor, nearby, slot_count, reach, n):
 def place(body, box, sides, n):
     """The sides of a box of each lane relative to the robot; no ray meets one that is AWAY before a wall."""
     for p in range(n):
-        dx, dy, half = F(box[0, p] - body[0, p]), F(box[1, p] - body[1, p]), F(box[2, p])
+        dx, dy, half = F(box[X, p] - body[X, p]), F(box[Y, p] - body[Y, p]), F(box[HALF_SIDE, p])
         sides[0, p], sides[1, p] = dx - half, dx + half
         sides[2, p], sides[3, p] = dy - half, dy + half

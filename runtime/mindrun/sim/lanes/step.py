@@ -1,5 +1,19 @@
 """Step: one tick of physics. Free flight is plain arithmetic in Chipmunk's order; Chipmunk steps what could touch."""
 
+from mindrun.arithmetic import (
+    ANGLE,
+    BOX_COLUMNS,
+    COSINE,
+    HALF_SIDE,
+    SINE,
+    SIZE,
+    SPEED_X,
+    SPEED_Y,
+    SPIN,
+    THING_ROWS,
+    X,
+    Y,
+)
 from mindrun.sim.arithmetic import sine_cosine
 from mindrun.sim.codes import FAR, FORCE, FORCE_X, FORCE_Y, TORQUE, WHEEL_LEFT, WHEEL_RIGHT
 from mindrun.sim.compiling import compiled
@@ -28,7 +42,7 @@ def step(t, s, n):
             if step_space(t, s, p, world.dt) > 0:
                 s.touching[p] |= 1
     for p in range(n):
-        s.heading[1, p], s.heading[0, p] = sine_cosine(s.body[2, p])
+        s.heading[SINE, p], s.heading[COSINE, p] = sine_cosine(s.body[ANGLE, p])
     carry(s.held, s.body, s.heading, s.things, t.things, n)
 
 
@@ -59,11 +73,11 @@ def wheel(commands, strength, force, torque, arm, n):
 def damp(body, heading, push, linear, angular, n):
     """v / (1 + dt·c), as JBox2D does; and the force turned into the world."""
     for p in range(n):
-        body[3, p] = body[3, p] * linear
-        body[4, p] = body[4, p] * linear
-        body[5, p] = body[5, p] * angular
-        push[FORCE_X, p] = push[FORCE, p] * heading[0, p]
-        push[FORCE_Y, p] = push[FORCE, p] * heading[1, p]
+        body[SPEED_X, p] = body[SPEED_X, p] * linear
+        body[SPEED_Y, p] = body[SPEED_Y, p] * linear
+        body[SPIN, p] = body[SPIN, p] * angular
+        push[FORCE_X, p] = push[FORCE, p] * heading[COSINE, p]
+        push[FORCE_Y, p] = push[FORCE, p] * heading[SINE, p]
 
 
 @compiled
@@ -74,12 +88,12 @@ def fly(body, push, near, dt, mass_inv, moment_inv, n):
     """
     for p in range(n):
         free = near[p] == 0
-        body[0, p] = body[0, p] + body[3, p] * dt if free else body[0, p]
-        body[1, p] = body[1, p] + body[4, p] * dt if free else body[1, p]
-        body[2, p] = body[2, p] + body[5, p] * dt if free else body[2, p]
-        body[3, p] = body[3, p] + push[FORCE_X, p] * mass_inv * dt if free else body[3, p]
-        body[4, p] = body[4, p] + push[FORCE_Y, p] * mass_inv * dt if free else body[4, p]
-        body[5, p] = body[5, p] + push[TORQUE, p] * moment_inv * dt if free else body[5, p]
+        body[X, p] = body[X, p] + body[SPEED_X, p] * dt if free else body[X, p]
+        body[Y, p] = body[Y, p] + body[SPEED_Y, p] * dt if free else body[Y, p]
+        body[ANGLE, p] = body[ANGLE, p] + body[SPIN, p] * dt if free else body[ANGLE, p]
+        body[SPEED_X, p] = body[SPEED_X, p] + push[FORCE_X, p] * mass_inv * dt if free else body[SPEED_X, p]
+        body[SPEED_Y, p] = body[SPEED_Y, p] + push[FORCE_Y, p] * mass_inv * dt if free else body[SPEED_Y, p]
+        body[SPIN, p] = body[SPIN, p] + push[TORQUE, p] * moment_inv * dt if free else body[SPIN, p]
 
 
 @compiled
@@ -93,20 +107,20 @@ def find_near(t, s, n):
     gap = s.gap
     clearance(s.body, world.half, world.dt, gap, n)
     for k in range(s.slot_most[0]):
-        approach(s.nearby[3 * k : 3 * k + 3], s.body, world.dt, gap, n)
+        approach(s.nearby[BOX_COLUMNS * k : BOX_COLUMNS * (k + 1)], s.body, world.dt, gap, n)
     for p in range(n):
         s.near[p] = max(0, s.near[p] - 1)
         if s.held[p] >= 0:
-            thing = 4 * s.held[p]
-            item_reach = t.things[s.held[p]].hold + s.things[thing + 2, p] / 2 + CONTACT_MARGIN_UNITS
+            thing = THING_ROWS * s.held[p]
+            item_reach = t.things[s.held[p]].hold + s.things[thing + SIZE, p] / 2 + CONTACT_MARGIN_UNITS
             if gap[p] < item_reach:
                 s.near[p] = CONTACT_TICKS
-        x, y = s.body[0, p] + s.body[3, p] * world.dt, s.body[1, p] + s.body[4, p] * world.dt
-        away = (x - s.anchor[0, p]) ** 2 + (y - s.anchor[1, p]) ** 2
+        x, y = s.body[X, p] + s.body[SPEED_X, p] * world.dt, s.body[Y, p] + s.body[SPEED_Y, p] * world.dt
+        away = (x - s.anchor[X, p]) ** 2 + (y - s.anchor[Y, p]) ** 2
         leap = away > CULLING_SLACK_UNITS * CULLING_SLACK_UNITS  # away from the boxes it knows
         if leap or gap[p] < reach:
             s.near[p] = CONTACT_TICKS
-        if not within(x, y, s.body[2, p] + s.body[5, p] * world.dt):
+        if not within(x, y, s.body[ANGLE, p] + s.body[SPIN, p] * world.dt):
             s.near[p] = 0
 
 
@@ -119,14 +133,14 @@ def within(x, y, angle):
 @compiled
 def is_lost(body, p):
     """Whether lane p's robot is where no world is."""
-    return not within(body[0, p], body[1, p], body[2, p])
+    return not within(body[X, p], body[Y, p], body[ANGLE, p])
 
 
 @compiled
 def clearance(body, half, dt, gap, n):
     """The distance between the robot's next centre and the walls."""
     for p in range(n):
-        x, y = abs(body[0, p] + body[3, p] * dt), abs(body[1, p] + body[4, p] * dt)
+        x, y = abs(body[X, p] + body[SPEED_X, p] * dt), abs(body[Y, p] + body[SPEED_Y, p] * dt)
         gap[p] = half - (x if x > y else y)
 
 
@@ -134,7 +148,7 @@ def clearance(body, half, dt, gap, n):
 def approach(box, body, dt, gap, n):
     """`gap` lowered to the distance along the axes between the robot's next centre and a box of each lane."""
     for p in range(n):
-        x = abs(body[0, p] + body[3, p] * dt - box[0, p]) - box[2, p]
-        y = abs(body[1, p] + body[4, p] * dt - box[1, p]) - box[2, p]
+        x = abs(body[X, p] + body[SPEED_X, p] * dt - box[X, p]) - box[HALF_SIDE, p]
+        y = abs(body[Y, p] + body[SPEED_Y, p] * dt - box[Y, p]) - box[HALF_SIDE, p]
         far = x if x > y else y
         gap[p] = far if far < gap[p] else gap[p]
