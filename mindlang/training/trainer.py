@@ -16,20 +16,18 @@ from mindrun.graph import Lesson
 from mindrun.sim.rollout import Rollout, cores
 from mindrun.train import RunError
 from mindrun.train.lesson_state import Record, State
-from mindrun.train.population import founder_count
-from mindrun.train.run_folder import Run, keep_result, open_run, read_result
+from mindrun.train.run_folder import Run, open_run, read_result
 from mindrun.train.training import Watch, train
 from mindrun.weights import learners
 
 from mindlang.lock import LockError
-from mindlang.resource_limits import refuse_too_large, refuse_too_long
 from mindlang.simulator_compilation import ensure_compiled
 from mindlang.terminal import load_compiled, procedures_talk, talk
 from mindlang.training.lesson_choice import TrainOptions, chosen_lessons, is_due
-from mindlang.training.lock_update import Kept, keep
 from mindlang.training.progress import PrintedLines, ProgressBarLine, Silent, TimeLeft, Watcher
-from mindlang.training.results import Result, opening, outcome, result_of
+from mindlang.training.results import Result, opening, outcome
 from mindlang.training.subject import Subject, begin_run, open_subject, refuse_changed
+from mindlang.training.teaching import Taught, finish, has_ended, rollout_of
 
 
 @dataclass(frozen=True, slots=True)
@@ -90,41 +88,26 @@ class Trainer:
             return True
         rollout = self._rollout(run, subject)
         state = self._watched(run, rollout)
-        if state.attempt < run.manifest.lesson.learner.attempts:
+        if not has_ended(run, state):
             talk.print(f"saved; to go on: {_command(run)}", markup=False)
             return False
-        kept = self._kept(run, subject, state, rollout, force)
-        result = result_of(run, state, kept)
-        keep_result(run.folder, result)
-        self._say(*outcome(run, result, kept, subject.keep_path(run.manifest.lesson).name))
-        self._print(result)
+        taught = self._finished(run, subject, state, rollout, force)
+        self._say(*outcome(run, taught.result, taught.kept, subject.keep_path(run.manifest.lesson).name))
+        self._print(taught.result)
         return True
 
     @procedures_talk()
-    def _kept(self, run: Run, subject: Subject, state: State, rollout: Rollout, force: bool) -> Kept:
+    def _finished(self, run: Run, subject: Subject, state: State, rollout: Rollout, force: bool) -> Taught:
         try:
-            return keep(run, subject, state, rollout, force)
+            return finish(run, subject, state, rollout, force)
         except LockError as error:
             hint = f"what was learnt is safe; mend that, then: {_command(run)}"
             raise RunError(str(error), hint) from error
 
     @procedures_talk()
     def _rollout(self, run: Run, subject: Subject) -> Rollout:
-        lesson = run.manifest.lesson
         self._say(opening(run))
-        rollout = Rollout(
-            subject.graph,
-            run.weights,
-            lesson.task,
-            lesson.master,
-            run.manifest.learners,
-            procedures=subject.folder,
-            workers=self.workers or cores(),
-        )
-        learner = lesson.learner
-        first = founder_count(learner)
-        refuse_too_large(rollout, first, learner.layouts)
-        refuse_too_long(rollout, (first + learner.population * (lesson.generations - 1)) * learner.layouts)
+        rollout = rollout_of(run, subject, self.workers or cores())
         ensure_compiled(rollout, self._say)  # before the clock of the lesson starts
         return rollout
 

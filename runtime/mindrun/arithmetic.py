@@ -13,11 +13,7 @@ from mindrun.trigonometry import C1, C2, C3, C4, C5, C6, PART_1, PART_2, PART_3,
 F = np.float32
 X, Y, ANGLE, SPEED_X, SPEED_Y, SPIN = range(6)  # rows of a body; of all else that has a place the first two
 COSINE, SINE = range(2)  # rows of a heading
-THING_ROWS, SIZE, DISTANCE = (
-    4,
-    2,
-    3,
-)  # the rows of a thing; of these its size, and how far the robot was when the tick began
+THING_ROWS, SIZE, DISTANCE = 4, 2, 3  # of a thing: how many, its size, how far the robot was as the tick began
 BOX_COLUMNS, HALF_SIDE = 3, 2  # of a box: how many, and half its side
 ZERO, HALF, ONE = F(0), F(0.5), F(1)
 MIN_DENOMINATOR = F(1e-7)

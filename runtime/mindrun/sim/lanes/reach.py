@@ -46,10 +46,10 @@ def note(rows, i, p, now):
 def in_zone(t, things, i, p):
     """Whether the middle of thing i is inside any zone."""
     x, y = things[THING_ROWS * i + X, p], things[THING_ROWS * i + Y, p]
+    found = False
     for z in range(len(t.things)):
-        if t.things[z].kind == ZONE and inside(things, z, x, y, p):
-            return True
-    return False
+        found = found or (t.things[z].kind == ZONE and inside(things, z, x, y, p))
+    return found
 
 
 @compiled

@@ -1,0 +1,56 @@
+"""The beginning and the end of a run of a lesson: what scores its genomes, and what becomes of what was learnt."""
+
+from dataclasses import dataclass
+
+from mindrun.sim.rollout import Rollout
+from mindrun.train.lesson_state import State
+from mindrun.train.population import founder_count
+from mindrun.train.run_folder import Run, keep_result
+
+from mindlang.resource_limits import refuse_too_large, refuse_too_long
+from mindlang.training.lock_update import Kept, keep
+from mindlang.training.results import Result, result_of
+from mindlang.training.subject import Subject
+
+
+@dataclass(frozen=True, slots=True)
+class Taught:
+    """What came of a run that has ended."""
+
+    result: Result
+    kept: Kept
+
+
+def rollout_of(run: Run, subject: Subject, workers: int) -> Rollout:
+    """What scores the genomes of a run; MindError where memory or a year would not suffice."""
+    lesson = run.manifest.lesson
+    rollout = Rollout(
+        subject.graph,
+        run.weights,
+        lesson.task,
+        lesson.master,
+        run.manifest.learners,
+        procedures=subject.folder,
+        workers=workers,
+    )
+    learner = lesson.learner
+    first = founder_count(learner)
+    refuse_too_large(rollout, first, learner.layouts)
+    refuse_too_long(rollout, (first + learner.population * (lesson.generations - 1)) * learner.layouts)
+    return rollout
+
+
+def finish(run: Run, subject: Subject, state: State, rollout: Rollout, force: bool) -> Taught:
+    """Put what a run has taught into the lock, unless what is there does better; with `force` even then.
+
+    MindError where nothing was learnt, or the lock is damaged.
+    """
+    kept = keep(run, subject, state, rollout, force)
+    result = result_of(run, state, kept)
+    keep_result(run.folder, result)
+    return Taught(result, kept)
+
+
+def has_ended(run: Run, state: State) -> bool:
+    """Whether a run has come to its end; it was stopped otherwise."""
+    return state.attempt == run.manifest.lesson.learner.attempts
