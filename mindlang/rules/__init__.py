@@ -6,7 +6,7 @@ from functools import cache
 from importlib import import_module
 from pkgutil import iter_modules
 
-from mindlang.linting.study import Found, Study
+from mindlang.analysis.study import Found, Study
 
 
 @dataclass(frozen=True, slots=True)

@@ -5,9 +5,9 @@ it, and a skill that goes there goes nowhere. A skill that is taught several tim
 long as one of them has the thing.
 """
 
+from mindlang.analysis.study import Finding, Found, Study
 from mindlang.compiler.diagnostic import Label, listed
 from mindlang.compiler.model import Lesson
-from mindlang.linting.study import Finding, Found, Study
 
 SEEK = """
 sensor ball_bearing is bearing of ball

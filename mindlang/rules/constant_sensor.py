@@ -4,8 +4,8 @@ A claw that no skill closes never holds anything, a sine of one or two ticks is 
 without drain stays as it is, and what never changes has no derivative. Whoever reads such a sensor learns nothing.
 """
 
-from mindlang.linting.study import Finding, Found, Study
-from mindlang.linting.worlds import any_world
+from mindlang.analysis.study import Finding, Found, Study
+from mindlang.analysis.worlds import any_world
 
 BALL = """
 sensor holding is held of ball

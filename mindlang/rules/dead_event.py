@@ -5,11 +5,11 @@ nor is what moves away as soon as it is reached, and a battery without drain nev
 of its time, and the count stays 0.
 """
 
+from mindlang.analysis.study import Finding, Found, Study
+from mindlang.analysis.worlds import world
 from mindlang.compiler.diagnostic import Fix
 from mindlang.compiler.syntax import Counts, Ends
 from mindlang.editing.insertion import without_fact
-from mindlang.linting.study import Finding, Found, Study
-from mindlang.linting.worlds import world
 
 GOOD = (
     "task Course in arena\n  lasts 9 s\n  ends on collision\n  counts collision\n",

@@ -4,13 +4,13 @@ Its condition cannot hold with readings between 0 and 1, its event cannot happen
 amount is always 0. Learning goes on without it and nobody notices.
 """
 
+from mindlang.analysis.intervals import said
+from mindlang.analysis.study import Finding, Found, Study
+from mindlang.analysis.worlds import World, world
 from mindlang.compiler.diagnostic import Fix
 from mindlang.compiler.model import Condition, Reward
 from mindlang.compiler.source import Span
 from mindlang.editing.insertion import without_fact
-from mindlang.linting.intervals import said
-from mindlang.linting.study import Finding, Found, Study
-from mindlang.linting.worlds import World, world
 
 BEGIN = """
 sensor eye is range_finder at 0 deg

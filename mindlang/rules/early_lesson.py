@@ -6,9 +6,9 @@ stops there. Teach subskills first; lessons are taught in the order in which the
 
 from collections.abc import Sequence, Set
 
+from mindlang.analysis.study import Finding, Found, Study
 from mindlang.compiler.diagnostic import Label
 from mindlang.compiler.model import Lesson
-from mindlang.linting.study import Finding, Found, Study
 
 HIERARCHY = """
 master Live

@@ -4,10 +4,10 @@ A skill without influence does not act at all (Eq. 2), so the line says the same
 another matter: 0 is a command as any other.
 """
 
+from mindlang.analysis.intervals import interval
+from mindlang.analysis.study import Finding, Found, Study
 from mindlang.compiler.diagnostic import Fix
 from mindlang.editing.insertion import without_fact
-from mindlang.linting.intervals import interval
-from mindlang.linting.study import Finding, Found, Study
 
 BELOW = """
 master Live

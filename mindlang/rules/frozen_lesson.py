@@ -4,9 +4,9 @@ A frozen skill keeps its weights, and training passes such a lesson over. Take `
 learn again, or the lesson if it is not.
 """
 
+from mindlang.analysis.study import Finding, Found, Study
 from mindlang.compiler.diagnostic import Fix
 from mindlang.editing.insertion import without_fact
-from mindlang.linting.study import Finding, Found, Study
 
 GOOD = (
     """

@@ -6,7 +6,7 @@ Where both have one name the sensor is meant, so in rewards the measure can no l
 
 from mindrun.registry import arguments, kinds
 
-from mindlang.linting.study import Finding, Found, Study
+from mindlang.analysis.study import Finding, Found, Study
 
 GOOD = (
     """

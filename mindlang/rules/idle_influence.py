@@ -6,10 +6,10 @@ influence on it is an output that costs weights and blurs the learning of the ot
 another skill drive the actuator as well.
 """
 
+from mindlang.analysis.study import Finding, Found, Study
 from mindlang.compiler.diagnostic import Fix
 from mindlang.compiler.model import Edge, Skill
 from mindlang.editing.insertion import instead
-from mindlang.linting.study import Finding, Found, Study
 
 HIERARCHY = """
 sensor eye is range_finder at 0 deg

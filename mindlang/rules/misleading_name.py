@@ -6,7 +6,7 @@ wherever it is used: call it `ball_drift`.
 
 from mindrun.registry import kinds
 
-from mindlang.linting.study import Finding, Found, Study, words
+from mindlang.analysis.study import Finding, Found, Study, words
 
 EVERYDAY = {"arena", "battery", "cell", "contact", "disc", "genetic", "held", "inside", "item", "plain", "rule", "zone"}
 GOOD = (

@@ -5,8 +5,8 @@ Such a robot can only turn on the spot: most often a line was copied and its `si
 
 from mindrun.actuators import Wheel
 
+from mindlang.analysis.study import Finding, Found, Study
 from mindlang.compiler.diagnostic import Label
-from mindlang.linting.study import Finding, Found, Study
 
 GOOD = (
     """

@@ -6,9 +6,9 @@ scratch throws away what the same lesson taught before. Lessons that take turns 
 
 from mindrun.learners import Learner
 
+from mindlang.analysis.study import Finding, Found, Study
 from mindlang.compiler.diagnostic import Label
 from mindlang.compiler.model import Lesson
-from mindlang.linting.study import Finding, Found, Study
 
 SCHOOL = """
 sensor eye is range_finder at 0 deg

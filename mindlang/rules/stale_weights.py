@@ -7,7 +7,7 @@ a skill that only reads or influences more go on as before.
 
 from mindrun.graph import Graph, Skill
 
-from mindlang.linting.study import Finding, Found, Study
+from mindlang.analysis.study import Finding, Found, Study
 from mindlang.lock import Entry
 from mindlang.lock.signature import differences, signature
 

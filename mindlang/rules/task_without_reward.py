@@ -4,8 +4,8 @@ Every attempt is then as good as any other, and what is learnt is chance. A task
 benchmark needs no rewards.
 """
 
+from mindlang.analysis.study import Finding, Found, Study
 from mindlang.compiler.diagnostic import Label
-from mindlang.linting.study import Finding, Found, Study
 
 COURSE = """
 sensor eye is range_finder at 0 deg

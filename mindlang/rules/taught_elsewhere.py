@@ -5,7 +5,7 @@ taught. Its weights still fit, so it acts, but in what it was never taught: `min
 does well all the same, `mindc status FILE --accept SKILL` says so, and the finding is gone.
 """
 
-from mindlang.linting.study import Finding, Found, Study
+from mindlang.analysis.study import Finding, Found, Study
 from mindlang.lock.status import Trained, status
 from mindlang.lock.training_world import TrainingWorld
 

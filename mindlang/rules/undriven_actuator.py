@@ -4,9 +4,9 @@ It gets its `neutral` value in every tick. A wheel that nobody drives stands sti
 closes. Let a skill drive it, or take it out if the robot has no such part.
 """
 
+from mindlang.analysis.study import Finding, Found, Study
 from mindlang.compiler.diagnostic import Fix
 from mindlang.editing.insertion import without_declarations
-from mindlang.linting.study import Finding, Found, Study
 
 ELSEWHERE = True
 GOOD = (

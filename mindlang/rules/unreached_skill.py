@@ -4,9 +4,9 @@ Influence flows from the master down. A skill that neither the mind's master nor
 straight or through others, never acts and never learns; and whoever reads the file will think that it does.
 """
 
+from mindlang.analysis.study import Finding, Found, Study
 from mindlang.compiler.diagnostic import Fix
 from mindlang.editing.insertion import without_declarations
-from mindlang.linting.study import Finding, Found, Study
 
 ELSEWHERE = True
 GOOD = (

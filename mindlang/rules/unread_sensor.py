@@ -4,9 +4,9 @@ It is computed in every tick and comes to nothing; and whoever reads the file wi
 read by skills, by other sensors (`derivative of`) and by rewards.
 """
 
+from mindlang.analysis.study import Finding, Found, Study
 from mindlang.compiler.diagnostic import Fix
 from mindlang.editing.insertion import without_declarations
-from mindlang.linting.study import Finding, Found, Study
 
 ELSEWHERE = True
 GOOD = (

@@ -7,11 +7,11 @@ such a file along.
 
 from mindrun.events import Reach
 
+from mindlang.analysis.study import Finding, Found, Study
 from mindlang.compiler.diagnostic import Fix
 from mindlang.compiler.model import Task
 from mindlang.compiler.splice import Splice
 from mindlang.compiler.syntax import Contains
-from mindlang.linting.study import Finding, Found, Study
 
 GOOD = (
     """

@@ -6,9 +6,9 @@ subskills`; one that has been taught elsewhere and is not to change `stays froze
 
 from collections.abc import Sequence
 
+from mindlang.analysis.study import Finding, Found, Study
 from mindlang.compiler.diagnostic import listed
 from mindlang.compiler.model import Skill
-from mindlang.linting.study import Finding, Found, Study
 
 ELSEWHERE = True
 LEARNS = """

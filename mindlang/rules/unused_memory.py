@@ -6,10 +6,10 @@ One that starts above 0 and decays is a clock, and needs no driver.
 
 from collections.abc import Iterator
 
+from mindlang.analysis.study import Finding, Found, Study
 from mindlang.compiler.diagnostic import Fix
 from mindlang.compiler.model import Expression, Reading
 from mindlang.editing.insertion import without_declarations
-from mindlang.linting.study import Finding, Found, Study
 
 ELSEWHERE = True
 GOOD = (

@@ -4,11 +4,11 @@ Only the values after `at` say what a rule does. A reading in none of them chang
 silent when that sensor fails.
 """
 
+from mindlang.analysis.study import Finding, Found, Study
 from mindlang.compiler.diagnostic import Fix
 from mindlang.compiler.model import Reading
 from mindlang.compiler.syntax import Reads
 from mindlang.editing.insertion import without_fact
-from mindlang.linting.study import Finding, Found, Study
 
 EYES = "sensor left_eye is range_finder at 40 deg\nsensor right_eye is range_finder at -40 deg\n"
 GO = "skill Go is rule\n  reads left_eye\n  reads right_eye\n"

@@ -4,9 +4,9 @@ Nobody learns there, and it counts nothing: a task that counts is for benchmarks
 runs in its tasks. Both are fine.
 """
 
+from mindlang.analysis.study import Finding, Found, Study
 from mindlang.compiler.diagnostic import Fix
 from mindlang.editing.insertion import without_declarations
-from mindlang.linting.study import Finding, Found, Study
 
 ELSEWHERE = True
 COURSE = """

@@ -7,10 +7,10 @@ Obstacles are of use by standing in the way, a power by charging the battery, an
 from mindrun.sensors import Battery
 from mindrun.world import Content, Item, Obstacle, Power, Zone
 
+from mindlang.analysis.study import Finding, Found, Study
 from mindlang.compiler.diagnostic import Fix
 from mindlang.compiler.syntax import Contains
 from mindlang.editing.insertion import without_fact
-from mindlang.linting.study import Finding, Found, Study
 
 ELSEWHERE = True
 GOOD = (

@@ -7,10 +7,10 @@ curriculum, no tick, no lock with weights.
 from collections.abc import Iterable
 from pathlib import Path
 
+from mindlang.analysis.study import Finding, Found, Study
 from mindlang.compiler.diagnostic import Fix
 from mindlang.compiler.syntax import Declaration, File, Tick, Use
 from mindlang.editing.lines import first_line, remove_lines
-from mindlang.linting.study import Finding, Found, Study
 from mindlang.lock import lock_path
 
 PASSIVE = {"sensor", "memory", "skill"}

@@ -4,11 +4,11 @@ Every influence and command is clamped to 0..1. A value that is only sometimes o
 "at most". One that always is says no more than 0 or 1, whatever its skill reads.
 """
 
+from mindlang.analysis.intervals import Interval, interval, is_constant, said
+from mindlang.analysis.study import Finding, Found, Study
 from mindlang.compiler.diagnostic import Fix
 from mindlang.compiler.model import Edge
 from mindlang.editing.insertion import instead
-from mindlang.linting.intervals import Interval, interval, is_constant, said
-from mindlang.linting.study import Finding, Found, Study
 
 READS = """
 sensor eye is range_finder at 0 deg

@@ -9,8 +9,8 @@ from math import sin
 
 from mindrun.actuators import Wheel
 
+from mindlang.analysis.study import Finding, Found, Study, words
 from mindlang.compiler.source import Span
-from mindlang.linting.study import Finding, Found, Study, words
 
 OTHER = {"left": "right", "right": "left"}
 GOOD = ("sensor left_eye is range_finder at 30 60 deg\n", "sensor left_eye is range_finder at 0 deg\n")

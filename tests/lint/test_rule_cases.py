@@ -5,11 +5,11 @@ from pathlib import Path
 
 import pytest
 
+from mindlang.analysis.intervals import ANY, interval
 from mindlang.compiler.compile import load
 from mindlang.compiler.model import Expression, Number, Reading
 from mindlang.compiler.source import Source, Span
 from mindlang.compiler.syntax import Operator
-from mindlang.linting.intervals import ANY, interval
 from mindlang.linting.lint import lint
 from tests.lint.examples import whole
 

@@ -7,9 +7,9 @@ from mindrun.events import Collision, Delivery, Event, Exhaustion
 from mindrun.sensors import Battery, Physical
 from mindrun.world import STAYS, Arena, Item, Obstacle, Power
 
+from mindlang.analysis.intervals import SHARE, Interval, interval
+from mindlang.analysis.study import Study
 from mindlang.compiler.model import Condition, Expression, Reward, Task
-from mindlang.linting.intervals import SHARE, Interval, interval
-from mindlang.linting.study import Study
 
 
 @dataclass(frozen=True, slots=True)

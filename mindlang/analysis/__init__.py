@@ -1,0 +1,1 @@
+"""What can be known of a mind without running it: what lint rules look at."""
