@@ -9,7 +9,7 @@ import sys
 import time
 
 import numpy as np
-from learning import FRESH
+from learning import FRESH_LAYOUTS
 from mindrun.graph import Graph, Lesson
 from mindrun.sim.rollout import Rollout, cores
 from mindrun.train.lesson import teach
@@ -26,7 +26,7 @@ def count(lesson: Lesson, rollout: Rollout, seed: int) -> float:
     """What a lesson taught from a seed counts in a run, on the mean over the fresh layouts."""
     course = Course(lesson, seed, np.zeros((0, rollout.genome_length), np.float32))
     *_, (state, _) = teach(course, rollout, begin(course), time.perf_counter)
-    return float(rollout.score(state.kept, [int(word) for word in FRESH]).counts.mean())
+    return float(rollout.score(state.kept, [int(word) for word in FRESH_LAYOUTS]).counts.mean())
 
 
 def chosen(graph: Graph, curriculum: str, skills: list[str]) -> list[Lesson]:

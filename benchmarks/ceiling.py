@@ -17,11 +17,12 @@ from workloads import COLLECT, graph_of, shipped
 
 from mindlang.compiler.compile import load
 
-AGAIN = 120  # ticks after which a way is planned anew
-AROUND, WITH_LOAD = 1.6, 2.2  # units that obstacles are wider for the robot, and for a robot that holds something
-CORNER, REACHED = 0.02, 0.45  # beyond an inflated corner; so near a corner counts as passed
-EDGE = 48.6  # corners further out touch a wall
-SECONDS = 500.0
+REPLAN_TICKS = 120  # ticks after which a way is planned anew
+CLEARANCE_UNITS = 1.6  # that obstacles are wider for the robot
+LOADED_CLEARANCE_UNITS = 2.2  # and for a robot that holds something
+CORNER_UNITS, REACHED_UNITS = 0.02, 0.45  # beyond an inflated corner; so near a corner counts as passed
+EDGE_UNITS = 48.6  # corners further out touch a wall
+RUN_SECONDS = 500.0
 Array = NDArray[np.float64]
 
 
@@ -46,10 +47,13 @@ def way(start: Array, goal: Array, boxes: Array, wider: float) -> list[Array]:
     for point in (start, goal):  # from within the margin of a box it must be possible to leave
         grown[(np.abs(boxes[:, :2] - point) < (boxes[:, 2] + grown)[:, None]).all(axis=1)] = 0.2
     low, high = (boxes[:, :2] + sign * (boxes[:, 2] + grown)[:, None] for sign in (-1, 1))
-    sides = [np.stack([low[:, 0] - CORNER, high[:, 0] + CORNER]), np.stack([low[:, 1] - CORNER, high[:, 1] + CORNER])]
+    sides = [
+        np.stack([low[:, 0] - CORNER_UNITS, high[:, 0] + CORNER_UNITS]),
+        np.stack([low[:, 1] - CORNER_UNITS, high[:, 1] + CORNER_UNITS]),
+    ]
     corners = np.concatenate([np.stack([sides[0][i], sides[1][j]], axis=1) for i in (0, 1) for j in (0, 1)])
     free = ~((corners[:, None] > low) & (corners[:, None] < high)).all(axis=2).any(axis=1)
-    places = np.concatenate([[start], [goal], corners[free & (np.abs(corners) < EDGE).all(axis=1)]])
+    places = np.concatenate([[start], [goal], corners[free & (np.abs(corners) < EDGE_UNITS).all(axis=1)]])
     if not crossed(places[:1], places[1:2], low, high)[0, 0]:
         return [goal]
     lengths = np.where(crossed(places, places, low, high), inf, np.linalg.norm(places[:, None] - places, axis=2))
@@ -74,7 +78,7 @@ class Driver:
     backwards: bool
     path: list[Array] = field(default_factory=list)
     goal: Array = field(default_factory=lambda: np.full(2, inf))
-    planned: int = -AGAIN
+    planned: int = -REPLAN_TICKS
     legs: list[float] = field(default_factory=list)
 
     def drive(self, tick: int, body: Array, item: Array, zone: Array, holds: bool) -> tuple[float, float, float]:
@@ -82,11 +86,11 @@ class Driver:
         place, goal = body[:2], zone if holds else item
         if np.abs(goal - self.goal).max() > 1e-9:
             self.legs.append(float(np.linalg.norm(goal - place)))
-            self.planned = -AGAIN
-        if tick - self.planned >= AGAIN:
+            self.planned = -REPLAN_TICKS
+        if tick - self.planned >= REPLAN_TICKS:
             self.goal, self.planned = goal.copy(), tick
-            self.path = way(place, goal, self.boxes, WITH_LOAD if holds else AROUND)
-        while len(self.path) > 1 and np.linalg.norm(self.path[0] - place) < REACHED:
+            self.path = way(place, goal, self.boxes, LOADED_CLEARANCE_UNITS if holds else CLEARANCE_UNITS)
+        while len(self.path) > 1 and np.linalg.norm(self.path[0] - place) < REACHED_UNITS:
             self.path.pop(0)
         behind = self.backwards and holds
         x, y = self.path[0] - place
@@ -140,7 +144,9 @@ def main() -> None:
     print(
         f"{'driver who knows everything':<32}{said(objects)} objects, mean speed {speed:.2f}, mean leg {leg:.1f} units"
     )
-    print(f"{'no turns, no detours':<32}{SECONDS * fastest / (2 * leg):6.1f} objects at {fastest:.2f} units a second")
+    print(
+        f"{'no turns, no detours':<32}{RUN_SECONDS * fastest / (2 * leg):6.1f} objects at {fastest:.2f} units a second"
+    )
     for name in ("collect.mind", "on_the_job.mind", "best.mind"):
         print(f"{name:<32}{said(delivered(name, options.runs))} objects")
 

@@ -41,7 +41,7 @@ from mindlang.server.proposals import Selection, proposals
 from mindlang.server.session import Session
 from mindlang.unified_diff import unified
 
-LINEAR = 2.8  # what shapes with names of more digits, or that change into one another, come to by themselves
+LINEAR_RATIO = 2.8  # what shapes with names of more digits, or that change into one another, come to by themselves
 
 
 class Case:
@@ -237,7 +237,7 @@ def main() -> None:
         for command in COMMANDS if options.only in shape else ():
             measure = calls if options.calls else lambda *of: 1000 * seconds(*of)
             taken = [measure(command, shape, factor * options.lines) for factor in (1, 2, 4)]
-            is_slow = growth(taken) > LINEAR and taken[2] > 50
+            is_slow = growth(taken) > LINEAR_RATIO and taken[2] > 50
             if options.all or is_slow:
                 figures = "".join(f"{each:10.0f}" for each in taken)
                 print(f"{shape:32}{command:14}{figures}{growth(taken):8.1f}{' !' * is_slow}", flush=True)

@@ -36,10 +36,10 @@ from mindlang.server.mending import all_mended, mendings
 from mindlang.server.navigating import definitions, highlights, references, symbols
 from mindlang.server.workspace import Workspace
 
-SOON = 2.0  # seconds of the processor
-END = 30.0  # after which a case is ended
-MOST = 1 << 20  # KiB of memory, of all that ran before, too
-BLOCK = 1000  # cases between two lines of the log
+CPU_SECONDS = 2.0  # seconds of the processor
+CASE_SECONDS = 30.0  # after which a case is ended
+MAX_MEMORY_KIB = 1 << 20  # KiB of memory, of all that ran before, too
+BLOCK_CASES = 1000  # cases between two lines of the log
 PARTS = {
     "parts.mind": "tick 1/60 s\nsensor eye is range_finder at 0 90 deg\nsensor charge is battery\n",
     "loop.mind": 'use "loop.mind"\n',
@@ -144,7 +144,7 @@ SHARES: dict[Part, int] = {_format: 6, _lint: 3, _status: 12, _prove: 40, _answe
 def ran(place: Place, case: int) -> tuple[str, str]:
     """What became of a case in a word, and what there is to say of it."""
     begin = time.process_time()
-    signal.setitimer(signal.ITIMER_PROF, END)
+    signal.setitimer(signal.ITIMER_PROF, CASE_SECONDS)
     try:
         became = check(place, case, source(case))
     except Exception as error:
@@ -154,9 +154,9 @@ def ran(place: Place, case: int) -> tuple[str, str]:
     finally:
         signal.setitimer(signal.ITIMER_PROF, 0)
     taken = time.process_time() - begin
-    if taken > SOON:
+    if taken > CPU_SECONDS:
         return "Slow", f"{taken:.1f} s"
-    if (memory := resource.getrusage(resource.RUSAGE_SELF).ru_maxrss) > MOST:
+    if (memory := resource.getrusage(resource.RUSAGE_SELF).ru_maxrss) > MAX_MEMORY_KIB:
         return "Large", f"{memory >> 10} MiB"
     return became, ""
 
@@ -172,13 +172,13 @@ def run(cases: range, tell: Callable[[str], None]) -> Counter[str]:
             total[became] += 1
             if why:
                 tell(f"found {case} {became} {why!r}")
-            if (case + 1 - cases.start) % BLOCK == 0 or case + 1 == cases.stop:
+            if (case + 1 - cases.start) % BLOCK_CASES == 0 or case + 1 == cases.stop:
                 tell(f"done {case + 1} {time.process_time():.0f} s {dict(total)}")
     return total
 
 
 def _ended(*_: object) -> None:
-    raise TimeoutError(f"longer than {END:g} s")
+    raise TimeoutError(f"longer than {CASE_SECONDS:g} s")
 
 
 def ended_at(log: Path) -> int | None:

@@ -14,16 +14,16 @@ from typing import Self
 
 import numpy as np
 from commanded import Commanded
-from learning import FRESH, prepared
+from learning import FRESH_LAYOUTS, prepared
 from mindrun.functions.mlp import Mlp, matrices
 from mindrun.train.population import MAX_WEIGHT, Genomes
 from numpy.typing import NDArray
 from workloads import collect
 
-LANES, STEPS, EPOCHS, BATCH = 64, 128, 6, 1024
-DISCOUNT, TRACE, CLIP = 0.99, 0.95, 0.2
-CRITIC, CRITIC_RATE = (64, 64), 1e-3
-FASTEST = 3e-3  # steps of the spread
+LANE_COUNT, ROLLOUT_STEPS, EPOCH_COUNT, BATCH_SIZE = 64, 128, 6, 1024
+DISCOUNT_FACTOR, TRACE_DECAY, CLIP_RATIO = 0.99, 0.95, 0.2
+CRITIC_LAYERS, CRITIC_RATE = (64, 64), 1e-3
+SPREAD_RATE = 3e-3  # steps of the spread
 Array = NDArray[np.float64]
 
 
@@ -36,21 +36,21 @@ class Worlds:
         self.hold, self.ticks = hold, 0
         lesson = next(each for each in graph.lessons if each.skill == skill)
         seeds = rng.integers(2**62, size=100_000)
-        self._worlds = Commanded(graph, lesson.task, lesson.master, LANES, seeds, interrupt=True)
-        self._job, self._paid = self._worlds.state.job.copy(), np.zeros(LANES)
+        self._worlds = Commanded(graph, lesson.task, lesson.master, LANE_COUNT, seeds, interrupt=True)
+        self._job, self._paid = self._worlds.state.job.copy(), np.zeros(LANE_COUNT)
 
     def inputs(self) -> Array:
         """What the skill reads [lanes, inputs]."""
-        return self._worlds.state.readings[list(self.skill.inputs), :LANES].T.astype(np.float64)
+        return self._worlds.state.readings[list(self.skill.inputs), :LANE_COUNT].T.astype(np.float64)
 
     def step(self, commands: Array) -> tuple[Array, NDArray[np.bool_]]:
         """Hold commands [lanes, outputs] for some ticks: what they earned [lanes], and in which lanes a run ended."""
         state, lines = self._worlds.state, self._worlds.jobs.lines
-        earned, ended = np.zeros(LANES), np.zeros(LANES, bool)
+        earned, ended = np.zeros(LANE_COUNT), np.zeros(LANE_COUNT, bool)
         for _ in range(self.hold):
             self._worlds.step([edge.target for edge in self.skill.edges], np.clip(commands, 0, 1).T)
-            self.ticks += LANES
-            paid, over = state.lines[:, :LANES].sum(axis=0), state.job != self._job
+            self.ticks += LANE_COUNT
+            paid, over = state.lines[:, :LANE_COUNT].sum(axis=0), state.job != self._job
             earned += np.where(over, lines[self._job].sum(axis=1), paid) - self._paid
             ended |= over
             self._paid, self._job = paid, state.job.copy()
@@ -141,17 +141,17 @@ class Learner:
         shape = function.layers(count, outputs)
         first = [matrix.astype(np.float64) for matrix in matrices(function.draw(count, outputs, 1, rng)[0], shape)]
         first[-1] = 1 / shape[-1][0] + 0.1 * rng.standard_normal(first[-1].shape)
-        wide = [rng.standard_normal((b, a + 1)) / np.sqrt(a) for a, b in pairwise((count, *CRITIC, 1))]
+        wide = [rng.standard_normal((b, a + 1)) / np.sqrt(a) for a, b in pairwise((count, *CRITIC_LAYERS, 1))]
         actor, critic = Network(first, biased=False), Network(wide, biased=True)
         return cls(worlds, actor, critic, np.full(outputs, np.log(0.3)), rng, rate)
 
     def learn(self, ticks: float) -> Iterator[tuple[int, Genomes]]:
         """The ticks taken and the skill's weights [1, weights], after each update."""
-        moments, steps, coming = (np.zeros_like(self.spread), np.zeros_like(self.spread)), 0, np.zeros(LANES)
+        moments, steps, coming = (np.zeros_like(self.spread), np.zeros_like(self.spread)), 0, np.zeros(LANE_COUNT)
         while self.worlds.ticks < ticks:
             batch = self.collected(coming)
-            for _ in range(EPOCHS):
-                for rows in np.array_split(self.rng.permutation(len(batch.seen)), len(batch.seen) // BATCH):
+            for _ in range(EPOCH_COUNT):
+                for rows in np.array_split(self.rng.permutation(len(batch.seen)), len(batch.seen) // BATCH_SIZE):
                     steps += 1
                     self.improve(batch.rows(rows), moments, steps)
             genome = np.concatenate([matrix.ravel() for matrix in self.actor.weights])
@@ -161,14 +161,14 @@ class Learner:
         """Some steps in all lanes; `coming` is what they earned of late, discounted, from batch to batch."""
         seen, done, likely, values, earned, over = [], [], [], [], [], []
         inputs = self.worlds.inputs()
-        for _ in range(STEPS):
-            noise = self.rng.standard_normal((LANES, len(self.spread)))
+        for _ in range(ROLLOUT_STEPS):
+            noise = self.rng.standard_normal((LANE_COUNT, len(self.spread)))
             seen.append(inputs)
             done.append(self.actor.forward(inputs) + np.exp(self.spread) * noise)
             likely.append((-0.5 * noise**2 - self.spread).sum(axis=1))
             values.append(self.critic.forward(2 * inputs - 1)[:, 0])
             paid, ended = self.worlds.step(done[-1])
-            coming[:] = DISCOUNT * coming + paid
+            coming[:] = DISCOUNT_FACTOR * coming + paid
             self.scale.learn(coming)
             coming[ended] = 0
             earned.append(np.clip(paid / np.sqrt(self.scale.variance + 1e-8), -20, 20))
@@ -183,10 +183,10 @@ class Learner:
         better = (batch.gain - batch.gain.mean()) / (batch.gain.std() + 1e-8)
         z = (batch.done - self.actor.forward(batch.seen)) / np.exp(self.spread)
         ratio = np.exp((-0.5 * z**2 - self.spread).sum(axis=1) - batch.likely)
-        counts = ratio * better <= np.clip(ratio, 1 - CLIP, 1 + CLIP) * better
+        counts = ratio * better <= np.clip(ratio, 1 - CLIP_RATIO, 1 + CLIP_RATIO) * better
         slope = (-better * ratio * counts / len(better))[:, None]
         self.actor.backward(slope * z / np.exp(self.spread), self.rate)
-        self.spread -= adam(moments, (slope * (z**2 - 1)).sum(axis=0), min(self.rate, FASTEST), steps)
+        self.spread -= adam(moments, (slope * (z**2 - 1)).sum(axis=0), min(self.rate, SPREAD_RATE), steps)
         np.clip(self.spread, -3, 0.5, out=self.spread)
         missed = self.critic.forward(2 * batch.seen - 1)[:, 0] - batch.target
         self.critic.backward(missed[:, None] / len(missed), CRITIC_RATE)
@@ -209,10 +209,15 @@ class Batch:
 
 def advantages(earned: list[Array], over: list[NDArray[np.bool_]], values: list[Array]) -> list[Array]:
     """How much better than expected each step was (generalised advantage estimation)."""
-    gains, last = [], np.zeros(LANES)
+    gains, last = [], np.zeros(LANE_COUNT)
     for t in range(len(earned) - 1, -1, -1):
         going = 1.0 - over[t]
-        last = earned[t] + DISCOUNT * values[t + 1] * going - values[t] + DISCOUNT * TRACE * going * last
+        last = (
+            earned[t]
+            + DISCOUNT_FACTOR * values[t + 1] * going
+            - values[t]
+            + DISCOUNT_FACTOR * TRACE_DECAY * going * last
+        )
         gains.append(last)
     return gains[::-1]
 
@@ -236,7 +241,7 @@ def main() -> None:
         learner = Learner.begin(options.skill, options.hold, options.rate, seed)
         for ticks, genome in learner.learn(options.ticks):
             if ticks >= options.ticks * (len(found) + 1) / 4:
-                found.append(float(rollout.score(genome, [int(word) for word in FRESH]).counts.mean()))
+                found.append(float(rollout.score(genome, [int(word) for word in FRESH_LAYOUTS]).counts.mean()))
         seconds = time.process_time() - begin
         said = ", ".join(f"{count:.1f}" for count in found)
         print(f"seed {seed:>3}: {said} per run after each quarter, {seconds:.0f} s CPU", flush=True)

@@ -33,8 +33,8 @@ from tests.train.test_train_command import MIND
 
 LESSONS = ("Go", "Drive")
 OPTIONS = ("--seed", "3", "--scale", "10", "--workers", "1")
-SAVED = 0.01  # seconds between two checkpoints
-LONGEST = 0.6  # of a training: the latest moment of a kill
+CHECKPOINT_SECONDS = 0.01  # seconds between two checkpoints
+MAX_KILL_SECONDS = 0.6  # of a training: the latest moment of a kill
 
 Event = dict[str, Any]
 
@@ -45,7 +45,7 @@ def main() -> None:
     parser.add_argument("--kills", type=int, default=1000, help="how many (default 1000)")
     parser.add_argument("--log", type=Path, help="a file that the campaign is written to, and goes on from")
     options = parser.parse_args()
-    trainer.Watch = partial(trainer.Watch, save_every=SAVED)  # type: ignore[assignment,misc]
+    trainer.Watch = partial(trainer.Watch, save_every=CHECKPOINT_SECONDS)  # type: ignore[assignment,misc]
     known = [json.loads(line) for line in options.log.read_text().splitlines()] if reads(options.log) else []
     with tempfile.TemporaryDirectory(prefix="mind-kills-") as name:
         seconds = undisturbed(Path(name) / "undisturbed")
@@ -80,7 +80,7 @@ def campaign(project: Path, kills: int, seconds: float, known: list[Event], log:
     done = sum(event["what"] == "kill" for event in known)
     begun(project)
     while done < kills or (project / "runs").exists():
-        moment = draw.uniform(0, LONGEST * seconds) if done < kills else None
+        moment = draw.uniform(0, MAX_KILL_SECONDS * seconds) if done < kills else None
         event = disturbed(project, moment)
         events.append(event)
         done += event["what"] == "kill"

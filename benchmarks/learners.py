@@ -22,7 +22,7 @@ from multiprocessing import get_context
 from typing import Any
 
 import numpy as np
-from learning import REEVALUATION_LAYOUTS, prepared
+from learning import FRESH_LAYOUTS, prepared
 from mindrun.graph import Lesson
 from mindrun.learners import EvolutionStrategy, Genetic, Restarting
 from mindrun.sim.rollout import Rollout, cores
@@ -38,7 +38,7 @@ sys.path.append(str(COLLECT.parent / "paper"))
 from protocol import SUCCESS
 
 KINDS = {"genetic": Genetic, "restarting": Restarting, "evolution_strategy": EvolutionStrategy}
-ENDLESS = 10**6  # generations
+ENDLESS_GENERATIONS = 10**6  # generations
 LINE = (
     "{name:<64} {succeeded:>3} of {seeds}  {score:8.1f} ± {error:5.1f}  {count:6.2f} ± {count_error:.2f} per run, "
     "worst {worst:.1f}  {ticks:4.0f} M ticks, {seconds:5.1f} s CPU a seed"
@@ -84,7 +84,7 @@ def tried(trial: Trial) -> Outcome:
     learn = by_covariance if trial.kind == "cmaes" else by_lesson
     champion, ticks = learn(trial, teaching)
     seconds = time.process_time() - began
-    scores = teaching.rollout.score(champion, [int(word) for word in REEVALUATION_LAYOUTS])
+    scores = teaching.rollout.score(champion, [int(word) for word in FRESH_LAYOUTS])
     return Outcome(float(scores.total.mean()), float(scores.counts.mean()), ticks, seconds)
 
 
@@ -107,7 +107,7 @@ def teaching_of(skill: str, finishing: str) -> Teaching:
 def by_lesson(trial: Trial, teaching: Teaching) -> tuple[Genomes, int]:
     """The champion [1, weights] of as many attempts as the ticks allow, and the ticks taken."""
     said = dict(trial.said)
-    generations = int(said.pop("generations", ENDLESS))
+    generations = int(said.pop("generations", ENDLESS_GENERATIONS))
     learner = replace(KINDS[trial.kind](), **said, attempts=1000)  # type: ignore[arg-type]
     lesson = replace(teaching.lesson, learner=learner, generations=generations)
     course, rollout = Course(lesson, trial.seed, teaching.start), teaching.rollout

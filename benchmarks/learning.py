@@ -18,8 +18,8 @@ from mindrun.train.lesson import teach
 from mindrun.train.lesson_state import Course, begin
 from workloads import collect
 
-FRESH = np.random.SeedSequence(20_211_121).generate_state(100, np.uint64)
-ENDLESS = 10**6  # generations
+FRESH_LAYOUTS = np.random.SeedSequence(20_211_121).generate_state(100, np.uint64)
+ENDLESS_GENERATIONS = 10**6  # generations
 LINE = (
     "seed {seed:>3}: {count_mean:7.2f} ± {standard_error:.2f} per run, score {score_mean:8.1f}, "
     "{generations:>4} generations, {ticks_per_second:,.0f} ticks/s"
@@ -28,13 +28,15 @@ LINE = (
 
 def learn(lesson: Lesson, rollout: Rollout, seed: int, seconds: float) -> dict[str, Any]:
     """One seed, and what its champion does on the fresh layouts."""
-    course = Course(replace(lesson, generations=ENDLESS), seed, np.zeros((0, rollout.genome_length), np.float32))
+    course = Course(
+        replace(lesson, generations=ENDLESS_GENERATIONS), seed, np.zeros((0, rollout.genome_length), np.float32)
+    )
     start = time.perf_counter()
     for state, _ in teach(course, rollout, begin(course), time.perf_counter):  # noqa: B007 (the last one counts)
         if time.perf_counter() - start >= seconds:
             break
     taken = time.perf_counter() - start
-    scores = rollout.score(state.champion, [int(word) for word in FRESH])
+    scores = rollout.score(state.champion, [int(word) for word in FRESH_LAYOUTS])
     counts = scores.counts[0]
     return {
         "seed": seed,

@@ -11,9 +11,9 @@ from mindrun.graph import Graph, Skill
 from mindrun.sim.trace import Run
 from numpy.typing import NDArray
 
-DT, HALF, REACH, RANGE = 1 / 60, 50.0, 1.5, 12.0
+TICK_SECONDS, HALF_SIDE, CLAW_REACH, SENSOR_RANGE = 1 / 60, 50.0, 1.5, 12.0
 ANGLES = np.radians([0, 22.5, 45, 90, 135, 180, 225, 270, 315, 337.5])
-LINEAR, ANGULAR = 1 / (1 + DT * 5), 1 / (1 + DT * 20)
+LINEAR, ANGULAR = 1 / (1 + TICK_SECONDS * 5), 1 / (1 + TICK_SECONDS * 20)
 ROBOT = pymunk.ShapeFilter(group=1)  # rays do not meet the robot itself
 
 
@@ -53,7 +53,7 @@ class Robot:
         self.sense()
         self.act(*self.think())
         before = self.distances()
-        self.space.step(DT)
+        self.space.step(TICK_SECONDS)
         self.judge(before)
         self.time += 1
 
@@ -63,20 +63,22 @@ class Robot:
         readings, at = self.readings, self.starts
         for i, turn in enumerate(ANGLES + self.body.angle):
             way = math.cos(turn), math.sin(turn)
-            end = x + way[0] * (RANGE + 1), y + way[1] * (RANGE + 1)
+            end = x + way[0] * (SENSOR_RANGE + 1), y + way[1] * (SENSOR_RANGE + 1)
             hit = self.space.segment_query_first((x, y), end, 0.0, ROBOT)
-            readings[at["proximity"] + i] = max(0.0, (hit.alpha * (RANGE + 1) - 1) / RANGE) if hit else 1.0
+            readings[at["proximity"] + i] = (
+                max(0.0, (hit.alpha * (SENSOR_RANGE + 1) - 1) / SENSOR_RANGE) if hit else 1.0
+            )
         bearings = np.array([self.bearing(self.item), self.bearing(self.zone)])
         change = (bearings - self.bearings + 0.5) % 1.0 - 0.5
         readings[at["object_bearing"]], readings[at["drop_zone_bearing"]] = bearings
-        drift = np.clip(0.5 + change / (2 * DT), 0.0, 1.0)
+        drift = np.clip(0.5 + change / (2 * TICK_SECONDS), 0.0, 1.0)
         readings[at["object_drift"]], readings[at["drop_zone_drift"]] = drift
         self.bearings = bearings
         readings[at["object_in_reach"]] = self.in_reach()
         readings[at["in_drop_zone"]] = np.abs(self.zone - (x, y)).max() < 5
         readings[at["holding"]] = self.holding
-        readings[at["moving"]] = min(1.0, math.dist(self.trail[0], (x, y)) / (20 * DT))
-        readings[at["pulse"]] = 0.5 + 0.5 * math.sin(2 * math.pi * self.time * DT / 2)
+        readings[at["moving"]] = min(1.0, math.dist(self.trail[0], (x, y)) / (20 * TICK_SECONDS))
+        readings[at["pulse"]] = 0.5 + 0.5 * math.sin(2 * math.pi * self.time * TICK_SECONDS / 2)
         self.trail = [*self.trail[1:], self.body.position]
 
     def bearing(self, place: NDArray[np.float64]) -> float:
@@ -87,7 +89,7 @@ class Robot:
     def in_reach(self) -> bool:
         """Whether the claw can take the item."""
         x, y = self.body.world_to_local(tuple(self.item))
-        return x >= 1 and math.hypot(x - 1, y) <= REACH + 0.5
+        return x >= 1 and math.hypot(x - 1, y) <= CLAW_REACH + 0.5
 
     def think(self) -> tuple[float, float, float]:
         """Influence from the master down, then the wheels' and the claw's commands."""
@@ -136,7 +138,7 @@ class Robot:
             if np.abs(self.item - self.zone).max() < 5:
                 self.score += 30
                 self.holding = False
-                self.item[:] = self.rng.uniform(-HALF + 2, HALF - 2, 2)
+                self.item[:] = self.rng.uniform(-HALF_SIDE + 2, HALF_SIDE - 2, 2)
         closed = before[self.holding] - self.distances()[self.holding]
         self.score += 0.001 * closed if closed > 0 else 0.0005 * closed
 

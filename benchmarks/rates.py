@@ -22,10 +22,10 @@ import numpy as np
 from mindrun.learners import Genetic
 from mindrun.sim.rollout import Rollout
 from mindrun.train.genetic import mutate
-from workloads import STUCK, Lanes, collect, random_weights, with_obstacles, with_skills
+from workloads import STUCK_SEED, Lanes, collect, random_weights, with_obstacles, with_skills
 
 ROOT = Path(__file__).resolve().parent.parent
-TICKS = 400_000  # agent-ticks of a measurement; a lesson's is a generation
+AGENT_TICKS = 400_000  # agent-ticks of a measurement; a lesson's is a generation
 START = "first start, seconds of CPU time"
 Measure = Callable[[], float]
 
@@ -35,7 +35,7 @@ def steady(ready: Callable[[], Lanes]) -> Callable[[], Measure]:
 
     def prepared() -> Measure:
         lanes = ready()
-        ticks = max(1, TICKS // (lanes.lanes * len(lanes.parts)))
+        ticks = max(1, AGENT_TICKS // (lanes.lanes * len(lanes.parts)))
         return lambda: lanes.rate(ticks, time.process_time)
 
     return prepared
@@ -75,7 +75,7 @@ def lesson(skill: str) -> Callable[[], Measure]:
 def stuck() -> Lanes:
     """Robots that push against obstacles."""
     graph, _, _ = collect()
-    return Lanes(graph, random_weights(graph, STUCK), graph.master)
+    return Lanes(graph, random_weights(graph, STUCK_SEED), graph.master)
 
 
 def crowded() -> Lanes:

@@ -16,7 +16,7 @@ from mindrun.robot.recording import About, Recorder
 from mindrun.robot.replay import replay
 
 BALL = Path(__file__).parents[1] / "examples" / "collect" / "ball.mind"
-TICKS, STARTS = 20_000, 9
+TICK_COUNT, START_COUNT = 20_000, 9
 
 
 def bundle_of(mind: Path, folder: Path) -> Path:
@@ -59,7 +59,7 @@ def replayed(path: Path, folder: Path, ticks: int) -> tuple[float, bool]:
 def start(path: Path) -> float:
     """Seconds until mindrun has read a bundle and said what it holds."""
     times = []
-    for _ in range(STARTS):
+    for _ in range(START_COUNT):
         begin = time.perf_counter()
         subprocess.run([sys.executable, "-m", "mindrun", path, "--describe"], check=True, stdout=subprocess.DEVNULL)
         times.append(time.perf_counter() - begin)
@@ -69,7 +69,7 @@ def start(path: Path) -> float:
 def main() -> None:
     """Measure and print."""
     parser = argparse.ArgumentParser(allow_abbrev=False, description=__doc__)
-    parser.add_argument("--ticks", type=int, default=TICKS, help="to record and replay (the issue: 1000000)")
+    parser.add_argument("--ticks", type=int, default=TICK_COUNT, help="to record and replay (the issue: 1000000)")
     parser.add_argument("--json", action="store_true")
     options = parser.parse_args()
     with TemporaryDirectory() as folder:

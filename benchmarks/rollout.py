@@ -22,7 +22,7 @@ from mindrun.sim.rollout import Rollout
 from mindrun.sim.trace import trace
 from mindrun.train.manifest import processor, versions
 from plain_pymunk import Robot
-from workloads import STUCK, WARM, Lanes, Weights, collect, random_weights
+from workloads import STUCK_SEED, WARMUP_TICKS, Lanes, Weights, collect, random_weights
 
 
 @dataclass(frozen=True, slots=True)
@@ -57,7 +57,7 @@ class Plain:
     def __init__(self, graph: Graph, weights: Weights, robots: int = 4) -> None:
         rollout = Rollout(graph, weights, "Collect", graph.master, interrupt=False)
         self.robots = [Robot(graph, weights, trace(rollout, seed), seed) for seed in range(1, robots + 1)]
-        self.rate(WARM)
+        self.rate(WARMUP_TICKS)
 
     def rate(self, ticks: int) -> float:
         """Agent-ticks per second."""
@@ -98,7 +98,7 @@ def main_figures(graph: Graph, weights: Weights, effort: Effort) -> dict[str, An
 
 def worst_case(graph: Graph, effort: Effort) -> dict[str, Any]:
     """Robots that push against obstacles, so that Chipmunk steps them all the time."""
-    weights = random_weights(graph, STUCK)
+    weights = random_weights(graph, STUCK_SEED)
     plain, own = Plain(graph, weights), Lanes(graph, weights, graph.master)
     figures = {"plain_pymunk": lambda: plain.rate(effort.plain), "own_genomes": lambda: own.rate(effort.ticks)}
     found = take_turns(effort.rounds, **figures)

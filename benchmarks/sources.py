@@ -12,7 +12,7 @@ from random import Random
 
 from mindrun.registry import arguments, kinds
 
-from mindlang.compiler.parse.explain import INSTEAD
+from mindlang.compiler.parse.explain import FOREIGN_WORDS
 from mindlang.compiler.syntax import NOUNS, SETTINGS, VERBS
 from mindlang.rules import all_rules
 
@@ -224,8 +224,8 @@ def _line(text: str, random: Random) -> str:
 
 def _word(text: str, random: Random) -> str:
     """What people write instead of a word of the language."""
-    known = random.choice(list(INSTEAD))
-    return text.replace(known, random.choice(INSTEAD[known].split()), random.choice((-1, 1)))
+    known = random.choice(list(FOREIGN_WORDS))
+    return text.replace(known, random.choice(FOREIGN_WORDS[known].split()), random.choice((-1, 1)))
 
 
 def _ends(text: str, random: Random) -> str:

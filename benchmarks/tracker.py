@@ -9,17 +9,17 @@ import cv2
 import numpy as np
 from mindrun.robot.ball_detection import BallTarget, Frame, find_ball
 
-WIDTH, HEIGHT = 320, 240
-FRAMES = 50
+IMAGE_WIDTH, IMAGE_HEIGHT = 320, 240
+FRAME_COUNT = 50
 
 
 def frame(rng: np.random.Generator, balls: int) -> Frame:
     """A grey room with noise, so many luminous balls, and as many lamps that are none."""
-    drawn = np.full((HEIGHT, WIDTH, 3), 60, np.uint8)
+    drawn = np.full((IMAGE_HEIGHT, IMAGE_WIDTH, 3), 60, np.uint8)
     for _ in range(balls):
-        x, y, radius = int(rng.integers(WIDTH)), int(rng.integers(HEIGHT)), int(rng.integers(5, 30))
+        x, y, radius = int(rng.integers(IMAGE_WIDTH)), int(rng.integers(IMAGE_HEIGHT)), int(rng.integers(5, 30))
         cv2.circle(drawn, (x, y), radius, (60, 230, 60), -1, cv2.LINE_AA)
-        cv2.circle(drawn, (HEIGHT - y, x % HEIGHT), radius, (255, 255, 255), -1)
+        cv2.circle(drawn, (IMAGE_HEIGHT - y, x % IMAGE_HEIGHT), radius, (255, 255, 255), -1)
     noisy: Frame = np.clip(drawn + rng.normal(0, 8, drawn.shape), 0, 255).astype(np.uint8)
     return noisy
 
@@ -46,7 +46,7 @@ def main() -> None:
     rng = np.random.default_rng(1)
     found = []
     for balls in (0, 1, 20):
-        taken = milliseconds([frame(rng, balls) for _ in range(FRAMES)], options.rounds)
+        taken = milliseconds([frame(rng, balls) for _ in range(FRAME_COUNT)], options.rounds)
         slow = statistics.quantiles(taken, n=100)[98]
         found.append({"balls": balls, "frames_a_second": 1000 / statistics.median(taken), "slowest_ms": slow})
     if options.json:
@@ -54,7 +54,7 @@ def main() -> None:
         return
     for row in found:
         print(
-            f"{row['balls']:2d} balls: {row['frames_a_second']:5.0f} frames/s at {WIDTH}×{HEIGHT} "
+            f"{row['balls']:2d} balls: {row['frames_a_second']:5.0f} frames/s at {IMAGE_WIDTH}×{IMAGE_HEIGHT} "
             f"(median; 99 % within {row['slowest_ms']:.1f} ms)"
         )
 

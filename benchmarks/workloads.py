@@ -23,8 +23,8 @@ from mindlang.lock.ready import Ready, make_ready
 Weights = dict[str, NDArray[np.float32]]
 # The first seed of `random_weights` under which all skills of the example are awake and nearly all robots move; and one
 # under which nine robots in ten push against an obstacle: the worst case, in which Chipmunk steps nearly every robot.
-LIVELY, STUCK = 21, 4
-WARM = 300  # ticks before the clock starts: robots leave their places, caches fill
+LIVELY_SEED, STUCK_SEED = 21, 4
+WARMUP_TICKS = 300  # ticks before the clock starts: robots leave their places, caches fill
 COLLECT = Path(mindlang.__file__).parent.parent / "examples" / "collect" / "collect.mind"
 
 
@@ -44,7 +44,7 @@ def collect() -> tuple[Graph, Weights, str]:
     """The example, its weights, and where they come from."""
     ready = shipped(COLLECT.name)
     if ready.refusals:
-        return ready.graph, random_weights(ready.graph, LIVELY), "random"
+        return ready.graph, random_weights(ready.graph, LIVELY_SEED), "random"
     return ready.graph, ready.weights, "trained"
 
 
@@ -109,7 +109,7 @@ class Lanes:
             self.rollout.fill(tile, jobs)
             self.parts.append((tile, jobs))
         self.lanes = lanes
-        self.rate(WARM)
+        self.rate(WARMUP_TICKS)
 
     def rate(self, ticks: int, clock: Callable[[], float] = time.perf_counter) -> float:
         """Agent-ticks per second of all workers together."""

@@ -24,13 +24,13 @@ import pymunk
 import pytest
 from mutants import Mutant, mutants
 from rooms import ROOMS, Room
-from trial import PASSED, run_tests, survives, workshop
+from trial import PASSED_CODE, run_tests, survives, workshop
 
 ROOT = Path(__file__).resolve().parents[2]
-HERE = Path(__file__).resolve().parent
-WARM = (hypothesis, lark, numba, numpy, pymunk, pytest)
-LONGEST = 1800.0  # seconds that the tests of a room may take
-SLOWER, MORE = 5.0, 20.0  # a mutant may take so many times as long, and so many seconds more
+FOLDER = Path(__file__).resolve().parent
+PRELOADED = (hypothesis, lark, numba, numpy, pymunk, pytest)
+MAX_ROOM_SECONDS = 1800.0  # seconds that the tests of a room may take
+SLOWER_FACTOR, EXTRA_SECONDS = 5.0, 20.0  # a mutant may take so many times as long, and so many seconds more
 
 
 @dataclass(frozen=True, slots=True)
@@ -63,7 +63,7 @@ def sample(room: Room, count: int, seed: int) -> list[Mutant]:
 
 def explained() -> dict[tuple[str, str, str, str], str]:
     """The mutants that no test can notice, and why."""
-    listed = tomllib.loads((HERE / "explained.toml").read_text(encoding="utf-8")).get("mutant", [])
+    listed = tomllib.loads((FOLDER / "explained.toml").read_text(encoding="utf-8")).get("mutant", [])
     return {(one["path"], one["where"], one["was"], one["now"]): one["why"] for one in listed}
 
 
@@ -81,9 +81,9 @@ def try_room(name: str, chosen: Sequence[Mutant], log: Path | None) -> Outcome:
     with workshop(ROOT) as folder:
         tests = tuple(test for test in room.tests if (folder / test.partition("::")[0]).exists())
         began = monotonic()
-        if run_tests(folder, tests, room.interpreted, LONGEST) != PASSED:
+        if run_tests(folder, tests, room.interpreted, MAX_ROOM_SECONDS) != PASSED_CODE:
             sys.exit(f"{name}: its tests fail as it is\n{(folder / 'output.txt').read_text()[-3000:]}")
-        limit = SLOWER * (monotonic() - began) + MORE
+        limit = SLOWER_FACTOR * (monotonic() - began) + EXTRA_SECONDS
         for number, mutant in enumerate(chosen, 1):
             began = monotonic()
             lives = survives(folder, mutant, tests, room.interpreted, limit)

@@ -5,7 +5,7 @@ from typing import Any
 
 from hypothesis import Phase, settings
 
-FEWER = 4  # times fewer examples
+FEWER_FACTOR = 4  # times fewer examples
 GIVEN = "_hypothesis_internal_use_settings"
 
 settings.register_profile("mutation", deadline=None, database=None, phases=[Phase.explicit, Phase.generate])
@@ -19,4 +19,4 @@ def pytest_collection_modifyitems(items: Sequence[Any]) -> None:
     for item in items:
         test = getattr(item, "obj", None)
         if given := getattr(test, GIVEN, None):
-            setattr(test, GIVEN, settings(given, max_examples=-(-given.max_examples // FEWER)))
+            setattr(test, GIVEN, settings(given, max_examples=-(-given.max_examples // FEWER_FACTOR)))

@@ -22,7 +22,7 @@ import numpy as np
 ROOM = "mindrun.sim."
 VECTOR = f"{ROOM}vector"
 CHIPMUNK = f"{ROOM}lanes.chipmunk"  # calls into a library: as it is
-WIDE = 16
+VECTOR_LANES = 16
 F = np.float32
 
 
@@ -72,9 +72,9 @@ class Vectors(importlib.abc.Loader):
         from mindrun.sigmoid import sigmoid
 
         vars(module).update(
-            WIDE=WIDE,
-            splat=lambda value: np.full(WIDE, value, F),
-            load=lambda array, row, lane: array[row, lane : lane + WIDE].copy(),
+            VECTOR_LANES=VECTOR_LANES,
+            splat=lambda value: np.full(VECTOR_LANES, value, F),
+            load=lambda array, row, lane: array[row, lane : lane + VECTOR_LANES].copy(),
             store=_store,
             HIGHEST=lambda a, b: np.where(a > b, a, b),
             LOWEST=lambda a, b: np.where(a < b, a, b),
@@ -84,7 +84,7 @@ class Vectors(importlib.abc.Loader):
 
 
 def _store(array: Any, row: int, lane: int, value: Any) -> None:
-    array[row, lane : lane + WIDE] = value
+    array[row, lane : lane + VECTOR_LANES] = value
 
 
 class Row:

@@ -11,7 +11,7 @@ OPPOSITE = {
     ast.Lt: ast.GtE, ast.LtE: ast.Gt, ast.Gt: ast.LtE, ast.GtE: ast.Lt, ast.Eq: ast.NotEq, ast.NotEq: ast.Eq,
     ast.Is: ast.IsNot, ast.IsNot: ast.Is, ast.In: ast.NotIn, ast.NotIn: ast.In,
 }  # fmt: skip
-OTHER = {
+SWAPPED_OPERATORS = {
     ast.Add: ast.Sub, ast.Sub: ast.Add, ast.Mult: ast.Div, ast.Div: ast.Mult, ast.FloorDiv: ast.Mult, ast.Mod: ast.Mult,
     ast.BitAnd: ast.BitOr, ast.BitOr: ast.BitAnd, ast.LShift: ast.RShift, ast.RShift: ast.LShift,
 }  # fmt: skip
@@ -20,7 +20,7 @@ UNTOUCHED = (ast.Raise, ast.Assert, ast.JoinedStr, ast.Import, ast.ImportFrom, a
 UNTOUCHED_FIELDS = ("annotation", "returns", "decorator_list", "bases", "type_params")
 SYMMETRIC = ("maximum", "minimum", "fmax", "fmin", "clip")  # of numpy: the same with the first two the other way round
 UNTOUCHED_KEYWORDS = ("strict", "stacklevel")
-SHOWN = 100  # characters of what is around a change
+SHOWN_CHARACTERS = 100  # characters of what is around a change
 
 
 @dataclass(frozen=True, slots=True)
@@ -63,7 +63,7 @@ def mutants(root: Path, path: Path) -> Iterator[Mutant]:
     """Every mutant of a file."""
     tree = ast.parse(path.read_text(encoding="utf-8"))
     for place in list(_places(tree, "", ())):
-        shown = next((n for n in reversed(place.around) if len(_said(n)) <= SHOWN), place.node)
+        shown = next((n for n in reversed(place.around) if len(_said(n)) <= SHOWN_CHARACTERS), place.node)
         was = _said(shown)
         for changed in _changes(place.node):
             place.put(changed)
@@ -112,8 +112,8 @@ def _changes(node: ast.AST) -> Iterator[ast.AST]:
                 if type(operator) in table:
                     yield _with(node, ops=[table[type(operator)]()])
         case ast.BinOp(left=left, op=operator, right=right) if not _is_text(left) and not _is_text(right):
-            if type(operator) in OTHER:
-                yield _with(node, op=OTHER[type(operator)]())
+            if type(operator) in SWAPPED_OPERATORS:
+                yield _with(node, op=SWAPPED_OPERATORS[type(operator)]())
             yield left
             if isinstance(operator, ast.Add | ast.Mult):
                 yield right

@@ -16,8 +16,8 @@ from mutants import Mutant
 
 COPIED = ("benchmarks", "docs", "editors", "examples", "grammar", "mindlang", "runtime", "tests", "pyproject.toml")
 COPIED += ("README.md", "Makefile", "LICENSE")
-LOOK = 0.05  # seconds between two looks at whether a process has ended
-PASSED, BROKEN = 0, 70  # exit codes
+POLL_SECONDS = 0.05  # seconds between two looks at whether a process has ended
+PASSED_CODE, BROKEN_CODE = 0, 70  # exit codes
 OPTIONS = ("-x", "-q", "-p", "no:cacheprovider", "-p", "no:xdist", "--hypothesis-seed=0")
 OPTIONS += ("-W", "ignore::pytest.PytestAssertRewriteWarning")  # of Hypothesis, which has been imported
 
@@ -42,7 +42,7 @@ def survives(folder: Path, mutant: Mutant, tests: tuple[str, ...], interpreted: 
     kept = path.read_bytes()
     path.write_text(mutant.text, encoding="utf-8")
     try:
-        return run_tests(folder, tests, interpreted, seconds) == PASSED
+        return run_tests(folder, tests, interpreted, seconds) == PASSED_CODE
     finally:
         path.write_bytes(kept)
 
@@ -61,7 +61,7 @@ def run_tests(folder: Path, tests: tuple[str, ...], interpreted: bool, seconds: 
     while status is None and monotonic() < end:
         done, code = os.waitpid(child, os.WNOHANG)
         status = code if done else None
-        sleep(LOOK)
+        sleep(POLL_SECONDS)
     with suppress(ProcessLookupError):
         os.killpg(child, signal.SIGKILL)  # whatever it has started goes with it
     if status is None:
@@ -71,7 +71,7 @@ def run_tests(folder: Path, tests: tuple[str, ...], interpreted: bool, seconds: 
 
 
 def _become_pytest(folder: Path, tests: tuple[str, ...], interpreted: bool) -> None:
-    code = BROKEN
+    code = BROKEN_CODE
     try:
         output = os.open(folder / "output.txt", os.O_WRONLY | os.O_CREAT | os.O_TRUNC)
         for stream, other in ((0, os.open(os.devnull, os.O_RDONLY)), (1, output), (2, output)):

@@ -19,7 +19,7 @@ from mindlang.compiler.syntax import NOUNS, SETTINGS
 
 INDENT = "  "
 Stretch = tuple[int, int]
-OPEN = ("skill", "task", "curriculum")  # nouns that own facts
+FACT_OWNERS = ("skill", "task", "curriculum")  # nouns that own facts
 
 
 @dataclass(frozen=True, slots=True)
@@ -45,7 +45,7 @@ class _Line:
     @property
     def opens(self) -> bool:
         """Whether facts may stand below it."""
-        return self.first in OPEN
+        return self.first in FACT_OWNERS
 
     def __str__(self) -> str:
         return "  ".join(filter(None, (self.code, self.comment)))

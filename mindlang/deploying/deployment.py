@@ -12,7 +12,7 @@ from pathlib import Path
 from mindrun.bundle import Bundle
 
 from mindlang.deploying.release import Release, make_release
-from mindlang.deploying.robot import Robot, Told
+from mindlang.deploying.robot import Robot, RobotEvent
 from mindlang.deploying.state import State, check_able, look
 from mindlang.deploying.unit import ARMED, SERVICE
 
@@ -118,7 +118,7 @@ def _manner(settings: Settings) -> str:
             return "with a service that is not armed"
 
 
-def _note(event: Told) -> str:
+def _note(event: RobotEvent) -> str:
     match event:
         case "unlingering", user:
             return f"the service waits for a login: on the robot, sudo loginctl enable-linger {user}"

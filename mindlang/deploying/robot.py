@@ -17,12 +17,12 @@ from typing import IO
 
 from mindlang.deploying import DeployError
 
-UNREACHABLE = 255  # ssh's own exit code
+SSH_FAILURE_CODE = 255  # ssh's own exit code
 SCRIPTS = ("robot.sh", "switch.sh")
 HEARTBEAT_SECONDS = 5.0  # after thirty without one the robot is free again
-Told = tuple[str, str]  # an event, and its detail
-HELD: Told = ("held", "")
-WAITING: Told = ("waiting", "")
+RobotEvent = tuple[str, str]  # an event, and its detail
+LOCK_HELD: RobotEvent = ("held", "")
+LOCK_WAITING: RobotEvent = ("waiting", "")
 
 
 @dataclass(frozen=True, slots=True)
@@ -32,7 +32,7 @@ class Robot:
     host: str
     options: tuple[str, ...]
 
-    def ask(self, verb: str, *words: str) -> list[Told]:
+    def ask(self, verb: str, *words: str) -> list[RobotEvent]:
         """Let the robot do one verb; what it told, or DeployError with its reason."""
         done = subprocess.run(
             self._shell,
@@ -55,9 +55,9 @@ class Robot:
             told = []
             for event in _until_held(process.stdout):
                 told.append(event)
-                if event == WAITING:
+                if event == LOCK_WAITING:
                     waits()
-            if told[-1:] != [HELD]:
+            if told[-1:] != [LOCK_HELD]:
                 raise _refusal(self.host, process.wait(), told)
             ended = Event()
             beating = Thread(target=_beat, args=(process.stdin, ended), daemon=True)
@@ -85,12 +85,12 @@ class Robot:
             )
 
 
-def _until_held(said: IO[bytes]) -> Iterator[Told]:
+def _until_held(said: IO[bytes]) -> Iterator[RobotEvent]:
     """What the robot tells until it is held, or ends."""
     for line in said:
         for event in events(line):
             yield event
-            if event == HELD:
+            if event == LOCK_HELD:
                 return
 
 
@@ -123,7 +123,7 @@ def script(verb: str, words: Sequence[str]) -> bytes:
     return f"{text}\n{{ {call}; exit; }}\n".encode()
 
 
-def events(said: bytes) -> Iterator[Told]:
+def events(said: bytes) -> Iterator[RobotEvent]:
     """What the script told; a greeting of the login shell is nothing of it."""
     for line in said.decode(errors="replace").splitlines():
         event, tab, detail = line.partition("\t")
@@ -131,10 +131,10 @@ def events(said: bytes) -> Iterator[Told]:
             yield event, detail
 
 
-def _refusal(host: str, code: int, told: Sequence[Told]) -> DeployError:
+def _refusal(host: str, code: int, told: Sequence[RobotEvent]) -> DeployError:
     """Why the robot did not do it, with what its service wrote last."""
     last = dict(told)
-    if code == UNREACHABLE:
+    if code == SSH_FAILURE_CODE:
         return DeployError(f"{host} cannot be reached.", f"ssh {host} must work; ~/.ssh/config is honoured.")
     if "refused" not in last:
         return DeployError(f"{host} could not do it (its shell ended with {code}).", "What it wrote stands above.")

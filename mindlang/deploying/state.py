@@ -10,12 +10,12 @@ from datetime import UTC, datetime, timedelta
 from mindrun.strict_json import parsed
 
 from mindlang.deploying import DeployError
-from mindlang.deploying.robot import Robot, Told
+from mindlang.deploying.robot import Robot, RobotEvent
 
 MOMENT = "%Y%m%dT%H%M%SZ"
 RELEASE = re.compile(r"(\d{8}T\d{6}Z)-[0-9a-f]{8}", re.ASCII)
 LAST_YEAR = 9999  # after which no release could be named
-TOLD = re.compile(r"(?P<name>\S+) (?P<state>\S+) (?P<made_of>.*)")
+RELEASE_LINE = re.compile(r"(?P<name>\S+) (?P<state>\S+) (?P<made_of>.*)")
 SYSTEMD = "systemctl --user"
 MADE_OF = "bundle", "sha256", "master"
 
@@ -75,9 +75,9 @@ def look(robot: Robot) -> State:
     return state_of(robot.ask("look"))
 
 
-def state_of(told: Sequence[Told]) -> State:
+def state_of(told: Sequence[RobotEvent]) -> State:
     """The state that the robot told."""
-    found = (TOLD.fullmatch(detail) for event, detail in told if event == "release")
+    found = (RELEASE_LINE.fullmatch(detail) for event, detail in told if event == "release")
     releases = [
         Deployed(each["name"], each["state"], _made_of(each["made_of"]))
         for each in found

@@ -18,16 +18,16 @@ from mindlang.proofs.branch_and_bound import by_itself, halves, sway_of
 from mindlang.proofs.interval import Boxes, Sent, Singles, sent
 from mindlang.proofs.reach import Bound, Flow, Reach, as_sent, flow
 
-BOXES, FEWEST, WORK = 8192, 16, 100_000  # boxes, and boxes times skills
+MAX_BOXES, MIN_BOXES, MAX_BOX_SKILLS = 8192, 16, 100_000  # boxes, and boxes times skills
 BOXES_PER_ROUND = 256
 
 
 def together(graph: Graph, weights: Mapping[str, Weights], found: Reach, can_be_zero: Sequence[bool]) -> Reach:
     """The bounds with a better least Σ influence, for those actuators whose Σ is neither above 0 nor was seen at 0."""
-    most = min(BOXES, WORK // len(found.edges))
+    most = min(MAX_BOXES, MAX_BOX_SKILLS // len(found.edges))
     actuators = list(found.actuators)
     for place, driven in enumerate(actuators):
-        if not can_be_zero[place] and driven.total.low <= 0 < driven.total.high and most >= FEWEST:
+        if not can_be_zero[place] and driven.total.low <= 0 < driven.total.high and most >= MIN_BOXES:
             low = _least(graph, weights, found, place, most)
             actuators[place] = replace(driven, total=Bound(low, driven.total.high))
     return replace(found, actuators=tuple(actuators))

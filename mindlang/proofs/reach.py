@@ -17,7 +17,7 @@ from mindrun.weights import Weights, reachable
 from mindlang.proofs.branch_and_bound import Range, ranges
 from mindlang.proofs.interval import Sent, Singles
 
-BOXES, ALL_BOXES = 20_000, 500_000  # for one skill, for all of them
+MAX_SKILL_BOXES, MAX_TOTAL_BOXES = 20_000, 500_000  # for one skill, for all of them
 ROUNDING_MARGIN = 2.0**-22
 MIN_INFLUENCE = 1e-30  # below this, influence is so small that rounding alone may decide a command
 
@@ -65,7 +65,7 @@ class Flow:
 def reach(graph: Graph, weights: Mapping[str, Weights]) -> Reach:
     """Bounds for any readings in 0..1; of skills without weights, and of procedures, only that they send 0..1."""
     skills = reachable(graph, graph.master)
-    boxes = max(1, min(BOXES, ALL_BOXES // len(skills)))
+    boxes = max(1, min(MAX_SKILL_BOXES, MAX_TOTAL_BOXES // len(skills)))
     edges = {skill.name: ranges(skill, weights.get(skill.name), boxes) for skill in skills}
     found = flow(graph, 1, {name: as_sent(sends) for name, sends in edges.items()}.__getitem__)
     drivers: list[list[Range]] = [[] for _ in graph.actuators]

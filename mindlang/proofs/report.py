@@ -17,7 +17,7 @@ from mindlang.proofs.recorded import Recorded
 
 MAX_NAMED_SKILLS = 3  # skills in a list, above which it says how many
 MAX_PATH_SKILLS = 6  # skills of a path
-MEANS = {
+MEANINGS = {
     "can be": "keeps still: there are readings for which it has influence, and passes none on",
     "not excluded": "not ruled out: not proved to be impossible, and seen for no readings that were tried",
 }
@@ -102,7 +102,7 @@ def _neutral(found: OfActuator) -> str:
 def _legend(proof: Proof) -> Iterator[Text]:
     """What the words in the table mean, where it has them."""
     answers = {found.neutral for found in proof.actuators}
-    for answer, words in MEANS.items():
+    for answer, words in MEANINGS.items():
         if answer in answers:
             yield Text(f"  {words}", "dim")
 

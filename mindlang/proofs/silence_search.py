@@ -13,7 +13,7 @@ from mindlang.proofs.batch import Thoughts, think
 from mindlang.proofs.branch_and_bound import readings_to_try
 from mindlang.proofs.interval import Singles, is_known
 
-TRIED, WORK = 4096, 20_000_000  # readings, and weights times readings
+TRIED_READINGS, MAX_WEIGHT_READINGS = 4096, 20_000_000  # readings, and weights times readings
 
 
 @dataclass(frozen=True, slots=True)
@@ -33,7 +33,7 @@ def try_out(graph: Graph, weights: Mapping[str, Weights]) -> list[Tried] | None:
     skills = reachable(graph, graph.master)
     if not all(is_known(skill, weights.get(skill.name)) for skill in skills):
         return None
-    rows = max(64, min(TRIED, WORK // sum(genes(skill) + 100 for skill in skills)))
+    rows = max(64, min(TRIED_READINGS, MAX_WEIGHT_READINGS // sum(genes(skill) + 100 for skill in skills)))
     readings = readings_to_try(graph.width, rows)
     thoughts = think(graph, weights, readings)
     return [_of(graph, readings, thoughts, actuator) for actuator in range(len(graph.actuators))]

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from typing import BinaryIO
 
 MAX_MESSAGE_BYTES = 64 << 20
-LINE, LINES = 1 << 16, 100  # bytes of a header, and how many there may be
+MAX_HEADER_BYTES, MAX_HEADER_LINES = 1 << 16, 100  # bytes of a header, and how many there may be
 SKIPPED_BYTES = 1 << 20  # passed over at once
 
 _LENGTH = re.compile(rb"content-length:[ \t]*([-+]?[0-9]{1,18})[ \t]*\r?\n?\Z", re.IGNORECASE)
@@ -53,11 +53,11 @@ def bodies(stream: BinaryIO) -> Iterator[bytes]:
 def _length(stream: BinaryIO) -> int | None:
     """The length that a header says, 0 where it says none; None at the end of the stream."""
     length, number = 0, 0
-    while line := stream.readline(LINE):
+    while line := stream.readline(MAX_HEADER_BYTES):
         number += 1
         if found := _LENGTH.search(line):
             length = int(found[1])
-        if (not line.strip() and number > 1) or number == LINES:
+        if (not line.strip() and number > 1) or number == MAX_HEADER_LINES:
             return length
         if not line.strip():  # blank lines between messages
             number = 0

@@ -12,7 +12,7 @@ from mindlang.compiler.splice import Splice
 from mindlang.linting.fixing import fixed
 from mindlang.server.view import View
 
-_NEARLY = re.compile(r"Did you mean (\S+)\?")
+_SUGGESTED_NAME = re.compile(r"Did you mean (\S+)\?")
 
 
 @dataclass(frozen=True, slots=True)
@@ -33,7 +33,7 @@ def mendings(view: View, path: Path, start: int, end: int) -> Iterator[Mending]:
             continue
         if found.fix:
             yield Mending(found.fix.title, found, found.fix.splices, found.fix.is_safe)
-        if nearly := _NEARLY.search(found.hint):
+        if nearly := _SUGGESTED_NAME.search(found.hint):
             splice = Splice(span.source, span.start, span.end, nearly[1])
             yield Mending(f"Write {nearly[1]}", found, (splice,), True)
 

@@ -14,7 +14,7 @@ from mindlang.wiring.options import DRIVER, Option, driver_options, drivers, own
 from mindlang.wiring.values import by_option, first_line, is_empty, missing_key, unknown_key
 
 ENDS = ("from", "to")  # are in the unit of the driver, so they are read when there is one
-OTHER = {"sensor": "actuator", "actuator": "sensor"}
+COUNTERPARTS = {"sensor": "actuator", "actuator": "sensor"}
 
 
 @dataclass(frozen=True, slots=True)
@@ -85,8 +85,8 @@ def _class(noun: str, name: Scalar, table: Table, findings: Findings) -> type[An
         case Scalar(text=driver, span=span):
             message = f"There is no {noun} driver called {shortened(driver)}."
             hint = findings.suggest(driver, known) or f"Known are {listed(sorted(known), 'and')}."
-            if driver in drivers(OTHER[noun]):
-                hint = f"{driver} is for {OTHER[noun]}s. Known for {noun}s are {listed(sorted(known), 'and')}."
+            if driver in drivers(COUNTERPARTS[noun]):
+                hint = f"{driver} is for {COUNTERPARTS[noun]}s. Known for {noun}s are {listed(sorted(known), 'and')}."
             tell(findings, "unknown-driver", span, message, hint)
         case Table(span=span):
             hint = "Write driver: and its name, and its options as lines below, as far in as driver."

@@ -11,7 +11,7 @@ from mindlang.wiring.options import DRIVER, Option, driver_options, drivers, own
 
 DRAFT = "https://json-schema.org/draft/2020-12/schema"
 NUMBER = r"-?[0-9]+(\.[0-9]+)?(/[0-9]+)?"
-WHAT = {
+OPTION_DESCRIPTIONS = {
     "from": "The value at which it reads 0, in the unit of the driver.",
     "to": "The value at which it reads 1, in the unit of the driver; it may be the smaller one.",
     "median": "Of so many values, an odd number, the median is taken.",
@@ -85,7 +85,7 @@ def _wire(noun: str, name: str, cls: type[Any]) -> dict[str, Any]:
 
 def _described(key: str, option: Option, own: tuple[Option, ...]) -> dict[str, Any]:
     found = _any_amount() if key in ("from", "to") and option in own else _value(option)
-    words = WHAT.get(key, "") if option in own else getattr(option.type, "name", "")
+    words = OPTION_DESCRIPTIONS.get(key, "") if option in own else getattr(option.type, "name", "")
     told = option.default is not MISSING and option.default is not None and key not in ("blank", "dead_zone")
     default = (
         {"default": option.default} if told and not getattr(option.type, "units", {"": 1}).keys() - {"", "%"} else {}

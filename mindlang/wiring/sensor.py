@@ -14,7 +14,7 @@ from mindlang.wiring.values import first_line, is_empty, number
 
 # What a driver may measure in, and how people may write it.
 UNITS = {"m": {"m": 1.0, "cm": 0.01, "mm": 0.001}, "V": {"V": 1.0, "mV": 0.001}, "m/s²": {"m/s²": 1.0, "m/s2": 1.0}}
-TURN = 360.0  # degrees
+FULL_TURN_DEGREES = 360.0
 
 
 def sensor_wire(wired: Wired, sensor: Sensor, findings: Findings) -> SensorWire | None:
@@ -84,7 +84,7 @@ def _check_range(wired: Wired, wire: SensorWire, sensor: Sensor, findings: Findi
             hint,
             *labels,
         )
-    elif sensor.kind.circular and wired.driver.unit == "deg" and abs(wire.high - wire.low) != TURN:
+    elif sensor.kind.circular and wired.driver.unit == "deg" and abs(wire.high - wire.low) != FULL_TURN_DEGREES:
         message = f"A bearing's readings 0 to 1 are a whole turn, and these are {abs(wire.high - wire.low):g} degrees."
         usual = wired.driver.usual
         hint = f"Leave both out, or write from: {usual[0]:g} deg and to: {usual[1]:g} deg."

@@ -8,7 +8,7 @@ from mindrun.registry import kind
 
 OCTAVES = Quantity("a whole number up to 8", {"": 1.0}, low=0, high=8, whole=True)
 SPREAD = Quantity("a number above zero", {"": 1.0}, low=1e-6, high=1000.0)
-PATIENCE = replace(GENERATIONS, low=0)
+PATIENCE_GENERATIONS = replace(GENERATIONS, low=0)
 RUNGS = Quantity("a whole number up to 16", {"": 1.0}, low=0, high=16, whole=True)
 FOUNDERS = Quantity("a whole number", {"": 1.0}, low=0, high=100_000, whole=True)
 POPULATION = Quantity("a whole number of at least 4", {"": 1.0}, low=4, high=100_000, whole=True)
@@ -35,7 +35,7 @@ class Genetic:
     mutation: Annotated[float, SPREAD] = 0.5
     mutated: Annotated[float, RATIO] = 0.1
     octaves: Annotated[int, OCTAVES] = 0
-    patience: Annotated[int, PATIENCE] = 0
+    patience: Annotated[int, PATIENCE_GENERATIONS] = 0
     founders: Annotated[int, FOUNDERS] = 0
     rungs: Annotated[int, RUNGS] = 0
 
@@ -51,7 +51,7 @@ class Restarting(Genetic):
 
     attempts: Annotated[int, COUNT] = 4
     octaves: Annotated[int, OCTAVES] = 2
-    patience: Annotated[int, PATIENCE] = 40
+    patience: Annotated[int, PATIENCE_GENERATIONS] = 40
 
 
 @kind("curriculum", "evolution_strategy")
@@ -69,7 +69,7 @@ class EvolutionStrategy:
     attempts: Annotated[int, COUNT] = 1
     layouts: Annotated[int, COUNT] = 2
     mutation: Annotated[float, SPREAD] = 0.2
-    patience: Annotated[int, PATIENCE] = 0
+    patience: Annotated[int, PATIENCE_GENERATIONS] = 0
     founders: Annotated[int, FOUNDERS] = 0
     rungs: Annotated[int, RUNGS] = 0
 

@@ -12,14 +12,15 @@ from numpy.typing import NDArray
 MAGIC = b"\x93NUMPY\x01\x00"
 LENGTH_BYTES = 2  # of the header's length
 HEADER = re.compile(rb"\{'descr': '<f4', 'fortran_order': False, 'shape': \((0|[1-9][0-9]{0,9}),\), \} *\n")
-GROWTH, ALIGNED = 21, 64  # columns that numpy leaves for the number to grow, bytes that a header fills
+GROWTH_COLUMNS, HEADER_ALIGNMENT = 21, 64  # columns that numpy leaves for the number to grow, bytes that a header fills
 
 
 def to_npy(vector: NDArray[np.float32]) -> bytes:
     """A vector as a .npy file; the same bytes with any version of numpy."""
     size = str(len(vector))
-    header = f"{{'descr': '<f4', 'fortran_order': False, 'shape': ({size},), }}{' ' * (GROWTH - len(size))}"
-    length = -(-(len(MAGIC) + LENGTH_BYTES + len(header) + 1) // ALIGNED) * ALIGNED - len(MAGIC) - LENGTH_BYTES
+    header = f"{{'descr': '<f4', 'fortran_order': False, 'shape': ({size},), }}{' ' * (GROWTH_COLUMNS - len(size))}"
+    before = len(MAGIC) + LENGTH_BYTES
+    length = -(-(before + len(header) + 1) // HEADER_ALIGNMENT) * HEADER_ALIGNMENT - before
     header = f"{header:<{length - 1}}\n"
     return (
         MAGIC

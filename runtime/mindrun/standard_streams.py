@@ -14,7 +14,7 @@ from mindrun.errors import reason
 from mindrun.line_writer import LineWriter
 from mindrun.printable import visible
 
-OUTPUT, ERRORS = 1, 2
+OUTPUT_DESCRIPTOR, ERROR_DESCRIPTOR = 1, 2
 SIZE_VARIABLES = "COLUMNS", "LINES"  # of the terminal, as the environment may say them
 MAX_TERMINAL_SIZE = 9999
 FLUSH_SECONDS = 1.0  # in which what has been told aside must be taken
@@ -53,7 +53,7 @@ class Aside(RawIOBase):
     """Standard error of a program that must not wait for who reads it: a thread of its own writes."""
 
     def __init__(self) -> None:
-        self.line_writer = LineWriter(ERRORS)
+        self.line_writer = LineWriter(ERROR_DESCRIPTOR)
 
     def writable(self) -> bool:
         """It is."""
@@ -81,9 +81,9 @@ def prepare(kind: type[TextIOWrapper] = TextIOWrapper) -> None:
     if sys.stdin is None:
         sys.stdin = open(0, encoding="utf-8", closefd=False)  # noqa: SIM115
     if sys.stdout is sys.__stdout__:
-        sys.stdout = _text(kind, Output(OUTPUT, "w", closefd=False), sys.__stdout__)
+        sys.stdout = _text(kind, Output(OUTPUT_DESCRIPTOR, "w", closefd=False), sys.__stdout__)
     if sys.stderr is sys.__stderr__:
-        sys.stderr = _text(kind, Errors(ERRORS, "w", closefd=False), sys.__stderr__)
+        sys.stderr = _text(kind, Errors(ERROR_DESCRIPTOR, "w", closefd=False), sys.__stderr__)
     for name in SIZE_VARIABLES:
         if not _is_size(os.environ.get(name, "80")):
             del os.environ[name]
@@ -139,7 +139,7 @@ def _occupy(number: int) -> None:
     try:
         os.fstat(number)
     except OSError:
-        descriptor = os.open(os.devnull, os.O_RDONLY if number == OUTPUT else os.O_WRONLY)
+        descriptor = os.open(os.devnull, os.O_RDONLY if number == OUTPUT_DESCRIPTOR else os.O_WRONLY)
         os.dup2(descriptor, number)
         if descriptor != number:
             os.close(descriptor)

@@ -2,7 +2,7 @@
 
 import pytest
 
-from benchmarks.doubling import COMMANDS, LINEAR, calls, growth
+from benchmarks.doubling import COMMANDS, LINEAR_RATIO, calls, growth
 from benchmarks.shapes import SHAPES
 
 LINES, WORDS = 40, 160  # a line of a few words is explained otherwise than a long one
@@ -26,6 +26,6 @@ def test_twice_the_lines_are_twice_the_work(shape: str, monkeypatch: pytest.Monk
     slow = {}
     for command in COMMANDS:
         figures = [calls(command, shape, factor * first) for factor in (1, 2, 4)]
-        if growth(figures) > LINEAR and figures[2] > FEW_CALLS and (shape, command) not in ALLOWED:
+        if growth(figures) > LINEAR_RATIO and figures[2] > FEW_CALLS and (shape, command) not in ALLOWED:
             slow[command] = figures
     assert not slow

@@ -11,7 +11,7 @@ import pytest
 from mindlang.compiler.compile import compile_source, load
 from mindlang.compiler.diagnostic import Findings
 from mindlang.compiler.parse import parse
-from mindlang.compiler.parse.explain import INSTEAD, LINES
+from mindlang.compiler.parse.explain import FOREIGN_WORDS, LINES
 from mindlang.compiler.parse.mistakes import MISTAKES, OPENINGS, Mistake
 from mindlang.compiler.source import Source
 from mindlang.diagnostic_printer import plain
@@ -55,7 +55,7 @@ def test_the_lines_that_hints_show_can_be_read(line: str) -> None:
 
 
 @pytest.mark.parametrize(
-    ("word", "known"), [(word, known) for known, words in INSTEAD.items() for word in words.split()]
+    ("word", "known"), [(word, known) for known, words in FOREIGN_WORDS.items() for word in words.split()]
 )
 def test_what_people_write_for_a_word_is_answered_by_it(word: str, known: str) -> None:
     findings = Findings()
@@ -64,7 +64,7 @@ def test_what_people_write_for_a_word_is_answered_by_it(word: str, known: str) -
 
 
 def test_no_word_of_the_language_is_one_that_people_write_for_another() -> None:
-    assert {word for words in INSTEAD.values() for word in words.split()} & set(LINES) == set()
+    assert {word for words in FOREIGN_WORDS.values() for word in words.split()} & set(LINES) == set()
 
 
 def test_all_bad_lines_are_reported_in_one_go_and_without_echoes() -> None:

@@ -133,7 +133,7 @@ def test_as_many_readings_are_tried_as_there_is_time_for(monkeypatch: pytest.Mon
     """64 at least and 4096 at most; a skill takes as long as 100 weights, and its own."""
     graph = mind(skill("Top", Mlp(hidden=0), (0, 1, 2), ("skill", 1), ("actuator", LEFT)), drives("A", 0.5), readings=3)
     tried = []
-    monkeypatch.setattr(silence_search, "WORK", work)
+    monkeypatch.setattr(silence_search, "MAX_WEIGHT_READINGS", work)
     monkeypatch.setattr(silence_search, "readings_to_try", lambda *size: tried.append(size) or readings_to_try(*size))
     assert genes(graph.skills[0]) == 6
     assert try_out(graph, {"Top": np.ones(6, np.float32)})

@@ -132,8 +132,8 @@ def test_the_boxes_are_shared_by_the_skills(monkeypatch: pytest.MonkeyPatch, one
     nothing = (*R0, *R0, ("-", 0))
     top = rule("Top", sends("skill", 1, nothing), reads=(0,))
     graph = mind(top, rule("A", sends("actuator", LEFT, nothing), reads=(0,)))
-    monkeypatch.setattr(reach, "BOXES", one)
-    monkeypatch.setattr(reach, "ALL_BOXES", every)
+    monkeypatch.setattr(reach, "MAX_SKILL_BOXES", one)
+    monkeypatch.setattr(reach, "MAX_TOTAL_BOXES", every)
     found = reach.reach(graph, {}).edges
     assert (found["Top"][0].high, found["A"][0].high) == (high, high)
 
@@ -177,23 +177,23 @@ def test_boxes_are_cut_while_there_may_be_more(monkeypatch: pytest.MonkeyPatch) 
             (999, 3 * made, "never"),
             (999, 3 * made - 1, "not excluded"),
         ):
-            monkeypatch.setattr(joint, "BOXES", boxes)
-            monkeypatch.setattr(joint, "WORK", work)
+            monkeypatch.setattr(joint, "MAX_BOXES", boxes)
+            monkeypatch.setattr(joint, "MAX_BOX_SKILLS", work)
             found = claim(*bisected(overlap))
             assert (found.neutral, found.driven.total.low > 0) == (answer, answer == "never")
 
 
 def test_so_few_boxes_are_not_begun_with(monkeypatch: pytest.MonkeyPatch) -> None:
     """Where there are so many skills that a few boxes are all, not even the first cut is tried."""
-    for most, answer in ((joint.FEWEST, "never"), (joint.FEWEST - 1, "not excluded")):
-        monkeypatch.setattr(joint, "WORK", 3 * most)
+    for most, answer in ((joint.MIN_BOXES, "never"), (joint.MIN_BOXES - 1, "not excluded")):
+        monkeypatch.setattr(joint, "MAX_BOX_SKILLS", 3 * most)
         assert claim(*bisected(0.5)).neutral == answer
 
 
 def test_every_box_that_is_cut_counts(monkeypatch: pytest.MonkeyPatch) -> None:
     """r − r + 1e-6 is open everywhere: 1, 3, 7, 15, 31, 63 boxes are made, and then 64 are too many."""
     looked, flow = [], joint.flow
-    monkeypatch.setattr(joint, "BOXES", 64)
+    monkeypatch.setattr(joint, "MAX_BOXES", 64)
     monkeypatch.setattr(joint, "flow", lambda *arguments: looked.append(arguments[1]) or flow(*arguments))
     nearly_nothing = (*R0, *R0, ("-", 0), *number(1e-6), ("+", 0))
     found = claim(rule("Top", sends("skill", 1, nearly_nothing), reads=(0,)), drives("A", 0.5))
@@ -250,7 +250,7 @@ def test_what_is_known_of_a_skill_anywhere_is_known_in_each_box(monkeypatch: pyt
     hollow = (*number(0.3), *hill, ("-", 0))
     divisor = (*number(0.1), *R0, *R0, *R0, ("*", 0), ("-", 0), ("+", 0))
     quotient = (*number(0.1), *divisor, ("/", 0))
-    monkeypatch.setattr(joint, "BOXES", joint.FEWEST)
+    monkeypatch.setattr(joint, "MAX_BOXES", joint.MIN_BOXES)
     for program, least in ((hollow, 0.05), (quotient, 0.1 / 0.35)):
         found = claim(*weighed(sends("skill", 3, program)), readings=2)
         assert found.neutral == "never"

@@ -283,7 +283,7 @@ def _hash(data: bytes) -> str:
 
 def tampered_checkpoint(rng: Random) -> dict[str, bytes]:
     """A run that stands elsewhere."""
-    body = run_files()[checkpoint.NAME][len(checkpoint.MAGIC) : -checkpoint.DIGEST]
+    body = run_files()[checkpoint.NAME][len(checkpoint.MAGIC) : -checkpoint.DIGEST_BYTES]
     header, _, rest = body.partition(b"\n")
     match rng.randrange(4):
         case 0:

@@ -52,7 +52,7 @@ STILL = """task Still in plain
 @pytest.fixture(autouse=True)
 def patient(monkeypatch: pytest.MonkeyPatch) -> None:
     """A shared machine takes its time."""
-    monkeypatch.setattr("mindrun.robot.drivers.simulated.DEADLINE", PATIENCE)
+    monkeypatch.setattr("mindrun.robot.drivers.simulated.EXCHANGE_SECONDS", PATIENCE)
 
 
 def graph_of(path: Path) -> Graph:
@@ -342,7 +342,7 @@ def test_a_world_that_does_not_answer_is_an_error_and_can_come_back(
     with pytest.raises(DeviceError, match="does not answer: No such file"):
         link.ask(STATUS)
     with listening(path), monkeypatch.context() as soon:
-        soon.setattr("mindrun.robot.drivers.simulated.DEADLINE", 0.05)
+        soon.setattr("mindrun.robot.drivers.simulated.EXCHANGE_SECONDS", 0.05)
         with pytest.raises(DeviceError, match="timed out"):
             link.ask(STATUS)
     with served(Counting(roam), path=path):

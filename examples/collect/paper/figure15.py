@@ -20,12 +20,12 @@ from mindlang.run.setup import SetupError, set_up
 
 FILE, TASK, MASTER = "constant_skills.mind", "Collect", "Gather"
 SEEKER, DODGER = "SeekObject", "Dodge"
-STEPS = 5
-SHORTEST, LONGEST = 40, 200  # ticks that a passage may take
-MARGIN = 40  # ticks that are shown before the obstacle matters, and after it has mattered
-WINDOW = 30.0  # units of the world that are seen
+SNAPSHOT_COUNT = 5
+MIN_PASSAGE_TICKS, MAX_PASSAGE_TICKS = 40, 200  # ticks that a passage may take
+MARGIN_TICKS = 40  # ticks that are shown before the obstacle matters, and after it has mattered
+WINDOW_UNITS = 30.0  # units of the world that are seen
 SEEDS = range(1, 41)
-SMALLER = 0.5  # than the frames of a film
+FRAME_SCALE = 0.5  # than the frames of a film
 
 
 @dataclass(frozen=True, slots=True)
@@ -38,7 +38,7 @@ class Close(Film):
     def view(self, tick: int) -> View:
         """What is around the place."""
         middle = np.array([self.x, self.y])
-        return View.around(middle - WINDOW / 2, middle + WINDOW / 2, HEIGHT, HEIGHT)
+        return View.around(middle - WINDOW_UNITS / 2, middle + WINDOW_UNITS / 2, HEIGHT, HEIGHT)
 
 
 def passage(folder: Path) -> Image | None:
@@ -54,7 +54,7 @@ def passage(folder: Path) -> Image | None:
         for first, last in passages(recorded):
             about = {"seed": seed, **outcome.one(found.task, rollout.score(NO_GENOME, [seed]))}
             x, y = recorded.body[first : last + 1, :2].mean(axis=0)
-            ticks = np.linspace(first - MARGIN, last + MARGIN, STEPS).astype(int)
+            ticks = np.linspace(first - MARGIN_TICKS, last + MARGIN_TICKS, SNAPSHOT_COUNT).astype(int)
             return strip(Close(recorded, about, 1.0, float(x), float(y)), ticks.tolist())
     return None
 
@@ -65,8 +65,12 @@ def passages(recorded: RecordedRun) -> Iterator[tuple[int, int]]:
     dodging, seeking = (recorded.influence[:, names.index(name)] for name in (DODGER, SEEKER))
     changes = np.diff(np.concatenate([[0], (dodging > seeking).astype(np.int8), [0]]))
     for first, last in np.flatnonzero(changes).reshape(-1, 2).tolist():
-        around = slice(max(0, first - 2 * MARGIN), last + 2 * MARGIN)
-        whole = SHORTEST <= last - first <= LONGEST and first > 2 * MARGIN and last + 2 * MARGIN < recorded.ticks
+        around = slice(max(0, first - 2 * MARGIN_TICKS), last + 2 * MARGIN_TICKS)
+        whole = (
+            MIN_PASSAGE_TICKS <= last - first <= MAX_PASSAGE_TICKS
+            and first > 2 * MARGIN_TICKS
+            and last + 2 * MARGIN_TICKS < recorded.ticks
+        )
         calm = not recorded.touching[around].any() and (recorded.held[around] < 0).all()
         if whole and calm and min(seeking[around.start : first].max(), seeking[last : around.stop].max()) > 0.5:
             yield first, last
@@ -77,4 +81,6 @@ def strip(film: Film, ticks: list[int]) -> Image:
     panel = Panel(film.recorded, NIGHT, HEIGHT + 8, 86, WIDTH - HEIGHT - 16, HEIGHT - 96)
     trail = Trail.of(film.recorded, NIGHT)
     frames = [film.frame(panel, trail, tick) for tick in ticks]
-    return np.concatenate([cv2.resize(f, None, fx=SMALLER, fy=SMALLER, interpolation=cv2.INTER_AREA) for f in frames])
+    return np.concatenate(
+        [cv2.resize(f, None, fx=FRAME_SCALE, fy=FRAME_SCALE, interpolation=cv2.INTER_AREA) for f in frames]
+    )

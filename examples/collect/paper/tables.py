@@ -12,7 +12,7 @@ from protocol import FILES, SUCCESS, Case, Table
 from mindlang.number_format import duration
 
 Say = Callable[[str], None]
-FRESH = 100  # layouts on which each champion is tried
+FRESH_LAYOUTS = 100  # layouts on which each champion is tried
 
 
 def table(folder: Path, of: Table, runs: int, seed: int, say: Say) -> str:
@@ -51,7 +51,7 @@ def attempts(folder: Path, seed: int, say: Say) -> str:
         if lesson not in logs:
             continue
         say(f"attempts: {lesson}")
-        counts = champions_do(folder, FILES[0], lesson, logs[lesson].champions, FRESH, seed)
+        counts = champions_do(folder, FILES[0], lesson, logs[lesson].champions, FRESH_LAYOUTS, seed)
         succeeded = sum(count >= SUCCESS[lesson] for count in counts)
         rows.append((
             lesson, f"{SUCCESS[lesson]:g}", f"{succeeded} of {len(counts)}", _spread(counts), f"{max(counts):.1f}",

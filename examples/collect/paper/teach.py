@@ -26,7 +26,7 @@ from mindlang.number_format import duration
 from mindlang.run.session import layouts
 from mindlang.training.trainer import Trainer
 
-RUNS = 128  # of shipped champions, to see how fast this machine is; fewer would leave lanes empty
+RUN_COUNT = 128  # of shipped champions, to see how fast this machine is; fewer would leave lanes empty
 
 
 def main() -> None:
@@ -145,7 +145,7 @@ def speed(file: str, lesson: Lesson, log: Log, workers: int) -> float:
     rollout = rollout_of(FOLDER, file, lesson, [*log.result["weights"]], workers)
     simulator_compilation.ensure_compiled(rollout, print)  # before the clock starts
     begin = perf_counter()
-    scores = rollout.score(log.champions, layouts(1, -(-RUNS // len(log.champions))))
+    scores = rollout.score(log.champions, layouts(1, -(-RUN_COUNT // len(log.champions))))
     return float(scores.ticks.sum()) / (perf_counter() - begin)
 
 

@@ -49,7 +49,7 @@ LINES = {
 }
 
 # What people write for a word of the language.
-INSTEAD = {
+FOREIGN_WORDS = {
     "skill": "behaviour behavior node network policy agent module function def class fn brain controller neuron layer",
     "actuator": "motor wheel output_device effector servo gripper joint",
     "sensor": "camera lidar range_finder input_device detector",
@@ -125,8 +125,8 @@ def _opening(code: str, line: Span) -> Diagnostic | None:
 
 @cache
 def _instead() -> dict[str, str]:
-    """What to write for each word of `INSTEAD`."""
-    return {word: known for known, words in INSTEAD.items() for word in words.split()}
+    """What to write for each word of `FOREIGN_WORDS`."""
+    return {word: known for known, words in FOREIGN_WORDS.items() for word in words.split()}
 
 
 @cache

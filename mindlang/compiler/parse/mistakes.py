@@ -24,7 +24,7 @@ class Mistake:
 
 _PART, _WHOLE, _VERB, _NOUN = ("|".join(words) for words in (PARTS, WHOLES, VERBS, NOUNS))
 _NAMED = f"{_NOUN}|reads|drives|influences|contains|teaches|master"  # what a name stands after
-_UNSEEN = r"[\x00-\x08\x0e-\x1f\x7f\u00ad\u200b-\u200f\u202a-\u202e\u2060-\u2064\ufeff]+"  # characters
+_INVISIBLE = r"[\x00-\x08\x0e-\x1f\x7f\u00ad\u200b-\u200f\u202a-\u202e\u2060-\u2064\ufeff]+"  # characters
 _EXTRA = rf"(?:{_NOUN}|the|an?|is)\s"
 _JOINT, _JOINING = r"\s*,\s*|\s+and\s+|\s+\+\s+|\s+", r"(?:and|at|of|by|with|to)\b"  # between names in one line
 _HEAD = rf"^\s*(?P<noun>{_NOUN}|contains)\s+(?P<name>[\w+.]+)\s+(?:is|in)"
@@ -46,7 +46,7 @@ UNITS = (  # that people write, and what to say of them
 )
 
 OPENINGS = (
-    Mistake("odd-character", rf"^\s*(?P<here>{_UNSEEN})",
+    Mistake("odd-character", rf"^\s*(?P<here>{_INVISIBLE})",
         "There is an invisible character here.", "Delete it; it often comes along when text is copied from a page.",
         "\u200btick 1/60 s"),
     Mistake("merge-mark", r"^\s*(?P<here><{7}|={7}|>{7}|\|{7})", "This mark is left over from merging two versions.",
@@ -85,7 +85,7 @@ MISTAKES = (
     # Characters that are none of the language's.
     Mistake("odd-space", r"(?P<here>[^\S \t])", "This is not an ordinary space.",
         "Replace it by a space; it often comes along when text is copied from a page.", "reads\u00a0moving"),
-    Mistake("odd-character", rf"(?P<here>{_UNSEEN})",
+    Mistake("odd-character", rf"(?P<here>{_INVISIBLE})",
         "There is an invisible character here.", "Delete it; it often comes along when text is copied from a page.",
         "reads mov\u200bing"),
     Mistake("odd-character", r"(?P<here>[\uff01-\uff5e]+)", "{here} is wider than the language's characters.",

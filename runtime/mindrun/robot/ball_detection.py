@@ -14,10 +14,12 @@ from mindrun.robot.driver_support import library
 
 Frame = NDArray[np.uint8]
 
-BLACK, WHITE = 12, 250  # a brightness at and below which there is no light, and from which there is only light
+BLACK_BRIGHTNESS = 12  # a brightness at and below which there is no light
+WHITE_BRIGHTNESS = 250  # a brightness from which there is only light
 BLIND_SHARES = 0.005, 0.6  # shares of the frame: at least so much must not be black, at most so much may be white
 OVEREXPOSED_BRIGHTNESS = 245  # a brightness from which a colour may be gone
-FLATTEST, LONGEST = 0.14, 2.8  # how far a blob's area may be off a round one's; a streak, as lengths of its width
+ROUNDNESS_TOLERANCE = 0.14  # how far a blob's area may be off a round one's
+MAX_STREAK_RATIO = 2.8  # length of a streak to its width
 
 
 @dataclass(frozen=True, slots=True)
@@ -59,9 +61,9 @@ class Blob:
 def blindness(frame: Frame) -> str:
     """Why nothing could be seen in a frame, "" where something could."""
     brightest = library("cv2").cvtColor(frame, library("cv2").COLOR_BGR2GRAY)
-    if np.count_nonzero(brightest > BLACK) < BLIND_SHARES[0] * brightest.size:
+    if np.count_nonzero(brightest > BLACK_BRIGHTNESS) < BLIND_SHARES[0] * brightest.size:
         return "black"
-    return "all white" if np.count_nonzero(brightest >= WHITE) > BLIND_SHARES[1] * brightest.size else ""
+    return "all white" if np.count_nonzero(brightest >= WHITE_BRIGHTNESS) > BLIND_SHARES[1] * brightest.size else ""
 
 
 def find_ball(frame: Frame, target: BallTarget) -> Ball | None:
@@ -127,10 +129,10 @@ def blob(cv2: Any, contour: Any, shape: tuple[int, int]) -> Blob:
     left, top, width, height = cv2.boundingRect(contour)
     if left == 0 or top == 0 or left + width == shape[1] or top + height == shape[0]:  # partly out of the frame
         convex = cv2.contourArea(cv2.convexHull(contour)) + len(contour) / 2 + 1
-        return Blob(x, y, long, 0.5 if area / convex > 0.85 and long <= LONGEST * short else 0.0, area)
+        return Blob(x, y, long, 0.5 if area / convex > 0.85 and long <= MAX_STREAK_RATIO * short else 0.0, area)
     stretch = long / short
-    off = abs(area / (short * long) - (stretch - 1 + pi / 4) / stretch) / (FLATTEST + 1 / short)
-    return Blob(x, y, short, max(0.0, 1 - off) if stretch <= LONGEST else 0.0, area)
+    off = abs(area / (short * long) - (stretch - 1 + pi / 4) / stretch) / (ROUNDNESS_TOLERANCE + 1 / short)
+    return Blob(x, y, short, max(0.0, 1 - off) if stretch <= MAX_STREAK_RATIO else 0.0, area)
 
 
 @dataclass(frozen=True, slots=True)

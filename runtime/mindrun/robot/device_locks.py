@@ -19,7 +19,7 @@ from mindrun.robot.child_processes import keep_from_children, keep_no_longer
 from mindrun.wiring import Wiring
 
 PREFIX = b"\0mind "  # an address that begins with a zero is in no folder
-STREAMS = 3  # descriptors below this are standard input, output and error, whether they are there or not
+FIRST_FREE_DESCRIPTOR = 3  # descriptors below this are standard input, output and error, whether they are there or not
 PEER = struct.Struct("3i")  # process, user, group
 
 
@@ -55,7 +55,7 @@ def _held(what: str) -> Iterator[int]:
             if error.errno != errno.EADDRINUSE:
                 raise
             raise _driven(what, _holder(address)) from None
-        descriptor = fcntl.fcntl(listener, fcntl.F_DUPFD_CLOEXEC, STREAMS)
+        descriptor = fcntl.fcntl(listener, fcntl.F_DUPFD_CLOEXEC, FIRST_FREE_DESCRIPTOR)
 
     def close() -> None:
         os.close(descriptor)

@@ -8,17 +8,19 @@ from time import monotonic, sleep
 from mindrun.quantity import Reference
 from mindrun.robot.driver_support import I2cDevice
 
-WHO_AM_I, INERTIAL, MAGNETIC = 0x0F, 0x68, 0x3D  # 7.11 and 8.4
+WHO_AM_I, INERTIAL_CHIP_ID, MAGNETIC_CHIP_ID = 0x0F, 0x68, 0x3D  # 7.11 and 8.4
 GYROSCOPE_ON = ((0x22, 0x44), (0x10, 0x60))  # CTRL_REG8: whole values only; CTRL_REG1_G: 119 Hz, ±245 °/s
 ACCELEROMETER_ON = ((0x22, 0x44), (0x20, 0x60))  # CTRL_REG6_XL: 119 Hz, ±2 g
 MAGNETOMETER_ON = ((0x20, 0xFC), (0x21, 0x00), (0x23, 0x0C), (0x24, 0x40), (0x22, 0x00))  # 80 Hz, ±4 G, running
-STATUS, STATUS_MAGNETIC = 0x17, 0x27  # 7.18 and 8.11
+STATUS_INERTIAL, STATUS_MAGNETIC = 0x17, 0x27  # 7.18 and 8.11
 OUT_GYROSCOPE, OUT_ACCELEROMETER, OUT_MAGNETOMETER = 0x18, 0x28, 0xA8  # of the last, bit 7 counts the register up
-G = 9.80665
-MS2, DEGREES_A_SECOND, MILLIGAUSS = 0.061e-3 * G, 8.75e-3, 0.14  # of one count, table 3
+STANDARD_GRAVITY = 9.80665
+ACCELERATION_PER_COUNT = 0.061e-3 * STANDARD_GRAVITY  # m/s², table 3
+DEGREES_PER_SECOND_PER_COUNT = 8.75e-3
+MILLIGAUSS_PER_COUNT = 0.14
 MEASURED_IN = 0.1  # seconds until a new value must be there; they come every 8 to 13 ms
 READ_IN = 0.5  # seconds until there must be enough of them
-RAIL = 32767
+SATURATED_COUNT = 32767
 FACE = Reference("face", ("up", "down"))
 
 
@@ -46,7 +48,7 @@ class Chip:
         except Exception:
             self.ready = False  # after a brown-out it has to be set up again
             raise
-        if max(abs(count) for count in counts) >= RAIL:
+        if max(abs(count) for count in counts) >= SATURATED_COUNT:
             raise self.wire.error("measures more than it can")
         return counts
 

@@ -23,7 +23,7 @@ from mindrun.train.population import Population
 
 NAME, PREVIOUS = "checkpoint", "checkpoint.previous"
 MAGIC = b"mind checkpoint 5\n"
-DIGEST = 32
+DIGEST_BYTES = 32
 MAX_CHECKPOINT_BYTES = 1 << 32
 MAX_COUNT = 2**53  # of any count
 
@@ -100,7 +100,7 @@ def _counts(state: State) -> tuple[int, ...]:
 
 def unpack(data: bytes, run: str) -> State | None:
     """The state in these bytes; None where they are damaged, of another run, or of no run at all."""
-    body, digest = data[:-DIGEST], data[-DIGEST:]
+    body, digest = data[:-DIGEST_BYTES], data[-DIGEST_BYTES:]
     if not body.startswith(MAGIC) or sha256(body).digest() != digest:
         return None
     header, _, rest = body[len(MAGIC) :].partition(b"\n")

@@ -8,7 +8,7 @@ import numpy as np
 from mindrun.learners import EvolutionStrategy
 from mindrun.train.population import Genomes, Population, Scores, bounded, order
 
-PARENTS = 4  # one genome in so many has a say in where the centre goes
+GENOMES_PER_PARENT = 4  # one genome in so many has a say in where the centre goes
 
 
 def ask(population: Population, learner: EvolutionStrategy, start: Genomes, rng: np.random.Generator) -> Genomes:
@@ -26,7 +26,7 @@ def tell(population: Population, genomes: Genomes, scores: Scores, start: Genome
     before, ranked, generation = _centre(population, start), order(scores), population.generation + 1
     if not len(before):
         return Population(genomes[ranked[:1]], scores[ranked[:1]], generation)
-    parents = ranked[: len(genomes) // PARENTS]
+    parents = ranked[: len(genomes) // GENOMES_PER_PARENT]
     parents = parents[np.isfinite(scores[parents])]
     if not len(parents):
         return Population(before, np.full(1, -np.inf), generation)

@@ -6,7 +6,7 @@ from numpy.typing import NDArray
 from mindrun.learners import Genetic
 from mindrun.train.population import Genomes, Population, Scores, bounded, order
 
-TOURNAMENT = 4
+TOURNAMENT_SIZE = 4
 
 
 def ask(population: Population, learner: Genetic, start: Genomes, rng: np.random.Generator) -> Genomes:
@@ -40,7 +40,7 @@ def breed(population: Population, learner: Genetic, rng: np.random.Generator) ->
 
 def choose(individuals: int, count: int, rng: np.random.Generator) -> NDArray[np.intp]:
     """The ranks [count] of the winners of `count` tournaments (rank 0 is the best individual)."""
-    winners: NDArray[np.intp] = rng.integers(individuals, size=(count, TOURNAMENT), dtype=np.intp).min(axis=1)
+    winners: NDArray[np.intp] = rng.integers(individuals, size=(count, TOURNAMENT_SIZE), dtype=np.intp).min(axis=1)
     return winners
 
 

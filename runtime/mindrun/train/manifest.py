@@ -22,7 +22,7 @@ from mindrun.train import RunError
 from mindrun.validate import lesson_flaws
 from mindrun.weights import Weights, reachable
 
-FORMAT = 2
+MANIFEST_VERSION = 2
 MAX_SEED = 2**63 - 1  # seed
 
 
@@ -106,7 +106,10 @@ def processor() -> str:
 def to_json(manifest: Manifest) -> bytes:
     """The manifest as it stands in the run folder."""
     return (
-        json.dumps({"format": FORMAT, **asdict(manifest), "lesson": encode(manifest.lesson)}, indent=2).encode() + b"\n"
+        json.dumps(
+            {"format": MANIFEST_VERSION, **asdict(manifest), "lesson": encode(manifest.lesson)}, indent=2
+        ).encode()
+        + b"\n"
     )
 
 
@@ -114,7 +117,7 @@ def from_json(data: bytes) -> Manifest:
     """The manifest in these bytes; RunError where they are not one."""
     try:
         plain = parsed(data, len(data))
-        if isinstance(plain, dict) and plain.get("format") != FORMAT:
+        if isinstance(plain, dict) and plain.get("format") != MANIFEST_VERSION:
             raise RunError("the run was made by another version of mindc", "resume it with that version")
         return _manifest(plain)
     except (ValueError, BundleError) as error:

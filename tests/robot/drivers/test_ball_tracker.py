@@ -145,7 +145,7 @@ def test_the_neck_follows_and_the_bearing_stays(camera: Install, monkeypatch: py
     card = FakePca9685()
     bus = FakeBus({0x40: card})
     monkeypatch.setattr(driver_support, "open_bus", lambda number: bus)
-    monkeypatch.setattr(ball_tracker, "CENTRING", 0.05)
+    monkeypatch.setattr(ball_tracker, "CENTRING_SECONDS", 0.05)
     driver = BallTracker(pan=0, tilt=1, travel=180.0, tilt_travel=-90.0)
 
     def draw(count: int) -> Frame:

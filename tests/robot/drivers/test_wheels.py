@@ -84,7 +84,7 @@ def test_a_board_that_lost_power_is_told_its_directions_again(
     device = LEFT.open()
     device.write(0.8)
     board.directions, board.speeds = 0, [0, 0]
-    monkeypatch.setattr(grove_motor, "REMEMBERED", 0.0)
+    monkeypatch.setattr(grove_motor, "DIRECTION_REFRESH_SECONDS", 0.0)
     device.write(0.8)
     assert board.turning(0) == 153
 

@@ -47,7 +47,7 @@ def test_memory_is_locked_where_nothing_limits_it(
     assert asked["killed last"][1] == "-1000"
     assert asked["stack"] == (256 << 10,)
     assert asked["switch"][0] < 0.001
-    assert asked["scheduler"] == (0, os.SCHED_FIFO, os.sched_param(realtime.PRIORITY))
+    assert asked["scheduler"] == (0, os.SCHED_FIFO, os.sched_param(realtime.FIFO_PRIORITY))
     assert asked.get("locked", (3,)) == (3,)
 
 

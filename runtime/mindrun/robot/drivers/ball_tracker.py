@@ -19,9 +19,9 @@ MEASURE = Reference("measure", ("bearing", "elevation", "distance"))
 HUE = Quantity("a hue", {"deg": 1.0}, low=0.0, high=360.0)
 TOLERANCE = Quantity("how far a hue may be off", {"deg": 1.0}, low=1.0, high=90.0)
 VIEW = Quantity("an angle of view", {"deg": 1.0}, low=5.0, high=170.0)
-STALE = 0.2  # seconds without a frame that are a fault
+MAX_FRAME_AGE_SECONDS = 0.2  # seconds without a frame that are a fault
 FIRST_FRAME_SECONDS = 5.0  # until the first frame: cameras take their time to start
-CENTRING = 0.4  # seconds that servos need to the middle
+CENTRING_SECONDS = 0.4  # seconds that servos need to the middle
 LETTING_GO = 1.0  # seconds that the thread may need to end
 
 _cameras: dict["BallTracker", tuple[TrackingCamera, Thread, int]] = {}  # of each, how many look through it
@@ -52,7 +52,7 @@ class BallTrackerDevice:
 
     def read(self) -> tuple[float | None]:
         """It, in the newest frame that was not read before; None where there is no ball in that."""
-        sighting = self.tracking.after(self.number, STALE)
+        sighting = self.tracking.after(self.number, MAX_FRAME_AGE_SECONDS)
         self.number = sighting.number
         return (self.measured(sighting),)
 
@@ -180,7 +180,7 @@ class BallTracker:
             tracking.let_go()
             raise
         if tracking.pan or tracking.tilt:
-            sleep(CENTRING)
+            sleep(CENTRING_SECONDS)
         reach = [abs(joint.travel) / 2 if joint else 0.0 for joint in (tracking.pan, tracking.tilt)]
         tracking.limits = PanTiltLimits(*reach)
         return tracking

@@ -15,9 +15,9 @@ MOTOR = Quantity("a motor of the board", {"": 1.0}, low=1, high=2, whole=True)
 SPEED, FREQUENCY, DIRECTION = 0x82, 0x84, 0xAA
 UNUSED_BYTE = 0x01  # the third byte of commands that need only two
 KILOHERTZ_4 = 0x02  # 3921 Hz, the board's default
-GAP = 0.004  # seconds that the board needs for a command; what comes sooner is lost
-REMEMBERED = 1.0  # seconds after which directions are sent again: a board that lost power forgets them
-FULL = 255
+COMMAND_GAP_SECONDS = 0.004  # seconds that the board needs for a command; what comes sooner is lost
+DIRECTION_REFRESH_SECONDS = 1.0  # seconds after which directions are sent again: a board that lost power forgets them
+FULL_SPEED = 255
 
 _boards: dict[tuple[int, int], "Board"] = {}
 _opening = Lock()
@@ -50,7 +50,7 @@ class Board:
                 standing = [0 if index == motor else abs(value) for index, value in enumerate(self.speeds)]
                 self.send(SPEED, *standing)
                 self.speeds[motor] = 0
-            if directions != self.sent or monotonic() - self.sent_at > REMEMBERED:
+            if directions != self.sent or monotonic() - self.sent_at > DIRECTION_REFRESH_SECONDS:
                 self.sent = -1  # until it is acknowledged nobody knows
                 self.send(DIRECTION, directions, UNUSED_BYTE)
                 self.sent, self.sent_at = directions, monotonic()
@@ -63,7 +63,7 @@ class Board:
         try:
             self.wire.write(*command)
         finally:
-            self.free_at = monotonic() + GAP
+            self.free_at = monotonic() + COMMAND_GAP_SECONDS
 
 
 @dataclass(slots=True)
@@ -76,7 +76,7 @@ class MotorDevice:
 
     def write(self, value: float) -> None:
         """Command a speed: 0 full reverse, 0.5 stopped, 1 full forward."""
-        speed = round((2 * share(value) - 1) * FULL)
+        speed = round((2 * share(value) - 1) * FULL_SPEED)
         if self.closed:
             raise self.board.wire.error("is closed")
         self.board.drive(self.motor, speed)

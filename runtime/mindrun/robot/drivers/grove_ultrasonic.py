@@ -9,12 +9,12 @@ from mindrun.registry import kind
 from mindrun.robot.driver_support import ADDRESS, BUS, METRES, I2cDevice
 
 PORT = Quantity("a digital port of the GrovePi", {"": 1.0}, low=2, high=8, whole=True)
-RANGER, VERSION = 7, 8  # commands
-BUSY, NOBODY = 23, 255  # first bytes of an answer: still measuring; nobody drives the bus
-UNUSED = 0
-POLL = 0.003  # seconds between two questions
+RANGER_COMMAND, VERSION_COMMAND = 7, 8  # commands
+BUSY_BYTE, IDLE_BUS_BYTE = 23, 255  # first bytes of an answer: still measuring; nobody drives the bus
+UNUSED_BYTE = 0
+POLL_SECONDS = 0.003  # seconds between two questions
 ANSWERED_IN = 0.15  # seconds; the board itself listens for 75 ms
-FARTHEST = 5.2  # metres: where nothing echoes the ranger's pulse ends at about 5 m, and is longer on some
+MAX_DISTANCE_METRES = 5.2  # metres: where nothing echoes the ranger's pulse ends at about 5 m, and is longer on some
 
 
 @dataclass(frozen=True, slots=True)
@@ -31,23 +31,23 @@ class GroveUltrasonicDevice:
 
     def measure(self, port: int) -> float | None:
         """Metres to what echoed, None where nothing did."""
-        high, low = self.ask(RANGER, port, count=3)
+        high, low = self.ask(RANGER_COMMAND, port, count=3)
         centimetres = high << 8 | low
         if not centimetres:  # the board heard no pulse at all; where nothing echoes there is a long one
             raise self.wire.error(f"hears no ranger on port D{port}")
         metres = centimetres / 100
-        return metres if metres <= min(self.reach, FARTHEST) else None
+        return metres if metres <= min(self.reach, MAX_DISTANCE_METRES) else None
 
-    def ask(self, command: int, port: int = UNUSED, *, count: int) -> bytes:
+    def ask(self, command: int, port: int = UNUSED_BYTE, *, count: int) -> bytes:
         """What the board answers after repeating the command; asks until a deadline that no answer can put off."""
-        self.wire.write(command, port, UNUSED, UNUSED)
+        self.wire.write(command, port, UNUSED_BYTE, UNUSED_BYTE)
         begin = monotonic()
         while monotonic() - begin < ANSWERED_IN:
-            sleep(POLL)
+            sleep(POLL_SECONDS)
             answer = self.wire.transfer(b"", count)
             if answer[0] == command:
                 return answer[1:]
-            if answer[0] not in (BUSY, NOBODY):
+            if answer[0] not in (BUSY_BYTE, IDLE_BUS_BYTE):
                 raise self.wire.error(f"answers nonsense ({answer.hex(' ')})")
         raise self.wire.error("does not finish measuring")
 
@@ -91,7 +91,7 @@ class GroveUltrasonic:
         """All of them."""
         device = GroveUltrasonicDevice(I2cDevice("the GrovePi", self.bus, self.address), self.ports, self.range)
         try:
-            device.ask(VERSION, count=4)
+            device.ask(VERSION_COMMAND, count=4)
         except Exception:
             device.close()
             raise

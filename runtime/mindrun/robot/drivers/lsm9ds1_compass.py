@@ -9,9 +9,9 @@ from mindrun.registry import kind
 from mindrun.robot.driver_support import ADDRESS, BUS, DEGREES, I2cDevice
 from mindrun.robot.lsm9ds1 import (
     FACE,
-    MAGNETIC,
+    MAGNETIC_CHIP_ID,
     MAGNETOMETER_ON,
-    MILLIGAUSS,
+    MILLIGAUSS_PER_COUNT,
     OUT_MAGNETOMETER,
     STATUS_MAGNETIC,
     Chip,
@@ -48,10 +48,10 @@ class Compass:
     def open(self) -> NineDofDevice:
         """The magnetometer."""
         wire = I2cDevice("the compass", self.bus, self.address)
-        chip = Chip(wire, MAGNETIC, MAGNETOMETER_ON, STATUS_MAGNETIC, 0x08, 0x00, OUT_MAGNETOMETER)
+        chip = Chip(wire, MAGNETIC_CHIP_ID, MAGNETOMETER_ON, STATUS_MAGNETIC, 0x08, 0x00, OUT_MAGNETOMETER)
 
         def bearing(counts: tuple[int, int, int]) -> float:
-            x, y, z = (count * MILLIGAUSS for count in counts)
+            x, y, z = (count * MILLIGAUSS_PER_COUNT for count in counts)
             if hypot(x, y, z) < 50:  # the earth's is 250 to 650
                 raise wire.error("feels no magnetic field")
             y = y - self.y if self.face == "up" else self.y - y

@@ -12,13 +12,13 @@ from mindrun.quantity import Quantity
 from mindrun.registry import kind
 from mindrun.robot.driver_support import ADDRESS, BUS, I2cDevice
 from mindrun.robot.lsm9ds1 import (
+    ACCELERATION_PER_COUNT,
     ACCELEROMETER_ON,
-    INERTIAL,
-    MS2,
+    INERTIAL_CHIP_ID,
     OUT_ACCELEROMETER,
-    STATUS,
+    STANDARD_GRAVITY,
+    STATUS_INERTIAL,
     Chip,
-    G,
     NineDofDevice,
     opened,
 )
@@ -39,8 +39,8 @@ class Shaking:
     def __call__(self, counts: tuple[int, int, int]) -> float | None:
         """The variation with this value, m/s²; None until there are enough."""
         now = monotonic()
-        x, y, z = (count * MS2 for count in counts)
-        if not 0.3 * G < hypot(x, y, z) < 3 * G:
+        x, y, z = (count * ACCELERATION_PER_COUNT for count in counts)
+        if not 0.3 * STANDARD_GRAVITY < hypot(x, y, z) < 3 * STANDARD_GRAVITY:
             raise self.error("feels no gravity")
         self.kept.append((now, (x, y, z)))
         while self.kept[0][0] < now - self.window:
@@ -75,5 +75,5 @@ class Motion:
     def open(self) -> NineDofDevice:
         """The accelerometer."""
         wire = I2cDevice("the accelerometer", self.bus, self.address)
-        chip = Chip(wire, INERTIAL, ACCELEROMETER_ON, STATUS, 0x01, 0x80, OUT_ACCELEROMETER)
+        chip = Chip(wire, INERTIAL_CHIP_ID, ACCELEROMETER_ON, STATUS_INERTIAL, 0x01, 0x80, OUT_ACCELEROMETER)
         return opened(chip, Shaking(wire.error, self.window))

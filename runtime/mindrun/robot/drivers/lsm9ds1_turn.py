@@ -7,12 +7,12 @@ from mindrun.quantity import NUMBER
 from mindrun.registry import kind
 from mindrun.robot.driver_support import ADDRESS, BUS, I2cDevice
 from mindrun.robot.lsm9ds1 import (
-    DEGREES_A_SECOND,
+    DEGREES_PER_SECOND_PER_COUNT,
     FACE,
     GYROSCOPE_ON,
-    INERTIAL,
+    INERTIAL_CHIP_ID,
     OUT_GYROSCOPE,
-    STATUS,
+    STATUS_INERTIAL,
     Chip,
     NineDofDevice,
     opened,
@@ -41,5 +41,5 @@ class Turn:
         """The gyroscope."""
         wire = I2cDevice("the gyroscope", self.bus, self.address)
         sign = 1 if self.face == "up" else -1
-        chip = Chip(wire, INERTIAL, GYROSCOPE_ON, STATUS, 0x02, 0x80, OUT_GYROSCOPE)
-        return opened(chip, lambda counts: sign * (counts[2] * DEGREES_A_SECOND) - self.still)
+        chip = Chip(wire, INERTIAL_CHIP_ID, GYROSCOPE_ON, STATUS_INERTIAL, 0x02, 0x80, OUT_GYROSCOPE)
+        return opened(chip, lambda counts: sign * (counts[2] * DEGREES_PER_SECOND_PER_COUNT) - self.still)

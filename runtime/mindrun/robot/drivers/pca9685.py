@@ -11,10 +11,10 @@ MODE1, MODE2, LED0, ALL_OFF_HIGH, PRESCALE = 0x00, 0x01, 0x06, 0xFD, 0xFE  # tab
 RESTART, AUTO_INCREMENT, SLEEP = 0x80, 0x20, 0x10  # bits of MODE1, table 5
 TOTEM_POLE = 0x04  # MODE2, table 6: outputs change when the transfer ends
 FULL_OFF = 0x10  # bit 4 of a channel's last byte, 7.3.3
-OSCILLATOR = 25.0  # MHz
-RATE = 121  # round(25 MHz / (4096 · 50 Hz)) − 1, equation 1: pulses 50 times a second
-COUNT = (RATE + 1) / OSCILLATOR  # microseconds of one count
-WAKING = 0.001  # the oscillator is stable after 500 µs
+OSCILLATOR_MHZ = 25.0
+PRESCALE_50_HZ = 121  # round(25 MHz / (4096 · 50 Hz)) − 1, equation 1: pulses 50 times a second
+COUNT = (PRESCALE_50_HZ + 1) / OSCILLATOR_MHZ  # microseconds of one count
+WAKE_SECONDS = 0.001  # the oscillator is stable after 500 µs
 
 
 @dataclass(slots=True)
@@ -46,10 +46,10 @@ class ServoDevice:
         if not self.is_prepared():
             self.wire.write(ALL_OFF_HIGH, FULL_OFF)
             self.wire.write(MODE1, AUTO_INCREMENT | SLEEP)  # the rate can be set only while it sleeps, 7.3.5
-            self.wire.write(PRESCALE, RATE)
+            self.wire.write(PRESCALE, PRESCALE_50_HZ)
             self.wire.write(MODE2, TOTEM_POLE)
             self.wire.write(MODE1, AUTO_INCREMENT)
-            sleep(WAKING)
+            sleep(WAKE_SECONDS)
             if not self.is_prepared():
                 raise self.wire.error("does not keep its settings; is it a PCA9685?")
         self.ready = True
@@ -57,7 +57,7 @@ class ServoDevice:
     def is_prepared(self) -> bool:
         """Whether it is awake and at our rate."""
         mode = self.wire.read(MODE1, 1)[0] & ~RESTART
-        return mode == AUTO_INCREMENT and self.wire.read(PRESCALE, 1)[0] == RATE
+        return mode == AUTO_INCREMENT and self.wire.read(PRESCALE, 1)[0] == PRESCALE_50_HZ
 
     def close(self) -> None:
         """Let go; the card repeats the last pulse, so that a claw keeps what it holds."""

@@ -16,7 +16,7 @@ from mindrun.registry import kind
 from mindrun.robot.simulated_world.protocol import ANSWER, READ, REQUEST, STATUS, WRITE
 from mindrun.wiring import ActuatorWire, SensorWire, Wiring
 
-DEADLINE = 0.2  # seconds for a whole exchange
+EXCHANGE_SECONDS = 0.2  # seconds for a whole exchange
 TEXT = Reference("text")
 VALUE = Struct("<d")
 
@@ -34,7 +34,7 @@ class Link:
         if self.closed:
             raise DeviceError("the connection to the simulated world is closed")
         try:
-            done, held = self._exchange(what, name.encode(), value, monotonic() + DEADLINE)
+            done, held = self._exchange(what, name.encode(), value, monotonic() + EXCHANGE_SECONDS)
         except OSError as error:
             self._drop()
             why = error.strerror or error
@@ -51,7 +51,7 @@ class Link:
     def _exchange(self, what: bytes, name: bytes, value: float, until: float) -> tuple[bool, bytes]:
         if self._socket is None:
             self._socket = sockets.socket(sockets.AF_UNIX, sockets.SOCK_STREAM)
-            self._socket.settimeout(DEADLINE)
+            self._socket.settimeout(EXCHANGE_SECONDS)
             self._socket.connect(self.path)
         self._socket.settimeout(max(until - monotonic(), 0.001))
         self._socket.sendall(REQUEST.pack(what, len(name), value) + name)

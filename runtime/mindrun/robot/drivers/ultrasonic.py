@@ -10,11 +10,11 @@ from mindrun.driver import DeviceError
 from mindrun.registry import kind
 from mindrun.robot.driver_support import METRES, PIN, library, pins
 
-SOUND = 343.2  # metres a second, at 20 °C
-TRIGGER = 10e-6  # seconds, HC-SR04 data sheet
-BEGINS = 0.05  # seconds until the echo line must have gone high; it does so within 1 ms
-ENDS = 0.25  # seconds until it must be low again where nothing echoed: 38 ms, of some makes 200 ms
-LATE = 0.003  # seconds that the news of an edge may need
+SOUND_METRES_PER_SECOND = 343.2  # metres a second, at 20 °C
+TRIGGER_SECONDS = 10e-6  # seconds, HC-SR04 data sheet
+ECHO_START_SECONDS = 0.05  # seconds until the echo line must have gone high; it does so within 1 ms
+ECHO_END_SECONDS = 0.25  # seconds until it must be low again where nothing echoed: 38 ms, of some makes 200 ms
+EDGE_DELAY_SECONDS = 0.003  # seconds that the news of an edge may need
 
 
 @dataclass(slots=True, weakref_slot=True, eq=False)
@@ -48,23 +48,24 @@ class Pair:
         self.risen.clear()
         self.fallen.clear()
         self.trigger.on()
-        sleep(TRIGGER)
+        sleep(TRIGGER_SECONDS)
         self.trigger.off()
-        if not self.risen.wait(BEGINS):
+        if not self.risen.wait(ECHO_START_SECONDS):
             raise DeviceError(f"{self} does not answer", "is it wired to these pins, and has it 5 V?")
-        if not self.fallen.wait(2 * reach / SOUND + LATE):
+        if not self.fallen.wait(2 * reach / SOUND_METRES_PER_SECOND + EDGE_DELAY_SECONDS):
             if self.echo.pin.state:
                 return None
-            if not self.fallen.wait(BEGINS):  # the line is low, so there was an echo: it must not read as none
+            # the line is low, so there was an echo: it must not read as none
+            if not self.fallen.wait(ECHO_START_SECONDS):
                 raise DeviceError(f"{self} answered, but when is not known")
-        metres = float(self.echo.pin_factory.ticks_diff(self.fell, self.rose)) * SOUND / 2
+        metres = float(self.echo.pin_factory.ticks_diff(self.fell, self.rose)) * SOUND_METRES_PER_SECOND / 2
         return metres if metres <= reach else None
 
     def wait_for_silence(self) -> None:
         """Return when the echo line is low."""
         begin = monotonic()
         while self.echo.pin.state:
-            if monotonic() - begin > ENDS:
+            if monotonic() - begin > ECHO_END_SECONDS:
                 raise DeviceError(f"{self} holds its echo line high", "is it broken, or wired to another pin?")
             sleep(0.001)
 
@@ -91,7 +92,7 @@ class UltrasonicDevice:
             begin = monotonic()
             with pins(f"range finder {index + 1} cannot be read"):
                 found[index] = self.pairs[index].measure(self.reach)
-            sleep(max(0.0, begin + 2 * self.reach / SOUND - monotonic()))
+            sleep(max(0.0, begin + 2 * self.reach / SOUND_METRES_PER_SECOND - monotonic()))
         return tuple(found[index] for index in range(len(self.pairs)))
 
     def close(self) -> None:

@@ -15,7 +15,7 @@ from mindrun.robot.guardian.process import Process
 from mindrun.robot.guardian.realtime import import_little, set_realtime, wake_on_signals
 
 OK, FAILED, USAGE, UNAVAILABLE, BROKEN = 0, 1, 64, 69, 70  # as in sysexits.h
-INPUT, OUTPUT, ERRORS = 0, 1, 2
+INPUT_DESCRIPTOR, OUTPUT_DESCRIPTOR, ERROR_DESCRIPTOR = 0, 1, 2
 RETRY_SECONDS = 0.05  # between two tries to open what could not be
 
 
@@ -25,9 +25,9 @@ def main() -> None:
     if options.neutral in (None, "-"):  # a bundle needs all drivers to be read
         import_little(DRIVERS)
     set_realtime()
-    errors = LineWriter(ERRORS, "guardian: ")
-    status = LineWriter(os.dup(OUTPUT))
-    os.dup2(ERRORS, OUTPUT)  # what a driver prints is no status
+    errors = LineWriter(ERROR_DESCRIPTOR, "guardian: ")
+    status = LineWriter(os.dup(OUTPUT_DESCRIPTOR))
+    os.dup2(ERROR_DESCRIPTOR, OUTPUT_DESCRIPTOR)  # what a driver prints is no status
     try:
         plan = _plan(options.neutral or "-")
     except MindError as error:
@@ -35,8 +35,10 @@ def main() -> None:
         status(f"failed {error}")
         code = USAGE
     else:
-        once = bool(options.neutral)
-        code = bring(Process(plan, INPUT, errors), errors, options.within) if once else guard(plan, errors, status)
+        if options.neutral:
+            code = bring(Process(plan, INPUT_DESCRIPTOR, errors), errors, options.within)
+        else:
+            code = guard(plan, errors, status)
     errors.flush(0.2)
     status.flush(0.2)
     os._exit(code)  # a thread that hangs in a device's write would never be joined
@@ -44,7 +46,7 @@ def main() -> None:
 
 def guard(plan: Plan, report: LineWriter, status: LineWriter) -> int:
     """Follow the frames on standard input; however this ends, every actuator is at neutral first."""
-    process = Process(plan, INPUT, report, status)
+    process = Process(plan, INPUT_DESCRIPTOR, report, status)
     wake_on_signals(process.wake)
     code = OK
     try:
@@ -85,7 +87,7 @@ def _plan(path: str) -> Plan:
     """The plan in a file, or on standard input up to the end of the first line: what follows are frames."""
     if path != "-":
         return read_plan(Path(path))
-    with open(INPUT, "rb", buffering=0, closefd=False) as file:
+    with open(INPUT_DESCRIPTOR, "rb", buffering=0, closefd=False) as file:
         return from_json(file.readline(MAX_PLAN_BYTES))
 
 

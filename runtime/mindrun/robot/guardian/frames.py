@@ -6,7 +6,7 @@ from math import inf, isfinite
 from struct import Struct
 from zlib import crc32
 
-MAGIC, VERSION = b"MIND", 2
+MAGIC, FRAME_VERSION = b"MIND", 2
 HEAD = Struct("<4sBBHQq")  # magic, version, armed, how many commands, number, when it was sent
 CHECK = Struct("<I")
 MAX_COMMANDS = 1000  # commands: a write of up to 4096 bytes is atomic
@@ -41,7 +41,7 @@ def pack(number: int, sent_ns: int, armed: bool, commands: Sequence[float]) -> b
         body = floats.pack(*commands)
     except OverflowError:  # larger than any float32
         body = floats.pack(*[inf] * len(commands))
-    data = HEAD.pack(MAGIC, VERSION, armed, len(commands), number, sent_ns) + body
+    data = HEAD.pack(MAGIC, FRAME_VERSION, armed, len(commands), number, sent_ns) + body
     return data + CHECK.pack(crc32(data))
 
 
@@ -67,7 +67,7 @@ class Reader:
         magic, version, armed, count, number, sent = HEAD.unpack_from(data)
         commands = _floats(self._count).unpack_from(data, HEAD.size)
         for wrong, what in (
-            (magic != MAGIC or version != VERSION, "that is no frame"),
+            (magic != MAGIC or version != FRAME_VERSION, "that is no frame"),
             (CHECK.unpack_from(data, self._size - CHECK.size)[0] != crc32(data[: -CHECK.size]), "that is damaged"),
             (count != self._count, f"with {count} commands instead of {self._count}"),
             (armed > 1, f"with an armed flag of {armed}"),

@@ -7,7 +7,7 @@ from time import monotonic
 
 from mindrun.driver import ActuatorDevice
 
-SOON, LATER = 0.002, 0.05  # seconds between two tries: at first, and in the end
+MIN_RETRY_SECONDS, MAX_RETRY_SECONDS = 0.002, 0.05  # seconds between two tries: at first, and in the end
 
 
 @dataclass(frozen=True, slots=True)
@@ -94,7 +94,7 @@ class Output:
             self._change.notify()
 
     def _run(self) -> None:
-        pause = SOON
+        pause = MIN_RETRY_SECONDS
         while not self._closing:
             tried = self.attempt()
             with self._change:
@@ -102,5 +102,5 @@ class Output:
                     self._change.wait(pause)
                 elif tried is None and self._waiting is None and not self._closing:
                     self._change.wait()
-                pause = min(2 * pause, LATER) if tried is self._wanted else SOON
+                pause = min(2 * pause, MAX_RETRY_SECONDS) if tried is self._wanted else MIN_RETRY_SECONDS
         self._device.close()

@@ -11,7 +11,7 @@ from contextlib import suppress
 from importlib.util import find_spec, module_from_spec
 from pathlib import Path
 
-PRIORITY = 20
+FIFO_PRIORITY = 20
 LOCK_ALL_MEMORY = 1 | 2  # MCL_CURRENT | MCL_FUTURE
 STACK_BYTES = 256 << 10  # for each thread: locked memory is not for stacks that nobody uses
 IGNORED_SIGNALS = ("SIGINT", "SIGTSTP", "SIGTTIN", "SIGTTOU", "SIGPIPE", "SIGUSR1", "SIGUSR2", "SIGALRM")
@@ -31,7 +31,7 @@ def set_realtime() -> None:
     threading.stack_size(STACK_BYTES)
     sys.setswitchinterval(0.0005)
     with suppress(OSError):
-        os.sched_setscheduler(0, os.SCHED_FIFO, os.sched_param(PRIORITY))
+        os.sched_setscheduler(0, os.SCHED_FIFO, os.sched_param(FIFO_PRIORITY))
     with suppress(OSError):
         Path("/proc/self/oom_score_adj").write_text("-1000")
     with suppress(OSError, AttributeError):
