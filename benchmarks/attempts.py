@@ -11,6 +11,7 @@ import time
 import numpy as np
 from learning import FRESH_LAYOUTS
 from mindrun.graph import Graph, Lesson
+from mindrun.policy import Policy
 from mindrun.sim.rollout import Rollout, cores
 from mindrun.train.lesson import teach
 from mindrun.train.lesson_state import Course, begin
@@ -49,7 +50,7 @@ def main() -> None:
     options = parser.parse_args()
     graph, weights, _ = collect()
     for lesson in chosen(graph, options.curriculum, options.skills):
-        rollout = Rollout(graph, weights, lesson.task, lesson.master, [lesson.skill], workers=cores())
+        rollout = Rollout(Policy(graph, weights), lesson.task, lesson.master, [lesson.skill], workers=cores())
         rollout.compile()
         start = time.perf_counter()
         counts = [count(lesson, rollout, seed) for seed in range(1, options.seeds + 1)]

@@ -126,7 +126,7 @@ def driven(runs: int, backwards: bool) -> tuple[Array, float, float]:
 def delivered(name: str, runs: int) -> Array:
     """Objects of each run under a shipped mind, on the same layouts; collisions end nothing."""
     ready = shipped(name)
-    rollout = Rollout(ready.graph, ready.weights, "Collect", "Collect", interrupt=False)
+    rollout = Rollout(ready.policy, "Collect", "Collect", interrupt=False)
     none = np.zeros((1, 0), np.float32)
     return rollout.score(none, [*range(1, runs + 1)]).counts[0].astype(float)
 

@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 from mindrun.engine import Engine
 from mindrun.graph import Graph
+from mindrun.policy import Policy
 from mindrun.weights import genes
 from workloads import COLLECT, graph_of
 
@@ -18,7 +19,7 @@ from mindlang.compiler.compile import load
 def engine_of(graph: Graph, rng: np.random.Generator) -> Engine:
     """An engine with positive random weights, which keep every output, and with it every influence, above zero."""
     weights = {skill.name: rng.random(genes(skill), np.float32) * np.float32(0.1) for skill in graph.skills}
-    return Engine(graph, weights)
+    return Engine(Policy(graph, weights))
 
 
 def microseconds(engine: Engine, rng: np.random.Generator, ticks: int) -> float:

@@ -96,12 +96,12 @@ def teaching_of(skill: str, finishing: str) -> Teaching:
         lesson, rollout = prepared(graph, weights, skill, 1)
         return Teaching(lesson, rollout, np.empty((0, rollout.genome_length), np.float32))
     ready = shipped(finishing)
-    lesson = next(each for each in ready.graph.lessons if each.skill == skill == each.master)
+    lesson = next(each for each in ready.policy.graph.lessons if each.skill == skill == each.master)
     lesson = replace(lesson, with_subskills=True)
-    taught = learners(ready.graph, lesson)
-    rollout = Rollout(ready.graph, ready.weights, lesson.task, lesson.master, taught)
+    taught = learners(ready.policy.graph, lesson)
+    rollout = Rollout(ready.policy, lesson.task, lesson.master, taught)
     rollout.compile()
-    return Teaching(lesson, rollout, np.concatenate([ready.weights[each] for each in taught])[None])
+    return Teaching(lesson, rollout, np.concatenate([ready.policy.weights[each] for each in taught])[None])
 
 
 def by_lesson(trial: Trial, teaching: Teaching) -> tuple[Genomes, int]:

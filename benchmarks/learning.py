@@ -13,6 +13,7 @@ from typing import Any
 
 import numpy as np
 from mindrun.graph import Graph, Lesson
+from mindrun.policy import Policy
 from mindrun.sim.rollout import Rollout, cores
 from mindrun.train.lesson import teach
 from mindrun.train.lesson_state import Course, begin
@@ -53,7 +54,7 @@ def learn(lesson: Lesson, rollout: Rollout, seed: int, seconds: float) -> dict[s
 def prepared(graph: Graph, weights: dict[str, Any], skill: str, workers: int) -> tuple[Lesson, Rollout]:
     """The skill's first lesson and its rollout, compiled."""
     lesson = next(lesson for lesson in graph.lessons if lesson.skill == skill)
-    rollout = Rollout(graph, weights, lesson.task, lesson.master, [skill], workers=workers)
+    rollout = Rollout(Policy(graph, weights), lesson.task, lesson.master, [skill], workers=workers)
     rollout.compile()
     return lesson, rollout
 

@@ -20,6 +20,7 @@ from statistics import median
 
 import numpy as np
 from mindrun.learners import Genetic
+from mindrun.policy import Policy
 from mindrun.sim.rollout import Rollout
 from mindrun.train.genetic import mutate
 from workloads import STUCK_SEED, Lanes, collect, random_weights, with_obstacles, with_skills
@@ -57,7 +58,7 @@ def lesson(skill: str) -> Callable[[], Measure]:
     def prepared() -> Measure:
         graph, weights, _ = collect()
         others = {name: array for name, array in weights.items() if name != skill}
-        rollout = Rollout(graph, others, skill, skill, [skill], workers=2)
+        rollout = Rollout(Policy(graph, others), skill, skill, [skill], workers=2)
         learner = Genetic()
         bred = mutate(np.repeat(weights[skill][None], learner.population, axis=0), learner, np.random.default_rng(1))
         rollout.compile()
@@ -110,8 +111,9 @@ WORKLOADS: Mapping[str, Callable[[], Measure]] = {
 def first_start() -> float:
     """Seconds of CPU time of an import and a compilation into an empty cache."""
     program = (
-        "from workloads import collect; from mindrun.sim.rollout import Rollout; graph, weights, _ = collect();"
-        "Rollout(graph, weights, graph.master, graph.master).compile(); import time; print(time.process_time())"
+        "from workloads import collect; from mindrun.policy import Policy; from mindrun.sim.rollout import Rollout;"
+        "import time; graph, weights, _ = collect();"
+        "Rollout(Policy(graph, weights), graph.master, graph.master).compile(); print(time.process_time())"
     )
     with tempfile.TemporaryDirectory() as cache:
         environment = os.environ | {"NUMBA_CACHE_DIR": cache}

@@ -30,7 +30,7 @@ def bundle_of(mind: Path, folder: Path) -> Path:
 def tick(path: Path) -> float:
     """Microseconds of one tick of the engine."""
     bundle = read_bundle(path)
-    engine = Engine(bundle.graph, bundle.weights, bundle.procedures)
+    engine = Engine(bundle.policy, bundle.procedures)
     readings = np.random.default_rng(1).random((1000, bundle.graph.width), np.float32)
     times = []
     for _ in range(7):
@@ -44,7 +44,7 @@ def tick(path: Path) -> float:
 def replayed(path: Path, folder: Path, ticks: int) -> tuple[float, bool]:
     """Seconds for so many recorded ticks, and whether all are the same."""
     bundle = read_bundle(path)
-    engine = Engine(bundle.graph, bundle.weights, bundle.procedures)
+    engine = Engine(bundle.policy, bundle.procedures)
     readings = np.random.default_rng(2).random((ticks, bundle.graph.width), np.float32)
     day = folder / "day.rec"
     with Recorder(day, About.of(bundle.graph, "0" * 64, bundle.graph.master, ("proximity",))) as recorder:

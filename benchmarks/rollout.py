@@ -18,6 +18,7 @@ from statistics import median
 from typing import Any
 
 from mindrun.graph import Graph
+from mindrun.policy import Policy
 from mindrun.sim.rollout import Rollout
 from mindrun.sim.trace import trace
 from mindrun.train.manifest import processor, versions
@@ -55,7 +56,7 @@ class Plain:
     """Robots of the plain loop on the layouts of the lanes."""
 
     def __init__(self, graph: Graph, weights: Weights, robots: int = 4) -> None:
-        rollout = Rollout(graph, weights, "Collect", graph.master, interrupt=False)
+        rollout = Rollout(Policy(graph, weights), "Collect", graph.master, interrupt=False)
         self.robots = [Robot(graph, weights, trace(rollout, seed), seed) for seed in range(1, robots + 1)]
         self.rate(WARMUP_TICKS)
 

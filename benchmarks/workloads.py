@@ -11,6 +11,7 @@ from pathlib import Path
 
 import numpy as np
 from mindrun.graph import Graph
+from mindrun.policy import Policy
 from mindrun.sim.rollout import DEFAULT_LANES, Rollout
 from mindrun.weights import genes
 from numpy.typing import NDArray
@@ -44,8 +45,8 @@ def collect() -> tuple[Graph, Weights, str]:
     """The example, its weights, and where they come from."""
     ready = shipped(COLLECT.name)
     if ready.refusals:
-        return ready.graph, random_weights(ready.graph, LIVELY_SEED), "random"
-    return ready.graph, ready.weights, "trained"
+        return ready.policy.graph, random_weights(ready.policy.graph, LIVELY_SEED), "random"
+    return ready.policy.graph, ready.policy.weights, "trained"
 
 
 def random_weights(graph: Graph, seed: int) -> Weights:
@@ -96,7 +97,7 @@ class Lanes:
         self, graph: Graph, weights: Weights, learner: str | None = None, lanes: int = DEFAULT_LANES, workers: int = 1
     ) -> None:
         self.rollout = Rollout(
-            _endless(graph), weights, "Collect", graph.master, [learner] if learner else [], interrupt=False
+            Policy(_endless(graph), weights), "Collect", graph.master, [learner] if learner else [], interrupt=False
         )
         rng, genome = np.random.default_rng(1), weights.get(learner or "", np.zeros(0, np.float32))
         genomes = genome + rng.normal(0.0, 0.02, (lanes, len(genome)))  # nearly the same behaviour

@@ -75,7 +75,7 @@ class Mind:
     def engine(self, master: str | None = None) -> Engine:
         """The hierarchy as it runs on a robot: readings [graph.width] to commands [actuators], tick by tick."""
         ready = self.ready(master)
-        return Engine(ready.graph, ready.weights, self._folder, master)
+        return Engine(ready.policy, self._folder, master)
 
     def rollout(
         self, task: str | None = None, master: str | None = None, learners: Sequence[str] = (), workers: int = 1
@@ -88,11 +88,10 @@ class Mind:
         chosen, _ = task_of(self.graph, task)
         leader = master_of(self.graph, chosen, master)
         ready = make_ready(self.graph, self.compiled.sources, leader)
-        if {skill.name for skill in reachable(ready.graph, leader) if genes(skill)} - {*ready.weights, *learners}:
+        acting = {skill.name for skill in reachable(ready.policy.graph, leader) if genes(skill)}
+        if acting - {*ready.policy.weights, *learners}:
             raise MindError(ready.refusals[-1], f"mind.train() teaches it, or: mindc train {self.path}")
-        return Rollout(
-            ready.graph, ready.weights, chosen.name, leader, learners, procedures=self._folder, workers=workers
-        )
+        return Rollout(ready.policy, chosen.name, leader, learners, procedures=self._folder, workers=workers)
 
     def trace(self, task: str | None = None, seed: int = 0, master: str | None = None) -> Trace:
         """One run of a task, tick by tick: `for moment in mind.trace("Collect", 3).moments`."""
@@ -139,7 +138,7 @@ class Mind:
     def bundle(self, wiring: Wiring | None = None, master: str | None = None) -> Bundle:
         """All that runs on a robot; `mindrun.bundle.write_bundle` writes it to one file."""
         ready = self.ready(master)
-        return Bundle(ready.graph, ready.weights, procedure_sources(ready.graph, self._folder), wiring)
+        return Bundle(ready.policy, procedure_sources(ready.policy.graph, self._folder), wiring)
 
     @property
     def _folder(self) -> Path:

@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 import click
+from mindrun.bundle import Bundle
 
 from mindlang.cli._options import NewFile
 
@@ -64,8 +65,8 @@ def command(file: str, output: Path, master: str | None, robot: Path | None, as_
             for refusal in ready.refusals[:-1]:
                 say(refusal)
             fail(ready.refusals[-1], f"mindc train {file}")
-        procedures = procedure_sources(ready.graph, compiled.sources[0].folder)
-        digest = write_bundle(output, ready.graph, ready.weights, procedures, wiring)
+        procedures = procedure_sources(ready.policy.graph, compiled.sources[0].folder)
+        digest = write_bundle(output, Bundle(ready.policy, procedures, wiring))
     except MindError as error:
         fail(str(error), code=MISUSE)
     except OSError as error:
@@ -75,8 +76,9 @@ def command(file: str, output: Path, master: str | None, robot: Path | None, as_
     if as_json:
         print_json(_built(output, digest, ready, wiring))
     elif not quiet:
+        policy = ready.policy
         wired = f", wired to {wiring.robot}" if wiring else ""
-        click.echo(f"{output}: {ready.graph.master} in charge, {len(ready.weights)} trained skills{wired}", err=True)
+        click.echo(f"{output}: {policy.graph.master} in charge, {len(policy.weights)} trained skills{wired}", err=True)
 
 
 def _refuse_procedures(compiled: Compiled, master: str | None) -> None:
@@ -111,8 +113,8 @@ def _built(output: Path, digest: str, ready: Ready, wiring: Wiring | None) -> di
     return {
         "bundle": str(output),
         "sha256": digest,
-        "master": ready.graph.master,
-        "skills": sorted(ready.weights),
+        "master": ready.policy.graph.master,
+        "skills": sorted(ready.policy.weights),
         "notes": list(ready.notes),
         **robot,
     }

@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 from mindrun.engine import Engine
 from mindrun.graph import Graph, Skill
+from mindrun.policy import Policy
 from mindrun.sim.rollout import Rollout
 from mindrun.sim.trace import trace
 from mindrun.weights import Weights, genes, reachable, weights_of
@@ -59,7 +60,7 @@ class MindVersion:
 
     def engine(self, master: str, weights: Mapping[str, Weights]) -> Engine:
         """The hierarchy below a master, as it runs on a robot."""
-        return Engine(self.graph, weights, self.folder, master)
+        return Engine(Policy(self.graph, weights), self.folder, master)
 
 
 @procedures_talk()
@@ -154,6 +155,6 @@ def _recorded(side: MindVersion, skill: str, state: Trained) -> NDArray[np.float
     task = state.entry.taught.task if state.entry.taught.task in tasks else tasks[0]
     weights = side.weights(skill)
     assert weights is not None
-    rollout = Rollout(side.graph, weights, task, skill, procedures=side.folder)
+    rollout = Rollout(Policy(side.graph, weights), task, skill, procedures=side.folder)
     simulator_compilation.ensure_compiled(rollout, say)
     return np.array([moment.readings for moment in islice(trace(rollout, VERIFIED_SEED).moments, VERIFIED_TICKS)])

@@ -4,7 +4,8 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 from mindrun.graph import Graph
-from mindrun.weights import Weights, reachable
+from mindrun.policy import Policy
+from mindrun.weights import reachable
 
 from mindlang.compiler.diagnostic import listed
 from mindlang.compiler.source import Source
@@ -15,13 +16,12 @@ from mindlang.lock.status import UNKNOWN, Status, Trained, status, trained_weigh
 
 @dataclass(frozen=True, slots=True)
 class Ready:
-    """A graph, arranged and with its master, and the weights of all skills below it; `refusals` say what is missing.
+    """A policy, with its master and the weights of all skills below it; `refusals` say what is missing.
 
     `notes` say which of these skills were taught in a world that is not the mind's, or is not known.
     """
 
-    graph: Graph
-    weights: dict[str, Weights]
+    policy: Policy
     refusals: tuple[str, ...]
     notes: tuple[str, ...]
 
@@ -35,7 +35,7 @@ def make_ready(graph: Graph, sources: Iterable[Source], master: str | None = Non
     weights, refusals = trained_weights(graph, lock, frozenset(needed))
     states = status(graph, lock, sources[0].folder)
     acting = {name: states[name] for name in needed}
-    return Ready(graph, weights, tuple(refusals), (*told_elsewhere(acting), *told_unknown(acting)))
+    return Ready(Policy(graph, weights), tuple(refusals), (*told_elsewhere(acting), *told_unknown(acting)))
 
 
 def told_elsewhere(states: Mapping[str, Status]) -> Iterator[str]:

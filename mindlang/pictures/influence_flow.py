@@ -34,10 +34,10 @@ class Flow:
     """The links of the skills that a run's master reaches, and what they carry."""
 
     def __init__(self, run: RecordedRun) -> None:
-        graph, ready = run.graph, run.setup.ready
+        graph = run.graph
         sources = procedure_sources(graph, run.setup.folder, run.setup.master)
         self._run = run
-        self._hierarchy = hierarchy(graph, ready.weights, sources, run.setup.master)
+        self._hierarchy = hierarchy(run.setup.ready.policy, sources, run.setup.master)
         self.skills = [skill.index for skill in self._hierarchy.skills]
         self.links = [
             Link(index, (edge.to, edge.target)) for index in self.skills for edge in graph.skills[index].edges

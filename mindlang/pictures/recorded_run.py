@@ -39,7 +39,7 @@ class RecordedRun:
     @property
     def graph(self) -> Graph:
         """The mind."""
-        return self.setup.ready.graph
+        return self.setup.ready.policy.graph
 
     @property
     def task(self) -> Task:
@@ -100,7 +100,7 @@ def record_run(setup: RunSetup, rollout: Rollout, seed: int) -> RecordedRun:
         np.array([run.begin, *(moment.body[:3] for moment in moments)]),
         np.array([run.things, *(moment.things for moment in moments)]),
         np.array([-1, *(moment.held for moment in moments)]),
-        _as_read(setup.ready.graph, np.array([moment.readings for moment in moments])),
+        _as_read(setup.ready.policy.graph, np.array([moment.readings for moment in moments])),
         np.array([moment.influence for moment in moments]),
         np.array([moment.commands for moment in moments]),
         np.array([moment.lines for moment in moments]).reshape(len(moments), -1),

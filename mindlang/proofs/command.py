@@ -38,9 +38,9 @@ def perform(file: str, options: ProofOptions) -> None:
     assert compiled.graph
     ready = make_ready(compiled.graph, compiled.sources)
     lock = read_locks(source.path for source in compiled.sources)
-    hashes = {skill: lock[skill].weights for skill in ready.weights if skill in lock}
+    hashes = {skill: lock[skill].weights for skill in ready.policy.weights if skill in lock}
     run = _run(file, compiled, options) if options.run else None
-    proof = prove(ready.graph, ready.weights, options.leak)
+    proof = prove(ready.policy.graph, ready.policy.weights, options.leak)
     if options.as_json:
         print_json(as_data(proof, hashes, run))
     else:

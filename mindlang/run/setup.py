@@ -43,8 +43,7 @@ class RunSetup:
         from mindrun.sim.rollout import Rollout
 
         return Rollout(
-            self.ready.graph,
-            self.ready.weights,
+            self.ready.policy,
             self.task.name,
             self.master,
             procedures=self.folder,
@@ -92,5 +91,5 @@ def _unknown(noun: str, name: str, known: Sequence[str]) -> Never:
 
 def _missing(ready: Ready) -> list[str]:
     """The skills without weights that fit, subskills first."""
-    reached = reachable(ready.graph, ready.graph.master)
-    return [skill.name for skill in reversed(reached) if genes(skill) and skill.name not in ready.weights]
+    reached = reachable(ready.policy.graph, ready.policy.graph.master)
+    return [skill.name for skill in reversed(reached) if genes(skill) and skill.name not in ready.policy.weights]

@@ -2,6 +2,7 @@
 
 from dataclasses import dataclass
 
+from mindrun.policy import Policy
 from mindrun.sim.rollout import Rollout
 from mindrun.train.lesson_state import State
 from mindrun.train.population import founder_count
@@ -25,8 +26,7 @@ def rollout_of(run: Run, subject: Subject, workers: int) -> Rollout:
     """What scores the genomes of a run; MindError where memory or a year would not suffice."""
     lesson = run.manifest.lesson
     rollout = Rollout(
-        subject.graph,
-        run.weights,
+        Policy(subject.graph, run.weights),
         lesson.task,
         lesson.master,
         run.manifest.learners,

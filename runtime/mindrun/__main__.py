@@ -81,7 +81,7 @@ def run(options: argparse.Namespace) -> int:
     bundle = read_bundle(options.bundle)
     if options.readings:
         with redirect_stdout(sys.stderr):  # what a procedure prints is no command
-            engine = Engine(bundle.graph, bundle.weights, bundle.procedures, options.master)
+            engine = Engine(bundle.policy, bundle.procedures, options.master)
         _run(engine, options)
     elif options.dry or (bundle.wiring and not options.describe and not options.json):
         return drive(options)

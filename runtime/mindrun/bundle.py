@@ -4,7 +4,7 @@ It ends in the SHA-256 of all bytes before; the manifest has those of its member
 """
 
 import json
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from hashlib import sha256
 from pathlib import Path
@@ -18,9 +18,10 @@ from mindrun.encoding import decode, decode_wiring
 from mindrun.errors import BundleError, WeightsError
 from mindrun.graph import Graph
 from mindrun.npy import to_npy
+from mindrun.policy import Policy
 from mindrun.regular_files import read_whole
 from mindrun.strict_json import parsed
-from mindrun.weights import Weights, genes, read_weights, weights_of
+from mindrun.weights import genes, read_weights
 from mindrun.wiring import Wiring
 
 # A mindrun that knows nothing of wirings refuses a bundle that has one, and one that knows nothing of what becomes of
@@ -40,10 +41,14 @@ DIGEST_CHARACTERS = 64
 class Bundle:
     """What is in a bundle: `procedures` has the text of each module by dotted name; not every mind has a robot."""
 
-    graph: Graph
-    weights: dict[str, Weights]
-    procedures: dict[str, str]
+    policy: Policy
+    procedures: Mapping[str, str]
     wiring: Wiring | None = None
+
+    @property
+    def graph(self) -> Graph:
+        """The hierarchy of its policy."""
+        return self.policy.graph
 
 
 def fingerprint(wiring: Wiring) -> str:
@@ -51,18 +56,12 @@ def fingerprint(wiring: Wiring) -> str:
     return sha256(_json(encode(wiring))).hexdigest()
 
 
-def write_bundle(
-    path: Path,
-    graph: Graph,
-    weights: Mapping[str, Weights],
-    procedures: Mapping[str, str],
-    wiring: Wiring | None = None,
-) -> str:
+def write_bundle(path: Path, bundle: Bundle) -> str:
     """Write a mind to one file, which replaces an older one only when it is whole; the SHA-256 of its bytes.
 
     The same mind has the same bytes.
     """
-    data = pack(Bundle(graph, dict(weights), dict(procedures), wiring))
+    data = pack(bundle)
     unpack(data)  # nothing is written that cannot be read
     write_out(path, data)
     return sha256(data).hexdigest()
@@ -83,7 +82,8 @@ def read_bundle(path: Path) -> Bundle:
 def pack(bundle: Bundle) -> bytes:
     """A bundle as bytes."""
     members = _members(bundle)
-    files = [(MANIFEST, _json(_manifest(bundle, members))), *sorted(members.items())]
+    manifest = _manifest(bundle.graph.master, bundle.policy.weights, bundle.procedures, bundle.wiring, members)
+    files = [(MANIFEST, _json(manifest)), *sorted(members.items())]
     data = write_archive(files, comment=bytes(DIGEST_CHARACTERS))[:-DIGEST_CHARACTERS]
     data += sha256(data).hexdigest().encode()
     if len(data) > MAX_BUNDLE_BYTES:
@@ -108,20 +108,22 @@ def unpack(data: bytes) -> Bundle:
 def _members(bundle: Bundle) -> dict[str, bytes]:
     """The files of a bundle by name, without its manifest."""
     members = {GRAPH: _json(encode(bundle.graph))}
-    members |= {f"{WEIGHTS}{skill}.npy": to_npy(weights) for skill, weights in bundle.weights.items()}
+    members |= {f"{WEIGHTS}{skill}.npy": to_npy(weights) for skill, weights in bundle.policy.weights.items()}
     members |= {f"{MODULES}{module.replace('.', '/')}.py": text.encode() for module, text in bundle.procedures.items()}
     return members | ({WIRING: _json(encode(bundle.wiring))} if bundle.wiring else {})
 
 
-def _manifest(bundle: Bundle, members: Mapping[str, bytes]) -> dict[str, Any]:
+def _manifest(
+    master: str, skills: Iterable[str], modules: Iterable[str], wiring: Wiring | None, members: Mapping[str, bytes]
+) -> dict[str, Any]:
     """What the manifest says of a bundle and its files: nothing that does not follow from them."""
     return {
-        "format": WIRED if bundle.wiring else FORMAT,
-        "master": bundle.graph.master,
+        "format": WIRED if wiring else FORMAT,
+        "master": master,
         "members": {name: sha256(content).hexdigest() for name, content in members.items()},
-        "skills": sorted(bundle.weights),
-        "procedures": sorted(bundle.procedures),
-    } | ({"wiring": fingerprint(bundle.wiring)} if bundle.wiring else {})
+        "skills": sorted(skills),
+        "procedures": sorted(modules),
+    } | ({"wiring": fingerprint(wiring)} if wiring else {})
 
 
 def _bundle(members: dict[str, bytes]) -> Bundle:
@@ -137,22 +139,20 @@ def _bundle(members: dict[str, bytes]) -> Bundle:
     weights = {name: read_weights(content) for name, content in _below(members, WEIGHTS, ".npy")}
     procedures = {name.replace("/", "."): content.decode() for name, content in _below(members, MODULES, ".py")}
     wiring = decode_wiring(_document(members, WIRING), graph) if manifest["format"] == WIRED else None
-    bundle = Bundle(graph, weights, procedures, wiring)
     known = 1 + len(weights) + len(procedures) + (wiring is not None)
-    if manifest != _manifest(bundle, members) or len(members) != known:
+    if manifest != _manifest(graph.master, weights, procedures, wiring, members) or len(members) != known:
         raise BundleError("this bundle's files are not those of its manifest")
-    _refuse_strangers(bundle)
-    return bundle
+    _refuse_strangers(graph, weights, procedures)
+    return Bundle(Policy(graph, weights), procedures, wiring)
 
 
-def _refuse_strangers(bundle: Bundle) -> None:
-    """BundleError where there are weights of nobody, or a module of no name; WeightsError where some do not fit."""
-    skills = {skill.name: skill for skill in bundle.graph.skills if genes(skill)}
-    for name in bundle.weights:
-        if name not in skills:
+def _refuse_strangers(graph: Graph, skills: Iterable[str], modules: Iterable[str]) -> None:
+    """BundleError where there are weights of nobody, or a module of no name."""
+    learning = {skill.name for skill in graph.skills if genes(skill)}
+    for name in skills:
+        if name not in learning:
             raise BundleError(f"this bundle has weights of {name!r:.60}, which is no skill of it that learns")
-        weights_of(skills[name], bundle.weights)
-    for module in bundle.procedures:
+    for module in modules:
         if not all(part.isidentifier() for part in module.split(".")):
             raise BundleError(f"this bundle has a module {module!r:.60}, which is no name")
 

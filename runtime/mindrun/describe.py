@@ -17,7 +17,7 @@ def describe(bundle: Bundle) -> str:
 
 def contents(bundle: Bundle) -> dict[str, Any]:
     """What a bundle holds, as plain data."""
-    graph = bundle.graph
+    graph, weights = bundle.graph, bundle.policy.weights
     own = physical(graph)
     return {
         "master": graph.master,
@@ -28,7 +28,7 @@ def contents(bundle: Bundle) -> dict[str, Any]:
         "memories": [{**_named(m.name, m.kind), "decay": m.kind.decay} for m in graph.memories],
         "actuators": [{**_named(a.name, a.kind), "neutral": a.kind.neutral} for a in graph.actuators],
         "skills": [
-            {**_named(s.name, s.function), "inputs": len(s.inputs), "weights": len(bundle.weights.get(s.name, ()))}
+            {**_named(s.name, s.function), "inputs": len(s.inputs), "weights": len(weights.get(s.name, ()))}
             for s in graph.skills
         ],
         "procedures": sorted(bundle.procedures),

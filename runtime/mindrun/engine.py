@@ -11,9 +11,10 @@ from mindrun.functions import Procedure
 from mindrun.functions.function import Stateful
 from mindrun.functions.procedure import module_source
 from mindrun.graph import Graph
+from mindrun.policy import Policy
 from mindrun.think import hierarchy, think
 from mindrun.virtual_sensors import virtual_sensors
-from mindrun.weights import Weights, reachable
+from mindrun.weights import reachable
 
 
 def procedure_sources(graph: Graph, folder: Path, master: str | None = None) -> dict[str, str]:
@@ -25,24 +26,24 @@ def procedure_sources(graph: Graph, folder: Path, master: str | None = None) -> 
 class Engine:
     """One mind and its state: the tick's number, the readings before, the memory cells.
 
-    `weights` maps skills to float32 genomes, `procedures` is the folder of the procedures' modules or their texts by
+    `procedures` is the folder of the procedures' modules or their texts by
     dotted name, `master` another skill than the mind's own to be in charge. Raises MindError where one does not fit.
     """
 
     def __init__(
         self,
-        graph: Graph,
-        weights: Mapping[str, Weights],
+        policy: Policy,
         procedures: Path | Mapping[str, str] | None = None,
         master: str | None = None,
     ) -> None:
+        graph = policy.graph
         master = master or graph.master
         if master not in {skill.name for skill in graph.skills}:
             raise MindError(f"there is no skill {master}")
         if isinstance(procedures, Path):
             procedures = procedure_sources(graph, procedures, master)
         self.graph = graph
-        self._hierarchy = hierarchy(graph, weights, procedures or {}, master)
+        self._hierarchy = hierarchy(policy, procedures or {}, master)
         self._virtual = virtual_sensors(graph)
         self._neutral = np.array([actuator.kind.neutral for actuator in graph.actuators], np.float32)
         self._places = np.array([memory.start for memory in graph.memories], np.intp)

@@ -12,8 +12,9 @@ from numpy.typing import NDArray
 
 from mindrun.expression import evaluate
 from mindrun.functions import Compute
-from mindrun.graph import Edge, Graph, Program
-from mindrun.weights import Weights, reachable, weights_of
+from mindrun.graph import Edge, Program
+from mindrun.policy import Policy
+from mindrun.weights import reachable, weights_of
 
 _ZERO, _ONE = np.float32(0.0), np.float32(1.0)
 
@@ -58,15 +59,16 @@ class Thought:
     faults: int
 
 
-def hierarchy(graph: Graph, weights: Mapping[str, Weights], sources: Mapping[str, str], master: str) -> Hierarchy:
+def hierarchy(policy: Policy, sources: Mapping[str, str], master: str) -> Hierarchy:
     """Make every skill ready that `master` reaches; WeightsError or ProcedureError where one cannot be."""
+    graph = policy.graph
     numbers = {skill.name: number for number, skill in enumerate(graph.skills)}
     return Hierarchy(
         tuple(
             Ready(
                 numbers[skill.name],
                 np.array(skill.inputs, np.intp),
-                skill.function.ready(len(skill.inputs), skill.outputs, weights_of(skill, weights), sources),
+                skill.function.ready(len(skill.inputs), skill.outputs, weights_of(skill, policy.weights), sources),
                 tuple(_sent(edge, len(graph.actuators)) for edge in skill.edges),
             )
             for skill in reachable(graph, master)

@@ -20,12 +20,16 @@ def genes(skill: Skill) -> int:
 
 def weights_of(skill: Skill, weights: Mapping[str, Weights]) -> Weights:
     """A skill's weights, checked: as many as its function has, float32, finite; else WeightsError."""
-    expected = genes(skill)
-    if expected == 0:
+    if genes(skill) == 0:
         return NO_WEIGHTS
     if skill.name not in weights:
         raise WeightsError(f"skill {skill.name} has no weights")
-    found = weights[skill.name]
+    return checked(skill, weights[skill.name])
+
+
+def checked(skill: Skill, found: Weights) -> Weights:
+    """Weights of a skill, as compiled code takes them; WeightsError unless they are [genes], float32, finite."""
+    expected = genes(skill)
     if found.dtype != np.float32 or found.shape != (expected,):
         shape = "×".join(map(str, found.shape))
         raise WeightsError(f"skill {skill.name} needs {expected} float32 weights, not {shape} of {found.dtype}")

@@ -4,12 +4,13 @@ import re
 import shutil
 import subprocess
 import sys
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
-from mindrun.engine import Engine
-from mindrun.errors import MindError
+from mindrun.errors import MindError, WeightsError
+from mindrun.policy import Policy
 
 import mindlang
 from mindlang.training.lesson_choice import TrainOptions
@@ -61,22 +62,34 @@ def test_what_is_wrong_is_a_value(tmp_path: Path) -> None:
         _ = wrong.graph
 
 
+def swapped(path: Path) -> str:
+    """The text of a mind in which GoToObject drives its wheels in another order."""
+    text = path.read_text()
+    moved = text.replace(
+        "  reads object_bearing\n  drives left_wheel\n  drives right_wheel\n",
+        "  reads object_bearing\n  drives right_wheel\n  drives left_wheel\n",
+    )
+    assert moved != text
+    return moved
+
+
 def test_weights_follow_the_lines_of_the_source(collect: Path) -> None:
     before = mindlang.load(collect / "collect.mind")
     readings = np.random.default_rng(1).random((50, before.graph.width)).astype(np.float32)
     engine = before.engine()
     commands = [engine.tick(row) for row in readings]
-    text = (collect / "collect.mind").read_text()
-    swapped = text.replace(
-        "  reads object_bearing\n  drives left_wheel\n  drives right_wheel\n",
-        "  reads object_bearing\n  drives right_wheel\n  drives left_wheel\n",
-    )
-    assert swapped != text
-    (collect / "collect.mind").write_text(swapped)
+    (collect / "collect.mind").write_text(swapped(collect / "collect.mind"))
     after = mindlang.load(collect / "collect.mind").engine()
     assert all(np.array_equal(after.tick(row), was) for row, was in zip(readings, commands, strict=True))
-    raw = Engine(mindlang.load(collect / "collect.mind").graph, before.ready().weights)  # what cannot be done from here
-    assert not all(np.array_equal(raw.tick(row), was) for row, was in zip(readings, commands, strict=True))
+
+
+def test_weights_never_meet_a_graph_in_another_order(collect: Path) -> None:
+    policy = mindlang.load(collect / "collect.mind").ready().policy
+    other = mindlang.loads(swapped(collect / "collect.mind")).graph
+    with pytest.raises(WeightsError, match=r"of GoToObject belong to a graph that reads and sends in another order"):
+        Policy(other, policy.weights)
+    with pytest.raises(WeightsError, match="there are weights of Avoid, but there is no such skill"):
+        replace(policy, graph=replace(policy.graph, skills=()))
 
 
 def test_a_training_is_cancelled_and_goes_on(collect: Path) -> None:

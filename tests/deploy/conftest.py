@@ -4,8 +4,9 @@ import os
 from pathlib import Path
 
 import pytest
-from mindrun.bundle import write_bundle
+from mindrun.bundle import Bundle, write_bundle
 from mindrun.named_readings import physical
+from mindrun.policy import Policy
 from mindrun.robot.drivers.mock import MockActuator, MockSensor
 from mindrun.wiring import ActuatorWire, SensorWire, Wiring
 
@@ -56,5 +57,5 @@ def write(folder: Path, master: str, wired: bool = True) -> Path:
     names = physical(graph)
     sensors = tuple(SensorWire(s.name, MockSensor(0.5, s.width), 0.0, 1.0) for s in graph.sensors if s.name in names)
     actuators = tuple(ActuatorWire(a.name, MockActuator()) for a in graph.actuators)
-    write_bundle(path, graph, {}, {}, Wiring("ball", sensors, actuators) if wired else None)
+    write_bundle(path, Bundle(Policy(graph, {}), {}, Wiring("ball", sensors, actuators) if wired else None))
     return path

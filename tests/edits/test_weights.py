@@ -12,6 +12,7 @@ from hypothesis import strategies as st
 from mindrun.engine import Engine
 from mindrun.functions import Mlp
 from mindrun.graph import Edge, Graph, Sensor
+from mindrun.policy import Policy
 from mindrun.sensors import Battery
 from mindrun.weights import genes
 
@@ -57,7 +58,7 @@ def commands(path: Path, readings: np.ndarray) -> bytes:
     assert compiled.graph
     ready = make_ready(compiled.graph, compiled.sources)
     assert ready.refusals == ()
-    engine = Engine(ready.graph, ready.weights)
+    engine = Engine(ready.policy)
     return b"".join(engine.tick(row).tobytes() for row in readings)
 
 
@@ -320,7 +321,7 @@ def test_widened_skills_do_the_same_to_the_bit(
         name: followed.weights.get(blob(path.parent, entry.weights), weights[name])
         for name, entry in followed.locks[path].items()
     }
-    engines = Engine(graph, weights), Engine(after, new)
+    engines = Engine(Policy(graph, weights)), Engine(Policy(after, new))
     order = [[skill.name for skill in after.skills].index(skill.name) for skill in graph.skills]
     for readings in _readings(graph, data.draw):
         more = np.append(readings, np.float32(data.draw(st.sampled_from([0.0, 0.5, 1.0]))))

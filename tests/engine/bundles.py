@@ -9,6 +9,7 @@ from mindrun.functions import Mlp, Procedure
 from mindrun.graph import Condition, Lesson, Reward, Task, Thing
 from mindrun.learners import Restarting
 from mindrun.measures import Change, Retreat
+from mindrun.policy import Policy
 from mindrun.quantity import Span
 from mindrun.robot.drivers.mock import MockActuator, MockSensor
 from mindrun.weights import genes
@@ -39,7 +40,7 @@ def example() -> Bundle:
     grip = skill("Grip", Procedure("parts.claw.grip"), (0,), ("actuator", 1))
     weights = {"Go+On": np.arange(genes(go), dtype=np.float32)}
     graph = replace(mind(top, go, grip), tasks=(TASK,), lessons=(LESSON,))
-    return Bundle(graph, weights, {"parts.claw": "def grip(r): return r"})
+    return Bundle(Policy(graph, weights), {"parts.claw": "def grip(r): return r"})
 
 
 def wired() -> Bundle:

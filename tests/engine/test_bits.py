@@ -7,6 +7,7 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from mindrun.engine import Engine
+from mindrun.policy import Policy
 from mindrun.sigmoid import sigmoid
 from mindrun.trigonometry import cosine, sine
 
@@ -18,7 +19,7 @@ from tests.plain import Plain
 @settings(max_examples=300, suppress_health_check=[HealthCheck.too_slow])
 def test_same_bits_as_plain_python(case: Case, data: st.DataObject) -> None:
     master = data.draw(st.sampled_from([skill.name for skill in case.graph.skills]))
-    engine, plain = Engine(case.graph, case.weights, master=master), Plain(case.graph, case.weights, master)
+    engine, plain = Engine(Policy(case.graph, case.weights), master=master), Plain(case.graph, case.weights, master)
     for readings in case.readings:
         commands = engine.tick(readings)
         assert commands.tobytes() == np.array(plain.tick(readings), np.float32).tobytes()
@@ -30,7 +31,7 @@ def test_same_bits_as_plain_python(case: Case, data: st.DataObject) -> None:
 
 @given(random_case())
 def test_reset_forgets_everything(case: Case) -> None:
-    engine = Engine(case.graph, case.weights)
+    engine = Engine(Policy(case.graph, case.weights))
     first = [engine.tick(readings).tobytes() for readings in case.readings]
     engine.reset()
     assert [engine.tick(readings).tobytes() for readings in case.readings] == first

@@ -23,6 +23,7 @@ from mindrun.encoding import decode, decode_wiring
 from mindrun.engine import Engine
 from mindrun.errors import BundleError
 from mindrun.graph import Graph
+from mindrun.policy import Policy
 from mindrun.robot.drivers.mock import MockSensor
 from mindrun.weights import genes
 from mindrun.wiring import Wiring
@@ -37,19 +38,21 @@ from tests.hierarchies import random_graph
 def test_there_and_back(graph: Graph, seed: int) -> None:
     rng = np.random.default_rng(seed)
     weights = {s.name: rng.standard_normal(genes(s)).astype(np.float32) for s in graph.skills if genes(s)}
-    data = pack(Bundle(graph, weights, {}))
+    data = pack(Bundle(Policy(graph, weights), {}))
     back = unpack(data)
     assert back.graph == graph
-    assert {name: w.tobytes() for name, w in back.weights.items()} == {n: w.tobytes() for n, w in weights.items()}
+    assert {name: w.tobytes() for name, w in back.policy.weights.items()} == {
+        n: w.tobytes() for n, w in weights.items()
+    }
     assert pack(back) == data
 
 
 def test_a_bundle_runs_with_its_procedures(tmp_path: Path) -> None:
     bundle = example()
-    digest = write_bundle(tmp_path / "a.bundle", bundle.graph, bundle.weights, bundle.procedures)
+    digest = write_bundle(tmp_path / "a.bundle", Bundle(bundle.policy, bundle.procedures))
     assert digest == sha256((tmp_path / "a.bundle").read_bytes()).hexdigest()
     back = read_bundle(tmp_path / "a.bundle")
-    assert Engine(back.graph, back.weights, back.procedures).tick([0.25])[1] == 0.25
+    assert Engine(back.policy, back.procedures).tick([0.25])[1] == 0.25
     with zipfile.ZipFile(tmp_path / "a.bundle") as archive:
         assert archive.testzip() is None
         assert archive.namelist()[0] == "manifest.json"
@@ -63,7 +66,7 @@ def test_a_bundle_replaces_another_only_when_it_is_whole(tmp_path: Path) -> None
     path = tmp_path / "a.bundle"
     path.write_text("old")
     with pytest.raises(BundleError):
-        write_bundle(path, replace(example().graph, master="Nobody"), {}, {})
+        write_bundle(path, Bundle(Policy(replace(example().graph, master="Nobody"), {}), {}))
     assert path.read_text() == "old"
     assert list(tmp_path.iterdir()) == [path]
 
@@ -176,7 +179,7 @@ def test_what_cannot_be_read_is_not_built() -> None:
 def test_a_wiring_travels_with_its_mind(tmp_path: Path) -> None:
     bundle = wired()
     assert bundle.wiring
-    write_bundle(tmp_path / "a.bundle", bundle.graph, bundle.weights, bundle.procedures, bundle.wiring)
+    write_bundle(tmp_path / "a.bundle", Bundle(bundle.policy, bundle.procedures, bundle.wiring))
     back = read_bundle(tmp_path / "a.bundle")
     assert back.wiring == bundle.wiring
     assert pack(back) == pack(bundle)

@@ -10,6 +10,7 @@ from mindrun.functions import Mlp
 from mindrun.functions.mlp import matrices
 from mindrun.graph import Edge, Sensor
 from mindrun.memory import Cell
+from mindrun.policy import Policy
 from mindrun.sensors import Battery, Derivative, Sine
 from mindrun.weights import genes
 
@@ -23,13 +24,13 @@ def test_equation_6() -> None:
     """Figure 15: two constant skills under full influence meet in the middle."""
     both = rule("Both", always("skill", 1, 1.0), always("skill", 2, 1.0))
     forward, backward = rule("Forward", always("actuator", 0, 1.0)), rule("Backward", always("actuator", 0, 0.0))
-    engine = Engine(mind(both, forward, backward), {})
+    engine = Engine(Policy(mind(both, forward, backward), {}))
     assert engine.tick([0.0])[0] == 0.5
     assert engine.influence.tolist() == [1.0, 1.0, 1.0]
 
 
 def test_a_single_driver_acts_fully_whatever_its_influence() -> None:
-    engine = Engine(mind(rule("Top", always("skill", 1, 0.001)), rule("Go", always("actuator", 0, 1.0))), {})
+    engine = Engine(Policy(mind(rule("Top", always("skill", 1, 0.001)), rule("Go", always("actuator", 0, 1.0))), {}))
     assert engine.tick([0.0]).tolist() == [1.0, 0.5]
 
 
@@ -37,14 +38,14 @@ def test_a_shared_skill_adds_up_its_influence() -> None:
     top = rule("Top", always("skill", 1, 0.5), always("skill", 2, 0.25))
     left = rule("Left", always("skill", 3, 1.0), always("actuator", 0, 0.0))
     right = rule("Right", always("skill", 3, 1.0))
-    engine = Engine(mind(top, left, right, rule("Go", always("actuator", 0, 1.0))), {})
+    engine = Engine(Policy(mind(top, left, right, rule("Go", always("actuator", 0, 1.0))), {}))
     assert engine.tick([0.0])[0] == np.float32(0.75) / np.float32(1.25)
     assert engine.influence.tolist() == [1.0, 0.5, 0.25, 0.75]
 
 
 def test_neutral_where_nothing_influences() -> None:
     silent = rule("Top", always("skill", 1, 0.0))
-    engine = Engine(mind(silent, rule("Go", always("actuator", 0, 1.0)), actuators=(CLAW,)), {})
+    engine = Engine(Policy(mind(silent, rule("Go", always("actuator", 0, 1.0)), actuators=(CLAW,)), {}))
     assert engine.tick([0.0]).tolist() == [0.25]
     assert engine.faults == 0
 
@@ -69,20 +70,20 @@ def test_learning_begins_with_large_weights_and_outputs_that_lie_about_one_half(
 
 def test_memory_reads_on_the_next_tick() -> None:
     write = rule("Top", always("memory", 0, 1.0), Edge("actuator", 0, None, (("reading", 1),)), reads=(1,))
-    engine = Engine(mind(write, cells=(Cell(decay=0.5, start=0.25),)), {})
+    engine = Engine(Policy(mind(write, cells=(Cell(decay=0.5, start=0.25),)), {}))
     assert [engine.tick([0.0, 9.0])[0] for _ in range(3)] == [0.25, 0.625, 0.8125]
 
 
 def test_memory_decays_where_nothing_drives_it() -> None:
     read = rule("Top", Edge("actuator", 0, None, (("reading", 1),)), reads=(1,))
-    engine = Engine(mind(read, cells=(Cell(decay=0.5, start=1.0),)), {})
+    engine = Engine(Policy(mind(read, cells=(Cell(decay=0.5, start=1.0),)), {}))
     assert [engine.tick([0.0, 9.0])[0] for _ in range(3)] == [1.0, 0.5, 0.25]
 
 
 @pytest.mark.parametrize("bad", [np.nan, np.inf, -np.inf])
 def test_a_reading_that_is_not_finite_never_reaches_an_actuator(bad: float) -> None:
     graph = mind(skill("Go", Mlp(1), (0,), *STEER), rule("Rest", always("actuator", 0, 1.0)))
-    engine = Engine(graph, {"Go": np.ones(genes(graph.skills[0]), np.float32)})
+    engine = Engine(Policy(graph, {"Go": np.ones(genes(graph.skills[0]), np.float32)}))
     assert engine.tick([bad]).tolist() == [0.5, 0.5]
     assert engine.faults == 2
     assert engine.tick([1.0]).tolist() == [1.0, 1.0]
@@ -91,7 +92,7 @@ def test_a_reading_that_is_not_finite_never_reaches_an_actuator(bad: float) -> N
 
 def test_outputs_that_overflow_are_not_sent() -> None:
     graph = mind(skill("Go", Mlp(1), (0, 1), *STEER), readings=2)
-    engine = Engine(graph, {"Go": np.full(genes(graph.skills[0]), 3e38, np.float32)})
+    engine = Engine(Policy(graph, {"Go": np.full(genes(graph.skills[0]), 3e38, np.float32)}))
     assert engine.tick([1.0, 1.0]).tolist() == [0.5, 0.5]
     assert engine.faults == 2
 
@@ -99,23 +100,23 @@ def test_outputs_that_overflow_are_not_sent() -> None:
 @pytest.mark.parametrize("above", [0.0, 1.0])
 def test_a_division_by_zero_is_not_sent(above: float) -> None:
     ratio = Edge("actuator", 0, None, (("number", above), ("reading", 0), ("/", 0)))
-    engine = Engine(mind(rule("Go", ratio, always("actuator", 1, 1.0), reads=(0,))), {})
+    engine = Engine(Policy(mind(rule("Go", ratio, always("actuator", 1, 1.0), reads=(0,))), {}))
     assert engine.tick([0.0]).tolist() == [0.5, 1.0]
     assert engine.faults == 1
 
 
 def test_influence_of_zero_sends_nothing_and_is_no_fault() -> None:
     graph = mind(rule("Top", always("skill", 1, 0.0)), skill("Go", Mlp(1), (0,), *STEER))
-    engine = Engine(graph, {"Go": np.ones(genes(graph.skills[1]), np.float32)})
+    engine = Engine(Policy(graph, {"Go": np.ones(genes(graph.skills[1]), np.float32)}))
     engine.tick([np.nan])
     assert engine.faults == 0
 
 
 def test_any_skill_can_be_the_master() -> None:
     graph = mind(rule("Top", always("actuator", 0, 0.0)), rule("Go", always("actuator", 0, 1.0)))
-    assert Engine(graph, {}, master="Go").tick([0.0])[0] == 1.0
+    assert Engine(Policy(graph, {}), master="Go").tick([0.0])[0] == 1.0
     with pytest.raises(MindError, match="there is no skill Stop"):
-        Engine(graph, {}, master="Stop")
+        Engine(Policy(graph, {}), master="Stop")
 
 
 @pytest.mark.parametrize(
@@ -129,24 +130,24 @@ def test_any_skill_can_be_the_master() -> None:
 )
 def test_weights_are_checked(weights: dict[str, np.ndarray], message: str) -> None:
     with pytest.raises(WeightsError, match=message):
-        Engine(mind(skill("Go", Mlp(1), (0,), *STEER)), weights)
+        Engine(Policy(mind(skill("Go", Mlp(1), (0,), *STEER)), weights))
 
 
 def test_readings_have_the_width_of_the_mind() -> None:
     with pytest.raises(ReadingsError, match="has 1 readings"):
-        Engine(mind(rule("Go", always("actuator", 0, 1.0))), {}).tick([0.0, 1.0])
+        Engine(Policy(mind(rule("Go", always("actuator", 0, 1.0))), {})).tick([0.0, 1.0])
 
 
 @pytest.mark.parametrize(("levels", "sent"), [(129, 1.0), (140, 1.0), (140, 0.0)])
 def test_influence_that_overflows_drives_nothing(levels: int, sent: float) -> None:
     """Also where it then meets a 0: inf · 0 is no number."""
-    engine = Engine(mind(*doubling(levels, (always("actuator", 0, sent),))), {})
+    engine = Engine(Policy(mind(*doubling(levels, (always("actuator", 0, sent),))), {}))
     assert engine.tick([0.0]).tolist() == [0.5, 0.5]
     assert engine.faults == 1
 
 
 def test_influence_that_is_large_drives_as_any_other() -> None:
-    engine = Engine(mind(*doubling(120, (always("actuator", 0, 0.75),))), {})
+    engine = Engine(Policy(mind(*doubling(120, (always("actuator", 0, 0.75),))), {}))
     assert engine.tick([0.0]).tolist() == [0.75, 0.5]
     assert engine.faults == 0
 
@@ -157,7 +158,7 @@ def test_a_dead_zone_ends_where_it_says(change: float, seen: float) -> None:
     of = Sensor("r0", Battery(), 0, 1)
     derived = Sensor("d", Derivative("r0", range=0.5, dead_zone=0.25), 1, 1)
     graph = replace(mind(rule("Top")), tick=1.0, sensors=(of, derived))
-    engine = Engine(graph, {})
+    engine = Engine(Policy(graph, {}))
     engine.tick([0.5, 0.0])
     engine.tick([0.5 + change, 0.0])
     assert engine.readings[1] == seen

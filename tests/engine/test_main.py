@@ -9,10 +9,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 from mindrun import VERSION
-from mindrun.bundle import write_bundle
+from mindrun.bundle import Bundle, write_bundle
 from mindrun.functions import Mlp, Procedure
 from mindrun.graph import Edge
 from mindrun.memory import Cell
+from mindrun.policy import Policy
 from mindrun.weights import genes
 
 from mindlang.compiler.compile import load
@@ -27,7 +28,7 @@ def bundle(tmp_path: Path) -> Path:
     top = rule("Top", always("skill", 1, 1.0), always("memory", 0, 1.0), echo, reads=(1,))
     go = skill("Go", Mlp(1), (0,), ("actuator", 0))
     path = tmp_path / "a.bundle"
-    write_bundle(path, mind(top, go, cells=(Cell(0.5),)), {"Go": np.ones(genes(go), np.float32)}, {})
+    write_bundle(path, Bundle(Policy(mind(top, go, cells=(Cell(0.5),)), {"Go": np.ones(genes(go), np.float32)}), {}))
     return path
 
 
@@ -118,7 +119,7 @@ def test_wrong_usage(bundle: Path, tmp_path: Path) -> None:
 def test_a_procedure_that_fails_is_a_failed_run(tmp_path: Path) -> None:
     path = tmp_path / "a.bundle"
     go = skill("Go", Procedure("claw.grip"), (0,), ("actuator", 0))
-    write_bundle(path, mind(go), {}, {"claw": "def grip(r): return 1 / r"})
+    write_bundle(path, Bundle(Policy(mind(go), {}), {"claw": "def grip(r): return 1 / r"}))
     said = mindrun(path, "--readings", "-", text='{"r0": 0}')
     assert said.returncode == 1
     failed = "procedure claw.grip fails for [0.0] in claw.py, line 1: ZeroDivisionError: float division by zero"
@@ -128,7 +129,9 @@ def test_a_procedure_that_fails_is_a_failed_run(tmp_path: Path) -> None:
 def test_what_a_procedure_prints_is_no_command(tmp_path: Path) -> None:
     path = tmp_path / "a.bundle"
     go = skill("Go", Procedure("claw.grip"), (0,), ("actuator", 0))
-    write_bundle(path, mind(go), {}, {"claw": "print('begins')\ndef grip(r):\n    print('grips')\n    return r"})
+    write_bundle(
+        path, Bundle(Policy(mind(go), {}), {"claw": "print('begins')\ndef grip(r):\n    print('grips')\n    return r"})
+    )
     said = mindrun(path, "--readings", "-", text='{"r0": 1}')
     assert json.loads(said.stdout)["commands"]["left_wheel"] == 1.0
     assert said.stderr == "begins\ngrips\n"
@@ -161,7 +164,7 @@ skill Look is rule
     (tmp_path / "any.mind").write_text(text.replace("at eyes", "at 0.25"))
     found = load(tmp_path / "any.mind")
     assert found.graph, found.diagnostics
-    write_bundle(tmp_path / "a.bundle", found.graph, {}, {})
+    write_bundle(tmp_path / "a.bundle", Bundle(Policy(found.graph, {}), {}))
     run = (tmp_path / "a.bundle", "--readings", "-")
     assert mindrun(*run, text='{"charge": 0.5}').stdout == '{"commands": {"wheel": 0.5}}\n'
     assert mindrun(*run, text='{"charge": 0.5, "eyes": [0, 1]}').returncode == 0

@@ -11,6 +11,7 @@ from mindrun.encoding import decode
 from mindrun.errors import BundleError
 from mindrun.graph import Task
 from mindrun.learners import Restarting
+from mindrun.policy import Policy
 
 from tests.engine.bundles import example
 from tests.engine.resealed import resealed
@@ -60,7 +61,7 @@ def said(task: Task) -> dict[str, tuple[Any, ...]]:
 
 
 def test_what_a_line_named_moves() -> None:
-    now = Bundle(compile_text(DRIFTER + TASKS), {}, {})
+    now = Bundle(Policy(compile_text(DRIFTER + TASKS), {}), {})
     count, carry, neither = unpack(old(pack(now))).graph.tasks
     assert said(count) == {"object": ("moves", "stays"), "home": ("moves",)}
     assert said(carry) == {"object": ("stays", "moves"), "home": ("stays",), "plug": ("moves",), "rock": ()}
@@ -69,7 +70,7 @@ def test_what_a_line_named_moves() -> None:
 
 
 def test_a_bundle_of_today_that_does_not_say_it_is_damaged() -> None:
-    now = Bundle(compile_text(DRIFTER + TASKS), {}, {})
+    now = Bundle(Policy(compile_text(DRIFTER + TASKS), {}), {})
     with pytest.raises(BundleError, match="damaged"):
         unpack(old(pack(now), "mind bundle 3"))
 
@@ -77,7 +78,7 @@ def test_a_bundle_of_today_that_does_not_say_it_is_damaged() -> None:
 @pytest.mark.parametrize("form", ["mind bundle 2", "mind bundle 5", "", None, 3, ["mind bundle 1"]])
 def test_other_formats_are_refused(form: Any) -> None:
     with pytest.raises(BundleError):
-        unpack(old(pack(Bundle(compile_text(DRIFTER + TASKS), {}, {})), form))
+        unpack(old(pack(Bundle(Policy(compile_text(DRIFTER + TASKS), {}), {})), form))
 
 
 @pytest.mark.parametrize("graph", [None, [], {}, {"tasks": 3}, {"tasks": [None]}, {"tasks": [{"events": [{}]}]}])
@@ -86,7 +87,7 @@ def test_what_is_no_graph_is_refused_as_ever(graph: Any) -> None:
         members["graph.json"] = json.dumps(graph).encode()
 
     with pytest.raises(BundleError, match="damaged"):
-        unpack(resealed(pack(Bundle(compile_text(DRIFTER + TASKS), {}, {})), put, {"format": "mind bundle 1"}))
+        unpack(resealed(pack(Bundle(Policy(compile_text(DRIFTER + TASKS), {}), {})), put, {"format": "mind bundle 1"}))
 
 
 def test_what_lessons_did_not_say_is_as_it_is_where_nothing_is_said() -> None:

@@ -6,6 +6,7 @@ import pytest
 from mindrun.engine import Engine, procedure_sources
 from mindrun.errors import ProcedureError
 from mindrun.functions import Procedure
+from mindrun.policy import Policy
 
 from tests.minds import mind, skill
 
@@ -14,7 +15,7 @@ def engine(folder: Path, text: str, name: str = "claw.grip", outputs: int = 2) -
     """An engine whose only skill is a procedure of a module with this text."""
     (folder / "claw.py").write_text(text)
     targets = [("actuator", i) for i in range(outputs)]
-    return Engine(mind(skill("Go", Procedure(name), (0, 1), *targets), readings=2), {}, folder)
+    return Engine(Policy(mind(skill("Go", Procedure(name), (0, 1), *targets), readings=2), {}), folder)
 
 
 def test_one_float_per_reading_in_one_per_output_out(tmp_path: Path) -> None:
@@ -79,7 +80,7 @@ def test_a_link_does_not_lead_out(tmp_path: Path) -> None:
     (tmp_path / "secret.py").write_text("def f(a, b): return 1, 1")
     (inside / "claw.py").symlink_to(tmp_path / "secret.py")
     with pytest.raises(ProcedureError, match="lies outside"):
-        Engine(mind(skill("Go", Procedure("claw.f"), (0,), ("actuator", 0))), {}, inside)
+        Engine(Policy(mind(skill("Go", Procedure("claw.f"), (0,), ("actuator", 0))), {}), inside)
 
 
 def test_the_procedures_of_a_mind_are_those_below_its_master(tmp_path: Path) -> None:

@@ -17,7 +17,7 @@ def test_the_best_mind_delivers_more_than_the_one_that_it_begins_with() -> None:
         assert found.graph
         ready = make_ready(found.graph, found.sources)
         assert not ready.refusals
-        rollout = Rollout(ready.graph, ready.weights, "Collect", "Collect")
+        rollout = Rollout(ready.policy, "Collect", "Collect")
         scores = rollout.score(np.zeros((1, 0), np.float32), range(RUNS))
         objects[name] = scores.counts.mean()
         assert scores.ticks.mean() > 0.93 * rollout.task.ticks

@@ -9,6 +9,7 @@ import pytest
 from mindrun.engine import Engine
 from mindrun.functions.elman import Elman
 from mindrun.graph import Graph
+from mindrun.policy import Policy
 from mindrun.sim.rollout import Rollout
 from mindrun.sim.trace import trace
 from mindrun.weights import genes
@@ -71,16 +72,16 @@ def follow(rollout: Rollout, engine: Engine, seed: int, genome: np.ndarray | Non
 def test_the_lanes_remember_as_the_engine_does(seed: int) -> None:
     graph = mind()
     weights = {"Roam": drawn(graph, seed)[0]}
-    assert follow(Rollout(graph, weights, "World", "Top"), Engine(graph, weights), seed) > 20
-    learning = Rollout(graph, {}, "World", "Top", ["Roam"])
-    assert follow(learning, Engine(graph, weights), seed, weights["Roam"]) > 20
+    assert follow(Rollout(Policy(graph, weights), "World", "Top"), Engine(Policy(graph, weights)), seed) > 20
+    learning = Rollout(Policy(graph, {}), "World", "Top", ["Roam"])
+    assert follow(learning, Engine(Policy(graph, weights)), seed, weights["Roam"]) > 20
 
 
 def test_it_is_what_plain_python_says() -> None:
     graph, rng = mind(), np.random.default_rng(1)
     genome = drawn(graph, 1)[0]
     top = replace(graph, master="Roam")
-    engine = Engine(top, {"Roam": genome})
+    engine = Engine(Policy(top, {"Roam": genome}))
     said = [0.0] * 5
     into, out = genome[:45].reshape(5, 9), genome[45:].reshape(2, 5)
     for tick in range(50):
@@ -94,7 +95,7 @@ def test_it_is_what_plain_python_says() -> None:
 
 def test_a_new_run_begins_with_nothing_said() -> None:
     graph = mind()
-    engine = Engine(graph, {"Roam": drawn(graph, 2)[0]}, master="Roam")
+    engine = Engine(Policy(graph, {"Roam": drawn(graph, 2)[0]}), master="Roam")
     readings = np.random.default_rng(1).random((20, 4)).astype(np.float32)
     first = [engine.tick(row).tobytes() for row in readings]
     assert [engine.tick(row).tobytes() for row in readings] != first
@@ -105,8 +106,10 @@ def test_a_new_run_begins_with_nothing_said() -> None:
 def test_a_result_depends_on_genome_and_seed_alone() -> None:
     graph = mind()
     genomes = drawn(graph, 3, 30)
-    many = Rollout(graph, {}, "World", "Top", ["Roam"], lanes=16).score(genomes, [1, 2, 3])
-    one = [Rollout(graph, {}, "World", "Top", ["Roam"], lanes=5).score(each[None], [1, 2, 3]) for each in genomes]
+    many = Rollout(Policy(graph, {}), "World", "Top", ["Roam"], lanes=16).score(genomes, [1, 2, 3])
+    one = [
+        Rollout(Policy(graph, {}), "World", "Top", ["Roam"], lanes=5).score(each[None], [1, 2, 3]) for each in genomes
+    ]
     assert np.array_equal(many.total, np.concatenate([each.total for each in one]))
     assert np.array_equal(many.ticks, np.concatenate([each.ticks for each in one]))
     assert len(np.unique(many.ticks)) > 5

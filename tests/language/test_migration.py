@@ -7,6 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from mindrun.bundle import Bundle, pack, unpack
+from mindrun.policy import Policy
 
 from mindlang.compiler.compile import compile_source
 from mindlang.compiler.diagnostic import Findings
@@ -69,7 +70,7 @@ def test_it_says_what_a_bundle_of_before_is_read_as(lines: list[str]) -> None:
     things = "  contains object is item\n  contains home is zone\n  contains plug is power\n"
     text = f"{DRIFTER}task Test in plain\n{things}  lasts 9 ticks\n" + "".join(f"  {line}\n" for line in lines)
     now = compile_text(migrated(source(text), Findings())).tasks[0]
-    before = unpack(old(pack(Bundle(compile_text(text), {}, {})))).graph.tasks[0]
+    before = unpack(old(pack(Bundle(Policy(compile_text(text), {}), {})))).graph.tasks[0]
     for a, b in zip(now.things, before.things, strict=True):
         assert a.kind.reached == b.kind.reached  # type: ignore[union-attr]
         if getattr(a.kind, "reached", "") == "stays":

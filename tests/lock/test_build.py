@@ -72,7 +72,7 @@ def test_a_bundle_is_built_and_runs(source: Path) -> None:
     assert said.returncode == 0, said.stderr
     assert json.loads(said.stdout)["skills"] == ["Go", "Top"]
     bundle = read_bundle(out)
-    assert Engine(bundle.graph, bundle.weights, bundle.procedures).tick([1.0, 0.0])[1] == 0.5
+    assert Engine(bundle.policy, bundle.procedures).tick([1.0, 0.0])[1] == 0.5
     first = out.read_bytes()
     build(source, "-o", out)
     assert out.read_bytes() == first
@@ -85,7 +85,7 @@ def test_moving_lines_changes_no_byte_of_the_weights(source: Path) -> None:
     assert build(source, "-o", source.with_name("moved.bundle")).returncode == 0
     first, second = read_bundle(source.with_suffix(".bundle")), read_bundle(source.with_name("moved.bundle"))
     assert first.graph == second.graph
-    assert first.weights["Go"].tobytes() == second.weights["Go"].tobytes()
+    assert first.policy.weights["Go"].tobytes() == second.policy.weights["Go"].tobytes()
 
 
 def test_stale_weights_are_refused_with_the_difference(source: Path) -> None:

@@ -10,6 +10,7 @@ from hypothesis import strategies as st
 from mindrun.engine import Engine
 from mindrun.functions import Mlp
 from mindrun.graph import Edge, Graph, Sensor
+from mindrun.policy import Policy
 from mindrun.sensors import RangeFinder
 from mindrun.weights import genes
 
@@ -212,7 +213,7 @@ def test_reordering_the_source_changes_no_bit(
     assert names(shuffled) == names(graph)
     found, refusals = trained_weights(shuffled, lock, names(shuffled))
     assert refusals == []
-    first, second = Engine(graph, weights), Engine(shuffled, found)
+    first, second = Engine(Policy(graph, weights)), Engine(Policy(shuffled, found))
     for readings in np.random.default_rng(0).random((3, graph.width), np.float32):
         assert first.tick(readings).tobytes() == second.tick(readings).tobytes()
         assert first.influence.tobytes() == second.influence.tobytes()

@@ -9,6 +9,7 @@ from hypothesis import strategies as st
 from mindrun.engine import Engine
 from mindrun.functions import Mlp
 from mindrun.graph import Edge, Graph, Skill
+from mindrun.policy import Policy
 from mindrun.sigmoid import sigmoid
 from mindrun.think import hierarchy
 from mindrun.think import think as really_think
@@ -91,7 +92,7 @@ def test_what_the_real_engine_does(graph: Graph, scale: float, seed: int) -> Non
     bounds = reach(graph, weights)
     readings = in_the_box(graph, 12, rng)
     thoughts = think(graph, weights, readings)
-    made = hierarchy(graph, weights, {}, graph.master)
+    made = hierarchy(Policy(graph, weights), {}, graph.master)
     actuators = len(graph.actuators)
     for row, now in enumerate(readings):
         with np.errstate(all="ignore"):
@@ -110,7 +111,7 @@ def shipped(name: str) -> tuple[Graph, dict[str, Weights]]:
     assert compiled.graph
     ready = make_ready(compiled.graph, compiled.sources)
     assert not ready.refusals
-    return ready.graph, ready.weights
+    return ready.policy.graph, ready.policy.weights
 
 
 def sampled(name: str, rows: int) -> None:
@@ -140,7 +141,7 @@ def test_an_example_without_influence_is_one() -> None:
         assert claim.tried
         assert claim.tried.readings is not None
         with np.errstate(all="ignore"):
-            thought = really_think(hierarchy(graph, weights, {}, graph.master), claim.tried.readings)
+            thought = really_think(hierarchy(Policy(graph, weights), {}, graph.master), claim.tried.readings)
         assert not thought.driven[place]
         still = [s.name for s, own in zip(graph.skills, thought.influence, strict=True) if own > 0]
         assert set(claim.tried.still) <= set(still)
@@ -186,7 +187,7 @@ def test_a_number_that_may_be_none_may_not_be_sent() -> None:
     assert claim.tried
     assert claim.tried.readings is not None
     with np.errstate(all="ignore"):
-        assert Engine(graph, {}).tick(claim.tried.readings)[0] == 0.5
+        assert Engine(Policy(graph, {})).tick(claim.tried.readings)[0] == 0.5
 
 
 def test_a_divisor_that_passes_through_zero() -> None:
@@ -219,7 +220,7 @@ def test_a_mean_that_rounds_beyond_all_that_is_averaged_lies_inside() -> None:
     beyond = 0
     for _ in range(150):
         graph = averaged(float(np.float32(rng.uniform(0.1, 0.9))), rng.random(int(rng.integers(2, 9)), np.float32))
-        command = float(Engine(graph, {}).tick([0.0])[0])
+        command = float(Engine(Policy(graph, {})).tick([0.0])[0])
         sent = graph.skills[1].edges[0].value[0][1]
         bound = reach(graph, {}).actuators[0].command
         assert bound

@@ -7,6 +7,7 @@ from hypothesis import strategies as st
 from mindrun.engine import Engine
 from mindrun.functions import Mlp, Procedure
 from mindrun.graph import Edge, Graph, Program, Skill
+from mindrun.policy import Policy
 
 from mindlang.proofs import joint, reach
 from mindlang.proofs.batch import think
@@ -302,7 +303,7 @@ def test_a_joint_claim_rests_on_all_weights_on_the_way() -> None:
 def test_engine_is_neutral_exactly_where_nothing_drives(graph: Graph) -> None:
     """In the corner where all readings are 0, which is the least of all."""
     with np.errstate(all="ignore"):
-        commands = Engine(graph, {}).tick([0.0] * graph.width)
+        commands = Engine(Policy(graph, {})).tick([0.0] * graph.width)
     for place, found in enumerate(prove(graph, {}, 0.01).actuators):
         if found.driven.total.low == 0:
             assert found.neutral in {"can be", "always"}

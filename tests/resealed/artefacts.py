@@ -19,6 +19,7 @@ from mindrun.describe import contents, describe
 from mindrun.engine import Engine
 from mindrun.graph import Graph
 from mindrun.npy import to_npy
+from mindrun.policy import Policy
 from mindrun.robot.guardian import plan
 from mindrun.robot.recording import CHECKSUM_FIELD, About, Recorder
 from mindrun.robot.replay import replay
@@ -99,7 +100,7 @@ def use_bundle(folder: Path) -> object:
     bundle = unpack((folder / "x.bundle").read_bytes())
     json.dumps(contents(bundle), allow_nan=False)
     assert all(line.isprintable() for line in describe(bundle).splitlines())
-    engine = Engine(bundle.graph, bundle.weights, bundle.procedures)
+    engine = Engine(bundle.policy, bundle.procedures)
     for reading in (0.0, 0.5, 1.0, np.nan):
         commands = engine.tick(np.full(bundle.graph.width, reading))
         assert ((commands >= 0) & (commands <= 1)).all()
@@ -143,7 +144,7 @@ def recorded() -> tuple[Graph, bytes]:
     with TemporaryDirectory() as folder:
         path = Path(folder) / "day.rec"
         with Recorder(path, About.of(graph, BUNDLE, graph.master, ("sense",))) as recorder:
-            engine = Engine(graph, {})
+            engine = Engine(Policy(graph, {}))
             for tick in range(5):
                 readings = np.full(graph.width, tick / 5, np.float32)
                 commands = engine.tick(readings)
@@ -181,7 +182,7 @@ def tampered_recording(rng: Random) -> dict[str, bytes]:
 def use_recording(folder: Path) -> object:
     """Compute it again, and hold it against its source."""
     graph, path = recorded()[0], folder / "x.rec"
-    return replay(path, BUNDLE, Engine(graph, {})), report(path, BUNDLE, graph)
+    return replay(path, BUNDLE, Engine(Policy(graph, {}))), report(path, BUNDLE, graph)
 
 
 # Locks and the weights that they name

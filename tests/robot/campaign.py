@@ -19,7 +19,8 @@ from contextlib import suppress
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from mindrun.bundle import write_bundle
+from mindrun.bundle import Bundle, write_bundle
+from mindrun.policy import Policy
 from mindrun.robot.guardian.client import MAX_REPLACEMENTS
 from mindrun.robot.identity import adopt
 
@@ -96,7 +97,7 @@ def play(folder: Path, rng: random.Random) -> tuple[Round, Devices]:
     round_ = Round(home)
     with devices(folder, NEUTRALS) as found:
         wiring = found.wiring(f"campaign {os.getpid()} {rng.random()}")
-        write_bundle(bundle, graph("bearing"), {}, {}, wiring)
+        write_bundle(bundle, Bundle(Policy(graph("bearing"), {}), {}, wiring))
         with patient({"MIND_ROBOT": str(home / "identity")}):
             adopt(wiring, graph("bearing"))
             _happen(round_, found, bundle, rng)

@@ -3,7 +3,8 @@
 from pathlib import Path
 
 import pytest
-from mindrun.bundle import write_bundle
+from mindrun.bundle import Bundle, write_bundle
+from mindrun.policy import Policy
 from mindrun.robot.identity import adopt
 
 from tests.robot.driving import wiring
@@ -15,6 +16,6 @@ def bundle(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     """A bundle that this robot is wired for."""
     monkeypatch.setenv("MIND_ROBOT", str(tmp_path / "robot" / "identity"))
     path = tmp_path / "mind.bundle"
-    write_bundle(path, graph("bearing"), {}, {}, wiring())
+    write_bundle(path, Bundle(Policy(graph("bearing"), {}), {}, wiring()))
     adopt(wiring(), graph("bearing"))
     return path

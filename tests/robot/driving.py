@@ -8,7 +8,8 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
-from mindrun.bundle import write_bundle
+from mindrun.bundle import Bundle, write_bundle
+from mindrun.policy import Policy
 from mindrun.robot.drivers.mock import MockActuator, MockSensor
 from mindrun.wiring import ActuatorWire, SensorWire, Wiring
 
@@ -32,7 +33,7 @@ def write_procedure(path: Path, source: str) -> None:
     """A bundle whose left wheel is driven by the function `f(sense, pulse)` of a module."""
     text = MIND.format(kind=SENSORS["bearing"][0], function=PROCEDURE)
     text = text.replace("left_wheel at 0.2 + pulse * 0.7", "left_wheel")
-    write_bundle(path, compile_text(text), {}, {"own": source}, wiring())
+    write_bundle(path, Bundle(Policy(compile_text(text), {}), {"own": source}, wiring()))
 
 
 def mindrun(*words: object, **more: Any) -> subprocess.CompletedProcess[str]:

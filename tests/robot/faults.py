@@ -9,6 +9,7 @@ import numpy as np
 from mindrun.driver import DeviceError
 from mindrun.engine import Engine
 from mindrun.graph import Graph
+from mindrun.policy import Policy
 from mindrun.robot.loop import Loop
 from mindrun.robot.rate import Rate
 from mindrun.robot.reading_filter import ReadingFilter
@@ -163,6 +164,6 @@ def robot(kind: str, script: Sequence[Any], on_fault: str = "neutral", **wire: A
     times = {"rate": 1 / TICK, "max_age": 1.5 * TICK, "hold": 2 * TICK}
     wired = SensorWire("sense", driver, 0.0, 1.0, on_fault=on_fault, blank=1.0, **times, **wire)
     sampler, sent = Sampler(wired, clock), Sent()
-    loop = Loop(Engine(of, {}), ReadingFilter(of, [sampler]), sent, Rate(TICK, clock, clock.sleep), armed=True)
+    loop = Loop(Engine(Policy(of, {})), ReadingFilter(of, [sampler]), sent, Rate(TICK, clock, clock.sleep), armed=True)
     loop.pace.begin()
     return Robot(loop, sampler, sent, driver)

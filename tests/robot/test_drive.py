@@ -9,7 +9,8 @@ from pathlib import Path
 from time import sleep
 
 import pytest
-from mindrun.bundle import write_bundle
+from mindrun.bundle import Bundle, write_bundle
+from mindrun.policy import Policy
 from mindrun.robot.recording import read
 from mindrun.tools.doctor import machine
 
@@ -63,7 +64,7 @@ def test_a_signal_ends_it_and_keeps_the_recording(bundle: Path, tmp_path: Path, 
 
 def test_a_bundle_for_another_wiring_moves_nothing(bundle: Path, tmp_path: Path) -> None:
     other, day = tmp_path / "other.bundle", tmp_path / "day.rec"
-    write_bundle(other, graph("bearing"), {}, {}, wiring(0.7))
+    write_bundle(other, Bundle(Policy(graph("bearing"), {}), {}, wiring(0.7)))
     said = mindrun(other, "--arm", "--ticks", 3, "--record", day)
     assert (said.returncode, day.exists()) == (2, False)
     assert f"whose wiring or neutral commands are others than those of {NAME}" in said.stderr
@@ -81,7 +82,7 @@ def test_other_neutral_commands_are_another_robot(bundle: Path) -> None:
     text = MIND.format(kind=SENSORS["bearing"][0], function="rule").replace(
         "side left neutral 0.5", "side left neutral 0"
     )
-    write_bundle(bundle, compile_text(text), {}, {}, wiring())
+    write_bundle(bundle, Bundle(Policy(compile_text(text), {}), {}, wiring()))
     assert mindrun(bundle, "--ticks", 2).returncode == 2
 
 
@@ -111,7 +112,10 @@ def test_the_second_signal_ends_what_hangs(bundle: Path, tmp_path: Path) -> None
         "left_wheel at 0.2 + pulse * 0.7", "left_wheel"
     )
     write_bundle(
-        bundle, compile_text(text), {}, {"hang": "def f(sense, pulse):\n    while True:\n        pass\n"}, wiring()
+        bundle,
+        Bundle(
+            Policy(compile_text(text), {}), {"hang": "def f(sense, pulse):\n    while True:\n        pass\n"}, wiring()
+        ),
     )
     process = subprocess.Popen([*MINDRUN, bundle, "--record", tmp_path / "d.rec"], stderr=subprocess.PIPE, text=True)
     while not (tmp_path / "d.rec").exists():
@@ -139,7 +143,7 @@ def test_a_master_that_reads_what_is_not_wired_is_refused(bundle: Path) -> None:
     text = MIND.format(kind=SENSORS["bearing"][0], function="rule")
     text = text.replace("sensor pulse", "sensor charge is battery\nsensor pulse")
     look = "skill Look is rule\n  reads charge\n  drives claw at charge\n"
-    write_bundle(bundle, compile_text(text.replace("task Play", f"{look}task Play")), {}, {}, wiring())
+    write_bundle(bundle, Bundle(Policy(compile_text(text.replace("task Play", f"{look}task Play")), {}), {}, wiring()))
     assert mindrun(bundle, "--ticks", 2).returncode == 0
     said = mindrun(bundle, "--ticks", 2, "--master", "Look")
     assert said.returncode == 2
@@ -148,7 +152,7 @@ def test_a_master_that_reads_what_is_not_wired_is_refused(bundle: Path) -> None:
 
 def test_a_bundle_without_wiring_says_what_it_holds(tmp_path: Path) -> None:
     bundle = tmp_path / "mind.bundle"
-    write_bundle(bundle, graph("bearing"), {}, {})
+    write_bundle(bundle, Bundle(Policy(graph("bearing"), {}), {}))
     assert mindrun(bundle).stdout.startswith("master Go, 20 ticks a second")
     assert mindrun(bundle, "--arm").returncode == 2
     said = mindrun("replay", bundle, bundle)

@@ -8,6 +8,7 @@ from threading import Event, current_thread
 import numpy as np
 import pytest
 from mindrun.engine import Engine
+from mindrun.policy import Policy
 from mindrun.robot.loop import Loop
 from mindrun.robot.rate import Rate
 from mindrun.robot.reading_filter import ReadingFilter
@@ -35,7 +36,7 @@ def day(tmp_path: Path) -> Path:
     sampler = Sampler(SensorWire("sense", Scripted(3, script), 0.0, 1.0, max_age=2 * TICK), clock)
     with Recorder(path, About.of(of, BUNDLE, of.master, ("sense",))) as recorder:
         loop = Loop(
-            Engine(of, {}), ReadingFilter(of, [sampler]), Sent(), Rate(TICK, clock, clock.sleep), True, recorder
+            Engine(Policy(of, {})), ReadingFilter(of, [sampler]), Sent(), Rate(TICK, clock, clock.sleep), True, recorder
         )
         loop.pace.begin()
         device = None
@@ -56,14 +57,14 @@ def test_a_recording_says_what_happened(day: Path) -> None:
 
 
 def test_it_is_computed_again_bit_for_bit(day: Path) -> None:
-    found = replay(day, BUNDLE, Engine(graph("range_finder"), {}))
+    found = replay(day, BUNDLE, Engine(Policy(graph("range_finder"), {})))
     assert (found.ticks, found.differs) == (TICKS, None)
 
 
 def test_a_recording_that_says_its_first_tick_again_was_begun_anew_there(day: Path) -> None:
     data = day.read_bytes()
     day.write_bytes(data + data[data.index(b"\n") + 1 :])
-    found = replay(day, BUNDLE, Engine(graph("range_finder"), {}))
+    found = replay(day, BUNDLE, Engine(Policy(graph("range_finder"), {})))
     assert (found.ticks, found.differs) == (2 * TICKS, None)
 
 
@@ -75,7 +76,7 @@ def test_the_first_tick_that_differs_is_said(day: Path) -> None:
     row["commands"][0, 1] = np.nextafter(row["commands"][0, 1], np.float32(2))
     data[offset : offset + about.row.itemsize] = resealed(row)
     day.write_bytes(data)
-    found = replay(day, BUNDLE, Engine(graph("range_finder"), {}))
+    found = replay(day, BUNDLE, Engine(Policy(graph("range_finder"), {})))
     assert found.ticks == 120
     assert found.differs
     assert found.differs[0] == 120
@@ -90,7 +91,7 @@ def test_influence_that_differs_is_said_where_the_commands_do_not(day: Path) -> 
     row["influence"][0, 0] = 0.5
     data[offset : offset + about.row.itemsize] = resealed(row)
     day.write_bytes(data)
-    found = replay(day, BUNDLE, Engine(graph("range_finder"), {}))
+    found = replay(day, BUNDLE, Engine(Policy(graph("range_finder"), {})))
     assert (found.ticks, found.differs) == (7, (7, f"{about.skills[0]} is 1 and was 0.5"))
 
 
@@ -98,7 +99,7 @@ def test_a_recording_without_a_tick_proves_nothing(day: Path) -> None:
     data = day.read_bytes()
     day.write_bytes(data[: data.index(b"\n") + 1])
     with pytest.raises(RecordingError, match="has no tick in it"):
-        replay(day, BUNDLE, Engine(graph("range_finder"), {}))
+        replay(day, BUNDLE, Engine(Policy(graph("range_finder"), {})))
 
 
 def resealed(row: np.ndarray) -> bytes:
@@ -112,13 +113,13 @@ def resealed(row: np.ndarray) -> bytes:
 
 def test_another_bundle_is_refused(day: Path) -> None:
     with pytest.raises(RecordingError, match="another bundle"):
-        replay(day, "cd" * 32, Engine(graph("range_finder"), {}))
+        replay(day, "cd" * 32, Engine(Policy(graph("range_finder"), {})))
 
 
 @pytest.mark.parametrize("share", [0.01, 0.5, 0.99])
 def test_a_row_that_was_cut_off_is_no_row(day: Path, share: float) -> None:
     day.write_bytes(day.read_bytes()[: -max(1, int(share * read(day)[0].row.itemsize))])
-    assert replay(day, BUNDLE, Engine(graph("range_finder"), {})).ticks == TICKS - 1
+    assert replay(day, BUNDLE, Engine(Policy(graph("range_finder"), {}))).ticks == TICKS - 1
 
 
 def test_a_damaged_row_is_said(day: Path) -> None:
@@ -126,7 +127,7 @@ def test_a_damaged_row_is_said(day: Path) -> None:
     data[-read(day)[0].row.itemsize - 9] ^= 1
     day.write_bytes(data)
     with pytest.raises(RecordingError, match=f"is damaged at row {TICKS - 2}"):
-        replay(day, BUNDLE, Engine(graph("range_finder"), {}))
+        replay(day, BUNDLE, Engine(Policy(graph("range_finder"), {})))
 
 
 @pytest.mark.parametrize(
@@ -155,7 +156,7 @@ def test_a_recording_of_an_older_version_is_read(day: Path) -> None:
     said = json.loads(line)
     del said["check"]
     day.write_bytes(json.dumps(said | {"format": "mind recording 1"}).encode() + b"\n" + rows)
-    assert replay(day, BUNDLE, Engine(graph("range_finder"), {})).ticks == TICKS
+    assert replay(day, BUNDLE, Engine(Policy(graph("range_finder"), {}))).ticks == TICKS
 
 
 @pytest.mark.parametrize(
@@ -182,7 +183,7 @@ def test_other_columns_than_those_of_the_bundle_are_refused(day: Path, name: str
     line, _, rows = day.read_bytes().partition(b"\n")
     said = json.loads(line) | {"format": "mind recording 1", name: value}
     day.write_bytes(json.dumps(said).encode() + b"\n" + rows)
-    for refuses in (lambda: replay(day, BUNDLE, Engine(graph("range_finder"), {})), lambda: _reported(day)):
+    for refuses in (lambda: replay(day, BUNDLE, Engine(Policy(graph("range_finder"), {}))), lambda: _reported(day)):
         with pytest.raises(RecordingError, match="other columns"):
             refuses()
 
@@ -239,13 +240,13 @@ def test_it_is_read_in_parts(day: Path, monkeypatch: pytest.MonkeyPatch, rows: i
     monkeypatch.setattr("mindrun.robot.recording.READ_BYTES", max(1, rows * size + size // 2 * (rows > 0)))
     assert [len(part) for part in read(day)[1]] == parts
     told: list[int] = []
-    replay(day, BUNDLE, Engine(graph("range_finder"), {}), told.append)
+    replay(day, BUNDLE, Engine(Policy(graph("range_finder"), {})), told.append)
     assert told == list(np.cumsum(parts))
     data = bytearray(day.read_bytes())
     data[-size - 9] ^= 1
     day.write_bytes(data)
     with pytest.raises(RecordingError, match=f"is damaged at row {TICKS - 2}"):
-        replay(day, BUNDLE, Engine(graph("range_finder"), {}))
+        replay(day, BUNDLE, Engine(Policy(graph("range_finder"), {})))
 
 
 def test_it_is_brought_to_the_disk_beside_the_loop_and_in_the_end(day: Path, monkeypatch: pytest.MonkeyPatch) -> None:

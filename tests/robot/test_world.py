@@ -19,11 +19,12 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from mindrun.bundle import write_bundle
+from mindrun.bundle import Bundle, write_bundle
 from mindrun.driver import DeviceError
 from mindrun.engine import Engine
 from mindrun.errors import MindError
 from mindrun.graph import Graph
+from mindrun.policy import Policy
 from mindrun.registry import kinds
 from mindrun.robot.drivers.simulated import Link, SimulatedActuator, SimulatedSensor, dry, status
 from mindrun.robot.simulated_world.process import simulated
@@ -74,9 +75,9 @@ def until(holds: Callable[[], object]) -> None:
 
 def follow(graph: Graph, weights: dict[str, np.ndarray], task: str, seed: int, most: int = 500) -> int:
     """The engine in a World and the lanes: the same readings, commands and places; for how many ticks."""
-    world, engine = World(graph, task, seed), Engine(graph, weights)
+    world, engine = World(graph, task, seed), Engine(Policy(graph, weights))
     delayed = any(actuator.kind.delay for actuator in graph.actuators)
-    moments = trace(Rollout(graph, weights, task, graph.master), seed).moments
+    moments = trace(Rollout(Policy(graph, weights), task, graph.master), seed).moments
     for moment, _ in zip(moments, range(most), strict=False):
         assert world.ended is None
         readings = world.readings()
@@ -103,8 +104,8 @@ def test_the_world_is_that_of_training(mind: str, task: str) -> None:
 def test_the_shipped_mind_does_there_what_it_has_learnt() -> None:
     path = COLLECT / "collect.mind"
     ready = set_up(str(path), load(path), "Collect", None).ready
-    weights = {name: np.asarray(genome) for name, genome in ready.weights.items()}
-    assert follow(ready.graph, weights, "Collect", 5, 2000) > 500
+    weights = {name: np.asarray(genome) for name, genome in ready.policy.weights.items()}
+    assert follow(ready.policy.graph, weights, "Collect", 5, 2000) > 500
 
 
 def test_commands_wait_as_in_training() -> None:
@@ -374,7 +375,7 @@ def test_a_socket_is_private_and_replaces_only_dead_ones(tmp_path: Path) -> None
 
 @pytest.fixture
 def bundle(roam: Graph, tmp_path: Path) -> Path:
-    write_bundle(tmp_path / "roam.bundle", roam, {}, {})
+    write_bundle(tmp_path / "roam.bundle", Bundle(Policy(roam, {}), {}))
     return tmp_path / "roam.bundle"
 
 
@@ -385,7 +386,7 @@ def test_a_mind_lives_in_a_world_of_its_own_process(roam: Graph, bundle: Path) -
         sensors = [wire.driver.open() for wire in wiring.sensors]
         actuators = [wire.driver.open() for wire in wiring.actuators]
         begin = status(path)
-        engine = Engine(roam, {})
+        engine = Engine(Policy(roam, {}))
 
         def tick() -> int:
             commands = engine.tick(np.array([value for sensor in sensors for value in sensor.read()]))

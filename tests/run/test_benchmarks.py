@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from mindrun.policy import Policy
 from mindrun.sim.rollout import Rollout
 from mindrun.sim.trace import trace
 
@@ -21,7 +22,7 @@ def test_the_plain_pymunk_loop_goes_where_the_lanes_go(seed: int, monkeypatch: p
 
     graph = collect()[0]
     weights = random_weights(graph, 4)
-    run = trace(Rollout(graph, weights, "Collect", "Collect", interrupt=False), seed)
+    run = trace(Rollout(Policy(graph, weights), "Collect", "Collect", interrupt=False), seed)
     robot = Robot(graph, weights, run, seed)
     for moment in run.moments:
         robot.tick()

@@ -6,6 +6,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from mindrun.policy import Policy
 from mindrun.sim.rollout import Rollout
 from mindrun.sim.trace import trace
 
@@ -48,13 +49,13 @@ def north(angle: float) -> float:
 def test_it_reads_where_north_is() -> None:
     graph = compiled().graph
     assert graph
-    moments = list(trace(Rollout(graph, {}, "Spin", "Turn"), 3).moments)
+    moments = list(trace(Rollout(Policy(graph, {}), "Spin", "Turn"), 3).moments)
     angles = np.array([0.0, *(moment.body[2] for moment in moments)])
     seen = np.array([moment.readings[0] for moment in moments])
     true = np.array([north(angle) for angle in angles[:-1]])
     assert len(moments) == 2000
     assert np.ptp(seen) > 0.9
-    begins = trace(Rollout(graph, {}, "Spin", "Turn"), 3).begin[2]
+    begins = trace(Rollout(Policy(graph, {}), "Spin", "Turn"), 3).begin[2]
     true[0] = north(begins)
     assert np.abs(seen - true).max() < 1e-6
 
@@ -62,7 +63,7 @@ def test_it_reads_where_north_is() -> None:
 def test_its_derivative_turns_the_short_way() -> None:
     graph = compiled().graph
     assert graph
-    moments = list(trace(Rollout(graph, {}, "Spin", "Turn"), 3).moments)
+    moments = list(trace(Rollout(Policy(graph, {}), "Spin", "Turn"), 3).moments)
     seen = np.array([moment.readings for moment in moments])
     jumps = np.abs(np.diff(seen[:, 0])) > 0.5
     assert jumps.any()
@@ -74,7 +75,7 @@ def test_its_derivative_turns_the_short_way() -> None:
 def test_a_dead_zone_and_faults_are_its_as_well() -> None:
     graph = compiled(" dead_zone 0.1 lost 20% noise 2% every 3 ticks delay 2 ticks").graph
     assert graph
-    moments = list(trace(Rollout(graph, {}, "Spin", "Turn"), 3).moments)
+    moments = list(trace(Rollout(Policy(graph, {}), "Spin", "Turn"), 3).moments)
     seen = np.array([moment.readings[0] for moment in moments])
     assert 500 < np.unique(seen).size < 560
     assert (seen == 0.5).mean() > 0.2

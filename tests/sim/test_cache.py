@@ -142,7 +142,7 @@ found = load("examples/collect/collect.mind")
 ready = make_ready(found.graph, found.sources)
 digest = sha256()
 for skill in ("GoToObject", "Avoid", "Collect"):
-    rollout = Rollout(ready.graph, ready.weights, skill, skill, [skill], lanes=48)
+    rollout = Rollout(ready.policy, skill, skill, [skill], lanes=48)
     genomes = np.random.default_rng(1).normal(0, 1, (24, rollout.genome_length)).astype(np.float32)
     scores = rollout.score(genomes, [1, 2])
     for part in (scores.total, scores.by_line, scores.ticks, scores.ended_by, scores.faults):

@@ -4,6 +4,7 @@ from collections.abc import Iterator
 from typing import Any
 
 import pytest
+from mindrun.policy import Policy
 from mindrun.sim.lanes.advance import advance, fill
 from mindrun.sim.rollout import Rollout
 
@@ -25,7 +26,7 @@ def counted(module: Any) -> Iterator[str]:
 def test_no_reference_is_counted(function: Any) -> None:
     graph = load(COLLECT).graph
     assert graph
-    Rollout(graph, {}, "GoToObject", "GoToObject", ["GoToObject"]).compile()
+    Rollout(Policy(graph, {}), "GoToObject", "GoToObject", ["GoToObject"]).compile()
     compiled = list(function.overloads.values())
     assert compiled
     for each in compiled:

@@ -9,6 +9,7 @@ from hypothesis import strategies as st
 from mindrun.engine import Engine
 from mindrun.events import Collision
 from mindrun.graph import Graph, Reward, Task, Thing
+from mindrun.policy import Policy
 from mindrun.quantity import Span
 from mindrun.sim.rollout import Rollout
 from mindrun.sim.trace import trace
@@ -22,8 +23,8 @@ from tests.sim.test_rollout import COLLECT, some_weights
 
 def follow(graph: Graph, weights: dict[str, np.ndarray], task: str, master: str, seed: int, most: int) -> None:
     """Run a task in the lanes, and feed what they sensed to the engine: the same readings, influence and commands."""
-    rollout = Rollout(graph, weights, task, master, interrupt=False)
-    engine = Engine(graph, weights, None, master)
+    rollout = Rollout(Policy(graph, weights), task, master, interrupt=False)
+    engine = Engine(Policy(graph, weights), None, master)
     read = sorted({row for skill in rollout.tables.skills for row in _rows(rollout, skill)})
     run = trace(rollout, seed)
     for moment in run.moments:

@@ -13,6 +13,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from mindrun import registry
+from mindrun.policy import Policy
 from mindrun.quantity import Quantity
 from mindrun.sim.rollout import Rollout
 
@@ -65,10 +66,11 @@ worlds = st.fixed_dictionaries({name: st.sampled_from((PLAIN[name], *BOUNDS[name
 
 CALLED = """
 import sys, json, numpy as np
+from mindrun.policy import Policy
 from mindrun.sim.rollout import Rollout
 from tests.sim.minds import compile_text
 for line in sys.stdin:
-    rollout = Rollout(compile_text(json.loads(line)), {}, "Far", "Go", lanes=3)
+    rollout = Rollout(Policy(compile_text(json.loads(line)), {}), "Far", "Go", lanes=3)
     scores = rollout.score(np.zeros((1, 0), np.float32), range(5))
     print(int(scores.ticks.sum()), flush=True)
 """
@@ -92,7 +94,7 @@ def test_every_number_of_every_kind_has_two_bounds() -> None:
 def test_a_robot_that_flies_for_ever_ends_its_run(seed: int) -> None:
     text = MIND.format(**PLAIN | {"density": 0.001, "damping": 0, "thrust": 10**6, "other": 10**6, "ticks": 200_000})
     text = text.replace("right_wheel at 0.5 + turn - beat", "right_wheel at 1")
-    scores = Rollout(compile_text(text), {}, "Far", "Go").score(np.zeros((1, 0), np.float32), [seed])
+    scores = Rollout(Policy(compile_text(text), {}), "Far", "Go").score(np.zeros((1, 0), np.float32), [seed])
     assert scores.ended_by[0, 0] == -2
     assert scores.faults[0, 0] >= 1
     assert scores.ticks[0, 0] < 200_000

@@ -5,6 +5,7 @@ from collections.abc import Sequence
 
 import pytest
 from mindrun.engine import Engine
+from mindrun.policy import Policy
 from mindrun.sim.rollout import Rollout
 from mindrun.sim.trace import trace
 
@@ -82,7 +83,7 @@ def test_every_tick_is_what_plain_python_says(outcome: str, seeds: Sequence[int]
     graph = compile_text(MIND.replace("CLAW", "ball_near + has_ball - in_home").replace("OUTCOME", outcome))
     happened = Counter[str]()
     for seed in seeds:
-        happened += follow(Rollout(graph, {}, "World", "Work"), Engine(graph, {}), seed)
+        happened += follow(Rollout(Policy(graph, {}), "World", "Work"), Engine(Policy(graph, {})), seed)
     assert happened["Reach"] > 5
     assert happened["Delivery"] > 1
     assert happened["Visit"] > 30
@@ -91,5 +92,7 @@ def test_every_tick_is_what_plain_python_says(outcome: str, seeds: Sequence[int]
 
 def test_a_claw_that_is_half_closed_is_open() -> None:
     graph = compile_text(MIND.replace("CLAW", "0.5").replace("OUTCOME", ""))
-    held = {moment.held for seed in range(3) for moment in trace(Rollout(graph, {}, "World", "Ball"), seed).moments}
+    held = {
+        moment.held for seed in range(3) for moment in trace(Rollout(Policy(graph, {}), "World", "Ball"), seed).moments
+    }
     assert held == {-1}

@@ -14,6 +14,7 @@ from mindrun.events import Reach, Visit
 from mindrun.functions import Mlp
 from mindrun.graph import Actuator, Edge, Reward, Sensor, Task, Thing
 from mindrun.memory import Cell
+from mindrun.policy import Policy
 from mindrun.quantity import Span
 from mindrun.sensors import Battery, Bearing, Derivative, RangeFinder, Sine
 from mindrun.sim.lanes.placement import uniform
@@ -43,8 +44,8 @@ def test_influence_that_overflows_is_a_fault_here_too(levels: int, sent: float) 
     skills = doubling(levels, (always("skill", last, sent), always("actuator", 0, sent), always("memory", 0, sent)))
     below = rule("Below", always("actuator", 1, 1.0))
     graph = replace(mind(*skills, below, cells=(Cell(0.5, 0.25),)), tasks=(task(),))
-    engine = Engine(graph, {})
-    follow(Rollout(graph, {}, "World", "S0"), engine, 1)
+    engine = Engine(Policy(graph, {}))
+    follow(Rollout(Policy(graph, {}), "World", "S0"), engine, 1)
     assert (engine.faults > 0) == (levels >= (128 if sent else 129))
 
 
@@ -57,8 +58,8 @@ def test_every_float32_is_a_number_up_to_the_largest(weights: tuple[float, ...],
     full = Sensor("charge", Battery(start=1.0, drain=0.0), 0, 1)
     graph = replace(mind(top), sensors=(full,), tasks=(task(),))
     given = {"Top": np.array(weights, np.float32)}
-    engine = Engine(graph, given)
-    follow(Rollout(graph, given, "World", "Top"), engine, 1)
+    engine = Engine(Policy(graph, given))
+    follow(Rollout(Policy(graph, given), "World", "Top"), engine, 1)
     assert engine.faults == faults
 
 
@@ -104,7 +105,7 @@ def test_an_item_behind_is_never_taken() -> None:
         things = (Thing("object", Item(Span(1.0, 1.0), Span(1.7, 1.7))),)
         still = mind(rule("Top"), actuators=(*wheels(0.4, 0.6), Actuator("claw", Gripper(0.9))))
         graph = replace(still, tasks=(task(60, things=things),))
-        run = trace(Rollout(graph, {}, "World", "Top"), seed)
+        run = trace(Rollout(Policy(graph, {}), "World", "Top"), seed)
         x, y, angle = run.begin
         for moment in run.moments:
             bearing = np.arctan2(run.things[0, 1] - y, run.things[0, 0] - x) - angle
@@ -124,7 +125,7 @@ def test_the_first_event_that_ends_a_run_is_the_one_that_is_told() -> None:
     events = (Reach("plug"), Reach("home"))
     for ends, first in (((0, 1), 0), ((1,), 1)):
         graph = replace(mind(rule("Top")), tasks=(task(9, things=things, events=events, ends=ends, counts=(0, 1)),))
-        scores = Rollout(graph, {}, "World", "Top").score(NOBODY, range(20))
+        scores = Rollout(Policy(graph, {}), "World", "Top").score(NOBODY, range(20))
         together = (scores.by_event == 1).all(axis=2) & (scores.ticks == 1)
         assert together.any()
         assert (scores.ended_by[together] == first).all()
@@ -148,9 +149,9 @@ def test_lanes_that_close_ranks_keep_what_waits() -> None:
     world = task(300, scene=Arena(30.0), things=things, events=events, ends=(1,), rewards=rewards, counts=(0,))
     graph = replace(base, sensors=(bearing,), tasks=(world,))
     seeds = list(range(24))
-    alone = Rollout(graph, {}, "World", "Top", lanes=1).score(NOBODY, seeds)
+    alone = Rollout(Policy(graph, {}), "World", "Top", lanes=1).score(NOBODY, seeds)
     assert len(np.unique(alone.ticks)) > 5
-    together = Rollout(graph, {}, "World", "Top", lanes=32).score(NOBODY, seeds)
+    together = Rollout(Policy(graph, {}), "World", "Top", lanes=32).score(NOBODY, seeds)
     np.testing.assert_array_equal(alone.by_line, together.by_line)
     np.testing.assert_array_equal(alone.ticks, together.ticks)
 
@@ -177,9 +178,9 @@ def test_a_robot_that_leaps_meets_what_stands_where_it_arrives() -> None:
     """In every direction: one that is faster than its choice of boxes leaves it in a single tick."""
     graph, directions, touched = compile_text(RUNNER), set(), 0
     for seed in range(16):
-        rollout = Rollout(graph, {}, "World", "Run")
+        rollout = Rollout(Policy(graph, {}), "World", "Run")
         directions.add(int(trace(rollout, seed).begin[2] % (2 * np.pi) // (np.pi / 2)))
-        touched += follow(rollout, Engine(graph, {}), seed)["Collision"]
+        touched += follow(rollout, Engine(Policy(graph, {})), seed)["Collision"]
     assert directions == {0, 1, 2, 3}
     assert touched > 20
 
@@ -198,7 +199,7 @@ def test_a_contact_that_was_left_is_forgotten_as_chipmunk_forgets(away: int) -> 
         reads=(0,),
     )
     graph = replace(push, sensors=(wave,), skills=(drive,), tasks=(task(400, scene=Arena(20.0), things=things),))
-    follow(Rollout(graph, {}, "World", "Top"), Engine(graph, {}), away)
+    follow(Rollout(Policy(graph, {}), "World", "Top"), Engine(Policy(graph, {})), away)
 
 
 def test_each_reading_of_a_wide_sensor_has_a_derivative_of_its_own() -> None:
@@ -209,7 +210,7 @@ def test_each_reading_of_a_wide_sensor_has_a_derivative_of_its_own() -> None:
     things = (Thing("rock", Obstacle(Span(1.0, 3.0), grid=5.0, jitter=0.5)),)
     base = mind(drive, actuators=wheels(0.9, 0.7))
     graph = replace(base, sensors=(eyes, change, again), tasks=(task(60, scene=Arena(20.0), things=things),))
-    follow(Rollout(graph, {}, "World", "Top"), Engine(graph, {}), 2)
+    follow(Rollout(Policy(graph, {}), "World", "Top"), Engine(Policy(graph, {})), 2)
 
 
 @pytest.mark.parametrize("scene", [Plain(), Arena(60.0)])
@@ -225,7 +226,7 @@ def test_everything_is_placed_clear_of_everything(scene: Plain | Arena) -> None:
     spans = [(6.0, 12.0), (10.0, np.inf if isinstance(scene, Arena) else 40.0), (8.0, 9.0)]
     angles, places, sizes = [], [], []
     for seed in range(40):
-        run = trace(Rollout(graph, {}, "World", "Top"), seed)
+        run = trace(Rollout(Policy(graph, {}), "World", "Top"), seed)
         x, y, angle = run.begin
         angles.append(angle)
         places.append(abs(x))
@@ -257,7 +258,7 @@ def test_things_of_any_size_stand_beside_each_other() -> None:
     graph = replace(mind(rule("Top")), tasks=(task(1, things=things),))
     closest = np.inf
     for seed in range(40):
-        places = trace(Rollout(graph, {}, "World", "Top"), seed).things
+        places = trace(Rollout(Policy(graph, {}), "World", "Top"), seed).things
         for i, a in enumerate(places):
             for b in places[i + 1 :]:
                 gap = np.abs(a[:2] - b[:2]).max() - (a[2] + b[2]) / 2
@@ -271,7 +272,7 @@ def test_a_grid_stands_on_its_crossings() -> None:
     for jitter in (0.0, 1.0):
         things = (Thing("rock", Obstacle(Span(1.0, 2.0), grid=10.0, jitter=jitter)),)
         graph = replace(mind(rule("Top")), tasks=(task(1, scene=Arena(40.0), things=things),))
-        run = trace(Rollout(graph, {}, "World", "Top"), 3)
+        run = trace(Rollout(Policy(graph, {}), "World", "Top"), 3)
         crossings = np.array([(x, y) for y in (-10.0, 0.0, 10.0) for x in (-10.0, 0.0, 10.0)])
         off = run.boxes[:, :2] - crossings
         assert np.abs(off).max() <= jitter

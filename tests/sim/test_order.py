@@ -2,6 +2,7 @@
 
 import numpy as np
 from mindrun.graph import Graph
+from mindrun.policy import Policy
 from mindrun.sim.rollout import Rollout
 from mindrun.sim.trace import Moment, trace
 
@@ -47,7 +48,7 @@ def graph() -> Graph:
 
 
 def moments(seed: int) -> list[Moment]:
-    return list(trace(Rollout(graph(), {}, "Test", "Go"), seed).moments)
+    return list(trace(Rollout(Policy(graph(), {}), "Test", "Go"), seed).moments)
 
 
 def test_a_reward_reads_what_the_skills_read() -> None:
@@ -87,7 +88,7 @@ def test_an_event_is_of_the_step_and_a_condition_of_before() -> None:
 
 def test_measures_are_of_before_anything_moves() -> None:
     for seed in range(3):
-        run = trace(Rollout(graph(), {}, "Test", "Go"), seed)
+        run = trace(Rollout(Policy(graph(), {}), "Test", "Go"), seed)
         home, before, total = run.things[1, :2], run.begin[:2], 0.0
         for m in run.moments:
             total += float(np.hypot(*(home - before)) - np.hypot(*(home - m.body[:2])))

@@ -8,6 +8,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from mindrun.graph import Graph
+from mindrun.policy import Policy
 from mindrun.sim.rollout import Rollout
 from mindrun.sim.trace import Moment, trace
 from mindrun.world import OUTCOMES
@@ -109,7 +110,7 @@ def graph(task: str, lines: Sequence[str] = ()) -> Graph:
 
 
 def moments(of: Graph, seed: int) -> list[Moment]:
-    return list(trace(Rollout(of, {}, "Test", "Carry"), seed).moments)
+    return list(trace(Rollout(Policy(of, {}), "Test", "Carry"), seed).moments)
 
 
 @settings(max_examples=20, deadline=None)
@@ -134,7 +135,7 @@ def test_what_measures_changes_nothing(task: str, lines: list[str], seed: int) -
 def test_outcomes_are_those_of_plain_python(task: str, seed: int) -> None:
     lines = ["counts reach of ball", "counts reach of home", "counts reach of plug", "counts delivery of ball"]
     of = graph(task, [*lines, *(f"rewards progress toward {thing} per tick" for thing in ("ball", "home", "plug"))])
-    run = trace(Rollout(of, {}, "Test", "Carry"), seed)
+    run = trace(Rollout(Policy(of, {}), "Test", "Carry"), seed)
     plain, paid = PlainWorld(of, of.tasks[0], run), np.zeros(3)
     order = [of.tasks[0].events[i] for i in of.tasks[0].counts]
     for moment in run.moments:
@@ -164,7 +165,7 @@ def test_lanes_that_close_ranks_keep_what_was_reached(lanes: int) -> None:
     task += f"  contains rock is obstacle count 4\n  lasts {TICKS} ticks\n  ends on collision\n"
     lines = ["counts reach of ball", "counts reach of home", "counts reach of plug", "counts delivery of ball"]
     of = graph(task + BASE, lines)
-    scores = Rollout(of, {}, "Test", "Carry", lanes=lanes).score(np.zeros((1, 0), np.float32), range(20))
+    scores = Rollout(Policy(of, {}), "Test", "Carry", lanes=lanes).score(np.zeros((1, 0), np.float32), range(20))
     for seed in range(20):
         assert np.array_equal(scores.by_event[0, seed], sum(m.events for m in moments(of, seed)))
     assert (scores.by_event[0].max(axis=0) > 0).all()
@@ -180,7 +181,7 @@ def test_what_stays_is_reached_anew_after_it_was_left() -> None:
 """)
     found = 0
     for seed in range(12):
-        run = list(trace(Rollout(of, {}, "Test", "Round"), seed).moments)
+        run = list(trace(Rollout(Policy(of, {}), "Test", "Round"), seed).moments)
         x, y, size = run[0].things[0]
         inside = [max(abs(m.body[0] - x), abs(m.body[1] - y)) <= size / 2 for m in run]
         comes_in = np.array([now and not before for before, now in zip([False, *inside], inside, strict=False)])

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from mindrun.policy import Policy
 from mindrun.sim.rollout import Rollout
 from mindrun.sim.trace import trace
 from mindrun.trigonometry import cosine, sine
@@ -12,7 +13,7 @@ from tests.sim.plain import PlainRobot
 
 @pytest.mark.parametrize("seed", range(5))
 def test_free_flight_equals_space_step(seed: int) -> None:
-    rollout = Rollout(drifter(scene="plain", ticks=10_000), {}, "Drift", "Drift")
+    rollout = Rollout(Policy(drifter(scene="plain", ticks=10_000), {}), "Drift", "Drift")
     run = trace(rollout, seed)
     plain = PlainRobot(run.begin, [], None)
     angle = run.begin[2]
@@ -27,7 +28,7 @@ def test_free_flight_equals_space_step(seed: int) -> None:
 @pytest.mark.parametrize("seed", range(12))
 def test_contacts_equal_plain_pymunk(seed: int) -> None:
     """A robot that drives into obstacles, walls and corners, with and without an item in its claw."""
-    rollout = Rollout(drifter(scene="arena", ticks=5_000, crowded=True), {}, "Drift", "Drift", interrupt=False)
+    rollout = Rollout(Policy(drifter(scene="arena", ticks=5_000, crowded=True), {}), "Drift", "Drift", interrupt=False)
     run = trace(rollout, seed)
     plain = PlainRobot(run.begin, run.boxes, 20.0, item=1.0)
     angle, touched, carried = run.begin[2], 0, 0

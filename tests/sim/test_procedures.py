@@ -7,6 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from mindrun.errors import ProcedureError
+from mindrun.policy import Policy
 from mindrun.sim.rollout import Rollout
 from mindrun.sim.trace import trace
 
@@ -26,7 +27,7 @@ SLOW += "    slow, quick, odd, ahead = given\n    return [0.25 + slow * 0.7, 0.9
 
 
 def run(text: str, folder: Path | None) -> tuple[Rollout, np.ndarray]:
-    rollout = Rollout(compile_text(text), {}, "Drift", "Drift", procedures=folder, interrupt=False)
+    rollout = Rollout(Policy(compile_text(text), {}), "Drift", "Drift", procedures=folder, interrupt=False)
     return rollout, np.array([np.concatenate([m.body, m.commands]) for m in trace(rollout, 5).moments])
 
 
@@ -57,7 +58,7 @@ def test_slow_procedures_score_like_compiled_ones_in_many_lanes(tmp_path: Path) 
     (tmp_path / "slow.py").write_text(SLOW)
     none = np.zeros((1, 0), np.float32)
     scores = [
-        Rollout(compile_text(mind(name)), {}, "Drift", "Drift", procedures=tmp_path, workers=2, lanes=3).score(
+        Rollout(Policy(compile_text(mind(name)), {}), "Drift", "Drift", procedures=tmp_path, workers=2, lanes=3).score(
             none, range(7)
         )
         for name in ("quick", "slow")
@@ -84,7 +85,7 @@ def test_what_fails_ends_the_run_as_it_does_on_the_robot(tmp_path: Path, name: s
     graph = compile_text(mind("fails"))
     source, failed = TALK.format(FAILING[name]), r"procedure fails.wheels fails for \[.*\] in fails.py, line 2: "
     for workers, lanes in [(1, 16), (3, 2)]:
-        rollout = Rollout(graph, {}, "Drift", "Drift", procedures=tmp_path, workers=workers, lanes=lanes)
+        rollout = Rollout(Policy(graph, {}), "Drift", "Drift", procedures=tmp_path, workers=workers, lanes=lanes)
         with pytest.raises(ProcedureError, match=failed) as error:
             rollout.score(np.zeros((1, 0), np.float32), range(20))
         given = np.array(ast.literal_eval(str(error.value).split("for ")[1].split(" in fails")[0]), np.float32)
@@ -102,7 +103,9 @@ def test_what_a_procedure_remembers_is_of_its_run(tmp_path: Path, source: str) -
     (tmp_path / "own.py").write_text(source)
     graph, none = compile_text(mind("own")), np.zeros((1, 0), np.float32)
     found = [
-        Rollout(graph, {}, "Drift", "Drift", procedures=tmp_path, workers=workers, lanes=lanes).score(none, range(9))
+        Rollout(Policy(graph, {}), "Drift", "Drift", procedures=tmp_path, workers=workers, lanes=lanes).score(
+            none, range(9)
+        )
         for workers, lanes in [(1, 1), (1, 4), (2, 3)]
     ]
     assert len(np.unique(found[0].total)) == 9
@@ -115,5 +118,5 @@ def test_a_procedure_without_outputs_is_never_called(tmp_path: Path) -> None:
     graph = compile_text(mind("idle"))
     edges = tuple(replace(edge, output=None, value=(("number", 0.5),)) for edge in graph.skills[0].edges)
     graph = replace(graph, skills=(replace(graph.skills[0], edges=edges),))
-    rollout = Rollout(graph, {}, "Drift", "Drift", procedures=tmp_path)
+    rollout = Rollout(Policy(graph, {}), "Drift", "Drift", procedures=tmp_path)
     assert rollout.score(np.zeros((1, 0), np.float32), [1]).ticks[0, 0] > 0

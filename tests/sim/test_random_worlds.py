@@ -7,6 +7,7 @@ from hypothesis import strategies as st
 from mindrun.engine import Engine
 from mindrun.functions import Mlp
 from mindrun.graph import Graph
+from mindrun.policy import Policy
 from mindrun.sim.rollout import Rollout
 from mindrun.sim.trace import trace
 from mindrun.weights import genes
@@ -27,8 +28,8 @@ def weights_for(graph: Graph, scale: float, rng: np.random.Generator) -> Weights
 @settings(max_examples=50, suppress_health_check=SLOW)
 @given(random_world(), st.sampled_from(SCALES), st.integers(0, 2**32 - 1))
 def test_every_tick_is_what_plain_python_says(graph: Graph, scale: float, seed: int) -> None:
-    rollout = Rollout(graph, weights_for(graph, scale, np.random.default_rng(seed)), "World", graph.master)
-    engine = Engine(graph, weights_for(graph, scale, np.random.default_rng(seed)))
+    rollout = Rollout(Policy(graph, weights_for(graph, scale, np.random.default_rng(seed))), "World", graph.master)
+    engine = Engine(Policy(graph, weights_for(graph, scale, np.random.default_rng(seed))))
     for happening in follow(rollout, engine, seed % 1000):
         event(f"{happening} happens")
 
@@ -42,7 +43,7 @@ def test_a_result_is_the_same_in_any_company(graph: Graph, scale: float, seed: i
     learners = [skill.name for skill in graph.skills if isinstance(skill.function, Mlp)][:2]
 
     def rollout(**options: int) -> Rollout:
-        return Rollout(graph, weights, "World", graph.master, learners, **options)
+        return Rollout(Policy(graph, weights), "World", graph.master, learners, **options)
 
     genomes = (scale * rng.uniform(-0.7, 1, (3, rollout().genome_length))).astype(np.float32)
     seeds = rng.integers(0, 2**63, 5).tolist()
@@ -62,4 +63,4 @@ def test_a_result_is_the_same_in_any_company(graph: Graph, scale: float, seed: i
 def test_many_worlds(graph: Graph, scale: float, seed: int) -> None:
     rng = np.random.default_rng(seed)
     weights = weights_for(graph, scale, rng)
-    follow(Rollout(graph, weights, "World", graph.master), Engine(graph, weights), seed % 1000)
+    follow(Rollout(Policy(graph, weights), "World", graph.master), Engine(Policy(graph, weights)), seed % 1000)

@@ -4,6 +4,7 @@ import numpy as np
 import pymunk
 import pytest
 from mindrun.graph import Graph
+from mindrun.policy import Policy
 from mindrun.sensors import RangeFinder
 from mindrun.sim.rollout import Rollout
 from mindrun.sim.trace import trace
@@ -33,7 +34,7 @@ task Watch in arena size 60
 
 
 def test_rays_are_segment_queries(watcher: Graph) -> None:
-    rollout = Rollout(watcher, {}, "Watch", "Watch")
+    rollout = Rollout(Policy(watcher, {}), "Watch", "Watch")
     finder = watcher.sensors[0].kind
     assert isinstance(finder, RangeFinder)
     seen = []

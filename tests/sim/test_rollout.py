@@ -5,6 +5,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from mindrun.graph import Graph
+from mindrun.policy import Policy
 from mindrun.sim.rollout import Rollout, Scores
 from mindrun.weights import genes
 
@@ -45,7 +46,7 @@ def test_lanes_workers_and_order_change_nothing(collect: Graph, task: str, learn
     rng = np.random.default_rng(1)
 
     def rollout(**options: int) -> Rollout:
-        return Rollout(collect, weights, task, master, [learner], **options)
+        return Rollout(Policy(collect, weights), task, master, [learner], **options)
 
     genomes = rng.normal(0.2, 1.0, (7, rollout().genome_length)).astype(np.float32)
     seeds = [3, 4]
@@ -60,7 +61,7 @@ def test_lanes_workers_and_order_change_nothing(collect: Graph, task: str, learn
 
 
 def test_a_genome_that_is_not_finite_is_refused(collect: Graph) -> None:
-    rollout = Rollout(collect, {}, "GoToObject", "GoToObject", ["GoToObject"])
+    rollout = Rollout(Policy(collect, {}), "GoToObject", "GoToObject", ["GoToObject"])
     genomes = np.zeros((2, rollout.genome_length), np.float32)
     genomes[1, 3] = np.nan
     with pytest.raises(ValueError, match="finite"):
@@ -69,10 +70,12 @@ def test_a_genome_that_is_not_finite_is_refused(collect: Graph) -> None:
 
 def test_random_genomes_are_drawn_skill_by_skill_in_the_order_of_the_genome(collect: Graph) -> None:
     taught = [skill for skill in collect.skills if skill.name in ("Avoid", "GoToObject")]
-    rollout = Rollout(collect, some_weights(collect), "Avoid", "Avoid", [skill.name for skill in reversed(taught)])
+    rollout = Rollout(
+        Policy(collect, some_weights(collect)), "Avoid", "Avoid", [skill.name for skill in reversed(taught)]
+    )
     genomes, rng = rollout.draw(5, np.random.default_rng(1)), np.random.default_rng(1)
     assert genomes.shape == (5, rollout.genome_length)
     each = [skill.function.draw(len(skill.inputs), skill.outputs, 5, rng) for skill in taught]
     np.testing.assert_array_equal(genomes, np.concatenate(each, axis=1))
-    none = Rollout(collect, some_weights(collect), "Avoid", "Avoid")
+    none = Rollout(Policy(collect, some_weights(collect)), "Avoid", "Avoid")
     assert none.draw(5, rng).shape == (5, 0)

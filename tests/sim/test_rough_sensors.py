@@ -6,6 +6,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from mindrun.graph import Graph
+from mindrun.policy import Policy
 from mindrun.sim.rollout import Rollout
 from mindrun.sim.trace import trace
 from numpy.typing import NDArray
@@ -50,7 +51,7 @@ def graph(rough: str = "") -> Graph:
 
 def readings(rough: str = "", seed: int = 4) -> NDArray[np.float32]:
     """What is read in a run [ticks, readings]; where the robot goes is the same for all."""
-    moments = trace(Rollout(graph(rough), {}, "Roam", "Go"), seed).moments
+    moments = trace(Rollout(Policy(graph(rough), {}), "Roam", "Go"), seed).moments
     return np.array([moment.readings for moment in islice(moments, TICKS)])
 
 
@@ -120,9 +121,9 @@ def test_a_run_depends_on_nothing_that_ran_before_it_in_its_lane() -> None:
 def hold_in_any_lane(of: Graph) -> None:
     """The same scores alone, one after the other, and in any company."""
     seeds, nobody = list(range(120)), np.zeros((1, 0), np.float32)
-    alone = [float(Rollout(of, {}, "Roam", "Go", lanes=1).score(nobody, [seed]).total[0, 0]) for seed in seeds]
+    alone = [float(Rollout(Policy(of, {}), "Roam", "Go", lanes=1).score(nobody, [seed]).total[0, 0]) for seed in seeds]
     for lanes, workers in ((1, 1), (16, 2), (64, 1)):
-        found = Rollout(of, {}, "Roam", "Go", lanes=lanes, workers=workers).score(nobody, seeds)
+        found = Rollout(Policy(of, {}), "Roam", "Go", lanes=lanes, workers=workers).score(nobody, seeds)
         np.testing.assert_array_equal(found.total[0], alone)
 
 

@@ -4,6 +4,7 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
+from mindrun.policy import Policy
 from mindrun.sim.lanes import stages
 from mindrun.sim.rollout import Rollout, Scores
 from mindrun.sim.trace import Moment, trace
@@ -50,7 +51,7 @@ task Anywhere in plain
 
 
 def rollout(task: str, master: str = "Seek", interrupt: bool = True) -> Rollout:
-    return Rollout(compile_text(SEEKER + task), {}, "Test", master, interrupt=interrupt)
+    return Rollout(Policy(compile_text(SEEKER + task), {}), "Test", master, interrupt=interrupt)
 
 
 def moments(task: str, master: str = "Seek", seed: int = 1) -> list[Moment]:
@@ -243,7 +244,7 @@ task Test in plain
 """
     late = SEEKER.replace("side left neutral 0.5", "side left neutral 0.5 delay 3 ticks")
     late = late.replace("side right neutral 0.5", "side right neutral 0.25 delay 1 ticks")
-    run = list(trace(Rollout(compile_text(late + task), {}, "Test", "Seek"), 1).moments)
+    run = list(trace(Rollout(Policy(compile_text(late + task), {}), "Test", "Seek"), 1).moments)
     assert [m.commands[0] for m in run[:3]] == [0.5] * 3
     assert run[0].commands[1] == 0.25
     wanted = [_left(m) for m in run]
@@ -270,7 +271,7 @@ task Test in arena size 50
   counts visit of patch size 6
 """
     one = rollout(task)
-    scores = Rollout(one.graph, {}, "Test", "Seek", lanes=lanes).score(np.zeros((1, 0), np.float32), range(12))
+    scores = Rollout(Policy(one.graph, {}), "Test", "Seek", lanes=lanes).score(np.zeros((1, 0), np.float32), range(12))
     for seed in range(12):
         seen = sum(moment.events for moment in trace(one, seed).moments)
         assert np.array_equal(scores.by_event[0, seed], seen)

@@ -5,6 +5,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from mindrun.graph import Graph
+from mindrun.policy import Policy
 from mindrun.sim.rollout import Rollout
 from mindrun.sim.state import empty_state
 
@@ -51,7 +52,7 @@ def graph_of(folder: Path, **said: object) -> Graph:
 
 @pytest.mark.parametrize("said", LARGE, ids=str)
 def test_the_estimate_is_near_what_the_lanes_take(tmp_path: Path, said: dict[str, object]) -> None:
-    rollout = Rollout(graph_of(tmp_path, **said), {}, "Roam", "Go", ["Go"], lanes=64)
+    rollout = Rollout(Policy(graph_of(tmp_path, **said), {}), "Roam", "Go", ["Go"], lanes=64)
     taken = sum(array.nbytes for array in empty_state(rollout.tables, rollout.sizes, 64))
     assert (
         0.8 * taken

@@ -11,7 +11,8 @@ import click
 import pytest
 from mindrun import __main__ as mindrun
 from mindrun.arguments import parser
-from mindrun.bundle import write_bundle
+from mindrun.bundle import Bundle, write_bundle
+from mindrun.policy import Policy
 from mindrun.tools import tools
 
 from mindlang import resource_limits
@@ -158,7 +159,7 @@ def test_mindrun_takes_no_offence(
     monkeypatch.setattr("sys.stdin", StringIO())
     path, graph = tmp_path / "b.bundle", load(write_rules(tmp_path)).graph
     assert graph
-    write_bundle(path, graph, {}, {})
+    write_bundle(path, Bundle(Policy(graph, {}), {}))
     lines = [[path, f"{option}={value}"] for [option] in MINDRUN]
     lines += [
         [path, "--readings", "none", f"--master={value}"],

@@ -7,7 +7,8 @@ from pathlib import Path
 
 import pytest
 from mindrun import __main__ as mindrun_main
-from mindrun.bundle import write_bundle
+from mindrun.bundle import Bundle, write_bundle
+from mindrun.policy import Policy
 
 from mindlang.cli import main as mindc_main
 from mindlang.compiler.compile import load
@@ -42,7 +43,7 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     path.write_text(text.replace("Röam", "Roam"))
     graph = load(path).graph
     assert graph
-    write_bundle(folder / "b.bundle", graph, {}, {})
+    write_bundle(folder / "b.bundle", Bundle(Policy(graph, {}), {}))
     (folder / "log.csv").write_text(LOG)
     (folder / "readings").write_text('{"ball_bearing": 0.5, "feeler": [1, 1, 1]}\n' * 2000)
     return folder

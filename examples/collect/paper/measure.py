@@ -86,7 +86,7 @@ def rollout_of(folder: Path, file: str, lesson: Lesson, skills: Sequence[str], w
     found = compiled(folder / file)
     assert found.graph is not None
     ready = make_ready(found.graph, found.sources, lesson.master)
-    return Rollout(ready.graph, ready.weights, lesson.task, lesson.master, skills, procedures=folder, workers=workers)
+    return Rollout(ready.policy, lesson.task, lesson.master, skills, procedures=folder, workers=workers)
 
 
 @cache

@@ -59,7 +59,7 @@ def drive(
     then every actuator is at neutral, too.
     """
     graph = bundle.graph
-    engine = Engine(graph, bundle.weights, bundle.procedures, options.master)
+    engine = Engine(bundle.policy, bundle.procedures, options.master)
     _refuse_blind(graph, options.master or graph.master, wiring)
     neutrals = {actuator.name: actuator.kind.neutral for actuator in graph.actuators}
     with ExitStack() as stack:

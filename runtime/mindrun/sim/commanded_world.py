@@ -11,6 +11,7 @@ from mindrun.errors import MindError
 from mindrun.events import Event
 from mindrun.functions import Rule
 from mindrun.graph import Graph
+from mindrun.policy import Policy
 from mindrun.registry import names
 from mindrun.sim.lanes.stages import after, before
 from mindrun.sim.rollout import Rollout
@@ -33,7 +34,7 @@ class World:
         # No skill runs in here, so none needs its weights or its procedure: what they read is all that counts.
         silent = replace(graph, skills=tuple(replace(skill, function=Rule()) for skill in graph.skills))
         self.graph = graph
-        self._rollout = Rollout(silent, {}, task, master)
+        self._rollout = Rollout(Policy(silent, {}), task, master)
         self._tables = self._rollout.tables
         self._tile = self._rollout.tile(1)
         self._state = self._tile.state

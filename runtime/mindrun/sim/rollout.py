@@ -1,7 +1,7 @@
 """Rollouts: genomes on layouts, scored in lanes on every core. A result depends on its genome and its seed alone."""
 
 import os
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from threading import Event
@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from mindrun.graph import Graph
+from mindrun.policy import Policy
 from mindrun.sim.codes import ITEM
 from mindrun.sim.lanes import chipmunk
 from mindrun.sim.lanes.advance import advance, fill
@@ -54,12 +54,11 @@ class Tile:
 
 
 class Rollout:
-    """Runs a task under a master; a genome has the weights of the `learners`, one after the other."""
+    """Runs a task under a master of a policy; a genome has the weights of the `learners`, one after the other."""
 
     def __init__(
         self,
-        graph: Graph,
-        weights: Mapping[str, NDArray[np.float32]],
+        policy: Policy,
         task: str,
         master: str,
         learners: Sequence[str] = (),
@@ -69,7 +68,7 @@ class Rollout:
         workers: int = 1,
         lanes: int = DEFAULT_LANES,
     ) -> None:
-        self.graph = graph
+        self.graph = graph = policy.graph
         self.task = next(t for t in graph.tasks if t.name == task)
         self.procedures = Procedures(graph, master, procedures)
         self.interrupt, self.workers, self.lanes = interrupt, workers, lanes
@@ -79,7 +78,7 @@ class Rollout:
         self.sizes: Sizes
         addresses = self.procedures.addresses
         library = chipmunk.library()
-        self.tables, self.sizes = build(graph, weights, self.task, master, learners, addresses, library)
+        self.tables, self.sizes = build(graph, policy.weights, self.task, master, learners, addresses, library)
 
     def score(
         self,

@@ -12,6 +12,7 @@ import numpy as np
 from mindrun.actuators import Wheel
 from mindrun.functions import Rule
 from mindrun.graph import Actuator, Graph, Reward, Skill, Task
+from mindrun.policy import Policy
 from mindrun.sim import cache
 from mindrun.sim.lanes import stages
 from mindrun.sim.lanes.advance import advance
@@ -45,7 +46,7 @@ def start(*words: str) -> "subprocess.Popen[bytes]":
 
 def warm_up() -> None:
     """Compile every way in that is not kept yet."""
-    rollout = Rollout(_smallest(), {}, "Nothing", "Rest")
+    rollout = Rollout(Policy(_smallest(), {}), "Nothing", "Rest")
     rollout.compile()
     tile, jobs = rollout.tile(1), rollout.jobs(np.zeros((0, 0), np.float32), np.zeros(0, np.uint64))
     t, s, none = rollout.tables, tile.state, np.int64(0)

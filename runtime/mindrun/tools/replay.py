@@ -26,7 +26,7 @@ def run(options: argparse.Namespace) -> int:
     """0 where every tick is the same, else 1."""
     bundle = read_bundle(options.bundle)
     about, _ = read(options.recording)
-    engine = Engine(bundle.graph, bundle.weights, bundle.procedures, about.master)
+    engine = Engine(bundle.policy, bundle.procedures, about.master)
     found = replay(options.recording, digest(options.bundle), engine, _told)
     if found.differs:
         tick, what = found.differs

@@ -8,8 +8,9 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from mindrun.bundle import write_bundle
+from mindrun.bundle import Bundle, write_bundle
 from mindrun.errors import MindError
+from mindrun.policy import Policy
 from mindrun.quantity import Reference
 from mindrun.registry import arguments, kinds
 from mindrun.robot.drivers.mock import MockActuator
@@ -59,12 +60,12 @@ def test_a_plan_is_a_wiring_with_the_neutrals_of_the_mind() -> None:
 def test_a_bundle_with_a_wiring_holds_a_plan(tmp_path: Path) -> None:
     graph = mind(rule("Go", always("actuator", 0, 0.9)))
     wheels = (ActuatorWire("left_wheel", MockActuator()), ActuatorWire("right_wheel", MockActuator(), reversed=True))
-    write_bundle(tmp_path / "a.bundle", graph, {}, {}, Wiring("rover", (), wheels))
+    write_bundle(tmp_path / "a.bundle", Bundle(Policy(graph, {}), {}, Wiring("rover", (), wheels)))
     plan = read_plan(tmp_path / "a.bundle")
     assert (plan.tick, [each.neutral for each in plan.channels]) == (graph.tick, [0.5, 0.5])
     assert [each.reversed for each in plan.channels] == [False, True]
     assert subprocess.run([*PROGRAM, "--neutral", tmp_path / "a.bundle"]).returncode == 0
-    write_bundle(tmp_path / "b.bundle", graph, {}, {})
+    write_bundle(tmp_path / "b.bundle", Bundle(Policy(graph, {}), {}))
     with pytest.raises(PlanError, match="for no robot"):
         read_plan(tmp_path / "b.bundle")
 

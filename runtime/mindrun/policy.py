@@ -1,0 +1,47 @@
+"""A policy: a hierarchy with the weights that its skills were taught, which fit in its order alone."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from mindrun.errors import WeightsError
+from mindrun.graph import Graph, Skill
+from mindrun.weights import Weights, checked
+
+
+@dataclass(frozen=True, slots=True)
+class Policy:
+    """What an engine runs and a rollout simulates: a graph, and the weights of its skills.
+
+    `weights` are float32 [genes] by skill, in the order in which `graph` says what the skill reads and sends. A skill
+    that a rollout teaches, or that no master reaches, may lack them. WeightsError where some are of no skill of the
+    graph, are not as many as it has, are not finite, or are those of a policy that has them in another order.
+    """
+
+    graph: Graph
+    weights: Mapping[str, Weights]
+
+    def __post_init__(self) -> None:
+        skills = {skill.name: skill for skill in self.graph.skills}
+        if strangers := sorted(self.weights.keys() - skills.keys()):
+            raise WeightsError(f"there are weights of {strangers[0]}, but there is no such skill")
+        ordered = _Ordered((name, checked(skills[name], weights)) for name, weights in self.weights.items())
+        ordered.orders = {name: _order(self.graph, skills[name]) for name in ordered}
+        if isinstance(self.weights, _Ordered):
+            for name, order in ordered.orders.items():
+                if self.weights.orders[name] != order:
+                    raise WeightsError(f"the weights of {name} belong to a graph that reads and sends in another order")
+        object.__setattr__(self, "weights", ordered)
+
+
+class _Ordered(dict[str, Weights]):
+    """The weights of a policy: wherever they go, they know what they read and send, and in which order."""
+
+    orders: Mapping[str, object]
+
+
+def _order(graph: Graph, skill: Skill) -> object:
+    """What each of a skill's weights is for: its function, and by name what it reads and sends."""
+    readings = [(sensor.name, number) for sensor in graph.sensors for number in range(sensor.width)]
+    readings += [(memory.name, 0) for memory in graph.memories]
+    sends = [(graph.named(edge.to, edge.target), edge.output) for edge in skill.edges if edge.output is not None]
+    return skill.function, [readings[index] for index in skill.inputs], sends
