@@ -18,12 +18,12 @@ from mindrun.codec import encode
 from rich.console import Console
 
 from benchmarks.shapes import SHAPES
+from mindlang.cli._diagnostic_printer import as_data, print_report
 from mindlang.compiler.comparison import differences
 from mindlang.compiler.compile import Compiled, compile_source
 from mindlang.compiler.drawing import dot, tree
 from mindlang.compiler.format import format_splices, formatted
 from mindlang.compiler.source import Source
-from mindlang.diagnostic_printer import as_data, print_report
 from mindlang.editing.apply import apply_edit
 from mindlang.editing.project import EditError, open_project
 from mindlang.editing.summary import diff, summarise

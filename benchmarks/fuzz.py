@@ -19,12 +19,12 @@ from tempfile import TemporaryDirectory
 from mindrun.printable import visible
 
 from benchmarks.sources import source
+from mindlang.cli._diagnostic_printer import as_data, plain
 from mindlang.compiler.comparison import differences
 from mindlang.compiler.compile import Compiled, compile_source
 from mindlang.compiler.format import format_splices, formatted
 from mindlang.compiler.source import Source
 from mindlang.compiler.splice import spliced
-from mindlang.diagnostic_printer import as_data, plain
 from mindlang.linting.lint import lint
 from mindlang.lock.report import rows
 from mindlang.lock.status import NotLearning, status

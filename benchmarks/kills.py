@@ -27,8 +27,8 @@ sys.path.insert(0, str(Path(__file__).parents[1]))
 from mindrun.train.progress import read
 
 from mindlang import cli
+from mindlang.cli import _trainer as trainer
 from mindlang.lock import read_lock
-from mindlang.training import trainer
 from tests.train.test_train_command import MIND
 
 LESSONS = ("Go", "Drive")

@@ -117,7 +117,9 @@ class Mind:
         watch = Watch(lambda state, record: on_generation(record), lambda words: None, cancelled, perf_counter)
         for lesson in chosen_lessons(self.graph, curriculum, skills):
             subject = open_subject(self.path, self.compiled)  # the lesson before has changed the lock
-            run = begin_run(subject, options.applied(lesson), seed, Path(runs), datetime.now(UTC))
+            run = begin_run(
+                subject, options.applied(lesson), seed, Path(runs), datetime.now(UTC), ("mindlang.Mind.train",)
+            )
             if (result := read_result(run.folder)) is None:
                 rollout = rollout_of(run, subject, workers)
                 state = train(run, rollout, watch)

@@ -7,7 +7,8 @@ from typing import NamedTuple
 
 import pytest
 
-from mindlang import cli, terminal
+from mindlang import cli
+from mindlang.cli import _terminal as terminal
 
 RULES = """tick 1/60 s
 master Roam

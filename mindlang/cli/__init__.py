@@ -10,7 +10,7 @@ from threading import active_count
 import click
 from mindrun import standard_streams
 
-from mindlang.terminal import FINDINGS, INTERRUPTED, MISUSE, OK, say
+from mindlang.cli._terminal import FINDINGS, INTERRUPTED, MISUSE, OK, say
 
 GARBAGE_COLLECTION_OBJECTS = (
     200_000  # objects made before Python looks for garbage: a large mind is millions, and none of them garbage

@@ -45,10 +45,11 @@ def command(
     """
     from mindrun.sim.rollout import cores
 
+    from mindlang.cli._run_session import RunSession
+    from mindlang.cli._terminal import console, print_json
     from mindlang.run import outcome
-    from mindlang.run.session import RunSession, layouts
+    from mindlang.run.layouts import layouts
     from mindlang.run.summary import bench_summary
-    from mindlang.terminal import console, print_json
 
     session = RunSession(quiet)
     workers = workers or cores()

@@ -8,7 +8,6 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 import click
-from mindrun.bundle import Bundle
 
 from mindlang.cli._options import NewFile
 
@@ -44,13 +43,13 @@ def command(file: str, output: Path, master: str | None, robot: Path | None, as_
     what each sensor and actuator is wired to, checked here against FILE and not on the robot. Refuses skills that have
     not been taught, or whose weights belong to another declaration.
     """
-    from mindrun.bundle import write_bundle
+    from mindrun.bundle import Bundle, write_bundle
     from mindrun.engine import procedure_sources
     from mindrun.errors import MindError
 
+    from mindlang.cli._terminal import MISUSE, fail, load_compiled, print_json, say
     from mindlang.compiler.diagnostic import did_you_mean
     from mindlang.lock.ready import make_ready
-    from mindlang.terminal import MISUSE, fail, load_compiled, print_json, say
 
     compiled = load_compiled(file)
     assert compiled.graph is not None
@@ -83,9 +82,9 @@ def command(file: str, output: Path, master: str | None, robot: Path | None, as_
 
 def _refuse_procedures(compiled: Compiled, master: str | None) -> None:
     """End the program where a procedure cannot be what its skill needs."""
+    from mindlang.cli._diagnostic_printer import print_report
+    from mindlang.cli._terminal import FINDINGS, console
     from mindlang.compiler.procedures import mistakes
-    from mindlang.diagnostic_printer import print_report
-    from mindlang.terminal import FINDINGS, console
 
     assert compiled.graph is not None
     if found := mistakes(compiled, master or compiled.graph.master):
@@ -95,8 +94,8 @@ def _refuse_procedures(compiled: Compiled, master: str | None) -> None:
 
 def _wiring(path: Path, graph: Graph) -> Wiring:
     """What the mind is wired to; its report goes to stderr, and one with errors ends the program."""
-    from mindlang.diagnostic_printer import print_report
-    from mindlang.terminal import FINDINGS, MISUSE, console
+    from mindlang.cli._diagnostic_printer import print_report
+    from mindlang.cli._terminal import FINDINGS, MISUSE, console
     from mindlang.wiring.wire import load_wiring
 
     checked = load_wiring(path, graph)

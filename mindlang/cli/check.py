@@ -22,10 +22,10 @@ def command(files: tuple[str, ...], as_json: bool) -> None:
     Of procedures the text is read, and nothing is run.
     Ends with 0 when nothing is wrong, with 1 when something is, with 2 when a file cannot be read.
     """
+    from mindlang.cli._diagnostic_printer import as_data, print_report
+    from mindlang.cli._terminal import FINDINGS, MISUSE, OK, console, print_json, take_back
     from mindlang.compiler.procedures import mistakes
-    from mindlang.diagnostic_printer import as_data, print_report
     from mindlang.editing.neighbours import minds
-    from mindlang.terminal import FINDINGS, MISUSE, OK, console, print_json, take_back
 
     for file in files:
         take_back(file)

@@ -61,10 +61,10 @@ def command(
     """
     from mindrun.errors import MindError
 
+    from mindlang.cli._terminal import INTERRUPTED, fail
     from mindlang.deploying.checks import check_host, check_tools
     from mindlang.deploying.deployment import Settings
     from mindlang.deploying.robot import connected
-    from mindlang.terminal import INTERRUPTED, fail
 
     path, host = _path_and_host(words, rollback or as_list)
     if (rollback and as_list) or (arm_service and no_service):
@@ -104,8 +104,8 @@ def _checked(path: Path, settings: Settings) -> Bundle:
     from mindrun.bundle import read_bundle
     from mindrun.errors import BundleError
 
+    from mindlang.cli._terminal import MISUSE, fail
     from mindlang.deploying.checks import check_procedures, check_wired
-    from mindlang.terminal import MISUSE, fail
 
     try:
         bundle = read_bundle(path)
@@ -134,8 +134,8 @@ def _do(
 def _list(robot: Robot, as_json: bool) -> None:
     from mindrun.printable import visible
 
+    from mindlang.cli._terminal import print_json
     from mindlang.deploying.state import look
-    from mindlang.terminal import print_json
 
     state = look(robot)
     if as_json:
@@ -155,7 +155,7 @@ def _listed(state: State) -> dict[str, object]:
 
 
 def _say(host: str, outcome: Outcome, settings: Settings, dry_run: bool, as_json: bool, quiet: bool) -> None:
-    from mindlang.terminal import print_json
+    from mindlang.cli._terminal import print_json
 
     for note in outcome.notes:
         click.echo(f"note: {note}", err=True)

@@ -22,10 +22,10 @@ def command(old: str, new: str, as_json: bool) -> None:
     spellings of the same do not count. Standard input uses the files of the working directory. Ends with 0 where
     nothing changed, with 1 where something did.
     """
+    from mindlang.cli._terminal import FINDINGS, OK, console, load_compiled, print_json
     from mindlang.compiler.comparison import differences
     from mindlang.lock import lock_path
     from mindlang.lock.report import as_data, rows
-    from mindlang.terminal import FINDINGS, OK, console, load_compiled, print_json
 
     before, after = load_compiled(old), load_compiled(new)
     assert before.mind is not None

@@ -46,7 +46,7 @@ def _command(of: Edit) -> click.Command:
     """A click command with the parameters of an edit, and those that all of them have."""
 
     def run(file: str, write: bool, anyway: bool, keep_weights: bool, verify: bool, as_json: bool, **said: Any) -> None:
-        from mindlang.editing.command import EditOptions, perform
+        from mindlang.cli._editing import EditOptions, perform
 
         said, file = _file_first(of, said, file)
         perform(of, said, file, EditOptions(write, anyway, keep_weights, verify, as_json))

@@ -23,10 +23,10 @@ def command(code: str | None, as_json: bool) -> None:
     from mindrun.printable import visible
     from rich.text import Text
 
+    from mindlang.cli._terminal import MISUSE, console, fail, print_json
     from mindlang.compiler.diagnostic import did_you_mean
     from mindlang.explaining.explanation import explanations
     from mindlang.explaining.show import as_data, contents, page
-    from mindlang.terminal import MISUSE, console, fail, print_json
     from mindlang.wiring.driver_page import driver_names, driver_page
 
     known = explanations()

@@ -36,12 +36,12 @@ def command(files: tuple[str, ...], check: bool, diff: bool) -> None:
 
 def _tidy(file: str, check: bool, diff: bool) -> int:
     """Tidy one file, or only look; how the program would end if it were the only one."""
+    from mindlang.cli._diagnostic_printer import print_report
+    from mindlang.cli._terminal import FINDINGS, MISUSE, console, take_back
     from mindlang.compiler.compile import read_main
     from mindlang.compiler.diagnostic import Findings
     from mindlang.compiler.parse import parse
     from mindlang.compiler.source import Source
-    from mindlang.diagnostic_printer import print_report
-    from mindlang.terminal import FINDINGS, MISUSE, console, take_back
 
     take_back(file)
     source = read_main(file)
@@ -60,9 +60,9 @@ def _put(file: str, source: Source, check: bool, diff: bool) -> int:
     """The tidy text put where it belongs."""
     from mindrun.atomic_write import rewrite
 
+    from mindlang.cli._terminal import FINDINGS, OK, fail, print_document
     from mindlang.compiler.format import formatted
     from mindlang.compiler.source import encoded
-    from mindlang.terminal import FINDINGS, OK, fail, print_document
     from mindlang.unified_diff import unified
 
     text = formatted(source.text)

@@ -23,9 +23,9 @@ def command(folder: Path, write: bool, as_json: bool) -> None:
     And in the folders below; --write removes them. `mindc train` and `mindc edit` never remove weights, so those that
     were replaced lie here until then. What a lock of another branch or of a copy elsewhere names is not known here.
     """
+    from mindlang.cli._terminal import MISUSE, OK, console, fail, print_json
     from mindlang.lock import LockError
     from mindlang.lock.garbage import remove, unnamed
-    from mindlang.terminal import MISUSE, OK, console, fail, print_json
 
     if not folder.is_dir():
         fail(f"{folder} is not a folder.", code=MISUSE)

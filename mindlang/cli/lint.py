@@ -35,9 +35,9 @@ def command(files: tuple[str, ...], fix: bool, select: tuple[str, ...], ignore: 
     """
     from mindrun.errors import MindError
 
+    from mindlang.cli._terminal import FINDINGS, MISUSE, OK, fail, take_back
     from mindlang.editing.neighbours import minds
     from mindlang.linting.lint_file import Linted, linted
-    from mindlang.terminal import FINDINGS, MISUSE, OK, fail, take_back
 
     if fix and "-" in files:
         fail("Standard input cannot be mended.", "Leave --fix out, or save it as a file.", MISUSE)
@@ -59,10 +59,10 @@ def command(files: tuple[str, ...], fix: bool, select: tuple[str, ...], ignore: 
 
 def _codes(said: Sequence[str]) -> list[str]:
     """The codes of an option; one that is none ends the program."""
+    from mindlang.cli._terminal import MISUSE, fail
     from mindlang.compiler.diagnostic import did_you_mean
     from mindlang.explaining.explanation import errors
     from mindlang.rules import all_rules
-    from mindlang.terminal import MISUSE, fail
 
     codes = [code for text in said for code in text.replace(",", " ").split()]
     if said and not codes:
@@ -80,8 +80,8 @@ def _codes(said: Sequence[str]) -> list[str]:
 
 
 def _print(found: Sequence[Diagnostic], as_: str) -> None:
-    from mindlang.diagnostic_printer import as_data, print_report
-    from mindlang.terminal import console, print_json
+    from mindlang.cli._diagnostic_printer import as_data, print_report
+    from mindlang.cli._terminal import console, print_json
 
     match as_:
         case "text":

@@ -20,7 +20,7 @@ def command(stdio: bool) -> None:
     """
     from importlib.util import find_spec
 
-    from mindlang.terminal import MISUSE, fail
+    from mindlang.cli._terminal import MISUSE, fail
 
     if find_spec("pygls") is None:
         fail(
@@ -31,4 +31,5 @@ def command(stdio: bool) -> None:
 
     from mindlang.server.serve import serve
 
-    sys.exit(serve())
+    with open(sys.stdout.fileno(), "wb", closefd=False) as answers:  # which pygls closes
+        sys.exit(serve(sys.stdin.buffer, answers))

@@ -33,12 +33,12 @@ def command(files: tuple[str, ...], write: bool) -> None:
 
 def _migrate(file: str, write: bool) -> int:
     """Migrate one file; how the program would end if it were the only one."""
+    from mindlang.cli._diagnostic_printer import print_report
+    from mindlang.cli._terminal import FINDINGS, MISUSE, OK, console, print_document, take_back
     from mindlang.compiler.compile import read_main
     from mindlang.compiler.diagnostic import Findings
     from mindlang.compiler.migration import migrated
     from mindlang.compiler.source import Source
-    from mindlang.diagnostic_printer import print_report
-    from mindlang.terminal import FINDINGS, MISUSE, OK, console, print_document, take_back
     from mindlang.unified_diff import unified
 
     take_back(file)
@@ -63,8 +63,8 @@ def _migrate(file: str, write: bool) -> int:
 def _write(file: str, source: Source, text: str) -> None:
     from mindrun.atomic_write import rewrite
 
+    from mindlang.cli._terminal import fail
     from mindlang.compiler.source import encoded
-    from mindlang.terminal import fail
 
     try:
         rewrite(Path(file), encoded(Path(file), text), encoded(Path(file), source.text))

@@ -41,8 +41,8 @@ def command(runs: tuple[Path, ...], output: Path, as_json: bool, quiet: bool) ->
     from mindrun.errors import MindError
     from mindrun.train import NotFoundError
 
+    from mindlang.cli._terminal import MISUSE, fail, print_json, refuse_unwritable, write_picture
     from mindlang.pictures.learning_log import load_curves
-    from mindlang.terminal import MISUSE, fail, print_json, refuse_unwritable, write_picture
 
     if find_spec("matplotlib") is None:
         fail(

@@ -43,6 +43,6 @@ def command(
     """
     if task is not None and not with_run:
         raise click.UsageError("--task is of the run: say --run, too.")
-    from mindlang.proofs.command import ProofOptions, perform
+    from mindlang.cli._proving import ProofOptions, perform
 
     perform(file, ProofOptions(leak, master, with_run, task, seed, as_json))

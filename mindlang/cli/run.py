@@ -48,10 +48,10 @@ def command(
     """
     import secrets
 
+    from mindlang.cli._run_session import RunSession
+    from mindlang.cli._terminal import console, print_json, refuse_unwritable
     from mindlang.run import outcome
-    from mindlang.run.session import RunSession
     from mindlang.run.summary import run_summary
-    from mindlang.terminal import console, print_json, refuse_unwritable
 
     session = RunSession(quiet)
     refuse_unwritable(picture, ".png")

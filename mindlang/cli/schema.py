@@ -16,7 +16,7 @@ def command() -> None:
 
     With every driver that is installed, and its options.
     """
-    from mindlang.terminal import print_json
+    from mindlang.cli._terminal import print_json
     from mindlang.wiring.schema import schema
 
     print_json(schema())

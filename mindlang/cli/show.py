@@ -18,8 +18,8 @@ def command(file: str, as_dot: bool, as_json: bool) -> None:
     """Show the hierarchy of a mind, from the master down."""
     from mindrun.codec import encode
 
+    from mindlang.cli._terminal import console, load_compiled, print_document, print_json
     from mindlang.compiler.drawing import dot, tree
-    from mindlang.terminal import console, load_compiled, print_document, print_json
 
     if as_dot and as_json:
         raise click.UsageError("Choose one of --dot and --json.")

@@ -35,8 +35,8 @@ def command(file: str, skills: tuple[str, ...], accept: bool, as_json: bool) -> 
 
     Ends with 0 when every skill that is shown, of those below the master, can act, else with 1.
     """
+    from mindlang.cli._terminal import FINDINGS, OK, console, load_compiled, print_json
     from mindlang.lock.report import as_data, report, rows
-    from mindlang.terminal import FINDINGS, OK, console, load_compiled, print_json
 
     compiled = load_compiled(file)
     assert compiled.graph is not None
@@ -53,8 +53,8 @@ def command(file: str, skills: tuple[str, ...], accept: bool, as_json: bool) -> 
 
 
 def _refuse_unknown(graph: Graph, skills: Sequence[str]) -> None:
+    from mindlang.cli._terminal import MISUSE, fail
     from mindlang.compiler.diagnostic import did_you_mean
-    from mindlang.terminal import MISUSE, fail
 
     known = [skill.name for skill in graph.skills]
     for skill in skills:
@@ -63,9 +63,9 @@ def _refuse_unknown(graph: Graph, skills: Sequence[str]) -> None:
 
 
 def _accept(graph: Graph, sources: Sequence[Path], skills: Sequence[str]) -> None:
+    from mindlang.cli._terminal import MISUSE, fail
     from mindlang.lock import LockError
     from mindlang.lock.accept import accept
-    from mindlang.terminal import MISUSE, fail
 
     if not skills:
         fail("--accept needs the skills whose weights will do.", "Name them: --accept Avoid Collect", MISUSE)

@@ -8,7 +8,7 @@ from typing import Any
 import click
 
 from mindlang.cli._options import SEED, WORKERS, Number, Whole
-from mindlang.terminal import INTERRUPTED, MISUSE, OK, fail
+from mindlang.cli._terminal import INTERRUPTED, MISUSE, OK, fail
 
 EXAMPLES = """\b
 Examples:
@@ -63,8 +63,8 @@ def command(
     from mindrun.errors import MindError
     from mindrun.train import NotFoundError
 
+    from mindlang.cli._trainer import Trainer
     from mindlang.training.lesson_choice import TrainOptions
-    from mindlang.training.trainer import Trainer
 
     if file == "-":
         fail("Standard input cannot be taught: what is learnt is kept beside a file.", "Save it as a file.", MISUSE)

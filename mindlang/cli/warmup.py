@@ -21,8 +21,8 @@ def command(as_json: bool) -> None:
     """
     from mindrun.sim import cache, warmup
 
-    from mindlang.simulator_compilation import COMPILING
-    from mindlang.terminal import FINDINGS, OK, console, fail, print_json
+    from mindlang.cli._simulator_compilation import COMPILING
+    from mindlang.cli._terminal import FINDINGS, OK, console, fail, print_json
 
     had = warmup.is_native()
     if not had:

@@ -1,6 +1,6 @@
 """An edit held against what was learnt: every trained skill that it does not touch does the same, to the bit."""
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from itertools import islice
 from pathlib import Path
@@ -14,7 +14,6 @@ from mindrun.sim.trace import trace
 from mindrun.weights import Weights, genes, reachable, weights_of
 from numpy.typing import NDArray
 
-from mindlang import simulator_compilation
 from mindlang.editing.apply import Edited
 from mindlang.editing.lock_update import Names, merged, new_names, now_called
 from mindlang.editing.project import EditError
@@ -23,7 +22,6 @@ from mindlang.lock import Lock
 from mindlang.lock.arrange import arrange
 from mindlang.lock.blobs import blob, load_weights
 from mindlang.lock.status import Trained, status
-from mindlang.terminal import procedures_talk, say
 
 VERIFIED_TICKS = 2000  # of a run that is recorded
 VERIFIED_SEED = 1
@@ -63,11 +61,11 @@ class MindVersion:
         return Engine(Policy(self.graph, weights), self.folder, master)
 
 
-@procedures_talk()
-def verify_unchanged(edited: Edited) -> list[str]:
+def verify_unchanged(edited: Edited, prepare: Callable[[Rollout], None] = Rollout.compile) -> list[str]:
     """The trained skills that did the same before and after, each in charge of the task on which it was taught.
 
-    What they read is recorded from a run in the simulator, as the mind was. EditError where one did something else.
+    What they read is recorded from a run in the simulator, as the mind was; `prepare` compiles it. EditError where one
+    did something else. Runs the Python code of the mind's procedures.
     """
     lock = merged(edited.locks, edited.project.paths)
     folder = edited.project.main.source.folder
@@ -79,7 +77,8 @@ def verify_unchanged(edited: Edited) -> list[str]:
     for skill, state in status(before.graph, lock).items():
         master = names["skill"].get(skill, skill)
         if isinstance(state, Trained) and _is_untouched(before, after, skill, master, names):
-            _hold(before, after, skill, master, state, names)
+            recorded = _recorded(before, skill, state, prepare)
+            _hold(recorded, before, after, skill, master, names)
             done.append(master)
     return done
 
@@ -124,9 +123,10 @@ def _readings(graph: Graph) -> list[tuple[str, int]]:
     return wide + [(memory.name, 0) for memory in graph.memories]
 
 
-def _hold(before: MindVersion, after: MindVersion, skill: str, master: str, state: Trained, names: Names) -> None:
+def _hold(
+    recorded: NDArray[np.float32], before: MindVersion, after: MindVersion, skill: str, master: str, names: Names
+) -> None:
     """Run a skill before and after on the same readings; EditError at the first tick that differs."""
-    recorded = _recorded(before, skill, state)
     columns = {
         (now_called(name, names, *READABLE_NOUNS), number): column
         for column, (name, number) in enumerate(_readings(before.graph))
@@ -149,12 +149,12 @@ def _hold(before: MindVersion, after: MindVersion, skill: str, master: str, stat
             )
 
 
-def _recorded(side: MindVersion, skill: str, state: Trained) -> NDArray[np.float32]:
+def _recorded(side: MindVersion, skill: str, state: Trained, prepare: Callable[[Rollout], None]) -> NDArray[np.float32]:
     """What a skill reads [ticks, graph.width] in a run of the task on which it was taught."""
     tasks = [task.name for task in side.graph.tasks]
     task = state.entry.taught.task if state.entry.taught.task in tasks else tasks[0]
     weights = side.weights(skill)
     assert weights is not None
     rollout = Rollout(Policy(side.graph, weights), task, skill, procedures=side.folder)
-    simulator_compilation.ensure_compiled(rollout, say)
+    prepare(rollout)
     return np.array([moment.readings for moment in islice(trace(rollout, VERIFIED_SEED).moments, VERIFIED_TICKS)])

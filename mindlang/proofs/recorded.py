@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
 from mindrun.sim.rollout import Rollout
 from mindrun.sim.trace import trace
 
-from mindlang import simulator_compilation
 from mindlang.run.setup import RunSetup
-from mindlang.terminal import procedures_talk, say
 
 
 @dataclass(frozen=True, slots=True)
@@ -33,11 +32,10 @@ class Recorded:
     actuators: tuple[Undriven, ...]
 
 
-@procedures_talk()
-def record(cast: RunSetup, seed: int) -> Recorded:
-    """One run of a cast to its end. Runs the Python code of the mind's procedures."""
-    rollout = cast.rollout()
-    simulator_compilation.ensure_compiled(rollout, say)
+def record(setup: RunSetup, seed: int, prepare: Callable[[Rollout], None] = Rollout.compile) -> Recorded:
+    """One run to its end; `prepare` compiles the simulator. Runs the Python code of the mind's procedures."""
+    rollout = setup.rollout()
+    prepare(rollout)
     run = trace(rollout, seed)
     influence, commands = [], []
     for moment in run.moments:
@@ -45,7 +43,7 @@ def record(cast: RunSetup, seed: int) -> Recorded:
         commands.append(moment.commands)
     total = np.array(influence) @ _drivers(rollout)
     actuators = (_undriven(total[:, place], np.array(commands)[:, place]) for place in range(total.shape[1]))
-    return Recorded(cast.task.name, seed, len(influence), int(run.jobs.faults[0]), tuple(actuators))
+    return Recorded(setup.task.name, seed, len(influence), int(run.jobs.faults[0]), tuple(actuators))
 
 
 def _drivers(rollout: Rollout) -> np.ndarray[tuple[int, int], np.dtype[np.float32]]:

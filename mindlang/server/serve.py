@@ -1,7 +1,7 @@
-"""`mindc lsp`: a server with everything that it can do, on standard input and output."""
+"""`mindc lsp`: a server with everything that it can do, on a stream of messages and one of answers."""
 
 import logging
-import sys
+from typing import BinaryIO
 
 from pygls.exceptions import JsonRpcException
 
@@ -18,13 +18,12 @@ def make() -> MindServer:
     return server
 
 
-def serve() -> int:
+def serve(messages: BinaryIO, answers: BinaryIO) -> int:
     """Serve until the editor says that it is over, or is gone; how the program ends."""
     for name in ("pygls.server", "pygls.protocol.json_rpc"):
         logging.getLogger(name).addFilter(_is_fault)
     server = make()
-    with open(sys.stdout.fileno(), "wb", closefd=False) as answers:  # which pygls closes
-        server.start_io(Frames(sys.stdin.buffer), answers)  # type: ignore[arg-type]  # the methods that pygls calls
+    server.start_io(Frames(messages), answers)  # type: ignore[arg-type]  # the methods that pygls calls
     return 0 if server.protocol._shutdown else 1
 
 

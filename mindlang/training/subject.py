@@ -1,7 +1,6 @@
 """What a lesson is taught from: a mind with its lock, and the run that a lesson of it becomes."""
 
-import sys
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from datetime import datetime
 from hashlib import sha256
@@ -62,7 +61,7 @@ class Subject:
 
 
 def open_subject(path: Path, compiled: Compiled) -> Subject:
-    """The book of a file that compiled; LockError where its lock is damaged."""
+    """The subject of a file that compiled; LockError where its lock is damaged."""
     assert compiled.graph is not None
     assert compiled.mind is not None
     source = path.resolve()
@@ -73,10 +72,11 @@ def open_subject(path: Path, compiled: Compiled) -> Subject:
     return Subject(source, sources, graph, lock, homes)
 
 
-def begin_run(subject: Subject, lesson: Lesson, seed: int, runs: Path, now: datetime) -> Run:
+def begin_run(subject: Subject, lesson: Lesson, seed: int, runs: Path, now: datetime, command: Sequence[str]) -> Run:
     """A run of a lesson, new unless the very same was stopped; it would come to the same end, bit for bit.
 
-    RunError where it cannot begin, and what to train first where that is why.
+    It notes the time, and the `command` that asked for it. RunError where it cannot begin, and what to train first
+    where that is why.
     """
     weights = _needed(subject, lesson) | (_known(subject, lesson) if not lesson.from_scratch else {})
     manifest = Manifest(
@@ -87,7 +87,7 @@ def begin_run(subject: Subject, lesson: Lesson, seed: int, runs: Path, now: date
         weights=hashes(weights),
         source=str(subject.source),
         sources={path: sha256(text.encode()).hexdigest() for path, text in subject.sources.items()},
-        command=("mindc", *sys.argv[1:]),
+        command=tuple(command),
         started=now.strftime("%Y-%m-%dT%H:%M:%SZ"),
         versions=versions(),
         processor=processor(),

@@ -4,8 +4,8 @@ from pathlib import Path
 
 import pytest
 
+from mindlang.cli._diagnostic_printer import as_data, plain
 from mindlang.compiler.compile import Compiled, load
-from mindlang.diagnostic_printer import as_data, plain
 from tests.language.examples import RIGHT, changed, codes, compiled
 
 TEXT = RIGHT.read_text(encoding="utf-8")

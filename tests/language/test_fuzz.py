@@ -13,13 +13,13 @@ from hypothesis import strategies as st
 from hypothesis.extra.lark import from_lark
 from lark import UnexpectedInput
 
+from mindlang.cli._diagnostic_printer import as_data, plain
 from mindlang.compiler.compile import Compiled, compile_source, load
 from mindlang.compiler.diagnostic import Findings
 from mindlang.compiler.parse import parse
 from mindlang.compiler.parse.build import build
 from mindlang.compiler.parse.shape import grammar, said
 from mindlang.compiler.source import Source
-from mindlang.diagnostic_printer import as_data, plain
 from tests.language.examples import EXAMPLES, RIGHT, TOUR
 
 SEEDS = [RIGHT, *EXAMPLES]

@@ -8,13 +8,13 @@ from pathlib import Path
 
 import pytest
 
+from mindlang.cli._diagnostic_printer import plain
 from mindlang.compiler.compile import compile_source, load
 from mindlang.compiler.diagnostic import Findings
 from mindlang.compiler.parse import parse
 from mindlang.compiler.parse.explain import FOREIGN_WORDS, LINES
 from mindlang.compiler.parse.mistakes import MISTAKES, OPENINGS, Mistake
 from mindlang.compiler.source import Source
-from mindlang.diagnostic_printer import plain
 
 HERE = Path(__file__).parent
 CASES = sorted((HERE / "wrong").glob("*.mind"))

@@ -17,8 +17,8 @@ from mindlang.pictures.picture import ABOVE, BELOW, PICTURE_PIXELS, SIDE, pictur
 from mindlang.pictures.recorded_run import RecordedRun, record_run
 from mindlang.pictures.scene import thing_colours
 from mindlang.pictures.theme import PAPER, mixed
+from mindlang.run.layouts import NO_GENOME
 from mindlang.run.outcome import one
-from mindlang.run.session import NO_GENOME
 from mindlang.run.setup import set_up
 from tests.calling import RULES, Call
 

@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from mindlang import simulator_compilation
+from mindlang.cli import _simulator_compilation as simulator_compilation
 from tests.calling import RULES, Call
 from tests.proofs.test_prove_command import proved
 

@@ -9,7 +9,7 @@ from io import TextIOWrapper
 from pathlib import Path
 from typing import NamedTuple
 
-from mindlang import terminal
+from mindlang.cli import _terminal as terminal
 
 CLOSED, FULL, GONE = "closed", "full", "gone"
 

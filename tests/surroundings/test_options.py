@@ -62,8 +62,8 @@ def _still(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
 
     monkeypatch.chdir(tmp_path)
     monkeypatch.setenv("PATH", "")
-    monkeypatch.setattr("mindlang.run.session.RunSession.score", stopped)
-    monkeypatch.setattr("mindlang.training.trainer.train", stopped)
+    monkeypatch.setattr("mindlang.cli._run_session.RunSession.score", stopped)
+    monkeypatch.setattr("mindlang.cli._trainer.train", stopped)
     write_rules(tmp_path)
     (tmp_path / "log.csv").write_text(LOG)
 

@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 from mindrun.train.lesson_state import Record
 from rich.console import Console
 
-from mindlang.training.progress import PrintedLines, ProgressBarLine, ProgressLine, ProgressText, TimeLeft
+from mindlang.cli._training_progress import PrintedLines, ProgressBarLine, ProgressLine, ProgressText, TimeLeft
 
 SHOWN = {
     200: "Follow ━━━━━━               attempt 2 of 2, generation 15 of 40, best 6.67, re-evaluated 5.97, "

@@ -5,9 +5,9 @@ from pathlib import Path
 import pytest
 from mindrun.graph import Graph
 
+from mindlang.cli._diagnostic_printer import plain
 from mindlang.compiler.compile import load
 from mindlang.compiler.source import Source
-from mindlang.diagnostic_printer import plain
 from mindlang.wiring.wire import Checked, check_wiring
 
 MIND = """\

@@ -11,9 +11,9 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from mindrun.graph import Graph
 
+from mindlang.cli._diagnostic_printer import as_data, plain
 from mindlang.compiler.compile import load
 from mindlang.compiler.source import Source
-from mindlang.diagnostic_printer import as_data, plain
 from mindlang.wiring.surprises import surprise
 from mindlang.wiring.wire import Checked, check_wiring, load_wiring
 from tests.language.test_fuzz import delete, duplicate, flip, swap_lines

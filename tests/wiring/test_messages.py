@@ -10,8 +10,8 @@ from pathlib import Path
 import pytest
 from mindrun.graph import Graph
 
+from mindlang.cli._diagnostic_printer import plain
 from mindlang.compiler.compile import load
-from mindlang.diagnostic_printer import plain
 from mindlang.wiring.wire import Checked, load_wiring
 from tests.project.sources import COMPILER, ROOT
 

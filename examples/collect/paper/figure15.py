@@ -15,7 +15,7 @@ from mindlang.pictures.path import Path as Trail
 from mindlang.pictures.recorded_run import RecordedRun, record_run
 from mindlang.pictures.theme import NIGHT
 from mindlang.run import outcome
-from mindlang.run.session import NO_GENOME
+from mindlang.run.layouts import NO_GENOME
 from mindlang.run.setup import SetupError, set_up
 
 FILE, TASK, MASTER = "constant_skills.mind", "Collect", "Gather"

@@ -21,10 +21,10 @@ from mindrun.train.rungs import heights
 from plan import Plan, keep_plan, read_plan
 from protocol import FILES, FOLDER
 
-from mindlang import simulator_compilation
+from mindlang.cli import _simulator_compilation as simulator_compilation
+from mindlang.cli._trainer import Trainer
 from mindlang.number_format import duration
-from mindlang.run.session import layouts
-from mindlang.training.trainer import Trainer
+from mindlang.run.layouts import layouts
 
 RUN_COUNT = 128  # of shipped champions, to see how fast this machine is; fewer would leave lanes empty
 

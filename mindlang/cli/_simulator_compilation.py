@@ -7,7 +7,7 @@ from collections.abc import Callable
 from mindrun.sim import warmup
 from mindrun.sim.rollout import Rollout
 
-from mindlang.terminal import INTERRUPTED
+from mindlang.cli._terminal import INTERRUPTED, say
 
 COMPILING = "compiling the simulator once (about half a minute)…"
 
@@ -15,6 +15,11 @@ COMPILING = "compiling the simulator once (about half a minute)…"
 def is_compiled() -> bool:
     """Whether there is a compiled simulator that numba would take: one of these very files, kept or shipped."""
     return warmup.code().is_there()
+
+
+def prepare(rollout: Rollout) -> None:
+    """Compile the simulator for a rollout, on standard error, before what needs it begins."""
+    ensure_compiled(rollout, say)
 
 
 def ensure_compiled(rollout: Rollout, say: Callable[[str], None]) -> None:

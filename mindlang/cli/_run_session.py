@@ -7,22 +7,15 @@ from pathlib import Path
 from time import perf_counter
 from typing import Any
 
-import numpy as np
 from mindrun.errors import MindError
 from mindrun.sim.rollout import Rollout, Scores
 from rich.progress import BarColumn, Progress, TaskProgressColumn, TextColumn, TimeRemainingColumn
 
+from mindlang.cli._simulator_compilation import ensure_compiled
+from mindlang.cli._terminal import FINDINGS, MISUSE, fail, load_compiled, procedures_talk, say, talk, write_picture
 from mindlang.resource_limits import refuse_too_large, refuse_too_many
+from mindlang.run.layouts import NO_GENOME
 from mindlang.run.setup import RunSetup, SetupError, set_up
-from mindlang.simulator_compilation import ensure_compiled
-from mindlang.terminal import FINDINGS, MISUSE, fail, load_compiled, procedures_talk, say, talk, write_picture
-
-NO_GENOME = np.zeros((1, 0), np.float32)  # the genome where nobody learns
-
-
-def layouts(seed: int, runs: int) -> list[int]:
-    """The seeds of so many runs."""
-    return [int(word) for word in np.random.SeedSequence(seed).generate_state(runs, np.uint64)]
 
 
 @dataclass(frozen=True, slots=True)

@@ -111,8 +111,8 @@ def take_back(path: Path | str) -> None:
 
 def load_compiled(path: Path | str) -> Compiled:
     """The compiled file; its report goes to stderr, and a file with errors ends the program (2 when unreadable)."""
+    from mindlang.cli._diagnostic_printer import print_report
     from mindlang.compiler.compile import load
-    from mindlang.diagnostic_printer import print_report
 
     take_back(path)
     compiled = load(path)

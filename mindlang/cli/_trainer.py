@@ -4,6 +4,7 @@ import json
 import secrets
 import shlex
 import signal
+import sys
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from datetime import UTC, datetime
@@ -20,11 +21,11 @@ from mindrun.train.run_folder import Run, open_run, read_result
 from mindrun.train.training import Watch, train
 from mindrun.weights import learners
 
+from mindlang.cli._simulator_compilation import ensure_compiled
+from mindlang.cli._terminal import load_compiled, procedures_talk, talk
+from mindlang.cli._training_progress import PrintedLines, ProgressBarLine, Silent, TimeLeft, Watcher
 from mindlang.lock import LockError
-from mindlang.simulator_compilation import ensure_compiled
-from mindlang.terminal import load_compiled, procedures_talk, talk
 from mindlang.training.lesson_choice import TrainOptions, chosen_lessons, is_due
-from mindlang.training.progress import PrintedLines, ProgressBarLine, Silent, TimeLeft, Watcher
 from mindlang.training.results import Result, opening, outcome
 from mindlang.training.subject import Subject, begin_run, open_subject, refuse_changed
 from mindlang.training.teaching import Taught, finish, has_ended, rollout_of
@@ -55,6 +56,7 @@ class Trainer:
         chosen = chosen_lessons(subject.graph, curriculum, skills)
         if skills or force:
             _refuse_frozen(subject, chosen)
+        command = ("mindc", *sys.argv[1:])
         taught = frozen = 0
         for lesson in chosen:
             subject = open_subject(file, compiled)  # the lesson before has changed the lock
@@ -62,7 +64,7 @@ class Trainer:
                 frozen += 1
                 self._say(f"{lesson.skill} is frozen, and is not taught")
             elif skills or force or is_due(subject.graph, lesson, standing):
-                run = begin_run(subject, options.applied(lesson), seed, runs, datetime.now(UTC))
+                run = begin_run(subject, options.applied(lesson), seed, runs, datetime.now(UTC), command)
                 taught += 1
                 if not self._teach(run, subject, force):
                     return False

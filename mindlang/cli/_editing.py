@@ -5,14 +5,24 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
+from mindlang.cli._diagnostic_printer import as_data, print_report
+from mindlang.cli._terminal import (
+    FINDINGS,
+    MISUSE,
+    console,
+    fail,
+    load_compiled,
+    print_document,
+    print_json,
+    procedures_talk,
+    talk,
+)
 from mindlang.compiler.diagnostic import Diagnostic, listed
-from mindlang.diagnostic_printer import as_data, print_report
 from mindlang.editing.apply import Edited, apply_edit
 from mindlang.editing.project import EditError, open_project
 from mindlang.editing.summary import broken_neighbours, diff, summarise
 from mindlang.editing.writing import changed_locks, write
 from mindlang.edits import Edit
-from mindlang.terminal import FINDINGS, MISUSE, console, fail, load_compiled, print_document, print_json, talk
 
 
 @dataclass(frozen=True, slots=True)
@@ -35,9 +45,7 @@ def perform(of: Edit, said: Mapping[str, Any], file: str, options: EditOptions) 
         edited = apply_edit(project, of.function(project, **said), options.keep_weights)
         sentences = [*summarise(edited), *_broken(edited, options)]
         if options.verify:
-            from mindlang.editing.verify import verify_unchanged
-
-            sentences.append(_verified(verify_unchanged(edited)))
+            sentences.append(_verified(edited))
         if options.write:
             write(edited)
     except EditError as error:
@@ -53,7 +61,13 @@ def _broken(edited: Edited, options: EditOptions) -> list[str]:
     return lines
 
 
-def _verified(skills: list[str]) -> str:
+def _verified(edited: Edited) -> str:
+    """What has been verified, by running it; EditError where a trained skill would do something else."""
+    from mindlang.cli._simulator_compilation import prepare
+    from mindlang.editing.verify import verify_unchanged
+
+    with procedures_talk():
+        skills = verify_unchanged(edited, prepare)
     if not skills:
         return "verified: there is no trained skill that this edit leaves as it was"
     return f"verified: {listed(skills, 'and')} did the same to the bit"

@@ -1,4 +1,4 @@
-"""What `mindc prove` does: a mind with its weights, what is proved of it, a run where one is wished for; printed."""
+"""What `mindc prove` does: a mind with its weights, what is proved of it, a run where one is asked for; printed."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from mindrun.errors import MindError
 
+from mindlang.cli._terminal import FINDINGS, MISUSE, console, fail, load_compiled, print_json, procedures_talk
 from mindlang.compiler.compile import Compiled
 from mindlang.compiler.diagnostic import did_you_mean
 from mindlang.lock import read_locks
@@ -14,7 +15,6 @@ from mindlang.lock.ready import make_ready
 from mindlang.proofs.data import as_data
 from mindlang.proofs.proof import prove
 from mindlang.proofs.report import report
-from mindlang.terminal import FINDINGS, MISUSE, console, fail, load_compiled, print_json
 
 if TYPE_CHECKING:
     from mindlang.proofs.recorded import Recorded
@@ -59,12 +59,15 @@ def _under(compiled: Compiled, master: str | None) -> Compiled:
 
 
 def _run(file: str, compiled: Compiled, options: ProofOptions) -> Recorded:
+    from mindlang.cli._simulator_compilation import prepare
     from mindlang.proofs.recorded import record
     from mindlang.run.setup import SetupError, set_up
 
     assert compiled.graph
     try:
-        return record(set_up(file, compiled, options.task, compiled.graph.master), options.seed)
+        setup = set_up(file, compiled, options.task, compiled.graph.master)
+        with procedures_talk():
+            return record(setup, options.seed, prepare)
     except SetupError as error:
         fail(f"--run: {error}", error.hint, MISUSE if error.misuse else FINDINGS)
     except MindError as error:

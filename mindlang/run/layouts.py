@@ -1,0 +1,10 @@
+"""The layouts of many runs, and the genome of a run in which nobody learns."""
+
+import numpy as np
+
+NO_GENOME = np.zeros((1, 0), np.float32)  # the genome where nobody learns
+
+
+def layouts(seed: int, runs: int) -> list[int]:
+    """The seeds of so many runs."""
+    return [int(word) for word in np.random.SeedSequence(seed).generate_state(runs, np.uint64)]
