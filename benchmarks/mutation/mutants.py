@@ -137,6 +137,12 @@ def _changes(node: ast.AST) -> Iterator[ast.AST]:
             yield other
         case ast.comprehension(ifs=[_, *rest]):
             yield _with(node, ifs=rest)
+        case ast.stmt():
+            yield from _statement_changes(node)
+
+
+def _statement_changes(node: ast.stmt) -> Iterator[ast.AST]:
+    match node:
         case ast.If(orelse=[]):
             yield _with(node, body=[ast.Pass()])
         case ast.If(test=test):

@@ -8,7 +8,7 @@ import pytest
 from tests.project.sources import ROOT
 
 DECISIONS = ROOT / "docs" / "decisions"
-HEADINGS = ["Context", "Decision", "Measured", "Tried and rejected", "What would change it"]
+HEADINGS = ["Context", "Decision", "Measured", "Rejected", "What would change it"]
 PAGES = sorted([*ROOT.glob("*.md"), *(ROOT / "docs").rglob("*.md")])
 
 
