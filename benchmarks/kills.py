@@ -24,7 +24,7 @@ from typing import Any
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # threads do not survive a fork
 sys.path.insert(0, str(Path(__file__).parents[1]))
 
-from mindrun.train.progress import read
+from mindrun.train.progress import read_progress
 
 from mindlang import cli
 from mindlang.cli import _trainer as trainer
@@ -159,7 +159,7 @@ def standing(project: Path, taught: set[str]) -> str:
     newest = max(runs, key=lambda folder: folder.stat().st_mtime_ns)
     if (newest / "weights.npy").exists():
         return "taught and not yet in the lock"
-    return "while it was taught" if read(newest) else "before the first generation"
+    return "while it was taught" if read_progress(newest) else "before the first generation"
 
 
 if __name__ == "__main__":

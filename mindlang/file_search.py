@@ -54,7 +54,7 @@ def text_of(path: Path) -> str:
         return ""
 
 
-def as_many(texts: Iterable[tuple[Path, str]]) -> Iterator[tuple[Path, str]]:
+def within_read_limits(texts: Iterable[tuple[Path, str]]) -> Iterator[tuple[Path, str]]:
     """Files with their texts, as many of them as one can wait for."""
     left = MAX_READ_CHARACTERS
     for path, text in islice(texts, MAX_READ_FILES):

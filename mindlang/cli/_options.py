@@ -11,7 +11,7 @@ import click
 SHOWN_CHARACTERS = 20  # of what is refused
 
 
-class Whole(click.IntRange):
+class WholeOption(click.IntRange):
     """A whole number from one bound to another."""
 
     def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
@@ -22,7 +22,7 @@ class Whole(click.IntRange):
             self.fail(f"{_shortened(value)} is not a whole number from {self.min} to {self.max}.", param, ctx)
 
 
-class Number(click.FloatRange):
+class NumberOption(click.FloatRange):
     """A number from one bound to another; nan, of which no comparison holds, is none."""
 
     def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
@@ -51,8 +51,8 @@ class NewFile(click.Path):
         return Path(text)
 
 
-SEED = Whole(0, 2**63 - 1)
-WORKERS = Whole(1, 1024)
+SEED = WholeOption(0, 2**63 - 1)
+WORKERS = WholeOption(1, 1024)
 
 
 def _shortened(value: object) -> str:

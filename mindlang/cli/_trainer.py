@@ -16,8 +16,8 @@ from typing import Any
 from mindrun.graph import Lesson
 from mindrun.sim.rollout import Rollout, cores
 from mindrun.train import RunError
-from mindrun.train.lesson_state import Record, State
-from mindrun.train.run_folder import Run, open_run, read_result
+from mindrun.train.lesson_state import LessonState, Record
+from mindrun.train.run_folder import RunFolder, open_run, read_result
 from mindrun.train.training import Watch, train
 from mindrun.weights import learners
 
@@ -83,7 +83,7 @@ class Trainer:
         refuse_changed(subject, run)
         return self._teach(run, subject, force)
 
-    def _teach(self, run: Run, subject: Subject, force: bool) -> bool:
+    def _teach(self, run: RunFolder, subject: Subject, force: bool) -> bool:
         if (result := read_result(run.folder)) is not None:
             self._say(f"{run.folder} has finished already")
             self._print(result)
@@ -99,7 +99,7 @@ class Trainer:
         return True
 
     @procedures_talk()
-    def _finished(self, run: Run, subject: Subject, state: State, rollout: Rollout, force: bool) -> Taught:
+    def _finished(self, run: RunFolder, subject: Subject, state: LessonState, rollout: Rollout, force: bool) -> Taught:
         try:
             return finish(run, subject, state, rollout, force)
         except LockError as error:
@@ -107,14 +107,14 @@ class Trainer:
             raise RunError(str(error), hint) from error
 
     @procedures_talk()
-    def _rollout(self, run: Run, subject: Subject) -> Rollout:
+    def _rollout(self, run: RunFolder, subject: Subject) -> Rollout:
         self._say(opening(run))
         rollout = rollout_of(run, subject, self.workers or cores())
         ensure_compiled(rollout, self._say)  # before the clock of the lesson starts
         return rollout
 
     @procedures_talk()
-    def _watched(self, run: Run, rollout: Rollout) -> State:
+    def _watched(self, run: RunFolder, rollout: Rollout) -> LessonState:
         lesson = run.manifest.lesson
         watcher = self._watcher(run)
 
@@ -122,7 +122,7 @@ class Trainer:
             watcher.close()
             self._say(f"finishing this generation; Ctrl-C again stops at once, to go on then: {_command(run)}")
 
-        def report(state: State, record: Record) -> None:
+        def report(state: LessonState, record: Record) -> None:
             done = state.attempt * lesson.generations + state.population.generation
             watcher.report(record, done, perf_counter())
 
@@ -132,7 +132,7 @@ class Trainer:
         finally:
             watcher.close()
 
-    def _watcher(self, run: Run) -> Watcher:
+    def _watcher(self, run: RunFolder) -> Watcher:
         if self.quiet:
             return Silent()
         return (ProgressBarLine if talk.is_terminal else PrintedLines)(
@@ -156,7 +156,7 @@ def _refuse_frozen(subject: Subject, chosen: Sequence[Lesson]) -> None:
             raise RunError(f"{lesson.skill} is frozen", hint)
 
 
-def _command(run: Run) -> str:
+def _command(run: RunFolder) -> str:
     """What goes on with a run."""
     return f"mindc train --resume {shlex.quote(str(run.folder))}"
 

@@ -6,8 +6,8 @@ from typing import Protocol
 
 from mindrun.train.lesson_state import Record
 from mindrun.train.population import founder_count
-from mindrun.train.progress import read
-from mindrun.train.run_folder import Run
+from mindrun.train.progress import read_progress
+from mindrun.train.run_folder import RunFolder
 from rich.console import Console, ConsoleOptions, RenderableType
 from rich.live import Live
 from rich.progress_bar import ProgressBar
@@ -81,10 +81,10 @@ class TimeLeft:
     seen: float = 0.0
 
     @classmethod
-    def of(cls, run: Run, began: float) -> "TimeLeft":
+    def of(cls, run: RunFolder, began: float) -> "TimeLeft":
         """The pace of a run that is taken up, which may have scored before."""
         lesson = run.manifest.lesson
-        scores = [record["reevaluated"] for record in read(run.folder)]
+        scores = [record["reevaluated"] for record in read_progress(run.folder)]
         known = next((score for score in reversed(scores) if score is not None), None)
         learner = lesson.learner
         first = founder_count(learner) / learner.population if run.begins_with_nothing else 1.0

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import click
 
-from mindlang.cli._options import SEED, WORKERS, Whole
+from mindlang.cli._options import SEED, WORKERS, WholeOption
 
 EXAMPLES = """\b
 Examples:
@@ -19,7 +19,11 @@ Examples:
 @click.argument("file")
 @click.option("--task", metavar="TASK", help="Default: that on which the master, or a skill below it, is taught.")
 @click.option(
-    "--runs", type=Whole(1, 10_000_000), default=200, show_default=True, help="How many layouts to run the task on."
+    "--runs",
+    type=WholeOption(1, 10_000_000),
+    default=200,
+    show_default=True,
+    help="How many layouts to run the task on.",
 )
 @click.option("--seed", type=SEED, default=1, show_default=True, help="Draws the layouts.")
 @click.option("--workers", type=WORKERS, help="How many cores to use (default: all). Changes nothing else.")

@@ -11,9 +11,9 @@ import click
 if TYPE_CHECKING:
     from mindrun.bundle import Bundle
 
-    from mindlang.deploying.deployment import Outcome, Settings
-    from mindlang.deploying.robot import Robot
-    from mindlang.deploying.state import State
+    from mindlang.deploying.deployment import DeployResult, Settings
+    from mindlang.deploying.robot import RemoteRobot
+    from mindlang.deploying.state import ReleaseState
 
 EXAMPLES = """\b
 Examples:
@@ -118,8 +118,8 @@ def _checked(path: Path, settings: Settings) -> Bundle:
 
 
 def _do(
-    robot: Robot, path: Path | None, bundle: Bundle | None, settings: Settings, dry_run: bool, quiet: bool
-) -> Outcome:
+    robot: RemoteRobot, path: Path | None, bundle: Bundle | None, settings: Settings, dry_run: bool, quiet: bool
+) -> DeployResult:
     from mindlang.deploying.deployment import deploy, roll_back
 
     def tell(message: str) -> None:
@@ -131,13 +131,13 @@ def _do(
     return deploy(robot, path, bundle, settings, datetime.now(UTC), tell, dry_run)
 
 
-def _list(robot: Robot, as_json: bool) -> None:
+def _list(robot: RemoteRobot, as_json: bool) -> None:
     from mindrun.printable import visible
 
     from mindlang.cli._terminal import print_json
-    from mindlang.deploying.state import look
+    from mindlang.deploying.state import read_state
 
-    state = look(robot)
+    state = read_state(robot)
     if as_json:
         print_json(_listed(state))
         return
@@ -149,12 +149,12 @@ def _list(robot: Robot, as_json: bool) -> None:
         click.echo("nothing has been deployed there", err=True)
 
 
-def _listed(state: State) -> dict[str, object]:
+def _listed(state: ReleaseState) -> dict[str, object]:
     releases = [{"release": each.name, "state": each.state, **each.made_of} for each in state.releases]
     return {"current": state.current or None, "releases": releases}
 
 
-def _say(host: str, outcome: Outcome, settings: Settings, dry_run: bool, as_json: bool, quiet: bool) -> None:
+def _say(host: str, outcome: DeployResult, settings: Settings, dry_run: bool, as_json: bool, quiet: bool) -> None:
     from mindlang.cli._terminal import print_json
 
     for note in outcome.notes:

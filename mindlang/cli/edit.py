@@ -9,7 +9,7 @@ import click
 from mindlang.cli import Suggesting
 
 if TYPE_CHECKING:
-    from mindlang.edits import Edit, Option
+    from mindlang.edits import Edit, EditOption
 
 EXAMPLES = """\b
 Examples:
@@ -88,7 +88,7 @@ def _is_file(word: str) -> bool:
     return word.endswith(".mind") or Path(word).is_file()
 
 
-def _option(option: Option) -> click.Option:
+def _option(option: EditOption) -> click.Option:
     flags = [f"--{option.name.strip('_').replace('_', '-')}", option.name]
     if isinstance(option.default, bool):
         return click.Option(flags, is_flag=True, help=option.help)

@@ -26,7 +26,7 @@ def command(code: str | None, as_json: bool) -> None:
     from mindlang.cli._terminal import MISUSE, console, fail, print_json
     from mindlang.compiler.diagnostic import did_you_mean
     from mindlang.explaining.explanation import explanations
-    from mindlang.explaining.show import as_data, contents, page
+    from mindlang.explaining.show import as_data, contents, describe_explanation
     from mindlang.wiring.driver_page import driver_names, driver_page
 
     known = explanations()
@@ -47,4 +47,4 @@ def command(code: str | None, as_json: bool) -> None:
     if as_json:
         print_json(as_data(known[word]) if word else {"codes": [as_data(each) for each in known.values()]})
         return
-    console().print(Text.assemble(*(page(known[word]) if word else contents(known.values()))), end="")
+    console().print(Text.assemble(*(describe_explanation(known[word]) if word else contents(known.values()))), end="")

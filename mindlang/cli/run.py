@@ -6,7 +6,7 @@ from pathlib import Path
 
 import click
 
-from mindlang.cli._options import NewFile, Number, Whole
+from mindlang.cli._options import NewFile, NumberOption, WholeOption
 
 EXAMPLES = """\b
 Examples:
@@ -21,12 +21,14 @@ Examples:
 @click.command(epilog=EXAMPLES)
 @click.argument("file")
 @click.option("--task", metavar="TASK", help="Default: that on which the master, or a skill below it, is taught.")
-@click.option("--seed", type=Whole(0, 2**64 - 1), help="The same seed gives the same run. Default: drawn, and printed.")
+@click.option(
+    "--seed", type=WholeOption(0, 2**64 - 1), help="The same seed gives the same run. Default: drawn, and printed."
+)
 @click.option("--master", metavar="SKILL", help="Who is in charge. Default: the master of the task's first lesson.")
 @click.option("--no-interruption", is_flag=True, help="Go on to the last tick, whatever would end the run.")
 @click.option("--picture", type=NewFile(), metavar="PATH.png", help="Draw the world and the path that the robot took.")
 @click.option("--video", type=NewFile(), metavar="PATH.mp4", help="Film the world and the influence in the hierarchy.")
-@click.option("--speed", type=Number(0.01, 1000), help="Of the video. Default: a whole run takes a minute.")
+@click.option("--speed", type=NumberOption(0.01, 1000), help="Of the video. Default: a whole run takes a minute.")
 @click.option("--json", "as_json", is_flag=True, help="Print one JSON document instead.")
 @click.option("-q", "--quiet", is_flag=True, help="Print nothing but results and errors.")
 def command(

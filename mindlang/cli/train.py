@@ -7,7 +7,7 @@ from typing import Any
 
 import click
 
-from mindlang.cli._options import SEED, WORKERS, Number, Whole
+from mindlang.cli._options import SEED, WORKERS, NumberOption, WholeOption
 from mindlang.cli._terminal import INTERRUPTED, MISUSE, OK, fail
 
 EXAMPLES = """\b
@@ -23,10 +23,10 @@ Examples:
 @click.argument("file", required=False)
 @click.argument("skills", nargs=-1, metavar="[SKILL]...")
 @click.option("--curriculum", metavar="NAME", help="Whose lessons to teach (default: the first in the file).")
-@click.option("--generations", type=Whole(1, 10_000_000), help="Instead of what the lesson says.")
-@click.option("--scale", type=Number(0, 1000, min_open=True), default=1.0, help="Times so many generations.")
-@click.option("--population", type=Whole(4, 1_000_000), help="Genomes in a generation.")
-@click.option("--attempts", type=Whole(1, 10_000), help="Independent attempts, of which the best is kept.")
+@click.option("--generations", type=WholeOption(1, 10_000_000), help="Instead of what the lesson says.")
+@click.option("--scale", type=NumberOption(0, 1000, min_open=True), default=1.0, help="Times so many generations.")
+@click.option("--population", type=WholeOption(4, 1_000_000), help="Genomes in a generation.")
+@click.option("--attempts", type=WholeOption(1, 10_000), help="Independent attempts, of which the best is kept.")
 @click.option("--from-scratch", is_flag=True, help="Forget the weights that the skill has.")
 @click.option("--force", is_flag=True, help="Teach what is up to date, too, and keep it even where it does worse.")
 @click.option("--seed", type=SEED, help="The same seed gives the same weights.")

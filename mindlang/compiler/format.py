@@ -12,7 +12,7 @@ from typing import Any
 
 from mindlang.compiler import syntax
 from mindlang.compiler.parse import BLANKS, code_of
-from mindlang.compiler.parse.shape import MAX_SHAPES, grammar, pieces, said, shape_of
+from mindlang.compiler.parse.shape import MAX_SHAPES, grammar, parse_line, pieces, shape_of
 from mindlang.compiler.source import Source
 from mindlang.compiler.splice import Splice
 from mindlang.compiler.syntax import NOUNS, SETTINGS
@@ -126,7 +126,7 @@ def _plan(shape: str) -> Plan | None:
     from lark import UnexpectedInput
 
     try:
-        line = said(shape, Source("shape", shape), 0)
+        line = parse_line(shape, Source("shape", shape), 0)
     except UnexpectedInput:
         return None
     tokens = list(grammar().parse_interactive(shape, start="line").iter_parse())

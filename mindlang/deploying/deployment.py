@@ -12,8 +12,8 @@ from pathlib import Path
 from mindrun.bundle import Bundle
 
 from mindlang.deploying.release import Release, make_release
-from mindlang.deploying.robot import Robot, RobotEvent
-from mindlang.deploying.state import State, check_able, look
+from mindlang.deploying.robot import RemoteRobot, RobotEvent
+from mindlang.deploying.state import ReleaseState, check_able, read_state
 from mindlang.deploying.unit import ARMED, SERVICE
 
 Tell = Callable[[str], None]
@@ -40,7 +40,7 @@ class Settings:
 
 
 @dataclass(frozen=True, slots=True)
-class Outcome:
+class DeployResult:
     """What came of it: the current release, and the one before."""
 
     release: str
@@ -49,8 +49,14 @@ class Outcome:
 
 
 def deploy(
-    robot: Robot, path: Path, bundle: Bundle, settings: Settings, now: datetime, tell: Tell, try_only: bool = False
-) -> Outcome:
+    robot: RemoteRobot,
+    path: Path,
+    bundle: Bundle,
+    settings: Settings,
+    now: datetime,
+    tell: Tell,
+    try_only: bool = False,
+) -> DeployResult:
     """Bring a bundle to a robot; with `try_only` say only what would be done."""
     with tempfile.TemporaryDirectory(prefix="mind-release-") as folder, _alone(robot, settings, tell, try_only):
         release = make_release(path, bundle, Path(folder))
@@ -66,30 +72,30 @@ def deploy(
         return _switch(robot, state, name, settings, tell, try_only)
 
 
-def roll_back(robot: Robot, settings: Settings, tell: Tell, try_only: bool = False) -> Outcome:
+def roll_back(robot: RemoteRobot, settings: Settings, tell: Tell, try_only: bool = False) -> DeployResult:
     """Go back to the release before the current one, which is then left for good."""
     with _alone(robot, settings, tell, try_only):
         state = _looked(robot, tell)
         return _switch(robot, state, state.before(), settings, tell, try_only, left=state.current)
 
 
-def _alone(robot: Robot, settings: Settings, tell: Tell, try_only: bool) -> AbstractContextManager[None]:
+def _alone(robot: RemoteRobot, settings: Settings, tell: Tell, try_only: bool) -> AbstractContextManager[None]:
     """A robot that can do it, and no other deployment to it meanwhile; who changes nothing there need not wait."""
-    check_able(look(robot), settings.service)
+    check_able(read_state(robot), settings.service)
     if try_only:
         return nullcontext()
-    return robot.held(lambda: tell("another deployment to this robot is under way: waiting for up to a minute"))
+    return robot.locked(lambda: tell("another deployment to this robot is under way: waiting for up to a minute"))
 
 
-def _looked(robot: Robot, tell: Tell) -> State:
+def _looked(robot: RemoteRobot, tell: Tell) -> ReleaseState:
     """The state of a robot; what somebody has deleted there is told."""
-    state = look(robot)
+    state = read_state(robot)
     if state.is_gone():
         tell(f"the current release, {state.current}, has been deleted on {robot.host}")
     return state
 
 
-def _bring(robot: Robot, release: Release, name: str, tell: Tell) -> None:
+def _bring(robot: RemoteRobot, release: Release, name: str, tell: Tell) -> None:
     for _, detail in robot.ask("prepare"):
         tell(detail)
     robot.copy(release.folder, f"mind/incoming/{release.fingerprint}")
@@ -98,14 +104,14 @@ def _bring(robot: Robot, release: Release, name: str, tell: Tell) -> None:
 
 
 def _switch(
-    robot: Robot, state: State, name: str, settings: Settings, tell: Tell, try_only: bool, left: str = ""
-) -> Outcome:
+    robot: RemoteRobot, state: ReleaseState, name: str, settings: Settings, tell: Tell, try_only: bool, left: str = ""
+) -> DeployResult:
     before = state.current
     tell(f"{_would(try_only)}switch from {before or 'nothing'} to {name}, {_manner(settings)}")
     if try_only:
-        return Outcome(before, before)
+        return DeployResult(before, before)
     told = robot.ask("switch", *settings.words(name, left))
-    return Outcome(name, before, tuple(note for event in told if (note := _note(event))))
+    return DeployResult(name, before, tuple(note for event in told if (note := _note(event))))
 
 
 def _manner(settings: Settings) -> str:

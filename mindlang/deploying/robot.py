@@ -26,7 +26,7 @@ LOCK_WAITING: RobotEvent = ("waiting", "")
 
 
 @dataclass(frozen=True, slots=True)
-class Robot:
+class RemoteRobot:
     """A host, and the options of the one connection that all steps share."""
 
     host: str
@@ -39,13 +39,13 @@ class Robot:
             input=script(verb, words),
             stdout=subprocess.PIPE,  # stderr is the user's: ssh asks and explains there
         )
-        told = list(events(done.stdout))
+        told = list(parse_events(done.stdout))
         if done.returncode:
             raise _refusal(self.host, done.returncode, told)
         return told
 
     @contextmanager
-    def held(self, waits: Callable[[], None]) -> Iterator[None]:
+    def locked(self, waits: Callable[[], None]) -> Iterator[None]:
         """The robot for this deployment alone: another one `waits`, and is refused after a minute."""
         with subprocess.Popen(self._shell, bufsize=0, stdin=subprocess.PIPE, stdout=subprocess.PIPE) as process:
             assert process.stdin is not None
@@ -53,7 +53,7 @@ class Robot:
             with suppress(BrokenPipeError):  # it has ended, and its exit code says why
                 process.stdin.write(script("hold", ()))
             told = []
-            for event in _until_held(process.stdout):
+            for event in _until_locked(process.stdout):
                 told.append(event)
                 if event == LOCK_WAITING:
                     waits()
@@ -85,10 +85,10 @@ class Robot:
             )
 
 
-def _until_held(said: IO[bytes]) -> Iterator[RobotEvent]:
+def _until_locked(said: IO[bytes]) -> Iterator[RobotEvent]:
     """What the robot tells until it is held, or ends."""
     for line in said:
-        for event in events(line):
+        for event in parse_events(line):
             yield event
             if event == LOCK_HELD:
                 return
@@ -102,14 +102,14 @@ def _beat(there: IO[bytes], ended: Event) -> None:
 
 
 @contextmanager
-def connected(host: str) -> Iterator[Robot]:
+def connected(host: str) -> Iterator[RemoteRobot]:
     """A robot that asks for a password once at most; the connection ends with the block."""
     folder = tempfile.mkdtemp(prefix="mind-", dir="/tmp")  # a socket's path is short, and rsync wants no space in it
     settings = ["ControlMaster=auto", f"ControlPath={folder}/%C", "ControlPersist=60", "RemoteCommand=none"]
     settings += ["ConnectTimeout=10", "ServerAliveInterval=5", "ServerAliveCountMax=3"]
     options = ("-axT", *(word for setting in settings for word in ("-o", setting)))
     try:
-        yield Robot(host, options)
+        yield RemoteRobot(host, options)
     finally:
         if os.listdir(folder):  # noqa: PTH208 - a socket, where a connection was made
             subprocess.run(["ssh", *options, "-O", "exit", "--", host], stderr=subprocess.DEVNULL)
@@ -123,7 +123,7 @@ def script(verb: str, words: Sequence[str]) -> bytes:
     return f"{text}\n{{ {call}; exit; }}\n".encode()
 
 
-def events(said: bytes) -> Iterator[RobotEvent]:
+def parse_events(said: bytes) -> Iterator[RobotEvent]:
     """What the script told; a greeting of the login shell is nothing of it."""
     for line in said.decode(errors="replace").splitlines():
         event, tab, detail = line.partition("\t")

@@ -10,7 +10,7 @@ from datetime import UTC, datetime, timedelta
 from mindrun.strict_json import parsed
 
 from mindlang.deploying import DeployError
-from mindlang.deploying.robot import Robot, RobotEvent
+from mindlang.deploying.robot import RemoteRobot, RobotEvent
 
 MOMENT = "%Y%m%dT%H%M%SZ"
 RELEASE = re.compile(r"(\d{8}T\d{6}Z)-[0-9a-f]{8}", re.ASCII)
@@ -30,8 +30,8 @@ class Deployed:
 
 
 @dataclass(frozen=True, slots=True)
-class State:
-    """What `look` told, oldest release first."""
+class ReleaseState:
+    """What `read_state` told, oldest release first."""
 
     current: str
     releases: tuple[Deployed, ...]
@@ -70,12 +70,12 @@ def moment_of(release: str) -> datetime | None:
     return moment if moment and moment.year < LAST_YEAR else None
 
 
-def look(robot: Robot) -> State:
+def read_state(robot: RemoteRobot) -> ReleaseState:
     """Look at a robot, and change nothing there."""
-    return state_of(robot.ask("look"))
+    return parse_state(robot.ask("look"))
 
 
-def state_of(told: Sequence[RobotEvent]) -> State:
+def parse_state(told: Sequence[RobotEvent]) -> ReleaseState:
     """The state that the robot told."""
     found = (RELEASE_LINE.fullmatch(detail) for event, detail in told if event == "release")
     releases = [
@@ -86,10 +86,10 @@ def state_of(told: Sequence[RobotEvent]) -> State:
     named = "".join(detail for event, detail in told if event == "current")
     current = named if moment_of(named) else ""
     lacks = tuple(detail for event, detail in told if event == "lacks")
-    return State(current, tuple(sorted(releases, key=lambda each: each.name)), lacks)
+    return ReleaseState(current, tuple(sorted(releases, key=lambda each: each.name)), lacks)
 
 
-def check_able(state: State, with_service: bool) -> None:
+def check_able(state: ReleaseState, with_service: bool) -> None:
     """Refuse a robot that lacks what a deployment needs."""
     missing = [tool for tool in state.lacks if tool != SYSTEMD]
     if missing:

@@ -11,7 +11,7 @@ from mindlang.compiler.diagnostic import Diagnostic
 from mindlang.compiler.source import Span
 from mindlang.compiler.splice import spliced
 from mindlang.editing.lock_update import Locks, UpdatedLocks, locks_of, update_locks
-from mindlang.editing.project import Change, EditError, Project
+from mindlang.editing.project import EditError, MindChange, Project
 from mindlang.lock import LockError
 
 
@@ -29,7 +29,7 @@ class Edited:
     """What an edit comes to: the new texts by path, what they compile to, the locks as they are and as they follow."""
 
     project: Project
-    change: Change
+    change: MindChange
     texts: Mapping[Path, str]
     graph: Graph
     beside: tuple[EditedNeighbour, ...]
@@ -47,7 +47,7 @@ class Edited:
         return [*self.project.paths, *self.change.created]
 
 
-def apply_edit(project: Project, change: Change, keep_weights: bool) -> Edited:
+def apply_edit(project: Project, change: MindChange, keep_weights: bool) -> Edited:
     """The edit made in memory; EditError where its result would not compile, nothing is written."""
     texts = _texts(change)
     graph = _compiled(project, texts)
@@ -69,13 +69,13 @@ def _all(project: Project) -> tuple[Project, ...]:
     return (*project.neighbours, project)
 
 
-def _concerned(project: Project, change: Change) -> list[Project]:
+def _concerned(project: Project, change: MindChange) -> list[Project]:
     """The neighbours that an edit concerns: those to which a new name is none are left alone."""
     sharing = [set(map(id, project.sharing(rename.noun, rename.old))) for rename in change.renamed]
     return [other for other in project.neighbours if all(id(other) in each for each in sharing)]
 
 
-def _texts(change: Change) -> dict[Path, str]:
+def _texts(change: MindChange) -> dict[Path, str]:
     """The new texts of the files that change, and of those that are new."""
     touched = {id(splice.source): splice.source for splice in change.splices}
     return {source.path: spliced(source, change.splices) for source in touched.values()} | dict(change.created)

@@ -22,13 +22,21 @@ from mindlang.compiler.syntax import (
     Teaches,
     Use,
 )
-from mindlang.editing.lines import Line, first_line, insert_above, insert_below, newline, remove_lines, replace_line
+from mindlang.editing.lines import (
+    SourceLine,
+    first_line,
+    insert_above,
+    insert_below,
+    newline,
+    remove_lines,
+    replace_line,
+)
 
 INDENT = "  "
 NOUNS = ("body", "actuator", "sensor", "memory", "skill", "task", "curriculum")  # in the order of a file
 FACTS: tuple[type[Fact], ...] = (Contains, Lasts, Ends, Reads, Drives, Influences, Stays, Rewards, Counts, Teaches)
 
-Extent = tuple[Line, Line]  # the first and the last line
+Extent = tuple[SourceLine, SourceLine]  # the first and the last line
 
 
 def instead(span: Span, text: str) -> Splice:
@@ -119,7 +127,7 @@ def text_of(declarations: Sequence[Declaration]) -> str:
     return (end * 2).join(texts) + end
 
 
-def _without(first: Line, last: Line) -> Splice:
+def _without(first: SourceLine, last: SourceLine) -> Splice:
     """Lines taken out; the blank ones above go as well, unless they set off what is said right below."""
     below = next(last.below(), None)
     if below is None or below.is_blank:
@@ -146,7 +154,7 @@ def _extent(declaration: Declaration) -> Extent:
     return [header, *_leading(header)][-1], [last, *_closing(last, len(header.indent))][-1]
 
 
-def _leading(line: Line) -> list[Line]:
+def _leading(line: SourceLine) -> list[SourceLine]:
     """The comments that lead what a line says, from the lowest up: those right above that close nothing else."""
     comments = list(takewhile(lambda above: above.is_comment, line.above()))
     indented = [place for place, comment in enumerate(comments) if len(comment.indent) > len(line.indent)]
@@ -158,7 +166,7 @@ def _leading(line: Line) -> list[Line]:
     return comments
 
 
-def _closing(last: Line, margin: int) -> list[Line]:
+def _closing(last: SourceLine, margin: int) -> list[SourceLine]:
     """What stands below the last fact of a declaration, down to the last comment that belongs to it.
 
     Such a comment stands right below or, after blank lines, farther in than the header, and does not lead what follows.

@@ -7,7 +7,7 @@ from pathlib import Path
 from mindrun.graph import Graph
 from mindrun.weights import Weights
 
-from mindlang.editing.project import Change, Replaced
+from mindlang.editing.project import MindChange, Replaced
 from mindlang.editing.widen import widen_locks
 from mindlang.editing.world_names import relabelled
 from mindlang.lock import Entry, Lock, lock_path, read_lock
@@ -37,7 +37,7 @@ def merged(locks: Locks, sources: Iterable[Path]) -> Lock:
     return known
 
 
-def update_locks(locks: Locks, before: Graph, after: Graph, change: Change, keep_weights: bool) -> UpdatedLocks:
+def update_locks(locks: Locks, before: Graph, after: Graph, change: MindChange, keep_weights: bool) -> UpdatedLocks:
     """The locks after an edit; with `keep_weights`, a skill that reads or influences more goes on as before.
 
     EditError where a skill cannot.
@@ -56,7 +56,7 @@ def update_locks(locks: Locks, before: Graph, after: Graph, change: Change, keep
     )
 
 
-def new_names(change: Change) -> dict[str, dict[str, str]]:
+def new_names(change: MindChange) -> dict[str, dict[str, str]]:
     """What is called otherwise after an edit, by noun."""
     names: dict[str, dict[str, str]] = {"skill": {}}
     for rename in change.renamed:

@@ -54,7 +54,7 @@ class Replaced:
 
 
 @dataclass(frozen=True, slots=True)
-class Change:
+class MindChange:
     """What an edit does: `splices` of the sources, `created` files, and which names the weights have to follow."""
 
     splices: tuple[Splice, ...]
@@ -119,7 +119,7 @@ class Project:
         hint = f"Say which: {say.format(found[0].header.noun.text)}"
         raise EditError(f"There are {len(found)} declarations called {name}.", hint, labels[0].span, *labels[1:])
 
-    def refuse_said(self, skill: Declaration, form: type[Reads | Drives | Influences], name: str) -> None:
+    def refuse_existing(self, skill: Declaration, form: type[Reads | Drives | Influences], name: str) -> None:
         """EditError where a skill reads, drives or influences something already."""
         for fact in facts(skill, form):
             if fact.name.text == name:

@@ -52,7 +52,7 @@ class _Reader:
     names: Names
     by: Declaration | None
 
-    def one(self, name: Name, *nouns: str) -> Iterator[Mention]:
+    def first_declared(self, name: Name, *nouns: str) -> Iterator[Mention]:
         """A name with the first of the nouns that it is declared with."""
         if noun := self.names.noun_of(name.text, nouns):
             yield Mention(noun, name, self.by)
@@ -61,12 +61,12 @@ class _Reader:
         """The names in a fact."""
         match fact:
             case Reads(name):
-                yield from self.one(name, *READABLE_NOUNS)
+                yield from self.first_declared(name, *READABLE_NOUNS)
             case Drives(name, at):
-                yield from self.one(name, *DRIVABLE_NOUNS)
+                yield from self.first_declared(name, *DRIVABLE_NOUNS)
                 yield from self.expression(at, "")
             case Influences(name, at):
-                yield from self.one(name, "skill")
+                yield from self.first_declared(name, "skill")
                 yield from self.expression(at, "")
             case Contains(name, phrase):
                 yield Mention("thing", name, self.by)
@@ -85,17 +85,17 @@ class _Reader:
         if fact.on:
             yield from self.phrase("event", fact.on)
         if fact.each:
-            yield from self.one(fact.each.sensor, *READABLE_NOUNS)
+            yield from self.first_declared(fact.each.sensor, *READABLE_NOUNS)
         if fact.when:
             yield from self.expression(fact.when.left, own)
             yield from self.expression(fact.when.right, own)
 
     def lesson(self, fact: Teaches) -> Iterator[Mention]:
         """The names in a lesson."""
-        yield from self.one(fact.skill, "skill")
-        yield from self.one(fact.task, "task")
+        yield from self.first_declared(fact.skill, "skill")
+        yield from self.first_declared(fact.task, "task")
         if fact.master:
-            yield from self.one(fact.master, "skill")
+            yield from self.first_declared(fact.master, "skill")
 
     def expression(self, expression: Expression | None, own: str) -> Iterator[Mention]:
         """The readings in an expression, and the things that its measures are about."""
@@ -103,7 +103,7 @@ class _Reader:
             if not isinstance(term, Phrase) or (term.kind.text == own and not term.arguments):
                 continue
             if not term.arguments and self.names.noun_of(term.kind.text, READABLE_NOUNS):
-                yield from self.one(term.kind, *READABLE_NOUNS)
+                yield from self.first_declared(term.kind, *READABLE_NOUNS)
             else:
                 yield from self.phrase("measure", term)
 
@@ -121,7 +121,7 @@ class _Reader:
             case Name() as name, Noun(noun="thing"):
                 yield Mention("thing", name, self.by)
             case Name() as name, Noun(noun="sensor"):
-                yield from self.one(name, *READABLE_NOUNS)
+                yield from self.first_declared(name, *READABLE_NOUNS)
 
 
 def mentions(files: Iterable[File], names: Names) -> Iterator[Mention]:
@@ -129,7 +129,7 @@ def mentions(files: Iterable[File], names: Names) -> Iterator[Mention]:
     for file in files:
         for setting in file.settings:
             if isinstance(setting, Master):
-                yield from _Reader(names, None).one(setting.name, "skill")
+                yield from _Reader(names, None).first_declared(setting.name, "skill")
         for declaration in file.declarations:
             yield from _declaration(declaration, _Reader(names, declaration))
 

@@ -14,7 +14,7 @@ Function = Callable[..., Any]
 
 
 @dataclass(frozen=True, slots=True)
-class Option:
+class EditOption:
     """An option of an edit; `many` may be said several times."""
 
     name: str
@@ -30,7 +30,7 @@ class Edit:
     name: str
     function: Function
     arguments: tuple[tuple[str, bool], ...]
-    options: tuple[Option, ...]
+    options: tuple[EditOption, ...]
     text: str
     example: str
 
@@ -56,9 +56,9 @@ def edit(name: str) -> Edit:
     )
 
 
-def _option(parameter: Parameter, hint: Any) -> Option:
+def _option(parameter: Parameter, hint: Any) -> EditOption:
     assert get_origin(hint) is Annotated, f"{parameter.name} does not say what it is for"
-    return Option(parameter.name, _is_many(hint), parameter.default, get_args(hint)[1])
+    return EditOption(parameter.name, _is_many(hint), parameter.default, get_args(hint)[1])
 
 
 def _is_many(hint: Any) -> bool:

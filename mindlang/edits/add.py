@@ -10,7 +10,7 @@ from mindlang.compiler.source import Source, Span
 from mindlang.compiler.splice import Splice
 from mindlang.compiler.syntax import Declaration, Fact, File
 from mindlang.editing.insertion import FACTS, INDENT, NOUNS, below_siblings, commented, declare, text_of
-from mindlang.editing.project import Change, EditError, Project, owner
+from mindlang.editing.project import EditError, MindChange, Project, owner
 
 
 def add(
@@ -19,7 +19,7 @@ def add(
     *,
     to: Annotated[str, "The declaration to which facts are added: --to Collect"] = "",
     noun: Annotated[str, "What that is, where two have the name: --noun task"] = "",
-) -> Change:
+) -> MindChange:
     """Add declarations or, with --to, facts to a declaration.
 
     They are said as in a file, a line each. A declaration stands below the last of its noun, a fact below the
@@ -30,8 +30,8 @@ def add(
     said = [line.strip() for text in lines for line in text.splitlines()]
     if to:
         declaration = project.declared(to, noun or next(filter(None, map(owner, said)), ""))
-        return Change(tuple(_facts(declaration, _read_facts(declaration, said))))
-    return Change(tuple(_declarations(project, _read(said))))
+        return MindChange(tuple(_facts(declaration, _read_facts(declaration, said))))
+    return MindChange(tuple(_declarations(project, _read(said))))
 
 
 def _declarations(project: Project, read: File) -> Iterator[Splice]:

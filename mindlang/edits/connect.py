@@ -6,7 +6,7 @@ from mindlang.compiler.diagnostic import a
 from mindlang.compiler.syntax import Drives, Influences, Reads
 from mindlang.editing.insertion import below_siblings
 from mindlang.editing.naming import refuse_lines
-from mindlang.editing.project import Change, EditError, Project
+from mindlang.editing.project import EditError, MindChange, Project
 
 VERBS = {"skill": Influences, "actuator": Drives, "memory": Drives, "sensor": Reads}
 
@@ -18,7 +18,7 @@ def connect(
     *,
     at: Annotated[str, "The value of the edge, instead of an output of the function: --at 1"] = "",
     drives: Annotated[bool, "Drive a memory, instead of reading it"] = False,
-) -> Change:
+) -> MindChange:
     """Let a skill read, drive or influence something.
 
     It reads sensors, drives actuators and influences skills. A memory is read, unless there is a value to drive
@@ -35,6 +35,6 @@ def connect(
         raise EditError(f"{target} is {a(noun)}, which is read.", "Leave --at and --drives out.")
     if drives and form is Influences:
         raise EditError(f"{target} is a skill, which is influenced.", "Leave --drives out.")
-    project.refuse_said(declaration, form, target)
+    project.refuse_existing(declaration, form, target)
     value = f" at {at}" if at else ""
-    return Change((below_siblings(declaration, form, [f"{form.__name__.lower()} {target}{value}"]),))
+    return MindChange((below_siblings(declaration, form, [f"{form.__name__.lower()} {target}{value}"]),))

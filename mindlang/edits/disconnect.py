@@ -3,10 +3,10 @@
 from mindlang.compiler.diagnostic import Label, did_you_mean
 from mindlang.compiler.syntax import Drives, Influences, Reads
 from mindlang.editing.insertion import without_fact
-from mindlang.editing.project import Change, EditError, Project
+from mindlang.editing.project import EditError, MindChange, Project
 
 
-def disconnect(project: Project, skill: str, target: str) -> Change:
+def disconnect(project: Project, skill: str, target: str) -> MindChange:
     """Let a skill no longer read, drive or influence something.
 
     Example: mindc edit disconnect Collect Grab collect.mind
@@ -22,4 +22,4 @@ def disconnect(project: Project, skill: str, target: str) -> Change:
         labels = [Label(fact.span, "or this") for fact in found[1:]]
         hint = f'Say which: mindc edit remove "{found[0].span.text}" --from {skill} {project.main.source.name}'
         raise EditError(f"{skill} reads {target} and drives it.", hint, found[0].span, *labels)
-    return Change((without_fact(found[0]),))
+    return MindChange((without_fact(found[0]),))

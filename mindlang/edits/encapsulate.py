@@ -4,7 +4,7 @@ from typing import Annotated
 
 from mindlang.editing.insertion import INDENT, declare, instead
 from mindlang.editing.naming import refuse_lines, refuse_misnamed
-from mindlang.editing.project import Change, Project, Replaced, influence
+from mindlang.editing.project import MindChange, Project, Replaced, influence
 
 
 def encapsulate(
@@ -15,7 +15,7 @@ def encapsulate(
     with_: Annotated[tuple[str, ...], "Another skill that the new one influences: --with GoToPower+Avoid"] = (),
     reads: Annotated[tuple[str, ...], "A sensor or memory that the new one reads: --reads battery"] = (),
     is_: Annotated[str, "Its function (default: mlp hidden 2)"] = "mlp hidden 2",
-) -> Change:
+) -> MindChange:
     """Put a new skill over an old one, whose place it takes.
 
     No line of the old one changes. Where it was master the new one is, and skills that influenced it influence
@@ -38,4 +38,4 @@ def encapsulate(
         *(f"{INDENT}{influence(kind, below)}" for below in (skill, *with_)),
     ]
     moved = (instead(place.name.span, new) for place in project.places(skill))
-    return Change((*moved, declare(project.main, "skill", lines)), replaced=Replaced(skill, new))
+    return MindChange((*moved, declare(project.main, "skill", lines)), replaced=Replaced(skill, new))

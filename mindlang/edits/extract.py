@@ -6,7 +6,7 @@ from mindlang.compiler.diagnostic import did_you_mean
 from mindlang.compiler.syntax import Declaration, Influences, Reads
 from mindlang.editing.insertion import declare_below, indentation, instead_of_line, line_of, without_fact
 from mindlang.editing.naming import refuse_lines, refuse_misnamed
-from mindlang.editing.project import Change, EditError, Project, facts, influence, kind_of
+from mindlang.editing.project import EditError, MindChange, Project, facts, influence, kind_of
 
 
 def extract(
@@ -17,7 +17,7 @@ def extract(
     *,
     reads: Annotated[tuple[str, ...], "What the new skill reads (default: what the parent does)"] = (),
     is_: Annotated[str, "Its function (default: mlp hidden 2)"] = "mlp hidden 2",
-) -> Change:
+) -> MindChange:
     """Put subskills of a skill under a new one.
 
     The skill influences the new one in their place.
@@ -38,7 +38,7 @@ def extract(
         *(f"{indent}reads {reading}" for reading in inputs),
         *(f"{indent}{line_of(fact)}" for fact in (first, *others)),
     ]
-    return Change((
+    return MindChange((
         instead_of_line(first, [f"{indent}{influence(kind_of(declaration), new)}"]),
         *(without_fact(fact) for fact in others),
         declare_below(declaration, lines),

@@ -2,10 +2,10 @@
 
 from mindlang.compiler.syntax import Stays
 from mindlang.editing.insertion import below_siblings
-from mindlang.editing.project import Change, EditError, Project, facts
+from mindlang.editing.project import EditError, MindChange, Project, facts
 
 
-def freeze(project: Project, skill: str) -> Change:
+def freeze(project: Project, skill: str) -> MindChange:
     """Let a skill stay as it is: it refuses training.
 
     Lessons with subskills leave it out.
@@ -15,4 +15,4 @@ def freeze(project: Project, skill: str) -> Change:
     declaration = project.find(skill, "skill")
     if frozen := facts(declaration, Stays):
         raise EditError(f"{skill} is frozen already.", "", frozen[0].span)
-    return Change((below_siblings(declaration, Stays, ["stays frozen"]),))
+    return MindChange((below_siblings(declaration, Stays, ["stays frozen"]),))

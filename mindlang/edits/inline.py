@@ -10,12 +10,12 @@ from mindlang.editing.insertion import (
     without_declarations,
     without_fact,
 )
-from mindlang.editing.project import Change, EditError, Project, facts
+from mindlang.editing.project import EditError, MindChange, Project, facts
 
 Edge = Drives | Influences
 
 
-def inline(project: Project, skill: str) -> Change:
+def inline(project: Project, skill: str) -> MindChange:
     """Let the subskills of a skill take its place.
 
     Whoever influenced it influences them, and the skill is taken out. What these lines need after `at` is read
@@ -35,7 +35,7 @@ def inline(project: Project, skill: str) -> Change:
         message = f"No skill influences {skill}: nothing can take its place."
         raise EditError(message, "", declaration.header.span)
     splices = (splice for parent in parents for splice in _taken_over(parent, declaration))
-    return Change((*without_declarations([declaration]), *splices))
+    return MindChange((*without_declarations([declaration]), *splices))
 
 
 def _taken_over(parent: Declaration, child: Declaration) -> list[Splice]:

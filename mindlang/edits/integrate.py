@@ -4,7 +4,7 @@ from typing import Annotated
 
 from mindlang.compiler.syntax import Influences, Reads
 from mindlang.editing.insertion import below_siblings
-from mindlang.editing.project import Change, EditError, Project, influence, kind_of
+from mindlang.editing.project import EditError, MindChange, Project, influence, kind_of
 
 
 def integrate(
@@ -13,7 +13,7 @@ def integrate(
     *,
     with_: Annotated[tuple[str, ...], "A skill that it is to influence as well: --with GoToPower+Avoid"] = (),
     reads: Annotated[tuple[str, ...], "A sensor or memory that it is to read as well: --reads battery"] = (),
-) -> Change:
+) -> MindChange:
     """Let a skill influence more skills and read more sensors.
 
     This is the paper's other way to extend a hierarchy. The skill is stale then. With --keep-weights it goes on
@@ -26,10 +26,10 @@ def integrate(
     declaration = project.find(skill, "skill")
     for other in with_:
         project.find(other, "skill")
-        project.refuse_said(declaration, Influences, other)
+        project.refuse_existing(declaration, Influences, other)
     for reading in reads:
         project.find(reading, "sensor", "memory")
-        project.refuse_said(declaration, Reads, reading)
+        project.refuse_existing(declaration, Reads, reading)
     splices = []
     if reads:
         splices.append(below_siblings(declaration, Reads, [f"reads {reading}" for reading in reads]))
@@ -37,4 +37,4 @@ def integrate(
         splices.append(
             below_siblings(declaration, Influences, [influence(kind_of(declaration), other) for other in with_])
         )
-    return Change(tuple(splices))
+    return MindChange(tuple(splices))

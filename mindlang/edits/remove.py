@@ -5,7 +5,7 @@ from typing import Annotated
 from mindlang.compiler.diagnostic import did_you_mean
 from mindlang.compiler.syntax import NOUNS, Declaration
 from mindlang.editing.insertion import without_declarations, without_fact
-from mindlang.editing.project import Change, EditError, Project, owner
+from mindlang.editing.project import EditError, MindChange, Project, owner
 
 
 def remove(
@@ -14,7 +14,7 @@ def remove(
     *,
     from_: Annotated[str, "The declaration whose fact it is: --from Collect"] = "",
     noun: Annotated[str, "What that is, where two have the name: --noun task"] = "",
-) -> Change:
+) -> MindChange:
     """Remove a declaration or, with --from, a fact.
 
     Nothing may name the declaration any more, which is said by its name alone, or as "sensor pulse"; the fact is said
@@ -27,7 +27,7 @@ def remove(
         return _fact(words, project.declared(from_, noun or owner(" ".join(words))))
     declaration = _declaration(project, words, noun)
     project.refuse_used(declaration.header.noun.text, declaration.header.name.text, [declaration])
-    return Change(without_declarations([declaration]))
+    return MindChange(without_declarations([declaration]))
 
 
 def _declaration(project: Project, words: list[str], noun: str) -> Declaration:
@@ -42,11 +42,11 @@ def _declaration(project: Project, words: list[str], noun: str) -> Declaration:
     raise EditError(f"{' '.join(words)} is neither a name nor a noun and a name.", hint or example)
 
 
-def _fact(words: list[str], declaration: Declaration) -> Change:
+def _fact(words: list[str], declaration: Declaration) -> MindChange:
     """A declaration without the first of its facts that says these words; EditError where none does."""
     said = {" ".join(fact.span.text.split()): fact for fact in reversed(declaration.facts)}
     text = " ".join(words)
     if text not in said:
         hint = did_you_mean(text, said) or "Say the line as it stands there, without its comment."
         raise EditError(f"{declaration.header.name.text} does not say: {text}.", hint, declaration.header.span)
-    return Change((without_fact(said[text]),))
+    return MindChange((without_fact(said[text]),))

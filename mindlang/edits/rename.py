@@ -7,8 +7,8 @@ from mindlang.compiler.syntax import NOUNS, Rewards
 from mindlang.editing.insertion import instead
 from mindlang.editing.naming import refuse_misnamed
 from mindlang.editing.project import (
-    Change,
     EditError,
+    MindChange,
     Project,
     Renamed,
     facts,
@@ -24,7 +24,7 @@ def rename(
     new: str,
     *,
     noun: Annotated[str, "What it is, where two have the name: --noun task"] = "",
-) -> Change:
+) -> MindChange:
     """Rename anything, wherever it is named and in the locks.
 
     Other minds that use the same files follow, those beside them and in the folders above.
@@ -36,7 +36,7 @@ def rename(
     for each in (project, *project.sharing(of, old)):
         _refuse_taken(each, of, new)
     places = (mention.name.span for mention in project.everywhere(of, old))
-    return Change(tuple(instead(place, new) for place in places), (Renamed(of, old, new),))
+    return MindChange(tuple(instead(place, new) for place in places), (Renamed(of, old, new),))
 
 
 def _declared(project: Project, name: str, noun: str) -> Mention:

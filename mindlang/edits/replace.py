@@ -4,10 +4,10 @@ from mindlang.compiler.diagnostic import listed
 from mindlang.compiler.hierarchy import reached
 from mindlang.compiler.syntax import Influences
 from mindlang.editing.insertion import instead
-from mindlang.editing.project import Change, EditError, Project, Replaced
+from mindlang.editing.project import EditError, MindChange, Project, Replaced
 
 
-def replace(project: Project, skill: str, new: str) -> Change:
+def replace(project: Project, skill: str, new: str) -> MindChange:
     """Let another skill, or a hierarchy, take the place of a skill.
 
     Both stay declared. They must drive the same actuators. Skills that influenced the old one keep their
@@ -23,11 +23,11 @@ def replace(project: Project, skill: str, new: str) -> Change:
     places = [place for place in project.places(skill) if place.by is not declaration]
     for place in places:
         if place.by:
-            project.refuse_said(place.by, Influences, new)
+            project.refuse_existing(place.by, Influences, new)
     if not places:
         message = f"{skill} has no place: it is not the master, and no skill but {new} influences it."
         raise EditError(message, "", declaration.header.name.span)
-    return Change(tuple(instead(place.name.span, new) for place in places), replaced=Replaced(skill, new))
+    return MindChange(tuple(instead(place.name.span, new) for place in places), replaced=Replaced(skill, new))
 
 
 def _refuse_other_drives(project: Project, skill: str, new: str) -> None:

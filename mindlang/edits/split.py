@@ -4,10 +4,10 @@ from pathlib import Path
 
 from mindlang.compiler.syntax import Declaration
 from mindlang.editing.insertion import text_of, use_line, without_declarations
-from mindlang.editing.project import Change, EditError, Project
+from mindlang.editing.project import EditError, MindChange, Project
 
 
-def split(project: Project, to: str, names: tuple[str, ...]) -> Change:
+def split(project: Project, to: str, names: tuple[str, ...]) -> MindChange:
     """Move declarations to a new file, and use it.
 
     A name that two nouns have takes its noun with it: task:Avoid.
@@ -17,7 +17,7 @@ def split(project: Project, to: str, names: tuple[str, ...]) -> Change:
     path = _new_file(project, to)
     chosen = [_chosen(project, name) for name in dict.fromkeys(names)]
     splices = (*without_declarations(chosen), use_line(project.main, Path(to).as_posix()))
-    return Change(splices, created={path: text_of(chosen)})
+    return MindChange(splices, created={path: text_of(chosen)})
 
 
 def _new_file(project: Project, to: str) -> Path:

@@ -2,10 +2,10 @@
 
 from mindlang.compiler.syntax import Stays
 from mindlang.editing.insertion import without_fact
-from mindlang.editing.project import Change, EditError, Project, facts
+from mindlang.editing.project import EditError, MindChange, Project, facts
 
 
-def unfreeze(project: Project, skill: str) -> Change:
+def unfreeze(project: Project, skill: str) -> MindChange:
     """Let a frozen skill be taught again.
 
     Example: mindc edit unfreeze Avoid collect.mind
@@ -14,4 +14,4 @@ def unfreeze(project: Project, skill: str) -> Change:
     frozen = facts(declaration, Stays)
     if not frozen:
         raise EditError(f"{skill} is not frozen.", "", declaration.header.span)
-    return Change(tuple(without_fact(fact) for fact in frozen))
+    return MindChange(tuple(without_fact(fact) for fact in frozen))

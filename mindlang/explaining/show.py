@@ -11,7 +11,7 @@ PAGE_COLUMNS = 80
 Segment = tuple[str, str]  # text and style
 
 
-def page(explanation: Explanation) -> Iterator[Segment]:
+def describe_explanation(explanation: Explanation) -> Iterator[Segment]:
     """One explanation, with its examples."""
     yield explanation.code, "bold"
     yield f" ({explanation.sort})\n", "dim"

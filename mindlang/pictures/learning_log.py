@@ -13,7 +13,7 @@ from pathlib import Path
 from mindrun.regular_files import read_whole
 from mindrun.strict_json import is_whole
 from mindrun.train import NotFoundError, RunError
-from mindrun.train.progress import COUNT_COLUMNS, LINES, TABLE, read
+from mindrun.train.progress import COUNT_COLUMNS, LINES, TABLE, read_progress
 from mindrun.train.run_folder import MANIFEST, open_run
 
 TABLES = (".csv", ".csv.gz")
@@ -63,7 +63,7 @@ def _logs(path: Path) -> list[Path]:
         raise NotFoundError(f"{path} is not a run" if path.exists() else f"there is no run {path}", HINT)
     if (path / MANIFEST).exists() or (path / LINES).exists():
         return [path]
-    runs = [log.parent for log in sorted(path.rglob(LINES)) if read(log.parent)]
+    runs = [log.parent for log in sorted(path.rglob(LINES)) if read_progress(log.parent)]
     if not runs:
         raise NotFoundError(f"there is no run in {path} that has learnt for a generation")
     return runs
@@ -76,7 +76,7 @@ def _from_run(folder: Path) -> Curve:
         raise
     except RunError as error:
         raise RunError(f"{folder}: {error}", f"its {TABLE} can be drawn all the same") from error
-    return _unless_empty(Curve(name, read(folder), folder))
+    return _unless_empty(Curve(name, read_progress(folder), folder))
 
 
 def _from_table(path: Path) -> Curve:

@@ -14,7 +14,7 @@ from mindrun.weights import Weights
 from numpy.typing import NDArray
 
 from mindlang.proofs.batch import values
-from mindlang.proofs.interval import Boxes, Sent, Singles, is_known, perceptron, sent
+from mindlang.proofs.interval import Boxes, SentBounds, Singles, is_known, perceptron, sent
 
 SHARP_ENOUGH = 1e-3  # a bound this near to a value that was seen is sharp enough, but for 0 and 1
 BOXES_PER_ROUND = 256  # boxes that are cut in one round
@@ -22,7 +22,7 @@ SAMPLED_READINGS = 2048  # readings, half of them corners of the box
 
 
 @dataclass(frozen=True, slots=True)
-class Range:
+class EdgeRange:
     """What an edge can send: proved, and as far as it was seen; `sure` where it always sends a number."""
 
     low: float
@@ -41,17 +41,19 @@ class Pool:
     """Boxes and what is sent in them."""
 
     boxes: Boxes
-    sent: Sent
+    sent: SentBounds
 
     def __getitem__(self, rows: NDArray[np.intp] | NDArray[np.bool_]) -> Pool:
         boxes, found = self.boxes, self.sent
-        return Pool(Boxes(boxes.low[rows], boxes.high[rows]), Sent(found.low[rows], found.high[rows], found.sure[rows]))
+        return Pool(
+            Boxes(boxes.low[rows], boxes.high[rows]), SentBounds(found.low[rows], found.high[rows], found.sure[rows])
+        )
 
 
-def ranges(skill: Skill, weights: Weights | None, most: int) -> tuple[Range, ...]:
+def ranges(skill: Skill, weights: Weights | None, most: int) -> tuple[EdgeRange, ...]:
     """The range of each edge of a skill when its readings may be anything in 0..1, from at most so many boxes."""
     if not is_known(skill, weights) and skill.outputs == len(skill.edges):
-        return tuple(Range(0.0, 1.0, sure=False) for _ in skill.edges)
+        return tuple(EdgeRange(0.0, 1.0, sure=False) for _ in skill.edges)
     skill = by_itself(skill)
     low, high = _seen(skill, weights)
     pools = _cut(skill, weights, low, high, most)
@@ -65,7 +67,7 @@ def ranges(skill: Skill, weights: Weights | None, most: int) -> tuple[Range, ...
         (least, most_) if least <= most_ and (known or edge.output is None) else None
         for edge, least, most_ in zip(skill.edges, low.tolist(), high.tolist(), strict=True)
     ]
-    return tuple(Range(*found) for found in zip(*bounds, seen, strict=True))
+    return tuple(EdgeRange(*found) for found in zip(*bounds, seen, strict=True))
 
 
 def by_itself(skill: Skill) -> Skill:
@@ -120,7 +122,7 @@ def _cut(skill: Skill, weights: Weights | None, low: Singles, high: Singles, mos
         open_ = _joined(open_[order[BOXES_PER_ROUND:]], Pool(cut, sent(skill, weights, cut)))
 
 
-def _excess(found: Sent, low: Singles, high: Singles) -> Singles:
+def _excess(found: SentBounds, low: Singles, high: Singles) -> Singles:
     """How much farther than what was seen the bounds of each box reach, over all edges; 0 where that is close."""
     below, above = np.maximum(low - found.low, 0), np.maximum(found.high - high, 0)
     below[(below <= SHARP_ENOUGH) & (low < 1)] = 0  # "always 1" and "always 0" are to be proved exactly
@@ -157,4 +159,4 @@ def _joined(a: Pool, b: Pool) -> Pool:
 
     boxes = Boxes(both(a.boxes.low, b.boxes.low), both(a.boxes.high, b.boxes.high))
     sure = np.concatenate([a.sent.sure, b.sent.sure])
-    return Pool(boxes, Sent(both(a.sent.low, b.sent.low), both(a.sent.high, b.sent.high), sure))
+    return Pool(boxes, SentBounds(both(a.sent.low, b.sent.low), both(a.sent.high, b.sent.high), sure))

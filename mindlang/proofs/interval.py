@@ -34,7 +34,7 @@ class Boxes:
 
 
 @dataclass(frozen=True, slots=True)
-class Sent:
+class SentBounds:
     """What a skill sends [boxes, edges], clamped to 0..1; where it is not `sure`, it may be no number and not sent."""
 
     low: Singles
@@ -47,7 +47,7 @@ def is_known(skill: Skill, weights: Weights | None) -> bool:
     return skill.outputs == 0 or (not skill.function.opaque and (weights is not None or genes(skill) == 0))
 
 
-def sent(skill: Skill, weights: Weights | None, boxes: Boxes) -> Sent:
+def sent(skill: Skill, weights: Weights | None, boxes: Boxes) -> SentBounds:
     """What a skill can send over each of its edges; anything in 0..1 where its function is not known."""
     count, edges = len(boxes.low), len(skill.edges)
     low, high = np.full((2, count, edges), [[[-np.inf]], [[np.inf]]], np.float32)
@@ -58,7 +58,7 @@ def sent(skill: Skill, weights: Weights | None, boxes: Boxes) -> Sent:
                 low[:, number], high[:, number] = evaluate(edge.value, boxes)
             elif outputs is not None:
                 low[:, number], high[:, number] = outputs[0][:, edge.output], outputs[1][:, edge.output]
-    return Sent(np.clip(low, 0, 1), np.clip(high, 0, 1), np.isfinite(low) & np.isfinite(high))
+    return SentBounds(np.clip(low, 0, 1), np.clip(high, 0, 1), np.isfinite(low) & np.isfinite(high))
 
 
 def perceptron(skill: Skill, weights: Weights | None) -> tuple[Singles, ...]:

@@ -15,14 +15,16 @@ from mindrun.weights import Weights, reachable
 from numpy.typing import NDArray
 
 from mindlang.proofs.branch_and_bound import by_itself, halves, sway_of
-from mindlang.proofs.interval import Boxes, Sent, Singles, sent
-from mindlang.proofs.reach import Bound, Flow, Reach, as_sent, flow
+from mindlang.proofs.interval import Boxes, SentBounds, Singles, sent
+from mindlang.proofs.reach import Bound, InfluenceBounds, ProvedReach, as_sent, flow
 
 MAX_BOXES, MIN_BOXES, MAX_BOX_SKILLS = 8192, 16, 100_000  # boxes, and boxes times skills
 BOXES_PER_ROUND = 256
 
 
-def together(graph: Graph, weights: Mapping[str, Weights], found: Reach, can_be_zero: Sequence[bool]) -> Reach:
+def together(
+    graph: Graph, weights: Mapping[str, Weights], found: ProvedReach, can_be_zero: Sequence[bool]
+) -> ProvedReach:
     """The bounds with a better least Σ influence, for those actuators whose Σ is neither above 0 nor was seen at 0."""
     most = min(MAX_BOXES, MAX_BOX_SKILLS // len(found.edges))
     actuators = list(found.actuators)
@@ -33,7 +35,7 @@ def together(graph: Graph, weights: Mapping[str, Weights], found: Reach, can_be_
     return replace(found, actuators=tuple(actuators))
 
 
-def _least(graph: Graph, weights: Mapping[str, Weights], found: Reach, actuator: int, most: int) -> float:
+def _least(graph: Graph, weights: Mapping[str, Weights], found: ProvedReach, actuator: int, most: int) -> float:
     """The least Σ influence of an actuator over boxes that cover all readings; 0 where that would take too many."""
     skills = {skill.name: skill for skill in reachable(graph, graph.master)}
     sway = _sway(graph, weights, skills.values())
@@ -56,14 +58,14 @@ def _least(graph: Graph, weights: Mapping[str, Weights], found: Reach, actuator:
 
 
 def _flow(
-    graph: Graph, weights: Mapping[str, Weights], skills: Mapping[str, Skill], found: Reach, boxes: Boxes
-) -> Flow:
+    graph: Graph, weights: Mapping[str, Weights], skills: Mapping[str, Skill], found: ProvedReach, boxes: Boxes
+) -> InfluenceBounds:
     """Influence in each box, from what every skill sends there, or what it sends anywhere, whichever says more."""
 
-    def sends(name: str) -> Sent:
+    def sends(name: str) -> SentBounds:
         here, anywhere = sent(skills[name], weights.get(name), boxes), as_sent(found.edges[name])
         low, high = np.maximum(here.low, anywhere.low), np.minimum(here.high, anywhere.high)
-        return Sent(low, high, here.sure | anywhere.sure)
+        return SentBounds(low, high, here.sure | anywhere.sure)
 
     return flow(graph, len(boxes.low), sends)
 

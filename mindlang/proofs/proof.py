@@ -8,12 +8,12 @@ from dataclasses import dataclass
 from mindrun.graph import Actuator, Edge, Graph, Skill
 from mindrun.weights import Weights, reachable
 
-from mindlang.proofs.branch_and_bound import Range
+from mindlang.proofs.branch_and_bound import EdgeRange
 from mindlang.proofs.interval import is_known
 from mindlang.proofs.joint import together
 from mindlang.proofs.leak import Leak, leaks
 from mindlang.proofs.paths import Paths, paths, ways
-from mindlang.proofs.reach import MIN_INFLUENCE, Driven, Reach, reach
+from mindlang.proofs.reach import MIN_INFLUENCE, Driven, ProvedReach, reach
 from mindlang.proofs.silence_search import Tried, try_out
 
 MAX_LISTED_PATHS = 10
@@ -63,7 +63,7 @@ class OfEdge:
 
     skill: str
     target: str
-    range: Range
+    range: EdgeRange
     weights: tuple[str, ...]
 
 
@@ -118,7 +118,7 @@ def _why(skill: Skill) -> str:
     return skill.function.opaque or "has no weights that fit"
 
 
-def _edges(graph: Graph, below: Sequence[Skill], bounds: Reach, rests: _Rests) -> Iterator[OfEdge]:
+def _edges(graph: Graph, below: Sequence[Skill], bounds: ProvedReach, rests: _Rests) -> Iterator[OfEdge]:
     for skill in below:
         for edge, sends in zip(skill.edges, bounds.edges[skill.name], strict=True):
             if edge.to == "skill":
@@ -129,10 +129,10 @@ def _edges(graph: Graph, below: Sequence[Skill], bounds: Reach, rests: _Rests) -
 class _Rests:
     """On whose weights a claim rests: of the skills on the way, those whose weights say more than "0 to 1"."""
 
-    def __init__(self, graph: Graph, weights: Mapping[str, Weights], bounds: Reach) -> None:
+    def __init__(self, graph: Graph, weights: Mapping[str, Weights], bounds: ProvedReach) -> None:
         self._graph, self._weights, self._bounds = graph, weights, bounds
-        self._parents: dict[int, list[tuple[Skill, Edge, Range]]] = {}
-        self._drivers: dict[int, list[tuple[Skill, Edge, Range]]] = {}
+        self._parents: dict[int, list[tuple[Skill, Edge, EdgeRange]]] = {}
+        self._drivers: dict[int, list[tuple[Skill, Edge, EdgeRange]]] = {}
         for skill in reachable(graph, graph.master):
             for edge, sends in zip(skill.edges, bounds.edges[skill.name], strict=True):
                 into = {"skill": self._parents, "actuator": self._drivers}.get(edge.to)
@@ -140,7 +140,7 @@ class _Rests:
                     into.setdefault(edge.target, []).append((skill, edge, sends))
         self._place = {skill.name: number for number, skill in enumerate(graph.skills)}
 
-    def says(self, skill: Skill, edge: Edge, sends: Range) -> bool:
+    def says(self, skill: Skill, edge: Edge, sends: EdgeRange) -> bool:
         """Whether an edge is learnt, and its weights narrow what it sends, or see to it that a command is a number."""
         narrows = sends.low > 0 or sends.high < 1 or (edge.to == "actuator" and sends.sure)
         return edge.output is not None and skill.name in self._weights and narrows

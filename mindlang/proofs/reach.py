@@ -14,8 +14,8 @@ import numpy as np
 from mindrun.graph import Graph
 from mindrun.weights import Weights, reachable
 
-from mindlang.proofs.branch_and_bound import Range, ranges
-from mindlang.proofs.interval import Sent, Singles
+from mindlang.proofs.branch_and_bound import EdgeRange, ranges
+from mindlang.proofs.interval import SentBounds, Singles
 
 MAX_SKILL_BOXES, MAX_TOTAL_BOXES = 20_000, 500_000  # for one skill, for all of them
 ROUNDING_MARGIN = 2.0**-22
@@ -44,16 +44,16 @@ class Driven:
 
 
 @dataclass(frozen=True, slots=True)
-class Reach:
+class ProvedReach:
     """What is proved of a hierarchy: by skill below the master what its edges send and its influence; by actuator."""
 
-    edges: Mapping[str, tuple[Range, ...]]
+    edges: Mapping[str, tuple[EdgeRange, ...]]
     influence: Mapping[str, Bound]
     actuators: tuple[Driven, ...]
 
 
 @dataclass(frozen=True, slots=True)
-class Flow:
+class InfluenceBounds:
     """Bounds of the influence of each skill [boxes, skills], and of Σ influence of each actuator [boxes, actuators]."""
 
     low: Singles
@@ -62,13 +62,13 @@ class Flow:
     total_high: Singles
 
 
-def reach(graph: Graph, weights: Mapping[str, Weights]) -> Reach:
+def reach(graph: Graph, weights: Mapping[str, Weights]) -> ProvedReach:
     """Bounds for any readings in 0..1; of skills without weights, and of procedures, only that they send 0..1."""
     skills = reachable(graph, graph.master)
     boxes = max(1, min(MAX_SKILL_BOXES, MAX_TOTAL_BOXES // len(skills)))
     edges = {skill.name: ranges(skill, weights.get(skill.name), boxes) for skill in skills}
     found = flow(graph, 1, {name: as_sent(sends) for name, sends in edges.items()}.__getitem__)
-    drivers: list[list[Range]] = [[] for _ in graph.actuators]
+    drivers: list[list[EdgeRange]] = [[] for _ in graph.actuators]
     for place, skill in enumerate(graph.skills):
         if found.high[0, place] > 0:
             for edge, sends in zip(skill.edges, edges[skill.name], strict=True):
@@ -76,20 +76,20 @@ def reach(graph: Graph, weights: Mapping[str, Weights]) -> Reach:
                     drivers[edge.target].append(sends)
     influence = [Bound(*bounds) for bounds in zip(found.low[0].tolist(), found.high[0].tolist(), strict=True)]
     totals = [Bound(*bounds) for bounds in zip(found.total_low[0].tolist(), found.total_high[0].tolist(), strict=True)]
-    return Reach(
+    return ProvedReach(
         edges,
         {skill.name: bound for skill, bound in zip(graph.skills, influence, strict=True) if skill.name in edges},
         tuple(Driven(total, _mean(sends)) for total, sends in zip(totals, drivers, strict=True)),
     )
 
 
-def as_sent(sends: Sequence[Range]) -> Sent:
+def as_sent(sends: Sequence[EdgeRange]) -> SentBounds:
     """The ranges of a skill's edges as what it sends in a single box."""
     low, high = np.array([[s.low for s in sends]], np.float32), np.array([[s.high for s in sends]], np.float32)
-    return Sent(low, high, np.array([[s.sure for s in sends]], np.bool_))
+    return SentBounds(low, high, np.array([[s.sure for s in sends]], np.bool_))
 
 
-def flow(graph: Graph, boxes: int, sends: Callable[[str], Sent]) -> Flow:
+def flow(graph: Graph, boxes: int, sends: Callable[[str], SentBounds]) -> InfluenceBounds:
     """Influence from the master down to the actuators, in so many boxes, from what each skill sends in them."""
     low, high = np.zeros((2, boxes, len(graph.skills)), np.float32)
     total_low, total_high = np.zeros((2, boxes, len(graph.actuators)), np.float32)
@@ -108,10 +108,10 @@ def flow(graph: Graph, boxes: int, sends: Callable[[str], Sent]) -> Flow:
                 into_low, into_high = (total_low, total_high) if drives else (low, high)
                 into_low[:, edge.target] += np.where(arrives, least, np.float32(0))
                 into_high[:, edge.target] += np.where(np.isnan(most), np.float32(np.inf), most)
-    return Flow(low, high, np.where(np.isfinite(total_high), total_low, np.float32(0)), total_high)
+    return InfluenceBounds(low, high, np.where(np.isfinite(total_high), total_low, np.float32(0)), total_high)
 
 
-def _mean(drivers: Sequence[Range]) -> Bound | None:
+def _mean(drivers: Sequence[EdgeRange]) -> Bound | None:
     """The bounds of a weighted mean. All 0 and all 1 stay what they are: 0/Σ and Σ/Σ round to 0 and 1."""
     if not drivers:
         return None

@@ -11,10 +11,10 @@ from mindlang.editing.lines import first_line
 from mindlang.lock.report import Row, made_by, rows
 from mindlang.lock.status import Trained
 from mindlang.server.describing import kind_card
-from mindlang.server.view import View
+from mindlang.server.view import MindView
 
 
-def card(view: View, noun: str, name: str) -> str:
+def card(view: MindView, noun: str, name: str) -> str:
     """Everything about a name; nothing where another declaration has it already."""
     if noun == "thing":
         return _thing(view, name)
@@ -33,7 +33,7 @@ def card(view: View, noun: str, name: str) -> str:
     return "\n\n".join(filter(None, parts))
 
 
-def paths_to(view: View, skill: str) -> list[str]:
+def paths_to(view: MindView, skill: str) -> list[str]:
     """The ways on which influence comes down to a skill, the shortest one from each top."""
     parents: dict[str, list[str]] = {}
     for name, declaration in view.names.declarations("skill"):
@@ -51,7 +51,7 @@ def paths_to(view: View, skill: str) -> list[str]:
     return found
 
 
-def _skill(view: View, name: str, declaration: Declaration) -> Iterator[str]:
+def _skill(view: MindView, name: str, declaration: Declaration) -> Iterator[str]:
     lines = []
     for verb, form in (("reads", Reads), ("drives", Drives), ("influences", Influences)):
         if said := [_edge(view, fact) for fact in declaration.facts if isinstance(fact, form)]:
@@ -66,18 +66,18 @@ def _skill(view: View, name: str, declaration: Declaration) -> Iterator[str]:
     yield _weights(view, name)
 
 
-def _edge(view: View, fact: Reads | Drives | Influences) -> str:
+def _edge(view: MindView, fact: Reads | Drives | Influences) -> str:
     width = _width(view, fact.name.text) if isinstance(fact, Reads) else 1
     at = f" at {fact.at.span.text}" if not isinstance(fact, Reads) and fact.at else ""
     return f"{fact.name.text} ({width})" if width > 1 else f"{fact.name.text}{at}"
 
 
-def _width(view: View, sensor: str) -> int:
+def _width(view: MindView, sensor: str) -> int:
     graph = view.compiled.graph
     return next((known.width for known in graph.sensors if known.name == sensor), 1) if graph else 1
 
 
-def _weights(view: View, skill: str) -> str:
+def _weights(view: MindView, skill: str) -> str:
     """How a skill stands to its weights, as `mindc status` says it."""
     if view.compiled.graph is None:
         return ""
@@ -96,12 +96,12 @@ def _row(row: Row) -> str:
     return "\n".join([f"Weights: **{', '.join(words)}**", *(f"- {line}" for line in [*made, *row.remarks])])
 
 
-def _task(view: View, name: str, declaration: Declaration) -> Iterator[str]:
+def _task(view: MindView, name: str, declaration: Declaration) -> Iterator[str]:
     yield "\n".join(f"- {fact.span.text.strip()}" for fact in declaration.facts)
     yield "\n".join(f"- `{lesson}`" for lesson in _lessons(view, "task", name))
 
 
-def _part(view: View, noun: str, name: str) -> Iterator[str]:
+def _part(view: MindView, noun: str, name: str) -> Iterator[str]:
     lines = []
     if noun == "sensor" and (width := _width(view, name)) > 1:
         lines.append(f"- {width} readings")
@@ -114,7 +114,7 @@ def _part(view: View, noun: str, name: str) -> Iterator[str]:
     yield "\n".join(lines)
 
 
-def _others(view: View, noun: str, name: str) -> list[str]:
+def _others(view: MindView, noun: str, name: str) -> list[str]:
     """What else names a part: other sensors, and tasks in their rewards."""
     found = (m for m in view.mentions if (m.noun, m.name.text) == (noun, name) and m.by and not m.is_own)
     headers = (m.by.header for m in found if m.by)
@@ -122,7 +122,7 @@ def _others(view: View, noun: str, name: str) -> list[str]:
     return list(dict.fromkeys(others))
 
 
-def _users(view: View, name: str, noun: str, forms: tuple[type[Reads | Drives | Influences], ...]) -> list[str]:
+def _users(view: MindView, name: str, noun: str, forms: tuple[type[Reads | Drives | Influences], ...]) -> list[str]:
     """The skills that have a fact of one of these verbs about a name."""
     return [
         skill
@@ -131,7 +131,7 @@ def _users(view: View, name: str, noun: str, forms: tuple[type[Reads | Drives | 
     ]
 
 
-def _lessons(view: View, part: str, name: str) -> Iterator[str]:
+def _lessons(view: MindView, part: str, name: str) -> Iterator[str]:
     """The lessons that teach a skill, or are on a task."""
     for curriculum, declaration in view.names.declarations("curriculum"):
         for fact in declaration.facts:
@@ -139,7 +139,7 @@ def _lessons(view: View, part: str, name: str) -> Iterator[str]:
                 yield f"{curriculum}: {fact.span.text.strip()}"
 
 
-def _thing(view: View, name: str) -> str:
+def _thing(view: MindView, name: str) -> str:
     """Where a thing is."""
     lines = []
     for task, declaration in view.names.declarations("task"):

@@ -8,26 +8,26 @@ from typing import Any
 from mindlang.compiler.diagnostic import did_you_mean, listed
 from mindlang.compiler.splice import Splice
 from mindlang.editing.apply import apply_edit
-from mindlang.editing.project import Change, EditError, Project
+from mindlang.editing.project import EditError, MindChange, Project
 from mindlang.editing.summary import broken_neighbours, summarise
 from mindlang.editing.writing import changed_locks
 from mindlang.edits import Edit, edit, names
 from mindlang.server.navigating import sharing
 from mindlang.server.pending_renames import PendingRename
-from mindlang.server.view import View
+from mindlang.server.view import MindView
 from mindlang.server.workspace import Workspace
 
 
 @dataclass(frozen=True, slots=True)
-class Outcome:
+class EditOutcome:
     """What an edit does to texts, which files it makes, what there is to say, and which names locks have to follow."""
 
-    change: Change
+    change: MindChange
     sentences: tuple[str, ...]
     following: PendingRename | None
 
 
-def project(workspace: Workspace, view: View) -> Project:
+def project(workspace: Workspace, view: MindView) -> Project:
     """The mind as edits know it, with the minds that share its files; EditError where it does not compile."""
     if view.compiled.graph is None:
         first = next(each for each in view.compiled.diagnostics if each.severity == "error")
@@ -36,16 +36,16 @@ def project(workspace: Workspace, view: View) -> Project:
     return replace(_project(view), neighbours=tuple(shared))
 
 
-def proposed(project: Project, name: str, arguments: Mapping[str, Any]) -> Change:
+def proposed(project: Project, name: str, arguments: Mapping[str, Any]) -> MindChange:
     """What an edit would splice; EditError where it is impossible."""
     if name not in names():
         raise EditError(f"There is no edit called {name}.", did_you_mean(name, names()))
     of = edit(name)
-    change: Change = of.function(project, **_said(of, arguments))
+    change: MindChange = of.function(project, **_said(of, arguments))
     return change
 
 
-def perform(workspace: Workspace, path: Path, name: str, arguments: Mapping[str, Any]) -> Outcome:
+def perform(workspace: Workspace, path: Path, name: str, arguments: Mapping[str, Any]) -> EditOutcome:
     """An edit of the mind to which a file belongs; MindError where it is impossible or would break a mind."""
     on = project(workspace, workspace.view(path))
     change = proposed(on, name, arguments)
@@ -55,15 +55,15 @@ def perform(workspace: Workspace, path: Path, name: str, arguments: Mapping[str,
     sentences = summarise(edited)
     locks = [lock.name for lock in changed_locks(edited)]
     if not locks or not (change.renamed or change.replaced):
-        return Outcome(change, tuple(sentences), None)
+        return EditOutcome(change, tuple(sentences), None)
     sentences.append(f"{listed(locks, 'and')} will follow when the files are saved")
     minds = (on, *on.neighbours)
     files = dict.fromkeys(path for mind in minds for path in mind.paths)
     mains = tuple(mind.main.source.path for mind in minds)
-    return Outcome(change, tuple(sentences), PendingRename(mains, tuple(files), change.renamed, change.replaced))
+    return EditOutcome(change, tuple(sentences), PendingRename(mains, tuple(files), change.renamed, change.replaced))
 
 
-def _project(view: View) -> Project:
+def _project(view: MindView) -> Project:
     assert view.compiled.mind is not None
     assert view.compiled.graph is not None
     return Project(view.compiled.mind, view.compiled.graph)
@@ -88,7 +88,7 @@ def _value(value: Any, is_many: bool, is_flag: bool) -> Any:
     return tuple(texts) if is_many else " ".join(texts)
 
 
-def _as_open(project: Project, change: Change, workspace: Workspace) -> Change:
+def _as_open(project: Project, change: MindChange, workspace: Workspace) -> MindChange:
     """The change with an empty splice for each open file that it leaves alone, so that this is held against, too."""
     touched = {splice.source.path for splice in change.splices}
     minds = (*project.neighbours, project)

@@ -11,7 +11,7 @@ from mindlang.compiler.source import Source, Span
 from mindlang.compiler.splice import Splice, spliced
 from mindlang.editing.project import EditError
 from mindlang.edits import edit, names
-from mindlang.server.changing import Outcome, project
+from mindlang.server.changing import EditOutcome, project
 from mindlang.server.mending import Mending, all_mended, mendings
 from mindlang.server.proposals import Proposal, proposals
 from mindlang.server.selection import Selection
@@ -125,7 +125,7 @@ async def edited(ls: MindServer, *arguments: Any) -> types.Location | None:
     return place
 
 
-def _place_of(ls: MindServer, outcome: Outcome, fresh: str) -> types.Location | None:
+def _place_of(ls: MindServer, outcome: EditOutcome, fresh: str) -> types.Location | None:
     """Where a new name will stand first once an edit is made."""
     for source in {id(splice.source): splice.source for splice in outcome.change.splices}.values():
         text = spliced(source, outcome.change.splices)

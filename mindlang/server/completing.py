@@ -9,9 +9,9 @@ from pathlib import Path
 from mindlang.compiler.syntax import NOUNS, SETTINGS
 from mindlang.editing.project import OWNERS
 from mindlang.file_search import below
-from mindlang.server.facts import FACTS, Line
+from mindlang.server.facts import FACTS, CursorLine
 from mindlang.server.offers import Offer, arguments_of, functions, kinds_of, words
-from mindlang.server.view import View, declaration_at
+from mindlang.server.view import MindView, declaration_at
 
 MAX_OFFERED_FILES = 200  # that are offered
 
@@ -28,7 +28,7 @@ class Completion:
     offers: tuple[Offer, ...]
 
 
-def complete(view: View, path: Path, text: str, offset: int) -> Completion:
+def complete(view: MindView, path: Path, text: str, offset: int) -> Completion:
     """What may be written at an offset of a file; `text` is what the file says now."""
     before = text[text.rfind("\n", 0, offset) + 1 : offset]
     if begun := _PATH.match(before):
@@ -41,11 +41,11 @@ def complete(view: View, path: Path, text: str, offset: int) -> Completion:
     code = before[: len(before) - length]
     if code and code[-1].isalnum():  # inside a number: nothing can be added to it
         return Completion(offset, ())
-    line = Line(view, path.parent, _PIECE.findall(code), declaration_at(file, offset - len(before) - 1), offset)
+    line = CursorLine(view, path.parent, _PIECE.findall(code), declaration_at(file, offset - len(before) - 1), offset)
     return Completion(offset - length, tuple(_offers(line)))
 
 
-def _offers(line: Line) -> list[Offer]:
+def _offers(line: CursorLine) -> list[Offer]:
     match line.words:
         case []:
             return _openings(line)
@@ -56,12 +56,12 @@ def _offers(line: Line) -> list[Offer]:
     return []
 
 
-def _openings(line: Line) -> list[Offer]:
+def _openings(line: CursorLine) -> list[Offer]:
     """The verbs that fit the declaration above, then what else begins a line."""
     return [*words(*OWNERS.get(line.noun, ())), *words(*NOUNS, *SETTINGS)]
 
 
-def _header(line: Line, noun: str, rest: Sequence[str]) -> list[Offer]:
+def _header(line: CursorLine, noun: str, rest: Sequence[str]) -> list[Offer]:
     match rest:
         case []:
             return []

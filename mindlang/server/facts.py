@@ -9,17 +9,17 @@ from mindrun.registry import kinds
 from mindlang.compiler.syntax import Declaration, Drives, Influences, Reads
 from mindlang.editing.references import DRIVABLE_NOUNS, READABLE_NOUNS
 from mindlang.server import offers
-from mindlang.server.offers import NUMBER, Offer, arguments_of, kinds_of, names, said, units, words
-from mindlang.server.view import View, on_line
+from mindlang.server.offers import NUMBER, Offer, arguments_of, kinds_of, names, units, words, written_arguments
+from mindlang.server.view import MindView, on_line
 
 UNFINISHED_WORDS = ("+", "-", "*", "/", "(", "<", ">", "<=", ">=", "when")
 
 
 @dataclass(frozen=True, slots=True)
-class Line:
+class CursorLine:
     """What stands before a place in its line, and the declaration to which the line belongs."""
 
-    view: View
+    view: MindView
     folder: Path
     words: Sequence[str]
     above: Declaration | None
@@ -30,62 +30,62 @@ class Line:
         """The noun of the declaration above."""
         return self.above.header.noun.text if self.above else ""
 
-    def said(self, *forms: type[Reads | Drives | Influences]) -> set[str]:
+    def names_after(self, *forms: type[Reads | Drives | Influences]) -> set[str]:
         """What the skill above says with these verbs on its other lines."""
         facts = [fact for fact in (self.above.facts if self.above else ()) if isinstance(fact, forms)]
         return {fact.name.text for fact in facts if not on_line(fact.span, self.offset)}
 
 
-Answer = Callable[[Line, Sequence[str]], list[Offer]]
+Answer = Callable[[CursorLine, Sequence[str]], list[Offer]]
 
 
-def _reads(line: Line, rest: Sequence[str]) -> list[Offer]:
-    return [] if rest else names(line.view, *READABLE_NOUNS, but=line.said(Reads))
+def _reads(line: CursorLine, rest: Sequence[str]) -> list[Offer]:
+    return [] if rest else names(line.view, *READABLE_NOUNS, but=line.names_after(Reads))
 
 
-def _drives(line: Line, rest: Sequence[str]) -> list[Offer]:
-    return _at(line, rest) if rest else names(line.view, *DRIVABLE_NOUNS, but=line.said(Drives))
+def _drives(line: CursorLine, rest: Sequence[str]) -> list[Offer]:
+    return _at(line, rest) if rest else names(line.view, *DRIVABLE_NOUNS, but=line.names_after(Drives))
 
 
-def _influences(line: Line, rest: Sequence[str]) -> list[Offer]:
+def _influences(line: CursorLine, rest: Sequence[str]) -> list[Offer]:
     own = {line.above.header.name.text} if line.above else set()
-    return _at(line, rest) if rest else names(line.view, "skill", but=own | line.said(Influences))
+    return _at(line, rest) if rest else names(line.view, "skill", but=own | line.names_after(Influences))
 
 
-def _at(line: Line, rest: Sequence[str]) -> list[Offer]:
+def _at(line: CursorLine, rest: Sequence[str]) -> list[Offer]:
     """After the name of an edge: `at`, and an expression of what the skill reads."""
     if len(rest) == 1:
         return words("at")
     if rest[-1] == "at" or rest[-1] in "+-*/(":
-        read = line.said(Reads)
+        read = line.names_after(Reads)
         return [offer for offer in names(line.view, *READABLE_NOUNS) if offer.label in read]
     return []
 
 
-def _contains(line: Line, rest: Sequence[str]) -> list[Offer]:
+def _contains(line: CursorLine, rest: Sequence[str]) -> list[Offer]:
     match rest:
         case [_]:
             return words("is")
         case [_, "is"]:
             return kinds_of("content")
-        case [_, "is", kind, *said]:
-            return arguments_of(line.view, "content", kind, said, line.above)
+        case [_, "is", kind, *written]:
+            return arguments_of(line.view, "content", kind, written, line.above)
     return []
 
 
-def _event(line: Line, rest: Sequence[str]) -> list[Offer]:
+def _event(line: CursorLine, rest: Sequence[str]) -> list[Offer]:
     return arguments_of(line.view, "event", rest[0], rest[1:], line.above) if rest else kinds_of("event")
 
 
-def _ends(line: Line, rest: Sequence[str]) -> list[Offer]:
+def _ends(line: CursorLine, rest: Sequence[str]) -> list[Offer]:
     return _event(line, rest[1:]) if rest else words("on")
 
 
-def _rewards(line: Line, rest: Sequence[str]) -> list[Offer]:
+def _rewards(line: CursorLine, rest: Sequence[str]) -> list[Offer]:
     return reward_offers(line.view, line.above, rest)
 
 
-def _teaches(line: Line, rest: Sequence[str]) -> list[Offer]:
+def _teaches(line: CursorLine, rest: Sequence[str]) -> list[Offer]:
     match rest:
         case []:
             return names(line.view, "skill")
@@ -99,12 +99,12 @@ def _teaches(line: Line, rest: Sequence[str]) -> list[Offer]:
             return names(line.view, "skill")
         case [_, "on", _, "under", _]:
             return words("for")
-        case [_, "on", _, "for", *said] | [_, "on", _, "under", _, "for", *said]:
-            return _lesson(line, said)
+        case [_, "on", _, "for", *written] | [_, "on", _, "under", _, "for", *written]:
+            return _lesson(line, written)
     return []
 
 
-def _lesson(line: Line, rest: Sequence[str]) -> list[Offer]:
+def _lesson(line: CursorLine, rest: Sequence[str]) -> list[Offer]:
     """After `for`: a number of generations, and then what a lesson may say beside."""
     match rest:
         case []:
@@ -124,7 +124,7 @@ def _lesson(line: Line, rest: Sequence[str]) -> list[Offer]:
     if learner not in kinds("curriculum"):
         return switches
     found = arguments_of(line.view, "curriculum", learner, rest[2:], None)
-    waits = offers.said(kinds("curriculum")[learner], rest[2:]).awaits_number
+    waits = offers.written_arguments(kinds("curriculum")[learner], rest[2:]).awaits_number
     return [] if waits else [*found, *switches]
 
 
@@ -149,7 +149,7 @@ FACTS: Mapping[str, Answer] = {
 }
 
 
-def reward_offers(view: View, task: Declaration | None, rest: Sequence[str]) -> list[Offer]:
+def reward_offers(view: MindView, task: Declaration | None, rest: Sequence[str]) -> list[Offer]:
     """What can come after the words `rest` of a reward."""
     if "when" in rest:
         return _term(view, task, rest[rest.index("when") :])
@@ -175,7 +175,7 @@ def reward_offers(view: View, task: Declaration | None, rest: Sequence[str]) -> 
     return [*_term(view, task, rest), *joints]
 
 
-def _term(view: View, task: Declaration | None, rest: Sequence[str]) -> list[Offer]:
+def _term(view: MindView, task: Declaration | None, rest: Sequence[str]) -> list[Offer]:
     """A reading or a measure, or what the measure that was begun still needs."""
     if not rest or rest[-1] in UNFINISHED_WORDS:
         return [*names(view, *READABLE_NOUNS), *kinds_of("measure")]
@@ -192,5 +192,5 @@ def _begun(rest: Sequence[str]) -> Sequence[str]:
 def _waits(rest: Sequence[str]) -> bool:
     """Whether an argument of a measure waits for its value."""
     begun = _begun(rest)
-    state = said(kinds("measure")[begun[0]], begun[1:]) if begun else None
+    state = written_arguments(kinds("measure")[begun[0]], begun[1:]) if begun else None
     return state is not None and (state.awaits_name or state.awaits_number)

@@ -13,7 +13,7 @@ from mindlang.compiler.syntax import NOUNS, Argument, Contains, Expression, File
 from mindlang.server.cards import card
 from mindlang.server.describing import argument_card, kind_card
 from mindlang.server.tree import path_to
-from mindlang.server.view import View, declaration_at
+from mindlang.server.view import MindView, declaration_at
 from mindlang.server.words import WORDS
 
 _WORD = re.compile(r"[A-Za-z_][\w.]*(?:\+[A-Z]\w*)*|%")
@@ -27,7 +27,7 @@ class Hover:
     span: Span
 
 
-def hover(view: View, path: Path, offset: int) -> Hover | None:
+def hover(view: MindView, path: Path, offset: int) -> Hover | None:
     """The explanation of what stands at an offset."""
     file = view.file(path)
     if file is None:
@@ -50,7 +50,7 @@ def noun_of(above: object) -> str:
     return "event"
 
 
-def _kind(view: View, file: File, offset: int) -> Hover | None:
+def _kind(view: MindView, file: File, offset: int) -> Hover | None:
     """A kind, or an argument of one; those of a lesson are of its own learner or the curriculum's."""
     match _owned(path_to(file, offset)):
         case above, Phrase(kind=kind), Name() as name if name is kind:
@@ -92,7 +92,7 @@ def _argument(noun: str, kind: str, argument: Argument) -> Hover | None:
     return Hover(argument_card(kind, parameters[argument.key.text], cls), argument.span)
 
 
-def _word(view: View, file: File, offset: int) -> Hover | None:
+def _word(view: MindView, file: File, offset: int) -> Hover | None:
     """A word of the language or, in a line that cannot be read, a name that is declared."""
     source = file.source
     start = source.text.rfind("\n", 0, offset) + 1

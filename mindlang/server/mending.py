@@ -10,7 +10,7 @@ from mindlang.compiler.diagnostic import Diagnostic
 from mindlang.compiler.source import Source
 from mindlang.compiler.splice import Splice
 from mindlang.linting.fixing import fixed
-from mindlang.server.view import View
+from mindlang.server.view import MindView
 
 _SUGGESTED_NAME = re.compile(r"Did you mean (\S+)\?")
 
@@ -25,7 +25,7 @@ class Mending:
     is_safe: bool
 
 
-def mendings(view: View, path: Path, start: int, end: int) -> Iterator[Mending]:
+def mendings(view: MindView, path: Path, start: int, end: int) -> Iterator[Mending]:
     """The quick fixes of what is found between two offsets of a file."""
     for found in view.findings:
         span = found.span
@@ -38,7 +38,7 @@ def mendings(view: View, path: Path, start: int, end: int) -> Iterator[Mending]:
             yield Mending(f"Write {nearly[1]}", found, (splice,), True)
 
 
-def all_mended(view: View, path: Path, texts: dict[Path, str]) -> str | None:
+def all_mended(view: MindView, path: Path, texts: dict[Path, str]) -> str | None:
     """The text of a main file with all safe fixes made, or None where there is none to make."""
     if path != view.main or view.compiled.graph is None:
         return None
@@ -48,7 +48,7 @@ def all_mended(view: View, path: Path, texts: dict[Path, str]) -> str | None:
         if now is source:
             return view.findings
         compiled = compile_source(now, path, {**texts, path: now.text})
-        return View(path, compiled, (), view.names).findings
+        return MindView(path, compiled, (), view.names).findings
 
     mended, made = fixed(source, look)
     return mended.text if made else None

@@ -12,9 +12,9 @@ from mindlang.compiler.parse import parse
 from mindlang.compiler.source import Source, Span
 from mindlang.compiler.syntax import Argument, Contains, File, Name, Phrase, Use
 from mindlang.editing.references import Mention, introductions
-from mindlang.file_search import as_many, below, text_of
+from mindlang.file_search import below, text_of, within_read_limits
 from mindlang.server.tree import path_to
-from mindlang.server.view import View
+from mindlang.server.view import MindView
 from mindlang.server.workspace import Workspace
 
 MAX_SYMBOLS = 500  # that are found
@@ -33,7 +33,7 @@ class Symbol:
     inner: tuple["Symbol", ...] = ()
 
 
-def definitions(view: View, path: Path, offset: int) -> list[Span]:
+def definitions(view: MindView, path: Path, offset: int) -> list[Span]:
     """Where that is declared which stands at an offset; of a used file or a procedure, where it stands."""
     file = view.file(path)
     if file is None:
@@ -47,7 +47,7 @@ def definitions(view: View, path: Path, offset: int) -> list[Span]:
     return _procedure(file, offset)
 
 
-def references(workspace: Workspace, view: View, path: Path, offset: int, with_declaration: bool) -> list[Span]:
+def references(workspace: Workspace, view: MindView, path: Path, offset: int, with_declaration: bool) -> list[Span]:
     """Where a name stands, in the files of the mind and in those of the minds that share them."""
     mention = view.mention_at(path, offset)
     if mention is None:
@@ -62,13 +62,13 @@ def references(workspace: Workspace, view: View, path: Path, offset: int, with_d
     return [span for span in spans if (span.source.path, span.start) not in own]
 
 
-def highlights(view: View, path: Path, offset: int) -> list[Span]:
+def highlights(view: MindView, path: Path, offset: int) -> list[Span]:
     """Where a name stands in its own file."""
     mention = view.mention_at(path, offset)
     return [span for span in _places(view, mention) if span.source.path == path] if mention else []
 
 
-def sharing(workspace: Workspace, view: View) -> Iterator[View]:
+def sharing(workspace: Workspace, view: MindView) -> Iterator[MindView]:
     """Other minds that have one of a mind's files among their own."""
     own = set(view.paths)
     for path, text in workspace.around(*view.paths):
@@ -92,13 +92,13 @@ def symbols(file: File) -> list[Symbol]:
     return found
 
 
-def _introduced(view: View, mention: Mention) -> Iterable[Mention]:
+def _introduced(view: MindView, mention: Mention) -> Iterable[Mention]:
     """Where a name is declared; a thing in the task that names it, if that contains it."""
     same = [m for m in introductions(view.files) if (m.noun, m.name.text) == (mention.noun, mention.name.text)]
     return [m for m in same if m.noun == "thing" and m.by is mention.by] or same
 
 
-def _places(view: View, mention: Mention) -> Iterator[Span]:
+def _places(view: MindView, mention: Mention) -> Iterator[Span]:
     return (m.name.span for m in view.mentions if (m.noun, m.name.text) == (mention.noun, mention.name.text))
 
 
@@ -126,7 +126,7 @@ def _procedure(file: File, offset: int) -> list[Span]:
 def everything(workspace: Workspace, folders: Iterable[Path], query: str) -> list[Symbol]:
     """The declarations whose names hold the letters of a query in their order, by file."""
     paths = dict.fromkeys(chain(workspace.texts, (path for folder in folders for path in below(folder))))
-    files = as_many((path, workspace.text(path)) for path in paths)
+    files = within_read_limits((path, workspace.text(path)) for path in paths)
     found = (symbol for path, text in files for symbol in _declared(path, text))
     return list(islice((symbol for symbol in found if _fits(query.lower(), symbol.name.lower())), MAX_SYMBOLS))
 

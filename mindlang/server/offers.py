@@ -14,7 +14,7 @@ from mindlang.compiler.resolve.kinds import about
 from mindlang.compiler.syntax import Declaration
 from mindlang.file_search import beside, text_of
 from mindlang.server.describing import argument_line, kind_card, meaning
-from mindlang.server.view import View
+from mindlang.server.view import MindView
 from mindlang.server.words import WORDS
 
 NUMBER = "0123456789"
@@ -37,7 +37,7 @@ def words(*labels: str) -> list[Offer]:
     return [Offer(label, "word", text=WORDS.get(label, "")) for label in labels]
 
 
-def names(view: View, *nouns: str, but: Iterable[str] = ()) -> list[Offer]:
+def names(view: MindView, *nouns: str, but: Iterable[str] = ()) -> list[Offer]:
     """What is declared with one of these nouns, but for some."""
     left = set(but)
     return [
@@ -53,7 +53,7 @@ def kinds_of(noun: str) -> list[Offer]:
     return [Offer(name, "kind", noun, kind_card(noun, name, cls)) for name, cls in sorted(kinds(noun).items())]
 
 
-def things(view: View, task: Declaration | None, about: Iterable[str]) -> list[Offer]:
+def things(view: MindView, task: Declaration | None, about: Iterable[str]) -> list[Offer]:
     """The things of a task, or of all, of which a kind can be."""
     fit = set(about)
     tasks = [task] if task else [declaration for _, declaration in view.names.declarations("task")]
@@ -65,7 +65,7 @@ def things(view: View, task: Declaration | None, about: Iterable[str]) -> list[O
 
 
 @dataclass(frozen=True, slots=True)
-class Said:
+class WrittenArguments:
     """What has been said after a kind: the argument that was begun last, its values, and which others there are."""
 
     current: Argument | None
@@ -87,7 +87,7 @@ class Said:
         return not self.values or self.values[-1] in ("to", "by", "-", "+")
 
 
-def said(cls: type[Any], rest: Iterable[str]) -> Said:
+def written_arguments(cls: type[Any], rest: Iterable[str]) -> WrittenArguments:
     """What the words after a kind say."""
     parameters = {parameter.key: parameter for parameter in arguments(cls)}
     current: Argument | None = None
@@ -101,15 +101,15 @@ def said(cls: type[Any], rest: Iterable[str]) -> Said:
             left.pop(word, None)
         else:
             values.append(word)
-    return Said(current, tuple(values), tuple(left.values()))
+    return WrittenArguments(current, tuple(values), tuple(left.values()))
 
 
-def arguments_of(view: View, noun: str, kind: str, rest: Iterable[str], task: Declaration | None) -> list[Offer]:
+def arguments_of(view: MindView, noun: str, kind: str, rest: Iterable[str], task: Declaration | None) -> list[Offer]:
     """What can come after a kind and some of its arguments."""
     cls = kinds(noun).get(kind)
     if cls is None:
         return []
-    state = said(cls, rest)
+    state = written_arguments(cls, rest)
     if state.awaits_name and state.current:
         return _named(view, noun, kind, state.current, task)
     if state.awaits_number:
@@ -123,7 +123,7 @@ def keys(parameters: Iterable[Argument]) -> list[Offer]:
     return [Offer(parameter.key, "key", meaning(parameter), argument_line(parameter)) for parameter in first]
 
 
-def _after_number(state: Said) -> Iterator[Offer]:
+def _after_number(state: WrittenArguments) -> Iterator[Offer]:
     """The units of a number, and the words of a range."""
     if state.current and state.values and state.values[-1][0] in NUMBER:
         if isinstance(state.current.type, Quantity):
@@ -141,7 +141,7 @@ def _fits(word: str, values: tuple[str, ...]) -> bool:
     return "to" not in values if word == "to" else "to" in values and "by" not in values
 
 
-def _named(view: View, noun: str, kind: str, parameter: Argument, task: Declaration | None) -> list[Offer]:
+def _named(view: MindView, noun: str, kind: str, parameter: Argument, task: Declaration | None) -> list[Offer]:
     assert isinstance(parameter.type, Reference)
     match parameter.type:
         case Reference(noun="thing"):

@@ -14,7 +14,7 @@ from mindrun.graph import Graph
 from mindlang import transaction
 from mindlang.compiler.compile import Compiled, load
 from mindlang.editing.lock_update import Locks, locks_of, merged, update_locks
-from mindlang.editing.project import Change, EditError, Renamed, Replaced
+from mindlang.editing.project import EditError, MindChange, Renamed, Replaced
 from mindlang.lock import Lock, lock_text
 from mindlang.lock.arrange import arrange
 from mindlang.lock.blobs import FOLDER, alone
@@ -31,11 +31,11 @@ class PendingRename:
     replaced: Replaced | None
 
     @property
-    def changes(self) -> tuple[Change, Change]:
+    def changes(self) -> tuple[MindChange, MindChange]:
         """The names as the edit gave them, and as they were."""
         back = tuple(Renamed(each.noun, each.new, each.old) for each in self.renamed)
         replaced = Replaced(self.replaced.new, self.replaced.old) if self.replaced else None
-        return Change((), self.renamed, self.replaced), Change((), back, replaced)
+        return MindChange((), self.renamed, self.replaced), MindChange((), back, replaced)
 
 
 def keep_up(following: PendingRename) -> list[Path]:
@@ -54,7 +54,7 @@ def keep_up(following: PendingRename) -> list[Path]:
     return []
 
 
-def _followed(minds: Sequence[Compiled], locks: Locks, change: Change) -> Locks:
+def _followed(minds: Sequence[Compiled], locks: Locks, change: MindChange) -> Locks:
     """The locks that are others with these names; none where the minds do not have these names."""
     first = minds[0].graph
     assert first is not None
@@ -66,7 +66,7 @@ def _followed(minds: Sequence[Compiled], locks: Locks, change: Change) -> Locks:
     return {path: lock for path, lock in followed.items() if lock != locks[path]}
 
 
-def _is_renamed(mind: Compiled, change: Change) -> bool:
+def _is_renamed(mind: Compiled, change: MindChange) -> bool:
     """Whether a mind has the new names and not the old ones."""
     assert mind.mind is not None
     names = mind.mind.names

@@ -10,7 +10,7 @@ from mindrun.errors import MindError
 from pygls.exceptions import FeatureRequestError, JsonRpcException
 from pygls.lsp.server import LanguageServer
 
-from mindlang.server.changing import Outcome, perform
+from mindlang.server.changing import EditOutcome, perform
 from mindlang.server.protocol import NO_JSON, MindProtocol
 from mindlang.server.session import Session
 
@@ -65,7 +65,7 @@ class MindServer(LanguageServer):
         made = types.ResourceOperationKind.Create in (edits.resource_operations or ()) if edits else False
         return bool(edits and edits.document_changes and made)
 
-    def outcome(self, path: Path, name: str, arguments: dict[str, Any]) -> tuple[Outcome, types.WorkspaceEdit]:
+    def outcome(self, path: Path, name: str, arguments: dict[str, Any]) -> tuple[EditOutcome, types.WorkspaceEdit]:
         """An edit made in memory, and as the editor takes it; MindError where it is impossible."""
         outcome = perform(self.session.workspace, path, name, arguments)
         plain = not self.knows_documents
@@ -74,7 +74,7 @@ class MindServer(LanguageServer):
         edit = self.session.lsp.workspace_edit(outcome.change.splices, outcome.change.created, plain)
         return outcome, edit
 
-    def done(self, outcome: Outcome) -> None:
+    def done(self, outcome: EditOutcome) -> None:
         """Say what an edit does to weights, and let the locks follow it."""
         self.session.follow(outcome.following)
         if outcome.sentences:

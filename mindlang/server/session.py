@@ -10,7 +10,7 @@ from mindrun.errors import MindError
 from mindlang.compiler.diagnostic import Diagnostic, listed
 from mindlang.server.lsp_types import LspConverter
 from mindlang.server.pending_renames import PendingRename, keep_up
-from mindlang.server.view import View
+from mindlang.server.view import MindView
 from mindlang.server.workspace import Workspace
 
 Report = tuple[int | None, list[types.Diagnostic]]
@@ -40,7 +40,7 @@ class Session:
         self.lsp.versions.pop(path, None)
         self.lsp.uris.pop(path, None)
 
-    def place(self, uri: str, position: types.Position) -> tuple[View, Path, int]:
+    def place(self, uri: str, position: types.Position) -> tuple[MindView, Path, int]:
         """The mind of a file, its path, and the offset of a position in it."""
         path = self.lsp.path(uri)
         return self.workspace.view(path), path, self.lsp.offset(self.workspace.text(path), position)

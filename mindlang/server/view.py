@@ -19,7 +19,7 @@ Texts = Mapping[Path, str]
 
 
 @dataclass(frozen=True)
-class View:
+class MindView:
     """The files of a mind, main one first, and what is declared in them."""
 
     main: Path
@@ -59,7 +59,7 @@ class View:
             return (*self.compiled.diagnostics, damage)
 
 
-def view(main: Path, texts: Texts) -> View:
+def view(main: Path, texts: Texts) -> MindView:
     """The mind whose main file stands at a path; files in `texts` are taken from there."""
     compiled = load(main, texts)
     if compiled.mind:
@@ -68,7 +68,7 @@ def view(main: Path, texts: Texts) -> View:
         found = tuple(files(compiled.sources[0], main, Findings(), texts)[0])
     else:
         found = ()
-    return View(main, compiled, found, gather(found, Findings()))
+    return MindView(main, compiled, found, gather(found, Findings()))
 
 
 def declaration_at(file: File, offset: int) -> Declaration | None:

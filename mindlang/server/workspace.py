@@ -8,8 +8,8 @@ from pathlib import Path
 
 from mindlang.compiler.compile import Compiled, load
 from mindlang.compiler.source import within
-from mindlang.file_search import above, as_many, beside, text_of
-from mindlang.server.view import View, view
+from mindlang.file_search import above, beside, text_of, within_read_limits
+from mindlang.server.view import MindView, view
 
 _MASTER = re.compile(r"^[ \t]*master\b", re.MULTILINE)
 _USE = re.compile(r'^[ \t]*use[ \t]+"', re.MULTILINE)
@@ -22,7 +22,7 @@ class Workspace:
     """The open texts by path. What has been made of them is kept until one of its files changes."""
 
     texts: dict[Path, str] = field(default_factory=dict)
-    _views: dict[Path, tuple[View, dict[Path, Stamp]]] = field(default_factory=dict)
+    _views: dict[Path, tuple[MindView, dict[Path, Stamp]]] = field(default_factory=dict)
     _mains: dict[Path, Path] = field(default_factory=dict)
 
     def forget(self) -> None:
@@ -35,11 +35,11 @@ class Workspace:
         self.texts.pop(path, None)
         self.forget()
 
-    def view(self, path: Path) -> View:
+    def view(self, path: Path) -> MindView:
         """The mind to which a file belongs."""
         return self.mind(self.main_of(path))
 
-    def mind(self, main: Path) -> View:
+    def mind(self, main: Path) -> MindView:
         """The mind whose main file this is."""
         known = self._views.get(main)
         if known is None or not self._is_now(*known):
@@ -80,13 +80,13 @@ class Workspace:
         folders = dict.fromkeys(folder for path in paths for folder in above(path))
         open_ = (other for other in self.texts if other.parent in folders)
         others = dict.fromkeys(chain(open_, chain.from_iterable(map(beside, folders))))
-        yield from as_many((other, self.text(other)) for other in others if [other] != [*paths])
+        yield from within_read_limits((other, self.text(other)) for other in others if [other] != [*paths])
 
     def _users(self, path: Path) -> list[Path]:
         """Those around that may be minds and may use a file."""
         return [other for other, text in self.around(path) if _USE.search(text) and _MASTER.search(text)]
 
-    def _is_now(self, known: View, stamps: dict[Path, Stamp]) -> bool:
+    def _is_now(self, known: MindView, stamps: dict[Path, Stamp]) -> bool:
         """Whether a view is of the files as they are."""
         if not known.files:
             return False

@@ -8,9 +8,9 @@ import numpy as np
 from mindrun.graph import Lesson
 from mindrun.sim.rollout import Rollout
 from mindrun.train import RunError
-from mindrun.train.lesson_state import State
+from mindrun.train.lesson_state import LessonState
 from mindrun.train.population import Genomes
-from mindrun.train.run_folder import Run
+from mindrun.train.run_folder import RunFolder
 from mindrun.train.scoring import mark
 from mindrun.train.seeds import Purpose, layouts
 from mindrun.weights import parts
@@ -55,7 +55,7 @@ class Kept:
     is_new: bool
 
 
-def keep(run: Run, subject: Subject, state: State, rollout: Rollout, force: bool) -> Kept:
+def keep(run: RunFolder, subject: Subject, state: LessonState, rollout: Rollout, force: bool) -> Kept:
     """Put what was learnt into the lock, or with `force` even where it is worse than what is there.
 
     RunError where nothing was learnt. LockError where the lock cannot be read or written.
@@ -74,7 +74,7 @@ def keep(run: Run, subject: Subject, state: State, rollout: Rollout, force: bool
     return Kept({skill: known[skill] for skill in run.manifest.learners}, found, False)
 
 
-def refuse_nothing(lesson: Lesson, state: State) -> None:
+def refuse_nothing(lesson: Lesson, state: LessonState) -> None:
     """RunError where a lesson has taught nothing: no score was a finite number, or all were the same."""
     if not isfinite(state.reevaluated):
         why, hint = (
@@ -92,14 +92,14 @@ def refuse_nothing(lesson: Lesson, state: State) -> None:
     raise RunError(f"{lesson.skill} has learnt nothing: {why}; the lock stays as it is", hint)
 
 
-def compare(run: Run, rollout: Rollout, genomes: Genomes) -> Comparison:
+def compare(run: RunFolder, rollout: Rollout, genomes: Genomes) -> Comparison:
     """Two genomes on layouts that neither has seen: the mean of each; -inf where something was not finite."""
     seeds = layouts(run.manifest.seed, 0, run.manifest.lesson.generations, COMPARED_LAYOUTS, Purpose.COMPARISON)
     old, new = mark(rollout, genomes, seeds).scores
     return Comparison(float(old), float(new))
 
 
-def _genome_there(run: Run, subject: Subject) -> Genomes | None:
+def _genome_there(run: RunFolder, subject: Subject) -> Genomes | None:
     """The weights of the learners in the lock to which the lesson goes; None where not all have some that fit."""
     standing = subject.standing(run.manifest.lesson)
     if not all(isinstance(standing.get(skill), Trained) for skill in run.manifest.learners):
@@ -113,7 +113,7 @@ def _genome_there(run: Run, subject: Subject) -> Genomes | None:
     return np.concatenate([known[skill] for skill in run.manifest.learners])
 
 
-def _record(run: Run, subject: Subject, state: State, genome: Genomes, score: float) -> dict[str, Entry]:
+def _record(run: RunFolder, subject: Subject, state: LessonState, genome: Genomes, score: float) -> dict[str, Entry]:
     lesson, learners = run.manifest.lesson, run.manifest.learners
     population, seed = lesson.learner.population, run.manifest.seed
     where = lesson.task, lesson.master, lesson.with_subskills

@@ -3,8 +3,8 @@
 from math import isfinite
 from typing import Any
 
-from mindrun.train.lesson_state import State
-from mindrun.train.run_folder import WEIGHTS, Run
+from mindrun.train.lesson_state import LessonState
+from mindrun.train.run_folder import WEIGHTS, RunFolder
 
 from mindlang.number_format import duration, number, rate
 from mindlang.training.lock_update import Kept
@@ -12,7 +12,7 @@ from mindlang.training.lock_update import Kept
 Result = dict[str, Any]
 
 
-def result_of(run: Run, state: State, kept: Kept) -> Result:
+def result_of(run: RunFolder, state: LessonState, kept: Kept) -> Result:
     """A finished run as plain data; `weights` has the SHA-256 of what the lock says now of each skill.
 
     Where it had weights before, `compared` are their score and that of the new ones on common fresh layouts; `kept`
@@ -48,7 +48,7 @@ def _finite(score: float) -> float | None:
     return float(score) if isfinite(score) else None
 
 
-def opening(run: Run) -> str:
+def opening(run: RunFolder) -> str:
     """What is about to be taught, in a sentence."""
     lesson = run.manifest.lesson
     known = set(run.manifest.learners) <= set(run.weights)
@@ -69,7 +69,7 @@ def closing(result: Result) -> str:
     )
 
 
-def outcome(run: Run, result: Result, kept: Kept, lock: str) -> list[str]:
+def outcome(run: RunFolder, result: Result, kept: Kept, lock: str) -> list[str]:
     """What was learnt, what is in the lock now, and where the new weights are if they are not there."""
     learnt = closing(result)
     if kept.is_new:

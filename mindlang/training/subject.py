@@ -9,7 +9,7 @@ from pathlib import Path
 from mindrun.graph import Graph, Lesson
 from mindrun.train import RunError
 from mindrun.train.manifest import Manifest, fingerprint, hashes, processor, versions
-from mindrun.train.run_folder import Run, create, unfinished
+from mindrun.train.run_folder import RunFolder, create, unfinished
 from mindrun.weights import Weights, learners
 
 from mindlang.compiler.compile import Compiled
@@ -72,7 +72,9 @@ def open_subject(path: Path, compiled: Compiled) -> Subject:
     return Subject(source, sources, graph, lock, homes)
 
 
-def begin_run(subject: Subject, lesson: Lesson, seed: int, runs: Path, now: datetime, command: Sequence[str]) -> Run:
+def begin_run(
+    subject: Subject, lesson: Lesson, seed: int, runs: Path, now: datetime, command: Sequence[str]
+) -> RunFolder:
     """A run of a lesson, new unless the very same was stopped; it would come to the same end, bit for bit.
 
     It notes the time, and the `command` that asked for it. RunError where it cannot begin, and what to train first
@@ -95,7 +97,7 @@ def begin_run(subject: Subject, lesson: Lesson, seed: int, runs: Path, now: date
     return unfinished(runs, manifest) or create(runs, manifest, subject.sources, weights)
 
 
-def refuse_changed(subject: Subject, run: Run) -> None:
+def refuse_changed(subject: Subject, run: RunFolder) -> None:
     """RunError where the run was begun with a mind that differs in something the lesson depends on."""
     lesson = run.manifest.lesson
     if (

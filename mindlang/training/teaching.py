@@ -4,9 +4,9 @@ from dataclasses import dataclass
 
 from mindrun.policy import Policy
 from mindrun.sim.rollout import Rollout
-from mindrun.train.lesson_state import State
+from mindrun.train.lesson_state import LessonState
 from mindrun.train.population import founder_count
-from mindrun.train.run_folder import Run, keep_result
+from mindrun.train.run_folder import RunFolder, keep_result
 
 from mindlang.resource_limits import refuse_too_large, refuse_too_long
 from mindlang.training.lock_update import Kept, keep
@@ -22,7 +22,7 @@ class Taught:
     kept: Kept
 
 
-def rollout_of(run: Run, subject: Subject, workers: int) -> Rollout:
+def rollout_of(run: RunFolder, subject: Subject, workers: int) -> Rollout:
     """What scores the genomes of a run; MindError where memory or a year would not suffice."""
     lesson = run.manifest.lesson
     rollout = Rollout(
@@ -40,7 +40,7 @@ def rollout_of(run: Run, subject: Subject, workers: int) -> Rollout:
     return rollout
 
 
-def finish(run: Run, subject: Subject, state: State, rollout: Rollout, force: bool) -> Taught:
+def finish(run: RunFolder, subject: Subject, state: LessonState, rollout: Rollout, force: bool) -> Taught:
     """Put what a run has taught into the lock, unless what is there does better; with `force` even then.
 
     MindError where nothing was learnt, or the lock is damaged.
@@ -51,6 +51,6 @@ def finish(run: Run, subject: Subject, state: State, rollout: Rollout, force: bo
     return Taught(result, kept)
 
 
-def has_ended(run: Run, state: State) -> bool:
+def has_ended(run: RunFolder, state: LessonState) -> bool:
     """Whether a run has come to its end; it was stopped otherwise."""
     return state.attempt == run.manifest.lesson.learner.attempts

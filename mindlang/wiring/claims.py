@@ -8,8 +8,8 @@ from mindrun.robot.driver_support import ADDRESS, BUS, CHANNEL, PIN
 from mindlang.compiler.diagnostic import Findings, Label
 from mindlang.compiler.source import Span
 from mindlang.wiring.driver import Wired
-from mindlang.wiring.nodes import Items, tell
-from mindlang.wiring.options import Option, driver_options
+from mindlang.wiring.nodes import Items, report_error
+from mindlang.wiring.options import DriverOption, driver_options
 from mindlang.wiring.values import first_line
 
 OUTPUTS = ("channel", "motor", "port", "ports", "output", "input")  # which of the things on a board
@@ -34,7 +34,7 @@ def check_claims(everything: Iterable[Wired], findings: Findings) -> None:
         if first is not claim and (first.sharing is None or first.sharing != claim.sharing):
             label = Label(first.span, f"used here{f', by {first.sharing}' * isinstance(first.sharing, str)}")
             hint = "Write where this one is wired to: each has its own."
-            tell(findings, "used-twice", claim.span, f"{claim.what} is used twice.", hint, label)
+            report_error(findings, "used-twice", claim.span, f"{claim.what} is used twice.", hint, label)
 
 
 def _claims(wired: Wired) -> Iterator[Claim]:
@@ -53,7 +53,7 @@ def _claims(wired: Wired) -> Iterator[Claim]:
             yield from _on_board(wired, f"I2C address 0x{getattr(wired.driver, option.field):02x} of bus {bus}", option)
 
 
-def _on_board(wired: Wired, board: str, address: Option) -> Iterator[Claim]:
+def _on_board(wired: Wired, board: str, address: DriverOption) -> Iterator[Claim]:
     """A board has one address. Drivers with the same usual one are for the same board, each for other outputs of it."""
     selecting = _outputs(wired)
     can_share = selecting or wired.noun == "sensor"
@@ -63,7 +63,7 @@ def _on_board(wired: Wired, board: str, address: Option) -> Iterator[Claim]:
             yield Claim(f"Number {number} at {board}", place, _one_device(wired))
 
 
-def _outputs(wired: Wired) -> list[Option]:
+def _outputs(wired: Wired) -> list[DriverOption]:
     """The options that say which of the things on a board."""
     return [option for option in driver_options(type(wired.driver)) if option.key in OUTPUTS or option.type is CHANNEL]
 
@@ -76,7 +76,7 @@ def _one_device(wired: Wired) -> object:
     return type(wired.driver), tuple(getattr(wired.driver, option.field) for option in options)
 
 
-def _numbers(wired: Wired, option: Option) -> Iterator[tuple[int, Span]]:
+def _numbers(wired: Wired, option: DriverOption) -> Iterator[tuple[int, Span]]:
     """The numbers under a key, and where each stands."""
     found, entry = getattr(wired.driver, option.field), wired.entry(option.key)
     numbers = found if isinstance(found, tuple) else (found,)

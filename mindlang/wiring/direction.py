@@ -5,7 +5,7 @@ from mindrun.wiring import SensorWire
 
 from mindlang.compiler.diagnostic import Findings, Label
 from mindlang.wiring.driver import Wired
-from mindlang.wiring.nodes import warn
+from mindlang.wiring.nodes import report_warning
 
 ENDS = ("from", "to")
 METRES = "m"
@@ -25,7 +25,7 @@ def check_direction(wired: Wired, wire: SensorWire, sensor: Sensor, findings: Fi
     message = f"A {kind} reads {is_near} for what is near, and this one for what is far."
     at_0, at_1 = (f"{value:g} {wired.driver.unit}".strip() for value in ends[::-1])
     hint = f"{_meaning(wired, near)} Write from: {at_0} and to: {at_1}."
-    warn(findings, "reads-backwards", first.span, message, hint, *others)
+    report_warning(findings, "reads-backwards", first.span, message, hint, *others)
 
 
 def near_value(driver: object) -> float | None:

@@ -9,8 +9,8 @@ from mindrun.quantity import Quantity, Reference
 
 from mindlang.compiler.diagnostic import Findings, errors, listed, nearest
 from mindlang.compiler.source import Span
-from mindlang.wiring.nodes import Entry, Scalar, Table, shortened, tell
-from mindlang.wiring.options import DRIVER, Option, driver_options, drivers, own_options
+from mindlang.wiring.nodes import Scalar, Table, TableEntry, report_error, shortened
+from mindlang.wiring.options import DRIVER, DriverOption, driver_options, drivers, own_options
 from mindlang.wiring.values import by_option, first_line, is_empty, missing_key, unknown_key
 
 ENDS = ("from", "to")  # are in the unit of the driver, so they are read when there is one
@@ -27,7 +27,7 @@ class Wired:
     driver: Any
     own: Mapping[str, Any]
 
-    def entry(self, key: str) -> Entry | None:
+    def entry(self, key: str) -> TableEntry | None:
         """What is said under a key."""
         return next((entry for entry in self.table.entries if entry.key.text == key), None)
 
@@ -58,7 +58,12 @@ def wired(noun: str, name: Scalar, table: Table, findings: Findings) -> Wired | 
 
 
 def _check_keys(
-    what: str, driver: Scalar, table: Table, its: Mapping[str, Option], own: Mapping[str, Option], findings: Findings
+    what: str,
+    driver: Scalar,
+    table: Table,
+    its: Mapping[str, DriverOption],
+    own: Mapping[str, DriverOption],
+    findings: Findings,
 ) -> None:
     """Keys that the driver does not have, and those that it needs."""
     strange = [entry.key for entry in table.entries if entry.key.text not in {DRIVER, *own, *its}]
@@ -87,17 +92,17 @@ def _class(noun: str, name: Scalar, table: Table, findings: Findings) -> type[An
             hint = findings.suggest(driver, known) or f"Known are {listed(sorted(known), 'and')}."
             if driver in drivers(COUNTERPARTS[noun]):
                 hint = f"{driver} is for {COUNTERPARTS[noun]}s. Known for {noun}s are {listed(sorted(known), 'and')}."
-            tell(findings, "unknown-driver", span, message, hint)
+            report_error(findings, "unknown-driver", span, message, hint)
         case Table(span=span):
             hint = "Write driver: and its name, and its options as lines below, as far in as driver."
-            tell(findings, "not-a-word", first_line(span), "Here stands the name of a driver.", hint)
+            report_error(findings, "not-a-word", first_line(span), "Here stands the name of a driver.", hint)
         case other if not isinstance(other, Scalar) and other.span.text[:1] == "[":
             hint = f"A {noun} has one driver: {listed(sorted(known))}."
-            tell(findings, "not-a-word", first_line(other.span), "Here stands the name of a driver.", hint)
+            report_error(findings, "not-a-word", first_line(other.span), "Here stands the name of a driver.", hint)
     return None
 
 
-def _example(option: Option) -> str:
+def _example(option: DriverOption) -> str:
     match option.shape:
         case "number" | "numbers":
             assert isinstance(option.type, Quantity)
@@ -116,5 +121,5 @@ def _made(cls: type[Any], values: Mapping[str, Any], name: Scalar, findings: Fin
         return cls(**values)
     except (MindError, ValueError) as error:
         hint = getattr(error, "hint", "") or f"Look at the options of {name.text} in docs/drivers.md."
-        tell(findings, "impossible-driver", name.span, f"{name.text} cannot be wired so: {error}.", hint)
+        report_error(findings, "impossible-driver", name.span, f"{name.text} cannot be wired so: {error}.", hint)
         return None

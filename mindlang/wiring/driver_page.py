@@ -7,7 +7,7 @@ from mindrun.quantity import RATIO, Quantity, Reference
 from mindrun.robot.driver_support import ADDRESS
 
 from mindlang.compiler.diagnostic import listed
-from mindlang.wiring.options import DRIVER, Option, driver_options, drivers
+from mindlang.wiring.options import DRIVER, DriverOption, driver_options, drivers
 
 NOUNS = ("sensor", "actuator")
 ABOUT = """\
@@ -47,7 +47,7 @@ def _lines(name: str, noun: str) -> Iterator[str]:
         yield ""
 
 
-def _what(option: Option) -> str:
+def _what(option: DriverOption) -> str:
     several = "a list, each " if option.shape.endswith("s") else ""
     match option.type:
         case Reference(noun=noun, words=words):
@@ -67,7 +67,7 @@ def _bounds(quantity: Quantity) -> str:
     return f", {said}" if low or high else f", in {unit}" if unit else ""
 
 
-def _otherwise(option: Option) -> str:
+def _otherwise(option: DriverOption) -> str:
     match option.default:
         case _ if option.required:
             return "needed"

@@ -24,7 +24,7 @@ class Items:
 
 
 @dataclass(frozen=True, slots=True)
-class Entry:
+class TableEntry:
     """A key and its value."""
 
     key: Scalar
@@ -35,7 +35,7 @@ class Entry:
 class Table:
     """Keys and their values; it is `whole` unless an entry had a key that is no word."""
 
-    entries: tuple[Entry, ...]
+    entries: tuple[TableEntry, ...]
     span: Span
     whole: bool = True
 
@@ -50,12 +50,12 @@ class Lost:
 Node = Scalar | Items | Table | Lost
 
 
-def tell(findings: Findings, code: str, span: Span, message: str, hint: str, *labels: Label) -> None:
+def report_error(findings: Findings, code: str, span: Span, message: str, hint: str, *labels: Label) -> None:
     """Collect an error; every error of a wiring says what to do."""
     findings.diagnostics.append(Diagnostic(code, message, span, hint, labels))
 
 
-def warn(findings: Findings, code: str, span: Span, message: str, hint: str, *labels: Label) -> None:
+def report_warning(findings: Findings, code: str, span: Span, message: str, hint: str, *labels: Label) -> None:
     """Collect a warning: the wiring is taken as it is."""
     findings.diagnostics.append(Diagnostic(code, message, span, hint, labels, "warning"))
 

@@ -18,7 +18,7 @@ OWN_NAMES = {"low": "from", "high": "to"}
 
 
 @dataclass(frozen=True, slots=True)
-class Option:
+class DriverOption:
     """A key of `robot.yaml`. `shape` is "number", "numbers" (`count` of them, or any), "word", "flag" or "text"."""
 
     key: str
@@ -42,27 +42,27 @@ def drivers(noun: str) -> dict[str, type[Any]]:
 
 
 @cache
-def own_options(noun: str) -> tuple[Option, ...]:
+def own_options(noun: str) -> tuple[DriverOption, ...]:
     """What can be said of every sensor or actuator, whatever its driver."""
     if noun == "sensor":
         found = _options(SensorWire, skipped=("sensor", DRIVER, "rest"))
         return tuple(replace(option, key=OWN_NAMES.get(option.key, option.key)) for option in found)
     found = _options(ActuatorWire, skipped=("actuator", DRIVER, *LIMITS))
     share = next(option.type for option in _options(ActuatorWire, ("actuator", DRIVER)) if option.field == "low")
-    return (*found, Option("limits", "limits", share, "numbers", 2, (0.0, 1.0)))
+    return (*found, DriverOption("limits", "limits", share, "numbers", 2, (0.0, 1.0)))
 
 
-def driver_options(cls: type[Any]) -> tuple[Option, ...]:
+def driver_options(cls: type[Any]) -> tuple[DriverOption, ...]:
     """What a driver has to be told, or can be."""
     return _options(cls)
 
 
-def _options(cls: type[Any], skipped: tuple[str, ...] = ()) -> tuple[Option, ...]:
+def _options(cls: type[Any], skipped: tuple[str, ...] = ()) -> tuple[DriverOption, ...]:
     hints = get_type_hints(cls, include_extras=True)
     return tuple(_option(field, hints[field.name]) for field in fields(cls) if field.init and field.name not in skipped)
 
 
-def _option(field: Field[Any], hint: Any) -> Option:
+def _option(field: Field[Any], hint: Any) -> DriverOption:
     default = field.default if field.default_factory is MISSING else field.default_factory()
     plain, meaning, count = _type(hint)
     match plain, meaning:
@@ -74,7 +74,7 @@ def _option(field: Field[Any], hint: Any) -> Option:
             shape = "number"
     if count is not None:
         shape, count = f"{shape}s", count or None
-    return Option(field.name.removesuffix("_"), field.name, meaning, shape, count, default)
+    return DriverOption(field.name.removesuffix("_"), field.name, meaning, shape, count, default)
 
 
 def _type(hint: Any) -> tuple[Any, Quantity | Reference, int | None]:

@@ -11,7 +11,7 @@ import yaml
 from mindlang.compiler.diagnostic import Findings, Label
 from mindlang.compiler.source import Source, Span
 from mindlang.wiring.misread import misread, odd_line
-from mindlang.wiring.nodes import Entry, Items, Lost, Node, Scalar, Table, shortened, tell
+from mindlang.wiring.nodes import Items, Lost, Node, Scalar, Table, TableEntry, report_error, shortened
 from mindlang.wiring.surprises import surprise
 
 MAX_NESTING = 8
@@ -47,7 +47,7 @@ class _Reader:
 def read(source: Source, findings: Findings) -> Node | None:
     """The tree of a text, or None after reporting why there is none."""
     if odd := odd_line(source):
-        tell(findings, *odd)
+        report_error(findings, *odd)
         return None
     reader = _Reader(source, findings)
     loader = None
@@ -59,11 +59,11 @@ def read(source: Source, findings: Findings) -> Node | None:
     except (yaml.YAMLError, ValueError, OverflowError) as error:  # \UFFFFFFFF is an OverflowError
         if findings.diagnostics and findings.diagnostics[-1].code == "yaml-lines":
             findings.diagnostics.pop()  # the value went on because of the same mistake
-        tell(findings, *misread(error, source, loader.get_mark().index if loader else 0))
+        report_error(findings, *misread(error, source, loader.get_mark().index if loader else 0))
         return None
     if not reader.open[0].nodes:
         hint = "Write robot and its name, sensors and actuators: docs/robot-yaml.md has an example."
-        tell(findings, "yaml-empty", Span(source, 0, 0), "There is nothing in this file.", hint)
+        report_error(findings, "yaml-empty", Span(source, 0, 0), "There is nothing in this file.", hint)
         return None
     return reader.open[0].nodes[0]
 
@@ -76,7 +76,7 @@ def _take(event: yaml.Event, reader: _Reader) -> bool:
         case yaml.AliasEvent():
             span = reader.span(event)
             hint = "Write out what it stands for: every sensor and actuator is read by itself."
-            tell(reader.findings, "yaml-alias", span, f"{shortened(span.text)} stands for another place.", hint)
+            report_error(reader.findings, "yaml-alias", span, f"{shortened(span.text)} stands for another place.", hint)
             reader.add(Lost(span))
         case yaml.ScalarEvent():
             fine = unmarked(event, reader.source, reader.findings)
@@ -97,12 +97,14 @@ def _begin(event: yaml.DocumentStartEvent, reader: _Reader) -> bool:
     reader.documents += 1
     if reader.documents > 1:
         hint = "One file is one robot: remove the line --- and what follows, or write a second file."
-        tell(reader.findings, "yaml-documents", reader.span(event), "A second document begins here.", hint)
+        report_error(reader.findings, "yaml-documents", reader.span(event), "A second document begins here.", hint)
         return False
     if event.version or event.tags:
         start = reader.source.text.index("%")
         span = Span(reader.source, start, start + len(reader.source.text[start:].split("\n")[0].rstrip("\r")))
-        tell(reader.findings, "yaml-directive", span, "A directive stands here.", "Remove the lines that begin with %.")
+        report_error(
+            reader.findings, "yaml-directive", span, "A directive stands here.", "Remove the lines that begin with %."
+        )
         return False
     return True
 
@@ -112,7 +114,9 @@ def _shallow(event: yaml.Event, reader: _Reader) -> bool:
         return True
     span = Span(reader.source, event.start_mark.index, event.start_mark.index + 1)
     message = f"Lists and tables stand more than {MAX_NESTING} deep in one another here."
-    tell(reader.findings, "yaml-deep", span, message, "Four are enough for any robot: look for a bracket too many.")
+    report_error(
+        reader.findings, "yaml-deep", span, message, "Four are enough for any robot: look for a bracket too many."
+    )
     return False
 
 
@@ -121,7 +125,7 @@ def _few(event: yaml.Event, reader: _Reader) -> bool:
     if reader.values <= MAX_VALUES:
         return True
     message = f"This file has more than {MAX_VALUES} values."
-    tell(reader.findings, "yaml-large", reader.span(event), message, "Write only what is wired to this robot.")
+    report_error(reader.findings, "yaml-large", reader.span(event), message, "Write only what is wired to this robot.")
     return False
 
 
@@ -134,10 +138,10 @@ def unmarked(event: yaml.NodeEvent, source: Source, findings: Findings) -> bool:
         hint = (
             f"Remove &{shortened(event.anchor)}, and write out what it stands for where *{shortened(event.anchor)} is."
         )
-        tell(findings, "yaml-anchor", span, "This gives a place a name for later.", hint)
+        report_error(findings, "yaml-anchor", span, "This gives a place a name for later.", hint)
     elif event.tag:
         hint = f"Remove {shortened(word)}: what a value is comes from what it is for."
-        tell(findings, "yaml-tag", span, "This says of which type a value is.", hint)
+        report_error(findings, "yaml-tag", span, "This says of which type a value is.", hint)
     return not (event.anchor or event.tag)
 
 
@@ -148,34 +152,34 @@ def scalar(event: yaml.ScalarEvent, source: Source, findings: Findings) -> Node:
     if event.style in ("|", ">") or "\n" in span.text:
         first = Span(source, span.start, span.start + len(span.text.split("\n")[0].rstrip()))
         hint = "Write it on one line; a key of its own begins a line of its own, as far in as its neighbours."
-        tell(findings, "yaml-lines", first, "This value goes on in the next line.", hint)
+        report_error(findings, "yaml-lines", first, "This value goes on in the next line.", hint)
         return Lost(span)
     if plain and (found := surprise(event.value)):
-        tell(findings, found[0], span, *found[1:])
+        report_error(findings, found[0], span, *found[1:])
         return Lost(span)
     return Scalar(event.value, plain, span)
 
 
 def keyed(nodes: Sequence[Node], span: Span, findings: Findings) -> Table:
     """The entries of a table, each key once."""
-    entries: dict[str, Entry] = {}
+    entries: dict[str, TableEntry] = {}
     lost = False
     for key, value in zip(nodes[::2], nodes[1::2], strict=True):
         match key:
             case Scalar(text="<<", plain=True):
                 hint = "Write out the lines that it would bring."
-                tell(findings, "yaml-merge", key.span, "<< copies from another place.", hint)
+                report_error(findings, "yaml-merge", key.span, "<< copies from another place.", hint)
                 lost = True
             case Scalar(text=text) if text in entries:
                 first = Label(entries[text].key.span, "first said here")
                 message = f"{shortened(text)} is said twice."
-                tell(findings, "yaml-duplicate", key.span, message, "Leave one of them out.", first)
+                report_error(findings, "yaml-duplicate", key.span, message, "Leave one of them out.", first)
             case Scalar(text=text):
-                entries[text] = Entry(key, value)
+                entries[text] = TableEntry(key, value)
             case Lost():
                 lost = True
             case _:
                 hint = "Write a word, a colon and its value."
-                tell(findings, "yaml-key", key.span, "A list or table cannot be a key.", hint)
+                report_error(findings, "yaml-key", key.span, "A list or table cannot be a key.", hint)
                 lost = True
     return Table(tuple(entries.values()), span, not lost)

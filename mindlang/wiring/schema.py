@@ -7,7 +7,7 @@ from typing import Any
 
 from mindrun.quantity import Quantity, Reference
 
-from mindlang.wiring.options import DRIVER, Option, driver_options, drivers, own_options
+from mindlang.wiring.options import DRIVER, DriverOption, driver_options, drivers, own_options
 
 DRAFT = "https://json-schema.org/draft/2020-12/schema"
 NUMBER = r"-?[0-9]+(\.[0-9]+)?(/[0-9]+)?"
@@ -83,7 +83,7 @@ def _wire(noun: str, name: str, cls: type[Any]) -> dict[str, Any]:
     }
 
 
-def _described(key: str, option: Option, own: tuple[Option, ...]) -> dict[str, Any]:
+def _described(key: str, option: DriverOption, own: tuple[DriverOption, ...]) -> dict[str, Any]:
     found = _any_amount() if key in ("from", "to") and option in own else _value(option)
     words = OPTION_DESCRIPTIONS.get(key, "") if option in own else getattr(option.type, "name", "")
     told = option.default is not MISSING and option.default is not None and key not in ("blank", "dead_zone")
@@ -93,7 +93,7 @@ def _described(key: str, option: Option, own: tuple[Option, ...]) -> dict[str, A
     return {**found, **({"description": words} if words else {}), **default}
 
 
-def _value(option: Option) -> dict[str, Any]:
+def _value(option: DriverOption) -> dict[str, Any]:
     match option.shape.removesuffix("s"), option.type:
         case "number", Quantity() as quantity:
             one = _number(quantity)

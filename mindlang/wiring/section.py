@@ -9,7 +9,7 @@ from mindrun.wiring import ActuatorWire, SensorWire, read_by
 
 from mindlang.compiler.diagnostic import Findings, a, listed, nearest
 from mindlang.wiring.driver import Wired, wired
-from mindlang.wiring.nodes import Entry, Scalar, Table, shortened, tell
+from mindlang.wiring.nodes import Scalar, Table, TableEntry, report_error, shortened
 from mindlang.wiring.sensor import sensor_wire
 from mindlang.wiring.values import is_empty, table
 
@@ -17,13 +17,13 @@ P = TypeVar("P", Sensor, Actuator)
 W = TypeVar("W", SensorWire, ActuatorWire)
 
 
-def sensors(entry: Entry | None, graph: Graph, findings: Findings) -> list[tuple[Wired, SensorWire | None]]:
+def sensors(entry: TableEntry | None, graph: Graph, findings: Findings) -> list[tuple[Wired, SensorWire | None]]:
     """What is wired to sensors, in the order of the mind; without a wire where one is wrong."""
     needed = read_by(graph, graph.master)
     return list(_section("sensor", entry, physical(graph), needed, graph, sensor_wire, findings))
 
 
-def actuators(entry: Entry | None, graph: Graph, findings: Findings) -> list[tuple[Wired, ActuatorWire | None]]:
+def actuators(entry: TableEntry | None, graph: Graph, findings: Findings) -> list[tuple[Wired, ActuatorWire | None]]:
     """What is wired to actuators, in the order of the mind; all of them, since each has a neutral."""
     known = {actuator.name: actuator for actuator in graph.actuators}
     return list(_section("actuator", entry, known, known.keys(), graph, actuator_wire, findings))
@@ -31,7 +31,7 @@ def actuators(entry: Entry | None, graph: Graph, findings: Findings) -> list[tup
 
 def _section(
     noun: str,
-    entry: Entry | None,
+    entry: TableEntry | None,
     known: Mapping[str, P],
     needed: Set[str],
     graph: Graph,
@@ -55,17 +55,17 @@ def _section(
             yield found, wire(found, known[name], findings)
 
 
-def _table(noun: str, entry: Entry | None, findings: Findings) -> Table | None:
+def _table(noun: str, entry: TableEntry | None, findings: Findings) -> Table | None:
     """The entries of a section, which may be empty."""
     match entry:
         case None:
             return None
-        case Entry(value=Scalar(text="", plain=True, span=span)):
+        case TableEntry(value=Scalar(text="", plain=True, span=span)):
             return Table((), span)
     return table(entry.value, entry.key.text, f"the name of {a(noun)} and a colon, and below it its driver", findings)
 
 
-def _inner(entry: Entry, findings: Findings) -> Table | None:
+def _inner(entry: TableEntry, findings: Findings) -> Table | None:
     return table(entry.value, shortened(entry.key.text), "driver: and its name, and below it its options", findings)
 
 
@@ -73,7 +73,9 @@ def _unwired(noun: str, key: Scalar, missing: Sequence[str], findings: Findings)
     does = {"sensor": "reads", "actuator": "drives"}[noun]
     many = "are" if len(missing) > 1 else "is"
     message = f"The mind {does} {listed(missing, 'and')}, which {many} not wired."
-    tell(findings, f"unwired-{noun}", key.span, message, f"Add a line {missing[0]}: below {key.text}, with its driver.")
+    report_error(
+        findings, f"unwired-{noun}", key.span, message, f"Add a line {missing[0]}: below {key.text}, with its driver."
+    )
 
 
 def _stranger(noun: str, key: Scalar, known: Mapping[str, Any], graph: Graph, findings: Findings) -> None:
@@ -83,14 +85,16 @@ def _stranger(noun: str, key: Scalar, known: Mapping[str, Any], graph: Graph, fi
     computed = {sensor.name for sensor in graph.sensors} - own | {cell.name for cell in graph.memories}
     if name in computed:
         hint = "Remove it: only what is measured or moved is wired."
-        tell(findings, "computed-sensor", key.span, f"The mind computes {name} itself.", hint)
+        report_error(findings, "computed-sensor", key.span, f"The mind computes {name} itself.", hint)
     elif name in own or name in {actuator.name for actuator in graph.actuators}:
         other = "sensors" if noun == "actuator" else "actuators"
-        tell(findings, "wrong-section", key.span, f"{name} is no {noun} of the mind.", f"Move it below {other}.")
+        report_error(
+            findings, "wrong-section", key.span, f"{name} is no {noun} of the mind.", f"Move it below {other}."
+        )
     else:
         add = f"Remove it, or add a line {noun} {shortened(name)} is … to the mind."
         hint = findings.suggest(name, known) or add
-        tell(findings, f"unknown-{noun}", key.span, f"The mind has no {noun} called {shortened(name)}.", hint)
+        report_error(findings, f"unknown-{noun}", key.span, f"The mind has no {noun} called {shortened(name)}.", hint)
 
 
 def actuator_wire(wired: Wired, actuator: Actuator, findings: Findings) -> ActuatorWire | None:
@@ -100,13 +104,13 @@ def actuator_wire(wired: Wired, actuator: Actuator, findings: Findings) -> Actua
     neutral = actuator.kind.neutral
     if low >= high:
         hint = "Write the smaller share first, [0.2, 0.8]; reversed: true turns the actuator round."
-        tell(findings, "no-travel", wired.span("limits"), "Between these limits nothing can move.", hint)
+        report_error(findings, "no-travel", wired.span("limits"), "Between these limits nothing can move.", hint)
         return None
     rest = neutral + own.get("trim", 0.0)
     if not low <= rest <= high:
         trimmed = " with its trim" * (rest != neutral)
         message = f"The neutral of {actuator.name}{trimmed}, {rest:g}, is outside of its limits."
         hint = f"It is what the mind says is safe: write limits that have {rest:g} between them."
-        tell(findings, "neutral-outside", wired.span("limits"), message, hint)
+        report_error(findings, "neutral-outside", wired.span("limits"), message, hint)
         return None
     return ActuatorWire(actuator.name, wired.driver, low=float(low), high=float(high), **own)

@@ -8,7 +8,7 @@ from mindrun.wiring import SensorWire
 from mindlang.compiler.diagnostic import Findings, Label, errors
 from mindlang.wiring.direction import check_direction
 from mindlang.wiring.driver import Wired
-from mindlang.wiring.nodes import tell
+from mindlang.wiring.nodes import report_error
 from mindlang.wiring.options import driver_options
 from mindlang.wiring.values import first_line, is_empty, number
 
@@ -30,7 +30,7 @@ def sensor_wire(wired: Wired, sensor: Sensor, findings: Findings) -> SensorWire 
     _check_range(wired, wire, sensor, findings)
     if wire.median % 2 == 0:
         hint = f"Only of an odd number one stands in the middle: write {wire.median - 1} or {wire.median + 1}."
-        tell(findings, "not-odd", wired.span("median"), f"{wire.median} is an even number.", hint)
+        report_error(findings, "not-odd", wired.span("median"), f"{wire.median} is an even number.", hint)
     _check_times(wired, wire, findings)
     if len(errors(findings.diagnostics)) > before:
         return None
@@ -62,21 +62,21 @@ def _check_readings(wired: Wired, sensor: Sensor, findings: Findings) -> None:
             if lists
             else "Take another driver, or wire another sensor to it."
         )
-        tell(findings, "wrong-width", wired.span(*lists, "driver"), message, hint)
+        report_error(findings, "wrong-width", wired.span(*lists, "driver"), message, hint)
         return
     for option in driver_options(type(wired.driver)):
         entry, pins = wired.entry(option.key), getattr(wired.driver, option.field)
         if option.type is PIN and entry and isinstance(pins, tuple) and len(pins) != count:
             message = f"{option.key} has {len(pins)} pin{'s' * (len(pins) != 1)}, for {_many(count)}."
             hint = f"List {count}, in the order of the readings."
-            tell(findings, "wrong-count", first_line(entry.value.span), message, hint)
+            report_error(findings, "wrong-count", first_line(entry.value.span), message, hint)
 
 
 def _check_range(wired: Wired, wire: SensorWire, sensor: Sensor, findings: Findings) -> None:
     if wire.low == wire.high:
         labels = [Label(wired.span("from"), "the reading 0")] if wired.entry("from") and wired.entry("to") else []
         hint = "from is the value at which it reads 0, to the one at which it reads 1: write two different ones."
-        tell(
+        report_error(
             findings,
             "no-range",
             wired.span("to", "from"),
@@ -88,7 +88,7 @@ def _check_range(wired: Wired, wire: SensorWire, sensor: Sensor, findings: Findi
         message = f"A bearing's readings 0 to 1 are a whole turn, and these are {abs(wire.high - wire.low):g} degrees."
         usual = wired.driver.usual
         hint = f"Leave both out, or write from: {usual[0]:g} deg and to: {usual[1]:g} deg."
-        tell(findings, "not-a-turn", wired.span("to", "from", "driver"), message, hint)
+        report_error(findings, "not-a-turn", wired.span("to", "from", "driver"), message, hint)
 
 
 def _check_times(wired: Wired, wire: SensorWire, findings: Findings) -> None:
@@ -99,10 +99,10 @@ def _check_times(wired: Wired, wire: SensorWire, findings: Findings) -> None:
         labels = (
             [Label(wired.span("rate"), f"every {apart:g} s")] if wired.entry("rate") and wired.entry("max_age") else []
         )
-        tell(findings, "always-old", wired.span("max_age", "rate"), message, hint, *labels)
+        report_error(findings, "always-old", wired.span("max_age", "rate"), message, hint, *labels)
     if wired.entry("hold") and wire.on_fault != "hold":
         hint = "Add on_fault: hold, or remove it."
-        tell(findings, "idle-hold", wired.span("hold"), "Nothing is held here on a fault.", hint)
+        report_error(findings, "idle-hold", wired.span("hold"), "Nothing is held here on a fault.", hint)
 
 
 def _many(count: int) -> str:

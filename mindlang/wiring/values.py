@@ -10,14 +10,14 @@ from mindlang.compiler.diagnostic import Findings, listed
 from mindlang.compiler.resolve.quantities import convert
 from mindlang.compiler.source import Span
 from mindlang.compiler.syntax import Amount
-from mindlang.wiring.nodes import Entry, Items, Lost, Node, Scalar, Table, shortened, tell
-from mindlang.wiring.options import Option
+from mindlang.wiring.nodes import Items, Lost, Node, Scalar, Table, TableEntry, report_error, shortened
+from mindlang.wiring.options import DriverOption
 
 AMOUNT = re.compile(r"(0x[0-9a-fA-F]{1,8}|-?[0-9]+(?:\.[0-9]+)?(?:/[0-9]+)?) *((?![0-9.,]).*)?")
 MAX_TEXT_CHARACTERS = 200
 
 
-def value(option: Option, node: Node, findings: Findings) -> Any:
+def value(option: DriverOption, node: Node, findings: Findings) -> Any:
     """The value of an option, or None after reporting why it has none."""
     match option.shape, option.type:
         case "number", Quantity() as quantity:
@@ -39,14 +39,16 @@ def number(node: Node, quantity: Quantity, findings: Findings) -> float | int | 
         case Scalar(text=written, plain=True, span=span) if found := AMOUNT.fullmatch(written):
             return convert(Amount(_parsed(found[1]), found[2] or "", span), quantity, findings)
         case Scalar(text=written, plain=False, span=span) if AMOUNT.fullmatch(written):
-            tell(findings, "quoted-number", span, "This is a text, because of its quotes.", "Remove the quotes.")
+            report_error(
+                findings, "quoted-number", span, "This is a text, because of its quotes.", "Remove the quotes."
+            )
         case Scalar(text=written, span=span):
             comma = re.fullmatch(r"(-?[0-9]+),([0-9]+ ?\w*)", written)
             hint = f"Write {comma[1]}.{comma[2]}." if comma else f"Here stands {quantity.name}."
-            tell(findings, "not-a-number", span, f"{shortened(written)} is not a number.", hint)
+            report_error(findings, "not-a-number", span, f"{shortened(written)} is not a number.", hint)
         case Items(span=span) | Table(span=span):
             hint = f"Here stands {quantity.name}, without brackets."
-            tell(findings, "one-number", first_line(span), "Only one number can stand here.", hint)
+            report_error(findings, "one-number", first_line(span), "Only one number can stand here.", hint)
     return None
 
 
@@ -71,7 +73,7 @@ def numbers(node: Node, quantity: Quantity, count: int | None, findings: Finding
     if len(node.items) != (count or len(node.items)) or not node.items:
         wanted = f"{count} numbers" if count else "at least one number"
         message = f"This list has {len(node.items)} entries." if node.items else "This list is empty."
-        tell(findings, "wrong-count", first_line(node.span), message, f"Write {wanted}, each {quantity.name}.")
+        report_error(findings, "wrong-count", first_line(node.span), message, f"Write {wanted}, each {quantity.name}.")
         return None
     found = [number(item, quantity, findings) for item in node.items]
     return tuple(each for each in found if each is not None) if None not in found else None
@@ -85,7 +87,7 @@ def word(node: Node, noun: str, words: tuple[str, ...], findings: Findings) -> s
     if node.text in words:
         return node.text
     hint = findings.suggest(node.text, words) or f"It is {listed(words)}."
-    tell(findings, f"unknown-{noun}", node.span, f"There is no {noun} called {shortened(node.text)}.", hint)
+    report_error(findings, f"unknown-{noun}", node.span, f"There is no {noun} called {shortened(node.text)}.", hint)
     return None
 
 
@@ -103,13 +105,13 @@ def text(node: Node, findings: Findings) -> str | None:
         _not_so(node, "not-a-word", "Here stands a text.", "Write it without brackets.", findings)
     elif not node.text.strip() or len(node.text) > MAX_TEXT_CHARACTERS or not node.text.isprintable():
         hint = f"Write 1 to {MAX_TEXT_CHARACTERS} characters that can be printed."
-        tell(findings, "not-a-text", node.span, "This text cannot stand here.", hint)
+        report_error(findings, "not-a-text", node.span, "This text cannot stand here.", hint)
     else:
         return node.text
     return None
 
 
-def _each(node: Node, option: Option, findings: Findings) -> tuple[str, ...] | None:
+def _each(node: Node, option: DriverOption, findings: Findings) -> tuple[str, ...] | None:
     """A list of words or texts."""
     if not isinstance(node, Items) or not node.items or len(node.items) != (option.count or len(node.items)):
         wanted = f"{option.count} of them" if option.count else "at least one"
@@ -123,7 +125,7 @@ def _each(node: Node, option: Option, findings: Findings) -> tuple[str, ...] | N
 
 def _not_so(node: Node, code: str, message: str, hint: str, findings: Findings) -> None:
     if not isinstance(node, Lost):
-        tell(findings, code, first_line(node.span), message, hint)
+        report_error(findings, code, first_line(node.span), message, hint)
 
 
 def first_line(span: Span) -> Span:
@@ -137,20 +139,22 @@ def table(node: Node, what: str, example: str, findings: Findings) -> Table | No
         return node
     if not isinstance(node, Lost):
         message = f"{what} has no keys and values."
-        tell(findings, "not-a-table", first_line(node.span), message, f"Write, each on a line of its own: {example}.")
+        report_error(
+            findings, "not-a-table", first_line(node.span), message, f"Write, each on a line of its own: {example}."
+        )
     return None
 
 
-def is_empty(entry: Entry, findings: Findings) -> bool:
+def is_empty(entry: TableEntry, findings: Findings) -> bool:
     """Whether nothing stands after a key; this is told."""
     if not isinstance(entry.value, Scalar) or entry.value.text or not entry.value.plain:
         return False
     hint = "Write a value after the colon, or remove the line; what belongs to it stands below it, farther in."
-    tell(findings, "no-value", entry.key.span, f"{shortened(entry.key.text)} has no value.", hint)
+    report_error(findings, "no-value", entry.key.span, f"{shortened(entry.key.text)} has no value.", hint)
     return True
 
 
-def by_option(entries: Iterable[Entry], options: Mapping[str, Option], findings: Findings) -> dict[str, Any]:
+def by_option(entries: Iterable[TableEntry], options: Mapping[str, DriverOption], findings: Findings) -> dict[str, Any]:
     """The values of those entries that are options, by their fields; those that are wrong are told and left out."""
     found = {
         options[entry.key.text].field: value(options[entry.key.text], entry.value, findings)
@@ -164,9 +168,9 @@ def unknown_key(key: Scalar, what: str, known: Iterable[str], findings: Findings
     """Tell that a key means nothing here."""
     known = list(known)
     hint = findings.suggest(key.text, known) or f"{what} takes {listed(known, 'and')}."
-    tell(findings, "unknown-key", key.span, f"{what} has no key {shortened(key.text)}.", hint)
+    report_error(findings, "unknown-key", key.span, f"{what} has no key {shortened(key.text)}.", hint)
 
 
 def missing_key(span: Span, what: str, key: str, example: str, findings: Findings) -> None:
     """Tell that a key is needed."""
-    tell(findings, "missing-key", first_line(span), f"{what} needs {key}.", f"Add a line: {key}: {example}.")
+    report_error(findings, "missing-key", first_line(span), f"{what} needs {key}.", f"Add a line: {key}: {example}.")

@@ -11,7 +11,7 @@ from mindrun.wiring import Wiring
 from mindlang.compiler.diagnostic import Diagnostic, Findings, errors, nearest
 from mindlang.compiler.source import Source, decode
 from mindlang.wiring.claims import check_claims
-from mindlang.wiring.nodes import Entry, Node, tell
+from mindlang.wiring.nodes import Node, TableEntry, report_error
 from mindlang.wiring.read import read
 from mindlang.wiring.section import actuators, sensors
 from mindlang.wiring.values import is_empty, missing_key, table, text, unknown_key
@@ -80,10 +80,10 @@ def _wiring(node: Node, graph: Graph, findings: Findings) -> Wiring | None:
     return Wiring(name, wires, tuple(wire for _, wire in acting if wire)) if name else None
 
 
-def _name(entry: Entry | None, findings: Findings) -> str | None:
+def _name(entry: TableEntry | None, findings: Findings) -> str | None:
     if entry is None or is_empty(entry, findings):
         return None
     name = text(entry.value, findings)
     if name and name.strip() != name:
-        tell(findings, "not-a-text", entry.value.span, "A name has no spaces around it.", "Remove them.")
+        report_error(findings, "not-a-text", entry.value.span, "A name has no spaces around it.", "Remove them.")
     return name

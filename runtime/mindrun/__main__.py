@@ -52,7 +52,7 @@ def main() -> None:
     if why := standard_streams.finish():
         _say(why)
         code = code or FAILED
-    standard_streams.last_words()
+    standard_streams.flush_standard_error()
     sys.exit(code)
 
 
@@ -98,7 +98,7 @@ def drive(options: argparse.Namespace) -> int:
     """Drive the robot, or a simulated one."""
     from mindrun.robot.command import run as run_robot
 
-    standard_streams.tell_aside()
+    standard_streams.detach_standard_error()
     with redirect_stdout(sys.stderr):  # a procedure may print
         return run_robot(options)
 

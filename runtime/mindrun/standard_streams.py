@@ -20,7 +20,7 @@ MAX_TERMINAL_SIZE = 9999
 FLUSH_SECONDS = 1.0  # in which what has been told aside must be taken
 
 
-class Output(FileIO):
+class StandardOutput(FileIO):
     """Standard output; `failure` is the first error of it."""
 
     failure: OSError | None = None
@@ -37,7 +37,7 @@ class Output(FileIO):
         return memoryview(data).nbytes
 
 
-class Errors(FileIO):
+class StandardError(FileIO):
     """Standard error."""
 
     def write(self, data: Any) -> int:
@@ -81,21 +81,21 @@ def prepare(kind: type[TextIOWrapper] = TextIOWrapper) -> None:
     if sys.stdin is None:
         sys.stdin = open(0, encoding="utf-8", closefd=False)  # noqa: SIM115
     if sys.stdout is sys.__stdout__:
-        sys.stdout = _text(kind, Output(OUTPUT_DESCRIPTOR, "w", closefd=False), sys.__stdout__)
+        sys.stdout = _text(kind, StandardOutput(OUTPUT_DESCRIPTOR, "w", closefd=False), sys.__stdout__)
     if sys.stderr is sys.__stderr__:
-        sys.stderr = _text(kind, Errors(ERROR_DESCRIPTOR, "w", closefd=False), sys.__stderr__)
+        sys.stderr = _text(kind, StandardError(ERROR_DESCRIPTOR, "w", closefd=False), sys.__stderr__)
     for name in SIZE_VARIABLES:
         if not _is_size(os.environ.get(name, "80")):
             del os.environ[name]
 
 
-def tell_aside() -> None:
+def detach_standard_error() -> None:
     """Let nothing wait for standard error from now on: a robot drives on where its terminal is paused, or gone."""
-    if isinstance(_raw(sys.stderr), Errors):
+    if isinstance(_raw(sys.stderr), StandardError):
         sys.stderr = _text(Printable, Aside(), sys.stderr)
 
 
-def last_words() -> None:
+def flush_standard_error() -> None:
     """Let be taken what has been told aside, for a moment."""
     if isinstance(raw := _raw(sys.stderr), Aside):
         sys.stderr.flush()
@@ -105,7 +105,7 @@ def last_words() -> None:
 def lost() -> OSError | None:
     """Why standard output has not taken everything, if it has not; BrokenPipeError where its reader is gone."""
     raw = _raw(sys.stdout)
-    return raw.failure if isinstance(raw, Output) else None
+    return raw.failure if isinstance(raw, StandardOutput) else None
 
 
 def finish() -> str:

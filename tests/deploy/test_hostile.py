@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from mindlang.deploying.robot import events, script
+from mindlang.deploying.robot import parse_events, script
 from tests.calling import Call
 from tests.deploy.robot import HOST, FakeRobot
 
@@ -54,4 +54,4 @@ def test_words_stay_words() -> None:
 
 
 def test_the_greeting_of_a_shell_is_no_event() -> None:
-    assert list(events(b"Welcome!\ncurrent\tone\n\xff\n")) == [("current", "one")]
+    assert list(parse_events(b"Welcome!\ncurrent\tone\n\xff\n")) == [("current", "one")]

@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 
 from mindlang.deploying.robot import script
-from mindlang.deploying.state import state_of
+from mindlang.deploying.state import parse_state
 from tests.calling import Call
 from tests.deploy.robot import HOST, FakeRobot, program
 
@@ -111,11 +111,11 @@ def test_who_was_killed_keeps_nobody_waiting(old: str, robot: FakeRobot, bundles
 
 @pytest.mark.parametrize("detail", ["", "a", "a b", "backup whole {}", "99999999T999999Z-00000000 whole {}"])
 def test_what_a_robot_tells_of_something_else_is_left_out(detail: str) -> None:
-    assert state_of([("release", detail), ("current", "/")]).releases == ()
-    assert state_of([("current", "backup")]).current == ""
+    assert parse_state([("release", detail), ("current", "/")]).releases == ()
+    assert parse_state([("current", "backup")]).current == ""
 
 
 def test_no_release_has_a_name_after_the_last_year() -> None:
     last = "99991231T235959Z-00000000"
-    state = state_of([("current", last), ("release", f"{last} whole {{}}")])
+    state = parse_state([("current", last), ("release", f"{last} whole {{}}")])
     assert state.moment(datetime(2026, 11, 21, tzinfo=UTC)) == "20261121T000000Z"

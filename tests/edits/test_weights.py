@@ -19,7 +19,7 @@ from mindrun.weights import genes
 from mindlang.compiler.compile import load
 from mindlang.editing.apply import apply_edit
 from mindlang.editing.lock_update import update_locks
-from mindlang.editing.project import Change, EditError, open_project
+from mindlang.editing.project import EditError, MindChange, open_project
 from mindlang.editing.summary import summarise
 from mindlang.editing.writing import write
 from mindlang.edits import edit
@@ -315,7 +315,7 @@ def test_widened_skills_do_the_same_to_the_bit(
     lock = read_lock(path)
     graph = arrange(graph, lock)
     wide = _wider(graph, data.draw)
-    followed = update_locks({path: lock}, graph, wide, Change(()), keep_weights=True)
+    followed = update_locks({path: lock}, graph, wide, MindChange(()), keep_weights=True)
     after = arrange(wide, followed.locks[path])
     new = {
         name: followed.weights.get(blob(path.parent, entry.weights), weights[name])

@@ -18,7 +18,7 @@ from mindlang.compiler.compile import Compiled, compile_source, load
 from mindlang.compiler.diagnostic import Findings
 from mindlang.compiler.parse import parse
 from mindlang.compiler.parse.build import build
-from mindlang.compiler.parse.shape import grammar, said
+from mindlang.compiler.parse.shape import grammar, parse_line
 from mindlang.compiler.source import Source
 from tests.language.examples import EXAMPLES, RIGHT, TOUR
 
@@ -189,9 +189,9 @@ def same_as_lark(code: str) -> None:
         expected = repr(build(grammar().parse(code, start="line"), source, 3))
     except UnexpectedInput:
         with pytest.raises(UnexpectedInput):
-            said(code, source, 3)
+            parse_line(code, source, 3)
     else:
-        assert repr(said(code, source, 3)) == expected
+        assert repr(parse_line(code, source, 3)) == expected
 
 
 @settings(relaxed, max_examples=300)

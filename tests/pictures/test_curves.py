@@ -9,8 +9,8 @@ from xml.etree import ElementTree
 
 import pytest
 from matplotlib.axes import Axes
-from mindrun.train.progress import read
-from mindrun.train.run_folder import Run, create
+from mindrun.train.progress import read_progress
+from mindrun.train.run_folder import RunFolder, create
 from mindrun.train.training import train
 
 from mindlang.pictures.curves import figure, image
@@ -24,7 +24,7 @@ LOG = "attempt,generation,best,reevaluated,verdict\n1,1,3.5,2.0,\n1,2,-inf,,\n1,
 
 
 @pytest.fixture
-def run(tmp_path: Path) -> Run:
+def run(tmp_path: Path) -> RunFolder:
     """A run that has not begun, of three attempts."""
     return create(tmp_path / "runs", manifest(lesson(GENERATIONS, attempts=ATTEMPTS)), {}, {})
 
@@ -42,10 +42,10 @@ def lines(axes: Axes) -> dict[str, list[tuple[float, float]]]:
     return {str(line.get_label()): [(float(x), float(y)) for x, y in line.get_xydata()] for line in axes.get_lines()}
 
 
-def test_the_lines_are_what_the_log_says(run: Run) -> None:
+def test_the_lines_are_what_the_log_says(run: RunFolder) -> None:
     train(run, Sphere(), unwatched(RARELY))
     axes = figure(load_curves([run.folder])).axes[0]
-    records = read(run.folder)
+    records = read_progress(run.folder)
     for attempt in range(1, ATTEMPTS + 1):
         for column, count in (("best", GENERATIONS), ("reevaluated", 3), ("verdict", 1)):
             told = [(r["generation"], r[column]) for r in records if r["attempt"] == attempt and r[column] is not None]
@@ -76,7 +76,7 @@ def test_the_legend_says_everything_once(table: Path) -> None:
     ]
 
 
-def test_a_table_gives_the_picture_of_its_run_to_the_byte(run: Run, tmp_path: Path) -> None:
+def test_a_table_gives_the_picture_of_its_run_to_the_byte(run: RunFolder, tmp_path: Path) -> None:
     train(run, Sphere(), unwatched(RARELY))
     table = copy(run.folder / "progress.csv", tmp_path / "Climb.csv")
     packed = tmp_path / "packed" / "Climb.csv.gz"
@@ -95,7 +95,7 @@ def test_the_settings_of_the_user_change_nothing(table: Path, monkeypatch: pytes
     assert image(figure(load_curves([table])), ".svg") == before
 
 
-def test_a_run_that_goes_on_is_drawn_as_far_as_it_is(run: Run) -> None:
+def test_a_run_that_goes_on_is_drawn_as_far_as_it_is(run: RunFolder) -> None:
     train(run, Sphere(), unwatched(stop_after=5))
     for name, late in (("progress.jsonl", b'{"attempt": 1, "gen'), ("progress.csv", b"1,6,-0.")):
         with (run.folder / name).open("ab") as file:
@@ -106,7 +106,9 @@ def test_a_run_that_goes_on_is_drawn_as_far_as_it_is(run: Run) -> None:
         assert shown["verdict 1"] == []
 
 
-def test_all_runs_beneath_a_folder_are_drawn_side_by_side(mindc: Call, run: Run, table: Path, tmp_path: Path) -> None:
+def test_all_runs_beneath_a_folder_are_drawn_side_by_side(
+    mindc: Call, run: RunFolder, table: Path, tmp_path: Path
+) -> None:
     other = create(tmp_path / "runs", manifest(lesson(2)), {}, {})
     create(tmp_path / "runs", manifest(lesson(2), seed=7), {}, {})  # has learnt nothing yet
     for each in (run, other):
@@ -179,11 +181,11 @@ def test_what_cannot_be_drawn_is_said(
     assert sorted(tmp_path.iterdir()) == before
 
 
-def test_a_run_without_a_generation_says_so(mindc: Call, run: Run) -> None:
+def test_a_run_without_a_generation_says_so(mindc: Call, run: RunFolder) -> None:
     assert mindc("plot", run.folder) == (1, "", f"{run.folder} has no generations yet\n")
 
 
-def test_a_run_of_another_version_has_its_table_to_draw(mindc: Call, run: Run, tmp_path: Path) -> None:
+def test_a_run_of_another_version_has_its_table_to_draw(mindc: Call, run: RunFolder, tmp_path: Path) -> None:
     train(run, Sphere(), unwatched(RARELY))
     (run.folder / "manifest.json").write_text('{"format": 1}')
     said = mindc("plot", run.folder, "-o", tmp_path / "curves.svg")

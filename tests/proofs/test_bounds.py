@@ -21,7 +21,7 @@ from mindlang.lock.ready import make_ready
 from mindlang.proofs.batch import think, values
 from mindlang.proofs.interval import SIGMOID_ERROR
 from mindlang.proofs.proof import OfActuator, Proof, prove
-from mindlang.proofs.reach import MIN_INFLUENCE, Reach, reach
+from mindlang.proofs.reach import MIN_INFLUENCE, ProvedReach, reach
 from tests.hierarchies import SCALES, random_graph
 from tests.minds import always, mind, rule, skill
 
@@ -42,7 +42,9 @@ def in_the_box(graph: Graph, rows: int, rng: np.random.Generator) -> np.ndarray:
     return readings
 
 
-def lies_inside(graph: Graph, weights: dict[str, Weights], readings: np.ndarray, proof: Proof, bounds: Reach) -> None:
+def lies_inside(
+    graph: Graph, weights: dict[str, Weights], readings: np.ndarray, proof: Proof, bounds: ProvedReach
+) -> None:
     """Hold what is computed for these readings against everything that was claimed."""
     names = {s.name: place for place, s in enumerate(graph.skills)}
     for s in reachable(graph, graph.master):

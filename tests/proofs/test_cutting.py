@@ -10,8 +10,16 @@ from mindrun.weights import NO_WEIGHTS, genes
 
 from mindlang.proofs import branch_and_bound
 from mindlang.proofs.batch import values
-from mindlang.proofs.branch_and_bound import SHARP_ENOUGH, Range, by_itself, halves, ranges, readings_to_try, sway_of
-from mindlang.proofs.interval import Boxes, Sent
+from mindlang.proofs.branch_and_bound import (
+    SHARP_ENOUGH,
+    EdgeRange,
+    by_itself,
+    halves,
+    ranges,
+    readings_to_try,
+    sway_of,
+)
+from mindlang.proofs.interval import Boxes, SentBounds
 from tests.hierarchies import random_graph
 from tests.minds import always, rule, skill
 
@@ -19,7 +27,7 @@ R0, R1 = (("reading", 0),), (("reading", 1),)
 NOTHING = (*R0, *R0, ("-", 0))  # r − r, of which intervals say −1 to 1
 
 
-def range_of(value: Program, most: int, reads: tuple[int, ...] = (0,)) -> Range:
+def range_of(value: Program, most: int, reads: tuple[int, ...] = (0,)) -> EdgeRange:
     """What a rule sends over one edge."""
     return ranges(rule("Top", Edge("skill", 1, None, value), reads=reads), None, most)[0]
 
@@ -34,7 +42,7 @@ def number(x: float) -> Program:
 )
 def test_as_many_boxes_as_are_allowed(most: int, high: float) -> None:
     """Every round doubles them, and counts: 1, 3, 7, 15."""
-    assert range_of(NOTHING, most) == Range(0.0, high, sure=True, seen=(0.0, 0.0))
+    assert range_of(NOTHING, most) == EdgeRange(0.0, high, sure=True, seen=(0.0, 0.0))
 
 
 def test_only_so_many_boxes_are_cut_in_a_round() -> None:
@@ -116,12 +124,12 @@ def test_what_is_sure_is_sure_everywhere() -> None:
 def test_of_python_code_nothing_is_seen() -> None:
     """Its fixed lines are; where it has none, nothing is tried."""
     edges = (Edge("skill", 1, 0), always("skill", 2, 0.25))
-    taken = Range(0.0, 1.0, sure=False)
+    taken = EdgeRange(0.0, 1.0, sure=False)
     assert ranges(Skill("Top", Procedure("a.b"), (0,), edges), None, 9) == (
         taken,
-        Range(0.25, 0.25, True, (0.25, 0.25)),
+        EdgeRange(0.25, 0.25, True, (0.25, 0.25)),
     )
-    assert ranges(Skill("Top", Mlp(), (0,), edges), None, 9) == (taken, Range(0.25, 0.25, True, (0.25, 0.25)))
+    assert ranges(Skill("Top", Mlp(), (0,), edges), None, 9) == (taken, EdgeRange(0.25, 0.25, True, (0.25, 0.25)))
     assert ranges(Skill("Top", Procedure("a.b"), (0,), edges[:1]), None, 9) == (taken,)
 
 
@@ -133,11 +141,11 @@ def test_nothing_is_cut_for_a_function_that_is_not_known(monkeypatch: pytest.Mon
 
 
 def test_a_line_that_is_never_a_number_was_seen_to_send_nothing() -> None:
-    assert range_of((*number(1), *number(0), ("/", 0)), 9, ()) == Range(0.0, 1.0, sure=False)
+    assert range_of((*number(1), *number(0), ("/", 0)), 9, ()) == EdgeRange(0.0, 1.0, sure=False)
 
 
 def test_what_was_seen_is_clamped() -> None:
-    assert range_of((*R0, *number(3), ("*", 0), *number(1), ("-", 0)), 9) == Range(0.0, 1.0, True, (0.0, 1.0))
+    assert range_of((*R0, *number(3), ("*", 0), *number(1), ("-", 0)), 9) == EdgeRange(0.0, 1.0, True, (0.0, 1.0))
 
 
 @settings(max_examples=15)
@@ -212,7 +220,7 @@ def test_how_far_a_box_reaches_beyond_what_was_seen() -> None:
         ([0.5, 1, 0.25], [0.5, 1, 0.0005], 0.0005),
         ([0.625, 1, 0.5], [0.375, 1, 0], 0),
     ]
-    found = Sent(
+    found = SentBounds(
         np.array([r[0] for r in rows], np.float32), np.array([r[1] for r in rows], np.float32), np.ones((7, 3), bool)
     )
     assert branch_and_bound._excess(found, low, high).tolist() == pytest.approx([r[2] for r in rows], abs=1e-6)

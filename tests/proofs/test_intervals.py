@@ -11,7 +11,7 @@ from mindrun.graph import Edge, Program, Skill
 from mindrun.weights import genes
 
 from mindlang.proofs.batch import values
-from mindlang.proofs.interval import SIGMOID_ERROR, Boxes, Sent, evaluate, is_known, perceive, sent
+from mindlang.proofs.interval import SIGMOID_ERROR, Boxes, SentBounds, evaluate, is_known, perceive, sent
 from tests.minds import always, rule, skill
 
 SHARES = st.floats(0, 1, width=32)
@@ -35,7 +35,7 @@ def sending(value: Program, reads: tuple[int, ...] = (0, 1)) -> Skill:
     return rule("Top", Edge("skill", 1, None, value), reads=reads)
 
 
-def range_of(found: Sent) -> tuple[float, float, bool]:
+def range_of(found: SentBounds) -> tuple[float, float, bool]:
     """The bounds of what is sent over one edge in one box."""
     return float(found.low[0, 0]), float(found.high[0, 0]), bool(found.sure[0, 0])
 

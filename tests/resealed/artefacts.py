@@ -27,7 +27,7 @@ from mindrun.robot.timing_report import report
 from mindrun.sim.commanded_world import World
 from mindrun.train import checkpoint
 from mindrun.train.manifest import hashes
-from mindrun.train.progress import LINES, read
+from mindrun.train.progress import LINES, read_progress
 from mindrun.train.run_folder import MANIFEST, RESULT, START, create, open_run, read_result
 from mindrun.train.training import Watch, train
 from mindrun.weights import genes
@@ -35,7 +35,7 @@ from mindrun.weights import genes
 from mindlang.cli.deploy import _listed
 from mindlang.compiler.compile import compile_source
 from mindlang.compiler.source import Source
-from mindlang.deploying.state import state_of
+from mindlang.deploying.state import parse_state
 from mindlang.lock import LockError, Taught, lock_path, read_lock
 from mindlang.lock.blobs import load_weights, record
 from mindlang.lock.report import rows
@@ -321,7 +321,7 @@ def use_run(folder: Path) -> object:
     """Open it, look at its log and its result, and go on with it for a while."""
     json.dumps(read_result(folder), allow_nan=False)
     run = open_run(folder)
-    read(folder)
+    read_progress(folder)
     for curve in load_curves([folder]):
         for attempt in curve.attempts:
             assert np.isfinite(np.array(curve.points(attempt, "best"), float)).all()
@@ -344,7 +344,7 @@ def tampered_release(rng: Random) -> dict[str, bytes]:
 def use_release(folder: Path) -> object:
     """List it."""
     said = (folder / "release.json").read_bytes().decode(errors="replace")
-    return json.dumps(_listed(state_of([("current", ""), ("release", f"20261121T193404Z-8c7cb8b2 whole {said}")])))
+    return json.dumps(_listed(parse_state([("current", ""), ("release", f"20261121T193404Z-8c7cb8b2 whole {said}")])))
 
 
 ARTEFACTS = {

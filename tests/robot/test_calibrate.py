@@ -1,7 +1,7 @@
 """The lines that `mindrun calibrate` prints can stand in robot.yaml."""
 
 from mindrun.robot.sampling import Sample
-from mindrun.tools.calibrate import found, lines
+from mindrun.tools.calibrate import lines, reading_statistics
 from mindrun.wiring import SensorWire
 
 from tests.robot.faults import Scripted
@@ -32,9 +32,9 @@ def test_what_does_not_change_is_told() -> None:
 
 
 def test_noise_is_the_spread_at_rest_and_losses_are_counted() -> None:
-    seen = found([0.0, 1.0, *[0.5, 0.52] * 10, None, None])
+    seen = reading_statistics([0.0, 1.0, *[0.5, 0.52] * 10, None, None])
     assert seen
     assert (seen.low, seen.high) == (0.0, 1.0)
     assert abs(seen.noise - 0.01) < 1e-9
     assert abs(seen.lost - 2 / 24) < 1e-9
-    assert found([None]) is None
+    assert reading_statistics([None]) is None

@@ -3,7 +3,7 @@
 import pytest
 from mindrun.driver import SensorDriver
 from mindrun.robot.drivers.ball_tracker import BallTracker
-from mindrun.robot.drivers.lsm9ds1_compass import Compass
+from mindrun.robot.drivers.lsm9ds1_compass import MagneticCompass
 from mindrun.robot.drivers.lsm9ds1_motion import Motion
 from mindrun.robot.drivers.lsm9ds1_turn import Turn
 from mindrun.robot.drivers.mock import MockSensor
@@ -16,7 +16,7 @@ def test_a_camera_looks_straight_ahead() -> None:
     assert (wire.low, wire.high) == (180.0, -180.0)
 
 
-@pytest.mark.parametrize("driver", [MockSensor(0.3), Turn(still=0.2), Motion(), Compass()])
+@pytest.mark.parametrize("driver", [MockSensor(0.3), Turn(still=0.2), Motion(), MagneticCompass()])
 def test_other_sensors_are_as_they_are(driver: SensorDriver) -> None:
     wire = SensorWire("any", driver, 0.0, 1.0)
     assert still(wire) == wire

@@ -26,10 +26,10 @@ from mindrun.errors import MindError
 from mindrun.graph import Graph
 from mindrun.policy import Policy
 from mindrun.registry import kinds
-from mindrun.robot.drivers.simulated import Link, SimulatedActuator, SimulatedSensor, dry, status
+from mindrun.robot.drivers.simulated import SimulatedActuator, SimulatedSensor, WorldConnection, dry, status
 from mindrun.robot.simulated_world.process import simulated
 from mindrun.robot.simulated_world.protocol import READ, REQUEST, STATUS, WRITE, requests
-from mindrun.robot.simulated_world.scene import Scene
+from mindrun.robot.simulated_world.scene import SimulatedScene
 from mindrun.robot.simulated_world.server import Server, listening
 from mindrun.sim.commanded_world import World
 from mindrun.sim.rollout import Rollout
@@ -192,7 +192,7 @@ class Counting:
 @contextmanager
 def served(world: Counting, again: bool = False, path: Path | None = None) -> Iterator[tuple[str, Server]]:
     """A server of that world in a thread, which ticks a thousand times a second."""
-    server = Server(Scene(world, again))
+    server = Server(SimulatedScene(world, again))
     with TemporaryDirectory() as folder, listening(path or Path(folder, "world")) as listener:
         thread = Thread(target=server.serve, args=(listener, 0.001))
         thread.start()
@@ -264,7 +264,7 @@ def test_what_is_not_there_is_refused_and_nothing_else_happens(roam: Graph) -> N
 @pytest.mark.parametrize("bad", [b"?" * 11, request(READ, b"\xff"), bytes(100), b"\xff" * 100_000])
 def test_who_sends_nonsense_is_cut_off_and_nobody_else(roam: Graph, bad: bytes) -> None:
     with served(Counting(roam)) as (path, _):
-        good, other = Link(path), connected(path)
+        good, other = WorldConnection(path), connected(path)
         good.ask(READ, "feeler")
         held = good._socket
         with suppress(ConnectionError):
@@ -339,7 +339,7 @@ def test_a_world_that_does_not_answer_is_an_error_and_can_come_back(
     roam: Graph, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     path = tmp_path / "world"
-    link = Link(str(path))
+    link = WorldConnection(str(path))
     with pytest.raises(DeviceError, match="does not answer: No such file"):
         link.ask(STATUS)
     with listening(path), monkeypatch.context() as soon:

@@ -11,7 +11,7 @@ import pytest
 from mindrun.train import RunError, checkpoint
 from mindrun.train.checkpoint import load, pack, save, unpack
 from mindrun.train.lesson import teach
-from mindrun.train.lesson_state import Course, State, begin
+from mindrun.train.lesson_state import Course, LessonState, begin
 
 from tests.train.climbing import LENGTH, Sphere, lesson
 
@@ -19,24 +19,24 @@ RUN = "a run"
 
 
 @pytest.fixture(scope="module")
-def states() -> list[State]:
+def states() -> list[LessonState]:
     course = Course(lesson(8, population=6), 1, np.empty((0, LENGTH), np.float32))
     return [state for state, _ in teach(course, Sphere(), begin(course), lambda: 0.0)]
 
 
-def test_a_state_reads_back_to_the_bit(states: list[State]) -> None:
+def test_a_state_reads_back_to_the_bit(states: list[LessonState]) -> None:
     for state in states:
         again = unpack(pack(state, RUN), RUN)
         assert again is not None
         assert pack(again, RUN) == pack(state, RUN)
 
 
-def test_every_truncation_is_refused(states: list[State]) -> None:
+def test_every_truncation_is_refused(states: list[LessonState]) -> None:
     whole = pack(states[2], RUN)
     assert all(unpack(whole[:length], RUN) is None for length in range(len(whole)))
 
 
-def test_every_flipped_bit_is_refused(states: list[State]) -> None:
+def test_every_flipped_bit_is_refused(states: list[LessonState]) -> None:
     whole, rng = pack(states[2], RUN), np.random.default_rng(0)
     for place in rng.choice(8 * len(whole), 1000, replace=False):
         damaged = bytearray(whole)
@@ -45,7 +45,7 @@ def test_every_flipped_bit_is_refused(states: list[State]) -> None:
 
 
 @pytest.fixture(scope="module")
-def second() -> State:
+def second() -> LessonState:
     """A state in its second attempt, in which nothing is empty."""
     course = Course(lesson(4, population=6, attempts=2, rungs=1), 1, np.empty((0, LENGTH), np.float32))
     return list(teach(course, Sphere(), begin(course), lambda: 0.0))[4][0]
@@ -56,12 +56,12 @@ def among(array: np.ndarray, number: float) -> np.ndarray:
     return np.append(array.ravel()[:-1], np.array(number, array.dtype)).reshape(array.shape)
 
 
-def of(state: State, **changes: object) -> State:
+def of(state: LessonState, **changes: object) -> LessonState:
     """The state with another population."""
     return replace(state, population=replace(state.population, **changes))
 
 
-BROKEN: dict[str, Callable[[State], State]] = {
+BROKEN: dict[str, Callable[[LessonState], LessonState]] = {
     "a score too few": lambda s: of(s, scores=s.population.scores[:-1]),
     "a champion of other weights": lambda s: replace(s, champion=s.champion[:, 1:]),
     "a rival of other weights": lambda s: replace(s, rival=s.rival[:, 1:]),
@@ -91,7 +91,7 @@ BROKEN: dict[str, Callable[[State], State]] = {
     "more ticks than can be": lambda s: replace(s, ticks=2**53 + 1),
     "neither told apart nor not": lambda s: replace(s, told_apart=2),  # type: ignore[arg-type]
 }
-WHOLE: dict[str, Callable[[State], State]] = {
+WHOLE: dict[str, Callable[[LessonState], LessonState]] = {
     "scores of faults": lambda s: of(s, scores=among(s.population.scores, -np.inf)),
     "a verdict of a fault": lambda s: replace(s, verdicts=among(s.verdicts, -np.inf)),
     "as many ticks as can be": lambda s: replace(s, ticks=2**53),
@@ -101,29 +101,29 @@ WHOLE: dict[str, Callable[[State], State]] = {
 
 
 @pytest.mark.parametrize("what", BROKEN)
-def test_a_state_that_no_run_has_is_refused_though_its_hash_is_right(second: State, what: str) -> None:
+def test_a_state_that_no_run_has_is_refused_though_its_hash_is_right(second: LessonState, what: str) -> None:
     assert unpack(pack(BROKEN[what](second), RUN), RUN) is None
 
 
 @pytest.mark.parametrize("what", WHOLE)
-def test_a_state_that_a_run_can_have_is_read(second: State, what: str) -> None:
+def test_a_state_that_a_run_can_have_is_read(second: LessonState, what: str) -> None:
     again = unpack(pack(WHOLE[what](second), RUN), RUN)
     assert again is not None
     assert pack(again, RUN) == pack(WHOLE[what](second), RUN)
     assert [type(each) for each in _plain(again)] == [int, int, int, int, float, float, bool]
 
 
-def _plain(state: State) -> tuple[object, ...]:
+def _plain(state: LessonState) -> tuple[object, ...]:
     generation = state.population.generation
     return state.attempt, generation, state.since, state.ticks, state.best, state.seconds, state.told_apart
 
 
-def test_the_header_says_what_follows_and_nothing_else(second: State) -> None:
+def test_the_header_says_what_follows_and_nothing_else(second: LessonState) -> None:
     body = pack(second, RUN)[:-32]
     magic, line, rest = body.split(b"\n", 2)
     header = json.loads(line)
 
-    def unsealed(header: object, rest: bytes = rest, magic: bytes = magic) -> State | None:
+    def unsealed(header: object, rest: bytes = rest, magic: bytes = magic) -> LessonState | None:
         data = magic + b"\n" + json.dumps(header).encode() + b"\n" + rest
         return unpack(data + sha256(data).digest(), RUN)
 
@@ -156,12 +156,12 @@ def test_the_header_says_what_follows_and_nothing_else(second: State) -> None:
     assert unpack(data + sha256(data).digest(), RUN) is None
 
 
-def test_another_run_s_checkpoint_is_refused(states: list[State]) -> None:
+def test_another_run_s_checkpoint_is_refused(states: list[LessonState]) -> None:
     assert unpack(pack(states[2], "another run"), RUN) is None
 
 
 @pytest.mark.parametrize("damage", [b"", b"mind checkpoint 1\n", b"\0" * 5000])
-def test_the_previous_one_is_taken_and_it_is_said(tmp_path: Path, states: list[State], damage: bytes) -> None:
+def test_the_previous_one_is_taken_and_it_is_said(tmp_path: Path, states: list[LessonState], damage: bytes) -> None:
     save(tmp_path, states[0], RUN)
     save(tmp_path, states[1], RUN)
     (tmp_path / checkpoint.NAME).write_bytes(damage)
@@ -171,7 +171,7 @@ def test_the_previous_one_is_taken_and_it_is_said(tmp_path: Path, states: list[S
     assert "damaged" in found.warning
 
 
-def test_a_damaged_one_never_replaces_the_good_previous_one(tmp_path: Path, states: list[State]) -> None:
+def test_a_damaged_one_never_replaces_the_good_previous_one(tmp_path: Path, states: list[LessonState]) -> None:
     save(tmp_path, states[0], RUN)
     save(tmp_path, states[1], RUN)
     (tmp_path / checkpoint.NAME).write_bytes(b"damaged")
@@ -182,7 +182,9 @@ def test_a_damaged_one_never_replaces_the_good_previous_one(tmp_path: Path, stat
     assert found.state.population.generation == 1
 
 
-def test_a_crash_between_the_two_renames_costs_nothing_but_one_checkpoint(tmp_path: Path, states: list[State]) -> None:
+def test_a_crash_between_the_two_renames_costs_nothing_but_one_checkpoint(
+    tmp_path: Path, states: list[LessonState]
+) -> None:
     save(tmp_path, states[0], RUN)
     (tmp_path / checkpoint.NAME).rename(tmp_path / checkpoint.PREVIOUS)
     found = load(tmp_path, RUN)
@@ -190,7 +192,7 @@ def test_a_crash_between_the_two_renames_costs_nothing_but_one_checkpoint(tmp_pa
     assert found.warning == ""
 
 
-def test_with_nothing_whole_left_it_is_refused(tmp_path: Path, states: list[State]) -> None:
+def test_with_nothing_whole_left_it_is_refused(tmp_path: Path, states: list[LessonState]) -> None:
     save(tmp_path, states[0], RUN)
     (tmp_path / checkpoint.NAME).write_bytes(b"damaged")
     with pytest.raises(RunError, match="is damaged, and no other is left"):

@@ -15,7 +15,7 @@ from mindrun.train.lesson import (
     teach,
     try_again,
 )
-from mindrun.train.lesson_state import Course, Record, State, begin
+from mindrun.train.lesson_state import Course, LessonState, Record, begin
 from mindrun.train.population import Population
 from mindrun.train.rungs import is_behind, rung_at
 from mindrun.train.scoring import mark
@@ -26,7 +26,7 @@ from tests.train.climbing import LENGTH, Faulty, Flat, Results, Sphere, lesson
 UNKNOWN = np.empty((0, LENGTH), np.float32)
 
 
-def taught(course: Course, scorer: Sphere) -> tuple[State, list[Record]]:
+def taught(course: Course, scorer: Sphere) -> tuple[LessonState, list[Record]]:
     ticking = iter(range(10**6))
     passed = list(teach(course, scorer, begin(course), lambda: float(next(ticking))))
     return passed[-1][0], [record for _, record in passed]
@@ -270,7 +270,7 @@ def test_a_fault_in_its_verdict_makes_an_attempt_the_worst() -> None:
     assert ended.faults == 2 * VERDICT_LAYOUTS
 
 
-def tried(champion: np.ndarray, rival: np.ndarray, *scored: float) -> tuple[State, float]:
+def tried(champion: np.ndarray, rival: np.ndarray, *scored: float) -> tuple[LessonState, float]:
     genomes = genomes_of(*scored)
     state = begin(Course(lesson(5), 1, UNKNOWN))
     state = replace(state, population=Population(genomes, genomes[:, 0].astype(np.float64), 12))

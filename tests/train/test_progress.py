@@ -13,9 +13,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from mindrun.train import training
-from mindrun.train.lesson_state import Course, Record, State, begin
+from mindrun.train.lesson_state import Course, LessonState, Record, begin
 from mindrun.train.population import Population
-from mindrun.train.progress import LINES, TABLE, Progress, read
+from mindrun.train.progress import LINES, TABLE, ProgressLog, read_progress
 
 from tests.train.climbing import LENGTH, lesson
 
@@ -35,7 +35,7 @@ RECORDS = st.builds(
 )
 
 
-def at(attempt: int, generation: int) -> State:
+def at(attempt: int, generation: int) -> LessonState:
     """A state that has so many attempts, and so many generations of the next one, behind it."""
     state = begin(Course(lesson(), 1, np.empty((0, LENGTH), np.float32)))
     return replace(state, attempt=attempt, population=Population(state.population.genomes, np.empty(0), generation))
@@ -50,11 +50,11 @@ def finite(record: Record) -> dict[str, object]:
 @settings(max_examples=25)
 def test_what_is_logged_is_read(tmp_path_factory: pytest.TempPathFactory, records: list[Record]) -> None:
     folder = tmp_path_factory.mktemp("run")
-    with Progress(folder, at(0, 0)) as progress:
+    with ProgressLog(folder, at(0, 0)) as progress:
         for record in records:
             progress.append(record)
         progress.sync()
-    assert read(folder) == [finite(record) for record in records]
+    assert read_progress(folder) == [finite(record) for record in records]
     with (folder / TABLE).open(encoding="utf-8", newline="") as file:
         rows = list(csv.reader(file))
     assert rows[0] == list(asdict(FIRST))
@@ -66,13 +66,13 @@ def test_what_is_logged_is_read(tmp_path_factory: pytest.TempPathFactory, record
 @pytest.mark.parametrize("generation", [0, 1, 2, 3])
 def test_what_the_state_has_not_behind_it_is_dropped(tmp_path: Path, attempt: int, generation: int) -> None:
     numbers = [(a, g) for a in (1, 2, 3) for g in (1, 2, 3)]
-    with Progress(tmp_path, at(0, 0)) as progress:
+    with ProgressLog(tmp_path, at(0, 0)) as progress:
         for a, g in numbers:
             progress.append(replace(FIRST, attempt=a, generation=g))
-    with Progress(tmp_path, at(attempt, generation)) as progress:
+    with ProgressLog(tmp_path, at(attempt, generation)) as progress:
         progress.append(replace(FIRST, attempt=9, generation=9))
     kept = [(a, g) for a, g in numbers if a <= attempt or (a == attempt + 1 and g <= generation)]
-    assert [(record["attempt"], record["generation"]) for record in read(tmp_path)] == [*kept, (9, 9)]
+    assert [(record["attempt"], record["generation"]) for record in read_progress(tmp_path)] == [*kept, (9, 9)]
     assert len((tmp_path / TABLE).read_text().splitlines()) == 1 + len(kept) + 1
 
 
@@ -86,7 +86,7 @@ STRANGE: dict[str, object] = {
 def test_the_log_ends_before_a_line_that_no_run_writes(tmp_path: Path, name: str) -> None:
     lines = [json.dumps(finite(FIRST) | changes) for changes in ({}, {name: STRANGE[name]}, {})]
     (tmp_path / LINES).write_text("\n".join([*lines, ""]))
-    assert read(tmp_path) == [finite(FIRST)]
+    assert read_progress(tmp_path) == [finite(FIRST)]
 
 
 @pytest.mark.parametrize(
@@ -100,33 +100,33 @@ def test_the_log_ends_before_a_line_that_no_run_writes(tmp_path: Path, name: str
 def test_the_log_ends_before_a_line_that_is_none(tmp_path: Path, line: str) -> None:
     whole = json.dumps(finite(FIRST))
     (tmp_path / LINES).write_text("\n".join([whole, whole, line, whole, ""]))
-    assert read(tmp_path) == [finite(FIRST)] * 2
+    assert read_progress(tmp_path) == [finite(FIRST)] * 2
 
 
 def test_a_line_that_does_not_end_is_none(tmp_path: Path) -> None:
     (tmp_path / LINES).write_text(json.dumps(finite(FIRST)))
-    assert read(tmp_path) == []
-    assert read(tmp_path / "nowhere") == []
+    assert read_progress(tmp_path) == []
+    assert read_progress(tmp_path / "nowhere") == []
 
 
 def test_numbers_at_their_bounds_are_numbers(tmp_path: Path) -> None:
     bounds = finite(replace(FIRST, ticks=2**53, faults=0)) | {"best": -(2**53), "mean": 0, "seconds": 1e308}
     (tmp_path / LINES).write_text(json.dumps(bounds) + "\n")
-    assert read(tmp_path) == [bounds]
+    assert read_progress(tmp_path) == [bounds]
 
 
 def test_what_a_full_disk_takes_in_pieces_is_whole(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     write = os.write
-    with Progress(tmp_path, at(0, 0)) as progress:
+    with ProgressLog(tmp_path, at(0, 0)) as progress:
         monkeypatch.setattr(os, "write", lambda descriptor, data: write(descriptor, data[:7]))
         progress.append(FIRST)
         monkeypatch.undo()
-    assert read(tmp_path) == [finite(FIRST)]
+    assert read_progress(tmp_path) == [finite(FIRST)]
 
 
 def test_both_files_are_brought_to_the_disk_and_closed(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     synced: list[str] = []
-    with Progress(tmp_path, at(0, 0)) as progress:
+    with ProgressLog(tmp_path, at(0, 0)) as progress:
         monkeypatch.setattr(
             os, "fsync", lambda descriptor: synced.append(Path(f"/proc/self/fd/{descriptor}").readlink().name)
         )
@@ -149,7 +149,7 @@ def test_the_log_is_on_the_disk_before_the_checkpoint_that_counts_on_it(monkeypa
 
 def test_both_files_of_the_log_are_brought_to_the_disk(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     synced: list[int] = []
-    with Progress(tmp_path, at(0, 0)) as progress:
+    with ProgressLog(tmp_path, at(0, 0)) as progress:
         monkeypatch.setattr("os.fsync", synced.append)
         progress.sync()
         names = {Path(f"/proc/self/fd/{descriptor}").readlink().name for descriptor in synced}

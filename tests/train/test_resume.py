@@ -8,8 +8,8 @@ from pathlib import Path
 from time import sleep
 
 from mindrun.train.manifest import Manifest
-from mindrun.train.progress import read
-from mindrun.train.run_folder import Run, create
+from mindrun.train.progress import read_progress
+from mindrun.train.run_folder import RunFolder, create
 from mindrun.train.training import train
 
 from tests.train.climbing import Sphere, lesson, manifest, unwatched
@@ -18,12 +18,14 @@ KILLS = 20
 CLIMB = Path(__file__).with_name("climb.py")
 
 
-def made(runs: Path) -> Run:
+def made(runs: Path) -> RunFolder:
     return create(runs, manifest(lesson(500, attempts=3)), {}, {})
 
 
-def end(run: Run) -> tuple[bytes, bytes, list[dict[str, float | None]]]:
-    records = [{key: value for key, value in record.items() if key != "seconds"} for record in read(run.folder)]
+def end(run: RunFolder) -> tuple[bytes, bytes, list[dict[str, float | None]]]:
+    records = [
+        {key: value for key, value in record.items() if key != "seconds"} for record in read_progress(run.folder)
+    ]
     return (run.folder / "weights.npy").read_bytes(), (run.folder / "champions.npy").read_bytes(), records
 
 
@@ -33,12 +35,12 @@ def test_killed_at_twenty_random_moments_it_ends_in_the_same_bits(tmp_path: Path
     moments = random.Random(0)
     codes = [live(disturbed, moments.uniform(0, 0.06)) for _ in range(KILLS)]
     assert codes == [-signal.SIGKILL] * KILLS
-    assert 0 < len(read(disturbed.folder)) < 1500
+    assert 0 < len(read_progress(disturbed.folder)) < 1500
     assert subprocess.run([sys.executable, CLIMB, disturbed.folder], capture_output=True, check=False).returncode == 0
     assert end(disturbed) == end(undisturbed)
 
 
-def live(run: Run, seconds: float) -> int:
+def live(run: RunFolder, seconds: float) -> int:
     with subprocess.Popen([sys.executable, CLIMB, run.folder, "", "0.001"], stdout=subprocess.PIPE) as process:
         assert process.stdout is not None
         process.stdout.readline()

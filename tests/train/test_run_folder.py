@@ -10,9 +10,9 @@ import numpy as np
 import pytest
 from mindrun.train import RunError, checkpoint
 from mindrun.train.folder_lock import claim
-from mindrun.train.lesson_state import Record, State
-from mindrun.train.progress import read
-from mindrun.train.run_folder import Run, create, open_run
+from mindrun.train.lesson_state import LessonState, Record
+from mindrun.train.progress import read_progress
+from mindrun.train.run_folder import RunFolder, create, open_run
 from mindrun.train.training import Watch, train
 
 from tests.train.climbing import Sphere, lesson, manifest, unwatched
@@ -20,7 +20,7 @@ from tests.train.climbing import Sphere, lesson, manifest, unwatched
 WEIGHTS = {"Climb": np.arange(12, dtype=np.float32), "Go+Avoid": np.ones(3, np.float32)}
 
 
-def made(runs: Path, generations: int = 6) -> Run:
+def made(runs: Path, generations: int = 6) -> RunFolder:
     return create(runs, manifest(lesson(generations)), {"climb.mind": "master Climb\n"}, {})
 
 
@@ -40,7 +40,7 @@ def test_the_folder_is_named_by_lesson_time_and_seed_and_never_used_twice(tmp_pa
 def test_a_finished_run_has_everything(tmp_path: Path) -> None:
     run = made(tmp_path)
     state = train(run, Sphere(), unwatched())
-    assert [record["generation"] for record in read(run.folder)] == [1, 2, 3, 4, 5, 6]
+    assert [record["generation"] for record in read_progress(run.folder)] == [1, 2, 3, 4, 5, 6]
     assert (run.folder / "progress.csv").read_text().count("\n") == 7
     np.testing.assert_array_equal(np.load(run.folder / "weights.npy"), state.kept[0])
     json.loads((run.folder / "manifest.json").read_text())
@@ -50,11 +50,11 @@ def test_it_is_saved_every_two_seconds_and_in_the_end(tmp_path: Path, monkeypatc
     now, saved, reported = [0.0], [], []
     save = checkpoint.save
 
-    def counted(folder: Path, state: State, run: str) -> None:
+    def counted(folder: Path, state: LessonState, run: str) -> None:
         saved.append(state.population.generation)
         save(folder, state, run)
 
-    def report(state: State, record: Record) -> None:
+    def report(state: LessonState, record: Record) -> None:
         reported.append((state.population.generation, record.generation))
         now[0] += 0.5
 
@@ -93,7 +93,7 @@ def test_lines_after_the_checkpoint_are_dropped_and_written_again(tmp_path: Path
     lines = (run.folder / "progress.jsonl").read_text().splitlines()
     (run.folder / "progress.jsonl").write_text("\n".join([*lines[:3], lines[2].replace(": 3,", ": 4,", 1), lines[3]]))
     train(run, Sphere(), unwatched())
-    assert [record["generation"] for record in read(run.folder)] == [1, 2, 3, 4, 5, 6]
+    assert [record["generation"] for record in read_progress(run.folder)] == [1, 2, 3, 4, 5, 6]
 
 
 def test_two_processes_cannot_use_one_folder(tmp_path: Path) -> None:
@@ -146,7 +146,7 @@ def test_a_full_disk_leaves_the_last_checkpoint_and_the_run_goes_on_later(tmp_pa
     undisturbed = made(tmp_path, generations=200)
     train(undisturbed, Sphere(), unwatched())
     assert (run.folder / "weights.npy").read_bytes() == (undisturbed.folder / "weights.npy").read_bytes()
-    assert [record["generation"] for record in read(run.folder)] == list(range(1, 201))
+    assert [record["generation"] for record in read_progress(run.folder)] == list(range(1, 201))
 
 
 def climb(folder: Path, before: str = "") -> "subprocess.CompletedProcess[str]":

@@ -6,7 +6,7 @@ from math import inf
 import numpy as np
 import pytest
 from mindrun.train.lesson import are_different, has_ended
-from mindrun.train.lesson_state import Course, State, begin, could_be
+from mindrun.train.lesson_state import Course, LessonState, begin, could_be
 from mindrun.train.population import Population
 
 from tests.train.climbing import LENGTH, lesson
@@ -21,7 +21,7 @@ def state(
     attempt: int = 1,
     since: int = 2,
     length: int = 30,
-) -> State:
+) -> LessonState:
     population = Population(np.ones((individuals, weights), np.float32), np.ones(individuals), generation)
     lengths = np.full(attempt, length)
     return replace(begin(COURSE), population=population, attempt=attempt, since=since, lengths=lengths)

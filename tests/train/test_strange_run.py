@@ -9,10 +9,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 from mindrun.train import RunError, checkpoint
-from mindrun.train.lesson_state import State
+from mindrun.train.lesson_state import LessonState
 from mindrun.train.population import Population
-from mindrun.train.progress import LINES, read
-from mindrun.train.run_folder import MANIFEST, RESULT, Run, create, open_run, read_result, unfinished
+from mindrun.train.progress import LINES, read_progress
+from mindrun.train.run_folder import MANIFEST, RESULT, RunFolder, create, open_run, read_result, unfinished
 from mindrun.train.training import train
 
 from mindlang.compiler.compile import load
@@ -22,14 +22,14 @@ from tests.train.climbing import LENGTH, Sphere, lesson, manifest, unwatched
 
 
 @pytest.fixture
-def run(tmp_path: Path) -> Run:
+def run(tmp_path: Path) -> RunFolder:
     """A run that was stopped after three generations."""
     run = create(tmp_path, manifest(lesson(6)), {}, {})
     train(run, Sphere(), unwatched(stop_after=3))
     return run
 
 
-def test_a_link_where_the_lock_is_leads_to_nothing_that_is_written(run: Run, tmp_path: Path) -> None:
+def test_a_link_where_the_lock_is_leads_to_nothing_that_is_written(run: RunFolder, tmp_path: Path) -> None:
     (tmp_path / "precious").write_text("mine")
     (run.folder / "lock").unlink()
     (run.folder / "lock").symlink_to(tmp_path / "precious")
@@ -39,14 +39,14 @@ def test_a_link_where_the_lock_is_leads_to_nothing_that_is_written(run: Run, tmp
 
 
 @pytest.mark.parametrize("name", ["lock", LINES, checkpoint.NAME, MANIFEST])
-def test_a_pipe_is_not_waited_for(run: Run, name: str) -> None:
+def test_a_pipe_is_not_waited_for(run: RunFolder, name: str) -> None:
     (run.folder / name).unlink()
     os.mkfifo(run.folder / name)
     with pytest.raises(RunError, match="pipe"):
         train(open_run(run.folder), Sphere(), unwatched())
 
 
-def test_who_looks_for_a_run_to_go_on_with_passes_strange_ones_by(run: Run, tmp_path: Path) -> None:
+def test_who_looks_for_a_run_to_go_on_with_passes_strange_ones_by(run: RunFolder, tmp_path: Path) -> None:
     assert unfinished(tmp_path, run.manifest) is not None
     (run.folder / checkpoint.NAME).unlink()
     os.mkfifo(run.folder / checkpoint.NAME)
@@ -57,24 +57,24 @@ def test_who_looks_for_a_run_to_go_on_with_passes_strange_ones_by(run: Run, tmp_
 
 @pytest.mark.parametrize("name", ["attempt", "generation", "best", "ticks"])
 @pytest.mark.parametrize("value", ["one", [], True, 10**400, {"a": 1}])
-def test_a_log_ends_where_it_says_what_is_no_number(run: Run, name: str, value: object) -> None:
+def test_a_log_ends_where_it_says_what_is_no_number(run: RunFolder, name: str, value: object) -> None:
     first, second, third = (run.folder / LINES).read_bytes().splitlines()
     strange = json.dumps(json.loads(second) | {name: value}).encode()
     (run.folder / LINES).write_bytes(b"\n".join([first, strange, third, b""]))
-    assert [record["generation"] for record in read(run.folder)] == [1]
+    assert [record["generation"] for record in read_progress(run.folder)] == [1]
     train(run, Sphere(), unwatched())
     assert (run.folder / "weights.npy").exists()
 
 
 @pytest.mark.parametrize("text", ["[]", "7", "[" * 9000, "9" * 5000, '{"best": 1e999}', '{"best": NaN}', ""])
-def test_a_result_that_is_none_is_no_result(run: Run, text: str) -> None:
+def test_a_result_that_is_none_is_no_result(run: RunFolder, text: str) -> None:
     (run.folder / RESULT).write_text(text)
     found = read_result(run.folder)
     assert found is None or json.dumps(found, allow_nan=False)
 
 
 FEWER = Population(np.ones((4, LENGTH), np.float32), np.ones(4), 3)
-STATES: dict[str, Callable[[State], State]] = {
+STATES: dict[str, Callable[[LessonState], LessonState]] = {
     "of fewer": lambda state: replace(state, population=FEWER),
     "after its end": lambda state: replace(state, population=replace(state.population, generation=6)),
     "that began later": lambda state: replace(state, since=5),
@@ -82,7 +82,7 @@ STATES: dict[str, Callable[[State], State]] = {
 
 
 @pytest.mark.parametrize("what", STATES)
-def test_a_checkpoint_to_which_no_run_comes_is_refused(run: Run, what: str) -> None:
+def test_a_checkpoint_to_which_no_run_comes_is_refused(run: RunFolder, what: str) -> None:
     found = checkpoint.load(run.folder, run.manifest.identity)
     assert found
     changed = checkpoint.pack(STATES[what](found.state), run.manifest.identity)
@@ -98,7 +98,7 @@ def test_weights_to_begin_with_that_are_no_genome_are_refused(tmp_path: Path) ->
         train(open_run(run.folder), Sphere(), unwatched())
 
 
-def test_a_run_of_a_skill_that_is_no_longer_there_cannot_go_on(run: Run, tmp_path: Path) -> None:
+def test_a_run_of_a_skill_that_is_no_longer_there_cannot_go_on(run: RunFolder, tmp_path: Path) -> None:
     source = write_rules(tmp_path)
     with pytest.raises(RunError, match="has changed since this run of Climb began"):
         refuse_changed(open_subject(source, load(source)), run)

@@ -7,7 +7,7 @@ from shutil import copyfile
 from typing import Any
 
 import numpy as np
-from mindrun.train.progress import read
+from mindrun.train.progress import read_progress
 from mindrun.train.run_folder import CHAMPIONS, RESULT, read_result
 from mindrun.weights import Weights
 
@@ -55,7 +55,7 @@ def keep(run: Path, folder: Path, file: str) -> None:
     with (kept / CURVE).open("w", encoding="utf-8", newline="") as out:
         writer = csv.writer(out, lineterminator="\n")
         writer.writerow(COLUMNS)
-        writer.writerows([_short(record[column]) for column in COLUMNS] for record in read(run))
+        writer.writerows([_short(record[column]) for column in COLUMNS] for record in read_progress(run))
     for name in (CHAMPIONS, RESULT):
         copyfile(run / name, kept / name)
 

@@ -8,7 +8,7 @@ from functools import lru_cache
 from mindlang.compiler import syntax
 from mindlang.compiler.diagnostic import Findings, nearest
 from mindlang.compiler.parse.explain import explain, proper
-from mindlang.compiler.parse.shape import said
+from mindlang.compiler.parse.shape import parse_line
 from mindlang.compiler.source import Source, Span
 from mindlang.compiler.syntax import NOUNS, SETTINGS, VERBS
 
@@ -89,7 +89,7 @@ def _line(span: Span, code: str, findings: Findings) -> Iterator[syntax.Line | _
         yield _Unread()
         return
     try:
-        yield said(code, span.source, span.start)
+        yield parse_line(code, span.source, span.start)
     except UnexpectedInput as error:
         findings.diagnostics.append(explain(error, code, span))
         yield _saved(code, span)

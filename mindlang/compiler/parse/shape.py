@@ -49,7 +49,7 @@ def grammar() -> "Lark":
     )
 
 
-def said(code: str, source: Source, offset: int) -> syntax.Line:
+def parse_line(code: str, source: Source, offset: int) -> syntax.Line:
     """What a line without comment says that stands at `offset` of a source; lark.UnexpectedInput where it says nothing.
 
     The error is about `code`.

@@ -15,7 +15,7 @@ from mindlang.compiler.resolve.curricula import lessons
 from mindlang.compiler.resolve.parts import measured_widths, parts
 from mindlang.compiler.resolve.quantities import convert
 from mindlang.compiler.resolve.skills import skills
-from mindlang.compiler.resolve.tasks import Robot, tasks
+from mindlang.compiler.resolve.tasks import RobotFacts, tasks
 from mindlang.compiler.source import Span
 from mindlang.compiler.syntax import File, Master, Setting, Tick
 
@@ -33,7 +33,7 @@ def resolve(files: Sequence[File], findings: Findings) -> model.Mind | None:
     known_skills = skills(names, width, findings)
     check_cycles(known_skills, findings)
     has_battery = any(isinstance(sensor.kind, Battery) for sensor in sensors)
-    known_tasks = tasks(Robot(names, width, tick, has_battery), findings)
+    known_tasks = tasks(RobotFacts(names, width, tick, has_battery), findings)
     known_lessons = tuple(lessons(names, known_skills, findings))
     body = _body(names, findings)
     master = _master(files[0], names, findings)

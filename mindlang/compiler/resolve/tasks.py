@@ -24,7 +24,7 @@ F = TypeVar("F", bound=Fact)
 
 
 @dataclass(frozen=True, slots=True)
-class Robot:
+class RobotFacts:
     """What tasks need to know of the rest of the mind."""
 
     names: Names
@@ -41,12 +41,12 @@ class _World:
     has_battery: bool
 
 
-def tasks(robot: Robot, findings: Findings) -> tuple[model.Task, ...]:
+def tasks(robot: RobotFacts, findings: Findings) -> tuple[model.Task, ...]:
     """Every task, without the lines that are reported."""
     return tuple(_task(name, declaration, robot, findings) for name, declaration in robot.names.declarations("task"))
 
 
-def _task(name: str, declaration: Declaration, robot: Robot, findings: Findings) -> model.Task:
+def _task(name: str, declaration: Declaration, robot: RobotFacts, findings: Findings) -> model.Task:
     refuse_facts(declaration, (Contains, Lasts, Ends, Rewards, Counts), findings)
     scope = Scope(robot.names, things_of(declaration) if declaration.whole else None, f"task {name}")
     phrase = declaration.header.phrase
@@ -149,7 +149,7 @@ def _event(written: Phrase, world: _World, findings: Findings) -> Any:
     return event
 
 
-def _reward(fact: Rewards, world: _World, robot: Robot, findings: Findings) -> model.Reward:
+def _reward(fact: Rewards, world: _World, robot: RobotFacts, findings: Findings) -> model.Reward:
     visible = Visible(robot.widths, world.scope, unread=robot.names.unread)
     each = None
     if fact.each:

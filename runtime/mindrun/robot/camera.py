@@ -29,7 +29,7 @@ class Camera(Protocol):
 
 
 @dataclass(slots=True)
-class Film:
+class RecordedFilm:
     """A recorded film, shown as fast as it was recorded."""
 
     capture: Any
@@ -57,7 +57,7 @@ def open_camera(path: str, width: int, height: int) -> Camera:
     if not capture.isOpened():
         raise DeviceError(f"the camera {path} cannot be opened", "is it there, and free? ls /dev/video*")
     if film:
-        return Film(capture, 1 / (capture.get(cv2.CAP_PROP_FPS) or 30.0))
+        return RecordedFilm(capture, 1 / (capture.get(cv2.CAP_PROP_FPS) or 30.0))
     capture.set(cv2.CAP_PROP_FRAME_WIDTH, width)
     capture.set(cv2.CAP_PROP_FRAME_HEIGHT, height)
     capture.set(cv2.CAP_PROP_BUFFERSIZE, 1)  # an old frame is an old bearing

@@ -15,7 +15,7 @@ from mindrun.errors import MindError
 from mindrun.graph import Graph
 from mindrun.robot.guardian.client import Guardian
 from mindrun.robot.guardian.plan import plan_of
-from mindrun.robot.loop import Loop, Tick
+from mindrun.robot.loop import Loop, TickResult
 from mindrun.robot.rate import Rate
 from mindrun.robot.reading_filter import ReadingFilter
 from mindrun.robot.recording import About, Recorder
@@ -97,7 +97,7 @@ def _refuse_blind(graph: Graph, master: str, wiring: Wiring) -> None:
         raise DriveError(f"{master} reads {', '.join(sorted(missing))}, which is not wired", "add it to robot.yaml")
 
 
-def _goes_on(tick: Tick, ticks: int, stop: Stop) -> bool:
+def _goes_on(tick: TickResult, ticks: int, stop: Stop) -> bool:
     notify("WATCHDOG=1")
     return not stop and (not ticks or tick.number + 1 < ticks)
 

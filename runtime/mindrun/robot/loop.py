@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from mindrun.engine import Engine
 from mindrun.robot.rate import Rate
-from mindrun.robot.reading_filter import ReadingFilter, Sensed
+from mindrun.robot.reading_filter import FilteredReadings, ReadingFilter
 from mindrun.robot.recording import Recorder
 
 MISSED_TICKS_LIMIT = 3  # ticks in a row that were missed, after which every actuator is neutral until one is not
@@ -23,12 +23,12 @@ class Sends(Protocol):
 
 
 @dataclass(frozen=True, slots=True)
-class Tick:
+class TickResult:
     """What came of one tick; `sent` is neutral where `stopped`."""
 
     number: int
     time: float
-    sensed: Sensed
+    sensed: FilteredReadings
     commands: NDArray[np.float32]
     sent: NDArray[np.float32]
     stopped: bool
@@ -49,13 +49,13 @@ class Loop:
     ticks: int = 0
     stopped: int = 0
 
-    def run(self, goes_on: Callable[[Tick], bool]) -> None:
+    def run(self, goes_on: Callable[[TickResult], bool]) -> None:
         """Tick until `goes_on` says no; MindError where the mind or the guardian fails."""
         self.pace.begin()
         while goes_on(self.tick()):
             pass
 
-    def tick(self) -> Tick:
+    def tick(self) -> TickResult:
         """One tick, when it is due."""
         missed = self.pace.missed
         time = self.pace.wait()
@@ -67,7 +67,7 @@ class Loop:
         stopped = sensed.must_stop or behind or too_old
         sent = self.neutral if stopped else commands
         self.guardian.send(sent.tolist(), self.armed and not stopped)  # unarmed, neutral is not slowed down by slew
-        done = Tick(self.ticks, time, sensed, commands, sent, stopped)
+        done = TickResult(self.ticks, time, sensed, commands, sent, stopped)
         self._record(done)
         self.ticks += 1
         self.stopped += stopped
@@ -78,7 +78,7 @@ class Loop:
         """The neutral command of each actuator."""
         return np.array([actuator.kind.neutral for actuator in self.engine.graph.actuators], np.float32)
 
-    def _tell(self, sensed: Sensed) -> None:
+    def _tell(self, sensed: FilteredReadings) -> None:
         """Sentences for sensors that begin to be faulty, or no longer are."""
         for name, why in sensed.why.items():
             if name not in self.faulty:
@@ -87,7 +87,7 @@ class Loop:
             self.tell(f"{name} is fine again")
         self.faulty = dict(sensed.why)
 
-    def _record(self, done: Tick) -> None:
+    def _record(self, done: TickResult) -> None:
         if self.recorder:
             self.recorder.write(
                 tick=done.number, time=done.time, stopped=done.stopped, armed=self.armed, faults=done.sensed.faults,

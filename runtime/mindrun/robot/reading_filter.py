@@ -18,7 +18,7 @@ FINE, UNMEASURED, FAILED, STALE = range(4)  # what is wrong with a sensor in a t
 FAULT_WORDS = ("fine", "not measured yet", "failed", "too old")
 
 
-class Source(Protocol):
+class SampleSource(Protocol):
     """Where samples come from."""
 
     wire: SensorWire
@@ -26,7 +26,7 @@ class Source(Protocol):
 
 
 @dataclass(frozen=True, slots=True)
-class Sensed:
+class FilteredReadings:
     """What the mind gets in a tick: `readings` [graph.width], NaN where one is missing; the rest is per wired sensor.
 
     `must_stop` says that every actuator has to be neutral; `faults` are FINE, …; `ages` in seconds, infinite where
@@ -44,7 +44,7 @@ class Sensed:
 class _State:
     """A sensor: its last samples for the median, and its last good readings with their time."""
 
-    source: Source
+    source: SampleSource
     sensor: Sensor
     window: deque[Sample]
     good: tuple[float, ...] = ()
@@ -55,14 +55,14 @@ class _State:
 class ReadingFilter:
     """The wired sensors of a mind."""
 
-    def __init__(self, graph: Graph, sources: Sequence[Source]) -> None:
+    def __init__(self, graph: Graph, sources: Sequence[SampleSource]) -> None:
         sensors = {sensor.name: sensor for sensor in graph.sensors}
         self._width = graph.width
         self._states = [
             _State(source, sensors[source.wire.sensor], deque(maxlen=source.wire.median)) for source in sources
         ]
 
-    def now(self, time: float) -> Sensed:
+    def now(self, time: float) -> FilteredReadings:
         """The readings of a tick that begins at `time`."""
         readings = np.zeros(self._width, np.float32)
         faults, ages, why, must_stop = [], [], {}, False
@@ -76,7 +76,7 @@ class ReadingFilter:
             must_stop |= stops
             if fault != FINE:
                 why[state.source.wire.sensor] = reason
-        return Sensed(readings, must_stop, tuple(faults), tuple(ages), why)
+        return FilteredReadings(readings, must_stop, tuple(faults), tuple(ages), why)
 
 
 def _look(state: _State, time: float) -> tuple[int, float, str]:

@@ -93,7 +93,7 @@ def _show(wire: SensorWire, sample: Sample) -> None:
 
 
 @dataclass(frozen=True, slots=True)
-class Found:
+class ReadingStatistics:
     """What the values of a reading were like; `noise` is their spread at rest, `lost` the share without a value."""
 
     low: float
@@ -102,14 +102,14 @@ class Found:
     lost: float
 
 
-def found(values: Sequence[float | None]) -> Found | None:
+def reading_statistics(values: Sequence[float | None]) -> ReadingStatistics | None:
     """What values were like; None where there were none."""
     there = [value for value in values if value is not None]
     if not there:
         return None
     spans = [there[i : i + NOISE_VALUES] for i in range(max(1, len(there) - NOISE_VALUES + 1))]
     noise = min(pstdev(span) for span in spans)
-    return Found(min(there), max(there), noise, 1 - len(there) / len(values))
+    return ReadingStatistics(min(there), max(there), noise, 1 - len(there) / len(values))
 
 
 def lines(wire: SensorWire, samples: Sequence[Sample], has_scale: bool) -> list[str]:
@@ -117,7 +117,7 @@ def lines(wire: SensorWire, samples: Sequence[Sample], has_scale: bool) -> list[
 
     Where the sensor `has_scale`, as distances and directions have, that of training stays.
     """
-    columns = [found(column) for column in zip(*(sample.values for sample in samples), strict=True)]
+    columns = [reading_statistics(column) for column in zip(*(sample.values for sample in samples), strict=True)]
     known = [column for column in columns if column]
     said = [f"# {wire.sensor}: {len(samples)} measurements, in {wire.driver.unit or 'units of its own'}"]
     for number, column in enumerate(columns):

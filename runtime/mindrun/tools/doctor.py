@@ -36,7 +36,7 @@ FINE, ABSENT, WRONG = "ok ", "-  ", "NOT"  # what is absent is no fault before s
 
 
 @dataclass(frozen=True, slots=True)
-class Finding:
+class CheckResult:
     """What was looked at, how it is, and what there is to say or do."""
 
     what: str
@@ -54,46 +54,46 @@ def run(options: argparse.Namespace) -> int:
     findings = [*machine()]
     if options.bundle:
         wiring = read_bundle(options.bundle).wiring
-        findings += wired(wiring) if wiring else [Finding("bundle", WRONG, "it is wired to no robot")]
+        findings += wired(wiring) if wiring else [CheckResult("bundle", WRONG, "it is wired to no robot")]
     width = max(len(finding.what) for finding in findings)
     for finding in findings:
         print(f"{finding.mark}  {finding.what:<{width}}  {finding.words}")
     return 1 if any(finding.mark == WRONG for finding in findings) else 0
 
 
-def machine() -> Iterator[Finding]:
+def machine() -> Iterator[CheckResult]:
     """The machine, and what is installed and connected."""
     system = f"{platform.machine()}, {platform.platform(terse=True)}, Python {platform.python_version()}"
-    yield Finding("machine", FINE, system)
+    yield CheckResult("machine", FINE, system)
     for package, line in PACKAGES.items():
         if find_spec(package) is not None:
-            yield Finding(package, FINE, "installed")
+            yield CheckResult(package, FINE, "installed")
         else:
-            yield Finding(package, WRONG if package == "numpy" else ABSENT, f"not installed: {line}")
+            yield CheckResult(package, WRONG if package == "numpy" else ABSENT, f"not installed: {line}")
     for device in ("i2c-1", "gpiochip0", "video0"):
         path = Path("/dev") / device
         if path.exists():
             may = os.access(path, os.R_OK | os.W_OK)
             group = "gpio" if "gpio" in device else "video" if "video" in device else "i2c"
             words = "you may use it" if may else f"you may not use it: sudo usermod -aG {group} $USER, and log in again"
-            yield Finding(str(path), FINE if may else WRONG, words)
+            yield CheckResult(str(path), FINE if may else WRONG, words)
         else:
-            yield Finding(str(path), ABSENT, "not there")
+            yield CheckResult(str(path), ABSENT, "not there")
 
 
-def wired(wiring: Wiring) -> Iterator[Finding]:
+def wired(wiring: Wiring) -> Iterator[CheckResult]:
     """Every sensor, read once; every actuator, by the name of its driver."""
     for wire in wiring.sensors:
         sample = answered(wire)
         kind = names()[type(wire.driver)]
         if sample is None:
-            yield Finding(wire.sensor, WRONG, f"{kind} has not answered within {SENSOR_SECONDS:g} s")
+            yield CheckResult(wire.sensor, WRONG, f"{kind} has not answered within {SENSOR_SECONDS:g} s")
         else:
             values = " ".join("-" if value is None else f"{value:.3g}" for value in sample.values)
             words = sample.fault or f"{kind} reads {values} {wire.driver.unit}".rstrip()
-            yield Finding(wire.sensor, WRONG if sample.fault else FINE, words)
+            yield CheckResult(wire.sensor, WRONG if sample.fault else FINE, words)
     for end in wiring.actuators:
-        yield Finding(end.actuator, FINE, f"{names()[type(end.driver)]}, left alone")
+        yield CheckResult(end.actuator, FINE, f"{names()[type(end.driver)]}, left alone")
 
 
 def answered(wire: SensorWire) -> Sample | None:

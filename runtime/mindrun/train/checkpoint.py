@@ -18,7 +18,7 @@ from mindrun.atomic_write import sync_folder, write_beside
 from mindrun.regular_files import read_whole
 from mindrun.strict_json import is_whole, parsed
 from mindrun.train import RunError
-from mindrun.train.lesson_state import State
+from mindrun.train.lesson_state import LessonState
 from mindrun.train.population import Population
 
 NAME, PREVIOUS = "checkpoint", "checkpoint.previous"
@@ -43,14 +43,14 @@ TYPES = {  # of each array in the order of the file: what its numbers are, and h
 
 
 @dataclass(frozen=True, slots=True)
-class Found:
+class LoadedCheckpoint:
     """A state read back; `warning` says so where the newest checkpoint was damaged and the one before it was taken."""
 
-    state: State
+    state: LessonState
     warning: str = ""
 
 
-def save(folder: Path, state: State, run: str) -> None:
+def save(folder: Path, state: LessonState, run: str) -> None:
     """Write the state of the run named `run`; the checkpoint before it is kept if it is whole."""
     spare = write_beside(folder / NAME, pack(state, run))
     if _read(folder / NAME, run) is not None:
@@ -59,20 +59,20 @@ def save(folder: Path, state: State, run: str) -> None:
     sync_folder(folder)
 
 
-def load(folder: Path, run: str) -> Found | None:
+def load(folder: Path, run: str) -> LoadedCheckpoint | None:
     """The newest whole checkpoint, None where none was ever written; RunError where all are damaged."""
     newest, previous = folder / NAME, folder / PREVIOUS
     if (state := _read(newest, run)) is not None:
-        return Found(state)
+        return LoadedCheckpoint(state)
     if (state := _read(previous, run)) is not None:
         damaged = f"{newest} is damaged: going on from the one before it" if newest.exists() else ""
-        return Found(state, damaged)
+        return LoadedCheckpoint(state, damaged)
     if newest.exists() or previous.exists():
         raise RunError(f"{newest} is damaged, and no other is left", "start the lesson again without --resume")
     return None
 
 
-def pack(state: State, run: str) -> bytes:
+def pack(state: LessonState, run: str) -> bytes:
     """A state as bytes."""
     arrays: Arrays = {
         "genomes": state.population.genomes,
@@ -92,13 +92,13 @@ def pack(state: State, run: str) -> bytes:
     return body + sha256(body).digest()
 
 
-def _counts(state: State) -> tuple[int, ...]:
+def _counts(state: LessonState) -> tuple[int, ...]:
     """Its whole numbers, in the order of the file."""
     generation = state.population.generation
     return state.attempt, generation, state.since, state.generations, state.ticks, state.faults, state.told_apart
 
 
-def unpack(data: bytes, run: str) -> State | None:
+def unpack(data: bytes, run: str) -> LessonState | None:
     """The state in these bytes; None where they are damaged, of another run, or of no run at all."""
     body, digest = data[:-DIGEST_BYTES], data[-DIGEST_BYTES:]
     if not body.startswith(MAGIC) or sha256(body).digest() != digest:
@@ -156,16 +156,16 @@ def _hold_together(arrays: Arrays) -> bool:
     )
 
 
-def _state(arrays: Arrays) -> State:
+def _state(arrays: Arrays) -> LessonState:
     attempt, generation, since, generations, ticks, faults, told_apart = (int(count) for count in arrays["counts"])
     best, seconds = (float(number) for number in arrays["floats"])
     population = Population(arrays["genomes"], arrays["scores"], generation)
     now = arrays["champion"], arrays["rival"], since, arrays["rungs"]
     ended = arrays["champions"], arrays["lengths"], arrays["verdicts"]
-    return State(attempt, population, *now, *ended, best, generations, ticks, seconds, faults, bool(told_apart))
+    return LessonState(attempt, population, *now, *ended, best, generations, ticks, seconds, faults, bool(told_apart))
 
 
-def _read(path: Path, run: str) -> State | None:
+def _read(path: Path, run: str) -> LessonState | None:
     try:
         return unpack(read_whole(path, MAX_CHECKPOINT_BYTES), run)
     except FileNotFoundError:

@@ -9,11 +9,11 @@ import numpy as np
 from mindrun.graph import Lesson
 from mindrun.learners import Learner
 from mindrun.train.ask_and_tell import ask, kept_count, tell
-from mindrun.train.lesson_state import Course, Record, State
+from mindrun.train.lesson_state import Course, LessonState, Record
 from mindrun.train.population import Scores, nobody, order
 from mindrun.train.rungs import is_behind, not_climbed, rung_at
 from mindrun.train.scoring import Scorer, mark
-from mindrun.train.seeds import Purpose, Seeds, breeding, layouts
+from mindrun.train.seeds import Purpose, Seeds, breeding_generator, layouts
 
 REEVALUATION_GENERATIONS = 10  # between two re-evaluations
 REEVALUATED_CANDIDATES = 4  # of a generation, that are re-evaluated beside the champion
@@ -23,7 +23,7 @@ VERDICT_LAYOUTS = 50  # layouts on which attempts are compared, and as many othe
 Clock = Callable[[], float]
 
 
-def teach(course: Course, scorer: Scorer, state: State, clock: Clock) -> Iterator[tuple[State, Record]]:
+def teach(course: Course, scorer: Scorer, state: LessonState, clock: Clock) -> Iterator[tuple[LessonState, Record]]:
     """The state and the record after each generation that is left; who iterates may stop after any of them."""
     while state.attempt < course.lesson.learner.attempts:
         began = clock()
@@ -33,10 +33,10 @@ def teach(course: Course, scorer: Scorer, state: State, clock: Clock) -> Iterato
         yield state, replace(record, seconds=seconds)
 
 
-def generation(course: Course, scorer: Scorer, state: State) -> tuple[State, Record]:
+def generation(course: Course, scorer: Scorer, state: LessonState) -> tuple[LessonState, Record]:
     """One generation: bred, scored, and every now and then its best tried on fresh layouts."""
     learner, key = course.lesson.learner, (course.seed, state.attempt, state.population.generation)
-    genomes = ask(state.population, learner, course.start, scorer.draw, breeding(*key))
+    genomes = ask(state.population, learner, course.start, scorer.draw, breeding_generator(*key))
     marks = mark(scorer, genomes, layouts(*key, learner.layouts))
     population = tell(state.population, learner, course.start, genomes, marks.scores)
     now = replace(
@@ -61,7 +61,7 @@ def generation(course: Course, scorer: Scorer, state: State) -> tuple[State, Rec
     return now, Record(state.attempt + 1, number, best, mean, reevaluated, verdict, ticks, 0.0, faults)
 
 
-def has_ended(lesson: Lesson, state: State) -> bool:
+def has_ended(lesson: Lesson, state: LessonState) -> bool:
     """Whether an attempt has had all its generations, has not become better for too many, or falls behind others."""
     generation = state.population.generation
     rung = rung_at(lesson, generation)
@@ -77,7 +77,7 @@ def fresh_count(learner: Learner) -> int:
     return REEVALUATION_LAYOUTS * (REEVALUATED_CANDIDATES + 2) // (min(REEVALUATED_CANDIDATES, kept_count(learner)) + 2)
 
 
-def climb(state: State, scorer: Scorer, rung: int, seeds: Seeds) -> State:
+def climb(state: LessonState, scorer: Scorer, rung: int, seeds: Seeds) -> LessonState:
     """The champion's score at a rung, on the layouts of all attempts there."""
     marks = mark(scorer, state.champion, seeds)
     rungs = state.rungs.copy()
@@ -85,7 +85,7 @@ def climb(state: State, scorer: Scorer, rung: int, seeds: Seeds) -> State:
     return replace(state, rungs=rungs, ticks=state.ticks + marks.ticks, faults=state.faults + marks.faults)
 
 
-def try_again(state: State, scorer: Scorer, fresh: Seeds) -> tuple[State, float]:
+def try_again(state: LessonState, scorer: Scorer, fresh: Seeds) -> tuple[LessonState, float]:
     """The champion is who does best on fresh layouts, it or the best of the generation; and its score on them."""
     ranked = state.population.genomes[order(state.population.scores)]
     candidates = np.concatenate([state.champion, ranked[:REEVALUATED_CANDIDATES], state.rival])
@@ -116,7 +116,7 @@ def are_different(scores: Scores) -> bool:
     return bool((finite != finite[:1]).any())
 
 
-def judge(course: Course, scorer: Scorer, state: State) -> tuple[State, float]:
+def judge(course: Course, scorer: Scorer, state: LessonState) -> tuple[LessonState, float]:
     """The end of an attempt: its champion tried on layouts common to all attempts; its score on the second half."""
     seeds = layouts(course.seed, 0, course.lesson.generations, 2 * VERDICT_LAYOUTS, Purpose.VERDICT)
     marks = mark(scorer, state.champion, seeds)

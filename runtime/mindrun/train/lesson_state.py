@@ -27,7 +27,7 @@ class Course:
 
 
 @dataclass(frozen=True, slots=True)
-class State:
+class LessonState:
     """Where a run stands, all that is needed to go on.
 
     `champion` [0 or 1, weights] is the best of this attempt; `rival` [0 or 1, weights] the last one that was better
@@ -99,15 +99,15 @@ class Record:
     faults: int
 
 
-def begin(course: Course) -> State:
+def begin(course: Course) -> LessonState:
     """The state before the first generation."""
     empty = course.start[:0]
     ended = empty, np.empty(0, np.int64), np.empty((0, 2))
     rungs = not_climbed(course.lesson)
-    return State(0, nobody(empty.shape[1]), course.start, empty, 0, rungs, *ended, -inf, 0, 0, 0.0, 0, False)
+    return LessonState(0, nobody(empty.shape[1]), course.start, empty, 0, rungs, *ended, -inf, 0, 0, 0.0, 0, False)
 
 
-def could_be(course: Course, state: State) -> bool:
+def could_be(course: Course, state: LessonState) -> bool:
     """Whether a state that was read is one to which a run of this course could have come."""
     individuals, weights = state.population.genomes.shape
     generation = state.population.generation

@@ -12,7 +12,7 @@ from mindrun import atomic_write
 from mindrun.regular_files import read_whole
 from mindrun.strict_json import is_whole, parsed
 from mindrun.train import RunError
-from mindrun.train.lesson_state import Record, State
+from mindrun.train.lesson_state import LessonState, Record
 
 LINES, TABLE = "progress.jsonl", "progress.csv"
 Logged = dict[str, float | None]  # a generation: as Record, None where a score is not finite
@@ -23,11 +23,11 @@ MAX_LINE_BYTES = 1 << 12
 MAX_COUNT = 2**53
 
 
-class Progress:
+class ProgressLog:
     """The two files of the log, open to append, with only the generations that `state` has behind it."""
 
-    def __init__(self, folder: Path, state: State) -> None:
-        records = [record for record in read(folder) if _is_behind(record, state)]
+    def __init__(self, folder: Path, state: LessonState) -> None:
+        records = [record for record in read_progress(folder) if _is_behind(record, state)]
         atomic_write.write(folder / LINES, b"".join(_line(record) for record in records))
         atomic_write.write(folder / TABLE, _row(list(COLUMNS)) + b"".join(_row(list(r.values())) for r in records))
         self._lines = os.open(folder / LINES, os.O_WRONLY | os.O_APPEND)
@@ -44,7 +44,7 @@ class Progress:
         os.fsync(self._lines)
         os.fsync(self._table)
 
-    def __enter__(self) -> "Progress":
+    def __enter__(self) -> "ProgressLog":
         return self
 
     def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, at: TracebackType | None) -> None:
@@ -52,7 +52,7 @@ class Progress:
         os.close(self._table)
 
 
-def read(folder: Path) -> list[Logged]:
+def read_progress(folder: Path) -> list[Logged]:
     """The whole lines of a run's log; what follows a line that a crash damaged is left out."""
     try:
         lines = read_whole(folder / LINES, MAX_LOG_BYTES).split(b"\n")[:-1]
@@ -81,7 +81,7 @@ def _is_plain(value: object) -> bool:
     return value is None or is_whole(value, -MAX_COUNT, MAX_COUNT) or (isinstance(value, float) and isfinite(value))
 
 
-def _is_behind(record: Logged, state: State) -> bool:
+def _is_behind(record: Logged, state: LessonState) -> bool:
     attempt, generation = int(record["attempt"] or 0) - 1, int(record["generation"] or 0)
     return (attempt, generation) <= (state.attempt, state.population.generation)
 

@@ -27,7 +27,7 @@ MAX_FILE_BYTES = 1 << 27  # of a manifest, a result, or the weights of all skill
 
 
 @dataclass(frozen=True, slots=True)
-class Run:
+class RunFolder:
     """A run on the disk; `weights` are those of all its skills as it began."""
 
     folder: Path
@@ -55,7 +55,7 @@ class Run:
         return Course(lesson, self.manifest.seed, start)
 
 
-def create(runs: Path, manifest: Manifest, sources: Mapping[str, str], weights: Mapping[str, Weights]) -> Run:
+def create(runs: Path, manifest: Manifest, sources: Mapping[str, str], weights: Mapping[str, Weights]) -> RunFolder:
     """A new run folder under `runs`, with the text of each source by its path; RunError where it cannot be written."""
     stamp = "".join(letter for letter in manifest.started if letter not in "-:")
     try:
@@ -69,10 +69,10 @@ def create(runs: Path, manifest: Manifest, sources: Mapping[str, str], weights: 
         raise RunError(
             f"cannot write a run under {runs}: {error.strerror}", "choose another folder with --runs"
         ) from error
-    return Run(folder, manifest, dict(weights))
+    return RunFolder(folder, manifest, dict(weights))
 
 
-def unfinished(runs: Path, manifest: Manifest) -> Run | None:
+def unfinished(runs: Path, manifest: Manifest) -> RunFolder | None:
     """The newest whole run under `runs` that was to come to the same end as this one would, and was stopped."""
     for folder in sorted((runs / manifest.name).glob("*"), reverse=True):
         try:
@@ -85,7 +85,7 @@ def unfinished(runs: Path, manifest: Manifest) -> Run | None:
     return None
 
 
-def open_run(folder: Path) -> Run:
+def open_run(folder: Path) -> RunFolder:
     """The run in a folder; RunError where there is none or a part of it is damaged."""
     try:
         manifest = from_json(read_whole(folder / MANIFEST, MAX_FILE_BYTES))
@@ -99,7 +99,7 @@ def open_run(folder: Path) -> Run:
         raise _damaged(folder / START) from error
     if hashes(weights) != manifest.weights:
         raise _damaged(folder / START)
-    return Run(folder, manifest, weights)
+    return RunFolder(folder, manifest, weights)
 
 
 def keep_weights(folder: Path, genome: Weights) -> None:

@@ -19,7 +19,7 @@ class Purpose(IntEnum):
     RUNG = 5
 
 
-def breeding(seed: int, attempt: int, generation: int) -> np.random.Generator:
+def breeding_generator(seed: int, attempt: int, generation: int) -> np.random.Generator:
     """The rng that breeds one generation."""
     return np.random.default_rng(_sequence(seed, attempt, generation, Purpose.BREEDING))
 

@@ -8,10 +8,10 @@ from pathlib import Path
 from mindrun.train import RunError, checkpoint
 from mindrun.train.folder_lock import claim
 from mindrun.train.lesson import Clock, teach
-from mindrun.train.lesson_state import Course, Record, State, begin, could_be
+from mindrun.train.lesson_state import Course, LessonState, Record, begin, could_be
 from mindrun.train.population import Genomes
-from mindrun.train.progress import Progress
-from mindrun.train.run_folder import Run, keep_champions, keep_weights
+from mindrun.train.progress import ProgressLog
+from mindrun.train.run_folder import RunFolder, keep_champions, keep_weights
 from mindrun.train.scoring import Scorer
 
 CHECKPOINT_SECONDS = 2.0  # between two checkpoints
@@ -21,14 +21,14 @@ CHECKPOINT_SECONDS = 2.0  # between two checkpoints
 class Watch:
     """Who looks on: told of each generation and each warning, asked between generations whether to stop."""
 
-    report: Callable[[State, Record], None]
+    report: Callable[[LessonState, Record], None]
     warn: Callable[[str], None]
     stop: Callable[[], bool]
     clock: Clock
     save_every: float = CHECKPOINT_SECONDS
 
 
-def train(run: Run, scorer: Scorer, watch: Watch) -> State:
+def train(run: RunFolder, scorer: Scorer, watch: Watch) -> LessonState:
     """Go on with a run until its lesson is finished or `watch` says stop; the state, which is then saved.
 
     RunError where another process has the run, its checkpoints are damaged, or the disk takes no more.
@@ -36,7 +36,7 @@ def train(run: Run, scorer: Scorer, watch: Watch) -> State:
     course = run.course(scorer.genome_length)
     with _disk(run.folder), claim(run.folder):
         now = _standing(run, course, watch)
-        with Progress(run.folder, now) as progress:
+        with ProgressLog(run.folder, now) as progress:
             saved = watch.clock()
             for now, record in teach(course, scorer, now, watch.clock):  # noqa: B020 - it goes on from the first
                 progress.append(record)
@@ -54,12 +54,12 @@ def train(run: Run, scorer: Scorer, watch: Watch) -> State:
     return now
 
 
-def best(state: State) -> Genomes:
+def best(state: LessonState) -> Genomes:
     """The best weights so far [0 or 1, weights]: of the attempts that have ended, else of this one."""
     return state.kept if len(state.kept) else state.champion
 
 
-def _standing(run: Run, course: Course, watch: Watch) -> State:
+def _standing(run: RunFolder, course: Course, watch: Watch) -> LessonState:
     found = checkpoint.load(run.folder, run.manifest.identity)
     if found is None:
         return begin(course)
@@ -73,7 +73,7 @@ def _standing(run: Run, course: Course, watch: Watch) -> State:
     return found.state
 
 
-def _save(run: Run, state: State, progress: Progress) -> None:
+def _save(run: RunFolder, state: LessonState, progress: ProgressLog) -> None:
     progress.sync()
     checkpoint.save(run.folder, state, run.manifest.identity)
 

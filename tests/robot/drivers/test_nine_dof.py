@@ -4,7 +4,7 @@ import pytest
 from mindrun.driver import DeviceError
 from mindrun.robot import driver_support
 from mindrun.robot.drivers.ads1115 import Ads1115
-from mindrun.robot.drivers.lsm9ds1_compass import Compass
+from mindrun.robot.drivers.lsm9ds1_compass import MagneticCompass
 from mindrun.robot.drivers.lsm9ds1_motion import Motion
 from mindrun.robot.drivers.lsm9ds1_turn import Turn
 from mindrun.wiring import SensorWire, reading
@@ -89,7 +89,7 @@ def test_too_fast_to_measure_is_a_fault(monkeypatch: pytest.MonkeyPatch) -> None
 )
 def test_north_reads_as_a_bearing(magnetometer: FakeLsm9ds1, x: int, y: int, angle: float, share: float) -> None:
     magnetometer.vector = (x / MILLIGAUSS, y / MILLIGAUSS, -430 / MILLIGAUSS)
-    driver = Compass()
+    driver = MagneticCompass()
     (found,) = driver.open().read()
     assert found == pytest.approx(angle, abs=1.5)
     assert reading(SensorWire("north", driver, *driver.usual), found) == pytest.approx(share, abs=0.005)
@@ -97,17 +97,17 @@ def test_north_reads_as_a_bearing(magnetometer: FakeLsm9ds1, x: int, y: int, ang
 
 def test_iron_and_mounting_are_taken_off(magnetometer: FakeLsm9ds1) -> None:
     magnetometer.vector = ((300 + 50) / MILLIGAUSS, (200 - 80) / MILLIGAUSS, 0.0)
-    (found,) = Compass(x=350.0, y=-80.0).open().read()
+    (found,) = MagneticCompass(x=350.0, y=-80.0).open().read()
     assert found == pytest.approx(90, abs=1.5)
-    (found,) = Compass(x=350.0, y=-80.0, turn=120.0).open().read()
+    (found,) = MagneticCompass(x=350.0, y=-80.0, turn=120.0).open().read()
     assert found == pytest.approx(-150, abs=1.5)
-    (found,) = Compass(x=350.0, y=-80.0, face="down").open().read()
+    (found,) = MagneticCompass(x=350.0, y=-80.0, face="down").open().read()
     assert found == pytest.approx(-90, abs=1.5)
 
 
 def test_no_field_is_a_fault(magnetometer: FakeLsm9ds1) -> None:
     with pytest.raises(DeviceError, match="no magnetic field"):
-        Compass().open()
+        MagneticCompass().open()
 
 
 @pytest.mark.parametrize(("volts", "channel"), [(8.4, 0), (6.4, 3), (0.0, 1)])

@@ -15,7 +15,7 @@ from mindrun.robot.drivers.ads1115 import Ads1115
 from mindrun.robot.drivers.ball_tracker import BallTracker
 from mindrun.robot.drivers.grove_motor import GroveMotor
 from mindrun.robot.drivers.grove_ultrasonic import GroveUltrasonic
-from mindrun.robot.drivers.lsm9ds1_compass import Compass
+from mindrun.robot.drivers.lsm9ds1_compass import MagneticCompass
 from mindrun.robot.drivers.lsm9ds1_motion import Motion
 from mindrun.robot.drivers.lsm9ds1_turn import Turn
 from mindrun.robot.drivers.mock import MockActuator, MockSensor
@@ -100,7 +100,7 @@ def turn(patch: pytest.MonkeyPatch) -> World:
 def compass(patch: pytest.MonkeyPatch) -> World:
     part = FakeLsm9ds1(0x3D, 0x22, 0x27, 0x08, 0xA8)
     part.vector = (200 / 0.14, 200 / 0.14, -400 / 0.14)
-    return on_bus(patch, 0x1E, part, driver=Compass(), expected=(45.0,), within=1.5)
+    return on_bus(patch, 0x1E, part, driver=MagneticCompass(), expected=(45.0,), within=1.5)
 
 
 def switch(patch: pytest.MonkeyPatch) -> World:

@@ -14,7 +14,7 @@ from mindrun.driver import DeviceError
 from mindrun.robot.drivers.mock import MockActuator
 from mindrun.robot.guardian.frames import pack
 from mindrun.robot.guardian.guard import FOLLOWING
-from mindrun.robot.guardian.output import Output
+from mindrun.robot.guardian.output import ActuatorOutput
 from mindrun.robot.guardian.plan import Channel
 
 from tests.robot.guardian.faked import TICK, Faked, faked
@@ -50,8 +50,8 @@ class Gate:
 
 
 @contextmanager
-def started(device: object) -> Iterator[Output]:
-    output = Output("wheel", REST, lambda: None)
+def started(device: object) -> Iterator[ActuatorOutput]:
+    output = ActuatorOutput("wheel", REST, lambda: None)
     output.start(device)  # type: ignore[arg-type]
     try:
         yield output
@@ -61,7 +61,7 @@ def started(device: object) -> Iterator[Output]:
             getattr(device, "free", threading.Semaphore()).release()
 
 
-def until_settled(output: Output) -> None:
+def until_settled(output: ActuatorOutput) -> None:
     end = monotonic() + PATIENCE
     while not output.settled:
         assert monotonic() < end
@@ -155,7 +155,7 @@ class Noted(threading.Condition):
 class Stubborn:
     """A device that refuses all it is told until it gives in; what asks it a hundred times is to end."""
 
-    def __init__(self, output: Output) -> None:
+    def __init__(self, output: ActuatorOutput) -> None:
         self.written: list[float] = []
         self.refuses = True
         self.output = output
@@ -171,7 +171,7 @@ class Stubborn:
 
 
 def test_what_fails_is_tried_again_soon_and_then_every_50_ms_and_what_is_new_at_once() -> None:
-    output = Output("wheel", REST, lambda: None)
+    output = ActuatorOutput("wheel", REST, lambda: None)
     output._device = device = Stubborn(output)
 
     def give_in() -> None:

@@ -24,7 +24,7 @@ MILLIGAUSS_OFFSET = Quantity("a magnetic field in milligauss", {"": 1.0}, low=-4
 
 @kind("sensor driver", "lsm9ds1_compass")
 @dataclass(frozen=True, slots=True)
-class Compass:
+class MagneticCompass:
     """Where magnetic north is, seen from the robot, in degrees: 0 straight ahead, to the left positive, −180 to 180.
 
     So it reads as a bearing: 0.5 facing north, less where north is on the left. An LSM9DS1 that lies flat, far from the

@@ -22,7 +22,7 @@ VALUE = Struct("<d")
 
 
 @dataclass(slots=True)
-class Link:
+class WorldConnection:
     """A connection to a simulated world. One that has failed is made anew: what comes late answers nothing."""
 
     path: str
@@ -83,7 +83,7 @@ def _received(connection: sockets.socket, count: int, until: float) -> bytes:
 class SimulatedSensorDevice:
     """A sensor of a simulated world."""
 
-    link: Link
+    link: WorldConnection
     sensor: str
     count: int
 
@@ -103,7 +103,7 @@ class SimulatedSensorDevice:
 class SimulatedActuatorDevice:
     """An actuator of a simulated world, which keeps the last command."""
 
-    link: Link
+    link: WorldConnection
     actuator: str
 
     def write(self, value: float) -> None:
@@ -138,7 +138,7 @@ class SimulatedSensor:
 
     def open(self) -> SimulatedSensorDevice:
         """The sensor; DeviceError where the world has none such."""
-        device = SimulatedSensorDevice(Link(self.socket), self.sensor, self.count)
+        device = SimulatedSensorDevice(WorldConnection(self.socket), self.sensor, self.count)
         try:
             device.read()
         except DeviceError:
@@ -164,12 +164,12 @@ class SimulatedActuator:
         """The actuator, which does not move until it is commanded; DeviceError where the world has none such."""
         if self.actuator not in status(self.socket)["commands"]:
             raise DeviceError(f"in the simulated world, there is no actuator {self.actuator}")
-        return SimulatedActuatorDevice(Link(self.socket), self.actuator)
+        return SimulatedActuatorDevice(WorldConnection(self.socket), self.actuator)
 
 
 def status(path: str) -> dict[str, Any]:
     """How the world at a socket stands: `tick`, `pose`, `events`, `ended` and more (`Scene.status`)."""
-    link = Link(path)
+    link = WorldConnection(path)
     try:
         found: dict[str, Any] = json.loads(link.ask(STATUS))
         return found

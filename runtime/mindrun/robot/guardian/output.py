@@ -19,7 +19,7 @@ class Wanted:
     given: float
 
 
-class Output:
+class ActuatorOutput:
     """Writes what is wanted until the device acknowledges it; at the beginning that is neutral."""
 
     def __init__(

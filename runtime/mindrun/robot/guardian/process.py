@@ -9,7 +9,7 @@ from time import monotonic
 
 from mindrun.robot.guardian.frames import FrameError, Reader
 from mindrun.robot.guardian.guard import FOLLOWING, LATCHED, NEUTRAL, NOT_ARMED, Guard, Move, Order, Rest
-from mindrun.robot.guardian.output import Output
+from mindrun.robot.guardian.output import ActuatorOutput
 from mindrun.robot.guardian.plan import Plan
 
 REPORT_SECONDS = 1.0  # between two reports on an actuator that is not at neutral
@@ -37,8 +37,8 @@ class Process:
         self.guard = Guard(plan)
         self._reader = Reader(len(plan.channels))
         rests = zip(plan.channels, self.guard.rest, strict=True)
-        self.outputs = [Output(channel.actuator, rest, self._nudge, clock) for channel, rest in rests]
-        self._opened: list[Output] = []
+        self.outputs = [ActuatorOutput(channel.actuator, rest, self._nudge, clock) for channel, rest in rests]
+        self._opened: list[ActuatorOutput] = []
         self._ending = False
         self._told = 0.0
 

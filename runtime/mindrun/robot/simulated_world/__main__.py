@@ -14,7 +14,7 @@ from math import isfinite
 from pathlib import Path
 
 from mindrun.errors import MindError
-from mindrun.robot.simulated_world.scene import SEED_COUNT, Scene, World
+from mindrun.robot.simulated_world.scene import SEED_COUNT, SimulatedScene, SimulatedWorld
 from mindrun.robot.simulated_world.server import Server, listening
 
 PARENT_DIED = 1  # PR_SET_PDEATHSIG
@@ -35,14 +35,14 @@ def main() -> None:
 
 def _run(options: argparse.Namespace) -> None:
     world = _world(options)
-    server = Server(Scene(world, options.again))
+    server = Server(SimulatedScene(world, options.again))
     signal.signal(signal.SIGTERM, server.end)
     with listening(options.socket) as listener:
         print("ready", flush=True)
         server.serve(listener, world.graph.tick / options.speed)
 
 
-def _world(options: argparse.Namespace) -> World:
+def _world(options: argparse.Namespace) -> SimulatedWorld:
     """The world of a bundle. Here alone the simulator is imported: a robot has none."""
     from mindrun.bundle import read_bundle
 
@@ -52,7 +52,7 @@ def _world(options: argparse.Namespace) -> World:
         raise MindError(f"there is no simulator here ({error})", "pip install mindlang") from error
     graph = read_bundle(options.bundle).graph
     try:
-        world: World = simulator.World(graph, options.task, options.seed, options.master or None)
+        world: SimulatedWorld = simulator.World(graph, options.task, options.seed, options.master or None)
     except MemoryError as error:
         raise MindError(f"this computer has too little memory for task {options.task}") from error
     return world

@@ -12,7 +12,7 @@ from mindrun.robot.simulated_world.protocol import ANSWER, READ, STATUS
 SEED_COUNT = 1 << 64
 
 
-class World(Protocol):
+class SimulatedWorld(Protocol):
     """What `mindrun.sim.commanded_world` simulates."""
 
     graph: Graph
@@ -37,10 +37,10 @@ class World(Protocol):
     def begin(self, seed: int) -> None: ...
 
 
-class Scene:
+class SimulatedScene:
     """A world, the command that each actuator holds, and what clients may ask; `again`: runs follow one another."""
 
-    def __init__(self, world: World, again: bool = False) -> None:
+    def __init__(self, world: SimulatedWorld, again: bool = False) -> None:
         self.world, self.again = world, again
         self.commands = {actuator.name: float(actuator.kind.neutral) for actuator in world.graph.actuators}
         self.past: Counter[str] = Counter()  # what has ended the runs before

@@ -11,7 +11,7 @@ from time import monotonic
 
 from mindrun.errors import MindError
 from mindrun.robot.simulated_world.protocol import requests
-from mindrun.robot.simulated_world.scene import Scene
+from mindrun.robot.simulated_world.scene import SimulatedScene
 
 MAX_CLIENTS = 64
 CHUNK_BYTES = 4096  # of requests that one client may have answered before the others
@@ -21,7 +21,7 @@ NEUTRAL_SECONDS = 2.0  # that the guardian has to bring a robot to neutral whose
 class Server:
     """Ticks on time, and answers all clients in between. One that sends nonsense, or does not listen, is cut off."""
 
-    def __init__(self, scene: Scene) -> None:
+    def __init__(self, scene: SimulatedScene) -> None:
         self.scene = scene
         self._clients: dict[socket, bytearray] = {}  # what of each has not been answered
         self._selector = SelectSelector()  # epoll would wait in whole milliseconds
