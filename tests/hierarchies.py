@@ -5,12 +5,12 @@ from dataclasses import dataclass
 import numpy as np
 from hypothesis import strategies as st
 from mindrun.actuators import Gripper, Servo, Wheel
+from mindrun.bodies import Disc
 from mindrun.functions import Function, Mlp, Rule
 from mindrun.graph import Actuator, Edge, Graph, Memory, Program, Sensor, Skill
 from mindrun.memory import Cell
 from mindrun.sensors import Battery, Bearing, Contact, Derivative, Held, Inertial, Inside, RangeFinder, Sine
 from mindrun.weights import genes
-from mindrun.world import Disc
 from numpy.typing import NDArray
 
 SHARES = st.floats(0, 1, width=32)

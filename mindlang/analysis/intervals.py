@@ -5,7 +5,6 @@ from itertools import product
 from math import inf, isnan
 
 from mindrun.expression import fold
-from mindrun.measures import Forward, Measure, Progress
 
 from mindlang.compiler.model import Expression, Measured, Number, Reading, Term
 from mindlang.compiler.syntax import Operator
@@ -30,7 +29,7 @@ def interval(of: Expression, reading: Callable[[str], Interval] = share, each: I
             case Reading(name):
                 return reading(name)
             case Measured(measure):
-                return _measured(measure)
+                return measure.interval
         return each
 
     words = ((term.symbol if isinstance(term, Operator) else "term", term) for term in of.terms)
@@ -50,15 +49,6 @@ def said(of: Interval) -> str:
     if low == -inf:
         return "anything" if high == inf else f"at most {high:g}"
     return f"at least {low:g}" if high == inf else f"{low:g} to {high:g}"
-
-
-def _measured(measure: Measure) -> Interval:
-    match measure:
-        case Progress():
-            return ANY
-        case Forward():
-            return SHARE
-    return 0.0, inf
 
 
 def _combined(symbol: str, left: Interval, right: Interval) -> Interval:

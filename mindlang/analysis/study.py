@@ -5,10 +5,10 @@ from collections.abc import Container, Iterable, Iterator
 from dataclasses import dataclass
 from functools import cached_property
 
-from mindrun.actuators import Gripper
-from mindrun.events import Event, Exhaustion
-from mindrun.graph import Graph, Lesson, SensorKind
+from mindrun.events import EventKind
+from mindrun.graph import Graph, Lesson
 from mindrun.reachability import reached_from
+from mindrun.sensors import SensorKind
 
 from mindlang.compiler.compile import Compiled
 from mindlang.compiler.diagnostic import Fix, Label
@@ -68,8 +68,8 @@ class Study:
     def can_hold(self) -> bool:
         """Whether a claw may ever close: a skill that a master reaches drives it, or it is closed where none does."""
         driven = {edge.target for name in self.active for edge in self.skills[name].edges if edge.to == "actuator"}
-        claws = (part for part in self.mind.actuators if isinstance(part.kind, Gripper))
-        return any(claw.name in driven or claw.kind.neutral > 0.5 for claw in claws)
+        claws = (part for part in self.mind.actuators if part.kind.can_hold)
+        return any(claw.name in driven or claw.kind.acts_at_rest for claw in claws)
 
     @cached_property
     def roots(self) -> dict[str, str]:
@@ -98,7 +98,7 @@ class Study:
     def is_exhausted(self) -> bool:
         """Whether a task asks for exhaustion, which is of the battery without naming it."""
         events = (event for task in self.mind.tasks for event in (*task.ends, *task.counts, *_paid(task)))
-        return any(isinstance(event, Exhaustion) for event in events)
+        return any(event.is_of_battery for event in events)
 
     @cached_property
     def used(self) -> dict[str, set[str]]:
@@ -143,7 +143,7 @@ class Finding:
 Found = Iterator[Finding]
 
 
-def _paid(task: Task) -> Iterator[Event]:
+def _paid(task: Task) -> Iterator[EventKind]:
     return (reward.on for reward in task.rewards if reward.on)
 
 

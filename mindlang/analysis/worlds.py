@@ -3,9 +3,8 @@
 from collections.abc import Iterable
 from dataclasses import dataclass
 
-from mindrun.events import Collision, Delivery, Event, Exhaustion
-from mindrun.sensors import Battery, Physical
-from mindrun.world import STAYS, Arena, Item, Obstacle, Power
+from mindrun.sensors import Physical
+from mindrun.things import STAYS
 
 from mindlang.analysis.intervals import SHARE, Interval, interval
 from mindlang.analysis.study import Study
@@ -64,26 +63,18 @@ class World:
                 return left[1] > right[0]
         return left[1] >= right[0]
 
-    def prevents(self, event: Event) -> tuple[str, str] | None:
-        """Why an event can never happen in this world, and what to do about it; None where it can."""
-        sensors = self.study.sensors.values()
-        match event:
-            case Collision() if not self.is_solid:
-                hint = "Write in arena size 100, or add contains rock is obstacle count 10."
-                return "there is nothing to collide with", hint
-            case Delivery() if not self.study.can_hold:
-                return "no skill that a master reaches drives a gripper", "Let a skill drive one."
-            case Delivery(of) if of in self.fleeting:
-                return f"{of} is gone when it is reached, before the claw can take it", "Write reached stays."
-            case Exhaustion() if all(kind.start and not kind.drain for kind in sensors if isinstance(kind, Battery)):
-                return "the battery does not drain", "Give it a drain above 0."
-        return None
+    @property
+    def drains(self) -> bool:
+        """Whether the battery can become empty."""
+        batteries = [kind.battery for kind in self.study.sensors.values() if kind.battery]
+        return not all(battery.start and not battery.drain for battery in batteries)
 
 
 def world(study: Study, task: Task) -> World:
     """The world of a task."""
-    is_solid = isinstance(task.scene, Arena) or any(isinstance(thing.kind, Obstacle) for thing in task.things)
-    fleeting = {thing.name for thing in task.things if isinstance(thing.kind, Item) and thing.kind.reached != STAYS}
+    is_solid = task.scene.is_bounded or any(thing.kind.is_solid for thing in task.things)
+    items = (thing for thing in task.things if thing.kind.can_be_held)
+    fleeting = {thing.name for thing in items if thing.kind.outcomes.get("reached", STAYS) != STAYS}
     return World(study, _named([task]), is_solid, _charges([task]), frozenset(fleeting))
 
 
@@ -96,8 +87,8 @@ def any_world(study: Study) -> World:
 def _named(tasks: Iterable[Task]) -> frozenset[str]:
     """The things that sensors can be about."""
     things = (thing for task in tasks for thing in task.things)
-    return frozenset(thing.name for thing in things if not isinstance(thing.kind, Obstacle))
+    return frozenset(thing.name for thing in things if not thing.kind.is_obstacle)
 
 
 def _charges(tasks: Iterable[Task]) -> bool:
-    return any(isinstance(thing.kind, Power) for task in tasks for thing in task.things)
+    return any(thing.kind.charges for task in tasks for thing in task.things)

@@ -3,13 +3,16 @@
 from dataclasses import dataclass
 from typing import Generic, TypeVar
 
-from mindrun.events import Event
+from mindrun.actuators import ActuatorKind
+from mindrun.bodies import Disc
+from mindrun.events import EventKind
 from mindrun.functions import Function
-from mindrun.graph import ActuatorKind, SensorKind
 from mindrun.learners import Learner
-from mindrun.measures import Measure
+from mindrun.measures import MeasureKind
 from mindrun.memory import Cell
-from mindrun.world import Content, Disc, Scene
+from mindrun.scenes import SceneKind
+from mindrun.sensors import SensorKind
+from mindrun.things import ThingKind
 
 from mindlang.compiler.names import Names
 from mindlang.compiler.source import Span
@@ -58,7 +61,7 @@ class EachReading:
 class Measured:
     """The value of a measure."""
 
-    measure: Measure
+    measure: MeasureKind
     span: Span
 
 
@@ -114,7 +117,7 @@ class Reward:
     """A reward, per tick where `on` is None; `each` is the sensor that it goes through."""
 
     amount: Expression
-    on: Event | None
+    on: EventKind | None
     each: str | None
     when: Condition | None
     fact: Rewards
@@ -125,12 +128,12 @@ class Task:
     """A task: its world, its end, its rewards and what its benchmark counts."""
 
     name: str
-    scene: Scene
-    things: tuple[Part[Content], ...]
+    scene: SceneKind
+    things: tuple[Part[ThingKind], ...]
     ticks: int
-    ends: tuple[Event, ...]
+    ends: tuple[EventKind, ...]
     rewards: tuple[Reward, ...]
-    counts: tuple[Event, ...]
+    counts: tuple[EventKind, ...]
     declaration: Declaration
 
 

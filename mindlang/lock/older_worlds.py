@@ -3,7 +3,7 @@
 from collections.abc import Mapping
 from typing import Any
 
-from mindrun.world import MOVES
+from mindrun.things import MOVES
 
 EVENTS = {"reached": "reach", "delivered": "delivery"}
 

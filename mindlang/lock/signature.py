@@ -3,8 +3,9 @@
 from collections.abc import Collection, Iterator
 from typing import Any
 
-from mindrun.graph import Graph, SensorKind, Skill
+from mindrun.graph import Graph, Skill
 from mindrun.registry import arguments, names
+from mindrun.sensors import SensorKind
 
 from mindlang.lock import Entry, Signature
 

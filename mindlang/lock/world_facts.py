@@ -12,26 +12,21 @@ from hashlib import sha256
 from pathlib import Path
 from typing import Any
 
-from mindrun.actuators import Gripper, Wheel
 from mindrun.codec import encode
 from mindrun.errors import ProcedureError
-from mindrun.events import Exhaustion
 from mindrun.expression import leaves
 from mindrun.functions import Procedure
 from mindrun.functions.procedure import module_source
-from mindrun.graph import Actuator, Graph, Lesson, Reward, Skill, Task
+from mindrun.graph import Graph, Lesson, Reward, Skill, Task
 from mindrun.reachability import reached_from
 from mindrun.registry import names
-from mindrun.sensors import Battery, SensorKind
+from mindrun.sensors import SensorKind
 from mindrun.weights import genes, reachable
-from mindrun.world import Item
 
 from mindlang.compiler.drawing import phrase
 from mindlang.lock import Taught
 from mindlang.lock.training_world import LessonKey, TrainingWorld
 from mindlang.lock.wording import infix
-
-CLAW_REACH = 1.5  # of a robot without a claw, as `sim/task_rows.py` has it
 
 
 def key_of(lesson: Lesson) -> LessonKey:
@@ -102,8 +97,8 @@ class Worlds:
         read = {self._names[index] for skill in skills for index in skill.inputs}
         read |= {self._names[index] for reward in task.rewards for index in _read(reward)}
         driven = {self.graph.named(edge.to, edge.target) for skill in skills for edge in skill.edges}
-        if any(isinstance(task.events[event], Exhaustion) for event in _happening(task)):
-            read |= {*[sensor.name for sensor in self.graph.sensors if isinstance(sensor.kind, Battery)][:1]}
+        if any(task.events[event].is_of_battery for event in _happening(task)):
+            read |= {*[sensor.name for sensor in self.graph.sensors if sensor.kind.battery][:1]}
         sources = self._with_sources(read)
         for sensor in self.graph.sensors:
             if sensor.name in sources:
@@ -112,11 +107,10 @@ class Worlds:
             if memory.name in read | driven:
                 yield f"memory {memory.name}", encode(memory.kind)
         for actuator in self.graph.actuators:
-            if actuator.name in driven or _acts_at_rest(actuator):
+            if actuator.name in driven or actuator.kind.acts_at_rest:
                 yield f"actuator {actuator.name}", encode(actuator.kind)
-        if any(isinstance(thing.kind, Item) for thing in task.things):
-            claws = (actuator.kind.reach for actuator in self.graph.actuators if isinstance(actuator.kind, Gripper))
-            yield "claw", next(claws, CLAW_REACH)
+        if any(thing.kind.can_be_held for thing in task.things):
+            yield "claw", self.graph.claw_reach
 
     def _with_sources(self, read: set[str]) -> set[str]:
         """The sensors of these names, and those that they are derivatives of."""
@@ -195,13 +189,3 @@ def _read(reward: Reward) -> set[int]:
 def _happening(task: Task) -> set[int]:
     """The events that end a task or pay."""
     return {*task.ends, *(reward.on for reward in task.rewards if reward.on is not None)}
-
-
-def _acts_at_rest(actuator: Actuator) -> bool:
-    """Whether it does something where no skill drives it."""
-    match actuator.kind:
-        case Wheel(neutral=neutral, thrust=thrust):
-            return neutral != 0.5 and thrust != 0.0
-        case Gripper(neutral=neutral):
-            return neutral > 0.5
-    return False

@@ -3,8 +3,6 @@
 from collections.abc import Sequence
 from typing import Any
 
-from mindrun.world import Item
-
 from mindlang.number_format import score
 from mindlang.pictures.canvas import Canvas, square, text_width
 from mindlang.pictures.path import MIN_CONTROL_SHARE, Path, draw_cross
@@ -91,8 +89,7 @@ def _entries(canvas: Canvas, run: RecordedRun, path: Path, theme: Theme) -> list
     ] or [(ramp, f"path, 0 to {seconds:.0f} s")]
     entries.append((lambda x, y: canvas.disc(x + 9, y, 4.5, theme.ink, width=1.6), "start"))
     for thing, colour in zip(run.contents, thing_colours(run.contents, theme), strict=True):
-        is_item = isinstance(thing.kind, Item)
-        entries.append((_dot(canvas, colour) if is_item else box(colour), thing.name))
+        entries.append((_dot(canvas, colour) if thing.kind.is_round else box(colour), thing.name))
     if len(run.boxes):
         entries.append((box(theme.rock_edge), "obstacle"))
     if hits := len(run.collisions):

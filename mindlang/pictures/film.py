@@ -7,7 +7,6 @@ from typing import Any, ClassVar
 
 import cv2
 from mindrun.atomic_write import destination, write
-from mindrun.world import Arena
 
 from mindlang.pictures.canvas import Canvas, Image, View, blank, pasted, text_width
 from mindlang.pictures.hierarchy_panel import Panel
@@ -101,13 +100,13 @@ class Film:
     def view(self, tick: int) -> View:
         """What is seen of the world in a tick: the whole arena; of a plain scene what is around the robot."""
         scene = self.run.task.scene
-        half = scene.size / 2 + 2 * WALL_UNITS if isinstance(scene, Arena) else WINDOW_UNITS / 2
-        middle = self.run.body[tick, :2] * (not isinstance(scene, Arena))
+        half = scene.side / 2 + 2 * WALL_UNITS if scene.is_bounded else WINDOW_UNITS / 2
+        middle = self.run.body[tick, :2] * (not scene.is_bounded)
         return View.around(middle - half, middle + half, HEIGHT, HEIGHT)
 
     @property
     def _ground(self) -> tuple[int, int, int]:
-        return NIGHT.page if isinstance(self.run.task.scene, Arena) else NIGHT.floor
+        return NIGHT.page if self.run.task.scene.is_bounded else NIGHT.floor
 
     def _title(self, canvas: Canvas, tick: int) -> None:
         run, left, y = self.run, HEIGHT + 24.0, 66.0

@@ -4,7 +4,6 @@ from collections.abc import Sequence
 from itertools import pairwise
 
 import numpy as np
-from mindrun.actuators import Gripper
 from numpy.typing import NDArray
 
 from mindlang.pictures.canvas import Canvas, text_width
@@ -60,8 +59,7 @@ class Panel:
 
     def _actuator(self, canvas: Canvas, index: int, place: Place, command: float) -> None:
         actuator = self._run.graph.actuators[index]
-        middle = 0.0 if isinstance(actuator.kind, Gripper) else actuator.kind.neutral
-        self._gauge(canvas, actuator.name, place, command, middle)
+        self._gauge(canvas, actuator.name, place, command, actuator.kind.zero)
 
     def _gauge(self, canvas: Canvas, name: str, place: Place, value: float, middle: float) -> None:
         """A bar from `middle` to the value."""

@@ -4,7 +4,6 @@ from dataclasses import dataclass
 from itertools import pairwise
 
 import numpy as np
-from mindrun.world import Item
 from numpy.typing import NDArray
 
 from mindlang.pictures.canvas import Canvas, square
@@ -81,7 +80,7 @@ def draw_former(canvas: Canvas, run: RecordedRun, theme: Theme) -> None:
     for number, (thing, colour) in enumerate(zip(run.contents, thing_colours(run.contents, theme), strict=True)):
         former = run.former(number)
         for order, (x, y, size) in enumerate(former, 1):
-            if isinstance(thing.kind, Item):
+            if thing.kind.is_round:
                 canvas.disc(x, y, size / 2, colour, 0.16)
                 canvas.disc(x, y, size / 2, colour, 0.45, width=1.0)
             else:

@@ -4,7 +4,6 @@ from typing import Any
 
 import cv2
 import numpy as np
-from mindrun.world import Arena
 
 from mindlang.pictures.canvas import Canvas, Image, View, blank, pasted
 from mindlang.pictures.caption import draw_legend, draw_scale, draw_title
@@ -34,8 +33,8 @@ def picture(run: RecordedRun, found: dict[str, Any]) -> Image:
 
 def view_of(run: RecordedRun, width: int, height: int) -> View:
     """The arena, or in a plain scene all that happened."""
-    if isinstance(run.task.scene, Arena):
-        half = run.task.scene.size / 2 + WALL_UNITS
+    if run.task.scene.is_bounded:
+        half = run.task.scene.side / 2 + WALL_UNITS
         return View.around([-half, -half], [half, half], width, height)
     places = [run.body[:, :2], *(run.placements(i)[:, :2] for i in range(len(run.contents)))]
     seen = np.concatenate([*places, run.boxes[:, :2]])
@@ -50,7 +49,7 @@ def png(image: Image) -> bytes:
 
 
 def _world(run: RecordedRun, view: View, width: int, height: int) -> Image:
-    is_plain = not isinstance(run.task.scene, Arena)
+    is_plain = not run.task.scene.is_bounded
     image = blank(width, height, PAPER.floor if is_plain else PAPER.page)
     canvas = Canvas(image, view, pen=SUPERSAMPLING)
     draw_floor(canvas, run, PAPER)

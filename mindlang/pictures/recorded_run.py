@@ -3,7 +3,6 @@
 from dataclasses import dataclass
 
 import numpy as np
-from mindrun.actuators import Wheel
 from mindrun.graph import Graph, Skill, Task, Thing
 from mindrun.sim.rollout import Rollout
 from mindrun.sim.task_rows import things_of
@@ -74,12 +73,12 @@ class RecordedRun:
         return placed[:-1] if np.isfinite(self.things[-1, thing, 0]) else placed
 
     def movers(self) -> list[Skill]:
-        """The skills under the master that drive a wheel."""
-        wheels = {i for i, actuator in enumerate(self.graph.actuators) if isinstance(actuator.kind, Wheel)}
+        """The skills under the master that move the robot."""
+        drives = {i for i, actuator in enumerate(self.graph.actuators) if actuator.kind.moves_body}
         return [
             skill
             for skill in reachable(self.graph, self.setup.master)
-            if any(edge.to == "actuator" and edge.target in wheels for edge in skill.edges)
+            if any(edge.to == "actuator" and edge.target in drives for edge in skill.edges)
         ]
 
     def in_control(self) -> NDArray[np.int64]:

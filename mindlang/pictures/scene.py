@@ -5,9 +5,8 @@ from itertools import cycle
 from math import cos, sin
 
 import numpy as np
-from mindrun.actuators import Gripper
 from mindrun.graph import Thing
-from mindrun.world import Arena, Item, Power, Zone
+from mindrun.registry import names
 from numpy.typing import NDArray
 
 from mindlang.pictures.canvas import Canvas, square, text_width
@@ -21,7 +20,7 @@ NAME_PIXELS = 10.0  # the capitals of a thing's name
 
 def draw_floor(canvas: Canvas, run: RecordedRun, theme: Theme) -> None:
     """The floor with a line every ten units, the walls and the obstacles."""
-    half = run.task.scene.size / 2 if isinstance(run.task.scene, Arena) else 0.0
+    half = run.task.scene.side / 2 if run.task.scene.is_bounded else 0.0
     if half:
         canvas.polygon(square(0, 0, half + WALL_UNITS), theme.wall)
         canvas.polygon(square(0, 0, half), theme.floor)
@@ -43,8 +42,8 @@ def _grid(canvas: Canvas, theme: Theme, half: float) -> None:
 
 def thing_colours(things: Sequence[Thing], theme: Theme) -> list[Colour]:
     """A colour for each thing: items, zones and power zones have their own, which begin again when they are used up."""
-    left = {Item: cycle(theme.items), Zone: cycle(theme.zones), Power: cycle(theme.powers)}
-    return [next(left[type(thing.kind)]) for thing in things]
+    left = {name: cycle(colours) for name, colours in theme.things.items()}
+    return [next(left[names()[type(thing.kind)]]) for thing in things]
 
 
 def _each(run: RecordedRun, theme: Theme, tick: int) -> Iterable[tuple[Thing, Colour, NDArray[np.float64]]]:
@@ -56,7 +55,7 @@ def _each(run: RecordedRun, theme: Theme, tick: int) -> Iterable[tuple[Thing, Co
 def draw_zones(canvas: Canvas, run: RecordedRun, theme: Theme, tick: int) -> None:
     """The zones as they are after a tick: below the path."""
     for thing, fill, (x, y, size) in _each(run, theme, tick):
-        if not isinstance(thing.kind, Item):
+        if thing.kind.is_area:
             canvas.polygon(square(x, y, size / 2), fill, 0.22)
             canvas.line(square(x, y, size / 2), fill, 1.6, closed=True)
 
@@ -64,7 +63,7 @@ def draw_zones(canvas: Canvas, run: RecordedRun, theme: Theme, tick: int) -> Non
 def draw_items(canvas: Canvas, run: RecordedRun, theme: Theme, tick: int) -> None:
     """The items as they are after a tick."""
     for thing, fill, (x, y, size) in _each(run, theme, tick):
-        if isinstance(thing.kind, Item):
+        if not thing.kind.is_area:
             canvas.disc(x, y, size / 2, fill)
             canvas.disc(x, y, size / 2, mixed(fill, theme.ink, 0.45), width=1.2)
 
@@ -120,7 +119,7 @@ def _claw(canvas: Canvas, run: RecordedRun, theme: Theme, tick: int) -> None:
     x, y, angle = run.body[tick]
     radius = run.graph.body.size / 2
     for number, actuator in enumerate(run.graph.actuators):
-        if isinstance(actuator.kind, Gripper):
+        if actuator.kind.can_hold:
             apart = 0.35 if run.commands[tick - 1, number] > 0.5 else 0.75
             for side in (-1.0, 1.0):
                 shape = np.array([(0.8, 0.5 * side), (1.4, apart * side), (1.9, apart * 0.8 * side)]) * radius

@@ -1,5 +1,6 @@
 """Colours: a light theme for pictures on paper, a dark one for films, in which influence glows."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 Colour = tuple[int, int, int]  # blue, green, red, as OpenCV has them
@@ -35,9 +36,7 @@ class Theme:
     rock_edge: Colour
     ink: Colour
     faint: Colour
-    items: tuple[Colour, ...]  # one each, as long as they last
-    zones: tuple[Colour, ...]
-    powers: tuple[Colour, ...]
+    things: Mapping[str, tuple[Colour, ...]]  # by kind: one each, as long as they last
     robot: Colour
     ray: Colour
     crash: Colour
@@ -57,9 +56,11 @@ PAPER = Theme(
     rock_edge=colour("#8b919e"),
     ink=colour("#23272f"),
     faint=colour("#8a8f99"),
-    items=colours("#e8871e", "#d6409f", "#c9b200", "#8d5a2b"),
-    zones=colours("#3a9d5d", "#2a8fc7", "#93a80f", "#1fa596"),
-    powers=colours("#8e5bd0", "#c45bb4", "#5468d4", "#a3557a"),
+    things={
+        "item": colours("#e8871e", "#d6409f", "#c9b200", "#8d5a2b"),
+        "zone": colours("#3a9d5d", "#2a8fc7", "#93a80f", "#1fa596"),
+        "power": colours("#8e5bd0", "#c45bb4", "#5468d4", "#a3557a"),
+    },
     robot=colour("#23272f"),
     ray=colour("#e2555f"),
     crash=colour("#d62839"),
@@ -78,9 +79,11 @@ NIGHT = Theme(
     rock_edge=colour("#606b80"),
     ink=colour("#eceff4"),
     faint=colour("#8b94a5"),
-    items=colours("#ffa040", "#ff7ac8", "#f2e04a", "#c98f5a"),
-    zones=colours("#4cc97a", "#56b8f0", "#c3d84a", "#4fd6c8"),
-    powers=colours("#b48cff", "#ea8fdc", "#8c9dff", "#d58aad"),
+    things={
+        "item": colours("#ffa040", "#ff7ac8", "#f2e04a", "#c98f5a"),
+        "zone": colours("#4cc97a", "#56b8f0", "#c3d84a", "#4fd6c8"),
+        "power": colours("#b48cff", "#ea8fdc", "#8c9dff", "#d58aad"),
+    },
     robot=colour("#f4f6fa"),
     ray=colour("#ff6b74"),
     crash=colour("#ff4d5e"),

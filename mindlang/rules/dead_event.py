@@ -29,6 +29,6 @@ def check(study: Study) -> Found:
         facts: list[Ends | Counts] = [*ends, *counts]
         place = world(study, task)
         for fact, event in zip(facts, [*task.ends, *task.counts], strict=True):
-            if why := place.prevents(event):
+            if why := event.prevented(place):
                 fix = Fix("Remove the line", (without_fact(fact),), is_safe=False)
                 yield Finding(fact.event.span, f"This never happens: {why[0]}.", why[1], fix=fix)

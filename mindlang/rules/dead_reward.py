@@ -48,7 +48,7 @@ def check(study: Study) -> Found:
 
 def _why(place: World, reward: Reward) -> tuple[Span, str, str] | None:
     fact = reward.fact
-    if reward.on and fact.on and (why := place.prevents(reward.on)):
+    if reward.on and fact.on and (why := reward.on.prevented(place)):
         return fact.on.span, *why
     if reward.when and fact.when and not place.holds(reward.when, reward):
         hint = "Compare with something that is reached, or take the reward out."

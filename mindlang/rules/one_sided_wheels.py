@@ -3,8 +3,6 @@
 Such a robot can only turn on the spot: most often a line was copied and its `side` was not changed.
 """
 
-from mindrun.actuators import Wheel
-
 from mindlang.analysis.study import Finding, Found, Study
 from mindlang.compiler.diagnostic import Label
 
@@ -19,7 +17,7 @@ BAD = (GOOD[0].replace("side right", "side left"),)
 
 def check(study: Study) -> Found:
     """The last of two or more wheels that are all on the same side."""
-    wheels = [(part, part.kind.side) for part in study.mind.actuators if isinstance(part.kind, Wheel)]
+    wheels = [(part, part.kind.mounted) for part in study.mind.actuators if part.kind.mounted]
     sides = {side for _, side in wheels}
     if len(wheels) > 1 and len(sides) == 1:
         (first, side), (last, _) = wheels[0], wheels[-1]

@@ -5,14 +5,13 @@ It stays where it is, and is reached again only after the robot has left it. Fil
 such a file along.
 """
 
-from mindrun.events import Reach
-
 from mindlang.analysis.study import Finding, Found, Study
 from mindlang.compiler.diagnostic import Fix
 from mindlang.compiler.model import Task
 from mindlang.compiler.splice import Splice
 from mindlang.compiler.syntax import Contains
 
+REACHED = "reached"  # the argument that is left out
 GOOD = (
     """
 sensor dock_bearing is bearing of dock
@@ -40,7 +39,7 @@ def check(study: Study) -> Found:
         for fact in task.declaration.facts:
             match fact:
                 case Contains(name, phrase) if name.text in reached and not any(
-                    argument.key.text == "reached" for argument in phrase.arguments
+                    argument.key.text == REACHED for argument in phrase.arguments
                 ):
                     end = phrase.span.end
                     fix = Fix("Say reached moves", (Splice(phrase.span.source, end, end, " reached moves"),), False)
@@ -50,5 +49,5 @@ def check(study: Study) -> Found:
 
 def _reached(task: Task) -> set[str]:
     """The things whose reach is rewarded or counted and does not end the run."""
-    events = [*task.counts, *(reward.on for reward in task.rewards)]
-    return {event.of for event in events if isinstance(event, Reach) and event not in task.ends}
+    events = [*task.counts, *(reward.on for reward in task.rewards if reward.on)]
+    return {event.thing for event in events if event.outcome == REACHED and event not in task.ends}

@@ -4,8 +4,7 @@ No sensor tells the robot of it, and no reward, event or count depends on it, so
 Obstacles are of use by standing in the way, a power by charging the battery, and a zone by taking the task's items.
 """
 
-from mindrun.sensors import Battery
-from mindrun.world import Content, Item, Obstacle, Power, Zone
+from mindrun.things import ThingKind
 
 from mindlang.analysis.study import Finding, Found, Study
 from mindlang.compiler.diagnostic import Fix
@@ -30,9 +29,9 @@ BAD = ("task Carry in arena\n  contains ball is item\n  lasts 9 s\n",)
 def check(study: Study) -> Found:
     """Things that no sensor names, nor anything in their task."""
     sensed, named = {*study.senses.values()}, _named(study)
-    charges = any(isinstance(kind, Battery) for kind in study.sensors.values())
+    charges = any(kind.battery for kind in study.sensors.values())
     for task in study.mind.tasks:
-        delivers = any(isinstance(thing.kind, Item) for thing in task.things)
+        delivers = any(thing.kind.can_be_held for thing in task.things)
         facts = {fact.name.text: fact for fact in task.declaration.facts if isinstance(fact, Contains)}
         for thing in task.things:
             is_known = thing.name in sensed or (task.name, thing.name) in named
@@ -51,12 +50,6 @@ def _named(study: Study) -> set[tuple[str, str]]:
     return {(mention.by.header.name.text, mention.name.text) for mention in about if mention.by}
 
 
-def _is_of_use(kind: Content, charges: bool, delivers: bool) -> bool:
-    match kind:
-        case Obstacle():
-            return True
-        case Power():
-            return charges
-        case Zone():
-            return delivers
-    return False
+def _is_of_use(kind: ThingKind, charges: bool, delivers: bool) -> bool:
+    """Whether it does something although nothing is about it."""
+    return kind.is_solid or (kind.charges and charges) or (kind.takes_items and delivers)

@@ -7,8 +7,6 @@ at -40 deg to the right. A robot with two such parts exchanged turns toward what
 from collections.abc import Iterator
 from math import sin
 
-from mindrun.actuators import Wheel
-
 from mindlang.analysis.study import Finding, Found, Study, words
 from mindlang.compiler.source import Span
 
@@ -35,12 +33,12 @@ def check(study: Study) -> Found:
 def _sided(study: Study) -> Iterator[tuple[str, str, Span]]:
     """The parts that are on a side, on which, and where they are declared."""
     for actuator in study.mind.actuators:
-        if isinstance(actuator.kind, Wheel):
-            yield actuator.name, actuator.kind.side, actuator.span
+        if side := actuator.kind.mounted:
+            yield actuator.name, side, actuator.span
     for sensor in study.mind.sensors:
         sides = {_side(angle) for angle in sensor.kind.rays}
-        if len(sides) == 1 and (side := sides.pop()):
-            yield sensor.name, side, sensor.span
+        if len(sides) == 1 and (only := sides.pop()):
+            yield sensor.name, only, sensor.span
 
 
 def _side(angle: float) -> str:

@@ -4,7 +4,7 @@ from dataclasses import fields
 from typing import Any
 
 from mindrun.registry import kinds
-from mindrun.world import MOVES, STAYS
+from mindrun.things import MOVES, STAYS
 
 
 def brought_along(graph: Any) -> Any:
@@ -44,7 +44,7 @@ def _task(task: Any) -> Any:
 def _outcomes(thing: Any, named: set[Any]) -> dict[str, str]:
     """What became of a thing."""
     name, kind = thing["name"], thing["kind"]["is"]
-    outcomes = {}
+    outcomes: dict[str, str] = {}
     if kind in ("item", "zone", "power"):
         outcomes["reached"] = MOVES if ("reach", name) in named else STAYS
     if kind == "item":

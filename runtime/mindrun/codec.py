@@ -4,7 +4,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, fields, is_dataclass
 from math import isfinite
 from types import NoneType, UnionType
-from typing import Annotated, Any, Union, get_args, get_origin, get_type_hints
+from typing import Annotated, Any, Literal, Union, get_args, get_origin, get_type_hints
 
 from mindrun.errors import MindError
 from mindrun.quantity import Quantity, Reference, fits
@@ -56,6 +56,8 @@ class _Decoder:
             return _in_range(parts[1], self.value(parts[0], data, where), where)
         if origin in (Union, UnionType):
             return self.union(parts, data, where)
+        if origin is Literal:
+            return _word(parts, data, where)
         if origin is tuple:
             return self.tuple(parts, data, where)
         if hint in bases():
@@ -113,6 +115,12 @@ def _plain(hint: Any, data: Any, where: str) -> Any:
     if type(data) is not hint or (hint is float and not isfinite(data)):
         raise CodecError(f"{where} cannot be {data!r:.60}")
     if hint is str and not data.isprintable():
+        raise CodecError(f"{where} cannot be {data!r:.60}")
+    return data
+
+
+def _word(words: tuple[Any, ...], data: Any, where: str) -> Any:
+    if data not in words:
         raise CodecError(f"{where} cannot be {data!r:.60}")
     return data
 

@@ -2,17 +2,18 @@
 
 from dataclasses import dataclass
 
-from mindrun.actuators import Gripper, Servo, Wheel
-from mindrun.events import Event
+from mindrun.actuators import ActuatorKind
+from mindrun.actuators.gripper import REACH_UNITS
+from mindrun.bodies import Disc
+from mindrun.events import EventKind
 from mindrun.expression import Program as Program
 from mindrun.functions import Function
 from mindrun.learners import Learner
-from mindrun.measures import Measure
+from mindrun.measures import MeasureKind
 from mindrun.memory import Cell
-from mindrun.sensors import SensorKind as SensorKind
-from mindrun.world import Content, Disc, Scene
-
-ActuatorKind = Wheel | Gripper | Servo
+from mindrun.scenes import SceneKind
+from mindrun.sensors import SensorKind
+from mindrun.things import ThingKind
 
 
 @dataclass(frozen=True, slots=True)
@@ -89,7 +90,7 @@ class Thing:
     """Something that a task's world contains."""
 
     name: str
-    kind: Content
+    kind: ThingKind
 
 
 @dataclass(frozen=True, slots=True)
@@ -121,11 +122,11 @@ class Task:
     """A task: its world, its end, its rewards. `ends` and `counts` are indices into `events`."""
 
     name: str
-    scene: Scene
+    scene: SceneKind
     things: tuple[Thing, ...]
     ticks: int
-    measures: tuple[Measure, ...]
-    events: tuple[Event, ...]
+    measures: tuple[MeasureKind, ...]
+    events: tuple[EventKind, ...]
     ends: tuple[int, ...]
     rewards: tuple[Reward, ...]
     counts: tuple[int, ...]
@@ -174,6 +175,11 @@ class Graph:
     def width(self) -> int:
         """How many readings there are: those of the sensors, then one per memory."""
         return sum(sensor.width for sensor in self.sensors) + len(self.memories)
+
+    @property
+    def claw_reach(self) -> float:
+        """How far ahead of the body things come into reach, with a claw or without."""
+        return next((each.kind.reach for each in self.actuators if each.kind.reach is not None), REACH_UNITS)
 
     def named(self, noun: str, index: int) -> str:
         """The name of the "skill", "actuator" or "memory" that an edge goes to by its index."""

@@ -1,7 +1,9 @@
 """Kinds of the language, found by name: frozen dataclasses whose fields are their `.mind` arguments."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import MISSING, dataclass, fields
+from importlib import import_module
+from pkgutil import iter_modules
 from typing import Annotated, Any, TypeVar, get_args, get_origin, get_type_hints
 
 from mindrun.quantity import Quantity, Reference, Span
@@ -59,6 +61,12 @@ def base(noun: str) -> Callable[[type[T]], type[T]]:
 def bases() -> Mapping[type[Any], str]:
     """The noun of every class that kinds have in common."""
     return _bases
+
+
+def register_all(package: str, path: Iterable[str]) -> None:
+    """Import every module of a package, so that the kinds in them are known: each is a file of its own."""
+    for module in iter_modules(path):
+        import_module(f"{package}.{module.name}")
 
 
 def names() -> Mapping[type[Any], str]:

@@ -3,12 +3,11 @@
 import re
 from collections.abc import Container, Iterator
 
-from mindrun.events import Visit
 from mindrun.expression import OPERATORS, is_sound, leaves
 from mindrun.graph import Graph, Lesson, Program, Skill, Task
 from mindrun.quantity import THING, UNSAID
 from mindrun.registry import arguments
-from mindrun.world import MOST_OBSTACLES, MOST_THINGS, Obstacle, Plain, obstacle_count
+from mindrun.things.thing import MAX_OBSTACLES, MAX_THINGS
 
 NAME = re.compile(r"[^\W\d_]\w*([+.]\w+)*")
 SHORTEST, LONGEST = 1e-9, 1e9  # seconds of a tick
@@ -116,7 +115,7 @@ def _task_flaws(task: Task, width: int) -> Iterator[str]:
         yield "contains what has no name of its own"
     if any(thing.kind.size == UNSAID for thing in task.things):
         yield "contains what has no size"
-    if not set(_things_named(task)) <= {thing.name for thing in task.things if not isinstance(thing.kind, Obstacle)}:
+    if not set(_things_named(task)) <= {thing.name for thing in task.things if not thing.kind.is_obstacle}:
         yield "names a thing that is not there"
     yield from _world_flaws(task)
     events, readings = range(len(task.events)), range(width)
@@ -135,12 +134,11 @@ def _task_flaws(task: Task, width: int) -> Iterator[str]:
 
 def _world_flaws(task: Task) -> Iterator[str]:
     """A world has no more than it can look at, and only one with walls has patches."""
-    solid = [thing.kind for thing in task.things if isinstance(thing.kind, Obstacle)]
-    if len(task.things) - len(solid) > MOST_THINGS:
-        yield f"contains more than {MOST_THINGS} things"
-    if sum(obstacle_count(kind, task.scene) for kind in solid) > MOST_OBSTACLES:
-        yield f"contains more than {MOST_OBSTACLES} obstacles"
-    if isinstance(task.scene, Plain) and any(isinstance(event, Visit) for event in task.events):
+    if sum(not thing.kind.is_obstacle for thing in task.things) > MAX_THINGS:
+        yield f"contains more than {MAX_THINGS} things"
+    if sum(thing.kind.obstacles(task.scene) for thing in task.things) > MAX_OBSTACLES:
+        yield f"contains more than {MAX_OBSTACLES} obstacles"
+    if not task.scene.is_bounded and any(event.needs_walls for event in task.events):
         yield "has patches without an arena"
 
 

@@ -12,9 +12,10 @@ from mindrun.measures import Change, Retreat
 from mindrun.policy import Policy
 from mindrun.quantity import Span
 from mindrun.robot.drivers.mock import MockActuator, MockSensor
+from mindrun.scenes import Arena
+from mindrun.things import Item, Obstacle, Zone
 from mindrun.weights import genes
 from mindrun.wiring import ActuatorWire, SensorWire, Wiring
-from mindrun.world import Arena, Item, Obstacle, Zone
 
 from tests.minds import always, mind, rule, skill
 

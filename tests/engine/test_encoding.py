@@ -6,7 +6,7 @@ from contextlib import suppress
 from copy import deepcopy
 from dataclasses import fields, is_dataclass
 from math import inf, nan, nextafter
-from typing import Any, get_args, get_origin, get_type_hints
+from typing import Any, Literal, get_args, get_origin, get_type_hints
 
 import pytest
 from hypothesis import given, settings
@@ -17,8 +17,8 @@ from mindrun.errors import BundleError
 from mindrun.graph import Graph
 from mindrun.quantity import Quantity, Span
 from mindrun.registry import arguments, kinds, names
+from mindrun.things import Zone
 from mindrun.wiring import Wiring
-from mindrun.world import Zone
 
 from tests.engine.bundles import example, wired
 from tests.sim.worlds import random_world
@@ -75,6 +75,8 @@ def well_typed(hint: Any, value: Any) -> bool:
         of = get_args(found[0]) if found else ()
         hints = [of[0]] * len(value) if of[-1:] == (...,) else list(of)
         return len(hints) == len(value) and all(map(well_typed, hints, value))
+    if get_origin(hint) is Literal:
+        return value in get_args(hint)
     return type(value) in (hint, *get_args(hint))
 
 

@@ -13,9 +13,10 @@ from mindrun.learners import Genetic
 from mindrun.measures import Advance, Progress, Retreat
 from mindrun.memory import Cell
 from mindrun.quantity import UNSAID, Span
+from mindrun.scenes import Arena, Plain
 from mindrun.sensors import Battery, Derivative, RangeFinder, Sine
+from mindrun.things import Item, Obstacle, ThingKind, Zone
 from mindrun.validate import depths, graph_flaw
-from mindrun.world import Arena, Content, Item, Obstacle, Plain, Zone
 
 from tests.minds import always, mind, rule, skill
 
@@ -26,7 +27,7 @@ ROCKS, CLOSE = Thing("rocks", Obstacle(grid=10.0)), Thing("close", Obstacle(grid
 TASK = Task("Go", Plain(), (BALL,), 10, (Progress("ball"),), (Reach("ball"),), (0,), (REWARD,), (0,))
 
 
-def many(count: int, kind: Content, name: str = "one") -> Iterator[Thing]:
+def many(count: int, kind: ThingKind, name: str = "one") -> Iterator[Thing]:
     """Things of one kind."""
     return (Thing(f"{name}{number}", kind) for number in range(count))
 

@@ -8,8 +8,9 @@ from mindrun.graph import Edge, Graph, Reward, Skill
 from mindrun.learners import Genetic
 from mindrun.measures import Change, Forward
 from mindrun.quantity import Span
+from mindrun.scenes import Arena
 from mindrun.sensors import Sine
-from mindrun.world import Arena, Item, Obstacle
+from mindrun.things import Item, Obstacle
 
 from mindlang.compiler.compile import load
 from tests.language.examples import COLLECT, compiled

@@ -8,7 +8,7 @@ from mindrun.learners import EvolutionStrategy, Genetic, Restarting
 from mindrun.quantity import Span
 from mindrun.registry import arguments, kinds
 from mindrun.sensors import RangeFinder
-from mindrun.world import Obstacle
+from mindrun.things import Obstacle
 
 from mindlang.compiler.compile import load
 from tests.language.examples import TOUR, changed, codes, compiled

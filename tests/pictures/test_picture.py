@@ -8,7 +8,7 @@ import cv2
 import numpy as np
 import pytest
 from mindrun.graph import Thing
-from mindrun.world import Item
+from mindrun.things import Item
 
 from mindlang.compiler.compile import load
 from mindlang.pictures.canvas import Canvas, Image, View, blank
@@ -48,7 +48,7 @@ def test_the_robot_stands_where_the_run_ended(rules: Path) -> None:
     assert image.shape == (PICTURE_PIXELS, PICTURE_PIXELS, 3)
     x, y, angle = story.body[-1]
     assert near(pixel(story, image, x - 0.6 * np.cos(angle), y - 0.6 * np.sin(angle)), PAPER.robot)
-    assert near(pixel(story, image, *story.things[-1, 0, :2]), PAPER.items[0])
+    assert near(pixel(story, image, *story.things[-1, 0, :2]), PAPER.things["item"][0])
 
 
 def test_obstacles_walls_and_the_start_are_there(rules: Path) -> None:
@@ -79,7 +79,7 @@ def test_things_of_a_kind_are_told_apart(rules: Path) -> None:
 
 def test_more_things_than_colours_begin_again() -> None:
     colours = thing_colours([Thing(f"thing_{i}", Item()) for i in range(9)], PAPER)
-    assert colours[8] == colours[4] == colours[0] == PAPER.items[0]
+    assert colours[8] == colours[4] == colours[0] == PAPER.things["item"][0]
 
 
 def test_a_collision_that_ends_the_run_lies_over_the_robot(rules: Path) -> None:

@@ -1,40 +1,171 @@
-"""Every kind of the language has its code in the simulated world."""
+"""A kind is one file that says all: what a new one leaves unsaid is told here, and nobody else asks for its class."""
 
 import ast
+from collections.abc import Iterator, Mapping
+from dataclasses import fields
 from importlib import import_module
+from pathlib import Path
 
 import pytest
-from mindrun.registry import kinds
+from mindrun.functions import Function
+from mindrun.quantity import THING
+from mindrun.registry import arguments, bases, kinds
 from mindrun.sensors import SensorKind
+from mindrun.sim.codes import ACTUATOR_CODES, EVENT_CODES, MEASURE_CODES, THING_CODES
+from mindrun.things.about import AboutThing
 
-from tests.project.sources import RUNTIME, modules, tree
+from mindlang.pictures.theme import NIGHT, PAPER
+from tests.project.sources import COMPILER, ROOT, RUNTIME, modules, tree
 
-NOUNS = ("body", "actuator", "sensor", "memory", "skill", "task", "content", "curriculum", "measure", "event")
-SIMULATED = ("actuator", "measure", "event")
-for room in ("sensors", "actuators", "memory", "measures", "events", "world", "functions", "learners"):
+ROOMS = ("sensors", "functions", "actuators", "things", "scenes", "events", "measures", "bodies", "memory", "learners")
+for room in ROOMS:
     import_module(f"mindrun.{room}")
+NOUNS = ("body", "actuator", "sensor", "memory", "skill", "task", "content", "curriculum", "measure", "event")
+KINDS = {cls for noun in NOUNS for cls in kinds(noun).values()}
+COMMON = {"actuator": ("neutral", "delay"), "content": ("size", "away")}  # the arguments that each kind of a noun has
+CODES = {
+    "actuator": {name for name, _ in ACTUATOR_CODES},
+    "content": THING_CODES,
+    "measure": MEASURE_CODES,
+    "event": EVENT_CODES,
+}
+OUTCOMES = {"reached", "delivered"}
+GENERATORS = [ROOT / "tests" / "sim" / "worlds.py", ROOT / "tests" / "hierarchies.py"]
+
+# Where a module asks for the class of a kind outside of the room of its kinds, and why.
+MAY_ASK = {
+    "mindrun/train/ask_and_tell.py": "the learners' algorithms, one module each, are called here",
+}
 
 
-def matched() -> set[str]:
-    """The names of all classes that the tables of the simulated world tell apart by `match`."""
-    nodes = [node for path in modules(RUNTIME / "sim") for node in ast.walk(tree(path))]
-    return {ast.unparse(node.cls).rpartition(".")[2] for node in nodes if isinstance(node, ast.MatchClass)}
-
-
-@pytest.mark.parametrize(
-    ("noun", "name"),
-    [(noun, name) for noun in SIMULATED for name in kinds(noun)],
-)
-def test_every_kind_is_simulated(noun: str, name: str) -> None:
-    assert kinds(noun)[name].__name__ in matched()
-
-
-@pytest.mark.parametrize("name", kinds("sensor"))
-def test_every_sensor_has_a_lane_function(name: str) -> None:
-    assert kinds("sensor")[name].lane is not SensorKind.lane
+def every(*nouns: str) -> pytest.MarkDecorator:
+    """All kinds of these nouns."""
+    return pytest.mark.parametrize(("noun", "name"), [(noun, name) for noun in nouns for name in kinds(noun)])
 
 
 @pytest.mark.parametrize("noun", NOUNS)
-def test_every_kind_says_what_it_is(noun: str) -> None:
+def test_every_noun_has_kinds(noun: str) -> None:
     assert kinds(noun)
-    assert [name for name, cls in kinds(noun).items() if str(cls.__doc__).startswith(f"{cls.__name__}(")] == []
+
+
+@every(*NOUNS)
+def test_every_kind_says_what_it_is(noun: str, name: str) -> None:
+    cls = kinds(noun)[name]
+    assert not str(cls.__doc__).startswith(f"{cls.__name__}("), f"{name} has no docstring: what is it to a reader?"
+
+
+@every(*{noun for noun in bases().values() if noun in NOUNS})
+def test_every_kind_says_all_that_the_program_asks(noun: str, name: str) -> None:
+    base = next(cls for cls, of in bases().items() if of == noun)
+    assert issubclass(kinds(noun)[name], base), f"{name} is no {base.__name__}: the program could not ask it"
+
+
+@every(*COMMON)
+def test_every_kind_has_the_arguments_of_its_noun(noun: str, name: str) -> None:
+    missing = {*COMMON[noun]} - {field.name for field in fields(kinds(noun)[name])}
+    assert not missing, f"{name} does not take {missing}"
+
+
+@every(*CODES)
+def test_every_kind_is_simulated(noun: str, name: str) -> None:
+    is_simulated = name in CODES[noun] or getattr(kinds(noun)[name], "is_obstacle", False)
+    assert is_simulated, f"sim/codes.py has no code for {name}, so no lane knows what to do with it"
+
+
+@every("sensor")
+def test_every_sensor_has_a_lane_function(noun: str, name: str) -> None:
+    assert kinds(noun)[name].lane is not SensorKind.lane, f"{name} does not say what it reads in the lanes"
+
+
+@every("skill")
+def test_every_function_is_the_same_in_both_executors(noun: str, name: str) -> None:
+    """One that says what it computes for the engine says it for the lanes; a procedure is called by its address."""
+    cls = kinds(noun)[name]
+    is_one = (cls.ready is not Function.ready) == (cls.lane is not Function.lane)
+    assert is_one or name == "procedure", f"{name} says what it computes for the engine or for the lanes alone"
+
+
+@every("sensor", "event", "measure")
+def test_every_kind_says_what_it_is_about(noun: str, name: str) -> None:
+    cls = kinds(noun)[name]
+    has_thing = any(argument.type == THING for argument in arguments(cls))
+    assert has_thing == (cls.thing is not AboutThing.thing), f"{name} takes a thing and does not say which it is about"
+    about = [thing for thing, kind in kinds("content").items() if cls.is_about(kind)]
+    assert about, f"{name} can be about no kind of thing"
+
+
+@every("content")
+def test_every_thing_says_what_becomes_of_it(noun: str, name: str) -> None:
+    cls = kinds(noun)[name]
+    said = {field.name for field in fields(cls)} & OUTCOMES
+    assert {*cls().outcomes} == said, f"{name} takes {said or 'no outcome'} and has other outcomes"
+
+
+@every("content")
+def test_every_thing_has_its_colours(noun: str, name: str) -> None:
+    is_drawn = kinds(noun)[name].is_obstacle or (name in PAPER.things and name in NIGHT.things)
+    assert is_drawn, f"pictures/theme.py has no colours for {name}"
+
+
+@every("actuator", "content", "measure", "event", "task")
+def test_every_kind_is_drawn_by_the_tests(noun: str, name: str) -> None:
+    cls = kinds(noun)[name]
+    drawn = {node.id for path in GENERATORS for node in ast.walk(tree(path)) if isinstance(node, ast.Name)}
+    assert cls.__name__ in drawn, f"no test of the lanes ever draws a {name}: tests/sim/worlds.py does not know it"
+
+
+def asked(path: Path) -> list[str]:
+    """The classes of kinds that a module matches on, has in a table, or asks for with isinstance or `type(…) is`."""
+    known = dict(_imported(path))
+    forms = (part for node in ast.walk(tree(path)) for form in _forms(node) for part in ast.walk(form))
+    classes = (_value(form, known) for form in forms)
+    return sorted({found.__name__ for found in classes if isinstance(found, type) and found in KINDS})
+
+
+def _forms(node: ast.AST) -> list[ast.expr]:
+    """Where a node of a syntax tree names the classes that it tells apart."""
+    match node:
+        case ast.Call(func=ast.Name("isinstance" | "issubclass"), args=[_, form]) | ast.MatchClass(cls=form):
+            return [form]
+        case ast.Compare(left=ast.Call(func=ast.Name("type")), comparators=forms):
+            return forms
+        case ast.Dict(keys=keys):
+            return [key for key in keys if key]
+    return []
+
+
+def _value(form: ast.AST, known: Mapping[str, object]) -> object:
+    """What a name, or a name in a module, stands for."""
+    match form:
+        case ast.Name(name):
+            return known.get(name)
+        case ast.Attribute(ast.Name(module), name):
+            return getattr(known.get(module), name, None)
+    return None
+
+
+def _imported(path: Path) -> Iterator[tuple[str, object]]:
+    """What the names are that a module imports from the runtime."""
+    for node in ast.walk(tree(path)):
+        if isinstance(node, ast.ImportFrom) and str(node.module).partition(".")[0] == "mindrun":
+            for alias in node.names:
+                yield alias.asname or alias.name, getattr(import_module(str(node.module)), alias.name, None)
+
+
+def _room(path: Path) -> bool:
+    return path.is_relative_to(RUNTIME) and path.relative_to(RUNTIME).parts[0].removesuffix(".py") in ROOMS
+
+
+def test_nobody_asks_for_the_class_of_a_kind() -> None:
+    """A new kind is known everywhere as soon as it says of itself what the others say: nothing else has to change."""
+    found = {}
+    for path in modules(COMPILER, RUNTIME):
+        shown = str(path.relative_to(RUNTIME.parent if path.is_relative_to(RUNTIME) else ROOT))
+        if not _room(path) and shown not in MAY_ASK and (classes := asked(path)):
+            found[shown] = classes
+    assert not found, f"these modules ask which kind it is, instead of asking the kind: {found}"
+
+
+def test_whoever_may_ask_does() -> None:
+    idle = [shown for shown in MAY_ASK if not asked((RUNTIME.parent if "mindrun" in shown else ROOT) / shown)]
+    assert not idle, f"these modules are allowed to ask for classes of kinds, and do not: {idle}"

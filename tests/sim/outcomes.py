@@ -6,8 +6,8 @@ from math import sqrt
 import numpy as np
 from mindrun.graph import Graph, Task
 from mindrun.sim.trace import Moment, Run
+from mindrun.things import Item, Obstacle, Power, Zone
 from mindrun.trigonometry import cosine, sine
-from mindrun.world import Item, Obstacle, Power, Zone
 from numpy.typing import NDArray
 
 REACH = 1.5  # of the claw

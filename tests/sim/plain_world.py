@@ -5,7 +5,7 @@ from collections import deque
 
 import numpy as np
 import pymunk
-from mindrun import actuators, events, measures, sensors, world
+from mindrun import actuators, events, measures, scenes, sensors, things
 from mindrun.trigonometry import cosine, sine
 
 from tests.plain import f, postfix
@@ -19,9 +19,9 @@ class PlainWorld:
 
     def __init__(self, graph, task, run, battery):
         self.graph, self.task, self.runs_down = graph, task, battery
-        self.things = [thing for thing in task.things if not isinstance(thing.kind, world.Obstacle)]
+        self.things = [thing for thing in task.things if not isinstance(thing.kind, things.Obstacle)]
         self.places, self.boxes = run.things.copy(), run.boxes
-        self.half = task.scene.size / 2 if isinstance(task.scene, world.Arena) else math.inf
+        self.half = task.scene.size / 2 if isinstance(task.scene, scenes.Arena) else math.inf
         self.radius = graph.body.size / 2
         self.x, self.y, self.angle = (float(v) for v in run.begin)
         self.held, self.t, self.touched = -1, 0, False
@@ -156,7 +156,7 @@ class PlainWorld:
                 if command <= 0.5:
                     self.held = -1
                 elif self.held < 0:
-                    items = [i for i, thing in enumerate(self.things) if isinstance(thing.kind, world.Item)]
+                    items = [i for i, thing in enumerate(self.things) if isinstance(thing.kind, things.Item)]
                     self.held = next((i for i in items if self.in_claw(i, actuator.kind.reach)), -1)
         self.last, self.commands = self.commands, [float(c) for c in now]
         return now
@@ -171,7 +171,7 @@ class PlainWorld:
         if self.held >= 0:
             hold = self.radius + self.body.largest[self.held] / 2
             self.places[self.held][:2] = self.x + cosine(self.angle) * hold, self.y + sine(self.angle) * hold
-        powered = [i for i, thing in enumerate(self.things) if isinstance(thing.kind, world.Power)]
+        powered = [i for i, thing in enumerate(self.things) if isinstance(thing.kind, things.Power)]
         if self.runs_down:
             charged = any(self.inside(i, self.x, self.y) for i in powered)
             self.charge += self.cell.charge if charged else -self.cell.drain
@@ -203,11 +203,11 @@ class PlainWorld:
     def begin(self):
         """What begins to be in reach, and what to be delivered; `changed` is what moves or vanishes by it."""
         kinds = [thing.kind for thing in self.things]
-        zones = [i for i, kind in enumerate(kinds) if isinstance(kind, world.Zone)]
+        zones = [i for i, kind in enumerate(kinds) if isinstance(kind, things.Zone)]
         reached = {
             i
             for i, kind in enumerate(kinds)
-            if (self.in_claw(i, self.reach()) if isinstance(kind, world.Item) else self.inside(i, self.x, self.y))
+            if (self.in_claw(i, self.reach()) if isinstance(kind, things.Item) else self.inside(i, self.x, self.y))
         }
         carried = {self.held, *self.delivered} - {-1}
         delivered = {i for i in carried if any(self.inside(z, *self.places[i][:2]) for z in zones)}
@@ -313,7 +313,7 @@ class PlainBody:
         self.items = {
             i: self.circle(1.0, self.radius + self.largest[i] / 2)
             for i, thing in enumerate(of.things)
-            if isinstance(thing.kind, world.Item)
+            if isinstance(thing.kind, things.Item)
         }
         self.touches = False
 

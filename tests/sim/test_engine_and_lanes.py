@@ -11,10 +11,11 @@ from mindrun.events import Collision
 from mindrun.graph import Graph, Reward, Task, Thing
 from mindrun.policy import Policy
 from mindrun.quantity import Span
+from mindrun.scenes import Arena
 from mindrun.sim.rollout import Rollout
 from mindrun.sim.trace import trace
+from mindrun.things import Item, Obstacle
 from mindrun.weights import genes
-from mindrun.world import Arena, Item, Obstacle
 
 from mindlang.compiler.compile import load
 from tests.hierarchies import SCALES, random_graph

@@ -16,12 +16,13 @@ from mindrun.graph import Actuator, Edge, Reward, Sensor, Task, Thing
 from mindrun.memory import Cell
 from mindrun.policy import Policy
 from mindrun.quantity import Span
+from mindrun.scenes import Arena, Plain
 from mindrun.sensors import Battery, Bearing, Derivative, RangeFinder, Sine
 from mindrun.sim.lanes.placement import uniform
 from mindrun.sim.lanes.step import CONTACT_TICKS
 from mindrun.sim.rollout import Rollout
 from mindrun.sim.trace import trace
-from mindrun.world import Arena, Item, Obstacle, Plain, Power, Zone
+from mindrun.things import Item, Obstacle, Power, Zone
 
 from tests.hierarchies import doubling
 from tests.minds import CLAW, always, mind, rule, skill

@@ -11,7 +11,7 @@ from mindrun.graph import Graph
 from mindrun.policy import Policy
 from mindrun.sim.rollout import Rollout
 from mindrun.sim.trace import Moment, trace
-from mindrun.world import OUTCOMES
+from mindrun.things import OUTCOMES
 
 from tests.sim.minds import compile_text
 from tests.sim.outcomes import PlainWorld

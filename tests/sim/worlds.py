@@ -4,11 +4,13 @@ from dataclasses import fields, replace
 
 from hypothesis import strategies as st
 from mindrun.actuators import Gripper, Servo, Wheel
-from mindrun.events import Collision, Delivery, Event, Exhaustion, Reach, Visit
+from mindrun.bodies import Disc
+from mindrun.events import Collision, Delivery, EventKind, Exhaustion, Reach, Visit
 from mindrun.graph import Actuator, Condition, Graph, Program, Reward, Task, Thing
-from mindrun.measures import Advance, Change, Forward, Measure, Progress, Retreat
+from mindrun.measures import Advance, Change, Forward, MeasureKind, Progress, Retreat
 from mindrun.quantity import Span
-from mindrun.world import Arena, Disc, Item, Obstacle, Plain, Power, Scene, Zone
+from mindrun.scenes import Arena, Plain, SceneKind
+from mindrun.things import Item, Obstacle, Power, Zone
 
 from tests.hierarchies import random_graph
 
@@ -39,7 +41,7 @@ def random_world(draw: st.DrawFn, most: int = 40) -> Graph:
         Actuator(a.name, draw(WHEELS | WHEELS | CLAWS | st.builds(Servo, NEUTRAL))) for a in graph.actuators
     )
     graph = replace(graph, tick=draw(st.sampled_from([1 / 60, 1 / 30, 0.1])), body=draw(BODIES), actuators=actuators)
-    scene: Scene = draw(st.sampled_from([Plain(), Arena(20.0), Arena(33.0)]))
+    scene: SceneKind = draw(st.sampled_from([Plain(), Arena(20.0), Arena(33.0)]))
     things = draw(_things(scene))
     measures, events = draw(_measures(things)), draw(_events(scene, things))
     rewards = tuple(draw(_rewards(graph, len(measures), len(events))) for _ in range(draw(st.integers(1, 4))))
@@ -50,7 +52,7 @@ def random_world(draw: st.DrawFn, most: int = 40) -> Graph:
 
 
 @st.composite
-def _things(draw: st.DrawFn, scene: Scene) -> tuple[Thing, ...]:
+def _things(draw: st.DrawFn, scene: SceneKind) -> tuple[Thing, ...]:
     """Items, zones and powers, some of them not there; obstacles on a grid or loose."""
     things = []
     for name, kind, size in (
@@ -75,17 +77,17 @@ def _things(draw: st.DrawFn, scene: Scene) -> tuple[Thing, ...]:
 
 
 @st.composite
-def _measures(draw: st.DrawFn, things: tuple[Thing, ...]) -> tuple[Measure, ...]:
+def _measures(draw: st.DrawFn, things: tuple[Thing, ...]) -> tuple[MeasureKind, ...]:
     named = [thing.name for thing in things if not isinstance(thing.kind, Obstacle)]
-    measures: list[Measure] = [Forward(), Change("thrust", 0.2, 4), Change("thrust", 0.0, 1)]
+    measures: list[MeasureKind] = [Forward(), Change("thrust", 0.2, 4), Change("thrust", 0.0, 1)]
     for name in named:
         measures += [Progress(name), Advance(name), Retreat(name)]
     return tuple(draw(st.lists(st.sampled_from(measures), unique=True, min_size=1, max_size=4)))
 
 
 @st.composite
-def _events(draw: st.DrawFn, scene: Scene, things: tuple[Thing, ...]) -> tuple[Event, ...]:
-    events: list[Event] = [Collision(), Exhaustion()]
+def _events(draw: st.DrawFn, scene: SceneKind, things: tuple[Thing, ...]) -> tuple[EventKind, ...]:
+    events: list[EventKind] = [Collision(), Exhaustion()]
     for thing in things:
         if not isinstance(thing.kind, Obstacle):
             events.append(Reach(thing.name))

@@ -3,9 +3,8 @@
 from collections.abc import Sequence
 from typing import TypeVar
 
+from mindrun.bodies import Disc
 from mindrun.quantity import TICK
-from mindrun.sensors import Battery
-from mindrun.world import Disc
 
 from mindlang.compiler import model
 from mindlang.compiler.diagnostic import Findings, Label
@@ -32,7 +31,7 @@ def resolve(files: Sequence[File], findings: Findings) -> model.Mind | None:
     memories, actuators = parts("memory", names, findings), parts("actuator", names, findings)
     known_skills = skills(names, width, findings)
     check_cycles(known_skills, findings)
-    has_battery = any(isinstance(sensor.kind, Battery) for sensor in sensors)
+    has_battery = any(sensor.kind.battery for sensor in sensors)
     known_tasks = tasks(RobotFacts(names, width, tick, has_battery), findings)
     known_lessons = tuple(lessons(names, known_skills, findings))
     body = _body(names, findings)

@@ -7,6 +7,7 @@ from typing import Any
 from mindrun.quantity import Quantity, Reference
 from mindrun.registry import Argument as Parameter
 from mindrun.registry import arguments, kinds
+from mindrun.things.about import AboutThing
 
 from mindlang.compiler.diagnostic import Findings, Label, a, did_you_mean, listed
 from mindlang.compiler.names import Names
@@ -14,7 +15,6 @@ from mindlang.compiler.resolve import quantities
 from mindlang.compiler.syntax import VERBS, Argument, Name, Phrase
 
 USER_NOUNS = {"content": "thing", "task": "scene"}  # nouns of the registry in the user's words
-PLACES: Set[str] = {"item", "zone", "power"}  # what a kind can be about; obstacles are many: no kind is about one
 UNKNOWN_KIND_HINTS = {
     "neutral": "It is what the actuator is sent when nothing influences it and whenever something fails: "
     "a wheel's 0 is full reverse. Write neutral 0.5 for a wheel that stands still."
@@ -164,8 +164,8 @@ def _check(noun: str, phrase: Phrase, type_: Reference, name: Name, scope: Scope
 
 def about(noun: str, kind: str) -> Set[str]:
     """The kinds of things that a kind can be about."""
-    found: Set[str] = getattr(kinds(noun).get(kind), "about", PLACES)
-    return found
+    cls = kinds(noun).get(kind, AboutThing)
+    return {name for name, thing in kinds("content").items() if cls.is_about(thing)}
 
 
 def _check_thing(name: Name, about: Set[str], kind: str, scope: Scope, findings: Findings) -> None:

@@ -4,9 +4,10 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from typing import Any, TypeVar
 
-from mindrun.events import Delivery, Exhaustion, Visit
 from mindrun.quantity import SECONDS, TICKS
-from mindrun.world import MOST_OBSTACLES, MOST_THINGS, Arena, Obstacle, Plain, Zone, obstacle_count
+from mindrun.scenes import SceneKind
+from mindrun.things import ThingKind
+from mindrun.things.thing import MAX_OBSTACLES, MAX_THINGS
 
 from mindlang.compiler import model, syntax
 from mindlang.compiler.diagnostic import Findings, Label
@@ -35,10 +36,15 @@ class RobotFacts:
 
 @dataclass(frozen=True, slots=True)
 class _World:
-    scene: Any
+    scene: SceneKind | None
     things: tuple[model.Part[Any], ...]
     scope: Scope
     has_battery: bool
+
+    @property
+    def kinds(self) -> list[ThingKind]:
+        """The kinds of the things that are well said."""
+        return [thing.kind for thing in self.things if thing.kind]
 
 
 def tasks(robot: RobotFacts, findings: Findings) -> tuple[model.Task, ...]:
@@ -50,11 +56,11 @@ def _task(name: str, declaration: Declaration, robot: RobotFacts, findings: Find
     refuse_facts(declaration, (Contains, Lasts, Ends, Rewards, Counts), findings)
     scope = Scope(robot.names, things_of(declaration) if declaration.whole else None, f"task {name}")
     phrase = declaration.header.phrase
-    scene = make("task", phrase, scope, findings) if phrase else None
+    scene: Any = make("task", phrase, scope, findings) if phrase else None
     world = _World(scene, _things(declaration, scene, scope, findings), scope, robot.has_battery)
     return model.Task(
         name,
-        world.scene,
+        scene,
         world.things,
         _ticks(declaration, robot.tick, findings),
         tuple(_event(fact.event, world, findings) for fact in _facts(declaration, Ends)),
@@ -78,8 +84,9 @@ def _things(declaration: Declaration, scene: Any, scope: Scope, findings: Findin
             first = Label(found[name].span, "first said here")
             message = f"The task already contains something called {name}."
             findings.error("duplicate-thing", fact.name.span, message, "Give one of the two another name.", first)
-        _check_obstacles(kind, scene, obstacles, fact.phrase, findings)
-        obstacles += _obstacles(kind, scene)
+        if kind:
+            _check_obstacles(kind, scene, obstacles, fact.phrase, findings)
+            obstacles += min(kind.obstacles(scene), MAX_OBSTACLES)  # as if there were few where there are too many
         found.setdefault(name, model.Part(name, kind, fact.name.span))
     _check_things(tuple(found.values()), findings)
     return tuple(found.values())
@@ -87,31 +94,19 @@ def _things(declaration: Declaration, scene: Any, scope: Scope, findings: Findin
 
 def _check_things(things: tuple[model.Part[Any], ...], findings: Findings) -> None:
     """A world looks at all of its things in every tick, and has so many."""
-    apart = [thing for thing in things if not isinstance(thing.kind, Obstacle)]
-    if len(apart) > MOST_THINGS:
-        hint = f"A world takes {MOST_THINGS} beside its obstacles: leave some out."
-        findings.error("too-many-things", apart[MOST_THINGS].span, f"That is thing number {MOST_THINGS + 1}.", hint)
+    apart = [thing for thing in things if not (thing.kind and thing.kind.is_obstacle)]
+    if len(apart) > MAX_THINGS:
+        hint = f"A world takes {MAX_THINGS} beside its obstacles: leave some out."
+        findings.error("too-many-things", apart[MAX_THINGS].span, f"That is thing number {MAX_THINGS + 1}.", hint)
 
 
-def _obstacles(kind: Any, scene: Any) -> int:
-    """How many obstacles a line makes; as if there were few where an error says otherwise."""
-    return min(obstacle_count(kind, scene), MOST_OBSTACLES) if isinstance(kind, Obstacle) else 0
-
-
-def _check_obstacles(kind: Any, scene: Any, before: int, phrase: Phrase, findings: Findings) -> None:
-    """A grid needs the borders of an arena, and a world has room for so many obstacles."""
-    match kind, scene:
-        case Obstacle(grid=grid), Plain() if grid:
-            hint = "Write in arena size 100, or count 10 instead of the grid."
-            findings.error("endless-grid", phrase.span, "In a plain scene a grid of obstacles would never end.", hint)
-        case Obstacle(), Arena() if (made := obstacle_count(kind, scene)) > MOST_OBSTACLES:
-            message = f"That is a grid of {made} obstacles."
-            findings.error("too-many-obstacles", phrase.span, message, f"A world takes {MOST_OBSTACLES}: space it out.")
-        case Obstacle(), _ if before <= MOST_OBSTACLES < before + _obstacles(kind, scene):
-            message = f"With those above, that makes {before + _obstacles(kind, scene)} obstacles."
-            findings.error("too-many-obstacles", phrase.span, message, f"A world takes {MOST_OBSTACLES} in all.")
-        case Obstacle(grid=0.0, count=0), _:
-            findings.error("no-obstacles", phrase.span, "That makes no obstacle.", "Add grid 20, or count 10.")
+def _check_obstacles(kind: ThingKind, scene: SceneKind | None, before: int, phrase: Phrase, findings: Findings) -> None:
+    """What a thing needs of its scene, and how many obstacles there is room for with those `before`."""
+    if found := kind.mistake(scene):
+        findings.error(found.code, phrase.span, found.message, found.hint)
+    elif before <= MAX_OBSTACLES < (made := before + kind.obstacles(scene)):
+        message = f"With those above, that makes {made} obstacles."
+        findings.error("too-many-obstacles", phrase.span, message, f"A world takes {MAX_OBSTACLES} in all.")
 
 
 def _ticks(declaration: Declaration, tick: float, findings: Findings) -> int:
@@ -136,16 +131,8 @@ def _ticks(declaration: Declaration, tick: float, findings: Findings) -> int:
 def _event(written: Phrase, world: _World, findings: Findings) -> Any:
     """The event of a phrase; one that can never happen in the world is reported."""
     event = make("event", written, world.scope, findings)
-    match event:
-        case Visit() if isinstance(world.scene, Plain):
-            hint = "Patches are of an arena: write in arena size 100."
-            findings.error("impossible-event", written.span, "A plain scene has no patches to visit.", hint)
-        case Delivery() if not any(isinstance(thing.kind, Zone) for thing in world.things):
-            hint = "Add contains drop_zone is zone size 5."
-            findings.error("impossible-event", written.span, "The task has no zone to deliver to.", hint)
-        case Exhaustion() if not world.has_battery:
-            hint = "Declare one: sensor battery is battery."
-            findings.error("impossible-event", written.span, "Without a battery nothing is exhausted.", hint)
+    if event and (found := event.missing(world)):
+        findings.error("impossible-event", written.span, found.reason, found.hint)
     return event
 
 

@@ -3,9 +3,7 @@
 Every reading is a real number in 0..1. `range` and `dead_zone` are as for a range finder where a kind has them.
 """
 
-from importlib import import_module
-from pkgutil import iter_modules
-
+from mindrun.registry import register_all
 from mindrun.sensors.battery import Battery
 from mindrun.sensors.bearing import Bearing
 from mindrun.sensors.contact import Contact
@@ -17,8 +15,7 @@ from mindrun.sensors.range_finder import RangeFinder
 from mindrun.sensors.sensor import Physical, SensorKind
 from mindrun.sensors.sine import Sine
 
-for _module in iter_modules(__path__):
-    import_module(f"{__name__}.{_module.name}")
+register_all(__name__, __path__)
 
 __all__ = [
     "Battery", "Bearing", "Contact", "Derivative", "Held", "Inertial", "Inside", "Physical", "RangeFinder",

@@ -21,6 +21,11 @@ class Battery(Physical):
     keeps_lost = True
     remedy = "Give it a drain above 0"
 
+    @property
+    def battery(self) -> "Battery":
+        """Itself."""
+        return self
+
     def constant(self, world: World) -> float | None:
         """Its start, where nothing drains it, and nothing charges it or it is full."""
         is_still = self.drain == 0 and (self.start == 1 or not (self.charge and world.charges))

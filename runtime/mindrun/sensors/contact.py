@@ -7,6 +7,7 @@ from mindrun.arithmetic import ONE, ZERO, in_claw
 from mindrun.quantity import THING
 from mindrun.registry import kind
 from mindrun.sensors.sensor import Physical, World
+from mindrun.things import ThingKind
 
 
 @kind("sensor", "contact")
@@ -16,8 +17,12 @@ class Contact(Physical):
 
     of: Annotated[str, THING]
 
-    about = frozenset({"item"})
     near = 1
+
+    @staticmethod
+    def is_about(kind: type[ThingKind]) -> bool:
+        """What a claw can take."""
+        return kind.can_be_held
 
     @property
     def thing(self) -> str:

@@ -7,6 +7,7 @@ from mindrun.arithmetic import ONE, ZERO
 from mindrun.quantity import THING
 from mindrun.registry import kind
 from mindrun.sensors.sensor import Physical, World
+from mindrun.things import ThingKind
 
 
 @kind("sensor", "held")
@@ -16,9 +17,13 @@ class Held(Physical):
 
     of: Annotated[str, THING]
 
-    about = frozenset({"item"})
     near = 1
     remedy = "Let a skill that acts drive a gripper"
+
+    @staticmethod
+    def is_about(kind: type[ThingKind]) -> bool:
+        """What a claw can take."""
+        return kind.can_be_held
 
     @property
     def thing(self) -> str:

@@ -7,6 +7,7 @@ from mindrun.arithmetic import ONE, ZERO, X, Y, inside
 from mindrun.quantity import THING
 from mindrun.registry import kind
 from mindrun.sensors.sensor import Physical, World
+from mindrun.things import ThingKind
 
 
 @kind("sensor", "inside")
@@ -16,7 +17,10 @@ class Inside(Physical):
 
     of: Annotated[str, THING]
 
-    about = frozenset({"zone", "power"})
+    @staticmethod
+    def is_about(kind: type[ThingKind]) -> bool:
+        """What lies on the floor."""
+        return kind.is_area
 
     @property
     def thing(self) -> str:

@@ -2,13 +2,17 @@
 
 from collections.abc import Callable, Mapping, Set
 from dataclasses import dataclass
-from typing import Annotated, Any, Protocol
+from typing import TYPE_CHECKING, Annotated, Any, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
 from mindrun.quantity import RATIO, TICKS
 from mindrun.registry import base
+from mindrun.things.about import AboutThing
+
+if TYPE_CHECKING:
+    from mindrun.sensors.battery import Battery
 
 Readings = NDArray[np.float32]
 Reader = Callable[[int, Readings, Readings | None], Readings | np.float32]
@@ -65,12 +69,11 @@ class World(Protocol):
 
 
 @base("sensor")
-class SensorKind:
+class SensorKind(AboutThing):
     """A sensor of one reading that varies; a kind says what is different about it."""
 
     __slots__ = ()
 
-    about: Set[str] = frozenset({"item", "zone", "power"})  # the kinds of things that it can be `of`
     circular = False  # whether the readings 0 and 1 are neighbours
     scaled = False  # whether its values mean something by themselves, so that they need no calibration
     near: int | None = None  # the reading of what is near
@@ -90,9 +93,9 @@ class SensorKind:
         return ""
 
     @property
-    def thing(self) -> str:
-        """The thing that it is about, if there is one."""
-        return ""
+    def battery(self) -> "Battery | None":
+        """The battery that it reads, and of which it says how it drains and charges."""
+        return None
 
     @property
     def rays(self) -> tuple[float, ...]:

@@ -23,6 +23,16 @@ FAR = 1e9  # units from the origin, and radians: nothing is there, and a little 
 FORCE, TORQUE, FORCE_X, FORCE_Y = range(4)  # rows of what pushes a body
 
 OPERATIONS = {name: code for code, name in enumerate(("number", "reading", "each", "measure", *"+-*/", "negate"))}
+ACTUATOR_CODES = {  # of each kind, by the side that it is on
+    ("wheel", "left"): WHEEL_LEFT, ("wheel", "right"): WHEEL_RIGHT, ("gripper", None): GRIPPER, ("servo", None): SERVO,
+}  # fmt: skip
+THING_CODES = {"item": ITEM, "zone": ZONE, "power": POWER}
+MEASURE_CODES = {
+    "progress": PROGRESS, "advance": ADVANCE, "retreat": RETREAT, "forward": FORWARD, "change": CHANGE,
+}  # fmt: skip
+EVENT_CODES = {
+    "reach": REACH, "delivery": DELIVERY, "visit": VISIT, "collision": COLLISION, "exhaustion": EXHAUSTION,
+}  # fmt: skip
 COMPARES = {"<": LESS, "<=": LESS_EQUAL, ">": GREATER, ">=": GREATER_EQUAL}
 
 

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from mindrun.errors import MindError
-from mindrun.events import Event
+from mindrun.events import EventKind
 from mindrun.functions import Rule
 from mindrun.graph import Graph
 from mindrun.policy import Policy
@@ -104,7 +104,7 @@ class World:
         return jobs
 
 
-def _written(event: Event) -> str:
+def _written(event: EventKind) -> str:
     """An event as a mind writes it, without its numbers: "reach of ball"."""
     of = getattr(event, "of", "")
     return f"{names()[type(event)]} of {of}" if of else names()[type(event)]

@@ -7,12 +7,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from mindrun import actuators
-from mindrun.graph import Actuator, Graph, Sensor, Skill, Task
+from mindrun.graph import Graph, Sensor, Skill, Task
 from mindrun.memory import Cell
 from mindrun.registry import names
 from mindrun.sensors import Physical
-from mindrun.sim.codes import GRIPPER, SENSOR, SERVO, SKILL, WHEEL_LEFT, WHEEL_RIGHT, function_codes, sensor_codes
+from mindrun.sim.codes import ACTUATOR_CODES, SENSOR, SKILL, function_codes, sensor_codes
 from mindrun.sim.programs import Programs
 from mindrun.sim.task_rows import things_of
 from mindrun.weights import genes, weights_of
@@ -198,21 +197,11 @@ def actuator_rows(graph: Graph) -> tuple[list[Any], int]:
     rows: list[Any] = []
     ring = 0
     for actuator in graph.actuators:
-        code, thrust, reach = _actuator(actuator)
-        delay = actuator.kind.delay
-        rows.append((code, thrust, actuator.kind.neutral, reach, delay, ring))
-        ring += delay
+        kind, row = actuator.kind, actuator.kind.row()
+        code = ACTUATOR_CODES[names()[type(kind)], kind.mounted]
+        rows.append((code, row.get("thrust", 0.0), kind.neutral, row.get("reach", 0.0), kind.delay, ring))
+        ring += kind.delay
     return rows, ring
-
-
-def _actuator(actuator: Actuator) -> tuple[int, float, float]:
-    match actuator.kind:
-        case actuators.Wheel(side=side, thrust=thrust):
-            return WHEEL_LEFT if side == "left" else WHEEL_RIGHT, thrust, 0.0
-        case actuators.Gripper(reach=reach):
-            return GRIPPER, 0.0, reach
-        case actuators.Servo():
-            return SERVO, 0.0, 0.0
 
 
 def memory_row(start: int, cell: Cell) -> tuple[int, float, float, float]:

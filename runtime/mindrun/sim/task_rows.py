@@ -1,72 +1,47 @@
 """The task's rows of the tables: its world, what it contains, its measures, events and rewards."""
 
 from collections.abc import Sequence
-from math import ceil, inf, pi
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from mindrun import actuators, events, measures, sensors, world
 from mindrun.graph import Graph, Reward, Sensor, Task, Thing
-from mindrun.quantity import Span
-from mindrun.sim.codes import (
-    ADVANCE,
-    CHANGE,
-    COLLISION,
-    COMPARES,
-    DELIVERY,
-    EXHAUSTION,
-    FORWARD,
-    ITEM,
-    POWER,
-    PROGRESS,
-    REACH,
-    RETREAT,
-    STAYS,
-    VISIT,
-    WORLD,
-    ZONE,
-)  # fmt: skip
+from mindrun.registry import names
+from mindrun.sensors import Battery
+from mindrun.sim.codes import COMPARES, EVENT_CODES, MEASURE_CODES, THING_CODES, WORLD
 from mindrun.sim.programs import Programs
+from mindrun.things import OUTCOMES, STAYS
 
 Array = NDArray[Any]
 MIN_CELL_UNITS = 20.0  # the side of a cell of Chipmunk's hash, in which what is large takes only so many
 CELLS_PER_SHAPE, CELLS_PER_WALL = 4, 64
+MIN_NEAR_UNITS = 1.0  # beyond the body's rim
 
 
 def things_of(task: Task) -> list[Thing]:
     """What the task contains but its obstacles."""
-    return [thing for thing in task.things if not isinstance(thing.kind, world.Obstacle)]
-
-
-def obstacles_of(task: Task) -> list[world.Obstacle]:
-    """The obstacles of a task."""
-    return [thing.kind for thing in task.things if isinstance(thing.kind, world.Obstacle)]
+    return [thing for thing in task.things if not thing.kind.is_obstacle]
 
 
 def box_count(task: Task) -> int:
     """How many square obstacles the task's world has."""
-    return sum(world.obstacle_count(obstacle, task.scene) for obstacle in obstacles_of(task))
+    return sum(thing.kind.obstacles(task.scene) for thing in task.things)
 
 
 def thing_rows(graph: Graph, task: Task) -> list[Any]:
     """Rows of THING, the items, zones and powers in the order of the source."""
     rows = []
-    asked = {(type(event), event.of) for event in task.events if isinstance(event, events.Reach | events.Delivery)}
+    asked = {(event.outcome, event.thing) for event in task.events if event.outcome}
     for thing in things_of(task):
-        kind = thing.kind
-        assert not isinstance(kind, world.Obstacle)
-        code = {world.Item: ITEM, world.Zone: ZONE, world.Power: POWER}[type(kind)]
-        size, away = kind.size, kind.away
+        kind, size = thing.kind, thing.kind.size
         drawn = size.by is None and size.first != size.last
-        hold = graph.body.size / 2 + max(size.first, size.last) / 2
-        reached = world.OUTCOMES.index(kind.reached)
-        delivered = world.OUTCOMES.index(kind.delivered) if isinstance(kind, world.Item) else STAYS
+        hold = graph.body.radius + kind.largest / 2
+        becomes = {what: kind.outcomes.get(what, STAYS) for what in ("reached", "delivered")}
+        noticed = [how != STAYS or (what, thing.name) in asked for what, how in becomes.items()]
         rows.append((
-            code, size.first, size.last, size.by or 0.0, *_away(away, task, 10.0), hold, drawn, reached, delivered,
-            reached != STAYS or (events.Reach, thing.name) in asked,
-            delivered != STAYS or (events.Delivery, thing.name) in asked,
+            THING_CODES[names()[type(kind)]], size.first, size.last, size.by or 0.0, *kind.distances(task.scene),
+            hold, drawn, *map(OUTCOMES.index, becomes.values()), *noticed,
         ))  # fmt: skip
     return rows
 
@@ -74,64 +49,44 @@ def thing_rows(graph: Graph, task: Task) -> list[Any]:
 def obstacle_rows(task: Task) -> list[Any]:
     """Rows of OBSTACLE."""
     rows = []
-    for obstacle in obstacles_of(task):
-        away, size = obstacle.away, obstacle.size
-        count = 0 if obstacle.grid else obstacle.count
-        lines = world.grid_lines(obstacle, task.scene)
-        rows.append((size.first, size.last, obstacle.grid, obstacle.jitter, lines, count, *_away(away, task, 0.0)))
+    for thing in task.things:
+        if thing.kind.is_obstacle:
+            size, row = thing.kind.size, thing.kind.row(task.scene)
+            said = (row.get(column, 0.0) for column in ("grid", "jitter", "lines", "count"))
+            rows.append((size.first, size.last, *said, *thing.kind.distances(task.scene)))
     return rows
-
-
-def _away(away: Span, task: Task, nearest: float) -> tuple[float, float]:
-    """How far from the robot something is placed; in an arena that does not say so at least `nearest`."""
-    if away.first >= 0:
-        return away.first, away.last
-    return (nearest, inf) if isinstance(task.scene, world.Arena) else (10.0, 40.0)
 
 
 def measure_rows(task: Task) -> tuple[list[Any], int]:
     """Rows of MEASURES, and how many changes of thrust are remembered."""
-    names = [thing.name for thing in things_of(task)]
+    places = _places(task)
     rows: list[Any] = []
     ring = 0
     for measure in task.measures:
-        match measure:
-            case measures.Progress(toward=thing):
-                rows.append((PROGRESS, names.index(thing), 0.0, 0, 0))
-            case measures.Advance(toward=thing):
-                rows.append((ADVANCE, names.index(thing), 0.0, 0, 0))
-            case measures.Retreat(from_=thing):
-                rows.append((RETREAT, names.index(thing), 0.0, 0, 0))
-            case measures.Forward():
-                rows.append((FORWARD, -1, 0.0, 0, 0))
-            case measures.Change(beyond=beyond, over=over):
-                rows.append((CHANGE, -1, beyond, max(1, over), ring))
-                ring += max(1, over)
+        code, beyond = MEASURE_CODES[names()[type(measure)]], measure.row().get("beyond", 0.0)
+        over = measure.remembered
+        rows.append((code, places[measure.thing], beyond, over, ring if over else 0))
+        ring += over
     return rows, ring
 
 
 def event_rows(task: Task) -> tuple[list[Any], int]:
     """Rows of EVENT, and how many patches there are to visit."""
-    names = [thing.name for thing in things_of(task)]
+    places = _places(task)
     rows: list[Any] = []
     board = 0
     for i, event in enumerate(task.events):
-        kind, thing, columns, patch = COLLISION, -1, 0, 1.0
-        match event:
-            case events.Reach(of=of):
-                kind, thing = REACH, names.index(of)
-            case events.Delivery(of=of):
-                kind, thing = DELIVERY, names.index(of)
-            case events.Visit(size=size):
-                assert isinstance(task.scene, world.Arena)
-                kind, patch, columns = VISIT, size, ceil(task.scene.size / size)
-            case events.Collision():
-                kind = COLLISION
-            case events.Exhaustion():
-                kind = EXHAUSTION
-        rows.append((kind, thing, columns, patch, board, i in task.ends))
+        row = event.row(task.scene)
+        columns = int(row.get("columns", 0))
+        code, patch = EVENT_CODES[names()[type(event)]], row.get("patch", 1.0)
+        rows.append((code, places[event.thing], columns, patch, board, i in task.ends))
         board += columns * columns
     return rows, board
+
+
+def _places(task: Task) -> dict[str, int]:
+    """The rows of the things, by name; −1 for what is about none."""
+    return {"": -1} | {thing.name: place for place, thing in enumerate(things_of(task))}
 
 
 def reward_row(reward: Reward, codes: Programs) -> tuple[int, ...]:
@@ -147,26 +102,18 @@ def reward_row(reward: Reward, codes: Programs) -> tuple[int, ...]:
 
 def world_row(graph: Graph, task: Task, rays: int, used: Sequence[Sensor], master: int) -> Array:
     """The numbers of the body, the battery and the scene."""
-    body, dt = graph.body, graph.tick
-    radius = body.size / 2
-    mass = body.density * pi * radius**2
-    moment = mass * radius**2 / 2
-    battery = next((s.kind for s in graph.sensors if isinstance(s.kind, sensors.Battery)), sensors.Battery())
-    half = task.scene.size / 2 if isinstance(task.scene, world.Arena) else inf
-    sizes = [max(t.kind.size.first, t.kind.size.last) for t in task.things if isinstance(t.kind, world.Item)]
-    ranges = [s.kind.range for s in used if isinstance(s.kind, sensors.RangeFinder)]
-    near = radius + max([1.0, *sizes, *ranges])  # how far the rays reach, or the item in the claw, and no less than 1
-    drained = any(isinstance(event, events.Exhaustion) for event in task.events)
-    powered = drained or any(isinstance(s.kind, sensors.Battery) for s in used)
-    claw = next((a.kind.reach for a in graph.actuators if isinstance(a.kind, actuators.Gripper)), 1.5)
-    solid = [
-        max(t.kind.size.first, t.kind.size.last) for t in task.things if isinstance(t.kind, world.Item | world.Obstacle)
-    ]
-    spread = 0.0 if half == inf else 2 * half / CELLS_PER_WALL
-    cell = max([MIN_CELL_UNITS, spread, *(size / CELLS_PER_SHAPE for size in (body.size, *sizes, *solid))])
+    body, dt, scene = graph.body, graph.tick, task.scene
+    battery = next((s.kind.battery for s in graph.sensors if s.kind.battery), Battery())
+    powered = any(event.is_of_battery for event in task.events) or any(s.kind.battery for s in used)
+    held = [thing.kind.largest for thing in task.things if thing.kind.can_be_held]
+    # How far the rays reach, or the item in the claw.
+    near = body.radius + max([MIN_NEAR_UNITS, *held, *(sensor.kind.reach for sensor in used)])
+    solid = [thing.kind.largest for thing in task.things if thing.kind.is_solid]
+    spread = scene.side / CELLS_PER_WALL if scene.is_bounded else 0.0
+    cell = max([MIN_CELL_UNITS, spread, *(size / CELLS_PER_SHAPE for size in (body.size, *held, *solid))])
     row = (
-        dt, 1.0 / (1.0 + dt * body.linear_damping), 1.0 / (1.0 + dt * body.angular_damping), mass, moment,
-        1.0 / mass, 1.0 / moment, radius, half, task.ticks, battery.start, battery.drain, battery.charge,
-        rays, near, master, claw, powered, cell,
+        dt, 1.0 / (1.0 + dt * body.linear_damping), 1.0 / (1.0 + dt * body.angular_damping), body.mass, body.moment,
+        1.0 / body.mass, 1.0 / body.moment, body.radius, scene.side / 2, task.ticks,
+        battery.start, battery.drain, battery.charge, rays, near, master, graph.claw_reach, powered, cell,
     )  # fmt: skip
     return np.array([row], WORLD)

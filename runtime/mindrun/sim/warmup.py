@@ -10,14 +10,15 @@ from typing import Any
 import numpy as np
 
 from mindrun.actuators import Wheel
+from mindrun.bodies import Disc
 from mindrun.functions import Rule
 from mindrun.graph import Actuator, Graph, Reward, Skill, Task
 from mindrun.policy import Policy
+from mindrun.scenes import Plain
 from mindrun.sim import cache
 from mindrun.sim.lanes import stages
 from mindrun.sim.lanes.advance import advance
 from mindrun.sim.rollout import Rollout
-from mindrun.world import Disc, Plain
 
 IN_BACKGROUND = "behind"
 LOWEST_NICENESS = 19  # how little a process matters that works while others wait for nothing

@@ -1,0 +1,53 @@
+"""What every kind of actuator says of itself: the rest of the program asks, and knows no kind by name."""
+
+from collections.abc import Mapping
+from typing import Literal
+
+from mindrun.registry import base
+
+Side = Literal["left", "right"]
+Row = Mapping[str, float]  # columns of the lanes' table of actuators
+
+
+@base("actuator")
+class ActuatorKind:
+    """An actuator that does nothing in the simulated world; a kind says what is different about it.
+
+    Every kind has the arguments `neutral`, a command in 0..1, and `delay`, in ticks.
+    """
+
+    __slots__ = ()
+
+    neutral: float
+    delay: int
+
+    moves_body = False  # whether it can move the robot
+
+    @property
+    def mounted(self) -> Side | None:
+        """The side of the body that it is on, where that says what it does."""
+        return None
+
+    @property
+    def reach(self) -> float | None:
+        """How far ahead of the body it takes items, in world units; None where it takes none."""
+        return None
+
+    @property
+    def can_hold(self) -> bool:
+        """Whether it can close around an item."""
+        return self.reach is not None
+
+    @property
+    def acts_at_rest(self) -> bool:
+        """Whether its neutral command does something in the world."""
+        return False
+
+    @property
+    def zero(self) -> float:
+        """The command from which a gauge of it begins."""
+        return self.neutral
+
+    def row(self) -> Row:
+        """What the lanes are told of it: its thrust and its reach."""
+        return {}

@@ -1,0 +1,32 @@
+"""What takes items."""
+
+from dataclasses import dataclass
+from typing import Annotated
+
+from mindrun.actuators.actuator import ActuatorKind, Row
+from mindrun.quantity import LENGTH, RATIO, TICKS
+from mindrun.registry import kind
+
+REACH_UNITS = 1.5
+CLOSED = 0.5  # command, above which it closes
+
+
+@kind("actuator", "gripper")
+@dataclass(frozen=True, slots=True)
+class Gripper(ActuatorKind):
+    """A claw at the front of the body: closed above 0.5. It takes an item ahead of it whose rim is within `reach`."""
+
+    neutral: Annotated[float, RATIO]
+    reach: Annotated[float, LENGTH] = REACH_UNITS
+    delay: Annotated[int, TICKS] = 0
+
+    zero = 0.0
+
+    @property
+    def acts_at_rest(self) -> bool:
+        """Whether it is closed."""
+        return self.neutral > CLOSED
+
+    def row(self) -> Row:
+        """How far it reaches."""
+        return {"reach": self.reach}

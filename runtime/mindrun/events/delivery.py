@@ -1,0 +1,44 @@
+"""An item comes where it belongs."""
+
+from dataclasses import dataclass
+from typing import Annotated
+
+from mindrun.events.event import EventKind, Hindrance, TaskWorld, World
+from mindrun.quantity import THING
+from mindrun.registry import kind
+from mindrun.things import ThingKind
+
+
+@kind("event", "delivery")
+@dataclass(frozen=True, slots=True)
+class Delivery(EventKind):
+    """The middle of an item that the claw holds comes into a zone: once until it has left all zones again."""
+
+    of: Annotated[str, THING]
+
+    outcome = "delivered"
+
+    @property
+    def thing(self) -> str:
+        """What is delivered."""
+        return self.of
+
+    @staticmethod
+    def is_about(kind: type[ThingKind]) -> bool:
+        """What a claw can take."""
+        return kind.can_be_held
+
+    def missing(self, task: TaskWorld) -> Hindrance | None:
+        """A place to deliver to."""
+        if any(kind.takes_items for kind in task.kinds):
+            return None
+        return Hindrance("The task has no zone to deliver to.", "Add contains drop_zone is zone size 5.")
+
+    def prevented(self, world: World) -> Hindrance | None:
+        """Nobody closes the claw, or the item is gone before."""
+        if not world.can_hold:
+            return Hindrance("no skill that a master reaches drives a gripper", "Let a skill drive one.")
+        if self.of in world.fleeting:
+            reason = f"{self.of} is gone when it is reached, before the claw can take it"
+            return Hindrance(reason, "Write reached stays.")
+        return None

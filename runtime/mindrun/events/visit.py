@@ -1,0 +1,33 @@
+"""The robot comes where it has not been."""
+
+from dataclasses import dataclass
+from math import ceil
+from typing import Annotated
+
+from mindrun.events.event import EventKind, Hindrance, Row, TaskWorld
+from mindrun.quantity import Quantity, Reference
+from mindrun.registry import kind
+from mindrun.scenes import SceneKind
+
+PATCH = Quantity("a length in world units", {"": 1.0}, low=0.1, high=1e5)
+
+
+@kind("event", "visit")
+@dataclass(frozen=True, slots=True)
+class Visit(EventKind):
+    """The robot's centre enters a square patch of the arena, of side `size`, for the first time."""
+
+    of: Annotated[str, Reference("place", ("patch",))]
+    size: Annotated[float, PATCH] = 4.0
+
+    needs_walls = True
+
+    def missing(self, task: TaskWorld) -> Hindrance | None:
+        """Walls: without them there is no end to the patches."""
+        if task.scene is None or task.scene.is_bounded:
+            return None
+        return Hindrance("A plain scene has no patches to visit.", "Patches are of an arena: write in arena size 100.")
+
+    def row(self, scene: SceneKind) -> Row:
+        """How large the patches are, and how many stand side by side."""
+        return {"columns": ceil(scene.side / self.size), "patch": self.size}

@@ -1,0 +1,23 @@
+"""A world with walls around it."""
+
+from dataclasses import dataclass
+from typing import Annotated
+
+from mindrun.quantity import Quantity
+from mindrun.registry import kind
+from mindrun.scenes.scene import SceneKind
+
+SIDE = Quantity("a length in world units", {"": 1.0}, low=0.01, high=1e5)
+
+
+@kind("task", "arena")
+@dataclass(frozen=True, slots=True)
+class Arena(SceneKind):
+    """A square world of side `size` with walls; the robot starts anywhere in it."""
+
+    size: Annotated[float, SIDE] = 100.0
+
+    @property
+    def side(self) -> float:
+        """Its size."""
+        return self.size

@@ -1,0 +1,14 @@
+"""Kinds of what a task's world contains, one file each."""
+
+from mindrun.registry import register_all
+from mindrun.things.item import Item
+from mindrun.things.obstacle import Obstacle
+from mindrun.things.power import Power
+from mindrun.things.thing import MOVES, OUTCOMES, STAYS, VANISHES, Outcome, ThingKind
+from mindrun.things.zone import Zone
+
+register_all(__name__, __path__)
+
+__all__ = [
+    "MOVES", "OUTCOMES", "STAYS", "VANISHES", "Item", "Obstacle", "Outcome", "Power", "ThingKind", "Zone",
+]  # fmt: skip

@@ -1,0 +1,32 @@
+"""What a claw can take."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Annotated
+
+from mindrun.quantity import LENGTH, Span
+from mindrun.registry import kind
+from mindrun.things.thing import MOVES, NEAR, ONE, OUTCOME, STAYS, Outcome, ThingKind
+
+
+@kind("content", "item")
+@dataclass(frozen=True, slots=True)
+class Item(ThingKind):
+    """A disc of diameter `size` that the claw can take. `away` is its distance from the robot when it is placed.
+
+    When it is `reached` or `delivered` it stays as it is (in the claw, where that holds it), moves elsewhere with the
+    next size of its schedule, or vanishes for the rest of the run.
+    """
+
+    size: Annotated[Span, LENGTH] = ONE
+    away: Annotated[Span, LENGTH] = NEAR
+    reached: Annotated[Outcome, OUTCOME] = STAYS
+    delivered: Annotated[Outcome, OUTCOME] = MOVES
+
+    can_be_held = True
+    is_round = True
+
+    @property
+    def outcomes(self) -> Mapping[str, Outcome]:
+        """Both."""
+        return {"reached": self.reached, "delivered": self.delivered}

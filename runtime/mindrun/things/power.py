@@ -1,0 +1,27 @@
+"""Where the battery charges."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Annotated
+
+from mindrun.quantity import LENGTH, Span
+from mindrun.registry import kind
+from mindrun.things.thing import NEAR, ONE, OUTCOME, STAYS, Outcome, ThingKind
+
+
+@kind("content", "power")
+@dataclass(frozen=True, slots=True)
+class Power(ThingKind):
+    """A square of side `size` on the floor in which the battery charges. `reached` is as for a zone."""
+
+    size: Annotated[Span, LENGTH] = ONE
+    away: Annotated[Span, LENGTH] = NEAR
+    reached: Annotated[Outcome, OUTCOME] = STAYS
+
+    is_area = True
+    charges = True
+
+    @property
+    def outcomes(self) -> Mapping[str, Outcome]:
+        """When the robot reaches it."""
+        return {"reached": self.reached}

@@ -1,0 +1,78 @@
+"""What every kind of thing says of itself: the rest of the program asks, and knows no kind by name."""
+
+from collections.abc import Mapping
+from typing import Literal, NamedTuple, get_args
+
+from mindrun.quantity import UNSAID, Reference, Span
+from mindrun.registry import base
+from mindrun.scenes import SceneKind
+
+ONE = Span(1.0, 1.0)
+NEAR = UNSAID  # as far away as its scene says
+
+Outcome = Literal["stays", "moves", "vanishes"]
+OUTCOMES: tuple[Outcome, ...] = get_args(Outcome)
+OUTCOME = Reference("outcome", OUTCOMES)
+STAYS: Outcome = "stays"
+MOVES: Outcome = "moves"
+VANISHES: Outcome = "vanishes"
+
+MAX_OBSTACLES, MAX_THINGS = 2500, 100  # in one world, which looks at all of its things in every tick
+
+Row = Mapping[str, float]  # columns of the lanes' table of obstacles
+
+
+class Mistake(NamedTuple):
+    """Why a thing cannot be in a scene as it is said: the code of the error, its message, and what to do."""
+
+    code: str
+    message: str
+    hint: str
+
+
+@base("content")
+class ThingKind:
+    """A thing with a place, which touches nothing; a kind says what is different about it.
+
+    Every kind has the arguments `size` and `away`, the distance from the robot at which it is placed.
+    """
+
+    __slots__ = ()
+
+    size: Span
+    away: Span
+
+    is_obstacle = False  # whether it is squares that stand in the way: no sensor, event or measure is about these
+    is_solid = False  # whether the robot can collide with it, although nobody holds it
+    can_be_held = False  # whether a claw can take it
+    is_area = False  # whether it lies on the floor, so that a robot or an item can be inside
+    takes_items = False  # whether items are delivered into it
+    charges = False  # whether the battery charges in it
+    is_round = False  # its outline: a disc, not a square
+    least_distance = 10.0  # from the robot, in world units, where walls keep it near
+
+    @property
+    def largest(self) -> float:
+        """The size that it has at most."""
+        return max(self.size.first, self.size.last)
+
+    @property
+    def outcomes(self) -> Mapping[str, Outcome]:
+        """What becomes of it, by what happens to it: `reached`, `delivered`. It stays where nothing is said."""
+        return {}
+
+    def distances(self, scene: SceneKind) -> tuple[float, float]:
+        """How near to the robot and how far from it it is placed."""
+        return (self.away.first, self.away.last) if self.away != NEAR else scene.distances(self.least_distance)
+
+    def obstacles(self, scene: SceneKind | None) -> int:
+        """How many squares it puts in the way; `scene` is None where that is not known."""
+        return 0
+
+    def row(self, scene: SceneKind) -> Row:
+        """What the lanes are told of an obstacle: the spacing and `lines` of its `grid`, its `jitter` and `count`."""
+        return {}
+
+    def mistake(self, scene: SceneKind | None) -> Mistake | None:
+        """Why it cannot be in a scene; `scene` is None where that is not known."""
+        return None

@@ -1,0 +1,31 @@
+"""Where items are delivered."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Annotated
+
+from mindrun.quantity import LENGTH, Span
+from mindrun.registry import kind
+from mindrun.things.thing import NEAR, ONE, OUTCOME, STAYS, Outcome, ThingKind
+
+
+@kind("content", "zone")
+@dataclass(frozen=True, slots=True)
+class Zone(ThingKind):
+    """A square of side `size` on the floor; items are delivered into it.
+
+    When it is `reached` it stays where it is, moves elsewhere with the next size of its schedule, or vanishes for the
+    rest of the run.
+    """
+
+    size: Annotated[Span, LENGTH] = ONE
+    away: Annotated[Span, LENGTH] = NEAR
+    reached: Annotated[Outcome, OUTCOME] = STAYS
+
+    is_area = True
+    takes_items = True
+
+    @property
+    def outcomes(self) -> Mapping[str, Outcome]:
+        """When the robot reaches it."""
+        return {"reached": self.reached}
