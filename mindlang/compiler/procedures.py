@@ -4,7 +4,6 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from mindrun.errors import ProcedureError
-from mindrun.functions import Procedure
 from mindrun.functions.procedure import module_source
 from mindrun.functions.procedure_text import file_of, fit, imports
 from mindrun.weights import reachable
@@ -21,9 +20,9 @@ def mistakes(compiled: Compiled, master: str | None = None) -> tuple[Diagnostic,
     declared = {skill.name: skill.declaration.header for skill in compiled.mind.skills}
     found = []
     for skill in skills:
-        if isinstance(skill.function, Procedure):
+        if skill.function.calls is not None:
             try:
-                _check(skill.function, compiled.sources[0].folder, len(skill.inputs), skill.outputs)
+                _check(skill.function.calls, compiled.sources[0].folder, len(skill.inputs), skill.outputs)
             except ProcedureError as error:
                 header, text = declared[skill.name], str(error)
                 span = header.phrase.span if header.phrase else header.name.span
@@ -31,12 +30,12 @@ def mistakes(compiled: Compiled, master: str | None = None) -> tuple[Diagnostic,
     return tuple(found)
 
 
-def _check(procedure: Procedure, folder: Path, inputs: int, outputs: int) -> None:
-    source = module_source(procedure, folder)
-    fit(procedure.from_, source, inputs, outputs)
+def _check(calls: str, folder: Path, inputs: int, outputs: int) -> None:
+    source = module_source(calls, folder)
+    fit(calls, source, inputs, outputs)
     for line, module in _neighbours(source, folder):
-        where = f"({file_of(procedure.from_)}, line {line})"
-        message = f"procedure from {procedure.from_}: imports {module}, a file that no bundle holds {where}"
+        where = f"({file_of(calls)}, line {line})"
+        message = f"procedure from {calls}: imports {module}, a file that no bundle holds {where}"
         raise ProcedureError(message, "A module stands alone: write what it needs into it.")
 
 

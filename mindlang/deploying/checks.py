@@ -7,8 +7,7 @@ import shutil
 from typing import TYPE_CHECKING
 
 from mindrun.errors import ProcedureError
-from mindrun.functions import Procedure
-from mindrun.functions.procedure_text import fit
+from mindrun.functions.procedure_text import fit, module_of
 from mindrun.weights import reachable
 
 from mindlang.deploying import DeployError
@@ -47,9 +46,9 @@ def check_wired(bundle: Bundle) -> None:
 def check_procedures(bundle: Bundle) -> None:
     """Refuse procedures of which the text says that they could not run."""
     for skill in reachable(bundle.graph, bundle.graph.master):
-        if isinstance(skill.function, Procedure):
+        if (calls := skill.function.calls) is not None:
             try:
-                source = bundle.procedures.get(skill.function.module, "")
-                fit(skill.function.from_, source, len(skill.inputs), skill.outputs)
+                source = bundle.procedures.get(module_of(calls), "")
+                fit(calls, source, len(skill.inputs), skill.outputs)
             except ProcedureError as error:
                 raise DeployError(f"{error}.", error.hint or "Mend it, and build the bundle anew.") from error

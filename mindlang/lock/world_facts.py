@@ -15,7 +15,6 @@ from typing import Any
 from mindrun.codec import encode
 from mindrun.errors import ProcedureError
 from mindrun.expression import leaves
-from mindrun.functions import Procedure
 from mindrun.functions.procedure import module_source
 from mindrun.graph import Graph, Lesson, Reward, Skill, Task
 from mindrun.reachability import reached_from
@@ -138,16 +137,16 @@ class Worlds:
         if genes(skill):
             return {"sends": sorted(sends)}
         reads = list(dict.fromkeys(self._names[index] for index in skill.inputs))
-        if not isinstance(skill.function, Procedure):
+        if skill.function.calls is None:
             return {"is": names()[type(skill.function)], "reads": sorted(reads), "sends": sorted(sends)}
         answers = [self.graph.named(edge.to, edge.target) for edge in skill.edges if edge.output is not None]
-        function = {"is": f"procedure from {skill.function.from_}", "text": self._text(skill.function)}
+        function = {"is": f"procedure from {skill.function.calls}", "text": self._text(skill.function.calls)}
         return {**function, "reads": reads, "answers": answers, "sends": sorted(sends)}
 
-    def _text(self, procedure: Procedure) -> str:
+    def _text(self, calls: str) -> str:
         """A hash of a procedure's module; empty where it does not count or cannot be read."""
         try:
-            text = module_source(procedure, self.folder) if self.folder else ""
+            text = module_source(calls, self.folder) if self.folder else ""
         except ProcedureError:
             text = ""
         return sha256(text.encode()).hexdigest() if text else ""

@@ -7,9 +7,9 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from mindrun.errors import MindError, ReadingsError
-from mindrun.functions import Procedure
 from mindrun.functions.function import Stateful
 from mindrun.functions.procedure import module_source
+from mindrun.functions.procedure_text import module_of
 from mindrun.graph import Graph
 from mindrun.policy import Policy
 from mindrun.think import hierarchy, think
@@ -20,7 +20,7 @@ from mindrun.weights import reachable
 def procedure_sources(graph: Graph, folder: Path, master: str | None = None) -> dict[str, str]:
     """The text of each module that the skills below `master` (default: the mind's) call, by dotted name."""
     functions = [skill.function for skill in reachable(graph, master or graph.master)]
-    return {f.module: module_source(f, folder) for f in functions if isinstance(f, Procedure)}
+    return {module_of(f.calls): module_source(f.calls, folder) for f in functions if f.calls is not None}
 
 
 class Engine:

@@ -9,7 +9,7 @@ from threading import Thread
 
 import pytest
 from mindrun.errors import MindError, ProcedureError
-from mindrun.functions.procedure import Procedure, module_source
+from mindrun.functions.procedure import module_source
 from mindrun.regular_files import read_regular
 from mindrun.robot.guardian.plan import read_plan
 from mindrun.robot.recording import read as read_recording
@@ -151,7 +151,7 @@ def test_a_recording_and_a_table(mindc: Call, tmp_path: Path, kind: str) -> None
 @pytest.mark.parametrize("kind", READ)
 def test_a_procedure(tmp_path: Path, kind: str) -> None:
     with in_place_of(tmp_path / "claw.py", kind), pytest.raises(ProcedureError, match="claw"):
-        module_source(Procedure("claw.grip"), tmp_path)
+        module_source("claw.grip", tmp_path)
 
 
 def test_a_pipe_that_a_shell_has_opened_is_read(mindc: Call, rules: Path) -> None:

@@ -36,6 +36,11 @@ class Function:
     opaque = ""  # why nothing can be proved of its outputs, even with its weights
 
     @property
+    def calls(self) -> str | None:
+        """The Python function that it calls, `module.function`, whose text belongs to the mind, if it calls one."""
+        return None
+
+    @property
     def derived(self) -> tuple[str, ...]:
         """The arguments that nobody has said and that follow from what its skill reads and sends."""
         return ()

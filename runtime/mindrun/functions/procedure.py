@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from mindrun.errors import ProcedureError, reason
 from mindrun.functions.function import Compute, Function, Weights
-from mindrun.functions.procedure_text import examine, file_of
+from mindrun.functions.procedure_text import examine, file_of, module_of
 from mindrun.quantity import FUNCTION
 from mindrun.registry import kind
 from mindrun.regular_files import read_regular
@@ -39,49 +39,49 @@ class Procedure(Function):
     opaque = "is Python code"
 
     @property
-    def module(self) -> str:
-        """The module's dotted name."""
-        return self.from_.rpartition(".")[0]
+    def calls(self) -> str:
+        """That function."""
+        return self.from_
 
     def ready(self, inputs: int, outputs: int, weights: Weights, sources: Mapping[str, str]) -> Compute:
         """The Python function, in a module of its own."""
-        return partial(call, self, load(self, sources), outputs)
+        return partial(call, self.from_, load(self.from_, sources), outputs)
 
 
-def module_source(procedure: Procedure, folder: Path) -> str:
+def module_source(calls: str, folder: Path) -> str:
     """The text of a procedure's module, `a.b.f` being in `folder`/a/b.py; nothing is run."""
-    parts = procedure.from_.split(".")
+    parts = calls.split(".")
     if len(parts) < 2 or not all(part.isidentifier() for part in parts):
-        raise ProcedureError(f"procedure from {procedure.from_}: write it as module.function")
+        raise ProcedureError(f"procedure from {calls}: write it as module.function")
     path = folder.joinpath(*parts[:-1]).with_suffix(".py")
     try:
         if not path.resolve().is_relative_to(folder.resolve()):
-            raise ProcedureError(f"procedure from {procedure.from_}: {path} lies outside {folder}")
+            raise ProcedureError(f"procedure from {calls}: {path} lies outside {folder}")
         if len(data := read_regular(path, MAX_SOURCE_BYTES + 1)) > MAX_SOURCE_BYTES:
-            raise ProcedureError(f"procedure from {procedure.from_}: {path} is larger than 1 MiB")
+            raise ProcedureError(f"procedure from {calls}: {path} is larger than 1 MiB")
         return StringIO(data.decode("utf-8-sig"), newline=None).read()
     except (OSError, RuntimeError, UnicodeError) as error:  # a loop of links is a RuntimeError
-        raise ProcedureError(f"procedure from {procedure.from_}: cannot read {path} ({reason(error)})") from error
+        raise ProcedureError(f"procedure from {calls}: cannot read {path} ({reason(error)})") from error
 
 
-def load(procedure: Procedure, sources: Mapping[str, str]) -> Callable[..., Any]:
+def load(calls: str, sources: Mapping[str, str]) -> Callable[..., Any]:
     """Run a procedure's module, from its text by dotted name, and give the function."""
-    source = sources.get(procedure.module)
+    source = sources.get(module_of(calls))
     if source is None:
-        raise ProcedureError(f"procedure from {procedure.from_}: there is no module {procedure.module}")
-    examine(procedure.from_, source)
-    path, digest = file_of(procedure.from_), sha256(source.encode()).hexdigest()[:12]
-    module = ModuleType(f"_mind_{procedure.module.replace('.', '_')}_{digest}")
+        raise ProcedureError(f"procedure from {calls}: there is no module {module_of(calls)}")
+    examine(calls, source)
+    path, digest = file_of(calls), sha256(source.encode()).hexdigest()[:12]
+    module = ModuleType(f"_mind_{module_of(calls).replace('.', '_')}_{digest}")
     sys.modules[module.__name__] = module  # dataclasses look their module up
     try:
         exec(_code(source, path), module.__dict__)
     except KeyboardInterrupt:
         raise
     except BaseException as error:
-        raise ProcedureError(f"procedure from {procedure.from_}: its module fails{_said(error, path)}") from error
-    function = getattr(module, procedure.from_.rpartition(".")[2], None)
+        raise ProcedureError(f"procedure from {calls}: its module fails{_said(error, path)}") from error
+    function = getattr(module, calls.rpartition(".")[2], None)
     if not callable(function):
-        raise ProcedureError(f"procedure from {procedure.from_}: its module has no such function")
+        raise ProcedureError(f"procedure from {calls}: its module has no such function")
     return function  # type: ignore[no-any-return]
 
 
@@ -91,9 +91,7 @@ def _code(source: str, path: str) -> CodeType:
         return compile(source, path, "exec")
 
 
-def call(
-    procedure: Procedure, function: Callable[..., Any], outputs: int, inputs: NDArray[np.float32]
-) -> NDArray[np.float32]:
+def call(calls: str, function: Callable[..., Any], outputs: int, inputs: NDArray[np.float32]) -> NDArray[np.float32]:
     """The function's outputs for float32 inputs; one without outputs is not called."""
     if outputs == 0:
         return np.zeros(0, np.float32)
@@ -103,10 +101,10 @@ def call(
     except KeyboardInterrupt:
         raise
     except BaseException as error:
-        said = _said(error, file_of(procedure.from_))
-        raise ProcedureError(f"procedure {procedure.from_} fails for {inputs.tolist()}{said}") from error
+        said = _said(error, file_of(calls))
+        raise ProcedureError(f"procedure {calls} fails for {inputs.tolist()}{said}") from error
     if len(values) != outputs:
-        raise ProcedureError(f"procedure {procedure.from_} returned {len(values)} values instead of {outputs}")
+        raise ProcedureError(f"procedure {calls} returned {len(values)} values instead of {outputs}")
     return values.astype(np.float32)
 
 

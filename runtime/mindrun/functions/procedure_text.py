@@ -30,6 +30,11 @@ class Shape:
     line: int
 
 
+def module_of(calls: str) -> str:
+    """The dotted name of the module of a function `module.function`."""
+    return calls.rpartition(".")[0]
+
+
 def file_of(from_: str) -> str:
     """The file in which a procedure stands."""
     return f"{from_.rpartition('.')[0].replace('.', '/')}.py"

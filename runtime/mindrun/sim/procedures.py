@@ -17,10 +17,11 @@ from numba.extending import intrinsic
 from numba.np.unsafe.ndarray import to_fixed_tuple
 from numpy.typing import NDArray
 
+from mindrun.engine import procedure_sources
 from mindrun.errors import ProcedureError
-from mindrun.functions import Procedure
 from mindrun.functions.procedure import call as ask
-from mindrun.functions.procedure import load, module_source
+from mindrun.functions.procedure import load
+from mindrun.functions.procedure_text import module_of
 from mindrun.graph import Graph, Skill
 from mindrun.sim.arithmetic import F
 from mindrun.sim.compiling import compiled
@@ -89,7 +90,9 @@ def _looped(one: Any, inputs: int, outputs: int) -> Callable[..., int]:
 
 
 class Procedures:
-    """The procedures that a master can reach: `addresses` of the compiled ones, `slow` ones by skill, with the reason.
+    """The procedures that a master can reach, by skill: which Python function each `calls`.
+
+    `addresses` are those of the compiled ones, `slow` has the others, with the reason.
 
     Raises ProcedureError where a module or function is not there.
     """
@@ -98,40 +101,37 @@ class Procedures:
         self.addresses: dict[str, int] = {}
         self.slow: dict[str, str] = {}
         self._kept: list[Any] = []
-        skills = [skill for skill in reachable(graph, master) if isinstance(skill.function, Procedure)]
-        self._skills = {skill.name: skill for skill in skills}
-        self._sources = {of.module: module_source(of, folder or Path()) for of in map(_procedure, skills)}
+        skills = [skill for skill in reachable(graph, master) if skill.function.calls is not None]
+        self.calls = {skill.name: str(skill.function.calls) for skill in skills}
+        self._outputs = {skill.name: skill.outputs for skill in skills}
+        self._sources = procedure_sources(graph, folder or Path(), master)
         for skill in skills:
             self._prepare(skill)
 
     def function(self, skill: str) -> Callable[..., Any]:
         """The function of a skill, in a module of its own that remembers nothing."""
-        return load(_procedure(self._skills[skill]), self._sources)
+        return load(self.calls[skill], self._sources)
 
     def explain(self, skill: str, inputs: NDArray[np.float32]) -> ProcedureError:
         """Why a compiled procedure failed: what Python says of the same inputs."""
-        procedure = _procedure(self._skills[skill])
+        calls = self.calls[skill]
         try:
-            ask(procedure, self.function(skill), self._skills[skill].outputs, inputs)
+            ask(calls, self.function(skill), self._outputs[skill], inputs)
         except ProcedureError as error:
             return error
-        said = f"procedure {procedure.from_} fails for {inputs.tolist()} where it is compiled, and not in Python"
+        said = f"procedure {calls} fails for {inputs.tolist()} where it is compiled, and not in Python"
         return ProcedureError(said, "please report this")
 
     def _prepare(self, skill: Skill) -> None:
-        function, procedure = self.function(skill.name), _procedure(skill)
+        function = self.function(skill.name)
         if skill.outputs == 0:  # it is never called
             return
         try:
-            plain = formula(function, self._sources[procedure.module], len(skill.inputs), skill.outputs)
+            source = self._sources[module_of(self.calls[skill.name])]
+            plain = formula(function, source, len(skill.inputs), skill.outputs)
             found = compile_formula(plain, len(skill.inputs), skill.outputs)
         except NoFormulaError as error:
             self.slow[skill.name] = str(error)
         else:
             self._kept.append(found)
             self.addresses[skill.name] = found.address
-
-
-def _procedure(skill: Skill) -> Procedure:
-    assert isinstance(skill.function, Procedure)
-    return skill.function

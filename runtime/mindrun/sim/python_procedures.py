@@ -6,7 +6,6 @@ from typing import Any
 
 import numpy as np
 
-from mindrun.functions import Procedure
 from mindrun.functions.procedure import call
 from mindrun.graph import Graph
 from mindrun.sim.lanes.stages import after, before, run_skills, send, wake
@@ -49,7 +48,7 @@ def advance_slowly(
         for i in range(len(tables.skills)):
             name = graph.skills[int(tables.skills[i]["index"])].name
             if name in memories.procedures.slow:
-                _run(graph, memories, name, tables, state, int(jobs.lanes[0]), i)
+                _run(memories, name, tables, state, int(jobs.lanes[0]), i)
             else:
                 run_skills(tables, state, jobs.lanes[0], i, i + 1)
                 if state.failed[0] >= 0:
@@ -58,16 +57,14 @@ def advance_slowly(
     memories.forget(set(state.job[: jobs.lanes[0]].tolist()))
 
 
-def _run(graph: Graph, memories: Memories, name: str, tables: Tables, state: State, lanes: int, i: int) -> None:
+def _run(memories: Memories, name: str, tables: Tables, state: State, lanes: int, i: int) -> None:
     count = wake(tables, state, lanes, i)
     if count == 0:
         return
-    skill = tables.skills[i]
-    function = next(s.function for s in graph.skills if s.name == name)
-    assert isinstance(function, Procedure)
+    skill, calls = tables.skills[i], memories.procedures.calls[name]
     for k in range(count):
         inputs = state.gathered[: skill["inputs"], k]
         if np.isfinite(inputs).all():
             plain = memories.of(name, int(state.job[state.active[k]]))
-            state.hidden[: skill["outputs"], k] = call(function, plain, int(skill["outputs"]), inputs)
+            state.hidden[: skill["outputs"], k] = call(calls, plain, int(skill["outputs"]), inputs)
     send(tables, state, i, 0, count, lanes)

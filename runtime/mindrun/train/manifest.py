@@ -14,7 +14,6 @@ import numpy as np
 from mindrun.codec import encode
 from mindrun.encoding import decode_part
 from mindrun.errors import BundleError
-from mindrun.functions import Procedure
 from mindrun.functions.procedure import module_source
 from mindrun.graph import Graph, Lesson
 from mindrun.strict_json import is_whole, parsed
@@ -70,9 +69,9 @@ def fingerprint(graph: Graph, lesson: Lesson, procedures: Path | None) -> str:
     thawed = tuple(replace(skill, frozen=False) for skill in graph.skills)
     scope = replace(graph, master=lesson.master, skills=thawed, tasks=tasks, lessons=())
     code = [
-        module_source(skill.function, procedures)
+        module_source(skill.function.calls, procedures)
         for skill in skills
-        if isinstance(skill.function, Procedure) and procedures is not None
+        if skill.function.calls is not None and procedures is not None
     ]
     return _sha256(repr((scope, code)).encode())
 
