@@ -25,7 +25,7 @@ def refuse_too_many(task: Task, runs: int) -> None:
     """MindError where the results of so many runs of a task cannot be kept."""
     needed, there = runs * bytes_for(task), available()
     if there is not None and needed > there:
-        message = f"{runs:,} runs take about {_said(needed)} of memory, and there are {_said(there)}"
+        message = f"{runs:,} runs take about {_in_bytes(needed)} of memory, and there are {_in_bytes(there)}"
         raise MindError(message, f"--runs {there // (2 * bytes_for(task))} would do")
 
 
@@ -38,7 +38,7 @@ def refuse_too_large(rollout: Rollout, genomes: int, layouts: int) -> None:
     """MindError where so many genomes on so many layouts each cannot be run at once."""
     needed, there = bytes_of(rollout, genomes, layouts), available()
     if there is not None and needed > there:
-        message = f"{rollout.task.name} takes about {_said(needed)} of memory, and there are {_said(there)}"
+        message = f"{rollout.task.name} takes about {_in_bytes(needed)} of memory, and there are {_in_bytes(there)}"
         raise MindError(message, f"Most of it is for {_largest(rollout.sizes)}.")
 
 
@@ -96,5 +96,5 @@ def _number_in(path: str) -> int | None:
     return None
 
 
-def _said(number: int) -> str:
+def _in_bytes(number: int) -> str:
     return f"{number / 2**30:.1f} GiB" if number >= 2**30 else f"{number / 2**20:.0f} MiB"

@@ -19,8 +19,8 @@ def unified(name: str, old: str, new: str) -> str:
     before, after = (StringIO(text, newline="\n").readlines() for text in (old, new))  # other characters end no line
     # difflib takes long over equal lines, and most lines of an edited file are: it is given those between the first and
     # the last difference alone, with some around them.
-    first = _common(before, after)
-    last = _common(before[first:][::-1], after[first:][::-1])
+    first = _shared_ends(before, after)
+    last = _shared_ends(before[first:][::-1], after[first:][::-1])
     start = max(0, first - MARGIN_LINES)
     keep = max(0, last - MARGIN_LINES)
     lines = _hunks(before[start : len(before) - keep], after[start : len(after) - keep], start)
@@ -99,7 +99,7 @@ def _anchors(before: list[str], after: list[str]) -> list[tuple[int, int]]:
     return run[::-1]
 
 
-def _common(before: list[str], after: list[str]) -> int:
+def _shared_ends(before: list[str], after: list[str]) -> int:
     """How many lines two texts have in common at their beginning."""
     pairs = zip(before, after, strict=False)
     return next((index for index, (a, b) in enumerate(pairs) if a != b), min(len(before), len(after)))

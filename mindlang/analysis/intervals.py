@@ -10,16 +10,16 @@ from mindlang.compiler.model import Expression, Measured, Number, Reading, Term
 from mindlang.compiler.syntax import Operator
 
 Interval = tuple[float, float]
-ANY: Interval = (-inf, inf)
-SHARE: Interval = (0.0, 1.0)
+UNBOUNDED: Interval = (-inf, inf)
+UNIT_INTERVAL: Interval = (0.0, 1.0)
 
 
 def share(name: str) -> Interval:
     """The range of a reading of which nothing is known."""
-    return SHARE
+    return UNIT_INTERVAL
 
 
-def interval(of: Expression, reading: Callable[[str], Interval] = share, each: Interval = SHARE) -> Interval:
+def interval(of: Expression, reading: Callable[[str], Interval] = share, each: Interval = UNIT_INTERVAL) -> Interval:
     """The range of an expression whose readings have these ranges, that of `for each` the range `each`."""
 
     def leaf(_: str, term: Term) -> Interval:
@@ -41,7 +41,7 @@ def is_constant(of: Expression) -> bool:
     return all(isinstance(term, Number | Operator) for term in of.terms)
 
 
-def said(of: Interval) -> str:
+def range_in_words(of: Interval) -> str:
     """A range in words."""
     low, high = (bound + 0.0 for bound in of)  # -0.0 is 0
     if low == high:
@@ -61,12 +61,12 @@ def _combined(symbol: str, left: Interval, right: Interval) -> Interval:
             values = [a * b if a and b else 0.0 for a, b in product(left, right)]
             return _around(values, values)
     if right[0] <= 0 <= right[1]:
-        return ANY
+        return UNBOUNDED
     values = [a / b for a, b in product(left, right)]
     return _around(values, values)
 
 
 def _around(lows: list[float], highs: list[float]) -> Interval:
     if any(map(isnan, [*lows, *highs])):
-        return ANY
+        return UNBOUNDED
     return min(lows), max(highs)

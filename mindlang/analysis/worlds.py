@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from mindrun.sensors import Physical
 from mindrun.things import STAYS
 
-from mindlang.analysis.intervals import SHARE, Interval, interval
+from mindlang.analysis.intervals import UNIT_INTERVAL, Interval, interval
 from mindlang.analysis.study import Study
 from mindlang.compiler.model import Condition, Expression, Reward, Task
 
@@ -45,11 +45,11 @@ class World:
     def reading(self, name: str) -> Interval:
         """The range of a reading in this world."""
         constant = self.constant(name)
-        return SHARE if constant is None else (constant, constant)
+        return UNIT_INTERVAL if constant is None else (constant, constant)
 
     def value(self, of: Expression, reward: Reward) -> Interval:
         """The range of an expression of a reward."""
-        return interval(of, self.reading, self.reading(reward.each) if reward.each else SHARE)
+        return interval(of, self.reading, self.reading(reward.each) if reward.each else UNIT_INTERVAL)
 
     def holds(self, when: Condition, reward: Reward) -> bool:
         """Whether the condition of a reward can ever hold."""

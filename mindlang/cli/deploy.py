@@ -122,13 +122,13 @@ def _do(
 ) -> DeployResult:
     from mindlang.deploying.deployment import deploy, roll_back
 
-    def tell(message: str) -> None:
+    def report(message: str) -> None:
         if not quiet:
             click.echo(message, err=True)
 
     if path is None or bundle is None:
-        return roll_back(robot, settings, tell, dry_run)
-    return deploy(robot, path, bundle, settings, datetime.now(UTC), tell, dry_run)
+        return roll_back(robot, settings, report, dry_run)
+    return deploy(robot, path, bundle, settings, datetime.now(UTC), report, dry_run)
 
 
 def _list(robot: RemoteRobot, as_json: bool) -> None:

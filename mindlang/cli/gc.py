@@ -41,10 +41,10 @@ def command(folder: Path, write: bool, as_json: bool) -> None:
         sys.exit(OK)
     for path in found:
         console().print(str(path), markup=False)
-    console(stderr=True).print(_told(len(found), size, write), markup=False)
+    console(stderr=True).print(_summary(len(found), size, write), markup=False)
 
 
-def _told(files: int, size: int, write: bool) -> str:
+def _summary(files: int, size: int, write: bool) -> str:
     if not files:
         return "nothing to remove: a lock names every file of weights"
     weights = f"{files} file{'s' * (files > 1)} of weights, {size / 1024:.0f} KiB"

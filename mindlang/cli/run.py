@@ -60,7 +60,7 @@ def command(
     refuse_unwritable(video, ".mp4")
     setup, rollout = session.prepare(file, task, master, interrupt=not no_interruption)
     seed = secrets.randbits(31) if seed is None else seed
-    found = outcome.one(setup.task, session.score(rollout, [seed])[0])
+    found = outcome.run_data(setup.task, session.score(rollout, [seed])[0])
     found = {"task": setup.task.name, "master": setup.master, "seed": seed, "notes": [*setup.ready.notes]} | found
     if as_json:
         print_json(found)

@@ -66,7 +66,7 @@ def _line(text: str) -> _Line:
 def _indented(lines: list[_Line]) -> Iterator[tuple[_Line, str]]:
     """Each line with what stands before it: a comment goes with what it leads, or else keeps to what it closes."""
     in_declaration = False
-    for line, following in zip(lines, _said_next(lines), strict=True):
+    for line, following in zip(lines, _next_written(lines), strict=True):
         if line.code:
             in_declaration = line.is_fact or line.first in NOUNS
         leads = following is not None and following.is_fact
@@ -74,7 +74,7 @@ def _indented(lines: list[_Line]) -> Iterator[tuple[_Line, str]]:
         yield line, INDENT if is_in and not line.is_blank else ""
 
 
-def _said_next(lines: list[_Line]) -> list[_Line | None]:
+def _next_written(lines: list[_Line]) -> list[_Line | None]:
     """For each line the next that says something, which may be itself."""
     found: list[_Line | None] = []
     following: _Line | None = None
@@ -88,7 +88,7 @@ def _set_off(lines: list[tuple[_Line, str]]) -> Iterator[str]:
     """The lines with single blank ones: none at the ends or below a header, one around what owns facts."""
     above: tuple[_Line, str] | None = None
     blank = False
-    for (line, indent), following in zip(lines, _said_next([line for line, _ in lines]), strict=True):
+    for (line, indent), following in zip(lines, _next_written([line for line, _ in lines]), strict=True):
         if line.is_blank:
             blank = True
             continue

@@ -32,7 +32,7 @@ def summarise(edited: Edited) -> list[str]:
     after = _statuses(edited.graph, edited.followed.locks, edited.sources)
     old_names = _old_names(edited, after)
     frozen = {skill.name for skill in edited.graph.skills if skill.frozen}
-    lines = [line for skill, now in after.items() for line in _told(skill, old_names[skill], before, now)]
+    lines = [line for skill, now in after.items() for line in _skill_sentences(skill, old_names[skill], before, now)]
     lines += [
         f"{skill} is frozen: unfreeze it to teach it again"
         for skill, now in after.items()
@@ -44,7 +44,7 @@ def summarise(edited: Edited) -> list[str]:
     ]
     if any(isinstance(state, Trained) for state in before.values()):
         lines.append(_kept(sum(isinstance(state, Trained) for state in after.values())))
-    return lines + _told_beside(edited)
+    return lines + _neighbour_sentences(edited)
 
 
 def broken_neighbours(edited: Edited) -> dict[str, str]:
@@ -65,7 +65,7 @@ def _kept(number: int) -> str:
     return f"{number} trained skills keep what was learnt"
 
 
-def _told_beside(edited: Edited) -> list[str]:
+def _neighbour_sentences(edited: Edited) -> list[str]:
     """What becomes stale in neighbours, whose locks may say something else of a skill than the mind's own."""
     found: dict[str, list[str]] = {}
     for other in edited.beside:
@@ -101,7 +101,7 @@ def _statuses(graph: Graph, locks: Locks, sources: list[Path]) -> Statuses:
     return status(arrange(graph, lock), lock)
 
 
-def _told(skill: str, old: str, before: Statuses, now: Status) -> Iterator[str]:
+def _skill_sentences(skill: str, old: str, before: Statuses, now: Status) -> Iterator[str]:
     match before.get(old), now:
         case Trained() as was, Trained():
             if skill != old:

@@ -49,7 +49,7 @@ def edit(name: str) -> Edit:
     return Edit(
         name,
         function,
-        tuple((p.name, _is_many(hints[p.name])) for p in parameters if p.kind is not Parameter.KEYWORD_ONLY),
+        tuple((p.name, _is_repeatable(hints[p.name])) for p in parameters if p.kind is not Parameter.KEYWORD_ONLY),
         tuple(_option(p, hints[p.name]) for p in parameters if p.kind is Parameter.KEYWORD_ONLY),
         text.strip(),
         f"Example: {example.strip()}",
@@ -57,10 +57,11 @@ def edit(name: str) -> Edit:
 
 
 def _option(parameter: Parameter, hint: Any) -> EditOption:
-    assert get_origin(hint) is Annotated, f"{parameter.name} does not say what it is for"
-    return EditOption(parameter.name, _is_many(hint), parameter.default, get_args(hint)[1])
+    if get_origin(hint) is not Annotated:
+        raise TypeError(f"{parameter.name} does not say what it is for")
+    return EditOption(parameter.name, _is_repeatable(hint), parameter.default, get_args(hint)[1])
 
 
-def _is_many(hint: Any) -> bool:
+def _is_repeatable(hint: Any) -> bool:
     plain = get_args(hint)[0] if get_origin(hint) is Annotated else hint
     return get_origin(plain) is tuple

@@ -35,7 +35,7 @@ _LINE = re.compile(
     r"(?: \| with (?P<subskills>\S+:[0-9a-f]{64}(?: \S+:[0-9a-f]{64})*))?"
     r"(?: \| (?P<how>taught|accepted) in (?P<worlds>[0-9a-f]{16}(?: [0-9a-f]{16})*))?"
 )
-_HOW = {False: "taught", True: "accepted"}
+_EVIDENCE_WORDS = {False: "taught", True: "accepted"}
 _NONE: Mapping[str, TrainingWorld] = {}
 
 
@@ -103,7 +103,7 @@ class Entry:
         if self.subskills:
             parts.append("with " + " ".join(f"{skill}:{weights}" for skill, weights in self.subskills))
         if self.worlds:
-            parts.append(f"{_HOW[self.accepted]} in " + " ".join(world.name for world in self.worlds))
+            parts.append(f"{_EVIDENCE_WORDS[self.accepted]} in " + " ".join(world.name for world in self.worlds))
         return " | ".join(parts)
 
     @classmethod
@@ -121,7 +121,7 @@ class Entry:
         pairs = (part.rpartition(":") for part in (found["subskills"] or "").split())
         subskills = tuple((skill, weights) for skill, _, weights in pairs)
         taught_in = tuple(worlds[name] for name in names)
-        accepted = found["how"] == _HOW[True]
+        accepted = found["how"] == _EVIDENCE_WORDS[True]
         return cls(found["skill"], signature, found["weights"], taught, subskills, taught_in, accepted, folder)
 
 

@@ -15,10 +15,10 @@ def brought_along(facts: Mapping[str, Any]) -> dict[str, Any]:
     """
     named = {*facts.get("task", {}).get("ends", ())}
     named |= {reason.removeprefix("on ").partition(" when ")[0] for _, reason in facts["rewards"]}
-    return {subject: _said(subject, fact, named) for subject, fact in facts.items()}
+    return {subject: _with_outcomes(subject, fact, named) for subject, fact in facts.items()}
 
 
-def _said(subject: str, fact: Any, named: set[str]) -> Any:
+def _with_outcomes(subject: str, fact: Any, named: set[str]) -> Any:
     noun, _, name = subject.partition(" ")
     if noun != "thing":
         return fact

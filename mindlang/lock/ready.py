@@ -35,10 +35,12 @@ def make_ready(graph: Graph, sources: Iterable[Source], master: str | None = Non
     weights, refusals = trained_weights(graph, lock, frozenset(needed))
     states = status(graph, lock, sources[0].folder)
     acting = {name: states[name] for name in needed}
-    return Ready(Policy(graph, weights), tuple(refusals), (*told_elsewhere(acting), *told_unknown(acting)))
+    return Ready(
+        Policy(graph, weights), tuple(refusals), (*elsewhere_sentences(acting), *unknown_world_sentences(acting))
+    )
 
 
-def told_elsewhere(states: Mapping[str, Status]) -> Iterator[str]:
+def elsewhere_sentences(states: Mapping[str, Status]) -> Iterator[str]:
     """A sentence for all skills that were taught elsewhere in the same way."""
     ways: dict[tuple[str, ...], list[str]] = {}
     for name, state in states.items():
@@ -48,7 +50,7 @@ def told_elsewhere(states: Mapping[str, Status]) -> Iterator[str]:
         yield f"{_were_taught(skills)} elsewhere: {'; '.join(changes)}"
 
 
-def told_unknown(states: Mapping[str, Status]) -> Iterator[str]:
+def unknown_world_sentences(states: Mapping[str, Status]) -> Iterator[str]:
     """A sentence for all skills of which the lock does not know in which world they were taught."""
     skills = [name for name, state in states.items() if isinstance(state, Trained) and not state.knows_world]
     if skills:

@@ -14,7 +14,7 @@ from mindlang.compiler.diagnostic import listed
 from mindlang.lock import LockError, Taught, read_locks
 from mindlang.lock.arrange import arrange
 from mindlang.lock.blobs import load_weights
-from mindlang.lock.ready import told_elsewhere
+from mindlang.lock.ready import elsewhere_sentences
 from mindlang.lock.status import UNKNOWN, NotLearning, Stale, Status, Trained, Untaught, status
 
 if TYPE_CHECKING:
@@ -145,7 +145,7 @@ def survival(found: Sequence[Row]) -> list[str]:
     """Which weights still fit, as sentences: those that do in one, each of the others in its own."""
     trained = [row.skill for row in found if isinstance(row.status, Trained) and not row.damage]
     lines = [f"weights of {listed(trained, 'and')} fit"] if trained else []
-    lines += told_elsewhere({row.skill: row.status for row in found})
+    lines += elsewhere_sentences({row.skill: row.status for row in found})
     lines += [row.damage for row in found if row.damage]
     lines += [f"{row.skill} is stale: {'; '.join(row.remarks)}" for row in found if isinstance(row.status, Stale)]
     return lines + [f"{row.skill} has not been taught" for row in found if isinstance(row.status, Untaught)]

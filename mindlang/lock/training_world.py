@@ -78,7 +78,7 @@ def _value(subject: str, text: str) -> Any:
         value = json.loads(text, parse_constant=_no_number)
     except RecursionError:
         raise ValueError("it is nested too deeply") from None
-    if not _is_sound(subject, value):
+    if not _is_valid_fact(subject, value):
         raise ValueError(f"{subject} cannot be so")
     return value
 
@@ -87,7 +87,7 @@ def _no_number(text: str) -> NoReturn:
     raise ValueError(f"{text} is no number")
 
 
-def _is_sound(subject: str, value: Any) -> bool:
+def _is_valid_fact(subject: str, value: Any) -> bool:
     match subject.split(" "):
         case ["tick"]:
             return _is_number(value) and value > 0

@@ -9,7 +9,7 @@ from mindrun.quantity import Quantity, Reference
 from mindrun.registry import arguments, kinds
 
 PRECEDENCE = {"+": 1, "-": 1, "*": 2, "/": 2}
-TIGHTEST = 4
+ATOM_PRECEDENCE = 4
 
 Leaf = Callable[[str, float], str]
 Part = tuple[str, int]  # of an expression: its text, and how tightly it binds
@@ -19,7 +19,7 @@ def infix(program: Program, leaf: Leaf) -> str:
     """An expression as it is written; `leaf` says a reading or a measure by its word and its index."""
 
     def part(word: str, operand: float | int) -> Part:
-        return number(operand) if word == "number" else leaf(word, operand), TIGHTEST
+        return number(operand) if word == "number" else leaf(word, operand), ATOM_PRECEDENCE
 
     def negated(value: Part) -> Part:
         return f"-{_within(value, 3)}", 3

@@ -28,7 +28,7 @@ def _changes(old: Mapping[str, Any], now: Mapping[str, Any]) -> Iterator[str]:
         elif noun == "skill":
             yield from _skill_changes(name, old[subject], now[subject])
     yield from _actuators_at_rest(old, now)
-    if old.get("claw") != now.get("claw") and not _is_told(old, now):
+    if old.get("claw") != now.get("claw") and not _is_already_reported(old, now):
         yield f"taught with a claw's reach of {_reach(old)}, now {_reach(now)}"
     yield from _task_changes(old, now)
     yield from _lesson_changes(old["lesson"], now["lesson"])
@@ -54,7 +54,7 @@ def _kind_changes(noun: str, name: str, old: Mapping[str, Any], now: Mapping[str
 def _skill_changes(name: str, old: Mapping[str, Any], now: Mapping[str, Any]) -> Iterator[str]:
     if old.get("text") != now.get("text") and old.get("text") and now.get("text"):
         yield f"the text of {name}'s procedure has changed"
-    before, after = _said(old), _said(now)
+    before, after = _skill_words(old), _skill_words(now)
     gone, new = ", ".join(sorted((before - after).elements())), ", ".join(sorted((after - before).elements()))
     if gone or new:
         yield f"{name} has changed: " + (
@@ -62,7 +62,7 @@ def _skill_changes(name: str, old: Mapping[str, Any], now: Mapping[str, Any]) ->
         )
 
 
-def _said(skill: Mapping[str, Any]) -> Counter[str]:
+def _skill_words(skill: Mapping[str, Any]) -> Counter[str]:
     """What is said of a skill, but for the text of its procedure."""
     said = [(key, each) for key, value in skill.items() if key != "text" for each in _each(value)]
     return Counter(f"{word} {each}" for word, each in said)
@@ -83,7 +83,7 @@ def _actuators_at_rest(old: Mapping[str, Any], now: Mapping[str, Any]) -> Iterat
             yield f"its task has changed: {word} {name}"
 
 
-def _is_told(old: Mapping[str, Any], now: Mapping[str, Any]) -> bool:
+def _is_already_reported(old: Mapping[str, Any], now: Mapping[str, Any]) -> bool:
     """Whether the claw's reach is told already: as an argument of a gripper, or since items came or went."""
     if "claw" not in old or "claw" not in now:
         return True

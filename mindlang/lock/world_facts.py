@@ -72,14 +72,14 @@ class Worlds:
     def _facts(self, task: str, master: str) -> Mapping[str, Any]:
         """All facts but the lesson's own."""
         if (task, master) not in self._known:
-            self._known[task, master] = dict(self._found(task, master))
+            self._known[task, master] = dict(self._facts_of_lesson(task, master))
         return self._known[task, master]
 
     @cached_property
     def _known(self) -> dict[tuple[str, str], Mapping[str, Any]]:
         return {}
 
-    def _found(self, name: str, master: str) -> Iterator[tuple[str, Any]]:
+    def _facts_of_lesson(self, name: str, master: str) -> Iterator[tuple[str, Any]]:
         task = next(task for task in self.graph.tasks if task.name == name)
         skills = reachable(self.graph, master)
         yield "tick", self.graph.tick

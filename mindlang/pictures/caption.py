@@ -11,8 +11,9 @@ from mindlang.pictures.scene import thing_colours
 from mindlang.pictures.theme import Theme, mixed
 
 ENTRY_GAP_PIXELS = 22.0  # between two entries
-SMALL, LARGE, SMALLEST = 11.0, 14.0, 5.0
-LINES, LINE, MARK = 2, 22.0, 26.0  # of the legend: how many, how high, and how wide what stands before a name
+SMALL_PIXELS, LARGE_PIXELS, MIN_TEXT_PIXELS = 11.0, 14.0, 5.0
+LEGEND_LINES, LEGEND_LINE_PIXELS = 2, 22.0  # how many, and how high
+LEGEND_MARK_PIXELS = 26.0  # the width of what stands before a name
 
 
 def draw_title(
@@ -22,12 +23,13 @@ def draw_title(
     canvas.text(x, y, run.task.name, 24, theme.ink, bold=True)
     facts = _facts(run, found)
     wide = [
-        max(_width(canvas, name, SMALL), _width(canvas, value, LARGE)) + 1.6 * ENTRY_GAP_PIXELS for name, value in facts
+        max(_width(canvas, name, SMALL_PIXELS), _width(canvas, value, LARGE_PIXELS)) + 1.6 * ENTRY_GAP_PIXELS
+        for name, value in facts
     ]
     fit = min(1.0, (right - x) / (sum(wide) - 1.6 * ENTRY_GAP_PIXELS))  # smaller, where much is counted
     for (name, value), width in zip(facts, wide, strict=True):
-        canvas.text(x, y + 25, name, fit * SMALL, theme.faint)
-        canvas.text(x, y + 46, value, fit * LARGE, theme.ink)
+        canvas.text(x, y + 25, name, fit * SMALL_PIXELS, theme.faint)
+        canvas.text(x, y + 46, value, fit * LARGE_PIXELS, theme.ink)
         x += fit * width
 
 
@@ -44,17 +46,17 @@ def draw_legend(canvas: Canvas, run: RecordedRun, path: Path, theme: Theme, x: f
     entries = _entries(canvas, run, path, theme)
     size, places = fitted(canvas, [name for _, name in entries], right - x)
     for (draw, name), (along, line) in zip(entries, places, strict=True):
-        low = y + LINE * line
+        low = y + LEGEND_LINE_PIXELS * line
         draw(x + along, low - 4)
-        canvas.text(x + along + MARK, low, name, size, theme.ink)
+        canvas.text(x + along + LEGEND_MARK_PIXELS, low, name, size, theme.ink)
 
 
 def fitted(canvas: Canvas, names: Sequence[str], room: float) -> tuple[float, list[tuple[float, int]]]:
     """The largest size at which so many names fit into the lines, and where each entry begins."""
-    size = SMALL
+    size = SMALL_PIXELS
     while True:
         places = _places([_width(canvas, name, size) for name in names], room)
-        if places[-1][1] < LINES or size <= SMALLEST:
+        if places[-1][1] < LEGEND_LINES or size <= MIN_TEXT_PIXELS:
             return size, places
         size -= 0.5
 
@@ -63,10 +65,10 @@ def _places(widths: Sequence[float], room: float) -> list[tuple[float, int]]:
     """Where each name's entry begins and in which line, from 0."""
     places, along, line = [], 0.0, 0
     for width in widths:
-        if along and along + MARK + width > room:
+        if along and along + LEGEND_MARK_PIXELS + width > room:
             along, line = 0.0, line + 1
         places.append((along, line))
-        along += MARK + width + ENTRY_GAP_PIXELS
+        along += LEGEND_MARK_PIXELS + width + ENTRY_GAP_PIXELS
     return places
 
 
@@ -108,7 +110,7 @@ def draw_scale(canvas: Canvas, units_per_pixel: float, theme: Theme, right: floa
     canvas.line([(right - long, y), (right, y)], theme.ink, 1.6)
     for end in (right - long, right):
         canvas.line([(end, y - 4), (end, y + 4)], theme.ink, 1.6)
-    canvas.text(right - long / 2, y - 9, f"{units:g} units", SMALL, theme.ink, align="centre")
+    canvas.text(right - long / 2, y - 9, f"{units:g} units", SMALL_PIXELS, theme.ink, align="centre")
 
 
 def _width(canvas: Canvas, text: str, size: float) -> float:

@@ -53,13 +53,13 @@ STYLE = {
     "savefig.dpi": 220.0,
     "svg.hashsalt": "mind",  # names that do not change from one drawing to the next
 }
-ALONE, AMONG = (6.4, 3.8), (3.7, 2.7)  # inches: a panel by itself, and one of several
-WIDEST = 4  # panels
+SINGLE_PANEL_INCHES, GRID_PANEL_INCHES = (6.4, 3.8), (3.7, 2.7)  # inches: a panel by itself, and one of several
+MAX_PANELS_PER_ROW = 4  # panels
 ROUND = [1, 2, 5, 10]  # steps of the axes
-BEYOND = 9.0  # points from the last generation to the verdict on it
+VERDICT_OFFSET_POINTS = 9.0  # points from the last generation to the verdict on it
 
 EDGE = {"markeredgecolor": PAGE, "markeredgewidth": 0.6}  # so that marks which overlap can be told apart
-LOOKS: dict[str, dict[str, Any]] = {
+CURVE_STYLES: dict[str, dict[str, Any]] = {
     "best": {"linewidth": 0.6, "alpha": 0.45},
     "reevaluated": {"linewidth": 1.3, "marker": "o", "markersize": 3.8, **EDGE},
     "verdict": {"linestyle": "none", "marker": "D", "markersize": 4.8, **EDGE},
@@ -74,9 +74,9 @@ MEANINGS = {
 @style.context(["default", STYLE])
 def figure(curves: Sequence[Curve]) -> Figure:
     """A panel for each curve, and below them what its lines and marks mean."""
-    columns = len(curves) if len(curves) <= 3 else min(WIDEST, ceil(sqrt(len(curves))))
+    columns = len(curves) if len(curves) <= 3 else min(MAX_PANELS_PER_ROW, ceil(sqrt(len(curves))))
     rows = ceil(len(curves) / columns)
-    wide, high = ALONE if len(curves) == 1 else AMONG
+    wide, high = SINGLE_PANEL_INCHES if len(curves) == 1 else GRID_PANEL_INCHES
     drawn = Figure(figsize=(wide * columns, high * rows + 0.4), layout="constrained", facecolor=PAGE)
     for number, curve in enumerate(curves):
         axes = drawn.add_subplot(rows, columns, number + 1)
@@ -100,8 +100,8 @@ def _panel(drawn: Figure, axes: Axes, curve: Curve) -> None:
     axes.annotate(
         curve.note, (0, 1), (0, 8), xycoords="axes fraction", textcoords="offset points", size=6.5, color=FAINT
     )
-    beyond = offset_copy(axes.transData, drawn, x=BEYOND, units="points")
-    for layer, (column, look) in enumerate(LOOKS.items(), 3):
+    beyond = offset_copy(axes.transData, drawn, x=VERDICT_OFFSET_POINTS, units="points")
+    for layer, (column, look) in enumerate(CURVE_STYLES.items(), 3):
         where = beyond if column == "verdict" else axes.transData
         for attempt in curve.attempts:
             points = curve.points(attempt, column)
@@ -116,8 +116,8 @@ def _panel(drawn: Figure, axes: Axes, curve: Curve) -> None:
 
 
 def _legend(drawn: Figure, curves: Sequence[Curve], columns: int) -> None:
-    shown = [name for name in LOOKS if any(curve.points(a, name) for curve in curves for a in curve.attempts)]
-    handles: list[Any] = [Line2D([], [], color=INK, **LOOKS[name]) for name in shown]
+    shown = [name for name in CURVE_STYLES if any(curve.points(a, name) for curve in curves for a in curve.attempts)]
+    handles: list[Any] = [Line2D([], [], color=INK, **CURVE_STYLES[name]) for name in shown]
     labels = [MEANINGS[name] for name in shown]
     if (attempts := max(len(curve.attempts) for curve in curves)) > 1:
         handles.append(tuple(Line2D([], [], color=colour, linewidth=1.5) for colour in ATTEMPTS[: min(attempts, 5)]))

@@ -13,8 +13,8 @@ from mindlang.pictures.recorded_run import RecordedRun
 from mindlang.pictures.theme import Theme, mixed
 
 BEND = np.linspace(0.0, 1.0, 24)
-LARGEST, SMALLEST = 11.0, 5.0  # capitals of names, in pixels
-RIM, CORE = 7.0, 2.0
+MAX_TEXT_PIXELS, MIN_TEXT_PIXELS = 11.0, 5.0  # capitals of names, in pixels
+RIM_PIXELS, CORE_PIXELS = 7.0, 2.0
 
 
 class Panel:
@@ -44,9 +44,9 @@ class Panel:
 
     def _link(self, canvas: Canvas, stops: Sequence[Place], carried: Flowing) -> None:
         theme, line = self._theme, _curve(stops)
-        canvas.line(line, mixed(theme.dark, theme.glow, carried.transmitted), RIM)
-        canvas.line(line, theme.page, CORE + 2)
-        canvas.line(line, mixed(theme.dark, theme.glow, carried.command), CORE)
+        canvas.line(line, mixed(theme.dark, theme.glow, carried.transmitted), RIM_PIXELS)
+        canvas.line(line, theme.page, CORE_PIXELS + 2)
+        canvas.line(line, mixed(theme.dark, theme.glow, carried.command), CORE_PIXELS)
 
     def _skill(self, canvas: Canvas, name: str, place: Place, influence: float) -> None:
         theme = self._theme
@@ -88,7 +88,9 @@ class Panel:
 
 def fitting(line: str, place: Place) -> float:
     """The size at which a line fits into a box."""
-    return min(LARGEST, max(SMALLEST, LARGEST * 0.84 * place.width / text_width(line, LARGEST)))
+    return min(
+        MAX_TEXT_PIXELS, max(MIN_TEXT_PIXELS, MAX_TEXT_PIXELS * 0.84 * place.width / text_width(line, MAX_TEXT_PIXELS))
+    )
 
 
 def _curve(stops: Sequence[Place]) -> NDArray[np.float64]:

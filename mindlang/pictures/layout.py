@@ -8,8 +8,8 @@ from statistics import fmean
 from mindlang.pictures.influence_flow import Link, Sink
 
 CROSSING_SWEEPS = 8
-WIDEST, HIGHEST = 210.0, 50.0  # pixels of a box
-PASSAGE = 0.3  # of a box's room: that of a link which passes a row
+MAX_BOX_WIDTH, MAX_BOX_HEIGHT = 210.0, 50.0  # pixels of a box
+PASSAGE_SHARE = 0.3  # of a box's room: that of a link which passes a row
 
 
 @dataclass(frozen=True, slots=True)
@@ -83,9 +83,12 @@ def _ordered(rows: list[list[Sink]], routes: Iterable[Sequence[Sink]]) -> list[l
 
 def _spread(row: Sequence[Sink], level: int, levels: int, room: Place) -> Iterable[tuple[Sink, Place]]:
     """The boxes of a row side by side; `room` is given by its upper left corner."""
-    shares = [PASSAGE if sink[0] == "link" else 1.0 for sink in row]
+    shares = [PASSAGE_SHARE if sink[0] == "link" else 1.0 for sink in row]
     unit, gap = room.width / sum(shares), room.height / levels
     x, y = room.x, room.y + (level + 0.5) * gap
     for sink, share in zip(row, shares, strict=True):
-        yield sink, Place(x + share * unit / 2, y, min(0.88 * share * unit, WIDEST), min(0.5 * gap, HIGHEST))
+        yield (
+            sink,
+            Place(x + share * unit / 2, y, min(0.88 * share * unit, MAX_BOX_WIDTH), min(0.5 * gap, MAX_BOX_HEIGHT)),
+        )
         x += share * unit

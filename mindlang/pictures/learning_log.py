@@ -20,7 +20,7 @@ TABLES = (".csv", ".csv.gz")
 HINT = f"a run is a folder like runs/GoToObject/20260714T120000Z-1, a table ends in {' or '.join(TABLES)}"
 SCORES = ("best", "reevaluated", "verdict")
 MAX_TABLE_BYTES = 64 << 20
-NEEDED = ("attempt", "generation", "best")
+REQUIRED_COLUMNS = ("attempt", "generation", "best")
 
 Records = Sequence[Mapping[str, float | None]]
 
@@ -52,7 +52,7 @@ class Curve:
 def load_curves(paths: Iterable[Path]) -> list[Curve]:
     """The curves of all runs and tables, each once; NotFoundError or RunError where there is nothing to show."""
     logs = dict.fromkeys(log for path in paths for log in _logs(path))
-    return _told_apart([_from_table(log) if log.is_file() else _from_run(log) for log in logs])
+    return _with_distinct_notes([_from_table(log) if log.is_file() else _from_run(log) for log in logs])
 
 
 def _logs(path: Path) -> list[Path]:
@@ -86,7 +86,7 @@ def _from_table(path: Path) -> Curve:
         raise NotFoundError(f"{path} cannot be read: {getattr(error, 'strerror', None) or error}") from error
     except (UnicodeDecodeError, csv.Error) as error:
         raise RunError(f"{path} is not a table of text") from error
-    if missing := [column for column in NEEDED if column not in header]:
+    if missing := [column for column in REQUIRED_COLUMNS if column not in header]:
         raise RunError(f"{path} is not the log of a run: it has no column {missing[0]}")
     if rows and len(rows[-1]) < len(header):
         rows.pop()  # of a run that is just writing it
@@ -122,7 +122,7 @@ def _unless_empty(curve: Curve) -> Curve:
     return curve
 
 
-def _told_apart(curves: list[Curve]) -> list[Curve]:
+def _with_distinct_notes(curves: list[Curve]) -> list[Curve]:
     """Curves that share a name get the part of their path that they do not share as a note."""
     alike = {curve.name: [other.path.resolve() for other in curves if other.name == curve.name] for curve in curves}
     notes = [os.path.relpath(curve.path.resolve(), os.path.commonpath(alike[curve.name])) for curve in curves]

@@ -5,7 +5,7 @@ from typing import Any
 import cv2
 import numpy as np
 
-from mindlang.pictures.canvas import Canvas, Image, View, blank, pasted
+from mindlang.pictures.canvas import Canvas, Image, Viewport, blank, pasted
 from mindlang.pictures.caption import draw_legend, draw_scale, draw_title
 from mindlang.pictures.path import Path, draw_collisions, draw_former, draw_start
 from mindlang.pictures.recorded_run import RecordedRun
@@ -13,32 +13,35 @@ from mindlang.pictures.scene import WALL_UNITS, draw_floor, draw_items, draw_nam
 from mindlang.pictures.theme import PAPER
 
 PICTURE_PIXELS = 1000
-ABOVE, BELOW, SIDE = 96, 74, 28  # what stands around the world
-SUPERSAMPLING = 2  # drawn so many times larger, then averaged
+TOP_PIXELS, BOTTOM_PIXELS, SIDE_PIXELS = 96, 74, 28  # what stands around the world
+SCALE_FACTOR = 2  # drawn so many times larger, then averaged
 PLAIN_MARGIN_UNITS = 6.0  # around a plain scene
 
 
 def picture(run: RecordedRun, found: dict[str, Any]) -> Image:
     """The picture of a run with the outcome `found`."""
-    page = blank(SUPERSAMPLING * PICTURE_PIXELS, SUPERSAMPLING * PICTURE_PIXELS, PAPER.page)
-    wide, high = SUPERSAMPLING * (PICTURE_PIXELS - 2 * SIDE), SUPERSAMPLING * (PICTURE_PIXELS - ABOVE - BELOW)
+    page = blank(SCALE_FACTOR * PICTURE_PIXELS, SCALE_FACTOR * PICTURE_PIXELS, PAPER.page)
+    wide = SCALE_FACTOR * (PICTURE_PIXELS - 2 * SIDE_PIXELS)
+    high = SCALE_FACTOR * (PICTURE_PIXELS - TOP_PIXELS - BOTTOM_PIXELS)
     view = view_of(run, wide, high)
-    pasted(page, _world(run, view, wide, high), SUPERSAMPLING * SIDE, SUPERSAMPLING * ABOVE)
-    canvas = Canvas(page, View(0.0, 0.0, SUPERSAMPLING), pen=SUPERSAMPLING, down=True)
-    draw_title(canvas, run, found, PAPER, SIDE, 34, PICTURE_PIXELS - SIDE)
-    draw_legend(canvas, run, Path.of(run, PAPER), PAPER, SIDE, PICTURE_PIXELS - 46, PICTURE_PIXELS - SIDE - 170)
-    draw_scale(canvas, SUPERSAMPLING / view.scale, PAPER, PICTURE_PIXELS - SIDE, PICTURE_PIXELS - 44)
+    pasted(page, _world(run, view, wide, high), SCALE_FACTOR * SIDE_PIXELS, SCALE_FACTOR * TOP_PIXELS)
+    canvas = Canvas(page, Viewport(0.0, 0.0, SCALE_FACTOR), pen=SCALE_FACTOR, down=True)
+    draw_title(canvas, run, found, PAPER, SIDE_PIXELS, 34, PICTURE_PIXELS - SIDE_PIXELS)
+    draw_legend(
+        canvas, run, Path.of(run, PAPER), PAPER, SIDE_PIXELS, PICTURE_PIXELS - 46, PICTURE_PIXELS - SIDE_PIXELS - 170
+    )
+    draw_scale(canvas, SCALE_FACTOR / view.scale, PAPER, PICTURE_PIXELS - SIDE_PIXELS, PICTURE_PIXELS - 44)
     return cv2.resize(page, (PICTURE_PIXELS, PICTURE_PIXELS), interpolation=cv2.INTER_AREA).astype(np.uint8)
 
 
-def view_of(run: RecordedRun, width: int, height: int) -> View:
+def view_of(run: RecordedRun, width: int, height: int) -> Viewport:
     """The arena, or in a plain scene all that happened."""
     if run.task.scene.is_bounded:
         half = run.task.scene.side / 2 + WALL_UNITS
-        return View.around([-half, -half], [half, half], width, height)
+        return Viewport.around([-half, -half], [half, half], width, height)
     places = [run.body[:, :2], *(run.placements(i)[:, :2] for i in range(len(run.contents)))]
     seen = np.concatenate([*places, run.boxes[:, :2]])
-    return View.around(seen.min(axis=0) - PLAIN_MARGIN_UNITS, seen.max(axis=0) + PLAIN_MARGIN_UNITS, width, height)
+    return Viewport.around(seen.min(axis=0) - PLAIN_MARGIN_UNITS, seen.max(axis=0) + PLAIN_MARGIN_UNITS, width, height)
 
 
 def png(image: Image) -> bytes:
@@ -48,10 +51,10 @@ def png(image: Image) -> bytes:
     return bytes(data)
 
 
-def _world(run: RecordedRun, view: View, width: int, height: int) -> Image:
+def _world(run: RecordedRun, view: Viewport, width: int, height: int) -> Image:
     is_plain = not run.task.scene.is_bounded
     image = blank(width, height, PAPER.floor if is_plain else PAPER.page)
-    canvas = Canvas(image, view, pen=SUPERSAMPLING)
+    canvas = Canvas(image, view, pen=SCALE_FACTOR)
     draw_floor(canvas, run, PAPER)
     draw_former(canvas, run, PAPER)
     draw_zones(canvas, run, PAPER, run.ticks)

@@ -4,7 +4,7 @@ Its condition cannot hold with readings between 0 and 1, its event cannot happen
 amount is always 0. Learning goes on without it and nobody notices.
 """
 
-from mindlang.analysis.intervals import said
+from mindlang.analysis.intervals import range_in_words
 from mindlang.analysis.study import Finding, Found, Study
 from mindlang.analysis.worlds import World, world
 from mindlang.compiler.diagnostic import Fix
@@ -59,5 +59,5 @@ def _why(place: World, reward: Reward) -> tuple[Span, str, str] | None:
 
 
 def _never(place: World, when: Condition, reward: Reward) -> str:
-    left, right = (said(place.value(side, reward)) for side in (when.left, when.right))
+    left, right = (range_in_words(place.value(side, reward)) for side in (when.left, when.right))
     return f"{when.left.span.text} is {left}, never {WORDS[when.compare]} {right.removeprefix('always ')}"

@@ -25,10 +25,13 @@ task Course in arena
   rewards forward per tick
 curriculum School is genetic
 """
-FIRST = "  teaches Go on Course for 10 generations\n"
-THEN = "  teaches Live on Course for 10 generations\n"
-GOOD = (HIERARCHY + FIRST + THEN, f"{HIERARCHY}  teaches Live on Course for 10 generations with subskills\n{FIRST}")
-BAD = (HIERARCHY + THEN + FIRST,)
+FIRST_LESSON = "  teaches Go on Course for 10 generations\n"
+SECOND_LESSON = "  teaches Live on Course for 10 generations\n"
+GOOD = (
+    HIERARCHY + FIRST_LESSON + SECOND_LESSON,
+    f"{HIERARCHY}  teaches Live on Course for 10 generations with subskills\n{FIRST_LESSON}",
+)
+BAD = (HIERARCHY + SECOND_LESSON + FIRST_LESSON,)
 
 Latest = dict[str, tuple[int, str]]
 

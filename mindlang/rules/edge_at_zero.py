@@ -9,7 +9,7 @@ from mindlang.analysis.study import Finding, Found, Study
 from mindlang.compiler.diagnostic import Fix
 from mindlang.editing.insertion import without_fact
 
-BELOW = """
+HIERARCHY = """
 master Live
 sensor eye is range_finder at 0 deg
 skill Back is rule
@@ -20,11 +20,11 @@ skill Live is rule
   reads eye
   influences Go at eye
 """
-GOOD = (f"{BELOW}  influences Back at 1 - eye\n",)
+GOOD = (f"{HIERARCHY}  influences Back at 1 - eye\n",)
 BAD = (
-    f"{BELOW}  influences Back at 0\n",
-    f"{BELOW}  influences Back at 1/2 - 0.5\n",
-    f"{BELOW}  influences Back at -eye\n",
+    f"{HIERARCHY}  influences Back at 0\n",
+    f"{HIERARCHY}  influences Back at 1/2 - 0.5\n",
+    f"{HIERARCHY}  influences Back at -eye\n",
 )
 
 

@@ -4,7 +4,7 @@ Every influence and command is clamped to 0..1. A value that is only sometimes o
 "at most". One that always is says no more than 0 or 1, whatever its skill reads.
 """
 
-from mindlang.analysis.intervals import Interval, interval, is_constant, said
+from mindlang.analysis.intervals import Interval, interval, is_constant, range_in_words
 from mindlang.analysis.study import Finding, Found, Study
 from mindlang.compiler.diagnostic import Fix
 from mindlang.compiler.model import Edge
@@ -43,7 +43,7 @@ def _finding(edge: Edge, found: Interval) -> Finding:
     assert edge.at
     clamped = 1 if found[0] >= 1 else 0
     fix = Fix(f"Write {clamped}", (instead(edge.at.span, str(clamped)),))
-    message = f"This value is {said(found)}, which is clamped to {clamped}."
+    message = f"This value is {range_in_words(found)}, which is clamped to {clamped}."
     share = f", or {found[0]:g}% if that is meant" if found[0] == found[1] and 1 < found[0] <= 100 else ""
     hint = f"Write at {clamped}{share or ', or a value that gets between 0 and 1'}."
     return Finding(edge.at.span, message, hint, fix=fix)

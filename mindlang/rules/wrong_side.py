@@ -10,7 +10,7 @@ from math import sin
 from mindlang.analysis.study import Finding, Found, Study, words
 from mindlang.compiler.source import Span
 
-OTHER = {"left": "right", "right": "left"}
+OPPOSITE_SIDES = {"left": "right", "right": "left"}
 GOOD = ("sensor left_eye is range_finder at 30 60 deg\n", "sensor left_eye is range_finder at 0 deg\n")
 BAD = (
     "sensor left_eye is range_finder at -40 deg\n",
@@ -25,8 +25,8 @@ def check(study: Study) -> Found:
     """Wheels and range finders named after the side on which they are not."""
     for name, side, span in _sided(study):
         said = {*words(name)}
-        if OTHER[side] in said and side not in said:
-            hint = f"Put it on the {OTHER[side]}, or rename it: mindc edit rename {name} NAME."
+        if OPPOSITE_SIDES[side] in said and side not in said:
+            hint = f"Put it on the {OPPOSITE_SIDES[side]}, or rename it: mindc edit rename {name} NAME."
             yield Finding(span, f"{name} is on the {side}.", hint)
 
 

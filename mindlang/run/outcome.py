@@ -23,7 +23,7 @@ def events(task: Task) -> list[str]:
     return [phrase(event) for event in task.events]
 
 
-def one(task: Task, scores: Scores) -> dict[str, Any]:
+def run_data(task: Task, scores: Scores) -> dict[str, Any]:
     """The single run of `scores`; a sum that is not a finite number is None, `counts` is the sum of `by_event`."""
     by_line: dict[str, float] = {}
     for reward, paid in zip(task.rewards, scores.by_line[0, 0], strict=False):
@@ -42,7 +42,7 @@ def one(task: Task, scores: Scores) -> dict[str, Any]:
     }
 
 
-def many(task: Task, scores: Scores, seeds: Sequence[int], seconds: float) -> dict[str, Any]:
+def bench_data(task: Task, scores: Scores, seeds: Sequence[int], seconds: float) -> dict[str, Any]:
     """All runs of one genome; the best and the worst run are named by their seed.
 
     A `std` is that of the sample, how far single runs are apart; a `standard_error` how far the mean may be off. One

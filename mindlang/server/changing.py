@@ -41,7 +41,7 @@ def proposed(project: Project, name: str, arguments: Mapping[str, Any]) -> MindC
     if name not in names():
         raise EditError(f"There is no edit called {name}.", did_you_mean(name, names()))
     of = edit(name)
-    change: MindChange = of.function(project, **_said(of, arguments))
+    change: MindChange = of.function(project, **_checked_arguments(of, arguments))
     return change
 
 
@@ -69,7 +69,7 @@ def _project(view: MindView) -> Project:
     return Project(view.compiled.mind, view.compiled.graph)
 
 
-def _said(of: Edit, arguments: Mapping[str, Any]) -> dict[str, Any]:
+def _checked_arguments(of: Edit, arguments: Mapping[str, Any]) -> dict[str, Any]:
     """The arguments of an edit as its function takes them."""
     many = dict(of.arguments) | {option.name: option.many for option in of.options}
     for key in arguments:

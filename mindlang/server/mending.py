@@ -44,11 +44,11 @@ def all_mended(view: MindView, path: Path, texts: dict[Path, str]) -> str | None
         return None
     source = view.compiled.sources[0]
 
-    def look(now: Source) -> tuple[Diagnostic, ...]:
+    def findings_of(now: Source) -> tuple[Diagnostic, ...]:
         if now is source:
             return view.findings
         compiled = compile_source(now, path, {**texts, path: now.text})
         return MindView(path, compiled, (), view.names).findings
 
-    mended, made = fixed(source, look)
+    mended, made = fixed(source, findings_of)
     return mended.text if made else None

@@ -47,7 +47,7 @@ class Session:
 
     def news(self) -> Iterator[types.PublishDiagnosticsParams]:
         """What is to be said anew: the findings in all files of the open minds, and of files that have none now."""
-        found = self._found()
+        found = self._findings_by_file()
         for path in [*found, *(path for path in self._told if path not in found)]:
             now = self.lsp.versions.get(path), [self.lsp.diagnostic(each) for each in found.get(path, ())]
             if self._told.get(path) != now:
@@ -55,7 +55,7 @@ class Session:
             self._told[path] = now
         self._told = {path: report for path, report in self._told.items() if report[1] or path in found}
 
-    def _found(self) -> dict[Path, list[Diagnostic]]:
+    def _findings_by_file(self) -> dict[Path, list[Diagnostic]]:
         """The findings by file, each once, also where several minds have it."""
         found: dict[Path, dict[tuple[object, ...], Diagnostic]] = {path: {} for path in self.workspace.texts}
         for main in self.workspace.mains():

@@ -53,7 +53,7 @@ def chosen_lessons(graph: Graph, curriculum: str | None, skills: Sequence[str]) 
         )
     names = list(dict.fromkeys(lesson.curriculum for lesson in graph.lessons))
     if curriculum is not None and curriculum not in names:
-        raise NotFoundError(f"there is no curriculum called {curriculum}", _one_of(curriculum, names))
+        raise NotFoundError(f"there is no curriculum called {curriculum}", _suggestion(curriculum, names))
     if not skills:
         return _of(graph, curriculum or names[0])
     searched = [curriculum] if curriculum else names
@@ -99,8 +99,8 @@ def _teaching(graph: Graph, curricula: Sequence[str], skill: str) -> tuple[Lesso
         if found := tuple(lesson for lesson in _of(graph, curriculum) if lesson.skill == skill):
             return found
     taught = [lesson.skill for curriculum in curricula for lesson in _of(graph, curriculum)]
-    raise NotFoundError(f"no lesson teaches {skill}", _one_of(skill, taught))
+    raise NotFoundError(f"no lesson teaches {skill}", _suggestion(skill, taught))
 
 
-def _one_of(name: str, known: Sequence[str]) -> str:
+def _suggestion(name: str, known: Sequence[str]) -> str:
     return did_you_mean(name, known) or f"There is {listed(dict.fromkeys(known), 'and')}"

@@ -79,9 +79,9 @@ def _option(field: Field[Any], hint: Any) -> DriverOption:
 
 def _type(hint: Any) -> tuple[Any, Quantity | Reference, int | None]:
     """The plain type of one value, its meaning, and how many there are: None for one, 0 for any number."""
-    hint = _said(hint)
+    hint = _without_none(hint)
     plain, meaning = get_args(hint)[:2] if get_origin(hint) is Annotated else (hint, None)
-    plain = _said(plain)
+    plain = _without_none(plain)
     count = None
     if get_origin(plain) is tuple:
         parts = get_args(plain)
@@ -93,7 +93,7 @@ def _type(hint: Any) -> tuple[Any, Quantity | Reference, int | None]:
     return plain, bare.get(plain, NUMBER), count
 
 
-def _said(hint: Any) -> Any:
+def _without_none(hint: Any) -> Any:
     """The type of what may also be None, when it is said."""
     if get_origin(hint) in (Union, UnionType):
         return next(part for part in get_args(hint) if part is not NoneType)

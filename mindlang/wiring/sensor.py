@@ -56,7 +56,7 @@ def _check_readings(wired: Wired, sensor: Sensor, findings: Findings) -> None:
     count, name = wired.driver.readings, wired.name.text
     lists = [option.key for option in driver_options(type(wired.driver)) if option.shape == "numbers"]
     if count != sensor.width:
-        message = f"The mind's {name} has {_many(sensor.width)}, and this driver {count}."
+        message = f"The mind's {name} has {_count_readings(sensor.width)}, and this driver {count}."
         hint = (
             f"List {sensor.width} in {lists[0]}: one for each."
             if lists
@@ -67,7 +67,7 @@ def _check_readings(wired: Wired, sensor: Sensor, findings: Findings) -> None:
     for option in driver_options(type(wired.driver)):
         entry, pins = wired.entry(option.key), getattr(wired.driver, option.field)
         if option.type is PIN and entry and isinstance(pins, tuple) and len(pins) != count:
-            message = f"{option.key} has {len(pins)} pin{'s' * (len(pins) != 1)}, for {_many(count)}."
+            message = f"{option.key} has {len(pins)} pin{'s' * (len(pins) != 1)}, for {_count_readings(count)}."
             hint = f"List {count}, in the order of the readings."
             report_error(findings, "wrong-count", first_line(entry.value.span), message, hint)
 
@@ -105,5 +105,5 @@ def _check_times(wired: Wired, wire: SensorWire, findings: Findings) -> None:
         report_error(findings, "idle-hold", wired.span("hold"), "Nothing is held here on a fault.", hint)
 
 
-def _many(count: int) -> str:
+def _count_readings(count: int) -> str:
     return f"{count} reading{'s' * (count != 1)}"

@@ -34,10 +34,10 @@ def write_out(path: Path, data: bytes) -> None:
     So `-o /dev/null` and `-o /dev/stdout` do what they do elsewhere. OSError where it cannot be written.
     """
     if (descriptor := descriptor_of(path)) is not None:
-        _pour(descriptor, data)
+        _write_all(descriptor, data)
     elif _takes_all(path):
         with _opened(path) as descriptor:
-            _pour(descriptor, data)
+            _write_all(descriptor, data)
     else:
         write(destination(path), data)
 
@@ -185,7 +185,7 @@ def _opened(path: Path) -> Iterator[int]:
         os.close(descriptor)
 
 
-def _pour(descriptor: int, data: bytes) -> None:
+def _write_all(descriptor: int, data: bytes) -> None:
     rest = memoryview(data)
     while rest:
         rest = rest[os.write(descriptor, rest) :]

@@ -54,14 +54,14 @@ def _lines(found: dict[str, Any]) -> Iterator[str]:
     yield f"master {found['master']}, {1 / found['tick']:g} ticks a second"
     for part in found["sensors"]:
         computed = ", computed by the mind itself" if part["computed"] else ""
-        yield f"sensor {part['name']} is {part['kind']}: {_many(part['readings'], 'reading')}{computed}"
+        yield f"sensor {part['name']} is {part['kind']}: {_counted(part['readings'], 'reading')}{computed}"
     for part in found["memories"]:
         yield f"memory {part['name']} is {part['kind']}: decay {part['decay']:g}"
     for part in found["actuators"]:
         yield f"actuator {part['name']} is {part['kind']}: neutral {part['neutral']:g}"
     for part in found["skills"]:
-        weights = f", {_many(part['weights'], 'weight')}" if part["weights"] else ""
-        yield f"skill {part['name']} is {part['kind']}: {_many(part['inputs'], 'input')}{weights}"
+        weights = f", {_counted(part['weights'], 'weight')}" if part["weights"] else ""
+        yield f"skill {part['name']} is {part['kind']}: {_counted(part['inputs'], 'input')}{weights}"
     if "robot" in found:
         yield from _wires(found["robot"])
 
@@ -82,5 +82,5 @@ def _wires(robot: dict[str, Any]) -> Iterator[str]:
         yield f"actuator {wire['actuator']} is wired to {wire['driver']['is']}: {limits}{slew}{turned}"
 
 
-def _many(count: int, noun: str) -> str:
+def _counted(count: int, noun: str) -> str:
     return f"{count} {noun}" + ("" if count == 1 else "s")

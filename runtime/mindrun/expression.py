@@ -61,7 +61,7 @@ def leaves(program: Program, leaf: str) -> set[int]:
     return {int(operand) for operator, operand in program if operator == leaf}
 
 
-def is_sound(program: Program) -> bool:
+def is_valid_program(program: Program) -> bool:
     """Whether a program never takes from an empty stack and leaves exactly one value."""
     height = 0
     for operator, _ in program:

@@ -90,7 +90,8 @@ def _read(cls: type[Any]) -> tuple[Argument, ...]:
 
 
 def _type(hint: Any) -> tuple[Quantity | Reference, str]:
-    assert get_origin(hint) is Annotated, hint
+    if get_origin(hint) is not Annotated:
+        raise TypeError(f"{hint} does not say what an argument means")
     plain, meaning = get_args(hint)[:2]
     match plain, meaning:
         case _, Reference():

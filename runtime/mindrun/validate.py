@@ -3,14 +3,14 @@
 import re
 from collections.abc import Container, Iterator
 
-from mindrun.expression import OPERATORS, is_sound, leaves
+from mindrun.expression import OPERATORS, is_valid_program, leaves
 from mindrun.graph import Graph, Lesson, Program, Skill, Task
 from mindrun.quantity import THING, UNSAID
 from mindrun.registry import arguments
 from mindrun.things.thing import MAX_OBSTACLES, MAX_THINGS
 
 NAME = re.compile(r"[^\W\d_]\w*([+.]\w+)*")
-SHORTEST, LONGEST = 1e-9, 1e9  # seconds of a tick
+MIN_TICK_SECONDS, MAX_TICK_SECONDS = 1e-9, 1e9  # seconds of a tick
 
 
 def graph_flaw(graph: Graph) -> str | None:
@@ -20,7 +20,7 @@ def graph_flaw(graph: Graph) -> str | None:
 
 def _flaws(graph: Graph) -> Iterator[str]:
     """What is wrong, in an order in which each may build upon what was right before."""
-    if not SHORTEST <= graph.tick <= LONGEST:
+    if not MIN_TICK_SECONDS <= graph.tick <= MAX_TICK_SECONDS:
         yield f"its tick cannot be {graph.tick:g} s"
     yield from _name_flaws(graph)
     yield from _sense_flaws(graph)
@@ -152,7 +152,7 @@ def _computes(program: Program, readings: Container[int], measures: int = 0, eac
     """Whether a program has a value, and uses only these readings, measures and, in a loop, the reading at hand."""
     words = {*OPERATORS, "negate", "number", "reading", "measure"} | ({"each"} if each else set())
     return (
-        is_sound(program)
+        is_valid_program(program)
         and {word for word, _ in program} <= words
         and all(isinstance(operand, int) for word, operand in program if word != "number")
         and all(index in readings for index in leaves(program, "reading"))

@@ -6,7 +6,7 @@ from math import inf, nextafter
 
 import pytest
 from mindrun.events import Delivery, Reach, Visit
-from mindrun.expression import is_sound
+from mindrun.expression import is_valid_program
 from mindrun.functions import Mlp
 from mindrun.graph import Condition, Edge, Graph, Lesson, Memory, Reward, Sensor, Task, Thing
 from mindrun.learners import Genetic
@@ -223,4 +223,4 @@ def test_a_derivative_is_one_deeper_than_what_it_is_of() -> None:
     ],
 )
 def test_a_program_leaves_one_value(words: str, sound: bool) -> None:
-    assert is_sound(tuple((word, 0) for word in words.split())) is sound
+    assert is_valid_program(tuple((word, 0) for word in words.split())) is sound

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from mindlang.analysis.intervals import ANY, interval
+from mindlang.analysis.intervals import UNBOUNDED, interval
 from mindlang.compiler.compile import load
 from mindlang.compiler.model import Expression, Number, Reading
 from mindlang.compiler.source import Source, Span
@@ -220,7 +220,7 @@ def span() -> Span:
 
 @pytest.mark.parametrize(
     ("symbol", "right", "expected"),
-    [("+", 2, (2, 3)), ("-", 2, (-2, -1)), ("*", -2, (-2, 0)), ("/", -2, (-0.5, 0)), ("/", 0, ANY)],
+    [("+", 2, (2, 3)), ("-", 2, (-2, -1)), ("*", -2, (-2, 0)), ("/", -2, (-0.5, 0)), ("/", 0, UNBOUNDED)],
 )
 def test_intervals(symbol: str, right: float, expected: tuple[float, float]) -> None:
     terms = (Reading("eye", span()), Number(right, span()), Operator(symbol, span()))

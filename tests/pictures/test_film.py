@@ -8,8 +8,8 @@ import pytest
 
 from mindlang.compiler.compile import load
 from mindlang.pictures.canvas import text_width
-from mindlang.pictures.film import HEIGHT, WIDTH
-from mindlang.pictures.hierarchy_panel import LARGEST, fitting
+from mindlang.pictures.film import FILM_HEIGHT, FILM_WIDTH
+from mindlang.pictures.hierarchy_panel import MAX_TEXT_PIXELS, fitting
 from mindlang.pictures.influence_flow import Flow, Link
 from mindlang.pictures.layout import Layout, Place
 from mindlang.pictures.recorded_run import record_run
@@ -27,7 +27,7 @@ def test_a_film_has_its_frames(mindc: Call, rules: Path) -> None:
     while (read := video.read())[0]:
         frames.append(read[1])
     assert len(frames) == 61  # 1,200 ticks of 1/60 s at 10 times the speed, 30 frames a second, and the last
-    assert frames[0].shape == (HEIGHT, WIDTH, 3)
+    assert frames[0].shape == (FILM_HEIGHT, FILM_WIDTH, 3)
     assert np.abs(frames[0].astype(int) - frames[-1]).max() > 50
     assert sorted(file.suffix for file in rules.parent.iterdir()) == [".mind", ".mp4"]
 
@@ -41,7 +41,7 @@ def test_a_speed_is_a_number(mindc: Call, rules: Path) -> None:
 def test_a_name_and_its_number_fit_into_a_box() -> None:
     place = Place(0.0, 0.0, 100.0, 50.0)
     assert text_width("left_wheel  0.00", fitting("left_wheel  0.00", place)) <= 0.84 * place.width + 1
-    assert fitting("left", place) == LARGEST
+    assert fitting("left", place) == MAX_TEXT_PIXELS
 
 
 def test_a_film_that_fails_leaves_the_old_one(mindc: Call, rules: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -11,14 +11,14 @@ from mindrun.graph import Thing
 from mindrun.things import Item
 
 from mindlang.compiler.compile import load
-from mindlang.pictures.canvas import Canvas, Image, View, blank
-from mindlang.pictures.caption import LINES, SMALLEST, fitted
-from mindlang.pictures.picture import ABOVE, BELOW, PICTURE_PIXELS, SIDE, picture, view_of
+from mindlang.pictures.canvas import Canvas, Image, Viewport, blank
+from mindlang.pictures.caption import LEGEND_LINES, MIN_TEXT_PIXELS, fitted
+from mindlang.pictures.picture import BOTTOM_PIXELS, PICTURE_PIXELS, SIDE_PIXELS, TOP_PIXELS, picture, view_of
 from mindlang.pictures.recorded_run import RecordedRun, record_run
 from mindlang.pictures.scene import thing_colours
 from mindlang.pictures.theme import PAPER, mixed
 from mindlang.run.layouts import NO_GENOME
-from mindlang.run.outcome import one
+from mindlang.run.outcome import run_data
 from mindlang.run.setup import set_up
 from tests.calling import RULES, Call
 
@@ -27,15 +27,15 @@ def told(file: Path, task: str, seed: int = 3) -> tuple[RecordedRun, Image]:
     """A story and its picture."""
     found = set_up(str(file), load(file), task, None)
     rollout = found.rollout()
-    outcome = one(found.task, rollout.score(NO_GENOME, [seed]))
+    outcome = run_data(found.task, rollout.score(NO_GENOME, [seed]))
     story = record_run(found, rollout, seed)
     return story, picture(story, {"task": task, "master": found.master, "seed": seed} | outcome)
 
 
 def pixel(story: RecordedRun, image: Image, x: float, y: float) -> np.ndarray:
     """The colour at a place of the world."""
-    view = view_of(story, PICTURE_PIXELS - 2 * SIDE, PICTURE_PIXELS - ABOVE - BELOW)
-    column, row = SIDE + (x - view.left) * view.scale, ABOVE + (view.top - y) * view.scale
+    view = view_of(story, PICTURE_PIXELS - 2 * SIDE_PIXELS, PICTURE_PIXELS - TOP_PIXELS - BOTTOM_PIXELS)
+    column, row = SIDE_PIXELS + (x - view.left) * view.scale, TOP_PIXELS + (view.top - y) * view.scale
     return image[round(row), round(column)].astype(int)
 
 
@@ -91,10 +91,10 @@ def test_a_collision_that_ends_the_run_lies_over_the_robot(rules: Path) -> None:
 
 @pytest.mark.parametrize("names", [["a"], ["a", "bb", "ccc"] * 4, ["a_name_that_is_long"] * 20])
 def test_a_legend_stays_within_its_lines(names: list[str]) -> None:
-    canvas = Canvas(blank(400, 100, PAPER.page), View(0.0, 0.0, 1.0), down=True)
+    canvas = Canvas(blank(400, 100, PAPER.page), Viewport(0.0, 0.0, 1.0), down=True)
     size, places = fitted(canvas, names, 400.0)
     assert len(places) == len(names)
-    assert size == SMALLEST or max(line for _, line in places) < LINES
+    assert size == MIN_TEXT_PIXELS or max(line for _, line in places) < LEGEND_LINES
     assert all(after > before for before, after in pairwise((line, along) for along, line in places))
 
 

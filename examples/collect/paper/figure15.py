@@ -8,8 +8,8 @@ import cv2
 import numpy as np
 from measure import compiled
 
-from mindlang.pictures.canvas import Image, View
-from mindlang.pictures.film import HEIGHT, WIDTH, Film
+from mindlang.pictures.canvas import Image, Viewport
+from mindlang.pictures.film import FILM_HEIGHT, FILM_WIDTH, Film
 from mindlang.pictures.hierarchy_panel import Panel
 from mindlang.pictures.path import Path as Trail
 from mindlang.pictures.recorded_run import RecordedRun, record_run
@@ -35,10 +35,10 @@ class Close(Film):
     x: float
     y: float
 
-    def view(self, tick: int) -> View:
+    def view(self, tick: int) -> Viewport:
         """What is around the place."""
         middle = np.array([self.x, self.y])
-        return View.around(middle - WINDOW_UNITS / 2, middle + WINDOW_UNITS / 2, HEIGHT, HEIGHT)
+        return Viewport.around(middle - WINDOW_UNITS / 2, middle + WINDOW_UNITS / 2, FILM_HEIGHT, FILM_HEIGHT)
 
 
 def passage(folder: Path) -> Image | None:
@@ -52,7 +52,7 @@ def passage(folder: Path) -> Image | None:
     for seed in SEEDS:
         recorded = record_run(found, rollout, seed)
         for first, last in passages(recorded):
-            about = {"seed": seed, **outcome.one(found.task, rollout.score(NO_GENOME, [seed]))}
+            about = {"seed": seed, **outcome.run_data(found.task, rollout.score(NO_GENOME, [seed]))}
             x, y = recorded.body[first : last + 1, :2].mean(axis=0)
             ticks = np.linspace(first - MARGIN_TICKS, last + MARGIN_TICKS, SNAPSHOT_COUNT).astype(int)
             return strip(Close(recorded, about, 1.0, float(x), float(y)), ticks.tolist())
@@ -78,7 +78,7 @@ def passages(recorded: RecordedRun) -> Iterator[tuple[int, int]]:
 
 def strip(film: Film, ticks: list[int]) -> Image:
     """The frames of some ticks one below the other."""
-    panel = Panel(film.recorded, NIGHT, HEIGHT + 8, 86, WIDTH - HEIGHT - 16, HEIGHT - 96)
+    panel = Panel(film.recorded, NIGHT, FILM_HEIGHT + 8, 86, FILM_WIDTH - FILM_HEIGHT - 16, FILM_HEIGHT - 96)
     trail = Trail.of(film.recorded, NIGHT)
     frames = [film.frame(panel, trail, tick) for tick in ticks]
     return np.concatenate(

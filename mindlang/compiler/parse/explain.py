@@ -89,7 +89,7 @@ def _title(name: str) -> str:
 
 def explain(error: "UnexpectedInput", code: str, line: Span) -> Diagnostic:
     """Why the grammar refuses the line `code`, in the user's words."""
-    return _opening(code, line) or _common(MISTAKES, code, line) or _unexpected(error, code, line)
+    return _opening(code, line) or _common_mistake(MISTAKES, code, line) or _unexpected(error, code, line)
 
 
 def _at(line: Span, start: int, end: int) -> Span:
@@ -115,7 +115,7 @@ def _opening(code: str, line: Span) -> Diagnostic | None:
     if word in _keys() and re.match(r"\s*\w+(\s+[-+\d.]|\s*$)", code):
         hint = "Write it on the line of its declaration, after the kind, as in skill Avoid is mlp hidden 2."
         return Diagnostic("argument-below", f"{word} is an argument, and no fact of its own.", here, hint)
-    if told := _common(OPENINGS, code, line):
+    if told := _common_mistake(OPENINGS, code, line):
         return told
     hint = did_you_mean(word, known) or f"A fact begins with its verb: {listed(VERBS)}."
     if not word[0].isalpha():
@@ -136,7 +136,7 @@ def _keys() -> frozenset[str]:
     return frozenset(argument.key for noun in nouns for cls in kinds(noun).values() for argument in arguments(cls))
 
 
-def _common(mistakes: Sequence[Mistake], code: str, line: Span) -> Diagnostic | None:
+def _common_mistake(mistakes: Sequence[Mistake], code: str, line: Span) -> Diagnostic | None:
     if len(code.strip()) > MAX_EXPLAINED_CHARACTERS:
         return None
     for mistake in mistakes:

@@ -80,7 +80,7 @@ def _by_key(
         if key not in parameters:
             _unknown(kind, argument.key, parameters, findings)
         elif key in found:
-            _said_twice(argument, found[key], findings)
+            _report_repeated(argument, found[key], findings)
         else:
             found[key] = argument
     return found
@@ -90,7 +90,7 @@ def once(key: str, written: Iterable[Argument], findings: Findings) -> Argument 
     """The first argument of a key, None where none is; others are reported."""
     found = [argument for argument in written if argument.key.text == key]
     for argument in found[1:]:
-        _said_twice(argument, found[0], findings)
+        _report_repeated(argument, found[0], findings)
     return found[0] if found else None
 
 
@@ -103,7 +103,7 @@ def a_name(argument: Argument, hint: str, findings: Findings) -> Name | None:
     return None
 
 
-def _said_twice(argument: Argument, first: Argument, findings: Findings) -> None:
+def _report_repeated(argument: Argument, first: Argument, findings: Findings) -> None:
     label = Label(first.span, "first said here")
     message = f"{argument.key.text} is said twice."
     findings.error("repeated-argument", argument.key.span, message, "Leave one out.", label)
@@ -140,9 +140,9 @@ def _number(parameter: Parameter, argument: Argument, findings: Findings) -> Any
     assert isinstance(parameter.type, Quantity)
     match parameter.shape:
         case "one":
-            return quantities.one(argument.value, parameter.type, findings)
+            return quantities.single_value(argument.value, parameter.type, findings)
         case "list":
-            return quantities.many(argument.value, parameter.type, findings)
+            return quantities.value_list(argument.value, parameter.type, findings)
         case _:
             return quantities.span(argument.value, parameter.type, findings)
 

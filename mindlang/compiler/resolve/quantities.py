@@ -56,7 +56,7 @@ def _plain(number: float) -> str:
     return f"{number:.9f}".rstrip("0").rstrip(".")
 
 
-def one(value: Value, quantity: Quantity, findings: Findings) -> float | int | None:
+def single_value(value: Value, quantity: Quantity, findings: Findings) -> float | int | None:
     """The value of an argument that takes one number."""
     match value:
         case Numbers(amounts=(amount,)):
@@ -75,7 +75,7 @@ def _example(value: Numbers | Range) -> str:
     return (value.amounts[0] if isinstance(value, Numbers) else value.first).span.text
 
 
-def many(value: Value, quantity: Quantity, findings: Findings) -> tuple[float | int, ...] | None:
+def value_list(value: Value, quantity: Quantity, findings: Findings) -> tuple[float | int, ...] | None:
     """The values of an argument that takes a list; the last unit goes for all that have none."""
     match value:
         case Numbers(amounts=amounts):
@@ -98,7 +98,7 @@ def many(value: Value, quantity: Quantity, findings: Findings) -> tuple[float | 
 def span(value: Value, quantity: Quantity, findings: Findings) -> Span | None:
     """The value of an argument that takes one number, a range or a schedule."""
     if not isinstance(value, Range):
-        number = one(value, quantity, findings)
+        number = single_value(value, quantity, findings)
         return None if number is None else Span(number, number)
     unit = value.last.unit
     first, last = (convert(amount, quantity, findings, unit) for amount in (value.first, value.last))

@@ -78,7 +78,7 @@ def load(calls: str, sources: Mapping[str, str]) -> Callable[..., Any]:
     except KeyboardInterrupt:
         raise
     except BaseException as error:
-        raise ProcedureError(f"procedure from {calls}: its module fails{_said(error, path)}") from error
+        raise ProcedureError(f"procedure from {calls}: its module fails{_error_text(error, path)}") from error
     function = getattr(module, calls.rpartition(".")[2], None)
     if not callable(function):
         raise ProcedureError(f"procedure from {calls}: its module has no such function")
@@ -101,14 +101,14 @@ def call(calls: str, function: Callable[..., Any], outputs: int, inputs: NDArray
     except KeyboardInterrupt:
         raise
     except BaseException as error:
-        said = _said(error, file_of(calls))
+        said = _error_text(error, file_of(calls))
         raise ProcedureError(f"procedure {calls} fails for {inputs.tolist()}{said}") from error
     if len(values) != outputs:
         raise ProcedureError(f"procedure {calls} returned {len(values)} values instead of {outputs}")
     return values.astype(np.float32)
 
 
-def _said(error: BaseException, path: str) -> str:
+def _error_text(error: BaseException, path: str) -> str:
     """Where in the module an error arose, where it did, and what it says."""
     lines = [line for frame, line in walk_tb(error.__traceback__) if frame.f_code.co_filename == path]
     where = f" in {path}, line {lines[-1]}" if lines else ""

@@ -113,11 +113,11 @@ class TrackingCamera:
                 if not seen:
                     self.stop.wait(RETRY_SECONDS)
                     continue  # who waits for a frame notices that none comes
-                self.tell(self.see(frame))
+                self.publish(self.see(frame))
             except DeviceError as error:
-                self.tell(BallSighting(aim=self.aim, error=error))
+                self.publish(BallSighting(aim=self.aim, error=error))
             except Exception as error:  # whatever OpenCV raises must reach who waits, not end the thread
-                self.tell(BallSighting(aim=self.aim, error=DeviceError(f"the camera failed: {error}")))
+                self.publish(BallSighting(aim=self.aim, error=DeviceError(f"the camera failed: {error}")))
         self.let_go()
 
     def see(self, frame: Frame) -> BallSighting:
@@ -142,7 +142,7 @@ class TrackingCamera:
         if self.tilt:
             self.tilt.point(self.aim.tilt)
 
-    def tell(self, sighting: BallSighting) -> None:
+    def publish(self, sighting: BallSighting) -> None:
         """Tell who waits for a frame."""
         with self.news:
             self.sighting = replace(sighting, number=self.sighting.number + 1)

@@ -25,7 +25,7 @@ def run(options: argparse.Namespace) -> int:
     """Drive until a signal comes; the exit code."""
     bundle = read_bundle(options.bundle)
     drive_options = DriveOptions(options.arm, options.record, options.ticks, options.master)
-    tell = _quiet if options.quiet else _tell
+    tell = _quiet if options.quiet else _print_error
     if not options.arm:
         tell("nothing will move: --arm lets it")
     loop = _dry(options, bundle, drive_options) if options.dry else _wired(options, bundle, drive_options)
@@ -36,7 +36,7 @@ def run(options: argparse.Namespace) -> int:
 def _wired(options: argparse.Namespace, bundle: Bundle, drive_options: DriveOptions) -> Loop:
     if bundle.wiring is None:
         raise MindError("this bundle is wired to no robot", "mindc build … --robot robot.yaml, or try it with --dry")
-    tell = _quiet if options.quiet else _tell
+    tell = _quiet if options.quiet else _print_error
     wiring = bundle.wiring
     if not is_adopted(wiring, bundle.graph):
         remedy = f"if it is wired as this bundle has it: mindrun adopt {options.bundle}"
@@ -65,7 +65,7 @@ def _dry(options: argparse.Namespace, bundle: Bundle, drive_options: DriveOption
         )
     if task not in tasks:
         raise MindError(f"this mind has no task {task or 'without a name'}", f"it has {', '.join(tasks)}")
-    tell = _quiet if options.quiet else _tell
+    tell = _quiet if options.quiet else _print_error
     if why:
         tell(why)
     with simulated(options.bundle, task, options.seed, master=options.master or "") as socket:
@@ -94,7 +94,7 @@ def _summary(loop: Loop) -> str:
     return f"{loop.pace}; {loop.stopped} at neutral because of a fault{faults}"
 
 
-def _tell(sentence: str) -> None:
+def _print_error(sentence: str) -> None:
     print(sentence, file=sys.stderr, flush=True)
 
 

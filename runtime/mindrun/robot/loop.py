@@ -61,7 +61,7 @@ class Loop:
         time = self.pace.wait()
         behind = self.pace.missed - missed >= MISSED_TICKS_LIMIT
         sensed = self.senses.now(time)
-        self._tell(sensed)
+        self._report_faults(sensed)
         commands = self.engine.tick(sensed.readings)
         too_old = self.pace.clock() - time >= MAX_THINKING_TICKS * self.pace.tick  # to act on what was sensed then
         stopped = sensed.must_stop or behind or too_old
@@ -78,7 +78,7 @@ class Loop:
         """The neutral command of each actuator."""
         return np.array([actuator.kind.neutral for actuator in self.engine.graph.actuators], np.float32)
 
-    def _tell(self, sensed: FilteredReadings) -> None:
+    def _report_faults(self, sensed: FilteredReadings) -> None:
         """Sentences for sensors that begin to be faulty, or no longer are."""
         for name, why in sensed.why.items():
             if name not in self.faulty:

@@ -67,7 +67,7 @@ class ReadingFilter:
         readings = np.zeros(self._width, np.float32)
         faults, ages, why, must_stop = [], [], {}, False
         for state in self._states:
-            fault, age, reason = _look(state, time)
+            fault, age, reason = _assess(state, time)
             values, stops = _answer(state, fault, time)
             place = slice(state.sensor.start, state.sensor.start + state.sensor.width)
             readings[place] = values
@@ -79,7 +79,7 @@ class ReadingFilter:
         return FilteredReadings(readings, must_stop, tuple(faults), tuple(ages), why)
 
 
-def _look(state: _State, time: float) -> tuple[int, float, str]:
+def _assess(state: _State, time: float) -> tuple[int, float, str]:
     """What is wrong with a sensor now, the age of its sample, and why."""
     sample = state.source.latest
     if sample is None:

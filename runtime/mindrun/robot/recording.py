@@ -24,7 +24,7 @@ from mindrun.graph import Graph
 from mindrun.named_readings import physical
 from mindrun.regular_files import open_regular
 from mindrun.strict_json import are_names, is_whole, parsed
-from mindrun.validate import LONGEST, SHORTEST
+from mindrun.validate import MAX_TICK_SECONDS, MIN_TICK_SECONDS
 
 FORMAT, UNSEALED = "mind recording 2", "mind recording 1"
 MAX_HEADER_BYTES = 1 << 20
@@ -194,7 +194,7 @@ def _typed(plain: dict[str, Any]) -> About:
         raise ValueError("its columns have no names")
     if not isinstance(plain["bundle"], str) or not SHA256.fullmatch(plain["bundle"]):
         raise ValueError("it does not say of which bundle it is")
-    if type(plain["tick"]) not in (int, float) or not SHORTEST <= plain["tick"] <= LONGEST:
+    if type(plain["tick"]) not in (int, float) or not MIN_TICK_SECONDS <= plain["tick"] <= MAX_TICK_SECONDS:
         raise ValueError("it does not say how long a tick is")
     if not is_whole(plain["readings"], high=MAX_HEADER_BYTES):
         raise ValueError("it does not say how many readings there are")

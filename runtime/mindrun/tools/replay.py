@@ -27,7 +27,7 @@ def run(options: argparse.Namespace) -> int:
     bundle = read_bundle(options.bundle)
     about, _ = read(options.recording)
     engine = Engine(bundle.policy, bundle.procedures, about.master)
-    found = replay(options.recording, digest(options.bundle), engine, _told)
+    found = replay(options.recording, digest(options.bundle), engine, _show_progress)
     if found.differs:
         tick, what = found.differs
         print(f"tick {tick:,} differs: {what} ({found.ticks:,} ticks before it are the same)")
@@ -36,6 +36,6 @@ def run(options: argparse.Namespace) -> int:
     return 0
 
 
-def _told(ticks: int) -> None:
+def _show_progress(ticks: int) -> None:
     if sys.stderr.isatty():
         draw(f"\r{ticks:,} ticks")
