@@ -8,7 +8,7 @@ from mindrun.quantity import LENGTH, RATIO, TICKS
 from mindrun.registry import kind
 
 REACH_UNITS = 1.5
-CLOSED = 0.5  # command, above which it closes
+CLOSED_COMMAND = 0.5  # command, above which it closes
 
 
 @kind("actuator", "gripper")
@@ -25,7 +25,7 @@ class Gripper(ActuatorKind):
     @property
     def acts_at_rest(self) -> bool:
         """Whether it is closed."""
-        return self.neutral > CLOSED
+        return self.neutral > CLOSED_COMMAND
 
     def row(self) -> Row:
         """How far it reaches."""

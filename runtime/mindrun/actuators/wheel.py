@@ -9,7 +9,7 @@ from mindrun.registry import kind
 
 SIDE = Reference("side", get_args(Side))
 THRUST = Quantity("a force", {"": 1.0}, low=-1e6, high=1e6)
-STOPPED = 0.5  # command
+STOPPED_COMMAND = 0.5  # command
 
 
 @kind("actuator", "wheel")
@@ -35,7 +35,7 @@ class Wheel(ActuatorKind):
     @property
     def acts_at_rest(self) -> bool:
         """Whether it pushes."""
-        return self.neutral != STOPPED and self.thrust != 0.0
+        return self.neutral != STOPPED_COMMAND and self.thrust != 0.0
 
     def row(self) -> Row:
         """How strongly it pushes."""

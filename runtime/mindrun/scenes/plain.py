@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from mindrun.registry import kind
 from mindrun.scenes.scene import SceneKind
 
-NEAREST, FARTHEST = 10.0, 40.0  # units from the robot
+MIN_DISTANCE_UNITS, MAX_DISTANCE_UNITS = 10.0, 40.0  # units from the robot
 
 
 @kind("task", "plain")
@@ -15,4 +15,4 @@ class Plain(SceneKind):
 
     def distances(self, least: float) -> tuple[float, float]:
         """Where the robot can find it."""
-        return NEAREST, FARTHEST
+        return MIN_DISTANCE_UNITS, MAX_DISTANCE_UNITS

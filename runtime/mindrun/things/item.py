@@ -6,7 +6,7 @@ from typing import Annotated
 
 from mindrun.quantity import LENGTH, Span
 from mindrun.registry import kind
-from mindrun.things.thing import MOVES, NEAR, ONE, OUTCOME, STAYS, Outcome, ThingKind
+from mindrun.things.thing import DEFAULT_DISTANCE, DEFAULT_SIZE, MOVES, OUTCOME, STAYS, Outcome, ThingKind
 
 
 @kind("content", "item")
@@ -18,8 +18,8 @@ class Item(ThingKind):
     next size of its schedule, or vanishes for the rest of the run.
     """
 
-    size: Annotated[Span, LENGTH] = ONE
-    away: Annotated[Span, LENGTH] = NEAR
+    size: Annotated[Span, LENGTH] = DEFAULT_SIZE
+    away: Annotated[Span, LENGTH] = DEFAULT_DISTANCE
     reached: Annotated[Outcome, OUTCOME] = STAYS
     delivered: Annotated[Outcome, OUTCOME] = MOVES
 

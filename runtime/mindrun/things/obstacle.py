@@ -6,10 +6,10 @@ from typing import Annotated
 from mindrun.quantity import LENGTH, Quantity, Span
 from mindrun.registry import kind
 from mindrun.scenes import SceneKind
-from mindrun.things.thing import MAX_OBSTACLES, NEAR, ONE, Mistake, Row, ThingKind
+from mindrun.things.thing import DEFAULT_DISTANCE, DEFAULT_SIZE, MAX_OBSTACLES, Mistake, Row, ThingKind
 
 COUNT = Quantity("a whole number", {"": 1.0}, low=0, high=1000, whole=True)
-ENDLESS = 1e9  # lines of a grid, far more than can be
+MAX_GRID_LINES = 1e9  # lines of a grid, far more than can be
 
 
 @kind("content", "obstacle")
@@ -20,11 +20,11 @@ class Obstacle(ThingKind):
     Each stands up to `jitter` off its point, both ways along both axes.
     """
 
-    size: Annotated[Span, LENGTH] = ONE
+    size: Annotated[Span, LENGTH] = DEFAULT_SIZE
     grid: Annotated[float, LENGTH] = 0.0
     jitter: Annotated[float, LENGTH] = 0.0
     count: Annotated[int, COUNT] = 0
-    away: Annotated[Span, LENGTH] = NEAR
+    away: Annotated[Span, LENGTH] = DEFAULT_DISTANCE
 
     is_obstacle = True
     is_solid = True
@@ -33,7 +33,7 @@ class Obstacle(ThingKind):
     def grid_lines(self, scene: SceneKind | None) -> int:
         """How many lines of its grid cross a scene, none on its walls; there is no grid without walls."""
         if scene and scene.is_bounded and self.grid:
-            return max(0, round(min(scene.side / self.grid, ENDLESS)) - 1)
+            return max(0, round(min(scene.side / self.grid, MAX_GRID_LINES)) - 1)
         return 0
 
     def obstacles(self, scene: SceneKind | None) -> int:

@@ -6,7 +6,7 @@ from typing import Annotated
 
 from mindrun.quantity import LENGTH, Span
 from mindrun.registry import kind
-from mindrun.things.thing import NEAR, ONE, OUTCOME, STAYS, Outcome, ThingKind
+from mindrun.things.thing import DEFAULT_DISTANCE, DEFAULT_SIZE, OUTCOME, STAYS, Outcome, ThingKind
 
 
 @kind("content", "power")
@@ -14,8 +14,8 @@ from mindrun.things.thing import NEAR, ONE, OUTCOME, STAYS, Outcome, ThingKind
 class Power(ThingKind):
     """A square of side `size` on the floor in which the battery charges. `reached` is as for a zone."""
 
-    size: Annotated[Span, LENGTH] = ONE
-    away: Annotated[Span, LENGTH] = NEAR
+    size: Annotated[Span, LENGTH] = DEFAULT_SIZE
+    away: Annotated[Span, LENGTH] = DEFAULT_DISTANCE
     reached: Annotated[Outcome, OUTCOME] = STAYS
 
     is_area = True

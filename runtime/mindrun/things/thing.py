@@ -7,8 +7,8 @@ from mindrun.quantity import UNSAID, Reference, Span
 from mindrun.registry import base
 from mindrun.scenes import SceneKind
 
-ONE = Span(1.0, 1.0)
-NEAR = UNSAID  # as far away as its scene says
+DEFAULT_SIZE = Span(1.0, 1.0)
+DEFAULT_DISTANCE = UNSAID  # as far away as its scene says
 
 Outcome = Literal["stays", "moves", "vanishes"]
 OUTCOMES: tuple[Outcome, ...] = get_args(Outcome)
@@ -63,7 +63,9 @@ class ThingKind:
 
     def distances(self, scene: SceneKind) -> tuple[float, float]:
         """How near to the robot and how far from it it is placed."""
-        return (self.away.first, self.away.last) if self.away != NEAR else scene.distances(self.least_distance)
+        return (
+            (self.away.first, self.away.last) if self.away != DEFAULT_DISTANCE else scene.distances(self.least_distance)
+        )
 
     def obstacles(self, scene: SceneKind | None) -> int:
         """How many squares it puts in the way; `scene` is None where that is not known."""
