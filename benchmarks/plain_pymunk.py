@@ -8,7 +8,7 @@ import pymunk
 from mindrun.functions import Mlp
 from mindrun.functions.mlp import matrices
 from mindrun.graph import Graph, Skill
-from mindrun.sim.trace import Run
+from mindrun.sim.trace import Trace
 from numpy.typing import NDArray
 
 TICK_SECONDS, HALF_SIDE, CLAW_REACH, SENSOR_RANGE = 1 / 60, 50.0, 1.5, 12.0
@@ -20,7 +20,7 @@ ROBOT = pymunk.ShapeFilter(group=1)  # rays do not meet the robot itself
 class Robot:
     """One robot in a world of its own, with its mind."""
 
-    def __init__(self, graph: Graph, weights: Mapping[str, NDArray[np.float32]], layout: Run, seed: int) -> None:
+    def __init__(self, graph: Graph, weights: Mapping[str, NDArray[np.float32]], layout: Trace, seed: int) -> None:
         self.rng = np.random.default_rng(seed)
         self.space = pymunk.Space()
         self.space.iterations = 8

@@ -1,37 +1,43 @@
 """A mind as a value: loaded, run, simulated, taught, edited and bundled."""
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from datetime import UTC, datetime
 from pathlib import Path
 from time import perf_counter
 from typing import Any
+from warnings import warn
 
 from mindrun.bundle import Bundle
 from mindrun.engine import Engine, procedure_sources
 from mindrun.errors import MindError
 from mindrun.graph import Graph
+from mindrun.policy import Policy
 from mindrun.sim.rollout import Rollout
-from mindrun.sim.trace import Run as Trace
-from mindrun.sim.trace import trace
+from mindrun.sim.trace import Trace, trace
 from mindrun.train.lesson_state import Record
 from mindrun.train.run_folder import read_result
 from mindrun.train.training import Watch, train
 from mindrun.weights import genes, reachable
 from mindrun.wiring import Wiring
 
+from mindlang import edits, transaction
 from mindlang.compiler.compile import Compiled, compile_source
 from mindlang.compiler.compile import load as load_file
 from mindlang.compiler.diagnostic import Diagnostic
 from mindlang.compiler.source import Source
 from mindlang.editing.apply import Edited, apply_edit
-from mindlang.editing.project import open_project
-from mindlang.edits import edit as edit_named
+from mindlang.editing.project import EditError, open_project
+from mindlang.editing.summary import broken_neighbours, diff, summarise
+from mindlang.editing.writing import write
 from mindlang.lock.ready import Ready, make_ready
-from mindlang.run.setup import master_of, task_of
-from mindlang.training.lesson_choice import TrainOptions, chosen_lessons
+from mindlang.resource_limits import refuse_too_large, refuse_too_many
+from mindlang.run import outcome
+from mindlang.run.layouts import NO_GENOME, layouts
+from mindlang.run.setup import master_of, set_up, task_of, unknown
+from mindlang.training.lesson_choice import TrainOptions, chosen_lessons, is_due
 from mindlang.training.results import Result
-from mindlang.training.subject import begin_run, open_subject
+from mindlang.training.subject import begin_run, open_subject, refuse_frozen
 from mindlang.training.teaching import finish, has_ended, rollout_of
 
 
@@ -40,8 +46,7 @@ class Mind:
     """A file of the mind language, and those that it uses, as they were when it was loaded.
 
     All but `diagnostics` and `is_valid` raise MindError where the file has errors, and where weights are needed that
-    were not taught, or fit no longer; its `hint` says what to do. Weights always come with the graph in whose order
-    they are: there is no way to give one mind those of another.
+    were not taught, or fit no longer; its `hint` says what to do. What was taught is read when it is needed.
     """
 
     path: Path
@@ -62,20 +67,20 @@ class Mind:
         """The compiled hierarchy, as plain data."""
         if self.compiled.graph is None:
             first = next((each for each in self.diagnostics if each.severity == "error"), self.diagnostics[0])
-            raise MindError(first.message, first.hint)
+            raise MindError(first.message, first.hint or "mind.diagnostics says all that is wrong, and where")
         return self.compiled.graph
 
-    def ready(self, master: str | None = None) -> Ready:
-        """The hierarchy in the order of its weights, with those that `master` (default: the mind's) needs to act."""
-        ready = make_ready(self.graph, self.compiled.sources, master)
-        if ready.refusals:
-            raise MindError(ready.refusals[-1], f"mind.train() teaches it, or: mindc train {self.path}")
-        return ready
+    def policy(self, master: str | None = None) -> Policy:
+        """The hierarchy with the weights that `master` (default: the mind's) needs to act."""
+        return self._ready(master).policy
+
+    def notes(self, master: str | None = None) -> tuple[str, ...]:
+        """A sentence for the skills that were taught in a world that is not the mind's, or is not known."""
+        return self._ready(master).notes
 
     def engine(self, master: str | None = None) -> Engine:
         """The hierarchy as it runs on a robot: readings [graph.width] to commands [actuators], tick by tick."""
-        ready = self.ready(master)
-        return Engine(ready.policy, self._folder, master)
+        return Engine(self.policy(master), self._folder, master)
 
     def rollout(
         self, task: str | None = None, master: str | None = None, learners: Sequence[str] = (), workers: int = 1
@@ -87,15 +92,35 @@ class Mind:
         """
         chosen, _ = task_of(self.graph, task)
         leader = master_of(self.graph, chosen, master)
+        for skill in learners:
+            self._refuse_unknown(skill)
         ready = make_ready(self.graph, self.compiled.sources, leader)
         acting = {skill.name for skill in reachable(ready.policy.graph, leader) if genes(skill)}
         if acting - {*ready.policy.weights, *learners}:
-            raise MindError(ready.refusals[-1], f"mind.train() teaches it, or: mindc train {self.path}")
+            raise self._untaught(ready)
         return Rollout(ready.policy, chosen.name, leader, learners, procedures=self._folder, workers=workers)
 
     def trace(self, task: str | None = None, seed: int = 0, master: str | None = None) -> Trace:
         """One run of a task, tick by tick: `for moment in mind.trace("Collect", 3).moments`."""
         return trace(self.rollout(task, master), seed)
+
+    def bench(
+        self, task: str | None = None, runs: int = 200, seed: int = 1, master: str | None = None, workers: int = 1
+    ) -> dict[str, Any]:
+        """Many runs of a task on layouts that `seed` draws: each mean with its standard error, as `mindc bench --json`.
+
+        `count_mean` and `count_standard_error` are of the events that the task counts, `score_…` of the rewards;
+        `best_seed` and `worst_seed` name runs that `mind.trace` repeats.
+        """
+        _ = self.graph
+        setup = set_up(str(self.path), self.compiled, task, master)
+        refuse_too_many(setup.task, runs)
+        rollout = setup.rollout(workers=workers)
+        refuse_too_large(rollout, 1, runs)
+        seeds, began = layouts(seed, runs), perf_counter()
+        scores = rollout.score(NO_GENOME, seeds)
+        found = {"task": setup.task.name, "master": setup.master, "seed": seed, "notes": [*setup.ready.notes]}
+        return found | outcome.many(setup.task, scores, seeds, perf_counter() - began)
 
     def train(
         self,
@@ -108,18 +133,25 @@ class Mind:
         on_generation: Callable[[Record], None] = lambda record: None,
         cancelled: Callable[[], bool] = lambda: False,
     ) -> list[Result]:
-        """Teach these skills, or all of a curriculum (default: the first); what is learnt goes to the lock.
+        """Teach these skills, or what is due of a curriculum (default: the first); what is learnt goes to the lock.
 
-        `on_generation` is told of each generation, after which `cancelled` is asked: where it says so, the run stays in
-        its folder under `runs`, and the same call goes on with it. The result of each lesson that has ended.
+        `on_generation` is told of each generation, after which `cancelled` is asked. Where that says so, or Ctrl-C
+        comes, the run stays in its folder under `runs`, and the same call goes on with it, to the same bits. The result
+        of each lesson that has ended.
         """
+        chosen = chosen_lessons(self.graph, curriculum, skills)
+        if not self.path.is_file():
+            raise MindError(f"{self.path} is no file, and what is learnt is kept beside one", "save it, and load that")
         results: list[Result] = []
-        watch = Watch(lambda state, record: on_generation(record), lambda words: None, cancelled, perf_counter)
-        for lesson in chosen_lessons(self.graph, curriculum, skills):
+        watch = Watch(lambda state, record: on_generation(record), warn, cancelled, perf_counter)
+        if skills:
+            refuse_frozen(open_subject(self.path, self.compiled), chosen)
+        for lesson in chosen:
             subject = open_subject(self.path, self.compiled)  # the lesson before has changed the lock
-            run = begin_run(
-                subject, options.applied(lesson), seed, Path(runs), datetime.now(UTC), ("mindlang.Mind.train",)
-            )
+            if not skills and not is_due(subject.graph, lesson, subject.standing(lesson)):
+                continue
+            now, call = datetime.now(UTC), ("mindlang.Mind.train", *skills)
+            run = begin_run(subject, options.applied(lesson), seed, Path(runs), now, call)
             if (result := read_result(run.folder)) is None:
                 rollout = rollout_of(run, subject, workers)
                 state = train(run, rollout, watch)
@@ -129,30 +161,88 @@ class Mind:
             results.append(result)
         return results
 
-    def edit(self, name: str, keep_weights: bool = False, **arguments: Any) -> Edited:
-        """One of the edits of `mindc edit`, made in memory: `mind.edit("rename", old="eye", new="ear")`.
+    def edit(self, name: str, keep_weights: bool = False, **arguments: Any) -> "EditedMind":
+        """One of the edits of `mindc edit`, in memory: `mind.edit("rename", old="proximity", new="whiskers")`.
 
-        `mindlang.editing.summary` says what it comes to, `mindlang.editing.writing.write` writes it.
+        Arguments and options are those of the command; EditError, a MindError, where it is impossible.
         """
-        project = open_project(self.compiled)
-        return apply_edit(project, edit_named(name).function(project, **arguments), keep_weights)
+        _ = self.graph
+        if name not in edits.names():
+            unknown("edit", name, edits.names())
+        of, project = edits.edit(name), open_project(self.compiled)
+        several = {each for each, many in of.arguments if many} | {each.name for each in of.options if each.many}
+        said = {k: (v,) if k in several and isinstance(v, str) else v for k, v in arguments.items()}
+        return EditedMind(self.path, apply_edit(project, of.function(project, **said), keep_weights))
 
     def bundle(self, wiring: Wiring | None = None, master: str | None = None) -> Bundle:
-        """All that runs on a robot; `mindrun.bundle.write_bundle` writes it to one file."""
-        ready = self.ready(master)
-        return Bundle(ready.policy, procedure_sources(ready.policy.graph, self._folder), wiring)
+        """All that runs on a robot; `mindrun.write_bundle` writes it to one file."""
+        policy = self.policy(master)
+        return Bundle(policy, procedure_sources(policy.graph, self._folder), wiring)
 
     @property
     def _folder(self) -> Path:
         return self.path.absolute().parent
 
+    def _ready(self, master: str | None) -> Ready:
+        if master is not None:
+            self._refuse_unknown(master)
+        ready = make_ready(self.graph, self.compiled.sources, master)
+        if ready.refusals:
+            raise self._untaught(ready)
+        return ready
+
+    def _untaught(self, ready: Ready) -> MindError:
+        return MindError(ready.refusals[-1], f"mind.train() teaches it, or: mindc train {self.path}")
+
+    def _refuse_unknown(self, skill: str) -> None:
+        if skill not in (names := [each.name for each in self.graph.skills]):
+            unknown("skill", skill, names)
+
+
+@dataclass(frozen=True, slots=True)
+class EditedMind:
+    """A mind after an edit, in memory: nothing has been written yet."""
+
+    path: Path
+    edited: Edited
+
+    @property
+    def diff(self) -> str:
+        """The unified diff of all sources."""
+        return diff(self.edited)
+
+    @property
+    def summary(self) -> list[str]:
+        """A sentence for each skill whose weights do not simply stay, and for each mind that would be broken."""
+        return [*summarise(self.edited), *self._broken]
+
+    def write(self, anyway: bool = False) -> Mind:
+        """Write sources, locks and weights together, or nothing; the mind as it is then.
+
+        MindError where another mind that uses the same files would no longer compile, unless `anyway`; and where a file
+        has been changed since it was loaded.
+        """
+        if self._broken and not anyway:
+            raise EditError(f"After this edit {self._broken[0]}", "write(anyway=True) makes it nevertheless")
+        write(self.edited)
+        return load(self.path)
+
+    @property
+    def _broken(self) -> list[str]:
+        broken = broken_neighbours(self.edited)
+        return [f"{name} no longer compiles by itself: {why}" for name, why in broken.items()]
+
 
 def load(path: Path | str) -> Mind:
-    """The mind in a file; never raises for what stands there: `diagnostics` says what is wrong."""
+    """The mind in a file; whatever stands there, nothing is raised for it: `diagnostics` says what is wrong.
+
+    An edit that was interrupted is taken back first; TransactionError, a MindError, where that would lose work.
+    """
+    transaction.recover(Path(path).absolute().parent)
     return Mind(Path(path), load_file(Path(path)))
 
 
-def loads(text: str, texts: Mapping[Path, str] | Iterable[tuple[Path, str]] = (), name: str = "text.mind") -> Mind:
-    """The mind in a text, as if it stood in the working directory; `texts` are those of files that it uses."""
+def loads(text: str, texts: Mapping[Path, str] | None = None, name: str = "text.mind") -> Mind:
+    """The mind in a text, as if it stood in the working directory; `texts` are those of files that it uses, by path."""
     path = Path.cwd() / name
-    return Mind(path, compile_source(Source(name, text, path.parent), path, dict(texts)))
+    return Mind(path, compile_source(Source(name, text, path.parent), path, texts or {}))

@@ -13,13 +13,11 @@ from time import perf_counter
 from types import FrameType
 from typing import Any
 
-from mindrun.graph import Lesson
 from mindrun.sim.rollout import Rollout, cores
 from mindrun.train import RunError
 from mindrun.train.lesson_state import LessonState, Record
 from mindrun.train.run_folder import RunFolder, open_run, read_result
 from mindrun.train.training import Watch, train
-from mindrun.weights import learners
 
 from mindlang.cli._simulator_compilation import ensure_compiled
 from mindlang.cli._terminal import load_compiled, procedures_talk, talk
@@ -27,7 +25,7 @@ from mindlang.cli._training_progress import PrintedLines, ProgressBarLine, Silen
 from mindlang.lock import LockError
 from mindlang.training.lesson_choice import TrainOptions, chosen_lessons, is_due
 from mindlang.training.results import Result, opening, outcome
-from mindlang.training.subject import Subject, begin_run, open_subject, refuse_changed
+from mindlang.training.subject import Subject, begin_run, open_subject, refuse_changed, refuse_frozen
 from mindlang.training.teaching import Taught, finish, has_ended, rollout_of
 
 
@@ -55,7 +53,7 @@ class Trainer:
         subject = open_subject(file, compiled)
         chosen = chosen_lessons(subject.graph, curriculum, skills)
         if skills or force:
-            _refuse_frozen(subject, chosen)
+            refuse_frozen(subject, chosen)
         command = ("mindc", *sys.argv[1:])
         taught = frozen = 0
         for lesson in chosen:
@@ -146,14 +144,6 @@ class Trainer:
     def _print(self, result: Result) -> None:
         if self.as_json:
             print(json.dumps(result, allow_nan=False), flush=True)
-
-
-def _refuse_frozen(subject: Subject, chosen: Sequence[Lesson]) -> None:
-    """RunError where a lesson has nobody to teach."""
-    for lesson in chosen:
-        if not learners(subject.graph, lesson):
-            hint = f"mindc edit unfreeze {lesson.skill} {subject.shown} --write"
-            raise RunError(f"{lesson.skill} is frozen", hint)
 
 
 def _command(run: RunFolder) -> str:

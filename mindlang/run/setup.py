@@ -70,7 +70,7 @@ def task_of(graph: Graph, name: str | None) -> tuple[Task, str]:
     if name is None:
         return default_task(graph)
     found = next((task for task in graph.tasks if task.name == name), None)
-    return found or _unknown("task", name, [task.name for task in graph.tasks]), ""
+    return found or unknown("task", name, [task.name for task in graph.tasks]), ""
 
 
 def master_of(graph: Graph, task: Task, name: str | None) -> str:
@@ -81,10 +81,11 @@ def master_of(graph: Graph, task: Task, name: str | None) -> str:
     if name is None:
         return next((lesson.master for lesson in graph.lessons if lesson.task == task.name), graph.master)
     skills = [skill.name for skill in graph.skills]
-    return name if name in skills else _unknown("skill", name, skills)
+    return name if name in skills else unknown("skill", name, skills)
 
 
-def _unknown(noun: str, name: str, known: Sequence[str]) -> Never:
+def unknown(noun: str, name: str, known: Sequence[str]) -> Never:
+    """SetupError for a name that is none, with one that was nearly written or those that there are."""
     hint = did_you_mean(name, known) or f"There is {listed(known, 'and')}."
     raise SetupError(f"there is no {noun} called {name}", hint, misuse=True)
 

@@ -1,6 +1,6 @@
 """What a lesson is taught from: a mind with its lock, and the run that a lesson of it becomes."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from datetime import datetime
 from hashlib import sha256
@@ -95,6 +95,14 @@ def begin_run(
         processor=processor(),
     )
     return unfinished(runs, manifest) or create(runs, manifest, subject.sources, weights)
+
+
+def refuse_frozen(subject: Subject, chosen: Iterable[Lesson]) -> None:
+    """RunError where a lesson has nobody to teach."""
+    for lesson in chosen:
+        if not learners(subject.graph, lesson):
+            hint = f"mindc edit unfreeze {lesson.skill} {subject.shown} --write"
+            raise RunError(f"{lesson.skill} is frozen", hint)
 
 
 def refuse_changed(subject: Subject, run: RunFolder) -> None:

@@ -1,3 +1,62 @@
-"""What runs a compiled mind: the engine on numpy alone, and with the `sim` packages its worlds and its training."""
+"""What runs a compiled mind: the engine on numpy alone, and with the `sim` packages its worlds and its training.
+
+    bundle = mindrun.read_bundle(Path("collect.bundle"))
+    engine = mindrun.Engine(bundle.policy, bundle.procedures)
+    commands = engine.tick(readings)                    # readings [bundle.graph.width]
+
+Each name is imported when it is asked for: a robot has numpy alone, and its guardian not even that.
+"""
+
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from mindrun.bundle import Bundle as Bundle
+    from mindrun.bundle import read_bundle as read_bundle
+    from mindrun.bundle import write_bundle as write_bundle
+    from mindrun.engine import Engine as Engine
+    from mindrun.errors import MindError as MindError
+    from mindrun.graph import Graph as Graph
+    from mindrun.policy import Policy as Policy
+    from mindrun.robot.replay import Replayed as Replayed
+    from mindrun.robot.replay import replay_recording as replay_recording
+    from mindrun.sim.rollout import Rollout as Rollout
+    from mindrun.sim.rollout import Scores as Scores
+    from mindrun.sim.trace import Moment as Moment
+    from mindrun.sim.trace import Trace as Trace
 
 VERSION = "0.1.0"
+_HOMES = {
+    "mindrun.bundle": ("Bundle", "read_bundle", "write_bundle"),
+    "mindrun.engine": ("Engine",),
+    "mindrun.errors": ("MindError",),
+    "mindrun.graph": ("Graph",),
+    "mindrun.policy": ("Policy",),
+    "mindrun.robot.replay": ("Replayed", "replay_recording"),
+    "mindrun.sim.rollout": ("Rollout", "Scores"),
+    "mindrun.sim.trace": ("Moment", "Trace"),
+}
+__all__ = [
+    "VERSION",
+    "Bundle",
+    "Engine",
+    "Graph",
+    "MindError",
+    "Moment",
+    "Policy",
+    "Replayed",
+    "Rollout",
+    "Scores",
+    "Trace",
+    "read_bundle",
+    "replay_recording",
+    "write_bundle",
+]
+
+
+def __getattr__(name: str) -> Any:
+    """A public name, from the module in which it stands."""
+    for home, names in _HOMES.items():
+        if name in names:
+            return getattr(import_module(home), name)
+    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

@@ -79,6 +79,11 @@ def read_bundle(path: Path) -> Bundle:
         raise BundleError(f"{path}: {error}") from error
 
 
+def digest(path: Path) -> str:
+    """The SHA-256 of a bundle's file."""
+    return sha256(read_whole(path, MAX_BUNDLE_BYTES)).hexdigest()
+
+
 def pack(bundle: Bundle) -> bytes:
     """A bundle as bytes."""
     members = _members(bundle)

@@ -9,24 +9,17 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from mindrun.engine import Engine
 from mindrun.errors import MindError, WeightsError
 from mindrun.policy import Policy
 
 import mindlang
-from mindlang.training.lesson_choice import TrainOptions
+from mindlang import TrainOptions
+from mindlang.run.layouts import layouts
+from tests.api.conftest import COLLECT
 
 ROOT = Path(__file__).parents[2]
-COLLECT = ROOT / "examples" / "collect"
 PAGE = ROOT / "docs" / "python.md"
-
-
-@pytest.fixture
-def collect(tmp_path: Path) -> Path:
-    """The example in a folder of its own."""
-    for name in ("collect.mind", "collect.lock", "weights"):
-        copy = shutil.copytree if (COLLECT / name).is_dir() else shutil.copy
-        copy(COLLECT / name, tmp_path / name)
-    return tmp_path
 
 
 def test_the_examples_run(collect: Path) -> None:
@@ -38,28 +31,16 @@ def test_the_examples_run(collect: Path) -> None:
     assert (collect / "collect.bundle").stat().st_size > 1000
 
 
-def test_importing_it_imports_nothing() -> None:
-    code = "import mindlang, sys; print([m for m in ('numpy', 'numba', 'lark') if m in sys.modules])"
-    assert subprocess.run([sys.executable, "-c", code], capture_output=True, text=True).stdout == "[]\n"
-
-
 def test_nothing_prints(collect: Path, capfd: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(collect)
     mind = mindlang.load("collect.mind")
     mind.engine().tick(np.zeros(mind.graph.width))
     mind.train("GoToObject", options=TrainOptions(generations=1, population=10), seed=1)
     mindlang.load("nothing.mind")
-    mind.edit("rename", old="proximity", new="whiskers")
+    edited = mind.edit("rename", old="proximity", new="whiskers")
+    assert edited.summary
+    mind.bench("GoToObject", runs=3)
     assert capfd.readouterr() == ("", "")
-
-
-def test_what_is_wrong_is_a_value(tmp_path: Path) -> None:
-    assert [each.code for each in mindlang.load(tmp_path / "none.mind").diagnostics] == ["unreadable"]
-    wrong = mindlang.loads("tick 1/60 s\nmaster Nobody\n")
-    assert not wrong.is_valid
-    assert {"unknown-skill", "no-body"} <= {each.code for each in wrong.diagnostics}
-    with pytest.raises(MindError):
-        _ = wrong.graph
 
 
 def swapped(path: Path) -> str:
@@ -84,32 +65,12 @@ def test_weights_follow_the_lines_of_the_source(collect: Path) -> None:
 
 
 def test_weights_never_meet_a_graph_in_another_order(collect: Path) -> None:
-    policy = mindlang.load(collect / "collect.mind").ready().policy
+    policy = mindlang.load(collect / "collect.mind").policy()
     other = mindlang.loads(swapped(collect / "collect.mind")).graph
     with pytest.raises(WeightsError, match=r"of GoToObject belong to a graph that reads and sends in another order"):
         Policy(other, policy.weights)
     with pytest.raises(WeightsError, match="there are weights of Avoid, but there is no such skill"):
         replace(policy, graph=replace(policy.graph, skills=()))
-
-
-def test_a_training_is_cancelled_and_goes_on(collect: Path) -> None:
-    mind = mindlang.load(collect / "collect.mind")
-    seen: list[int] = []
-
-    def train(cancelled: bool) -> list[dict[str, object]]:
-        return mind.train(
-            "GoToObject",
-            options=TrainOptions(generations=4, population=10),
-            seed=3,
-            runs=collect / "runs",
-            on_generation=lambda record: seen.append(record.generation),
-            cancelled=lambda: cancelled and len(seen) == 2,
-        )
-
-    assert train(cancelled=True) == []
-    [result] = train(cancelled=False)
-    assert seen == [1, 2, 3, 4]
-    assert result["skill"] == "GoToObject"
 
 
 def test_what_was_not_taught_is_said_with_what_to_do(tmp_path: Path) -> None:
@@ -122,3 +83,28 @@ def test_what_was_not_taught_is_said_with_what_to_do(tmp_path: Path) -> None:
         mind.rollout("Collect")
     learning = mind.rollout("GoToObject", learners=["GoToObject"])
     assert learning.score(np.zeros((2, learning.genome_length), np.float32), [1]).total.shape == (2, 1)
+
+
+def test_an_edit_is_written_and_gives_the_mind_as_it_is_then(collect: Path) -> None:
+    mind = mindlang.load(collect / "collect.mind")
+    edited = mind.edit("rename", old="Avoid", new="Dodge", noun="skill")
+    assert "-skill Avoid is mlp" in edited.diff
+    assert "Dodge has the weights of Avoid" in edited.summary
+    after = edited.write()
+    assert "Dodge" in [skill.name for skill in after.graph.skills]
+    readings = np.full(mind.graph.width, 0.4)
+    now = after.engine().tick(readings)
+    assert np.array_equal(now, Engine(mindlang.load(COLLECT / "collect.mind").policy()).tick(readings))
+    with pytest.raises(MindError, match="has been changed meanwhile"):
+        mind.edit("rename", old="proximity", new="whiskers").write()
+
+
+def test_a_bench_is_means_with_their_errors(collect: Path) -> None:
+    mind = mindlang.load(collect / "collect.mind")
+    found = mind.bench("GoToObject", runs=8, seed=2)
+    one = mind.rollout("GoToObject").score(np.zeros((1, 0), np.float32), layouts(2, 8))
+    assert found["count_mean"] == one.counts.mean()
+    assert found["count_standard_error"] == pytest.approx(one.counts.std(ddof=1) / 8**0.5)
+    assert (found["runs"], found["task"], found["master"]) == (8, "GoToObject", "GoToObject")
+    best = list(mind.trace("GoToObject", found["best_seed"]).moments)
+    assert len(best) == one.ticks[0, int(one.total[0].argmax())]

@@ -5,7 +5,7 @@ from math import sqrt
 
 import numpy as np
 from mindrun.graph import Graph, Task
-from mindrun.sim.trace import Moment, Run
+from mindrun.sim.trace import Moment, Trace
 from mindrun.things import Item, Obstacle, Power, Zone
 from mindrun.trigonometry import cosine, sine
 from numpy.typing import NDArray
@@ -18,7 +18,7 @@ Thing = tuple[float, float, float]  # x, y, size
 class PlainWorld:
     """The things of a task. Where one that moves appears is random, so it is told; all else follows from the robot."""
 
-    def __init__(self, graph: Graph, task: Task, run: Run) -> None:
+    def __init__(self, graph: Graph, task: Task, run: Trace) -> None:
         self.radius = graph.body.size / 2
         things = [thing for thing in task.things if not isinstance(thing.kind, Obstacle)]
         self.kinds = [thing.kind for thing in things]

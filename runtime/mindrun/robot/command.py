@@ -4,15 +4,12 @@ import argparse
 import sys
 from contextlib import suppress
 from dataclasses import replace
-from hashlib import sha256
-from pathlib import Path
 from typing import Any
 
-from mindrun.bundle import MAX_BUNDLE_BYTES, Bundle, read_bundle
+from mindrun.bundle import Bundle, digest, read_bundle
 from mindrun.default_task import default_task
 from mindrun.driver import DeviceError
 from mindrun.errors import MindError
-from mindrun.regular_files import read_whole
 from mindrun.robot.device_locks import hold_devices
 from mindrun.robot.drive import DriveOptions, drive
 from mindrun.robot.drivers.mock import MockActuator
@@ -82,11 +79,6 @@ def _outcome(run: dict[str, Any]) -> str:
     ended = f", ended by {run['ended']}" if run["ended"] else ""
     events = "".join(f", {times} × {event}" for event, times in run["events"].items())
     return f"the simulated run: {run['tick']:,} ticks{ended}{events}"
-
-
-def digest(path: Path) -> str:
-    """The SHA-256 of a bundle's file."""
-    return sha256(read_whole(path, MAX_BUNDLE_BYTES)).hexdigest()
 
 
 def _summary(loop: Loop) -> str:

@@ -4,6 +4,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
+from mindrun.bundle import digest, read_bundle
 from mindrun.engine import Engine
 from mindrun.robot.recording import RecordingError, read
 
@@ -14,6 +15,20 @@ class Replayed:
 
     ticks: int
     differs: tuple[int, str] | None
+
+
+def replay_recording(
+    recording: Path | str, bundle: Path | str, told: Callable[[int], None] = lambda ticks: None
+) -> Replayed:
+    """Compute a recorded drive again with the bundle that was running; `told` is told of the ticks so far.
+
+    MindError where one of the two cannot be read, or the recording was made with another bundle. Runs the Python code
+    of the bundle's procedures.
+    """
+    path, file = Path(recording), Path(bundle)
+    mind = read_bundle(file)
+    about, _ = read(path)
+    return replay(path, digest(file), Engine(mind.policy, mind.procedures, about.master), told)
 
 
 def replay(path: Path, bundle: str, engine: Engine, told: Callable[[int], None] = lambda ticks: None) -> Replayed:

@@ -24,11 +24,11 @@ def in_threads(work: Callable[[T], R], items: Sequence[T], stop: Event) -> list[
             result = error
         finished.put((number, result))
 
-    for number, item in enumerate(items):
-        Thread(target=run, args=(number, item), daemon=True).start()
     results: dict[int, R] = {}
     errors: dict[int, BaseException] = {}
     try:
+        for number, item in enumerate(items):
+            Thread(target=run, args=(number, item), daemon=True).start()
         while len(results) + len(errors) < len(items):
             number, result = finished.get()
             if isinstance(result, BaseException):

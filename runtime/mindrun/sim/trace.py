@@ -33,7 +33,7 @@ class Moment:
 
 
 @dataclass(frozen=True, slots=True)
-class Run:
+class Trace:
     """A run that is about to begin: the obstacles [boxes, 3] as x, y and half side, and its moments."""
 
     boxes: NDArray[np.float64]
@@ -43,7 +43,7 @@ class Run:
     jobs: Jobs
 
 
-def trace(rollout: Rollout, seed: int, genome: NDArray[np.float32] | None = None) -> Run:
+def trace(rollout: Rollout, seed: int, genome: NDArray[np.float32] | None = None) -> Trace:
     """The run that `rollout.score` would make of that genome and seed."""
     genomes = np.zeros((1, 0), np.float32) if genome is None else genome[None].astype(np.float32)
     jobs = rollout.jobs(genomes, np.array([seed], np.uint64))
@@ -71,7 +71,7 @@ def trace(rollout: Rollout, seed: int, genome: NDArray[np.float32] | None = None
                 lines=s.lines[: len(rollout.task.rewards), 0].copy(),
             )
 
-    return Run(boxes, s.body[:3, 0].copy(), things, moments(), jobs)
+    return Trace(boxes, s.body[:3, 0].copy(), things, moments(), jobs)
 
 
 def _things(state: Any, rollout: Rollout) -> NDArray[np.float64]:

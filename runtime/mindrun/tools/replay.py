@@ -8,11 +8,7 @@ import argparse
 import sys
 from pathlib import Path
 
-from mindrun.bundle import read_bundle
-from mindrun.engine import Engine
-from mindrun.robot.command import digest
-from mindrun.robot.recording import read
-from mindrun.robot.replay import replay
+from mindrun.robot.replay import replay_recording
 from mindrun.standard_streams import draw
 
 
@@ -24,10 +20,7 @@ def options(parser: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> int:
     """0 where every tick is the same, else 1."""
-    bundle = read_bundle(options.bundle)
-    about, _ = read(options.recording)
-    engine = Engine(bundle.policy, bundle.procedures, about.master)
-    found = replay(options.recording, digest(options.bundle), engine, _show_progress)
+    found = replay_recording(options.recording, options.bundle, _show_progress)
     if found.differs:
         tick, what = found.differs
         print(f"tick {tick:,} differs: {what} ({found.ticks:,} ticks before it are the same)")

@@ -10,8 +10,7 @@ import json
 from dataclasses import asdict
 from pathlib import Path
 
-from mindrun.bundle import read_bundle
-from mindrun.robot.command import digest
+from mindrun.bundle import digest, read_bundle
 from mindrun.robot.timing_report import report
 from mindrun.standard_streams import document
 
