@@ -32,8 +32,8 @@ from mindlang.editing.summary import broken_neighbours, diff, summarise
 from mindlang.editing.writing import write
 from mindlang.lock.ready import Ready, make_ready
 from mindlang.resource_limits import refuse_too_large, refuse_too_many
-from mindlang.run import outcome
 from mindlang.run.layouts import NO_GENOME, layouts
+from mindlang.run.outcome import bench_data
 from mindlang.run.setup import master_of, set_up, task_of, unknown
 from mindlang.training.lesson_choice import TrainOptions, chosen_lessons, is_due
 from mindlang.training.results import Result
@@ -120,7 +120,7 @@ class Mind:
         seeds, began = layouts(seed, runs), perf_counter()
         scores = rollout.score(NO_GENOME, seeds)
         found = {"task": setup.task.name, "master": setup.master, "seed": seed, "notes": [*setup.ready.notes]}
-        return found | outcome.many(setup.task, scores, seeds, perf_counter() - began)
+        return found | bench_data(setup.task, scores, seeds, perf_counter() - began)
 
     def train(
         self,
