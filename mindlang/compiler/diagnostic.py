@@ -4,12 +4,15 @@ from collections.abc import Iterable
 from dataclasses import dataclass, field
 from difflib import get_close_matches
 from itertools import chain
+from typing import Literal
 
 from mindlang.compiler.source import Span
 from mindlang.compiler.splice import Splice
 
 MAX_DIAGNOSTICS = 100  # diagnostics that are read
 MAX_COMPARED_NAMES = 50_000  # names that are held against words
+
+Severity = Literal["error", "warning"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -41,7 +44,7 @@ class Diagnostic:
     span: Span | None = None
     hint: str = ""
     labels: tuple[Label, ...] = ()
-    severity: str = "error"
+    severity: Severity = "error"
     fix: Fix | None = None
 
 

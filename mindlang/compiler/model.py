@@ -7,6 +7,7 @@ from mindrun.actuators import ActuatorKind
 from mindrun.bodies import Disc
 from mindrun.events import EventKind
 from mindrun.functions import Function
+from mindrun.graph import Receiver
 from mindrun.learners import Learner
 from mindrun.measures import MeasureKind
 from mindrun.memory import Cell
@@ -78,9 +79,9 @@ class Expression:
 
 @dataclass(frozen=True, slots=True)
 class Edge:
-    """What a skill sends to a "skill", an "actuator" or a "memory": an output of its function, or the value of `at`."""
+    """What a skill sends: an output of its function, or the value of `at`."""
 
-    to: str
+    to: Receiver
     target: str
     at: Expression | None
     fact: Drives | Influences

@@ -6,6 +6,7 @@ from collections.abc import Iterable, Iterator, Sequence, Set
 from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import chain, islice
+from typing import TypeVar
 
 from mindlang.compiler.diagnostic import Findings, Label, a, listed
 from mindlang.compiler.source import Span
@@ -22,6 +23,9 @@ NOUN_USES = {
 }
 
 
+N = TypeVar("N", bound=str)
+
+
 @dataclass(frozen=True)
 class Names:
     """Declarations by noun and name, in the order of the sources.
@@ -36,7 +40,7 @@ class Names:
         """The names declared with one of these nouns."""
         return [name for noun in nouns for name in self.table.get(noun, {})]
 
-    def noun_of(self, name: str, nouns: Iterable[str]) -> str | None:
+    def noun_of(self, name: str, nouns: Iterable[N]) -> N | None:
         """The first of the nouns with which the name is declared."""
         return next((noun for noun in nouns if name in self.table.get(noun, {})), None)
 
@@ -44,7 +48,7 @@ class Names:
         """The declarations of a noun with their names."""
         yield from self.table.get(noun, {}).items()
 
-    def find(self, name: Name, nouns: Sequence[str], findings: Findings) -> str | None:
+    def find(self, name: Name, nouns: Sequence[N], findings: Findings) -> N | None:
         """The noun with which the name is declared; a name that is not is reported."""
         if noun := self.noun_of(name.text, nouns):
             return noun

@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import TypeVar
 
 from mindrun.errors import MindError
+from mindrun.functions import Function
 from mindrun.graph import Graph
 from mindrun.registry import kinds
 
@@ -209,8 +210,14 @@ def kind_of(declaration: Declaration) -> str:
 
 
 def influence(kind: str, skill: str) -> str:
-    """The fact that lets a skill of a kind influence another: a rule has to say how much."""
-    return f"influences {skill} at 1" if kind == "rule" else f"influences {skill}"
+    """The fact that lets a skill of a kind influence another; one without outputs of its own has to say how much."""
+    return f"influences {skill}" if has_outputs(kind) else f"influences {skill} at 1"
+
+
+def has_outputs(kind: str) -> bool:
+    """Whether the functions of a kind have outputs that edges without `at` send."""
+    cls: type[Function] = kinds("skill").get(kind, Function)
+    return cls.has_outputs
 
 
 def suggestion(name: str, known: Sequence[str]) -> str:

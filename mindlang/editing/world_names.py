@@ -4,6 +4,9 @@ import re
 from collections.abc import Callable, Mapping
 from typing import Any
 
+from mindrun.quantity import Reference
+from mindrun.registry import arguments, kinds
+
 from mindlang.lock.training_world import TrainingWorld
 
 NounNames = Mapping[str, Mapping[str, str]]  # what is called otherwise now, by noun
@@ -32,8 +35,8 @@ def _subject(subject: str, name: Name) -> str:
 def _fact(subject: str, value: Any, name: Name) -> Any:
     match subject.partition(" ")[0]:
         case "sensor":
-            noun = "sensor" if value["is"] == "derivative" else "thing"
-            return {key: name(part, noun) if key == "of" else part for key, part in value.items()}
+            nouns = _named_by(value["is"])
+            return {key: name(part, nouns[key]) if key in nouns else part for key, part in value.items()}
         case "skill":
             return {key: _skill_part(key, part, name) for key, part in value.items()}
         case "task":
@@ -43,6 +46,13 @@ def _fact(subject: str, value: Any, name: Name) -> Any:
         case "lesson":
             return {**value, "task": name(value["task"], "task"), "master": name(value["master"], "skill")}
     return value
+
+
+def _named_by(kind: str) -> dict[str, str]:
+    """The arguments of a kind of sensor that name something, with its noun."""
+    known = kinds("sensor").get(kind)
+    taken = arguments(known) if known else ()
+    return {each.field: each.type.noun for each in taken if isinstance(each.type, Reference)}
 
 
 def _skill_part(key: str, value: Any, name: Name) -> Any:

@@ -6,12 +6,13 @@ from math import isfinite
 
 import numpy as np
 from mindrun.engine import procedure_sources
+from mindrun.graph import Receiver
 from mindrun.think import hierarchy, values
 from numpy.typing import NDArray
 
 from mindlang.pictures.recorded_run import RecordedRun
 
-Sink = tuple[str, int]  # "skill", "actuator" or "memory", and its index
+Sink = tuple[Receiver, int]  # which one of its kind
 
 
 @dataclass(frozen=True, slots=True)

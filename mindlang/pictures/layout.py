@@ -4,8 +4,11 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 from statistics import fmean
+from typing import Literal
 
 from mindlang.pictures.influence_flow import Link, Sink
+
+Stop = Sink | tuple[Literal["link"], int]  # a box, or where a link passes a row
 
 CROSSING_SWEEPS = 8
 MAX_BOX_WIDTH, MAX_BOX_HEIGHT = 210.0, 50.0  # pixels of a box
@@ -36,13 +39,13 @@ class Layout:
         routes = [_route(number, link, level) for number, link in enumerate(links)]
         rows = _ordered(_rows(level, routes), routes)
         places = {sink: place for i, row in enumerate(rows) for sink, place in _spread(row, i, len(rows), room)}
-        boxes = {sink: place for sink, place in places.items() if sink[0] != "link"}
+        boxes = {(to, index): place for (to, index), place in places.items() if to != "link"}
         return cls(boxes, [[places[stop] for stop in route] for route in routes])
 
 
-def _levels(links: Sequence[Link], skills: Sequence[int]) -> dict[Sink, int]:
+def _levels(links: Sequence[Link], skills: Sequence[int]) -> dict[Stop, int]:
     """The row of each box: a skill's is below the lowest of its parents', what is driven has the last."""
-    level: dict[Sink, int] = {("skill", skill): 0 for skill in skills}
+    level: dict[Stop, int] = {("skill", skill): 0 for skill in skills}
     for link in links:
         if link.target[0] == "skill":
             level[link.target] = max(level[link.target], level["skill", link.source] + 1)
@@ -50,15 +53,15 @@ def _levels(links: Sequence[Link], skills: Sequence[int]) -> dict[Sink, int]:
     return level | dict.fromkeys(sorted(link.target for link in links if link.target[0] != "skill"), last)
 
 
-def _route(number: int, link: Link, level: dict[Sink, int]) -> list[Sink]:
+def _route(number: int, link: Link, level: dict[Stop, int]) -> list[Stop]:
     """The link's ends, and between them a stop in each row that it passes."""
     source: Sink = ("skill", link.source)
     passed = range(level[source] + 1, level[link.target])
     return [source, *(("link", number * 1000 + row) for row in passed), link.target]
 
 
-def _rows(level: dict[Sink, int], routes: Iterable[Sequence[Sink]]) -> list[list[Sink]]:
-    rows: list[list[Sink]] = [[] for _ in range(max(level.values()) + 1)]
+def _rows(level: dict[Stop, int], routes: Iterable[Sequence[Stop]]) -> list[list[Stop]]:
+    rows: list[list[Stop]] = [[] for _ in range(max(level.values()) + 1)]
     for sink, row in level.items():
         rows[row].append(sink)
     for route in routes:
@@ -67,9 +70,9 @@ def _rows(level: dict[Sink, int], routes: Iterable[Sequence[Sink]]) -> list[list
     return rows
 
 
-def _ordered(rows: list[list[Sink]], routes: Iterable[Sequence[Sink]]) -> list[list[Sink]]:
+def _ordered(rows: list[list[Stop]], routes: Iterable[Sequence[Stop]]) -> list[list[Stop]]:
     """The rows sorted, down and up again, by the mean place of what each box is linked to in the rows beside it."""
-    near: dict[Sink, list[Sink]] = {sink: [] for row in rows for sink in row}
+    near: dict[Stop, list[Stop]] = {sink: [] for row in rows for sink in row}
     for upper, lower in (pair for route in routes for pair in pairwise(route)):
         near[upper].append(lower)
         near[lower].append(upper)
@@ -81,7 +84,7 @@ def _ordered(rows: list[list[Sink]], routes: Iterable[Sequence[Sink]]) -> list[l
     return rows
 
 
-def _spread(row: Sequence[Sink], level: int, levels: int, room: Place) -> Iterable[tuple[Sink, Place]]:
+def _spread(row: Sequence[Stop], level: int, levels: int, room: Place) -> Iterable[tuple[Stop, Place]]:
     """The boxes of a row side by side; `room` is given by its upper left corner."""
     shares = [PASSAGE_SHARE if sink[0] == "link" else 1.0 for sink in row]
     unit, gap = room.width / sum(shares), room.height / levels

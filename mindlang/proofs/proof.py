@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from typing import Literal
 
 from mindrun.graph import Actuator, Edge, Graph, Skill
 from mindrun.weights import Weights, reachable
@@ -20,6 +21,9 @@ MAX_LISTED_PATHS = 10
 DECLARATION = "the declaration alone"
 
 
+Neutral = Literal["always", "never", "can be", "not excluded"]
+
+
 @dataclass(frozen=True, slots=True)
 class OfActuator:
     """What is known of an actuator. `weights` names the skills on whose weights its bounds rest."""
@@ -32,8 +36,8 @@ class OfActuator:
     weights: tuple[str, ...]
 
     @property
-    def neutral(self) -> str:
-        """Whether Σ influence can be 0, and `neutral` is sent: "always", "never", "can be", or "not excluded"."""
+    def neutral(self) -> Neutral:
+        """Whether Σ influence can be 0, and `neutral` is sent."""
         if self.driven.command is None:
             return "always"
         if self.driven.is_always_driven:

@@ -35,9 +35,8 @@ skill Go is rule
 def check(study: Study) -> Found:
     """Sensors that stand in no line but their own."""
     for name, declaration in study.mind.names.declarations("sensor"):
-        phrase = declaration.header.phrase
-        is_battery = phrase is not None and phrase.kind.text == "battery"
-        if name not in study.used.get("sensor", set()) and not (is_battery and study.is_exhausted):
+        is_needed = study.is_exhausted and study.sensors[name].battery
+        if name not in study.used.get("sensor", set()) and not is_needed:
             fix = Fix(f"Remove {name}", without_declarations([declaration]))
             hint = f"Add reads {name} to a skill, or take the sensor out."
             yield Finding(declaration.header.name.span, f"Nobody reads {name}.", hint, fix=fix)

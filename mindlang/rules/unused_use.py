@@ -52,7 +52,7 @@ def _is_used(study: Study, files: Iterable[File]) -> bool:
     sources = {id(file.source) for file in files}
     others = [file for file in study.mind.files if id(file.source) not in sources]
     nouns = {declaration.header.noun.text for file in files for declaration in file.declarations}
-    if study.is_exhausted and any(_is_battery(each) for file in files for each in file.declarations):
+    if study.is_exhausted and any(_is_battery(study, each) for file in files for each in file.declarations):
         return True
     if nouns - PASSIVE or any(lock_path(file.source.path).exists() for file in files):
         return True
@@ -63,6 +63,6 @@ def _is_used(study: Study, files: Iterable[File]) -> bool:
     return not named.isdisjoint(own)
 
 
-def _is_battery(declaration: Declaration) -> bool:
-    phrase = declaration.header.phrase
-    return phrase is not None and phrase.kind.text == "battery"
+def _is_battery(study: Study, declaration: Declaration) -> bool:
+    header = declaration.header
+    return header.noun.text == "sensor" and study.sensors[header.name.text].battery is not None

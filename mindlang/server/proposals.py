@@ -11,7 +11,7 @@ from mindrun.weights import genes
 from mindlang.compiler.diagnostic import listed
 from mindlang.compiler.hierarchy import above, reached
 from mindlang.compiler.syntax import Declaration, Drives, Influences, Reads, Stays
-from mindlang.editing.project import EditError, Project, facts, kind_of
+from mindlang.editing.project import EditError, Project, facts, has_outputs, kind_of
 from mindlang.server.changing import proposed
 from mindlang.server.selection import Selection
 from mindlang.server.view import fact_at, on_line
@@ -72,7 +72,7 @@ def _of_header(selection: Selection) -> Iterator[Proposal]:
         return
     project = selection.project
     for verb, target in connectable(project, declaration):
-        rule = {"at": "1"} if verb != "read" and kind_of(declaration) == "rule" else {}
+        rule = {"at": "1"} if verb != "read" and not has_outputs(kind_of(declaration)) else {}
         flags = {"drives": True} if verb == "drive" and target in project.names.of("memory") else {}
         yield Proposal(f"Let {name} {verb} {target}", "connect", {"skill": name, "target": target, **rule, **flags})
     for other, reads in not_yet_below(project, name):

@@ -1,6 +1,7 @@
 """The compiled hierarchy as plain data: names as indices, units converted, skills in the order of influence."""
 
 from dataclasses import dataclass
+from typing import Literal
 
 from mindrun.actuators import ActuatorKind
 from mindrun.actuators.gripper import REACH_UNITS
@@ -14,6 +15,8 @@ from mindrun.memory import Cell
 from mindrun.scenes import SceneKind
 from mindrun.sensors import SensorKind
 from mindrun.things import ThingKind
+
+Receiver = Literal["skill", "actuator", "memory"]  # of what a skill sends
 
 
 @dataclass(frozen=True, slots=True)
@@ -50,7 +53,7 @@ class Edge:
     The value is the function's output number `output`, or where that is None the `value` program, clamped to 0..1.
     """
 
-    to: str  # "skill", "actuator" or "memory"
+    to: Receiver
     target: int
     output: int | None
     value: Program = ()
@@ -181,7 +184,7 @@ class Graph:
         """How far ahead of the body things come into reach, with a claw or without."""
         return next((each.kind.reach for each in self.actuators if each.kind.reach is not None), REACH_UNITS)
 
-    def named(self, noun: str, index: int) -> str:
+    def named(self, noun: Receiver, index: int) -> str:
         """The name of the "skill", "actuator" or "memory" that an edge goes to by its index."""
         match noun:
             case "skill":

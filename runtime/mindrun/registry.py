@@ -4,7 +4,7 @@ from collections.abc import Callable, Iterable, Mapping
 from dataclasses import MISSING, dataclass, fields
 from importlib import import_module
 from pkgutil import iter_modules
-from typing import Annotated, Any, TypeVar, get_args, get_origin, get_type_hints
+from typing import Annotated, Any, Literal, TypeVar, get_args, get_origin, get_type_hints
 
 from mindrun.quantity import Quantity, Reference, Span
 
@@ -16,14 +16,17 @@ _bases: dict[type[Any], str] = {}
 _arguments: dict[Any, tuple["Argument", ...]] = {}  # of each kind that was asked for
 
 
+Shape = Literal["one", "list", "span", "name"]  # of an argument: a number, several, a `Span`, a word
+
+
 @dataclass(frozen=True, slots=True)
 class Argument:
-    """One argument of a kind. `shape` is "one" (a number), "list" (of numbers), "span" or "name"."""
+    """One argument of a kind."""
 
     key: str
     field: str
     type: Quantity | Reference
-    shape: str
+    shape: Shape
     default: Any
 
     @property
@@ -89,7 +92,7 @@ def _read(cls: type[Any]) -> tuple[Argument, ...]:
     )
 
 
-def _type(hint: Any) -> tuple[Quantity | Reference, str]:
+def _type(hint: Any) -> tuple[Quantity | Reference, Shape]:
     if get_origin(hint) is not Annotated:
         raise TypeError(f"{hint} does not say what an argument means")
     plain, meaning = get_args(hint)[:2]

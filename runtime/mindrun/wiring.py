@@ -6,7 +6,7 @@ It comes from `robot.yaml` and travels in the bundle, checked against the mind b
 from collections.abc import Iterator, Set
 from dataclasses import dataclass, replace
 from math import isfinite, nan
-from typing import Annotated
+from typing import Annotated, Literal, get_args
 
 from mindrun.driver import ActuatorDriver, SensorDriver
 from mindrun.graph import Graph
@@ -21,7 +21,8 @@ TIME = Quantity("a time", {"s": 1.0, "ms": 0.001}, low=1e-9, high=3600)
 TRIM = Quantity("a share of the travel", {"": 1.0, "%": 0.01}, low=-0.5, high=0.5)
 A_SECOND = Quantity("how much of the travel in a second", {"/s": 1.0}, low=0.0)
 SWITCH = Reference("switch", ("true", "false"))
-ON_FAULT = Reference("reaction", ("neutral", "hold", "blank"))
+OnFault = Literal["neutral", "hold", "blank"]
+ON_FAULT = Reference("reaction", get_args(OnFault))
 
 
 @dataclass(frozen=True, slots=True)
@@ -41,7 +42,7 @@ class SensorWire:
     median: Annotated[int, VALUES] = 1
     rate: Annotated[float, HERTZ] = 20.0
     max_age: Annotated[float, TIME] = 0.25
-    on_fault: Annotated[str, ON_FAULT] = "neutral"
+    on_fault: Annotated[OnFault, ON_FAULT] = "neutral"
     hold: Annotated[float, TIME] = 0.5
     blank: Annotated[float, RATIO] = 1.0
     dead_zone: Annotated[float, RATIO] = 0.0

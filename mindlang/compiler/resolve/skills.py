@@ -4,6 +4,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from mindrun.functions import Function
+from mindrun.graph import Receiver
 
 from mindlang.compiler import model
 from mindlang.compiler.diagnostic import Findings, Label
@@ -51,6 +52,7 @@ def _reads(declaration: Declaration, names: Names, findings: Findings) -> tuple[
 def _edges(declaration: Declaration, names: Names, visible: Visible, findings: Findings) -> tuple[model.Edge, ...]:
     edges = []
     seen: dict[str, Span] = {}
+    to: Receiver | None
     for fact in declaration.facts:
         match fact:
             case Drives():

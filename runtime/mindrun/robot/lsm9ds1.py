@@ -4,6 +4,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from struct import unpack
 from time import monotonic, sleep
+from typing import Literal, get_args
 
 from mindrun.quantity import Reference
 from mindrun.robot.driver_support import I2cDevice
@@ -21,7 +22,8 @@ MILLIGAUSS_PER_COUNT = 0.14
 MEASURED_IN = 0.1  # seconds until a new value must be there; they come every 8 to 13 ms
 READ_IN = 0.5  # seconds until there must be enough of them
 SATURATED_COUNT = 32767
-FACE = Reference("face", ("up", "down"))
+Face = Literal["up", "down"]
+FACE = Reference("face", get_args(Face))
 
 
 @dataclass(slots=True)

@@ -4,7 +4,7 @@ import atexit
 from dataclasses import dataclass, replace
 from threading import Lock, Thread
 from time import sleep
-from typing import Annotated
+from typing import Annotated, Literal, get_args
 
 from mindrun.driver import DeviceError
 from mindrun.quantity import COUNT, RATIO, Quantity, Reference
@@ -15,7 +15,8 @@ from mindrun.robot.camera import BallSighting, Joint, TrackingCamera
 from mindrun.robot.driver_support import ADDRESS, BUS, CHANNEL, DEGREES, METRES, MICROSECONDS, PATH, on_bus
 from mindrun.robot.drivers.pca9685 import Pca9685
 
-MEASURE = Reference("measure", ("bearing", "elevation", "distance"))
+Measure = Literal["bearing", "elevation", "distance"]
+MEASURE = Reference("measure", get_args(Measure))
 HUE = Quantity("a hue", {"deg": 1.0}, low=0.0, high=360.0)
 TOLERANCE = Quantity("how far a hue may be off", {"deg": 1.0}, low=1.0, high=90.0)
 VIEW = Quantity("an angle of view", {"deg": 1.0}, low=5.0, high=170.0)
@@ -95,7 +96,7 @@ class BallTracker:
     where the longest one turns it to the right, or down. The servos turn only where the robot is armed.
     """
 
-    measure: Annotated[str, MEASURE] = "bearing"
+    measure: Annotated[Measure, MEASURE] = "bearing"
     camera: Annotated[str, PATH] = "/dev/video0"
     width: Annotated[int, COUNT] = 320
     height: Annotated[int, COUNT] = 240

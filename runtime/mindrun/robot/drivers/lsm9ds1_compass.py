@@ -15,6 +15,7 @@ from mindrun.robot.lsm9ds1 import (
     OUT_MAGNETOMETER,
     STATUS_MAGNETIC,
     Chip,
+    Face,
     NineDofDevice,
     opened,
 )
@@ -34,7 +35,7 @@ class MagneticCompass:
     """
 
     turn: Annotated[float, DEGREES] = 0.0
-    face: Annotated[str, FACE] = "up"
+    face: Annotated[Face, FACE] = "up"
     x: Annotated[float, MILLIGAUSS_OFFSET] = 0.0
     y: Annotated[float, MILLIGAUSS_OFFSET] = 0.0
     bus: Annotated[int, BUS] = 1

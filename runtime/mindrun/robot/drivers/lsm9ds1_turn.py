@@ -14,6 +14,7 @@ from mindrun.robot.lsm9ds1 import (
     OUT_GYROSCOPE,
     STATUS_INERTIAL,
     Chip,
+    Face,
     NineDofDevice,
     opened,
 )
@@ -27,7 +28,7 @@ class Turn:
     An LSM9DS1 that lies flat, its printed side `face` up or down. `still` is what it reads at rest.
     """
 
-    face: Annotated[str, FACE] = "up"
+    face: Annotated[Face, FACE] = "up"
     still: Annotated[float, NUMBER] = 0.0
     bus: Annotated[int, BUS] = 1
     address: Annotated[int, ADDRESS] = 0x6B

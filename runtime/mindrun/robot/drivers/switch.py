@@ -1,13 +1,14 @@
 """A switch between a GPIO pin and ground, or 3.3 V."""
 
 from dataclasses import dataclass
-from typing import Annotated, Any
+from typing import Annotated, Any, Literal, get_args
 
 from mindrun.quantity import Reference
 from mindrun.registry import kind
 from mindrun.robot.driver_support import PIN, library, pins
 
-PULL = Reference("pull", ("up", "down"))
+Pull = Literal["up", "down"]
+PULL = Reference("pull", get_args(Pull))
 
 
 @dataclass(frozen=True, slots=True)
@@ -35,7 +36,7 @@ class Switch:
     """
 
     pin: Annotated[int, PIN]
-    pull: Annotated[str, PULL] = "up"
+    pull: Annotated[Pull, PULL] = "up"
 
     unit = ""
     readings = 1
