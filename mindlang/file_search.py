@@ -1,4 +1,4 @@
-"""The files of a kind in a folder, below it, and in the folders above: never more than one can wait for.
+"""Finds files in a folder, below it and in the folders above, up to a limit of files and characters.
 
 What stands there is somebody else's and may be anything: a million files, loops of links, pipes, devices. So folders
 are looked through up to so many entries, links to folders are not followed, and texts are read as sources are.
@@ -20,7 +20,7 @@ SKIPPED_FOLDERS = ("node_modules", "build", "dist", "runs")
 
 
 def beside(folder: Path, suffix: str = ".mind") -> list[Path]:
-    """The files in a folder whose names end so, in order; none where it cannot be read."""
+    """The files of a folder with this ending, sorted; none where the folder cannot be read."""
     try:
         with os.scandir(folder) as entries:
             return sorted(
@@ -47,7 +47,7 @@ def above(path: Path) -> list[Path]:
 
 
 def text_of(path: Path) -> str:
-    """The text of a source file; nothing where it cannot be one."""
+    """The text of a source file; None where it cannot be read or is none."""
     try:
         return decode(read_regular(path, MAX_SOURCE_BYTES + 1))
     except (OSError, RuntimeError, ValueError):  # a loop of links is a RuntimeError
@@ -55,7 +55,7 @@ def text_of(path: Path) -> str:
 
 
 def within_read_limits(texts: Iterable[tuple[Path, str]]) -> Iterator[tuple[Path, str]]:
-    """Files with their texts, as many of them as one can wait for."""
+    """The first of these files with their texts: at most MAX_READ_FILES and MAX_READ_CHARACTERS."""
     left = MAX_READ_CHARACTERS
     for path, text in islice(texts, MAX_READ_FILES):
         left -= len(text)

@@ -36,7 +36,7 @@ class _Noted:
 
 
 def change(folder: Path, files: Mapping[Path, bytes], check: Callable[[], None] = lambda: None) -> None:
-    """Write files, all of them in `folder` or below; JournalError where that fails.
+    """Write files, all of them in `folder` or below; TransactionError where that fails.
 
     Whether this ends, fails or is killed: afterwards, at the latest when `recover` has been called, either all files
     are changed or all are as they were. `check` may still refuse, when no other process can change these files.
@@ -67,7 +67,7 @@ def change(folder: Path, files: Mapping[Path, bytes], check: Callable[[], None] 
 def recover(folder: Path) -> bool:
     """Put back what an interrupted change left behind in a folder or above it; whether there was one.
 
-    JournalError where that would lose work that was done since.
+    TransactionError where that would lose work that was done since.
     """
     return sum(_recovered(above) for above in (folder, *folder.parents) if _is_left(above)) > 0
 
@@ -131,7 +131,7 @@ def _put_back(folder: Path, waiting: Collection[Path] = ()) -> bool:
 
 
 def _read(folder: Path) -> dict[Path, _Noted] | None:
-    """The journal of a folder, if there is one; JournalError where it is none that mindc wrote."""
+    """The journal of a folder, if there is one; TransactionError where it is none that mindc wrote."""
     if not _is_left(folder):
         return None
     try:

@@ -1,4 +1,4 @@
-"""What is different in meaning between two minds; how it is written is not."""
+"""Differences in meaning between two minds; spacing, comments and order are none."""
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, fields, is_dataclass

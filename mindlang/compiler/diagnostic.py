@@ -69,12 +69,12 @@ class Findings:
 
 
 def errors(diagnostics: Iterable[Diagnostic]) -> list[Diagnostic]:
-    """Those of them that are errors."""
+    """The diagnostics that are errors, without the warnings."""
     return [diagnostic for diagnostic in diagnostics if diagnostic.severity == "error"]
 
 
 def nearest(word: str, known: Iterable[str]) -> str | None:
-    """The known word that is most like `word`, if one is."""
+    """The known word that is most similar to `word`; None where none is similar enough."""
     by_lower = {name.lower(): name for name in known}
     near = get_close_matches(word.lower()[:100], by_lower, n=1, cutoff=0.6)
     return by_lower[near[0]] if near else None
@@ -87,7 +87,7 @@ def did_you_mean(word: str, known: Iterable[str]) -> str:
 
 
 def a(noun: str) -> str:
-    """A noun with its article."""
+    """A noun with its article, a or an."""
     return f"an {noun}" if noun[:1] in "aeiou" else f"a {noun}"
 
 

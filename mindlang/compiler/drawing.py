@@ -1,4 +1,4 @@
-"""A hierarchy for the eye: a tree from the master down, and Graphviz."""
+"""A hierarchy as text: a tree from the master down, and Graphviz."""
 
 from __future__ import annotations
 

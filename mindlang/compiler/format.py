@@ -161,7 +161,7 @@ def _signs(node: Any) -> Iterator[int]:
 
 
 def format_splices(source: Source) -> list[Splice]:
-    """What has to change, as few lines as may be, so that an editor's cursor and marks stay where they are.
+    """The splices that format a text; they touch few lines, so that an editor's cursor and marks stay where they are.
 
     No line comes or goes but for blank ones, so each that says something is held against the one in its place.
     """

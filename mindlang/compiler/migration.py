@@ -1,4 +1,4 @@
-"""Files of before things said what becomes of them, brought along: a thing moved where a line of its task named it."""
+"""Migrates files that were written before things said what becomes of them (`reached moves`)."""
 
 from collections.abc import Iterator
 
@@ -14,7 +14,7 @@ PLACED = ("item", "zone", "power")  # the kinds that had places of their own
 
 
 def migrated(source: Source, findings: Findings) -> str:
-    """The text of a file with every thing saying what became of it; what it says already stays as it is."""
+    """The text of a file in which every thing says what becomes of it, as an older mindc understood it."""
     declarations = parse(source, findings).declarations
     return spliced(source, [splice for declaration in declarations for splice in _splices(source, declaration)])
 

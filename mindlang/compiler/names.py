@@ -1,4 +1,4 @@
-"""The names of a mind: every noun has its own, and each is declared once."""
+"""The names of a mind: each noun (sensor, skill, task …) has its own, and each name is declared once."""
 
 import re
 import unicodedata

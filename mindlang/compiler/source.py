@@ -36,7 +36,7 @@ class Source:
 
 @dataclass(frozen=True, slots=True)
 class Span:
-    """A stretch of a source, from offset `start` up to `end`."""
+    """The part of a source from offset `start` up to `end`, in characters."""
 
     source: Source = field(repr=False)
     start: int
@@ -74,7 +74,7 @@ def encoded(path: Path, text: str) -> bytes:
 
 
 def within(text: str) -> str:
-    """A text that no file has yet, if it is no larger than one may be; else ValueError says so as `decode` does."""
+    """The text itself; ValueError, as `decode` raises it, where it is larger than a source file may be."""
     if len(text) > MAX_SOURCE_BYTES or (
         not text.isascii() and len(text.encode("utf-8", "surrogatepass")) > MAX_SOURCE_BYTES
     ):

@@ -8,7 +8,7 @@ from mindlang.compiler.source import Source
 
 @dataclass(frozen=True, slots=True)
 class Splice:
-    """In a source, instead of the characters from offset `start` up to `end`, stands `text`."""
+    """Replaces the characters of a source from offset `start` up to `end` by `text`."""
 
     source: Source
     start: int

@@ -41,7 +41,7 @@ class Settings:
 
 @dataclass(frozen=True, slots=True)
 class DeployResult:
-    """What came of it: the current release, and the one before."""
+    """The result of a deployment: the current release, the one before, and remarks."""
 
     release: str
     before: str

@@ -33,7 +33,7 @@ class RemoteRobot:
     options: tuple[str, ...]
 
     def ask(self, verb: str, *words: str) -> list[RobotEvent]:
-        """Let the robot do one verb; what it told, or DeployError with its reason."""
+        """Run one verb of robot.sh on the robot; the events that it printed. DeployError where it fails."""
         done = subprocess.run(
             self._shell,
             input=script(verb, words),
@@ -46,7 +46,7 @@ class RemoteRobot:
 
     @contextmanager
     def locked(self, waits: Callable[[], None]) -> Iterator[None]:
-        """The robot for this deployment alone: another one `waits`, and is refused after a minute."""
+        """Hold the lock of the robot; `waits` is called while another deployment has it. DeployError after a minute."""
         with subprocess.Popen(self._shell, bufsize=0, stdin=subprocess.PIPE, stdout=subprocess.PIPE) as process:
             assert process.stdin is not None
             assert process.stdout is not None
@@ -124,7 +124,7 @@ def script(verb: str, words: Sequence[str]) -> bytes:
 
 
 def parse_events(said: bytes) -> Iterator[RobotEvent]:
-    """What the script told; a greeting of the login shell is nothing of it."""
+    """The events that robot.sh printed; a greeting of the login shell is left out."""
     for line in said.decode(errors="replace").splitlines():
         event, tab, detail = line.partition("\t")
         if tab:

@@ -71,12 +71,12 @@ def moment_of(release: str) -> datetime | None:
 
 
 def read_state(robot: RemoteRobot) -> ReleaseState:
-    """Look at a robot, and change nothing there."""
+    """The releases on a robot; changes nothing there."""
     return parse_state(robot.ask("look"))
 
 
 def parse_state(told: Sequence[RobotEvent]) -> ReleaseState:
-    """The state that the robot told."""
+    """The state of a robot from the events of `robot.sh look`."""
     found = (RELEASE_LINE.fullmatch(detail) for event, detail in told if event == "release")
     releases = [
         Deployed(each["name"], each["state"], _made_of(each["made_of"]))

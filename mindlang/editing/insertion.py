@@ -1,4 +1,4 @@
-"""Where on the page facts and declarations stand: below their siblings, with the comments that belong to them."""
+"""Where facts and declarations are inserted: below others of their kind, with the comments that belong to them."""
 
 from collections.abc import Iterable, Sequence
 from itertools import takewhile
@@ -40,13 +40,13 @@ Extent = tuple[SourceLine, SourceLine]  # the first and the last line
 
 
 def instead(span: Span, text: str) -> Splice:
-    """Another text for a span; `at-eye` becomes `at 0`, not a name."""
+    """Replace the text of a span, with a space where it would join a neighbouring word: `at-eye` becomes `at 0`."""
     is_glued = span.source.text[span.start - 1 : span.start].isalnum() and text[:1].isalnum()
     return Splice(span.source, span.start, span.end, f" {text}" if is_glued else text)
 
 
 def instead_of_line(fact: Fact, texts: Iterable[str]) -> Splice:
-    """Other lines for that of a fact, whose comment goes with it."""
+    """Replace the line of a fact, with its comment, by other lines."""
     return replace_line(first_line(fact.span), texts)
 
 
@@ -68,7 +68,7 @@ def without_fact(fact: Fact) -> Splice:
 
 
 def below_siblings(declaration: Declaration, form: type[Fact], texts: Iterable[str]) -> Splice:
-    """Facts of one verb below the last of that verb, or where it would stand; indented as the others are."""
+    """Insert facts of one verb below the last one of that verb, or where the usual order puts them; indented."""
     earlier = FACTS[: FACTS.index(form) + 1]
     above = [fact for fact in declaration.facts if isinstance(fact, earlier)]
     nearest = max(above, key=lambda fact: (FACTS.index(type(fact)), fact.span.start), default=None)
@@ -84,7 +84,7 @@ def indentation(declaration: Declaration) -> str:
 
 
 def declare(file: File, noun: str, *declarations: Sequence[str]) -> Splice:
-    """Declarations below the last one of their noun, or below that of the noun that comes before it."""
+    """Insert declarations below the last one of their noun, or of the noun that usually comes before it."""
     gap = [] if noun in PARTS else [""]
     first, *others = declarations
     texts = [*first, *(text for other in others for text in (*gap, *other))]

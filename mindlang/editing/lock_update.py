@@ -1,4 +1,4 @@
-"""What becomes of trained weights when their source is edited: a line of the lock says the same with other names."""
+"""Updates locks after an edit: trained weights follow renamed, replaced and widened skills."""
 
 from collections.abc import Iterable, Mapping, Set
 from dataclasses import dataclass, replace
@@ -57,7 +57,7 @@ def update_locks(locks: Locks, before: Graph, after: Graph, change: MindChange, 
 
 
 def new_names(change: MindChange) -> dict[str, dict[str, str]]:
-    """What is called otherwise after an edit, by noun."""
+    """The renamed names of an edit: by noun, from old to new."""
     names: dict[str, dict[str, str]] = {"skill": {}}
     for rename in change.renamed:
         names.setdefault(rename.noun, {})[rename.old] = rename.new
@@ -65,7 +65,7 @@ def new_names(change: MindChange) -> dict[str, dict[str, str]]:
 
 
 def now_called(name: str, names: Names, *nouns: str) -> str:
-    """What is now the name of something that is one of these nouns."""
+    """The new name of something with one of these nouns; the old one where it was not renamed."""
     return next((names[noun][name] for noun in nouns if name in names.get(noun, {})), name)
 
 

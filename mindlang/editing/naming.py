@@ -1,4 +1,4 @@
-"""What can stand in a line: a name is what the grammar takes for one."""
+"""Checks what an edit would write into a line: a name must be one by the grammar."""
 
 from mindlang.compiler.diagnostic import Findings, a
 from mindlang.compiler.parse import parse

@@ -39,7 +39,7 @@ class EditError(MindError):
 
 @dataclass(frozen=True, slots=True)
 class Renamed:
-    """A name that the trained weights have to follow."""
+    """A rename, which the lock has to repeat."""
 
     noun: str
     old: str

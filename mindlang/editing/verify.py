@@ -1,4 +1,4 @@
-"""An edit held against what was learnt: every trained skill that it does not touch does the same, to the bit."""
+"""Verifies an edit: every trained skill that it does not touch computes the same, to the bit."""
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
@@ -57,7 +57,7 @@ class MindVersion:
         return found
 
     def engine(self, master: str, weights: Mapping[str, Weights]) -> Engine:
-        """The hierarchy below a master, as it runs on a robot."""
+        """The engine of a master, as it runs on a robot."""
         return Engine(Policy(self.graph, weights), self.folder, master)
 
 

@@ -1,4 +1,4 @@
-"""Weights for a skill that reads and influences more than it did, with which it does the same."""
+"""Widens trained weights: a skill reads and influences more than before, and still computes the same."""
 
 from collections.abc import Mapping
 from dataclasses import replace

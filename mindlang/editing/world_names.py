@@ -1,4 +1,4 @@
-"""A training world said by other names, as its mind says it after a rename."""
+"""Renames inside of a training world: the facts of a lock after sensors, tasks or skills have been renamed."""
 
 import re
 from collections.abc import Callable, Mapping
@@ -17,7 +17,7 @@ Name = Callable[..., str]
 
 
 def relabelled(world: TrainingWorld, names: NounNames) -> TrainingWorld:
-    """The same world after these renames."""
+    """A training world with these renames applied to its facts."""
 
     def name(text: str, *nouns: str) -> str:
         return next((names[noun][text] for noun in nouns if text in names.get(noun, {})), text)

@@ -41,7 +41,7 @@ def names() -> list[str]:
 
 
 def edit(name: str) -> Edit:
-    """The edit of a name: in the module of that name, the function of that name."""
+    """The edit of that name: the function `NAME` in the module `mindlang.edits.NAME`."""
     function = getattr(import_module(f"{__name__}.{name}"), name)
     hints = get_type_hints(function, include_extras=True)
     parameters = list(signature(function).parameters.values())[1:]  # the first is the project

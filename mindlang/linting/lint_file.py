@@ -53,7 +53,7 @@ def _mended(path: Path, compiled: Compiled, codes: Collection[str]) -> Linted:
 
 
 def _refuse_changed(path: Path, old: Source) -> None:
-    """JournalError where somebody has written the file since it was read."""
+    """TransactionError where somebody has written the file since it was read."""
     was = encoded(path, old.text)
     if read_regular(path, len(was) + 1) != was:
         raise transaction.TransactionError(

@@ -71,7 +71,7 @@ def ranges(skill: Skill, weights: Weights | None, most: int) -> tuple[EdgeRange,
 
 
 def by_itself(skill: Skill) -> Skill:
-    """A skill whose readings are numbered among its own, so that a box has no side that it does not read."""
+    """The skill with its inputs renumbered from 0, so that boxes have only the readings that it reads."""
     place = {reading: number for number, reading in enumerate(skill.inputs)}
 
     def moved(edge: Edge) -> Edge:
@@ -132,7 +132,7 @@ def _excess(found: SentBounds, low: Singles, high: Singles) -> Singles:
 
 
 def sway_of(skill: Skill, weights: Weights | None) -> Singles:
-    """How much each reading moves what is sent, roughly: which side to cut is a guess, and never wrong."""
+    """Roughly how much each reading changes what is sent: used to choose which side of a box to cut."""
     sway = np.full(len(skill.inputs), 1e-6, np.float32)
     for edge in skill.edges:
         for word, reading in edge.value:

@@ -28,7 +28,7 @@ def run_of(run: Recorded) -> str:
 
 
 def as_data(proof: Proof, hashes: Hashes, run: Recorded | None) -> dict[str, Any]:
-    """All of it."""
+    """A whole proof as plain data."""
     return {
         "master": proof.graph.master,
         "assumes": "every reading is a number from 0 to 1",

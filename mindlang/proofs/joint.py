@@ -1,4 +1,4 @@
-"""Whether something always influences an actuator though no single skill sees to it: all skills in the same box.
+"""Joint bounds: whether some skill always influences an actuator, where no single skill alone guarantees it.
 
 `reach` lets every skill read something else, and so finds nothing where one skill sends p and another 1 − p. Here the
 box of all readings is cut, as in `sharpen`, until in every part some influence is above 0, or too many parts are left.

@@ -24,7 +24,7 @@ MEANINGS = {
 
 
 def report(proof: Proof, hashes: Hashes, run: Recorded | None) -> RenderableType:
-    """All of it."""
+    """A whole proof as text."""
     parts: list[RenderableType] = [
         Text.assemble((proof.graph.master, "bold"), " in charge, for any readings from 0 to 1"),
         "",

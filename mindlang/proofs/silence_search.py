@@ -29,7 +29,7 @@ class Tried:
 
 
 def try_out(graph: Graph, weights: Mapping[str, Weights]) -> list[Tried] | None:
-    """What each actuator does for some readings; None where a skill below the master is not known."""
+    """What each actuator is sent for the readings that are tried; None where a skill below the master is not known."""
     skills = reachable(graph, graph.master)
     if not all(is_known(skill, weights.get(skill.name)) for skill in skills):
         return None

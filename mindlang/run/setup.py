@@ -53,7 +53,7 @@ class RunSetup:
 
 
 def set_up(file: str, compiled: Compiled, task: str | None, master: str | None) -> RunSetup:
-    """The task and the master of these names, or those meant without; CastingError where they cannot perform."""
+    """The task and the master of these names, or the default ones; SetupError where they cannot run."""
     assert compiled.graph is not None
     chosen, note = task_of(compiled.graph, task)
     leader = master_of(compiled.graph, chosen, master)

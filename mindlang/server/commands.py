@@ -23,7 +23,7 @@ KINDS = ("quickfix", "refactor", "refactor.rewrite", "refactor.extract", "refact
 
 
 def register(server: MindServer) -> None:
-    """Answer these requests."""
+    """Let a server answer these requests."""
     server.feature(types.TEXT_DOCUMENT_PREPARE_RENAME)(prepared)
     server.feature(types.TEXT_DOCUMENT_RENAME, types.RenameOptions(prepare_provider=True))(renamed)
     server.feature(types.TEXT_DOCUMENT_CODE_ACTION, types.CodeActionOptions(code_action_kinds=list(KINDS)))(acted)
@@ -45,7 +45,7 @@ def prepared(ls: MindServer, params: types.PrepareRenameParams) -> types.Prepare
 
 
 def renamed(ls: MindServer, params: types.RenameParams) -> types.WorkspaceEdit | None:
-    """A new name wherever it is named, in neighbours too."""
+    """Rename something wherever it is named, in neighbours too."""
     view, path, offset = ls.session.place(params.text_document.uri, params.position)
     mention = view.mention_at(path, offset)
     if mention is None or params.new_name == mention.name.text:

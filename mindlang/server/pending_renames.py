@@ -39,7 +39,7 @@ class PendingRename:
 
 
 def keep_up(following: PendingRename) -> list[Path]:
-    """Let the locks say the names that the files on the disk have now; the locks that this changed.
+    """Rename in the locks what has been renamed in the files on the disk; returns the locks that changed.
 
     MindError where a lock is damaged or cannot be written.
     """

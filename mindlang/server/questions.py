@@ -39,7 +39,7 @@ OFFERS = {
 
 
 def register(server: MindServer) -> None:
-    """Answer these requests."""
+    """Let a server answer these requests."""
     server.feature(types.TEXT_DOCUMENT_HOVER)(hovered)
     server.feature(types.TEXT_DOCUMENT_COMPLETION, types.CompletionOptions(trigger_characters=[" ", '"']))(completed)
     server.feature(types.TEXT_DOCUMENT_DEFINITION)(defined)
@@ -51,7 +51,7 @@ def register(server: MindServer) -> None:
 
 
 def hovered(ls: MindServer, params: types.HoverParams) -> types.Hover | None:
-    """What stands under the mouse."""
+    """The explanation of what is under the mouse."""
     found = hover(*ls.session.place(params.text_document.uri, params.position))
     if found is None:
         return None
@@ -60,7 +60,7 @@ def hovered(ls: MindServer, params: types.HoverParams) -> types.Hover | None:
 
 
 def completed(ls: MindServer, params: types.CompletionParams) -> types.CompletionList:
-    """What may be written."""
+    """The completions at the cursor."""
     view, path, offset = ls.session.place(params.text_document.uri, params.position)
     text = ls.session.workspace.text(path)
     found = complete(view, path, text, offset)
@@ -83,26 +83,26 @@ def _item(place: int, of: tuple[Offer, types.TextEdit]) -> types.CompletionItem:
 
 
 def defined(ls: MindServer, params: types.DefinitionParams) -> list[types.Location]:
-    """Where it is declared."""
+    """The declaration of the name under the cursor."""
     spans = definitions(*ls.session.place(params.text_document.uri, params.position))
     return [ls.session.lsp.location(span) for span in spans]
 
 
 def referred(ls: MindServer, params: types.ReferenceParams) -> list[types.Location]:
-    """Where else it stands."""
+    """Every place where the name under the cursor stands."""
     place = ls.session.place(params.text_document.uri, params.position)
     spans = references(ls.session.workspace, *place, with_declaration=params.context.include_declaration)
     return [ls.session.lsp.location(span) for span in spans]
 
 
 def highlighted(ls: MindServer, params: types.DocumentHighlightParams) -> list[types.DocumentHighlight]:
-    """Where else it stands in this file."""
+    """Every place in this file where the name under the cursor stands."""
     spans = highlights(*ls.session.place(params.text_document.uri, params.position))
     return [types.DocumentHighlight(ls.session.lsp.range(span)) for span in spans]
 
 
 def outlined(ls: MindServer, params: types.DocumentSymbolParams) -> list[types.DocumentSymbol]:
-    """What the file declares."""
+    """The outline of a file."""
     path = ls.session.lsp.path(params.text_document.uri)
     file = ls.session.workspace.view(path).file(path)
     return [_symbol(ls.session.lsp, symbol) for symbol in symbols(file)] if file else []
@@ -120,7 +120,7 @@ def _symbol(lsp: LspConverter, symbol: Symbol) -> types.DocumentSymbol:
 
 
 def searched(ls: MindServer, params: types.WorkspaceSymbolParams) -> list[types.WorkspaceSymbol]:
-    """What the files of the workspace declare."""
+    """The declarations of all files whose names match a query."""
     folders = [ls.session.lsp.path(uri) for uri in ls.workspace.folders]
     if not folders and ls.workspace.root_uri:
         folders = [ls.session.lsp.path(ls.workspace.root_uri)]

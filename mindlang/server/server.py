@@ -19,7 +19,7 @@ REQUEST_FAILED = -32803  # RequestFailed
 
 
 class MindServer(LanguageServer):
-    """The server of one editor."""
+    """The language server of one editor: its session, its requests and its messages."""
 
     def __init__(self) -> None:
         sync = types.TextDocumentSyncKind.Full

@@ -20,7 +20,7 @@ MAX_PUBLISHED_DIAGNOSTICS = 1000  # findings in a file
 
 @dataclass
 class Session:
-    """What the server remembers."""
+    """The state of one editor: open files, reported findings, and pending renames of locks."""
 
     workspace: Workspace = field(default_factory=Workspace)
     lsp: LspConverter = field(default_factory=LspConverter)
@@ -46,7 +46,7 @@ class Session:
         return self.workspace.view(path), path, self.lsp.offset(self.workspace.text(path), position)
 
     def news(self) -> Iterator[types.PublishDiagnosticsParams]:
-        """What is to be said anew: the findings in all files of the open minds, and of files that have none now."""
+        """The findings that have changed since the last report: by file, empty for files that have none now."""
         found = self._findings_by_file()
         for path in [*found, *(path for path in self._told if path not in found)]:
             now = self.lsp.versions.get(path), [self.lsp.diagnostic(each) for each in found.get(path, ())]

@@ -8,7 +8,7 @@ WATCHED = ("**/*.mind", "**/*.lock")
 
 
 def register(server: MindServer) -> None:
-    """Listen to these notifications."""
+    """Let a server take note of these notifications."""
     server.feature(types.INITIALIZE)(begin)
     server.feature(types.INITIALIZED)(watch)
     server.feature(types.TEXT_DOCUMENT_DID_OPEN)(opened)

@@ -18,7 +18,7 @@ BUS_PINS = {0: (0, 1), 1: (2, 3)}  # of a Raspberry Pi
 
 @dataclass(frozen=True, slots=True)
 class Claim:
-    """Something that is used, and where that is said; `sharing` says with whom: those who say the same, or nobody."""
+    """Something that is used (a pin, an address), and where that stands; `sharing` says who may use it as well."""
 
     what: str
     span: Span

@@ -1,4 +1,4 @@
-"""What PyYAML could not read, in the user's words and at a place."""
+"""Explains what PyYAML could not read: a diagnostic in the user's words, with a span."""
 
 import re
 

@@ -42,7 +42,7 @@ class Table:
 
 @dataclass(frozen=True, slots=True)
 class Lost:
-    """A value of which it has been said that it cannot be read: nothing more is said of it."""
+    """A value that could not be read, and was reported: nothing more is reported of it."""
 
     span: Span
 

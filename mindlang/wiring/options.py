@@ -1,4 +1,4 @@
-"""What can be said of a wire: the fields of its own dataclass and of its driver's, with the type of each."""
+"""The options of a wire: the fields of its own dataclass and of its driver's, with their types."""
 
 from dataclasses import MISSING, Field, dataclass, fields, replace
 from functools import cache
@@ -30,7 +30,7 @@ class DriverOption:
 
     @property
     def required(self) -> bool:
-        """Whether it must be said."""
+        """Whether it must be given."""
         return self.default is MISSING
 
 
@@ -43,7 +43,7 @@ def drivers(noun: str) -> dict[str, type[Any]]:
 
 @cache
 def own_options(noun: str) -> tuple[DriverOption, ...]:
-    """What can be said of every sensor or actuator, whatever its driver."""
+    """The options of every sensor or actuator, whatever its driver."""
     if noun == "sensor":
         found = _options(SensorWire, skipped=("sensor", DRIVER, "rest"))
         return tuple(replace(option, key=OWN_NAMES.get(option.key, option.key)) for option in found)
@@ -53,7 +53,7 @@ def own_options(noun: str) -> tuple[DriverOption, ...]:
 
 
 def driver_options(cls: type[Any]) -> tuple[DriverOption, ...]:
-    """What a driver has to be told, or can be."""
+    """The options of a driver, required ones and others."""
     return _options(cls)
 
 

@@ -146,7 +146,7 @@ def table(node: Node, what: str, example: str, findings: Findings) -> Table | No
 
 
 def is_empty(entry: TableEntry, findings: Findings) -> bool:
-    """Whether nothing stands after a key; this is told."""
+    """Whether nothing stands after a key; reports it."""
     if not isinstance(entry.value, Scalar) or entry.value.text or not entry.value.plain:
         return False
     hint = "Write a value after the colon, or remove the line; what belongs to it stands below it, farther in."
@@ -155,7 +155,7 @@ def is_empty(entry: TableEntry, findings: Findings) -> bool:
 
 
 def by_option(entries: Iterable[TableEntry], options: Mapping[str, DriverOption], findings: Findings) -> dict[str, Any]:
-    """The values of those entries that are options, by their fields; those that are wrong are told and left out."""
+    """The values of those entries that are options, by their fields; those that are wrong are reported and left out."""
     found = {
         options[entry.key.text].field: value(options[entry.key.text], entry.value, findings)
         for entry in entries
@@ -165,12 +165,12 @@ def by_option(entries: Iterable[TableEntry], options: Mapping[str, DriverOption]
 
 
 def unknown_key(key: Scalar, what: str, known: Iterable[str], findings: Findings) -> None:
-    """Tell that a key means nothing here."""
+    """Report a key that means nothing here."""
     known = list(known)
     hint = findings.suggest(key.text, known) or f"{what} takes {listed(known, 'and')}."
     report_error(findings, "unknown-key", key.span, f"{what} has no key {shortened(key.text)}.", hint)
 
 
 def missing_key(span: Span, what: str, key: str, example: str, findings: Findings) -> None:
-    """Tell that a key is needed."""
+    """Report a key that is missing."""
     report_error(findings, "missing-key", first_line(span), f"{what} needs {key}.", f"Add a line: {key}: {example}.")

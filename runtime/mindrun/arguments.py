@@ -29,7 +29,7 @@ def whole(least: int, most: int) -> Callable[[str], int]:
 
 
 def real(least: float, most: float, above: bool = False) -> Callable[[str], float]:
-    """A number in a range; with `above` one that is not its least."""
+    """A number in a range; with `above` the lower bound itself is refused."""
 
     def convert(text: str) -> float:
         try:
@@ -52,5 +52,5 @@ def new_file(text: str) -> Path:
 
 
 def shortened(text: str) -> str:
-    """What a user has written, as much of it as a sentence can bear."""
+    """What a user has written, cut to a length that fits into a sentence."""
     return text if 0 < len(text) <= SHOWN_CHARACTERS else f"{text[:SHOWN_CHARACTERS]}…" if text else "nothing"

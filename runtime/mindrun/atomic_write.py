@@ -86,7 +86,7 @@ def write_beside(path: Path, data: bytes) -> Path:
 
 
 def spare(path: Path) -> Path:
-    """Where `path` is written first; what a crash leaves there nobody reads."""
+    """The temporary file beside `path`; what a crash leaves there is never read."""
     return path.with_name(f".{path.name}.mind-tmp")
 
 

@@ -38,7 +38,7 @@ def reason(error: Exception) -> str:
 
 
 def surroundings(error: Exception) -> str:
-    """What a user can do something about in an error that is none of ours: of the machine, files, installation."""
+    """A sentence for errors of the machine, of files and of the installation, about which a user can do something."""
     match error:
         case OSError():
             return _of_system(error)

@@ -1,4 +1,4 @@
-"""Says things without ever waiting for a listener: a terminal that is paused must not keep a wheel turning."""
+"""Writes lines without ever waiting for a reader: a terminal that is paused must not keep a wheel turning."""
 
 import os
 from collections import deque
@@ -26,13 +26,13 @@ class LineWriter:
         self.write(f"{self._prefix}{visible(' '.join(line.split()))}\n".encode(errors="replace"))
 
     def write(self, data: bytes) -> None:
-        """Say this as it is; returns at once."""
+        """Queue a text as it is; returns at once."""
         with self._change:
             self._waiting.append(data)
             self._change.notify_all()
 
     def flush(self, seconds: float) -> None:
-        """Wait until all is said, but no longer than this."""
+        """Wait until everything is written, but no longer than so many seconds."""
         with self._change:
             self._change.wait_for(lambda: self._idle and not self._waiting, seconds)
 

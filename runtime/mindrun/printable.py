@@ -4,7 +4,7 @@ from unicodedata import category
 
 
 def visible(text: str) -> str:
-    """Text that does to a terminal only what it seems to: control and direction characters are spelt out."""
+    """The text with control and direction characters spelt out, so that a terminal shows what is there."""
     return text if text.isascii() and text.isprintable() else "".join(map(_visible, text))
 
 

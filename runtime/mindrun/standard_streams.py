@@ -26,7 +26,7 @@ class StandardOutput(FileIO):
     failure: OSError | None = None
 
     def write(self, data: Any) -> int:
-        """All of it, or as if."""
+        """Write everything; an error is kept, never raised. Returns the length of `data` in any case."""
         if self.failure is None:
             try:
                 while (written := super().write(data)) is None:  # a terminal that another program left not blocking
@@ -41,7 +41,7 @@ class StandardError(FileIO):
     """Standard error."""
 
     def write(self, data: Any) -> int:
-        """All of it, or as if."""
+        """Write everything; an error is kept, never raised. Returns the length of `data` in any case."""
         try:
             written = super().write(data)
         except OSError:
@@ -56,11 +56,11 @@ class Aside(RawIOBase):
         self.line_writer = LineWriter(ERROR_DESCRIPTOR)
 
     def writable(self) -> bool:
-        """It is."""
+        """True."""
         return True
 
     def write(self, data: Any) -> int:
-        """All of it, or as if."""
+        """Write everything; an error is kept, never raised. Returns the length of `data` in any case."""
         self.line_writer.write(bytes(data))
         return memoryview(data).nbytes
 
@@ -90,13 +90,13 @@ def prepare(kind: type[TextIOWrapper] = TextIOWrapper) -> None:
 
 
 def detach_standard_error() -> None:
-    """Let nothing wait for standard error from now on: a robot drives on where its terminal is paused, or gone."""
+    """From now on a thread writes standard error: a robot drives on where its terminal is paused, or gone."""
     if isinstance(_raw(sys.stderr), StandardError):
         sys.stderr = _text(Printable, Aside(), sys.stderr)
 
 
 def flush_standard_error() -> None:
-    """Let be taken what has been told aside, for a moment."""
+    """Wait for a moment until detached messages are written."""
     if isinstance(raw := _raw(sys.stderr), Aside):
         sys.stderr.flush()
         raw.line_writer.flush(FLUSH_SECONDS)
@@ -128,7 +128,7 @@ def document(text: str) -> None:
 
 
 def draw(text: str) -> None:
-    """Write on a terminal what it is to obey: back to the beginning of the line, say."""
+    """Write control characters to a terminal: back to the beginning of the line, say."""
     sys.stderr.flush()
     sys.stderr.buffer.write(text.encode(sys.stderr.encoding, "backslashreplace"))
     sys.stderr.buffer.flush()

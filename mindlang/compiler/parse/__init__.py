@@ -60,7 +60,7 @@ def parse(source: Source, findings: Findings) -> syntax.File:
 
 
 def code_of(line: str) -> str:
-    """A line up to its comment."""
+    """The part of a line before its comment."""
     found = _CODE.match(line)
     return found[0] if found else ""
 

@@ -1,4 +1,4 @@
-"""What a line says, at the speed of a table: lines that differ in names and numbers alone are parsed by Lark once.
+"""Parses lines quickly: Lark parses each shape of line once; lines that differ in names and numbers alone share it.
 
 The shape of a line is its text with `a` for every name, `A` for every title and `1` for every number. Where words begin
 and end, and of what sort they are, is all that the grammar asks of them: lines of one shape have the same tree.

@@ -87,7 +87,7 @@ def distance(diameter: float, size: float, width: int, view: float) -> float:
 
 
 def focal_length(width: int, view: float) -> float:
-    """The distance of the eye from the frame, in pixels."""
+    """The focal length of the camera, in pixels."""
     return width / 2 / tan(radians(view) / 2)
 
 

@@ -143,7 +143,7 @@ class TrackingCamera:
             self.tilt.point(self.aim.tilt)
 
     def publish(self, sighting: BallSighting) -> None:
-        """Tell who waits for a frame."""
+        """Publish a sighting to everybody who waits for a frame."""
         with self.news:
             self.sighting = replace(sighting, number=self.sighting.number + 1)
             self.news.notify_all()

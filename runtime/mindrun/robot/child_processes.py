@@ -1,4 +1,4 @@
-"""What no child of this process may have: a procedure that forks must not make a second controller."""
+"""Cleans up in forked children: a procedure that forks must not make a second controller."""
 
 import os
 from collections.abc import Callable
@@ -12,7 +12,7 @@ def keep_from_children(let_go: Callable[[], None]) -> None:
 
 
 def keep_no_longer(let_go: Callable[[], None]) -> None:
-    """It has been let go of here."""
+    """No longer call this in forked processes: the resource has been released."""
     _let_go.discard(let_go)
 
 

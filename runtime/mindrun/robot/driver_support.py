@@ -49,7 +49,7 @@ def share(value: float) -> float:
 
 @contextmanager
 def pins(what: str) -> Iterator[None]:
-    """Whatever goes wrong with GPIO pins inside is a DeviceError."""
+    """A context in which every error of GPIO pins becomes a DeviceError."""
     try:
         yield
     except DeviceError:
@@ -101,7 +101,7 @@ def open_bus(number: int) -> Bus:
 
 
 def on_bus(number: int, address: int) -> str:
-    """What a part is called that only one process may drive."""
+    """The name of an I2C device that only one process may drive, `/dev/i2c-1 0x40`."""
     return f"/dev/i2c-{number} {address:#04x}"
 
 

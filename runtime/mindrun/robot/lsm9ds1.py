@@ -61,7 +61,7 @@ class Chip:
             raise self.wire.error(f"is no LSM9DS1 (it says 0x{found:02x}, not 0x{self.identity:02x})")
 
     def prepare(self) -> None:
-        """Set it up."""
+        """Write the registers that make it measure."""
         for register, value in self.settings:
             self.wire.write(register, value)
         self.ready = True
@@ -79,7 +79,7 @@ class Chip:
 
 @dataclass(frozen=True, slots=True)
 class NineDofDevice:
-    """A chip, and what is made of its counts."""
+    """A chip as a sensor device: `value` converts its counts."""
 
     chip: Chip
     value: Callable[[tuple[int, int, int]], float | None]
@@ -93,7 +93,7 @@ class NineDofDevice:
         raise self.chip.wire.error("measures too slowly")
 
     def close(self) -> None:
-        """Let go."""
+        """Close the bus."""
         self.chip.wire.close()
 
 

@@ -39,7 +39,7 @@ class Stop:
             self._interrupt()
 
     def hurry(self, _number: int, _frame: FrameType | None) -> None:
-        """It takes too long."""
+        """The grace period is over: interrupt the loop."""
         self._tries += 1
         if self._tries >= MAX_INTERRUPTIONS:  # a procedure that catches everything, or a disk that does not answer
             os._exit(INTERRUPTED)

@@ -18,7 +18,7 @@ def options(parser: argparse.ArgumentParser) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
-    """0 where it is adopted."""
+    """Adopt; the exit code, 0 where it is adopted."""
     bundle = read_bundle(options.bundle)
     wiring = bundle.wiring
     if wiring is None:

@@ -38,7 +38,7 @@ def options(parser: argparse.ArgumentParser) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
-    """0 where something was measured, else 1."""
+    """Measure and print; the exit code, 0 where something was measured, else 1."""
     wire, has_scale = _wire(options.bundle, options.sensor)
     samples = _watched(wire, options.seconds)
     good = [sample for sample in samples if not sample.fault]
@@ -94,7 +94,7 @@ def _show(wire: SensorWire, sample: Sample) -> None:
 
 @dataclass(frozen=True, slots=True)
 class ReadingStatistics:
-    """What the values of a reading were like; `noise` is their spread at rest, `lost` the share without a value."""
+    """Statistics of a reading; `noise` is its standard deviation at rest, `lost` the share without a value."""
 
     low: float
     high: float
@@ -103,7 +103,7 @@ class ReadingStatistics:
 
 
 def reading_statistics(values: Sequence[float | None]) -> ReadingStatistics | None:
-    """What values were like; None where there were none."""
+    """The statistics of these values, None standing for a lost one; None where all were lost."""
     there = [value for value in values if value is not None]
     if not there:
         return None

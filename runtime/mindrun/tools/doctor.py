@@ -37,7 +37,7 @@ FINE, ABSENT, WRONG = "ok ", "-  ", "NOT"  # what is absent is no fault before s
 
 @dataclass(frozen=True, slots=True)
 class CheckResult:
-    """What was looked at, how it is, and what there is to say or do."""
+    """The result of one check: what was checked, OK or not, and what to do."""
 
     what: str
     mark: str
@@ -50,7 +50,7 @@ def options(parser: argparse.ArgumentParser) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
-    """0 where everything that is wired answers, else 1."""
+    """Check and print; the exit code, 0 where everything that is wired answers, else 1."""
     findings = [*machine()]
     if options.bundle:
         wiring = read_bundle(options.bundle).wiring

@@ -19,7 +19,7 @@ def options(parser: argparse.ArgumentParser) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
-    """0 where every tick is the same, else 1."""
+    """Replay and print; the exit code, 0 where every tick is the same, else 1."""
     found = replay_recording(options.recording, options.bundle, _show_progress)
     if found.differs:
         tick, what = found.differs

@@ -23,7 +23,7 @@ def options(parser: argparse.ArgumentParser) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
-    """0 where the robot keeps to what training had, else 1."""
+    """Report and print; the exit code, 0 where the robot keeps to what training had, else 1."""
     lines = report(options.recording, digest(options.bundle), read_bundle(options.bundle).graph)
     if options.json:
         document(json.dumps({"lines": [asdict(line) for line in lines]}, indent=2) + "\n")

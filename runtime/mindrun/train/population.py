@@ -28,7 +28,7 @@ class Population:
 
 
 def nobody(weights: int) -> Population:
-    """The population before the first generation, for genomes of so many weights."""
+    """The empty population before the first generation, for genomes of so many weights."""
     return Population(np.empty((0, weights), np.float32), np.empty(0), 0)
 
 

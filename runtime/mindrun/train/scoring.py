@@ -44,7 +44,7 @@ class Scorer(Protocol):
 
 @dataclass(frozen=True, slots=True)
 class Marks:
-    """The scores `each` [genomes, layouts] of genomes, their means `scores` [genomes], and what it took."""
+    """Scores of genomes: `each` [genomes, layouts], their means `scores` [genomes]; ticks and faults in all."""
 
     each: Scores
     scores: Scores

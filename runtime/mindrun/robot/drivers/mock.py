@@ -1,4 +1,4 @@
-"""Devices that are not there: sensors that read what they are told, actuators that write nowhere."""
+"""Mock devices: sensors that always read the same, actuators that write nowhere."""
 
 from dataclasses import dataclass
 from typing import Annotated

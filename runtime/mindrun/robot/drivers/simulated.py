@@ -168,7 +168,7 @@ class SimulatedActuator:
 
 
 def status(path: str) -> dict[str, Any]:
-    """How the world at a socket stands: `tick`, `pose`, `events`, `ended` and more (`Scene.status`)."""
+    """How the world at a socket stands: `tick`, `pose`, `events`, `ended` and more (`SimulatedScene.status`)."""
     link = WorldConnection(path)
     try:
         found: dict[str, Any] = json.loads(link.ask(STATUS))

@@ -33,7 +33,7 @@ Order = Move | Rest | None
 
 
 class Guard:
-    """Decides; the caller does what it is told, every time."""
+    """The state machine of the guardian: each method returns what the caller must do with the devices now."""
 
     def __init__(self, plan: Plan) -> None:
         self._plan = plan
@@ -68,7 +68,7 @@ class Guard:
         return self._move(frame.commands, now)
 
     def passed(self, now: float) -> Order:
-        """It is `now`, and no other frame has come."""
+        """Time has passed without a frame; `now` is the monotonic clock in seconds."""
         if self.state != FOLLOWING or now < self.deadline:
             return None
         self.silences += 1
@@ -84,7 +84,7 @@ class Guard:
         return self._neutral(f"{actuator} failed: {why}")
 
     def broken(self, why: str) -> Order:
-        """Something came that no sound controller sends."""
+        """Something came that no working controller sends."""
         if self.state == LATCHED:
             return None
         order = self._neutral(why)

@@ -12,7 +12,7 @@ MIN_RETRY_SECONDS, MAX_RETRY_SECONDS = 0.002, 0.05  # seconds between two tries:
 
 @dataclass(frozen=True, slots=True)
 class Wanted:
-    """A value that a device is to have. A newer one replaces it, tried or not."""
+    """A value that a device should have; a newer one replaces it, whether or not it was written."""
 
     value: float
     neutral: bool
@@ -43,11 +43,11 @@ class ActuatorOutput:
         self._thread.start()
 
     def move(self, value: float) -> None:
-        """Want a value; returns at once."""
+        """Order a value; returns at once."""
         self._want(value, False)
 
     def rest(self) -> None:
-        """Want neutral; returns at once."""
+        """Order neutral; returns at once."""
         self._want(self._neutral, True)
 
     @property
@@ -62,7 +62,7 @@ class ActuatorOutput:
             return 0.0 if self._waiting is None else now - self._waiting
 
     def close(self, seconds: float) -> None:
-        """Let go of the device, unless that takes longer."""
+        """Close the device; give up where that takes longer than allowed."""
         with self._change:
             self._closing = True
             self._change.notify()

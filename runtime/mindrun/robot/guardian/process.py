@@ -19,7 +19,7 @@ Clock = Callable[[], float]
 
 
 def quiet(line: str) -> None:
-    """Say nothing."""
+    """Drop a message."""
 
 
 class Process:
@@ -62,12 +62,12 @@ class Process:
         return wrong
 
     def rest(self) -> None:
-        """Order neutral of all."""
+        """Send neutral to every actuator."""
         for output in self._opened:
             output.rest()
 
     def settle(self, seconds: float = float("inf")) -> bool:
-        """Wait until every actuator is at neutral; False where that takes longer than this."""
+        """Wait until every actuator has acknowledged neutral; False where that takes more than so many seconds."""
         until = self._clock() + seconds
         while not self._settled():
             left = until - self._clock()
@@ -104,7 +104,7 @@ class Process:
             output.close(CLOSE_SECONDS)
 
     def hang_up(self) -> None:
-        """Let go of its own pipe, where the process goes on without it."""
+        """Close the pipe that wakes it up, where the program goes on after it."""
         os.close(self._woken)
         os.close(self.wake)
 

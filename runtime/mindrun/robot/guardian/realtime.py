@@ -1,4 +1,4 @@
-"""A process that is not kept waiting: soon there, real time, never swapped out, the last to be killed for memory."""
+"""Real-time settings of a process: few imports, SCHED_FIFO, locked memory, the last to be killed for memory."""
 
 import ctypes
 import gc
@@ -27,7 +27,7 @@ def import_little(package: str) -> None:
 
 
 def set_realtime() -> None:
-    """Take what the system grants; without any of it the guardian works too, only later on a busy machine."""
+    """Ask for real-time scheduling and locked memory; without them the guardian works, later on a busy machine."""
     threading.stack_size(STACK_BYTES)
     sys.setswitchinterval(0.0005)
     with suppress(OSError):

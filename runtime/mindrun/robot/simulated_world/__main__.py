@@ -21,7 +21,7 @@ PARENT_DIED = 1  # PR_SET_PDEATHSIG
 
 
 def main() -> None:
-    """Be a world until the parent ends."""
+    """Simulate a world until the parent process ends."""
     options = _options()
     _end_with_parent()
     try:
