@@ -27,7 +27,7 @@ MAX_SEED = 2**63 - 1  # seed
 
 @dataclass(frozen=True, slots=True)
 class Manifest:
-    """What a run began with, in SHA-256 hashes: `mind` of all that the lesson depends on, `weights` by skill as it began.
+    """What a run begins with, as SHA-256 hashes: `mind` of all that the lesson depends on, `weights` by skill.
 
     The genome has the weights of the `learners`, one after the other.
     `source` is the path of the main file, `sources` has the hash of each file of the mind, by path from the main one.
