@@ -108,14 +108,20 @@ def driven(runs: int, backwards: bool) -> tuple[Array, float, float]:
     names = [actuator.name for actuator in graph.actuators]
     wheels = [names.index(name) for name in ("left_wheel", "right_wheel", "claw")]
     state, task = worlds.state, next(task for task in graph.tasks if task.name == "Collect")
-    drivers = [Driver(state.boxes[p].reshape(-1, 3).copy(), backwards) for p in range(runs)]
+    drivers = [Driver(state.world.boxes[p].reshape(-1, 3).copy(), backwards) for p in range(runs)]
     speed = 0.0
     for tick in range(task.ticks):
         commands = [
-            driver.drive(tick, state.body[:, p], state.things[0:2, p], state.things[4:6, p], state.held[p] >= 0)
+            driver.drive(
+                tick,
+                state.world.body[:, p],
+                state.world.things[0:2, p],
+                state.world.things[4:6, p],
+                state.world.held[p] >= 0,
+            )
             for p, driver in enumerate(drivers)
         ]
-        speed += float(np.hypot(state.body[3, :runs], state.body[4, :runs]).mean()) / task.ticks
+        speed += float(np.hypot(state.world.body[3, :runs], state.world.body[4, :runs]).mean()) / task.ticks
         worlds.step(wheels, np.clip(np.array(commands).T, 0, 1))
         if tick < task.ticks - 1:
             worlds.sense()

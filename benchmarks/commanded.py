@@ -27,10 +27,10 @@ class Commanded:
 
     def step(self, actuators: Sequence[int], commands: ArrayLike) -> None:
         """One tick: commands [actuators, lanes] in 0..1 for these actuators, the others stay neutral."""
-        state, sinks = self.state, len(self.state.sums) // 2
-        state.sums[:] = 0
+        state, mind = self.state, self.state.mind
+        mind.command_sums[:] = mind.influence_sums[:] = 0
         for actuator, row in zip(actuators, np.asarray(commands), strict=True):
-            state.sums[actuator, : self.lanes], state.sums[sinks + actuator, : self.lanes] = row, 1
+            mind.command_sums[actuator, : self.lanes], mind.influence_sums[actuator, : self.lanes] = row, 1
         after(self._tables, state, self.jobs, self._interrupt)
 
     def sense(self) -> None:

@@ -37,11 +37,11 @@ class Worlds:
         lesson = next(each for each in graph.lessons if each.skill == skill)
         seeds = rng.integers(2**62, size=100_000)
         self._worlds = Commanded(graph, lesson.task, lesson.master, LANE_COUNT, seeds, interrupt=True)
-        self._job, self._paid = self._worlds.state.job.copy(), np.zeros(LANE_COUNT)
+        self._job, self._paid = self._worlds.state.run.job.copy(), np.zeros(LANE_COUNT)
 
     def inputs(self) -> Array:
         """What the skill reads [lanes, inputs]."""
-        return self._worlds.state.readings[list(self.skill.inputs), :LANE_COUNT].T.astype(np.float64)
+        return self._worlds.state.mind.readings[list(self.skill.inputs), :LANE_COUNT].T.astype(np.float64)
 
     def step(self, commands: Array) -> tuple[Array, NDArray[np.bool_]]:
         """Hold commands [lanes, outputs] for some ticks: what they earned [lanes], and in which lanes a run ended."""
@@ -50,10 +50,10 @@ class Worlds:
         for _ in range(self.hold):
             self._worlds.step([edge.target for edge in self.skill.edges], np.clip(commands, 0, 1).T)
             self.ticks += LANE_COUNT
-            paid, over = state.lines[:, :LANE_COUNT].sum(axis=0), state.job != self._job
+            paid, over = state.judge.lines[:, :LANE_COUNT].sum(axis=0), state.run.job != self._job
             earned += np.where(over, lines[self._job].sum(axis=1), paid) - self._paid
             ended |= over
-            self._paid, self._job = paid, state.job.copy()
+            self._paid, self._job = paid, state.run.job.copy()
             self._worlds.sense()
         return earned, ended
 

@@ -124,9 +124,9 @@ class Lanes:
         """What the robots do now: skills under influence, and the shares that move and that Chipmunk steps."""
         state = self.parts[0][0].state
         return {
-            "skills_awake": float((state.influence > 0).sum(axis=0).mean()),
-            "moving": float((np.hypot(state.body[3], state.body[4]) > 0.5).mean()),
-            "in_contact": float((state.near > 0).mean()),
+            "skills_awake": float((state.mind.influence > 0).sum(axis=0).mean()),
+            "moving": float((np.hypot(state.world.body[3], state.world.body[4]) > 0.5).mean()),
+            "in_contact": float((state.contact.near > 0).mean()),
         }
 
 

@@ -228,12 +228,12 @@ task Test in plain
     tile = world.tile(3)
     world.fill(tile, jobs)
     stages.before(world.tables, tile.state, jobs)
-    tile.state.readings[0, 1] = np.nan
+    tile.state.mind.readings[0, 1] = np.nan
     stages.run_skills(world.tables, tile.state, 3, 0, len(world.tables.skills))
     stages.after(world.tables, tile.state, jobs, True)
-    assert tile.state.commands[:, 1].tolist() == [0.5, 0.5, 0.0]
-    assert tile.state.commands[0, 0] != 0.5
-    assert tile.state.faults[:3].tolist() == [0, 3, 0]
+    assert tile.state.mind.commands[:, 1].tolist() == [0.5, 0.5, 0.0]
+    assert tile.state.mind.commands[0, 0] != 0.5
+    assert tile.state.run.faults[:3].tolist() == [0, 3, 0]
 
 
 def test_a_delay_shifts_the_commands() -> None:

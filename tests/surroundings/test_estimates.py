@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from mindrun.graph import Graph
 from mindrun.policy import Policy
+from mindrun.sim.allocation import empty_state
 from mindrun.sim.rollout import Rollout
-from mindrun.sim.state import empty_state
 
 from mindlang import resource_limits
 from mindlang.compiler.compile import load
@@ -53,7 +53,7 @@ def graph_of(folder: Path, **said: object) -> Graph:
 @pytest.mark.parametrize("said", LARGE, ids=str)
 def test_the_estimate_is_near_what_the_lanes_take(tmp_path: Path, said: dict[str, object]) -> None:
     rollout = Rollout(Policy(graph_of(tmp_path, **said), {}), "Roam", "Go", ["Go"], lanes=64)
-    taken = sum(array.nbytes for array in empty_state(rollout.tables, rollout.sizes, 64))
+    taken = sum(array.nbytes for part in empty_state(rollout.tables, rollout.sizes, 64) for array in part)
     assert (
         0.8 * taken
         < bytes_of(rollout, 64, 1) - resource_limits.GENOME_COPIES * 64 * 4 * rollout.genome_length

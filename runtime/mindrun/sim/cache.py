@@ -19,9 +19,8 @@ from typing import Any
 import llvmlite
 import numba
 from llvmlite.binding import get_host_cpu_features, get_host_cpu_name
-from numba.core.caching import _Cache
-from numba.core.compiler import CompileResult
-from numba.core.serialize import dumps
+
+from mindrun.sim.numba_internals import KeptCode, made_for, packed, unpacked
 
 HERE = Path(__file__).parent
 SHIPPED = HERE / "compiled"  # in the wheel
@@ -69,7 +68,7 @@ def _users() -> Path:
     return (shared if shared.is_absolute() else Path.home() / ".cache") / "mind"
 
 
-class MachineCode(_Cache):  # type: ignore[misc]
+class MachineCode(KeptCode):
     """The machine code of one function, for each signature: numba asks for it before it compiles."""
 
     def __init__(self, function: str) -> None:
@@ -82,17 +81,17 @@ class MachineCode(_Cache):  # type: ignore[misc]
 
     def load_overload(self, sig: Any, target_context: Any) -> Any:
         """The compiled function, or None."""
-        triple, *processor = target_context.codegen().magic_tuple()
+        triple, *processor = made_for(target_context.codegen())
         kept = folder() / self.file(sig, triple, *processor)
         for path in (kept, *(SHIPPED / self.file(sig, triple, kind, PROCESSORS[kind]) for kind in fitting())):
             if (data := _read(path)) is not None:
-                return CompileResult._rebuild(target_context, *pickle.loads(data))
+                return unpacked(pickle.loads(data), target_context)
         return None
 
     def save_overload(self, sig: Any, data: Any) -> None:
         """Keep a compiled function; where that fails, it is compiled again another time."""
         with suppress(OSError):
-            _write(folder() / self.file(sig, *data.codegen.magic_tuple()), dumps(data._reduce()))
+            _write(folder() / self.file(sig, *made_for(data.codegen)), packed(data))
 
     def file(self, sig: Any, triple: str, processor: str, features: str) -> str:
         """The name of a file."""
@@ -107,12 +106,6 @@ class MachineCode(_Cache):  # type: ignore[misc]
         """Whether there is some for this processor, as far as one can see without the types."""
         shipped = (path for kind in fitting() for path in SHIPPED.glob(f"{self.function}-{kind}-*.code"))
         return self.is_native() or any(shipped)
-
-    def enable(self) -> None:
-        """It always is."""
-
-    def disable(self) -> None:
-        """It never is."""
 
     def flush(self) -> None:
         """Forget what is kept."""

@@ -7,6 +7,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from mindrun.arithmetic import ANGLE
 from mindrun.errors import MindError
 from mindrun.events import EventKind
 from mindrun.functions import Rule
@@ -44,8 +45,9 @@ class World:
         self.begin(seed)
 
     def begin(self, seed: int) -> None:
-        """Begin the run of a seed; only where none has begun or the last one has ended."""
-        assert self._jobs.lanes[0] == 0
+        """Begin the run of a seed; RuntimeError where the last one has not ended."""
+        if self._jobs.lanes[0] > 0:
+            raise RuntimeError("a run begins while another goes on")
         self.seed = seed
         self._happened = np.zeros(len(self._rollout.task.events), np.int64)
         self._jobs = self._begun([seed])
@@ -56,30 +58,29 @@ class World:
 
         When the run has ended: what they read last.
         """
-        return self._state.readings[: self.graph.width, 0].copy()
+        return self._state.mind.readings[: self.graph.width, 0].copy()
 
     def step(self, commands: ArrayLike) -> None:
         """One tick under these commands [actuators]; one that is not finite is neutral. Nothing once it has ended."""
         if self.ended is not None:
             return
-        s, sinks = self._state, len(self._state.sums) // 2
-        given = np.asarray(commands, np.float32)
-        s.sums[: len(given), 0] = given  # Eq. 3 with the influence 1 gives back the command itself
-        s.sums[sinks : sinks + len(given), 0] = 1.0
-        after(self._tables, s, self._jobs, True)
-        self._happened += s.events[: len(self._happened), 0].astype(np.int64)
+        state, given = self._state, np.asarray(commands, np.float32)
+        state.mind.command_sums[: len(given), 0] = given  # Eq. 3 with the influence 1 gives back the command itself
+        state.mind.influence_sums[: len(given), 0] = 1.0
+        after(self._tables, state, self._jobs, True)
+        self._happened += state.judge.events[: len(self._happened), 0].astype(np.int64)
         if self.ended is None:
-            before(self._tables, s, self._jobs)
+            before(self._tables, state, self._jobs)
 
     @property
     def tick(self) -> int:
         """How many ticks the run has lasted."""
-        return int(self._state.tick[0])
+        return int(self._state.world.tick[0])
 
     @property
     def pose(self) -> tuple[float, float, float]:
         """The robot's x, y and angle."""
-        x, y, angle = self._state.body[:3, 0].tolist()
+        x, y, angle = self._state.world.body[: ANGLE + 1, 0].tolist()
         return x, y, angle
 
     @property
@@ -95,7 +96,7 @@ class World:
         """The event that has ended the run, or "time"; None while it goes on."""
         if self._jobs.lanes[0] > 0:
             return None
-        event = int(self._state.ended[0])
+        event = int(self._state.run.ended[0])
         return _written(self._rollout.task.events[event]) if event >= 0 else TIME
 
     def _begun(self, seeds: Sequence[int]) -> Jobs:

@@ -10,7 +10,7 @@ from mindrun.functions.procedure import call
 from mindrun.graph import Graph
 from mindrun.sim.lanes.stages import after, before, run_skills, send, wake
 from mindrun.sim.procedures import Procedures
-from mindrun.sim.state import Jobs, State
+from mindrun.sim.state import FAILED_SKILL, Jobs, State
 from mindrun.sim.tables import Tables
 
 
@@ -45,26 +45,27 @@ def advance_slowly(
         if jobs.lanes[0] == 0:
             break
         before(tables, state, jobs)
-        for i in range(len(tables.skills)):
-            name = graph.skills[int(tables.skills[i]["index"])].name
+        for row in range(len(tables.skills)):
+            name = graph.skills[int(tables.skills[row]["index"])].name
             if name in memories.procedures.slow:
-                _run(memories, name, tables, state, int(jobs.lanes[0]), i)
+                _run(memories, name, tables, state, int(jobs.lanes[0]), row)
             else:
-                run_skills(tables, state, jobs.lanes[0], i, i + 1)
-                if state.failed[0] >= 0:
+                run_skills(tables, state, jobs.lanes[0], row, row + 1)
+                if state.run.failed[FAILED_SKILL] >= 0:
                     return
         after(tables, state, jobs, interrupt)
-    memories.forget(set(state.job[: jobs.lanes[0]].tolist()))
+    memories.forget(set(state.run.job[: jobs.lanes[0]].tolist()))
 
 
-def _run(memories: Memories, name: str, tables: Tables, state: State, lanes: int, i: int) -> None:
-    count = wake(tables, state, lanes, i)
+def _run(memories: Memories, name: str, tables: Tables, state: State, lanes: int, row: int) -> None:
+    count = wake(tables, state, lanes, row)
     if count == 0:
         return
-    skill, calls = tables.skills[i], memories.procedures.calls[name]
+    skill, mind = tables.skills[row], state.mind
+    calls = memories.procedures.calls[name]
     for k in range(count):
-        inputs = state.gathered[: skill["inputs"], k]
+        inputs = mind.gathered[: skill["inputs"], k]
         if np.isfinite(inputs).all():
-            plain = memories.of(name, int(state.job[state.active[k]]))
-            state.hidden[: skill["outputs"], k] = call(calls, plain, int(skill["outputs"]), inputs)
-    send(tables, state, i, 0, count, lanes)
+            plain = memories.of(name, int(state.run.job[mind.active[k]]))
+            mind.hidden[: skill["outputs"], k] = call(calls, plain, int(skill["outputs"]), inputs)
+    send(tables, state, row, 0, count, lanes)

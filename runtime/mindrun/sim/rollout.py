@@ -11,12 +11,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mindrun.policy import Policy
+from mindrun.sim import chipmunk_internals as chipmunk
+from mindrun.sim.allocation import empty_state
 from mindrun.sim.codes import ITEM
-from mindrun.sim.lanes import chipmunk
 from mindrun.sim.lanes.advance import advance, fill
 from mindrun.sim.procedures import Procedures
 from mindrun.sim.python_procedures import Memories, advance_slowly
-from mindrun.sim.state import Jobs, State, empty_state
+from mindrun.sim.state import FAILED_COLUMN, FAILED_SKILL, Jobs, State
 from mindrun.sim.tables import Sizes, Tables, build, genome_length
 from mindrun.sim.threads import in_threads
 
@@ -123,7 +124,8 @@ class Rollout:
         state = empty_state(self.tables, self.sizes, lanes)
         holds = [float(thing["hold"]) if thing["kind"] == ITEM else None for thing in self.tables.things]
         radius = float(self.tables.world[0]["radius"])
-        kept = chipmunk.prepare(state.handles, state.floats, state.batch, radius, holds)
+        contact = state.contact
+        kept = chipmunk.prepare(contact.handles, contact.floats, contact.batch, radius, holds)
         return Tile(state, Memories(self.procedures), kept)
 
     def _run(self, jobs: Jobs, share: NDArray[np.int64], stop: Event, ran: Callable[[float], None]) -> Jobs:
@@ -134,14 +136,14 @@ class Rollout:
         told, working = 0.0, 1
         while working and not stop.is_set():
             working = self.advance(tile, mine, SLOW_SLICE if self.procedures.slow else SLICE)
-            done = int(mine.next[0]) - working + float(tile.state.tick[:working].sum()) / self.task.ticks
+            done = int(mine.next[0]) - working + float(tile.state.world.tick[:working].sum()) / self.task.ticks
             ran(done - told)
             told = done
         return mine
 
     def fill(self, tile: Tile, jobs: Jobs) -> None:
         """Begin a job in every lane."""
-        fill(self.tables, tile.state, jobs, len(tile.state.tick))
+        fill(self.tables, tile.state, jobs, len(tile.state.world.tick))
 
     def advance(self, tile: Tile, jobs: Jobs, ticks: int) -> int:
         """Run so many ticks; how many lanes are still at work. ProcedureError where a procedure fails."""
@@ -149,9 +151,10 @@ class Rollout:
             advance_slowly(self.graph, tile.memories, self.tables, tile.state, jobs, ticks, self.interrupt)
         else:
             advance(self.tables, tile.state, jobs, ticks, self.interrupt)
-        if (failed := int(tile.state.failed[0])) >= 0:
-            skill, column = self.tables.skills[failed], int(tile.state.failed[1])
-            inputs = tile.state.gathered[: int(skill["inputs"]), column]
+        failed = tile.state.run.failed
+        if failed[FAILED_SKILL] >= 0:
+            skill = self.tables.skills[failed[FAILED_SKILL]]
+            inputs = tile.state.mind.gathered[: int(skill["inputs"]), failed[FAILED_COLUMN]]
             raise self.procedures.explain(self.graph.skills[int(skill["index"])].name, inputs)
         return int(jobs.lanes[0])
 

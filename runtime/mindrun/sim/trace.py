@@ -2,13 +2,13 @@
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from mindrun.arithmetic import ANGLE, BOX_COLUMNS, SIZE, THING_ROWS
 from mindrun.sim.rollout import Rollout
-from mindrun.sim.state import Jobs
+from mindrun.sim.state import Jobs, World
 
 
 @dataclass(frozen=True, slots=True)
@@ -49,31 +49,31 @@ def trace(rollout: Rollout, seed: int, genome: NDArray[np.float32] | None = None
     jobs = rollout.jobs(genomes, np.array([seed], np.uint64))
     tile = rollout.tile(1)
     rollout.fill(tile, jobs)
-    s = tile.state
-    boxes = s.boxes[0].reshape(-1, 3).copy()
-    things = _things(s, rollout)
+    world, mind, judge = tile.state.world, tile.state.mind, tile.state.judge
+    boxes = world.boxes[0].reshape(-1, BOX_COLUMNS).copy()
+    things = _things(world, rollout)
 
     def moments() -> Iterator[Moment]:
         working = 1
         while working:
             working = rollout.advance(tile, jobs, 1)
             yield Moment(
-                tick=int(s.tick[0]),
-                body=s.body[:, 0].copy(),
-                things=_things(s, rollout),
-                held=int(s.held[0]),
-                battery=float(s.battery[0]),
-                touching=bool(s.touching[0] & 1),
-                readings=s.readings[:, 0].copy(),
-                influence=s.influence[:, 0].copy(),
-                commands=s.commands[:, 0].copy(),
-                events=s.events[: len(rollout.task.events), 0].astype(np.int64),
-                lines=s.lines[: len(rollout.task.rewards), 0].copy(),
+                tick=int(world.tick[0]),
+                body=world.body[:, 0].copy(),
+                things=_things(world, rollout),
+                held=int(world.held[0]),
+                battery=float(world.battery[0]),
+                touching=bool(tile.state.contact.touching[0] & 1),
+                readings=mind.readings[:, 0].copy(),
+                influence=mind.influence[:, 0].copy(),
+                commands=mind.commands[:, 0].copy(),
+                events=judge.events[: len(rollout.task.events), 0].astype(np.int64),
+                lines=judge.lines[: len(rollout.task.rewards), 0].copy(),
             )
 
-    return Trace(boxes, s.body[:3, 0].copy(), things, moments(), jobs)
+    return Trace(boxes, world.body[: ANGLE + 1, 0].copy(), things, moments(), jobs)
 
 
-def _things(state: Any, rollout: Rollout) -> NDArray[np.float64]:
-    rows: NDArray[np.float64] = state.things[: 4 * len(rollout.tables.things), 0].reshape(-1, 4)[:, :3].copy()
-    return rows
+def _things(world: World, rollout: Rollout) -> NDArray[np.float64]:
+    rows = world.things[: THING_ROWS * len(rollout.tables.things), 0].reshape(-1, THING_ROWS)
+    return rows[:, : SIZE + 1].copy()

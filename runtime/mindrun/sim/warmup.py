@@ -5,7 +5,6 @@ import os
 import subprocess
 import sys
 from collections.abc import Sequence
-from typing import Any
 
 import numpy as np
 
@@ -18,6 +17,7 @@ from mindrun.scenes import Plain
 from mindrun.sim import cache
 from mindrun.sim.lanes import stages
 from mindrun.sim.lanes.advance import advance
+from mindrun.sim.numba_internals import code_of
 from mindrun.sim.rollout import Rollout
 
 IN_BACKGROUND = "behind"
@@ -26,8 +26,7 @@ LOWEST_NICENESS = 19  # how little a process matters that works while others wai
 
 def code() -> cache.MachineCode:
     """What is kept and shipped of the way in that takes the longest to compile."""
-    dispatcher: Any = advance
-    found: cache.MachineCode = dispatcher._cache
+    found: cache.MachineCode = code_of(advance)
     return found
 
 
@@ -50,12 +49,12 @@ def warm_up() -> None:
     rollout = Rollout(Policy(_smallest(), {}), "Nothing", "Rest")
     rollout.compile()
     tile, jobs = rollout.tile(1), rollout.jobs(np.zeros((0, 0), np.float32), np.zeros(0, np.uint64))
-    t, s, none = rollout.tables, tile.state, np.int64(0)
-    stages.before(t, s, jobs)
-    stages.run_skills(t, s, none, 0, 0)
-    stages.wake(t, s, 0, 0)
-    stages.send(t, s, 0, 0, 0, 0)
-    stages.after(t, s, jobs, True)
+    tables, state, none = rollout.tables, tile.state, np.int64(0)
+    stages.before(tables, state, jobs)
+    stages.run_skills(tables, state, none, 0, 0)
+    stages.wake(tables, state, 0, 0)
+    stages.send(tables, state, 0, 0, 0, 0)
+    stages.after(tables, state, jobs, True)
 
 
 def main(words: Sequence[str]) -> None:

@@ -1,1 +1,30 @@
-"""One tick of many worlds in lockstep: sense, think, act, step, judge. Every quantity is an array [row, lane]."""
+"""One tick of many worlds in lockstep.
+
+A **lane** is one world with one robot in it; `lanes` of them are at work, numbered 0 to lanes − 1. Every quantity is an
+array [row, lane] (a few are [lane, column]; `sim/state.py` says which), so that a loop over the lanes vectorises. What
+is the same in all of them stands in `tables`: a row for each sensor, skill, edge, reward … of a mind and its task
+(`sim/tables.py`; `sim/codes.py` has the columns). The compiled code is the same for every mind: it reads the tables.
+
+`advance` runs ticks, each in six stages:
+
+| stage | what it does | to which parts of the state |
+|---|---|---|
+| sense | readings, from where the robots and the things are | sight, mind |
+| think | influence down the hierarchy (Eq. 2), what the skills send (Eq. 1): `evaluate` for expressions | mind |
+| act | commands (Eq. 3), the claw | mind, world |
+| step | physics: free flight, and `chipmunk` where something could touch | world, contact |
+| judge | measures, events, rewards; `reach`, and `placement` of what was reached | judge, world, run |
+| recall | memories, as they are read in the next tick | mind |
+
+A stage is handed the whole `state`, what it calls the parts that it reads and writes. A skill runs only in the lanes in
+which it has influence: `active[0..count]` are these, and what is gathered for it stands side by side in the columns
+0 to count − 1. A run that is over is written down, and its lane begins the next job; when none is left the last lane
+takes its place.
+
+`@compiled` is what only compiled code calls, `@entry` can be called from Python. Compiled code owns nothing
+(`_nrt=False`), so in it
+
+- no array is made, and none is assigned to a slice: a loop instead (a number may be assigned to a slice);
+- nothing is raised, and no index is looked at: tables and state are made to fit each other;
+- the order of + − × ÷ is part of the result: the engine and plain Python give the same bits.
+"""

@@ -9,75 +9,76 @@ UNDRIVEN = F(-1)
 
 
 @compiled
-def act(t, s, n, clock):
+def act(tables, state, lanes, clock):
     """Commands as they act in this tick, and what the claw holds."""
-    sinks = s.sums.shape[0] // 2
-    for i in range(len(t.actuators)):
-        actuator = t.actuators[i]
-        means(s.sums[i], s.sums[sinks + i], actuator.neutral, s.commands[i], s.faults, n)
+    mind, faults = state.mind, state.run.faults
+    for i in range(len(tables.actuators)):
+        actuator, commands = tables.actuators[i], mind.commands[i]
+        means(mind.command_sums[i], mind.influence_sums[i], actuator.neutral, commands, faults, lanes)
         if actuator.delay > 0:
-            wait(s.commands[i], s.late[actuator.ring + clock % actuator.delay], n)
+            wait(commands, mind.late[actuator.ring + clock % actuator.delay], lanes)
         if actuator.kind == GRIPPER:
-            grip(s.commands[i], s.held, s.body, s.heading, s.things, t.things, t.world[0].radius, actuator.reach, n)
+            grip(commands, state.world, tables.things, tables.world[0].radius, actuator.reach, lanes)
 
 
 @compiled
-def recall(t, s, n):
+def recall(tables, mind, run, lanes):
     """The memory cells as they are read in the next tick: a reward of this one has them as its skills had."""
-    sinks = s.sums.shape[0] // 2
-    for i in range(len(t.memories)):
-        memory = t.memories[i]
-        sink = len(t.actuators) + i
-        means(s.sums[sink], s.sums[sinks + sink], UNDRIVEN, s.sent, s.faults, n)
-        remember(s.readings[memory.row], s.sent, memory.decay, memory.rest, n)
+    for i in range(len(tables.memories)):
+        memory, sink = tables.memories[i], len(tables.actuators) + i
+        means(mind.command_sums[sink], mind.influence_sums[sink], UNDRIVEN, mind.sent, run.faults, lanes)
+        remember(mind.readings[memory.row], mind.sent, memory.decay, memory.rest, lanes)
 
 
 @compiled
-def means(total, weight, neutral, out, faults, n):
+def means(total, weight, neutral, out, faults, lanes):
     """The influence-weighted mean of the commands (Eq. 3); `neutral` where there are none.
 
     A mean that is no finite number, because sums overflowed, is a fault and gives `neutral` too.
     """
-    for p in range(n):
-        driven = weight[p] != ZERO  # NaN too, where influence overflowed
-        value = total[p] / (weight[p] if driven else ONE)
+    for lane in range(lanes):
+        driven = weight[lane] != ZERO  # NaN too, where influence overflowed
+        value = total[lane] / (weight[lane] if driven else ONE)
         sound = finite(value)
-        out[p] = clamp(value) if driven & sound else neutral
-        faults[p] += 1 if driven & (not sound) else 0
+        out[lane] = clamp(value) if driven & sound else neutral
+        faults[lane] += 1 if driven & (not sound) else 0
 
 
 @compiled
-def wait(commands, late, n):
+def wait(commands, late, lanes):
     """Exchange each command with the one that has waited its turn in the ring."""
-    for p in range(n):
-        commands[p], late[p] = late[p], commands[p]
+    for lane in range(lanes):
+        commands[lane], late[lane] = late[lane], commands[lane]
 
 
 @compiled
-def remember(cell, command, decay, rest, n):
+def remember(cell, command, decay, rest, lanes):
     """decay·cell + (1 − decay)·command where a skill drives the cell, else decay·cell."""
-    for p in range(n):
-        kept = decay * cell[p]
-        cell[p] = kept + rest * command[p] if command[p] >= ZERO else kept
+    for lane in range(lanes):
+        kept = decay * cell[lane]
+        cell[lane] = kept + rest * command[lane] if command[lane] >= ZERO else kept
 
 
 @compiled
-def grip(commands, held, body, heading, things, kinds, radius, reach, n):
+def grip(commands, world, kinds, radius, reach, lanes):
     """Close above 0.5 on the first item in reach; open and the item stays where it is."""
-    for p in range(n):
-        held[p] = -1 if commands[p] <= HALF else held[p]
-    for p in range(n):
-        if commands[p] > HALF and held[p] < 0:
+    held, body, heading, things = world.held, world.body, world.heading, world.things
+    for lane in range(lanes):
+        held[lane] = -1 if commands[lane] <= HALF else held[lane]
+    for lane in range(lanes):
+        if commands[lane] > HALF and held[lane] < 0:
             for i in range(len(kinds)):
-                if kinds[i].kind == ITEM and held[p] < 0 and in_claw(body, heading, things, radius, reach, i, p):
-                    held[p] = i
+                is_free = kinds[i].kind == ITEM and held[lane] < 0
+                if is_free and in_claw(body, heading, things, radius, reach, i, lane):
+                    held[lane] = i
 
 
 @compiled
-def carry(held, body, heading, things, kinds, n):
+def carry(world, kinds, lanes):
     """A held item moves with the claw."""
-    for p in range(n):
-        if held[p] >= 0:
-            i, ahead = held[p], kinds[held[p]].hold
-            things[THING_ROWS * i + X, p] = body[X, p] + heading[COSINE, p] * ahead
-            things[THING_ROWS * i + Y, p] = body[Y, p] + heading[SINE, p] * ahead
+    body, heading, things = world.body, world.heading, world.things
+    for lane in range(lanes):
+        if world.held[lane] >= 0:
+            thing, ahead = THING_ROWS * world.held[lane], kinds[world.held[lane]].hold
+            things[thing + X, lane] = body[X, lane] + heading[COSINE, lane] * ahead
+            things[thing + Y, lane] = body[Y, lane] + heading[SINE, lane] * ahead

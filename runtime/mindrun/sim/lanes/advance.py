@@ -14,166 +14,211 @@ from mindrun.sim.lanes.placement import draw
 from mindrun.sim.lanes.sense import sense
 from mindrun.sim.lanes.step import is_lost, step, within
 from mindrun.sim.lanes.think import begin, think
+from mindrun.sim.state import FAILED_SKILL, PLACE_ROWS
 
 MEASURED_ASIDE = np.uint64(0xD1B54A32D192ED03)  # what no skill reads draws from a generator of its own
 
 
 @entry
-def advance(t, s, jobs, ticks, interrupt):
+def advance(tables, state, jobs, ticks, interrupt):
     """Run all lanes for so many ticks, until every job is done, or until a procedure fails."""
     for _ in range(ticks):
         if jobs.lanes[0] == 0:
             break
-        before(t, s, jobs)
-        think(t, s, jobs.lanes[0], 0, len(t.skills))
-        if s.failed[0] >= 0:
+        before(tables, state, jobs)
+        think(tables, state, jobs.lanes[0], 0, len(tables.skills))
+        if state.run.failed[FAILED_SKILL] >= 0:
             break
-        after(t, s, jobs, interrupt)
+        after(tables, state, jobs, interrupt)
 
 
 @compiled
-def before(t, s, jobs):
+def before(tables, state, jobs):
     """The first half of a tick: sense, and the master's influence."""
-    sense(t, s, jobs.lanes[0], jobs.clock[0])
-    begin(t, s, jobs.lanes[0])
+    sense(tables, state, jobs.lanes[0], jobs.clock[0])
+    begin(tables, state.mind, jobs.lanes[0])
 
 
 @compiled
-def after(t, s, jobs, interrupt):
+def after(tables, state, jobs, interrupt):
     """The second half of a tick: act, step, judge, recall.
 
     Lanes whose run is over write their result and begin the next.
     """
-    n, clock = jobs.lanes[0], jobs.clock[0]
-    act(t, s, n, clock)
-    for p in range(n):
-        s.was[X, p], s.was[Y, p] = s.body[X, p], s.body[Y, p]
-    step(t, s, n)
-    judge(t, s, n, clock, interrupt)
-    recall(t, s, n)
-    for i in range(len(t.actuators)):
-        for p in range(n):
-            s.last[i, p] = s.commands[i, p]
+    lanes, clock, world = jobs.lanes[0], jobs.clock[0], state.world
+    act(tables, state, lanes, clock)
+    for lane in range(lanes):
+        world.begun_at[X, lane], world.begun_at[Y, lane] = world.body[X, lane], world.body[Y, lane]
+    step(tables, state, lanes)
+    judge(tables, state, lanes, clock, interrupt)
+    recall(tables, state.mind, state.run, lanes)
+    for row in range(len(tables.actuators)):
+        for lane in range(lanes):
+            state.judge.last_commands[row, lane] = state.mind.commands[row, lane]
     jobs.clock[0] = clock + 1
-    if going_on(s.body, s.ended, s.tick, t.world[0].ticks, n) < n:
-        for k in range(n):
-            end(t, s, jobs, n - 1 - k)
+    if going_on(world.body, state.run.ended, world.tick, tables.world[0].ticks, lanes) < lanes:
+        for k in range(lanes):
+            end(tables, state, jobs, lanes - 1 - k)
 
 
 @compiled
-def going_on(body, ended, tick, ticks, n):
+def going_on(body, ended, tick, ticks, lanes):
     """In how many lanes the run is not over: most often in all of them, and then nothing else looks."""
     count = 0
-    for p in range(n):
-        placed = within(body[X, p], body[Y, p], body[ANGLE, p])
-        count += 1 if placed & (ended[p] == GOING_ON) & (tick[p] < ticks) else 0
+    for lane in range(lanes):
+        placed = within(body[X, lane], body[Y, lane], body[ANGLE, lane])
+        count += 1 if placed & (ended[lane] == GOING_ON) & (tick[lane] < ticks) else 0
     return count
 
 
 @compiled
-def end(t, s, jobs, p):
-    """Lane p's run written down where it is over, and the next one begun, or the last lane in its place."""
-    if is_lost(s.body, p):
-        s.faults[p] += 1
-        s.ended[p] = LOST
-    if s.ended[p] != GOING_ON or s.tick[p] >= t.world[0].ticks:
-        finish(t, s, jobs, p)
-        if not begin_job(t, s, jobs, p):
+def end(tables, state, jobs, lane):
+    """A lane's run written down where it is over, and the next one begun, or the last lane in its place."""
+    run = state.run
+    if is_lost(state.world.body, lane):
+        run.faults[lane] += 1
+        run.ended[lane] = LOST
+    if run.ended[lane] != GOING_ON or state.world.tick[lane] >= tables.world[0].ticks:
+        finish(tables, state, jobs, lane)
+        if not begin_job(tables, state, jobs, lane):
             last = jobs.lanes[0] - 1
-            if p != last:
-                move(s, last, p)
+            if lane != last:
+                move(state, last, lane)
             jobs.lanes[0] = last
 
 
 @entry
-def fill(t, s, jobs, lanes):
+def fill(tables, state, jobs, lanes):
     """Begin as many jobs as there are lanes."""
-    for p in range(lanes):
-        if not begin_job(t, s, jobs, p):
+    for lane in range(lanes):
+        if not begin_job(tables, state, jobs, lane):
             break
-        jobs.lanes[0] = p + 1
+        jobs.lanes[0] = lane + 1
 
 
 @compiled
-def begin_job(t, s, jobs, p):
-    """Lane p begins the next job from nothing; False where there is none."""
-    job = jobs.next[0]
+def begin_job(tables, state, jobs, lane):
+    """A lane begins the next job from nothing; False where there is none."""
+    job, world, mind = jobs.next[0], state.world, state.mind
     if job >= len(jobs.genome):
         return False
     jobs.next[0] = job + 1
-    s.job[p] = job
-    s.random[p] = jobs.seeds[jobs.seed[job]]
-    s.aside[p] = s.random[p] ^ MEASURED_ASIDE
-    draw(t, s, p)
+    state.run.job[lane] = job
+    world.random[lane] = jobs.seeds[jobs.seed[job]]
+    world.random_aside[lane] = world.random[lane] ^ MEASURED_ASIDE
+    draw(tables, world, lane)
     genome = jobs.genomes[jobs.genome[job]]
     for i in range(len(genome)):
-        s.genome[i, p] = genome[i]
-    reset(t, s, p)
+        mind.genome[i, lane] = genome[i]
+    reset(tables, state, lane)
     return True
 
 
 @compiled
-def reset(t, s, p):
-    """Everything of lane p that is not its world, its genome or its generator, as at the beginning of a run."""
-    s.held[p], s.near[p], s.touching[p], s.faults[p] = -1, 0, 0, 0
-    s.tick[p], s.ended[p] = 0, GOING_ON
-    s.battery[p] = t.world[0].start
-    s.heading[SINE, p], s.heading[COSINE, p] = sine_cosine(s.body[ANGLE, p])
-    s.lines[:, p] = 0.0
-    s.counts[:, p] = 0
-    s.reached[:, p], s.delivered[:, p] = 0, 0
-    s.changes[:, p] = 0.0
-    s.recurrent[:, p] = 0.0
-    s.anchor[:, p] = np.nan
+def reset(tables, state, lane):
+    """Everything of a lane that is not its world, its genome or its generator, as at the beginning of a run."""
+    reset_world(tables, state.world, lane)
+    reset_mind(tables, state.mind, lane)
+    reset_judge(tables, state.world, state.judge, lane)
+    state.sight.anchor[:, lane] = np.nan
+    state.contact.near[lane], state.contact.touching[lane] = 0, 0
+    state.run.ended[lane], state.run.faults[lane] = GOING_ON, 0
+
+
+@compiled
+def reset_world(tables, world, lane):
+    """What is not drawn."""
+    world.held[lane], world.tick[lane] = -1, 0
+    world.battery[lane] = tables.world[0].start
+    world.heading[SINE, lane], world.heading[COSINE, lane] = sine_cosine(world.body[ANGLE, lane])
+    world.reached[:, lane], world.delivered[:, lane] = 0, 0
     for i in range(TRAIL_TICKS):
-        s.trail[2 * i, p], s.trail[2 * i + 1, p] = s.body[X, p], s.body[Y, p]
-    for i in range(len(t.actuators)):
-        actuator = t.actuators[i]
-        s.last[i, p] = actuator.neutral
+        place = PLACE_ROWS * i
+        world.trail[place + X, lane], world.trail[place + Y, lane] = world.body[X, lane], world.body[Y, lane]
+
+
+@compiled
+def reset_mind(tables, mind, lane):
+    """Nothing remembered, and neutral commands on their way."""
+    mind.recurrent[:, lane] = 0.0
+    for i in range(len(tables.actuators)):
+        actuator = tables.actuators[i]
         for k in range(actuator.delay):
-            s.late[actuator.ring + k, p] = actuator.neutral
-    for i in range(len(t.memories)):
-        s.readings[t.memories[i].row, p] = t.memories[i].start
-    s.board[p] = 0
-    for i in range(len(t.events)):
-        event = t.events[i]
+            mind.late[actuator.ring + k, lane] = actuator.neutral
+    for i in range(len(tables.memories)):
+        mind.readings[tables.memories[i].row, lane] = tables.memories[i].start
+
+
+@compiled
+def reset_judge(tables, world, judge, lane):
+    """Nothing paid, counted or visited, but for the patch that the robot starts in."""
+    judge.lines[:, lane] = 0.0
+    judge.counts[:, lane] = 0
+    judge.left_changes[:, lane], judge.right_changes[:, lane] = 0.0, 0.0
+    for i in range(len(tables.actuators)):
+        judge.last_commands[i, lane] = tables.actuators[i].neutral
+    judge.visited[lane] = 0
+    for i in range(len(tables.events)):
+        event = tables.events[i]
         if event.kind == VISIT:
-            s.board[p, event.board + patch_of(s.body, t.world[0].half, event.patch, event.columns, p)] = 1
+            patch = patch_of(world.body, tables.world[0].half, event.patch, event.columns, lane)
+            judge.visited[lane, event.board + patch] = 1
 
 
 @compiled
-def finish(t, s, jobs, p):
-    """Write down what came of lane p's job, and free its Space."""
-    job = s.job[p]
-    for i in range(len(t.rewards)):
-        jobs.lines[job, i] = s.lines[i, p]
-    for i in range(len(t.events)):
-        jobs.counts[job, i] = s.counts[i, p]
-    jobs.ticks[job], jobs.ended[job], jobs.faults[job] = s.tick[p], s.ended[p], s.faults[p]
-    close_space(t.library, s.handles[p], 1 + len(t.things))
-    s.job[p] = -1
+def finish(tables, state, jobs, lane):
+    """Write down what came of a lane's job, and free its Space."""
+    judge, run = state.judge, state.run
+    job = run.job[lane]
+    for i in range(len(tables.rewards)):
+        jobs.lines[job, i] = judge.lines[i, lane]
+    for i in range(len(tables.events)):
+        jobs.counts[job, i] = judge.counts[i, lane]
+    jobs.ticks[job], jobs.ended[job], jobs.faults[job] = state.world.tick[lane], run.ended[lane], run.faults[lane]
+    close_space(tables.library, state.contact.handles[lane], len(tables.things))
+    run.job[lane] = -1
 
 
 @compiled
-def move(s, a, b):
-    """Lane a becomes lane b, whose own run is over. Scratch rows stay; the circles change places with their Space."""
-    for rows in (s.body, s.heading, s.nearby, s.things, s.trail, s.changes, s.lines, s.anchor):
-        for i in range(rows.shape[0]):
-            rows[i, b] = rows[i, a]
-    for rows in (s.readings, s.before, s.measured, s.rings, s.genome, s.recurrent, s.late, s.last, s.commands):
-        for i in range(rows.shape[0]):
-            rows[i, b] = rows[i, a]
-    for row in (s.held, s.tick, s.ended, s.faults, s.job, s.near, s.touching, s.slot_count):
-        row[b] = row[a]
-    s.battery[b], s.random[b], s.aside[b] = s.battery[a], s.random[a], s.aside[a]
-    for i in range(s.board.shape[1]):
-        s.board[b, i] = s.board[a, i]
-    for i in range(s.boxes.shape[1]):
-        s.boxes[b, i] = s.boxes[a, i]
-    for i in range(s.counts.shape[0]):
-        s.counts[i, b] = s.counts[i, a]
-    for rows in (s.reached, s.delivered):
-        for i in range(rows.shape[0]):
-            rows[i, b] = rows[i, a]
-    for i in range(s.handles.shape[1]):
-        s.handles[a, i], s.handles[b, i] = s.handles[b, i], s.handles[a, i]
+def move(state, a, b):
+    """Lane a becomes lane b, whose own run is over. What is of this tick stays; the circles move with their Space."""
+    move_world(state.world, a, b)
+    mind, sight, judge, contact, run = state.mind, state.sight, state.judge, state.contact, state.run
+    for rows in (mind.readings, mind.before, mind.measured, mind.rings, mind.genome, mind.recurrent):
+        copy_lane(rows, a, b)
+    for rows in (mind.late, mind.commands, judge.last_commands):
+        copy_lane(rows, a, b)
+    for rows in (sight.nearby, sight.anchor, judge.left_changes, judge.right_changes, judge.lines):
+        copy_lane(rows, a, b)
+    copy_lane(judge.counts, a, b)
+    copy_row(judge.visited, a, b)
+    for numbers in (sight.nearby_count, contact.near, contact.touching, run.job, run.ended, run.faults):
+        numbers[b] = numbers[a]
+    for i in range(contact.handles.shape[1]):
+        contact.handles[a, i], contact.handles[b, i] = contact.handles[b, i], contact.handles[a, i]
+
+
+@compiled
+def move_world(world, a, b):
+    """The world of lane a becomes that of lane b."""
+    for rows in (world.body, world.heading, world.things, world.trail):
+        copy_lane(rows, a, b)
+    for rows in (world.reached, world.delivered):
+        copy_lane(rows, a, b)
+    copy_row(world.boxes, a, b)
+    world.held[b], world.tick[b], world.battery[b] = world.held[a], world.tick[a], world.battery[a]
+    world.random[b], world.random_aside[b] = world.random[a], world.random_aside[a]
+
+
+@compiled
+def copy_lane(rows, a, b):
+    """Lane a of rows [row, lane] to lane b."""
+    for i in range(rows.shape[0]):
+        rows[i, b] = rows[i, a]
+
+
+@compiled
+def copy_row(columns, a, b):
+    """Lane a of columns [lane, column] to lane b."""
+    for i in range(columns.shape[1]):
+        columns[b, i] = columns[a, i]

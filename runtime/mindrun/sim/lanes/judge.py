@@ -25,177 +25,185 @@ from mindrun.sim.codes import (
 from mindrun.sim.compiling import compiled
 from mindrun.sim.lanes.evaluate import evaluate
 from mindrun.sim.lanes.reach import BEGUN, become, meet
+from mindrun.sim.state import PLACE_ROWS
 
 
 @compiled
-def judge(t, s, n, clock, interrupt):
+def judge(tables, state, lanes, clock, interrupt):
     """Everything that a task does with a tick once the robot has moved."""
-    for i in range(len(t.measures)):
-        measure = t.measures[i]
-        if measure.kind == CHANGE:
-            change(t, s, measure, s.measures[i], n, clock)
-        elif measure.kind == FORWARD:
-            forward(s.measures[i], s.body, s.heading, s.was, n)
-        else:
-            progress(s.measures[i], s.body, s.things, measure.thing, measure.kind, n)
-    if t.world[0].battery:
-        drain(t, s, n)
-    begun = meet(t, s, n)
-    for i in range(len(t.events)):
-        s.happened[i] = notice(t, s, t.events[i], s.events[i], n)
-    for i in range(len(t.rewards)):
-        reward(t, s, t.rewards[i], s.lines[i], n)
-    for i in range(len(t.events)):
-        if s.happened[i] > 0:
-            settle(t, s, i, n, interrupt)
+    world, judged = state.world, state.judge
+    take_measures(tables, world, state.mind.commands, judged, lanes, clock)
+    if tables.world[0].battery:
+        drain(tables, world, lanes)
+    begun = meet(tables, world, lanes)
+    for i in range(len(tables.events)):
+        out = judged.events[i]
+        judged.happened[i] = notice(tables, world, state.contact, judged.visited, tables.events[i], out, lanes)
+    for i in range(len(tables.rewards)):
+        reward(tables, state.mind, judged, tables.rewards[i], judged.lines[i], lanes)
+    for i in range(len(tables.events)):
+        if judged.happened[i] > 0:
+            settle(tables.events[i], i, judged, state.run.ended, lanes, interrupt)
     if begun > 0:
-        become(t, s, n)
-    oldest = clock % TRAIL_TICKS
-    for p in range(n):
-        s.tick[p] += 1
-        s.trail[2 * oldest, p], s.trail[2 * oldest + 1, p] = s.was[X, p], s.was[Y, p]
+        become(tables, world, lanes)
+    oldest = PLACE_ROWS * (clock % TRAIL_TICKS)
+    for lane in range(lanes):
+        world.tick[lane] += 1
+        world.trail[oldest + X, lane], world.trail[oldest + Y, lane] = world.begun_at[X, lane], world.begun_at[Y, lane]
 
 
 @compiled
-def progress(out, body, things, i, kind, n):
+def take_measures(tables, world, commands, judged, lanes, clock):
+    """The measures of the tick."""
+    for i in range(len(tables.measures)):
+        measure, out = tables.measures[i], judged.measures[i]
+        if measure.kind == CHANGE:
+            change(tables, commands, judged, measure, out, lanes, clock)
+        elif measure.kind == FORWARD:
+            forward(out, world.body, world.heading, world.begun_at, lanes)
+        else:
+            progress(out, world.body, world.things, measure.thing, measure.kind, lanes)
+
+
+@compiled
+def progress(out, body, things, i, kind, lanes):
     """The distance to thing i that this tick closed, or its positive or negative part; 0 where it has vanished."""
-    for p in range(n):
-        dx, dy = things[THING_ROWS * i + X, p] - body[X, p], things[THING_ROWS * i + Y, p] - body[Y, p]
-        closed = things[THING_ROWS * i + DISTANCE, p] - np.sqrt(dx * dx + dy * dy)
+    thing = THING_ROWS * i
+    for lane in range(lanes):
+        dx, dy = things[thing + X, lane] - body[X, lane], things[thing + Y, lane] - body[Y, lane]
+        closed = things[thing + DISTANCE, lane] - np.sqrt(dx * dx + dy * dy)
         if kind == ADVANCE:
             closed = closed if closed > 0.0 else 0.0
         elif kind == RETREAT:
             closed = -closed if closed < 0.0 else 0.0
-        out[p] = 0.0 if np.isnan(closed) else closed
+        out[lane] = 0.0 if np.isnan(closed) else closed
 
 
 @compiled
-def forward(out, body, heading, before, n):
-    """1 where the robot moved forward; `before` holds x and y of the tick's beginning."""
-    for p in range(n):
-        along = (body[X, p] - before[X, p]) * heading[COSINE, p] + (body[Y, p] - before[Y, p]) * heading[SINE, p]
-        out[p] = 1.0 if along > 1e-6 else 0.0
+def forward(out, body, heading, begun_at, lanes):
+    """1 where the robot moved forward in this tick."""
+    for lane in range(lanes):
+        dx, dy = body[X, lane] - begun_at[X, lane], body[Y, lane] - begun_at[Y, lane]
+        along = dx * heading[COSINE, lane] + dy * heading[SINE, lane]
+        out[lane] = 1.0 if along > 1e-6 else 0.0
 
 
 @compiled
-def change(t, s, measure, out, n, clock):
+def change(tables, commands, judged, measure, out, lanes, clock):
     """How much each side's wheel command changed over the last ticks, beyond a share: ΣΔ of the paper's Table 5."""
-    slot = measure.ring + clock % measure.over
-    total = s.changes.shape[0] // 2
-    for p in range(n):
-        s.changes[slot, p] = 0.0
-        s.changes[total + slot, p] = 0.0
-        out[p] = 0.0
-    for i in range(len(t.actuators)):
-        kind = t.actuators[i].kind
+    now = measure.ring + clock % measure.over
+    for lane in range(lanes):
+        judged.left_changes[now, lane] = 0.0
+        judged.right_changes[now, lane] = 0.0
+        out[lane] = 0.0
+    for i in range(len(tables.actuators)):
+        kind = tables.actuators[i].kind
         if kind in (WHEEL_LEFT, WHEEL_RIGHT):
-            row = slot if kind == WHEEL_LEFT else total + slot
-            for p in range(n):
-                s.changes[row, p] += abs(np.float64(s.commands[i, p]) - np.float64(s.last[i, p]))
-    for side in range(2):
-        first = side * total + measure.ring
-        for p in range(n):
+            changes = judged.left_changes[now] if kind == WHEEL_LEFT else judged.right_changes[now]
+            for lane in range(lanes):
+                changes[lane] += abs(np.float64(commands[i, lane]) - np.float64(judged.last_commands[i, lane]))
+    for changes in (judged.left_changes, judged.right_changes):
+        for lane in range(lanes):
             varied = 0.0
             for k in range(measure.over):
-                varied += s.changes[first + k, p]
-            out[p] += max(0.0, varied - measure.beyond)
+                varied += changes[measure.ring + k, lane]
+            out[lane] += max(0.0, varied - measure.beyond)
 
 
 @compiled
-def drain(t, s, n):
+def drain(tables, world, lanes):
     """The battery charges inside a power zone, and empties elsewhere."""
-    world = t.world[0]
-    for p in range(n):
+    charge, drained = tables.world[0].charge, tables.world[0].drain
+    for lane in range(lanes):
         charged = False
-        for i in range(len(t.things)):
-            if t.things[i].kind == POWER and inside(s.things, i, s.body[X, p], s.body[Y, p], p):
-                charged = True
-        left = s.battery[p] + world.charge if charged else s.battery[p] - world.drain
-        s.battery[p] = min(1.0, max(0.0, left))
+        for i in range(len(tables.things)):
+            if tables.things[i].kind == POWER:
+                charged = charged or inside(world.things, i, world.body[X, lane], world.body[Y, lane], lane)
+        left = world.battery[lane] + charge if charged else world.battery[lane] - drained
+        world.battery[lane] = min(1.0, max(0.0, left))
 
 
 @compiled
-def notice(t, s, event, out, n):
+def notice(tables, world, contact, visited, event, out, lanes):
     """Whether the event happened in this tick, per lane; returns in how many."""
-    world, kind, i = t.world[0], event.kind, event.thing
+    kind, i = event.kind, event.thing
     count = 0
-    for p in range(n):
+    for lane in range(lanes):
         happened = False
         if kind == REACH:
-            happened = s.reached[i, p] == BEGUN
+            happened = world.reached[i, lane] == BEGUN
         elif kind == DELIVERY:
-            happened = s.delivered[i, p] == BEGUN
+            happened = world.delivered[i, lane] == BEGUN
         elif kind == VISIT:
-            patch = patch_of(s.body, world.half, event.patch, event.columns, p)
-            happened = s.board[p, event.board + patch] == 0
-            s.board[p, event.board + patch] = 1
+            patch = event.board + patch_of(world.body, tables.world[0].half, event.patch, event.columns, lane)
+            happened = visited[lane, patch] == 0
+            visited[lane, patch] = 1
         elif kind == COLLISION:
-            happened = s.touching[p] == 1
+            happened = contact.touching[lane] == 1
         elif kind == EXHAUSTION:
-            happened = s.battery[p] == 0.0
-        out[p] = 1.0 if happened else 0.0
+            happened = world.battery[lane] == 0.0
+        out[lane] = 1.0 if happened else 0.0
         count += 1 if happened else 0
     return count
 
 
 @compiled
-def patch_of(body, half, patch, columns, p):
+def patch_of(body, half, patch, columns, lane):
     """The number of the patch that the robot's centre is in."""
-    x = min(columns - 1, max(0, int((body[X, p] + half) / patch)))
-    y = min(columns - 1, max(0, int((body[Y, p] + half) / patch)))
+    x = min(columns - 1, max(0, int((body[X, lane] + half) / patch)))
+    y = min(columns - 1, max(0, int((body[Y, lane] + half) / patch)))
     return y * columns + x
 
 
 @compiled
-def reward(t, s, line, total, n):
+def reward(tables, mind, judged, line, total, lanes):
     """Add what a reward line pays in this tick to its sums."""
-    if line.on >= 0 and s.happened[line.on] == 0:
+    if line.on >= 0 and judged.happened[line.on] == 0:
         return
+    paid, amount = judged.paid, mind.stack[0]
     for k in range(max(1, line.eachs)):
         each = line.each + k
-        paid = s.paid
-        for p in range(n):
-            paid[p] = s.events[line.on, p] if line.on >= 0 else 1.0
+        for lane in range(lanes):
+            paid[lane] = judged.events[line.on, lane] if line.on >= 0 else 1.0
         if line.compare >= 0:
-            run(t, s, line.right, line.rights, each, n)
-            for p in range(n):
-                s.limit[p] = s.stack[0, p]
-            run(t, s, line.left, line.lefts, each, n)
-            only_when(paid, s.stack[0], s.limit, line.compare, n)
-        run(t, s, line.code, line.length, each, n)
-        for p in range(n):
-            total[p] += s.stack[0, p] if paid[p] > 0.0 else 0.0
+            run(tables, mind, judged.measures, line.right, line.rights, each, lanes)
+            for lane in range(lanes):
+                judged.limit[lane] = mind.stack[0, lane]
+            run(tables, mind, judged.measures, line.left, line.lefts, each, lanes)
+            only_when(paid, mind.stack[0], judged.limit, line.compare, lanes)
+        run(tables, mind, judged.measures, line.code, line.length, each, lanes)
+        for lane in range(lanes):
+            total[lane] += amount[lane] if paid[lane] > 0.0 else 0.0
 
 
 @compiled
-def run(t, s, first, length, each, n):
+def run(tables, mind, measures, first, length, each, lanes):
     """Evaluate a program into stack[0], in every lane."""
-    evaluate(t.codes[first : first + length], s.readings, s.measures, each, s.stack, s.active, n, True)
+    evaluate(tables.codes[first : first + length], mind.readings, measures, each, mind.stack, mind.active, lanes, True)
 
 
 @compiled
-def only_when(paid, left, right, compare, n):
+def only_when(paid, left, right, compare, lanes):
     """Nothing is paid where left compare right does not hold."""
     if compare == LESS:
-        for p in range(n):
-            paid[p] = paid[p] if left[p] < right[p] else 0.0
+        for lane in range(lanes):
+            paid[lane] = paid[lane] if left[lane] < right[lane] else 0.0
     elif compare == LESS_EQUAL:
-        for p in range(n):
-            paid[p] = paid[p] if left[p] <= right[p] else 0.0
+        for lane in range(lanes):
+            paid[lane] = paid[lane] if left[lane] <= right[lane] else 0.0
     elif compare == GREATER:
-        for p in range(n):
-            paid[p] = paid[p] if left[p] > right[p] else 0.0
+        for lane in range(lanes):
+            paid[lane] = paid[lane] if left[lane] > right[lane] else 0.0
     else:
-        for p in range(n):
-            paid[p] = paid[p] if left[p] >= right[p] else 0.0
+        for lane in range(lanes):
+            paid[lane] = paid[lane] if left[lane] >= right[lane] else 0.0
 
 
 @compiled
-def settle(t, s, i, n, interrupt):
-    """Count an event, and end the runs that it ends."""
-    event = t.events[i]
-    for p in range(n):
-        if s.events[i, p] > 0.0:
-            s.counts[i, p] += 1
-            if event.ends and interrupt and s.ended[p] < 0:
-                s.ended[p] = i
+def settle(event, i, judged, ended, lanes, interrupt):
+    """Count event number i, and end the runs that it ends."""
+    for lane in range(lanes):
+        if judged.events[i, lane] > 0.0:
+            judged.counts[i, lane] += 1
+            if event.ends and interrupt and ended[lane] < 0:
+                ended[lane] = i

@@ -15,13 +15,14 @@ GOLDEN, MIX_1, MIX_2 = np.uint64(0x9E3779B97F4A7C15), np.uint64(0xBF58476D1CE4E5
 S30, S27, S31, S11 = np.uint64(30), np.uint64(27), np.uint64(31), np.uint64(11)
 UNIT = 2.0**-53
 MAX_TRIES = 1000
+ENDLESS = 1e300  # half the side of what is no arena is infinite, above this
 
 
 @compiled
-def uniform(random, p, low, high):
-    """The next number of lane p's generator, between low and high."""
-    random[p] += GOLDEN
-    z = random[p]
+def uniform(random, lane, low, high):
+    """The next number of a lane's generator, between low and high."""
+    random[lane] += GOLDEN
+    z = random[lane]
     z = (z ^ (z >> S30)) * MIX_1
     z = (z ^ (z >> S27)) * MIX_2
     z = z ^ (z >> S31)
@@ -29,135 +30,149 @@ def uniform(random, p, low, high):
 
 
 @compiled
-def draw(t, s, p):
-    """A fresh world in lane p: grids of obstacles, the robot, loose obstacles, then the things in their order."""
-    world, obstacles = t.world[0], t.obstacles
-    s.boxes[p, :] = FAR
-    s.boxes[p, 2::3] = 0.0
-    s.things[:, p] = FAR
+def draw(tables, world, lane):
+    """A fresh world in a lane: grids of obstacles, the robot, loose obstacles, then the things in their order."""
+    clear_away(world, lane)
     box = 0
-    for i in range(len(obstacles)):
-        box = draw_grid(s, obstacles[i], box, p)
-    start(s, world.half, world.radius, p)
-    for i in range(len(obstacles)):
-        for _ in range(obstacles[i].count):
-            size = uniform(s.random, p, obstacles[i].first, obstacles[i].last)
-            x, y = find(s, world.half, world.radius, obstacles[i].low, obstacles[i].high, size / 2, -1, p)
-            put_box(s.boxes, box, x, y, size / 2, p)
+    for i in range(len(tables.obstacles)):
+        box = draw_grid(world, tables.obstacles[i], box, lane)
+    start(world, tables.world[0].half, tables.world[0].radius, lane)
+    for i in range(len(tables.obstacles)):
+        obstacle = tables.obstacles[i]
+        for _ in range(obstacle.count):
+            size = uniform(world.random, lane, obstacle.first, obstacle.last)
+            x, y = find(tables, world, obstacle.low, obstacle.high, size / 2, -1, lane)
+            put_box(world.boxes, box, x, y, size / 2, lane)
             box += 1
-    for i in range(len(t.things)):
-        thing = t.things[i]
-        size = uniform(s.random, p, thing.first, thing.last) if thing.drawn else thing.first
-        s.things[THING_ROWS * i + SIZE, p] = size
-        put(t, s, i, p)
+    for i in range(len(tables.things)):
+        thing = tables.things[i]
+        size = uniform(world.random, lane, thing.first, thing.last) if thing.drawn else thing.first
+        world.things[THING_ROWS * i + SIZE, lane] = size
+        put(tables, world, i, lane)
 
 
 @compiled
-def put_box(boxes, b, x, y, half, p):
+def clear_away(world, lane):
+    """No box and no thing is anywhere near."""
+    for b in range(world.boxes.shape[1] // BOX_COLUMNS):
+        put_box(world.boxes, b, FAR, FAR, 0.0, lane)
+    world.things[:, lane] = FAR
+
+
+@compiled
+def put_box(boxes, b, x, y, half, lane):
     """Box number b stands at a place."""
     box = BOX_COLUMNS * b
-    boxes[p, box + X], boxes[p, box + Y], boxes[p, box + HALF_SIDE] = x, y, half
+    boxes[lane, box + X], boxes[lane, box + Y], boxes[lane, box + HALF_SIDE] = x, y, half
 
 
 @compiled
-def draw_grid(s, obstacle, box, p):
+def draw_grid(world, obstacle, box, lane):
     """One obstacle at each crossing of the grid, a little off it; the number of the next box."""
+    random, jitter, middle = world.random, obstacle.jitter, (obstacle.lines - 1) / 2
     for row in range(obstacle.lines):
         for column in range(obstacle.lines):
-            middle = (obstacle.lines - 1) / 2
-            x = (column - middle) * obstacle.grid + uniform(s.random, p, -obstacle.jitter, obstacle.jitter)
-            y = (row - middle) * obstacle.grid + uniform(s.random, p, -obstacle.jitter, obstacle.jitter)
-            size = uniform(s.random, p, obstacle.first, obstacle.last)
-            put_box(s.boxes, box, x, y, size / 2, p)
+            x = (column - middle) * obstacle.grid + uniform(random, lane, -jitter, jitter)
+            y = (row - middle) * obstacle.grid + uniform(random, lane, -jitter, jitter)
+            size = uniform(random, lane, obstacle.first, obstacle.last)
+            put_box(world.boxes, box, x, y, size / 2, lane)
             box += 1
     return box
 
 
 @compiled
-def start(s, half, radius, p):
+def start(world, half, radius, lane):
     """The robot at rest: in the origin of a plain scene, anywhere clear in an arena; facing anywhere."""
-    s.body[:, p] = 0.0
-    if half < 1e300:
+    body, random, room = world.body, world.random, half - 3 * radius
+    body[:, lane] = 0.0
+    if half < ENDLESS:
         for _ in range(MAX_TRIES):
-            s.body[X, p] = uniform(s.random, p, -half + 3 * radius, half - 3 * radius)
-            s.body[Y, p] = uniform(s.random, p, -half + 3 * radius, half - 3 * radius)
-            if clear(s, s.body[X, p], s.body[Y, p], 3 * radius, p):
+            body[X, lane] = uniform(random, lane, -room, room)
+            body[Y, lane] = uniform(random, lane, -room, room)
+            if clear(world.boxes, body[X, lane], body[Y, lane], 3 * radius, lane):
                 break
-    s.body[ANGLE, p] = uniform(s.random, p, 0.0, 2 * np.pi)
+    body[ANGLE, lane] = uniform(random, lane, 0.0, 2 * np.pi)
 
 
 @compiled
-def clear(s, x, y, margin, p):
+def clear(boxes, x, y, margin, lane):
     """Whether no obstacle comes within `margin` of a point, along the axes."""
-    for b in range(s.boxes.shape[1] // 3):
+    for b in range(boxes.shape[1] // BOX_COLUMNS):
         box = BOX_COLUMNS * b
-        gap = s.boxes[p, box + HALF_SIDE] + margin
-        if abs(s.boxes[p, box + X] - x) < gap and abs(s.boxes[p, box + Y] - y) < gap:
+        gap = boxes[lane, box + HALF_SIDE] + margin
+        if abs(boxes[lane, box + X] - x) < gap and abs(boxes[lane, box + Y] - y) < gap:
             return False
     return True
 
 
 @compiled
-def find(s, half, radius, low, high, extent, but, p):
+def find(tables, world, low, high, extent, but, lane):
     """A place for something of that half size: low..high from the robot, clear of obstacles, walls and other things.
 
     The last one tried where no try succeeds.
     """
+    half, margin, body = tables.world[0].half, extent + 2 * tables.world[0].radius, world.body
     x, y = 0.0, 0.0
     for _ in range(MAX_TRIES):
-        if half < 1e300:
-            room = max(half - extent - 2 * radius, 0.0)
-            x, y = uniform(s.random, p, -room, room), uniform(s.random, p, -room, room)
+        if half < ENDLESS:
+            room = max(half - extent - 2 * tables.world[0].radius, 0.0)
+            x, y = uniform(world.random, lane, -room, room), uniform(world.random, lane, -room, room)
         else:
-            sine, cosine = sine_cosine(uniform(s.random, p, 0.0, 2 * np.pi))
-            far = uniform(s.random, p, low, high)
-            x, y = s.body[X, p] + far * cosine, s.body[Y, p] + far * sine
-        dx, dy = x - s.body[X, p], y - s.body[Y, p]
+            sine, cosine = sine_cosine(uniform(world.random, lane, 0.0, 2 * np.pi))
+            far = uniform(world.random, lane, low, high)
+            x, y = body[X, lane] + far * cosine, body[Y, lane] + far * sine
+        dx, dy = x - body[X, lane], y - body[Y, lane]
         far = np.sqrt(dx * dx + dy * dy)
-        ok = far > low - 1e-9 and far < high + 1e-9 and clear(s, x, y, extent + 2 * radius, p)
-        for i in range(s.things.shape[0] // 4):
-            thing = THING_ROWS * i
-            gap = extent + s.things[thing + SIZE, p] / 2
-            if i != but and abs(s.things[thing + X, p] - x) < gap and abs(s.things[thing + Y, p] - y) < gap:
-                ok = False
-        if ok:
+        fits = far > low - 1e-9 and far < high + 1e-9 and clear(world.boxes, x, y, margin, lane)
+        if fits and clear_of_things(world.things, x, y, extent, but, lane):
             break
     return x, y
 
 
 @compiled
-def put(t, s, i, p):
-    """Thing i somewhere else in lane p."""
-    world, thing = t.world[0], t.things[i]
-    x, y = find(s, world.half, world.radius, thing.low, thing.high, s.things[THING_ROWS * i + SIZE, p] / 2, i, p)
-    s.things[THING_ROWS * i + X, p], s.things[THING_ROWS * i + Y, p] = x, y
+def clear_of_things(things, x, y, extent, but, lane):
+    """Whether something of that half size would cover no thing at a place, thing number `but` aside."""
+    for i in range(things.shape[0] // THING_ROWS):
+        thing = THING_ROWS * i
+        gap = extent + things[thing + SIZE, lane] / 2
+        if i != but and abs(things[thing + X, lane] - x) < gap and abs(things[thing + Y, lane] - y) < gap:
+            return False
+    return True
 
 
 @compiled
-def succeed(t, s, i, p):
+def put(tables, world, i, lane):
+    """Thing i somewhere else."""
+    thing, rows = tables.things[i], THING_ROWS * i
+    x, y = find(tables, world, thing.low, thing.high, world.things[rows + SIZE, lane] / 2, i, lane)
+    world.things[rows + X, lane], world.things[rows + Y, lane] = x, y
+
+
+@compiled
+def succeed(tables, world, i, lane):
     """Thing i moves: it takes the next step of its schedule and appears elsewhere, let go and not yet reached."""
-    thing = t.things[i]
-    size = s.things[THING_ROWS * i + SIZE, p]
+    thing = tables.things[i]
+    size = world.things[THING_ROWS * i + SIZE, lane]
     if thing.drawn:
-        size = uniform(s.random, p, thing.first, thing.last)
+        size = uniform(world.random, lane, thing.first, thing.last)
     elif thing.first > thing.last:
         size = max(thing.last, size - thing.by)
     elif thing.first < thing.last:
         size = min(thing.last, size + thing.by)
-    s.things[THING_ROWS * i + SIZE, p] = size
-    forget(s, i, p)
-    put(t, s, i, p)
+    world.things[THING_ROWS * i + SIZE, lane] = size
+    forget(world, i, lane)
+    put(tables, world, i, lane)
 
 
 @compiled
-def vanish(s, i, p):
+def vanish(world, i, lane):
     """Thing i is nowhere for the rest of the run: a place that is no number is in nobody's reach or way."""
-    forget(s, i, p)
-    s.things[THING_ROWS * i + X, p], s.things[THING_ROWS * i + Y, p] = np.nan, np.nan
+    forget(world, i, lane)
+    world.things[THING_ROWS * i + X, lane], world.things[THING_ROWS * i + Y, lane] = np.nan, np.nan
 
 
 @compiled
-def forget(s, i, p):
+def forget(world, i, lane):
     """Thing i is let go, and where it has been reached or delivered does not count any more."""
-    s.held[p] = -1 if s.held[p] == i else s.held[p]
-    s.reached[i, p], s.delivered[i, p] = 0, 0
+    world.held[lane] = -1 if world.held[lane] == i else world.held[lane]
+    world.reached[i, lane], world.delivered[i, lane] = 0, 0

@@ -13,57 +13,58 @@ BEGUN = 1  # in this tick and not in the one before
 
 
 @compiled
-def meet(t, s, n):
+def meet(tables, world, lanes):
     """Note which things are in reach and which are delivered, those of which anything depends on it.
 
     How many begin to be so, in all lanes.
     """
-    world, begun = t.world[0], 0
-    for i in range(len(t.things)):
-        thing = t.things[i]
+    body, things, begun = world.body, world.things, 0
+    radius, claw = tables.world[0].radius, tables.world[0].claw
+    for i in range(len(tables.things)):
+        thing = tables.things[i]
         if thing.is_reached and thing.kind == ITEM:
-            for p in range(n):
-                now = in_claw(s.body, s.heading, s.things, world.radius, world.claw, i, p)
-                begun += note(s.reached, i, p, now)
+            for lane in range(lanes):
+                now = in_claw(body, world.heading, things, radius, claw, i, lane)
+                begun += note(world.reached, i, lane, now)
         elif thing.is_reached:
-            for p in range(n):
-                begun += note(s.reached, i, p, inside(s.things, i, s.body[X, p], s.body[Y, p], p))
+            for lane in range(lanes):
+                begun += note(world.reached, i, lane, inside(things, i, body[X, lane], body[Y, lane], lane))
         if thing.is_delivered:
-            for p in range(n):
-                was = s.delivered[i, p] & 1 == 1
-                begun += note(s.delivered, i, p, (was or s.held[p] == i) and in_zone(t, s.things, i, p))
+            for lane in range(lanes):
+                carried = world.delivered[i, lane] & 1 == 1 or world.held[lane] == i
+                begun += note(world.delivered, i, lane, carried and in_zone(tables, things, i, lane))
     return begun
 
 
 @compiled
-def note(rows, i, p, now):
+def note(rows, i, lane, now):
     """One more tick of thing i; 1 where it begins to be so."""
-    rows[i, p] = (rows[i, p] & 1) << 1 | (1 if now else 0)
-    return 1 if rows[i, p] == BEGUN else 0
+    rows[i, lane] = (rows[i, lane] & 1) << 1 | (1 if now else 0)
+    return 1 if rows[i, lane] == BEGUN else 0
 
 
 @compiled
-def in_zone(t, things, i, p):
+def in_zone(tables, things, i, lane):
     """Whether the middle of thing i is inside any zone."""
-    x, y = things[THING_ROWS * i + X, p], things[THING_ROWS * i + Y, p]
+    x, y = things[THING_ROWS * i + X, lane], things[THING_ROWS * i + Y, lane]
     found = False
-    for z in range(len(t.things)):
-        found = found or (t.things[z].kind == ZONE and inside(things, z, x, y, p))
+    for zone in range(len(tables.things)):
+        found = found or (tables.things[zone].kind == ZONE and inside(things, zone, x, y, lane))
     return found
 
 
 @compiled
-def become(t, s, n):
+def become(tables, world, lanes):
     """What has been reached or delivered moves or vanishes where its kind says so; once, where it was both."""
-    for i in range(len(t.things)):
-        thing = t.things[i]
+    for i in range(len(tables.things)):
+        thing = tables.things[i]
         if thing.reached == STAYS and thing.delivered == STAYS:
             continue
-        for p in range(n):
-            outcome = thing.reached if s.reached[i, p] == BEGUN else STAYS
-            if s.delivered[i, p] == BEGUN:
+        for lane in range(lanes):
+            outcome = thing.reached if world.reached[i, lane] == BEGUN else STAYS
+            if world.delivered[i, lane] == BEGUN:
                 outcome = max(outcome, thing.delivered)
             if outcome == MOVES:
-                succeed(t, s, i, p)
+                succeed(tables, world, i, lane)
             elif outcome == VANISHES:
-                vanish(s, i, p)
+                vanish(world, i, lane)

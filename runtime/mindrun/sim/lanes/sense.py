@@ -11,6 +11,19 @@ from mindrun.sim.arithmetic import ONE, ZERO, F, clamp, compiled_lane
 from mindrun.sim.codes import AWAY, sensor_codes
 from mindrun.sim.compiling import compiled
 from mindrun.sim.lanes.placement import uniform
+from mindrun.sim.state import (
+    FIRST_RAY,
+    HIGH,
+    LEFT,
+    LOW,
+    RIGHT,
+    SIDES,
+    SIGHT_COSINE,
+    SIGHT_SINE,
+    SIGHT_X,
+    SIGHT_Y,
+    Senses,
+)
 from mindrun.sim.vector import HIGHEST, LOWEST, VECTOR_LANES, load, splat, store, where_ordered
 
 CULLING_SLACK_UNITS = 2.0  # how far a robot may move before the boxes near it are chosen anew
@@ -25,11 +38,11 @@ def _chain(kinds_left: Sequence[Any], code: int = 0) -> Callable[..., None]:
     other = _chain(rest, code + 1)
 
     @compiled
-    def read(t, s, n, clock, sensor):
+    def read(tables, senses, lanes, clock, sensor):
         if sensor.kind == code:
-            own(t, s, n, clock, sensor)
+            own(tables, senses, lanes, clock, sensor)
         else:
-            other(t, s, n, clock, sensor)
+            other(tables, senses, lanes, clock, sensor)
 
     return read
 
@@ -38,125 +51,149 @@ read = _chain([kinds("sensor")[name].lane for name in sensor_codes()])
 
 
 @compiled
-def sense(t, s, n, clock):
+def sense(tables, state, lanes, clock):
     """Fill the rows of the sensors that somebody reads, in the order of the table (sources before derivatives)."""
-    see(s.body, s.things, len(t.things), n)
-    reach = t.world[0].near + CULLING_SLACK_UNITS
-    s.slot_most[0] = choose(s.body, s.boxes, s.anchor, s.nearby, s.slot_count, reach, n)
-    if t.world[0].rays > 0:
-        look(t, s, n)
-    for i in range(len(t.sensors)):
-        sensor = t.sensors[i]
-        read(t, s, n, clock, sensor)
+    world, sight, mind = state.world, state.sight, state.mind
+    measure_distances(world.body, world.things, len(tables.things), lanes)
+    choose(world, sight, tables.world[0].near + CULLING_SLACK_UNITS, lanes)
+    if tables.world[0].rays > 0:
+        look(tables, world, sight, lanes)
+    senses = Senses(
+        readings=mind.readings,
+        before=mind.before,
+        body=world.body,
+        heading=world.heading,
+        things=world.things,
+        held=world.held,
+        battery=world.battery,
+        tick=world.tick,
+        trail=world.trail,
+        sight=sight.sight,
+    )
+    for i in range(len(tables.sensors)):
+        sensor = tables.sensors[i]
+        read(tables, senses, lanes, clock, sensor)
         if sensor.is_rough:
             for k in range(sensor.width):
-                roughen(s, sensor, k, n)
+                roughen(world, mind, sensor, k, lanes)
 
 
 @compiled
-def roughen(s, sensor, k, n):
+def roughen(world, mind, sensor, k, lanes):
     """Reading k of a sensor as it is measured: now and then, with noise, sometimes not at all, and seen later."""
-    out, measured = s.readings[sensor.start + k], s.measured[sensor.held + k]
-    random = s.aside if sensor.is_aside else s.random
-    for p in range(n):
-        if s.tick[p] % sensor.every == 0:
-            measured[p] = measure(random, sensor, out[p], measured[p] if s.tick[p] > 0 else out[p], p)
-        out[p] = measured[p]
+    out, measured, tick = mind.readings[sensor.start + k], mind.measured[sensor.held + k], world.tick
+    random = world.random_aside if sensor.is_aside else world.random
+    for lane in range(lanes):
+        if tick[lane] % sensor.every == 0:
+            before = measured[lane] if tick[lane] > 0 else out[lane]
+            measured[lane] = measure(random, sensor, out[lane], before, lane)
+        out[lane] = measured[lane]
     first = sensor.ring + k * sensor.delay
-    for p in range(n if sensor.delay > 0 else 0):
-        slot = first + s.tick[p] % sensor.delay
-        seen = s.rings[slot, p] if s.tick[p] >= sensor.delay else s.rings[first, p] if s.tick[p] > 0 else out[p]
-        s.rings[slot, p] = out[p]
-        out[p] = seen
+    for lane in range(lanes if sensor.delay > 0 else 0):
+        slot = first + tick[lane] % sensor.delay
+        oldest = mind.rings[slot, lane] if tick[lane] >= sensor.delay else mind.rings[first, lane]
+        seen = oldest if tick[lane] > 0 else out[lane]
+        mind.rings[slot, lane] = out[lane]
+        out[lane] = seen
 
 
 @compiled
-def measure(random, sensor, true, before, p):
+def measure(random, sensor, true, before, lane):
     """What is measured of a true value."""
-    if sensor.lost > ZERO and uniform(random, p, 0.0, 1.0) < sensor.lost:
+    if sensor.lost > ZERO and uniform(random, lane, 0.0, 1.0) < sensor.lost:
         return before if sensor.blank < ZERO else sensor.blank
     if sensor.noise > ZERO:
-        return clamp(true + sensor.noise * F(uniform(random, p, -1.0, 1.0)))
+        return clamp(true + sensor.noise * F(uniform(random, lane, -1.0, 1.0)))
     return true
 
 
 @compiled
-def see(body, things, count, n):
+def measure_distances(body, things, count, lanes):
     """The distance of every thing when the tick begins."""
     for i in range(count):
-        for p in range(n):
-            dx, dy = things[THING_ROWS * i + X, p] - body[X, p], things[THING_ROWS * i + Y, p] - body[Y, p]
-            things[THING_ROWS * i + DISTANCE, p] = np.sqrt(dx * dx + dy * dy)
+        thing = THING_ROWS * i
+        for lane in range(lanes):
+            dx, dy = things[thing + X, lane] - body[X, lane], things[thing + Y, lane] - body[Y, lane]
+            things[thing + DISTANCE, lane] = np.sqrt(dx * dx + dy * dy)
 
 
 @compiled
-def look(t, s, n):
-    """The distance from each robot's centre along each ray: rows 4 and on of `sight`, after heading and place."""
-    world = t.world[0]
-    count = s.slot_most[0]
+def look(tables, world, sight, lanes):
+    """The distance from each robot's centre along each ray, into `sight` after heading and place."""
+    rows, count, half = sight.sight, sight.nearby_most[0], F(tables.world[0].half)
     for k in range(count):
-        place(s.body, s.nearby[BOX_COLUMNS * k : BOX_COLUMNS * (k + 1)], s.slots[4 * k : 4 * k + 4], n)
-    for p in range(n):
-        s.sight[0, p], s.sight[1, p] = F(s.heading[COSINE, p]), F(s.heading[SINE, p])
-        s.sight[2, p], s.sight[3, p] = F(s.body[X, p]), F(s.body[Y, p])
-    for p in range(0, n, VECTOR_LANES):
-        for ray in range(len(t.ray_row)):
-            store(s.sight, 4 + ray, p, along(s.sight, t.rays[0, ray], t.rays[1, ray], F(world.half), s.slots, count, p))
+        box = sight.nearby[BOX_COLUMNS * k : BOX_COLUMNS * (k + 1)]
+        place(world.body, box, sight.sides[SIDES * k : SIDES * (k + 1)], lanes)
+    for lane in range(lanes):
+        rows[SIGHT_COSINE, lane], rows[SIGHT_SINE, lane] = F(world.heading[COSINE, lane]), F(world.heading[SINE, lane])
+        rows[SIGHT_X, lane], rows[SIGHT_Y, lane] = F(world.body[X, lane]), F(world.body[Y, lane])
+    for lane in range(0, lanes, VECTOR_LANES):
+        for ray in range(len(tables.ray_row)):
+            cosine, sine = tables.rays[COSINE, ray], tables.rays[SINE, ray]
+            store(rows, FIRST_RAY + ray, lane, along(rows, cosine, sine, half, sight.sides, count, lane))
 
 
 @compiled
-def along(sight, cosine, sine, half, slots, count, p):
+def along(sight, cosine, sine, half, sides, count, lane):
     """The distance to what a ray meets first in sixteen lanes: a wall, or one of the boxes (the slab method)."""
-    c, q = load(sight, 0, p), load(sight, 1, p)
-    ix = splat(ONE) / (c * splat(cosine) - q * splat(sine))
-    iy = splat(ONE) / (q * splat(cosine) + c * splat(sine))
-    x, y = load(sight, 2, p), load(sight, 3, p)
-    tx = HIGHEST((splat(half) - x) * ix, (splat(-half) - x) * ix)
-    ty = HIGHEST((splat(half) - y) * iy, (splat(-half) - y) * iy)
-    nearest = LOWEST(tx, ty)
+    c, s = load(sight, SIGHT_COSINE, lane), load(sight, SIGHT_SINE, lane)
+    ix = splat(ONE) / (c * splat(cosine) - s * splat(sine))
+    iy = splat(ONE) / (s * splat(cosine) + c * splat(sine))
+    x, y = load(sight, SIGHT_X, lane), load(sight, SIGHT_Y, lane)
+    to_x = HIGHEST((splat(half) - x) * ix, (splat(-half) - x) * ix)
+    to_y = HIGHEST((splat(half) - y) * iy, (splat(-half) - y) * iy)
+    nearest = LOWEST(to_x, to_y)
     for k in range(count):
-        a, b = load(slots, 4 * k, p) * ix, load(slots, 4 * k + 1, p) * ix
-        c, d = load(slots, 4 * k + 2, p) * iy, load(slots, 4 * k + 3, p) * iy
-        enter = HIGHEST(LOWEST(a, b), LOWEST(c, d))
-        leave = LOWEST(HIGHEST(a, b), HIGHEST(c, d))
+        box = SIDES * k
+        left, right = load(sides, box + LEFT, lane) * ix, load(sides, box + RIGHT, lane) * ix
+        low, high = load(sides, box + LOW, lane) * iy, load(sides, box + HIGH, lane) * iy
+        enter = HIGHEST(LOWEST(left, right), LOWEST(low, high))
+        leave = LOWEST(HIGHEST(left, right), HIGHEST(low, high))
         hit = where_ordered(enter, leave, enter, splat(MAX_FLOAT32))
         nearest = LOWEST(where_ordered(splat(ZERO), hit, hit, splat(MAX_FLOAT32)), nearest)
     return nearest
 
 
 @compiled
-def choose(body, boxes, anchor, nearby, slot_count, reach, n):
-    """Copy the boxes that each lane's rays or robot can meet, anew for a lane that has moved; the most of any lane.
+def choose(world, sight, reach, lanes):
+    """Copy the boxes that each lane's rays or robot can meet, anew for a lane that has moved; count them.
 
     The choice is only ever too generous, so that nothing depends on when it was made. What is left over is AWAY.
     """
-    total = boxes.shape[1] // 3
+    body, anchor = world.body, sight.anchor
     most = 0
-    for p in range(n):
-        dx, dy = body[X, p] - anchor[X, p], body[Y, p] - anchor[Y, p]
+    for lane in range(lanes):
+        dx, dy = body[X, lane] - anchor[X, lane], body[Y, lane] - anchor[Y, lane]
         if not dx * dx + dy * dy < (CULLING_SLACK_UNITS * 0.9) ** 2:
-            x, y = body[X, p], body[Y, p]
-            anchor[X, p], anchor[Y, p] = x, y
-            found = 0
-            for b in range(total):
-                box = BOX_COLUMNS * b
-                margin = boxes[p, box + HALF_SIDE] + reach
-                if abs(boxes[p, box + X] - x) < margin and abs(boxes[p, box + Y] - y) < margin:
-                    for i in range(BOX_COLUMNS):
-                        nearby[BOX_COLUMNS * found + i, p] = boxes[p, box + i]
-                    found += 1
-            for k in range(found, slot_count[p]):
-                box = BOX_COLUMNS * k
-                nearby[box + X, p], nearby[box + Y, p], nearby[box + HALF_SIDE, p] = AWAY, AWAY, 0.0
-            slot_count[p] = found
-        most = max(most, slot_count[p])
-    return most
+            anchor[X, lane], anchor[Y, lane] = body[X, lane], body[Y, lane]
+            choose_in(world.boxes, sight, reach, lane)
+        most = max(most, sight.nearby_count[lane])
+    sight.nearby_most[0] = most
 
 
 @compiled
-def place(body, box, sides, n):
+def choose_in(boxes, sight, reach, lane):
+    """The boxes around the anchor of a lane."""
+    nearby, x, y = sight.nearby, sight.anchor[X, lane], sight.anchor[Y, lane]
+    found = 0
+    for b in range(boxes.shape[1] // BOX_COLUMNS):
+        box = BOX_COLUMNS * b
+        margin = boxes[lane, box + HALF_SIDE] + reach
+        if abs(boxes[lane, box + X] - x) < margin and abs(boxes[lane, box + Y] - y) < margin:
+            for i in range(BOX_COLUMNS):
+                nearby[BOX_COLUMNS * found + i, lane] = boxes[lane, box + i]
+            found += 1
+    for k in range(found, sight.nearby_count[lane]):
+        box = BOX_COLUMNS * k
+        nearby[box + X, lane], nearby[box + Y, lane], nearby[box + HALF_SIDE, lane] = AWAY, AWAY, 0.0
+    sight.nearby_count[lane] = found
+
+
+@compiled
+def place(body, box, sides, lanes):
     """The sides of a box of each lane relative to the robot; no ray meets one that is AWAY before a wall."""
-    for p in range(n):
-        dx, dy, half = F(box[X, p] - body[X, p]), F(box[Y, p] - body[Y, p]), F(box[HALF_SIDE, p])
-        sides[0, p], sides[1, p] = dx - half, dx + half
-        sides[2, p], sides[3, p] = dy - half, dy + half
+    for lane in range(lanes):
+        dx, dy = F(box[X, lane] - body[X, lane]), F(box[Y, lane] - body[Y, lane])
+        half = F(box[HALF_SIDE, lane])
+        sides[LEFT, lane], sides[RIGHT, lane] = dx - half, dx + half
+        sides[LOW, lane], sides[HIGH, lane] = dy - half, dy + half

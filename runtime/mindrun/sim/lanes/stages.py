@@ -8,30 +8,30 @@ from mindrun.sim.lanes import advance, think
 
 
 @entry
-def before(t, s, jobs):
+def before(tables, state, jobs):
     """As `advance.before`."""
-    advance.before(t, s, jobs)
+    advance.before(tables, state, jobs)
 
 
 @entry
-def after(t, s, jobs, interrupt):
+def after(tables, state, jobs, interrupt):
     """As `advance.after`."""
-    advance.after(t, s, jobs, interrupt)
+    advance.after(tables, state, jobs, interrupt)
 
 
 @entry
-def run_skills(t, s, n, first, last):
+def run_skills(tables, state, lanes, first, last):
     """As `think.think`."""
-    think.think(t, s, n, first, last)
+    think.think(tables, state, lanes, first, last)
 
 
 @entry
-def wake(t, s, n, i):
+def wake(tables, state, lanes, row):
     """As `think.wake`."""
-    return think.wake(t, s, n, i)
+    return think.wake(tables, state.mind, lanes, row)
 
 
 @entry
-def send(t, s, i, out, n, lanes):
+def send(tables, state, row, out, count, lanes):
     """As `think.send`."""
-    think.send(t, s, i, out, n, lanes)
+    think.send(tables, state, row, out, count, lanes)

@@ -15,6 +15,7 @@ from mindrun.arithmetic import (
     Y,
 )
 from mindrun.sim.arithmetic import sine_cosine
+from mindrun.sim.chipmunk_internals import PERSISTENCE_TICKS, SPACE
 from mindrun.sim.codes import FAR, FORCE, FORCE_X, FORCE_Y, TORQUE, WHEEL_LEFT, WHEEL_RIGHT
 from mindrun.sim.compiling import compiled
 from mindrun.sim.lanes.act import carry
@@ -22,106 +23,113 @@ from mindrun.sim.lanes.chipmunk import open_space, push_body, step_space
 from mindrun.sim.lanes.sense import CULLING_SLACK_UNITS
 
 CONTACT_MARGIN_UNITS = 0.01  # beyond the rounding of any distance here
-CONTACT_TICKS = 5  # Chipmunk forgets a contact after three
+CONTACT_TICKS = PERSISTENCE_TICKS + 2  # for which Chipmunk goes on with a lane in which something could have touched
 
 
 @compiled
-def step(t, s, n):
+def step(tables, state, lanes):
     """Damp, push with the wheels, move; then the headings and the held items follow."""
-    world = t.world[0]
-    thrust(t, s, n)
-    find_near(t, s, n)
-    fly(s.body, s.push, s.near, world.dt, world.mass_inv, world.moment_inv, n)
-    for p in range(n):
-        s.touching[p] <<= 1  # bit 0 this tick, bit 1 the tick before
-        s.touching[p] &= 3
-        if s.near[p] > 0:
-            if s.handles[p, 0] == 0:
-                open_space(t, s, p)
-            push_body(t, s, p)
-            if step_space(t, s, p, world.dt) > 0:
-                s.touching[p] |= 1
-    for p in range(n):
-        s.heading[SINE, p], s.heading[COSINE, p] = sine_cosine(s.body[ANGLE, p])
-    carry(s.held, s.body, s.heading, s.things, t.things, n)
+    world, contact, constants = state.world, state.contact, tables.world[0]
+    thrust(tables, world, state.mind.commands, lanes)
+    find_near(tables, world, state.sight, contact, lanes)
+    fly(world.body, world.push, contact.near, constants, lanes)
+    touching = contact.touching
+    for lane in range(lanes):
+        touching[lane] <<= 1  # bit 0 this tick, bit 1 the tick before
+        touching[lane] &= 3
+        if contact.near[lane] > 0:
+            if contact.handles[lane, SPACE] == 0:
+                open_space(tables, world, contact, lane)
+            push_body(tables, world, contact, lane)
+            if step_space(tables, world, contact, lane) > 0:
+                touching[lane] |= 1
+    for lane in range(lanes):
+        world.heading[SINE, lane], world.heading[COSINE, lane] = sine_cosine(world.body[ANGLE, lane])
+    carry(world, tables.things, lanes)
 
 
 @compiled
-def thrust(t, s, n):
+def thrust(tables, world, commands, lanes):
     """Damped velocities into the body; force and torque into `push`."""
-    world = t.world[0]
-    s.push[:2, :n] = 0.0
-    for i in range(len(t.actuators)):
-        actuator = t.actuators[i]
+    push, radius = world.push, tables.world[0].radius
+    push[FORCE, :lanes] = 0.0
+    push[TORQUE, :lanes] = 0.0
+    for i in range(len(tables.actuators)):
+        actuator = tables.actuators[i]
         if actuator.kind == WHEEL_LEFT:
-            wheel(s.commands[i], actuator.thrust, s.push[FORCE], s.push[TORQUE], -world.radius, n)
+            wheel(commands[i], actuator.thrust, push[FORCE], push[TORQUE], -radius, lanes)
         elif actuator.kind == WHEEL_RIGHT:
-            wheel(s.commands[i], actuator.thrust, s.push[FORCE], s.push[TORQUE], world.radius, n)
-    damp(s.body, s.heading, s.push, world.linear, world.angular, n)
+            wheel(commands[i], actuator.thrust, push[FORCE], push[TORQUE], radius, lanes)
+    damp(world.body, world.heading, push, tables.world[0].linear, tables.world[0].angular, lanes)
 
 
 @compiled
-def wheel(commands, strength, force, torque, arm, n):
+def wheel(commands, strength, force, torque, arm, lanes):
     """(2v − 1)·thrust on the left (arm < 0) or right rim."""
-    for p in range(n):
-        f = (2.0 * commands[p] - 1.0) * strength
-        force[p] += f
-        torque[p] += arm * f
+    for lane in range(lanes):
+        on_rim = (2.0 * commands[lane] - 1.0) * strength
+        force[lane] += on_rim
+        torque[lane] += arm * on_rim
 
 
 @compiled
-def damp(body, heading, push, linear, angular, n):
+def damp(body, heading, push, linear, angular, lanes):
     """v / (1 + dt·c), as JBox2D does; and the force turned into the world."""
-    for p in range(n):
-        body[SPEED_X, p] = body[SPEED_X, p] * linear
-        body[SPEED_Y, p] = body[SPEED_Y, p] * linear
-        body[SPIN, p] = body[SPIN, p] * angular
-        push[FORCE_X, p] = push[FORCE, p] * heading[COSINE, p]
-        push[FORCE_Y, p] = push[FORCE, p] * heading[SINE, p]
+    for lane in range(lanes):
+        body[SPEED_X, lane] = body[SPEED_X, lane] * linear
+        body[SPEED_Y, lane] = body[SPEED_Y, lane] * linear
+        body[SPIN, lane] = body[SPIN, lane] * angular
+        push[FORCE_X, lane] = push[FORCE, lane] * heading[COSINE, lane]
+        push[FORCE_Y, lane] = push[FORCE, lane] * heading[SINE, lane]
 
 
 @compiled
-def fly(body, push, near, dt, mass_inv, moment_inv, n):
+def fly(body, push, near, constants, lanes):
     """Chipmunk's step of a body that touches nothing: move with the old velocity, then add force and torque.
 
     A lane that Chipmunk will step keeps its state.
     """
-    for p in range(n):
-        free = near[p] == 0
-        body[X, p] = body[X, p] + body[SPEED_X, p] * dt if free else body[X, p]
-        body[Y, p] = body[Y, p] + body[SPEED_Y, p] * dt if free else body[Y, p]
-        body[ANGLE, p] = body[ANGLE, p] + body[SPIN, p] * dt if free else body[ANGLE, p]
-        body[SPEED_X, p] = body[SPEED_X, p] + push[FORCE_X, p] * mass_inv * dt if free else body[SPEED_X, p]
-        body[SPEED_Y, p] = body[SPEED_Y, p] + push[FORCE_Y, p] * mass_inv * dt if free else body[SPEED_Y, p]
-        body[SPIN, p] = body[SPIN, p] + push[TORQUE, p] * moment_inv * dt if free else body[SPIN, p]
+    dt, mass_inv, moment_inv = constants.dt, constants.mass_inv, constants.moment_inv
+    for lane in range(lanes):
+        free = near[lane] == 0
+        x, y, angle = body[X, lane], body[Y, lane], body[ANGLE, lane]
+        speed_x, speed_y, spin = body[SPEED_X, lane], body[SPEED_Y, lane], body[SPIN, lane]
+        body[X, lane] = x + speed_x * dt if free else x
+        body[Y, lane] = y + speed_y * dt if free else y
+        body[ANGLE, lane] = angle + spin * dt if free else angle
+        body[SPEED_X, lane] = speed_x + push[FORCE_X, lane] * mass_inv * dt if free else speed_x
+        body[SPEED_Y, lane] = speed_y + push[FORCE_Y, lane] * mass_inv * dt if free else speed_y
+        body[SPIN, lane] = spin + push[TORQUE, lane] * moment_inv * dt if free else spin
 
 
 @compiled
-def find_near(t, s, n):
+def find_near(tables, world, sight, contact, lanes):
     """Count down `near`, and begin anew where the robot or what it holds could touch something after this tick.
 
     A robot that would leave all places flies there alone.
     """
-    world = t.world[0]
-    reach = world.radius + CONTACT_MARGIN_UNITS
-    gap = s.gap
-    clearance(s.body, world.half, world.dt, gap, n)
-    for k in range(s.slot_most[0]):
-        approach(s.nearby[BOX_COLUMNS * k : BOX_COLUMNS * (k + 1)], s.body, world.dt, gap, n)
-    for p in range(n):
-        s.near[p] = max(0, s.near[p] - 1)
-        if s.held[p] >= 0:
-            thing = THING_ROWS * s.held[p]
-            item_reach = t.things[s.held[p]].hold + s.things[thing + SIZE, p] / 2 + CONTACT_MARGIN_UNITS
-            if gap[p] < item_reach:
-                s.near[p] = CONTACT_TICKS
-        x, y = s.body[X, p] + s.body[SPEED_X, p] * world.dt, s.body[Y, p] + s.body[SPEED_Y, p] * world.dt
-        away = (x - s.anchor[X, p]) ** 2 + (y - s.anchor[Y, p]) ** 2
+    body, near, gap, dt = world.body, contact.near, contact.gap, tables.world[0].dt
+    clearance(body, tables.world[0].half, dt, gap, lanes)
+    for k in range(sight.nearby_most[0]):
+        approach(sight.nearby[BOX_COLUMNS * k : BOX_COLUMNS * (k + 1)], body, dt, gap, lanes)
+    for lane in range(lanes):
+        near[lane] = max(0, near[lane] - 1)
+        x, y = body[X, lane] + body[SPEED_X, lane] * dt, body[Y, lane] + body[SPEED_Y, lane] * dt
+        away = (x - sight.anchor[X, lane]) ** 2 + (y - sight.anchor[Y, lane]) ** 2
         leap = away > CULLING_SLACK_UNITS * CULLING_SLACK_UNITS  # away from the boxes it knows
-        if leap or gap[p] < reach:
-            s.near[p] = CONTACT_TICKS
-        if not within(x, y, s.body[ANGLE, p] + s.body[SPIN, p] * world.dt):
-            s.near[p] = 0
+        if leap or gap[lane] < reach_of(tables, world, lane):
+            near[lane] = CONTACT_TICKS
+        if not within(x, y, body[ANGLE, lane] + body[SPIN, lane] * dt):
+            near[lane] = 0
+
+
+@compiled
+def reach_of(tables, world, lane):
+    """How far from a robot's centre it, or what it holds, could touch something."""
+    reach, held = tables.world[0].radius, world.held[lane]
+    if held >= 0:
+        reach = max(reach, tables.things[held].hold + world.things[THING_ROWS * held + SIZE, lane] / 2)
+    return reach + CONTACT_MARGIN_UNITS
 
 
 @compiled
@@ -131,24 +139,24 @@ def within(x, y, angle):
 
 
 @compiled
-def is_lost(body, p):
-    """Whether lane p's robot is where no world is."""
-    return not within(body[X, p], body[Y, p], body[ANGLE, p])
+def is_lost(body, lane):
+    """Whether a lane's robot is where no world is."""
+    return not within(body[X, lane], body[Y, lane], body[ANGLE, lane])
 
 
 @compiled
-def clearance(body, half, dt, gap, n):
+def clearance(body, half, dt, gap, lanes):
     """The distance between the robot's next centre and the walls."""
-    for p in range(n):
-        x, y = abs(body[X, p] + body[SPEED_X, p] * dt), abs(body[Y, p] + body[SPEED_Y, p] * dt)
-        gap[p] = half - (x if x > y else y)
+    for lane in range(lanes):
+        x, y = abs(body[X, lane] + body[SPEED_X, lane] * dt), abs(body[Y, lane] + body[SPEED_Y, lane] * dt)
+        gap[lane] = half - (x if x > y else y)
 
 
 @compiled
-def approach(box, body, dt, gap, n):
+def approach(box, body, dt, gap, lanes):
     """`gap` lowered to the distance along the axes between the robot's next centre and a box of each lane."""
-    for p in range(n):
-        x = abs(body[X, p] + body[SPEED_X, p] * dt - box[X, p]) - box[HALF_SIDE, p]
-        y = abs(body[Y, p] + body[SPEED_Y, p] * dt - box[Y, p]) - box[HALF_SIDE, p]
+    for lane in range(lanes):
+        x = abs(body[X, lane] + body[SPEED_X, lane] * dt - box[X, lane]) - box[HALF_SIDE, lane]
+        y = abs(body[Y, lane] + body[SPEED_Y, lane] * dt - box[Y, lane]) - box[HALF_SIDE, lane]
         far = x if x > y else y
-        gap[p] = far if far < gap[p] else gap[p]
+        gap[lane] = far if far < gap[lane] else gap[lane]

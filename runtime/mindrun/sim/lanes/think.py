@@ -9,6 +9,7 @@ from mindrun.sim.codes import function_codes
 from mindrun.sim.compiling import compiled
 from mindrun.sim.lanes.evaluate import evaluate
 from mindrun.sim.procedures import call
+from mindrun.sim.state import FAILED_COLUMN, FAILED_SKILL
 
 NOT_SENT = F(-1)
 
@@ -21,10 +22,10 @@ def _chain(functions: Sequence[Any], code: int = 0) -> Callable[..., int]:
     other = _chain(functions[1:], code + 1)
 
     @compiled
-    def compute(t, s, skill, n):
+    def compute(tables, mind, skill, count):
         if skill.kind == code:
-            return own(t, s, skill, n)
-        return other(t, s, skill, n)
+            return own(tables, mind, skill, count)
+        return other(tables, mind, skill, count)
 
     return compute
 
@@ -33,55 +34,57 @@ compute = _chain([kinds("skill")[name].lane for name in function_codes()])
 
 
 @compiled
-def begin(t, s, n):
+def begin(tables, mind, lanes):
     """No influence but the master's, which is 1."""
-    s.influence[:, :n] = ZERO
-    s.sums[:, :n] = ZERO
-    s.influence[t.world[0].master, :n] = ONE
+    mind.influence[:, :lanes] = ZERO
+    mind.command_sums[:, :lanes] = ZERO
+    mind.influence_sums[:, :lanes] = ZERO
+    mind.influence[tables.world[0].master, :lanes] = ONE
 
 
 @compiled
-def think(t, s, n, first, last):
+def think(tables, state, lanes, first, last):
     """Run the skills first..last of the table: each only in the lanes where it has influence.
 
     It ends where a procedure fails: `failed` then says which, and for whose inputs.
     """
-    for i in range(first, last):
-        count = wake(t, s, n, i)
+    mind, failed = state.mind, state.run.failed
+    for row in range(first, last):
+        count = wake(tables, mind, lanes, row)
         if count > 0:
-            skill, out = t.skills[i], 0
+            skill, out = tables.skills[row], 0
             if skill.address == 0:
-                out = compute(t, s, skill, count)
+                out = compute(tables, mind, skill, count)
             else:
-                s.failed[1] = call(skill.address, s.gathered, s.hidden, count)
-                if s.failed[1] >= 0:
-                    s.failed[0] = i
+                failed[FAILED_COLUMN] = call(skill.address, mind.gathered, mind.hidden, count)
+                if failed[FAILED_COLUMN] >= 0:
+                    failed[FAILED_SKILL] = row
                     return
-            send(t, s, i, out, count, n)
+            send(tables, state, row, out, count, lanes)
 
 
 @compiled
-def wake(t, s, n, i):
-    """Gather the inputs of skill i in the lanes where it has influence; how many those are."""
-    skill = t.skills[i]
-    count = awake(s.influence[skill.index], s.active, n, skill.own)
+def wake(tables, mind, lanes, row):
+    """Gather the inputs of a skill in the lanes where it has influence; how many those are."""
+    skill = tables.skills[row]
+    count = awake(mind.influence[skill.index], mind.active, lanes, skill.own)
     if count > 0:
-        rows = t.inputs[skill.input : skill.input + skill.inputs]
-        gather(rows, s.readings, s.gathered, s.active, s.sound, count, count == n)
+        rows = tables.inputs[skill.input : skill.input + skill.inputs]
+        gather(rows, mind.readings, mind.gathered, mind.active, mind.sound, count, count == lanes)
     return count
 
 
 @compiled
-def awake(influence, active, n, own):
+def awake(influence, active, lanes, own):
     """The lanes in which a skill has influence; all of them, if any, where every lane has weights of its own."""
     count = 0
-    for p in range(n):
-        active[count] = p
-        count += 1 if influence[p] != ZERO else 0  # NaN too, which becomes a fault further down
+    for lane in range(lanes):
+        active[count] = lane
+        count += 1 if influence[lane] != ZERO else 0  # NaN too, which becomes a fault further down
     if own and count > 0:
-        for p in range(n):
-            active[p] = p
-        return n
+        for lane in range(lanes):
+            active[lane] = lane
+        return lanes
     return count
 
 
@@ -103,60 +106,60 @@ def gather(rows, readings, gathered, active, sound, count, everywhere):
 
 
 @compiled
-def send(t, s, i, out, n, lanes):
-    """Every edge's value, times skill i's influence, to where it goes; a value that is not finite is not sent."""
-    skill = t.skills[i]
-    influence, sinks = s.influence[skill.index], s.sums.shape[0] // 2
+def send(tables, state, row, out, count, lanes):
+    """Every edge's value, times the skill's influence, to where it goes; a value that is not finite is not sent."""
+    skill, mind, everywhere = tables.skills[row], state.mind, count == lanes
+    influence = mind.influence[skill.index]
     for e in range(skill.edge, skill.edge + skill.edges):
-        edge = t.edges[e]
+        edge = tables.edges[e]
         if edge.output >= 0:
-            values = s.hidden[out + edge.output]
+            values = mind.hidden[out + edge.output]
         else:
-            values = s.values
-            codes = t.codes[edge.code : edge.code + edge.length]
-            evaluate(codes, s.readings, s.measures, 0, s.stack, s.active, n, n == lanes)
-            for k in range(n):
-                values[k] = F(s.stack[0, k])
-        check(values, s.sound, s.sent, s.active, s.faults, influence, n)
+            values = mind.values
+            codes = tables.codes[edge.code : edge.code + edge.length]
+            evaluate(codes, mind.readings, state.judge.measures, 0, mind.stack, mind.active, count, everywhere)
+            for k in range(count):
+                values[k] = F(mind.stack[0, k])
+        check(values, mind.sound, mind.sent, mind.active, state.run.faults, influence, count)
         if edge.to_skill:
-            spread(s.sent, influence, s.influence[edge.target], s.active, n, n == lanes)
+            spread(mind.sent, influence, mind.influence[edge.target], mind.active, count, everywhere)
         else:
-            spread(s.sent, influence, s.sums[edge.target], s.active, n, n == lanes)
-            weigh(s.sent, influence, s.sums[sinks + edge.target], s.active, n, n == lanes)
+            spread(mind.sent, influence, mind.command_sums[edge.target], mind.active, count, everywhere)
+            weigh(mind.sent, influence, mind.influence_sums[edge.target], mind.active, count, everywhere)
 
 
 @compiled
-def check(values, sound, sent, active, faults, influence, n):
+def check(values, sound, sent, active, faults, influence, count):
     """What is sent: the values clamped to 0..1; −1 where one is not finite, which is a fault, or not sound."""
     broken = 0
-    for k in range(n):
+    for k in range(count):
         fine = finite(values[k]) & (sound[k] == ZERO)
         sent[k] = clamp(values[k]) if fine else NOT_SENT
         broken += 0 if fine else 1
     if broken > 0:
-        for k in range(n):
+        for k in range(count):
             faults[active[k]] += 1 if sent[k] < ZERO and influence[active[k]] != ZERO else 0
 
 
 @compiled
-def spread(sent, influence, target, active, n, everywhere):
+def spread(sent, influence, target, active, count, everywhere):
     """Add value times influence (Eq. 2) where a value is sent."""
     if everywhere:
-        for p in range(n):
-            target[p] += sent[p] * influence[p] if sent[p] >= ZERO else ZERO
+        for lane in range(count):
+            target[lane] += sent[lane] * influence[lane] if sent[lane] >= ZERO else ZERO
     else:
-        for k in range(n):
-            p = active[k]
-            target[p] += sent[k] * influence[p] if sent[k] >= ZERO else ZERO
+        for k in range(count):
+            lane = active[k]
+            target[lane] += sent[k] * influence[lane] if sent[k] >= ZERO else ZERO
 
 
 @compiled
-def weigh(sent, influence, target, active, n, everywhere):
+def weigh(sent, influence, target, active, count, everywhere):
     """Add the influence behind each command that is sent (Eq. 3)."""
     if everywhere:
-        for p in range(n):
-            target[p] += influence[p] if sent[p] >= ZERO else ZERO
+        for lane in range(count):
+            target[lane] += influence[lane] if sent[lane] >= ZERO else ZERO
     else:
-        for k in range(n):
-            p = active[k]
-            target[p] += influence[p] if sent[k] >= ZERO else ZERO
+        for k in range(count):
+            lane = active[k]
+            target[lane] += influence[lane] if sent[k] >= ZERO else ZERO

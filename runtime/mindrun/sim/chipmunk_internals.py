@@ -1,0 +1,129 @@
+"""What is known of Chipmunk and of the library that pymunk ships, held against pymunk 7.2 and 7.3 (`versions`).
+
+Compiled code calls its functions by their addresses, and pymunk's batches carry a body's state there and back: only
+pointers, whole numbers and doubles cross. `tests/sim` holds it against a loop of plain pymunk, bit for bit.
+"""
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+from llvmlite import ir
+from numba import types
+from numba.extending import intrinsic
+from pymunk import _chipmunk
+
+from mindrun.errors import MindError
+from mindrun.sim.compiling import callback
+from mindrun.sim.versions import remedy
+
+ffi, lib = _chipmunk.ffi, _chipmunk.lib
+
+FRICTION = 0.2  # Box2D's default; elasticity is 0 in both engines
+PERSISTENCE_TICKS = 3  # for which Chipmunk remembers a contact that is no more
+LAYOUT: Mapping[str, tuple[int, Mapping[str, int]]] = {  # the size of a structure and where its fields stand, in bytes
+    "pmFloatArray": (16, {"num": 0, "max": 4, "arr": 8}),
+    "pmIntArray": (16, {"num": 0, "max": 4, "arr": 8}),
+    "pmBatchedData": (24, {"intArray": 0, "floatArray": 8, "fields": 16}),
+}
+
+# The functions in use. Their addresses travel in a table: compiled code that held them could not be cached.
+FUNCTIONS = (
+    "cpSpaceNew", "cpSpaceFree", "cpSpaceSetIterations", "cpSpaceUseSpatialHash", "cpSpaceGetStaticBody",
+    "cpSpaceAddBody", "cpSpaceAddShape", "cpSpaceRemoveBody", "cpSpaceRemoveShape", "cpSpaceStep", "cpBodyNew",
+    "cpBodyFree", "cpPolyShapeNewRaw", "cpShapeFree", "cpShapeSetBody", "cpShapeSetFriction", "cpShapeSetSensor",
+    "cpCircleShapeSetRadius", "pmSpaceBodyGetIteratorFuncBatched", "pmSpaceBodySetIteratorFuncBatched",
+    "cpBodyEachArbiter",
+)  # fmt: skip
+(
+    SPACE_NEW, SPACE_FREE, SPACE_ITERATIONS, SPACE_HASH, SPACE_STATIC, SPACE_ADD_BODY, SPACE_ADD_SHAPE,
+    SPACE_REMOVE_BODY, SPACE_REMOVE_SHAPE, SPACE_STEP, BODY_NEW, BODY_FREE, POLY_NEW, SHAPE_FREE, SHAPE_BODY,
+    SHAPE_FRICTION, SHAPE_SENSOR, CIRCLE_RADIUS, BODY_GET, BODY_SET, EACH_ARBITER, COUNT,
+) = range(len(FUNCTIONS) + 1)  # fmt: skip
+
+SPACE, BODY, ROBOT, FIRST_HELD = range(
+    4
+)  # columns of `handles`; after the shapes that can be held the boxes, the walls
+WALLS = 4
+FLOATS = 16  # of a lane: a body's nine in the order of its fields, and more than pymunk's arrays need to never grow
+MOTION_FIELDS = ("POSITION", "ANGLE", "VELOCITY", "ANGULAR_VELOCITY")  # six floats, as the rows of a body
+PUSH_FIELDS = ("FORCE", "TORQUE")
+MOTIONS, FLOAT_FORCE_X, FLOAT_FORCE_Y, FLOAT_TORQUE = (
+    6,
+    6,
+    7,
+    8,
+)  # how many floats are motion, and where the others stand
+# Words of a lane's `batch`: a pmFloatArray, then a pmBatchedData over it for what is got and one for what is set.
+ARRAY_NUMBERS, ARRAY_FLOATS, GOT, SET, BATCH_WORDS = 0, 1, 2, 5, 8
+EMPTY_ARRAY = FLOATS << 32  # num = 0 in the lower half of an array's first word, max in the upper
+
+
+def refuse_another() -> None:
+    """MindError where the library that pymunk ships is not the one that is known here."""
+    names = (*FUNCTIONS, *MOTION_FIELDS, *PUSH_FIELDS)
+    if not (
+        all(hasattr(lib, name) for name in names)
+        and all(_layout(structure) == known for structure, known in LAYOUT.items())
+        and lib.cpSpaceGetCollisionPersistence(ffi.gc(lib.cpSpaceNew(), lib.cpSpaceFree)) == PERSISTENCE_TICKS
+    ):
+        raise MindError("the Chipmunk that pymunk ships here is not the one that the simulator knows", remedy("pymunk"))
+
+
+def _layout(structure: str) -> tuple[int, Mapping[str, int]] | None:
+    try:
+        return ffi.sizeof(structure), {name: field.offset for name, field in ffi.typeof(structure).fields}
+    except (ffi.error, TypeError):  # there is none, or nobody may see its fields
+        return None
+
+
+def library() -> Any:
+    """The addresses of FUNCTIONS and, last, of a function that counts a body's contacts: uint64."""
+    refuse_another()
+    addresses = [int(ffi.cast("uintptr_t", ffi.addressof(lib, name))) for name in FUNCTIONS]
+    return np.array([*addresses, _count.address], np.uint64)
+
+
+@callback(types.void(types.voidptr, types.voidptr, types.CPointer(types.int64)))
+def _count(_body: Any, _arbiter: Any, count: Any) -> None:
+    count[0] += 1
+
+
+@intrinsic
+def call(typingctx, address, *arguments):
+    """Call the C function at an address with whole numbers, pointers and doubles; its result as a uint64."""
+    given = tuple(types.float64 if isinstance(a, types.Float) else types.uint64 for a in arguments)
+    signature = types.uint64(types.uint64, types.StarArgTuple(given))
+
+    def generate(context, builder, _signature, values):
+        double, whole = ir.DoubleType(), ir.IntType(64)
+        kinds = [double if kind is types.float64 else whole for kind in given]
+        function = builder.inttoptr(values[0], ir.FunctionType(whole, kinds).as_pointer())
+        return builder.call(function, [builder.extract_value(values[1], i) for i in range(len(given))])
+
+    return signature, generate
+
+
+def prepare(handles: Any, floats: Any, batch: Any, radius: float, holds: list[float | None]) -> list[Any]:
+    """Give every lane its robot's circle and one for each thing that can be held; keep the result alive.
+
+    `handles` [lane, …]: the circles go to column ROBOT and on; `batch` gets pymunk's structures over `floats`.
+    """
+    kept, motion = [], _fields(MOTION_FIELDS)
+    for lane in range(len(handles)):
+        for number, hold in enumerate([0.0, *holds]):
+            if hold is not None:
+                shape = lib.cpCircleShapeNew(ffi.NULL, radius if number == 0 else 1.0, (hold, 0.0))
+                lib.cpShapeSetFriction(shape, FRICTION)
+                lib.cpShapeSetSensor(shape, number > 0)
+                kept.append(ffi.gc(shape, lib.cpShapeFree))
+                handles[lane, ROBOT + number] = int(ffi.cast("uintptr_t", shape))
+        here = batch[lane].ctypes.data
+        batch[lane, ARRAY_NUMBERS], batch[lane, ARRAY_FLOATS] = EMPTY_ARRAY, floats[lane].ctypes.data
+        batch[lane, GOT : GOT + 3] = 0, here, motion
+        batch[lane, SET : SET + 3] = 0, here, motion | _fields(PUSH_FIELDS)
+    return kept
+
+
+def _fields(names: tuple[str, ...]) -> int:
+    return sum(getattr(lib, name) for name in names)  # a bit each
