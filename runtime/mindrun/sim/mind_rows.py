@@ -1,4 +1,4 @@
-"""The mind's rows of the tables: skills and their edges, sensors, actuators, memories."""
+"""The mind's rows of the tables: skills and their edges, actuators, memories."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -7,17 +7,46 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from mindrun.graph import Graph, Sensor, Skill, Task
-from mindrun.memory import Cell
+from mindrun.graph import Edge, Graph, Skill
 from mindrun.registry import names
-from mindrun.sensors import Physical
-from mindrun.sim.codes import ACTUATOR_CODES, SENSOR, SKILL, function_codes, sensor_codes
+from mindrun.sim.codes import ACTUATOR, ACTUATOR_CODES, EDGE, MEMORY, SKILL, function_codes
 from mindrun.sim.programs import Programs
-from mindrun.sim.task_rows import things_of
+from mindrun.sim.records import Row, records
 from mindrun.weights import genes, weights_of
 
 Array = NDArray[Any]
 Floats = NDArray[np.float32]
+
+
+@dataclass(frozen=True, slots=True)
+class Skills:
+    """Rows of SKILL and EDGE, the inputs of all skills one after the other, the weights of those that do not learn.
+
+    `state` is how many numbers all of them remember.
+    """
+
+    rows: Array
+    edges: Array
+    inputs: NDArray[np.int64]
+    weights: Floats
+    state: int
+
+    @property
+    def most_inputs(self) -> int:
+        """How many numbers go into a skill at most: its inputs, and what it remembers."""
+        return _most(self.rows["inputs"] + self._states())
+
+    @property
+    def most_outputs(self) -> int:
+        """How many numbers a layer of any skill says at most, or a skill remembers."""
+        return _most(self.rows["width"], self.rows["outputs"], self._states())
+
+    def _states(self) -> NDArray[np.int64]:
+        return np.diff(self.rows["state"], append=self.state)
+
+
+def _most(*columns: NDArray[np.int64]) -> int:
+    return max(1, int(np.max(columns)))
 
 
 def skill_rows(
@@ -27,7 +56,7 @@ def skill_rows(
     learners: Sequence[str],
     addresses: Mapping[str, int],
     codes: Programs,
-) -> "Skills":
+) -> Skills:
     """What the tables say of the skills that a master reaches.
 
     A learner's weights begin at a place in the genome, the others' at one in what is shared.
@@ -35,10 +64,10 @@ def skill_rows(
     lengths = {skill.name: genes(skill) for skill in reached}
     starts = dict(zip(learners, np.cumsum([0, *(lengths.get(name, 0) for name in learners)]), strict=False))
     numbers = function_codes()
-    rows: list[Mapping[str, float]] = []
+    rows: list[Row] = []
+    edges: list[Row] = []
     inputs: list[int] = []
-    edges: list[Any] = []
-    shared: list[Floats] = []
+    shared = np.zeros(0, np.float32)
     state = 0
     for skill in reached:
         function, count, outputs = skill.function, len(skill.inputs), skill.outputs
@@ -46,164 +75,49 @@ def skill_rows(
         rows.append({
             "kind": numbers[names()[type(function)]], "index": graph.skills.index(skill),
             "input": len(inputs), "inputs": count, "outputs": outputs,
-            "weights": int(starts[skill.name]) if own else sum(len(part) for part in shared), "own": own,
+            "weights": int(starts[skill.name]) if own else len(shared), "own": own,
             "edge": len(edges), "edges": len(skill.edges), "address": addresses.get(skill.name, 0), "state": state,
             **function.row(count, outputs),
         })  # fmt: skip
         inputs.extend(skill.inputs)
-        for edge in skill.edges:
-            target = edge.target + (len(graph.actuators) if edge.to == "memory" else 0)
-            output = -1 if edge.output is None else edge.output
-            edges.append((edge.to == "skill", target, output, *codes.add(edge.value)))
+        edges.extend(_edge(graph, edge, codes) for edge in skill.edges)
         if genes(skill) and not own:
-            shared.append(weights_of(skill, weights))
+            shared = np.concatenate([shared, weights_of(skill, weights)])
         state += function.state_length(count, outputs)
-    return Skills(records(rows, SKILL), inputs, edges, shared, state)
+    return Skills(
+        rows=records(rows, SKILL),
+        edges=records(edges, EDGE),
+        inputs=np.array(inputs, np.int64),
+        weights=shared,
+        state=state,
+    )
 
 
-@dataclass(frozen=True, slots=True)
-class Skills:
-    """Rows of SKILL, the inputs one after the other, rows of EDGE, the weights of the skills that do not learn.
-
-    `state` is how many numbers all of them remember.
-    """
-
-    rows: Array
-    inputs: list[int]
-    edges: list[Any]
-    weights: list[Floats]
-    state: int
-
-
-@dataclass(frozen=True, slots=True)
-class Used:
-    """The sensors that are measured: those that `skills` depend on, and those `aside` that only rewards do.
-
-    Sources stand before what derives from them.
-    """
-
-    skills: list[Sensor]
-    aside: list[Sensor]
-
-
-def used_sensors(graph: Graph, reached: Sequence[Skill], task: Task) -> Used:
-    """The sensors that a reached skill or a reward reads."""
-    skills = _measured(graph, {row for skill in reached for row in skill.inputs})
-    rewards = _measured(graph, _rewarded(task))
-    return Used(skills, [sensor for sensor in rewards if sensor not in skills])
-
-
-def _rewarded(task: Task) -> set[int]:
-    """The readings that rewards depend on."""
-    rows: set[int] = set()
-    for reward in task.rewards:
-        programs = [reward.amount] + ([reward.when.left, reward.when.right] if reward.when else [])
-        rows |= {int(value) for program in programs for name, value in program if name == "reading"}
-        rows |= set(range(reward.each[0], sum(reward.each))) if reward.each else set()
-    return rows
-
-
-def _measured(graph: Graph, rows: set[int]) -> list[Sensor]:
-    """The sensors that have these readings, and what those derive from; sources first."""
-    by_name = {sensor.name: sensor for sensor in graph.sensors}
-    ordered: dict[str, Sensor] = {}
-    for sensor in graph.sensors:
-        if rows.intersection(range(sensor.start, sensor.start + sensor.width)):
-            chain = [sensor]
-            while chain[-1].kind.source in by_name:
-                chain.append(by_name[chain[-1].kind.source])
-            for link in reversed(chain):
-                ordered.setdefault(link.name, link)
-    return list(ordered.values())
-
-
-@dataclass(frozen=True, slots=True)
-class Scene:
-    """What the row of a sensor can depend on beside its own arguments."""
-
-    tick: float
-    starts: Mapping[str, int]
-
-
-@dataclass(frozen=True, slots=True)
-class Sensed:
-    """Rows of SENSOR, the directions [2, rays] of all rays and the reading that each writes, and how many readings.
-
-    Those are: derived ones, rough ones, and what waits in their rings.
-    """
-
-    rows: Array
-    rays: Array
-    ray_row: Array
-    derived: int
-    rough: int
-    rings: int
-
-
-def sensor_rows(graph: Graph, used: Used, task: Task) -> Sensed:
-    """What the table of sensors says of those that are used.
-
-    What is measured aside draws its noise from a generator of its own: a reward changes nothing in the world.
-    """
-    things = {thing.name: i for i, thing in enumerate(things_of(task))}
-    starts = {m.name: m.start for m in graph.memories} | {s.name: s.start for s in graph.sensors}
-    circular = {s.name for s in graph.sensors if s.kind.circular}
-    codes, scene = sensor_codes(), Scene(graph.tick, starts)
-    rows: list[Mapping[str, float]] = []
-    angles: list[float] = []
-    ray_row: list[int] = []
-    before = held = ring = 0
-    for is_aside, sensor in [(False, s) for s in used.skills] + [(True, s) for s in used.aside]:
-        kind = sensor.kind
-        row: dict[str, float] = {
-            "kind": codes[names()[type(kind)]], "start": sensor.start, "width": sensor.width,
-            "thing": things.get(kind.thing, -1), "turns": kind.source in circular,
-            "ray": len(angles), "before": before, "held": held, "ring": ring, "is_aside": is_aside, "every": 1,
-        }  # fmt: skip
-        if isinstance(kind, Physical):
-            row |= _roughness(kind)
-            held += sensor.width
-            ring += sensor.width * kind.delay
-        rows.append({**row, **kind.row(scene)})
-        angles.extend(kind.rays)
-        ray_row.extend(range(sensor.start, sensor.start + len(kind.rays)))
-        before += sensor.width if kind.remembers else 0
-    turn = np.array(angles, np.float64)
-    directions = np.array([np.cos(turn), np.sin(turn)], np.float32)
-    return Sensed(records(rows, SENSOR), directions, np.array(ray_row, np.int64), before, held, ring)
-
-
-def _roughness(kind: Physical) -> dict[str, float]:
-    """What is not perfect about it; `blank` is what is read where one is lost, −1 for the same as before."""
-    is_rough = kind.noise > 0 or kind.lost > 0 or kind.every > 1 or kind.delay > 0
-    blank = -1.0 if kind.keeps_lost else kind.blank
+def _edge(graph: Graph, edge: Edge, codes: Programs) -> Row:
+    first, length = codes.add(edge.value)
+    sinks_before = len(graph.actuators) if edge.to == "memory" else 0
     return {
-        "is_rough": is_rough, "noise": kind.noise, "lost": kind.lost, "blank": blank,
-        "every": max(1, kind.every), "delay": kind.delay,
+        "to_skill": edge.to == "skill", "target": edge.target + sinks_before,
+        "output": -1 if edge.output is None else edge.output, "code": first, "length": length,
     }  # fmt: skip
 
 
-def records(rows: Sequence[Mapping[str, float]], columns: Any) -> Array:
-    """Rows of a table by the names of its columns; what a row does not say is 0."""
-    table = np.zeros(len(rows), columns)
-    for record, row in zip(table, rows, strict=True):
-        for column, value in row.items():
-            record[column] = value
-    return table
-
-
-def actuator_rows(graph: Graph) -> tuple[list[Any], int]:
+def actuator_rows(graph: Graph) -> tuple[Array, int]:
     """Rows of ACTUATOR, and how many commands wait at any time."""
-    rows: list[Any] = []
+    rows: list[Row] = []
     ring = 0
     for actuator in graph.actuators:
-        kind, row = actuator.kind, actuator.kind.row()
+        kind = actuator.kind
         code = ACTUATOR_CODES[names()[type(kind)], kind.mounted]
-        rows.append((code, row.get("thrust", 0.0), kind.neutral, row.get("reach", 0.0), kind.delay, ring))
+        rows.append({"kind": code, "neutral": kind.neutral, "delay": kind.delay, "ring": ring, **kind.row()})
         ring += kind.delay
-    return rows, ring
+    return records(rows, ACTUATOR), ring
 
 
-def memory_row(start: int, cell: Cell) -> tuple[int, float, float, float]:
-    """A row of MEMORY."""
-    return start, cell.decay, 1.0 - cell.decay, cell.start
+def memory_rows(graph: Graph) -> Array:
+    """Rows of MEMORY."""
+    rows = [(memory.start, memory.kind) for memory in graph.memories]
+    return records(
+        [{"row": row, "decay": cell.decay, "rest": 1.0 - cell.decay, "start": cell.start} for row, cell in rows],
+        MEMORY,
+    )

@@ -9,18 +9,16 @@ from numpy.typing import NDArray
 
 from mindrun.graph import Graph, Task
 from mindrun.sim.codes import (
-    ACTUATOR,
     CODE,
-    EDGE,
     EVENT,
     MEASURES,
-    MEMORY,
     OBSTACLE,
     REWARD,
     THING,
 )  # fmt: skip
-from mindrun.sim.mind_rows import actuator_rows, memory_row, sensor_rows, skill_rows, used_sensors
+from mindrun.sim.mind_rows import actuator_rows, memory_rows, skill_rows
 from mindrun.sim.programs import Programs
+from mindrun.sim.sensor_rows import sensor_rows, used_sensors
 from mindrun.sim.task_rows import (
     box_count,
     event_rows,
@@ -94,47 +92,26 @@ def build(
     rewards = [reward_row(reward, codes) for reward in task.rewards]
     used = used_sensors(graph, reached, task)
     sensed = sensor_rows(graph, used, task)
+    driven, delays = actuator_rows(graph)
     measured, changes = measure_rows(task)
     noticed, patches = event_rows(task)
-    driven, delays = actuator_rows(graph)
+    index = [skill.name for skill in graph.skills].index(master)
     tables = Tables(
-        world=world_row(
-            graph, task, len(sensed.ray_row), [*used.skills, *used.aside], [s.name for s in graph.skills].index(master)
-        ),
-        sensors=sensed.rows,
-        rays=sensed.rays,
-        ray_row=sensed.ray_row,
-        skills=skills.rows,
-        inputs=np.array(skills.inputs, np.int64),
-        edges=np.array(skills.edges, EDGE),
+        world=world_row(graph, task, len(sensed.ray_row), [*used.skills, *used.aside], index),
+        sensors=sensed.rows, rays=sensed.rays, ray_row=sensed.ray_row,
+        skills=skills.rows, inputs=skills.inputs, edges=skills.edges, weights=skills.weights,
         codes=np.array(codes.rows, CODE),
-        weights=np.concatenate([np.zeros(0, np.float32), *skills.weights]).astype(np.float32),
-        actuators=np.array(driven, ACTUATOR),
-        memories=np.array([memory_row(m.start, m.kind) for m in graph.memories], MEMORY),
-        things=np.array(thing_rows(graph, task), THING),
-        obstacles=np.array(obstacle_rows(task), OBSTACLE),
-        measures=np.array(measured, MEASURES),
-        events=np.array(noticed, EVENT),
-        rewards=np.array(rewards, REWARD),
+        actuators=driven, memories=memory_rows(graph),
+        things=np.array(thing_rows(graph, task), THING), obstacles=np.array(obstacle_rows(task), OBSTACLE),
+        measures=np.array(measured, MEASURES), events=np.array(noticed, EVENT), rewards=np.array(rewards, REWARD),
         library=library,
-    )
-    states = np.diff(skills.rows["state"], append=skills.state)
+    )  # fmt: skip
     sizes = Sizes(
-        readings=max(1, graph.width),
-        skills=len(graph.skills),
-        before=sensed.derived,
-        rough=sensed.rough,
-        rings=sensed.rings,
-        inputs=max(1, *skills.rows["inputs"] + states),
-        width=max(1, *skills.rows["width"], *skills.rows["outputs"], *states),
-        genome=genome_length(graph, learners),
-        recurrent=skills.state,
-        delays=delays,
-        changes=changes,
-        patches=patches,
-        boxes=box_count(task),
-        depth=codes.depth,
-    )
+        readings=max(1, graph.width), before=sensed.derived, rough=sensed.rough, rings=sensed.rings,
+        skills=len(graph.skills), inputs=skills.most_inputs, width=skills.most_outputs, recurrent=skills.state,
+        genome=genome_length(graph, learners), depth=codes.depth, delays=delays,
+        changes=changes, patches=patches, boxes=box_count(task),
+    )  # fmt: skip
     return tables, sizes
 
 

@@ -1,0 +1,18 @@
+"""Rows of tables, by the names of their columns."""
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+Row = Mapping[str, float]
+
+
+def records(rows: Sequence[Row], columns: Any) -> NDArray[Any]:
+    """A table with these columns; what a row does not say is 0."""
+    table = np.zeros(len(rows), columns)
+    for record, row in zip(table, rows, strict=True):
+        for column, value in row.items():
+            record[column] = value
+    return table

@@ -1,0 +1,131 @@
+"""The rows of the sensors that somebody reads, and their rays."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mindrun.graph import Graph, Sensor, Skill, Task
+from mindrun.registry import names
+from mindrun.sensors import Physical
+from mindrun.sim.codes import SENSOR, sensor_codes
+from mindrun.sim.records import Row, records
+from mindrun.sim.task_rows import things_of
+
+Array = NDArray[Any]
+
+
+@dataclass(frozen=True, slots=True)
+class Used:
+    """The sensors that are measured: those that `skills` depend on, and those `aside` that only rewards do.
+
+    Sources stand before what derives from them.
+    """
+
+    skills: list[Sensor]
+    aside: list[Sensor]
+
+
+def used_sensors(graph: Graph, reached: Sequence[Skill], task: Task) -> Used:
+    """The sensors that a reached skill or a reward reads."""
+    skills = _measured(graph, {row for skill in reached for row in skill.inputs})
+    rewards = _measured(graph, _rewarded(task))
+    return Used(skills, [sensor for sensor in rewards if sensor not in skills])
+
+
+def _rewarded(task: Task) -> set[int]:
+    """The readings that rewards depend on."""
+    rows: set[int] = set()
+    for reward in task.rewards:
+        programs = [reward.amount] + ([reward.when.left, reward.when.right] if reward.when else [])
+        rows |= {int(value) for program in programs for name, value in program if name == "reading"}
+        rows |= set(range(reward.each[0], sum(reward.each))) if reward.each else set()
+    return rows
+
+
+def _measured(graph: Graph, rows: set[int]) -> list[Sensor]:
+    """The sensors that have these readings, and what those derive from; sources first."""
+    by_name = {sensor.name: sensor for sensor in graph.sensors}
+    ordered: dict[str, Sensor] = {}
+    for sensor in graph.sensors:
+        if rows.intersection(range(sensor.start, sensor.start + sensor.width)):
+            chain = [sensor]
+            while chain[-1].kind.source in by_name:
+                chain.append(by_name[chain[-1].kind.source])
+            for link in reversed(chain):
+                ordered.setdefault(link.name, link)
+    return list(ordered.values())
+
+
+@dataclass(frozen=True, slots=True)
+class Scene:
+    """What the row of a sensor can depend on beside its own arguments."""
+
+    tick: float
+    starts: Mapping[str, int]
+
+
+@dataclass(frozen=True, slots=True)
+class Sensed:
+    """Rows of SENSOR, the directions [2, rays] of all rays and the reading that each writes, and how many readings.
+
+    Those are: derived ones, rough ones, and what waits in their rings.
+    """
+
+    rows: Array
+    rays: Array
+    ray_row: Array
+    derived: int
+    rough: int
+    rings: int
+
+
+def sensor_rows(graph: Graph, used: Used, task: Task) -> Sensed:
+    """What the table of sensors says of those that are used.
+
+    What is measured aside draws its noise from a generator of its own: a reward changes nothing in the world.
+    """
+    things = {thing.name: i for i, thing in enumerate(things_of(task))}
+    starts = {m.name: m.start for m in graph.memories} | {s.name: s.start for s in graph.sensors}
+    circular = {s.name for s in graph.sensors if s.kind.circular}
+    codes, scene = sensor_codes(), Scene(graph.tick, starts)
+    rows: list[Row] = []
+    angles: list[float] = []
+    ray_row: list[int] = []
+    before = held = ring = 0
+    for is_aside, sensor in [(False, s) for s in used.skills] + [(True, s) for s in used.aside]:
+        kind = sensor.kind
+        row: dict[str, float] = {
+            "kind": codes[names()[type(kind)]], "start": sensor.start, "width": sensor.width,
+            "thing": things.get(kind.thing, -1), "turns": kind.source in circular,
+            "ray": len(angles), "before": before, "held": held, "ring": ring, "is_aside": is_aside, "every": 1,
+        }  # fmt: skip
+        if isinstance(kind, Physical):
+            row |= _roughness(kind)
+            held += sensor.width
+            ring += sensor.width * kind.delay
+        rows.append({**row, **kind.row(scene)})
+        angles.extend(kind.rays)
+        ray_row.extend(range(sensor.start, sensor.start + len(kind.rays)))
+        before += sensor.width if kind.remembers else 0
+    turn = np.array(angles, np.float64)
+    return Sensed(
+        rows=records(rows, SENSOR),
+        rays=np.array([np.cos(turn), np.sin(turn)], np.float32),
+        ray_row=np.array(ray_row, np.int64),
+        derived=before,
+        rough=held,
+        rings=ring,
+    )
+
+
+def _roughness(kind: Physical) -> Row:
+    """What is not perfect about it; `blank` is what is read where one is lost, −1 for the same as before."""
+    is_rough = kind.noise > 0 or kind.lost > 0 or kind.every > 1 or kind.delay > 0
+    blank = -1.0 if kind.keeps_lost else kind.blank
+    return {
+        "is_rough": is_rough, "noise": kind.noise, "lost": kind.lost, "blank": blank,
+        "every": max(1, kind.every), "delay": kind.delay,
+    }  # fmt: skip

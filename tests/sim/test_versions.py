@@ -1,0 +1,76 @@
+"""What is known of numba's and pymunk's insides holds for the versions that are asked for; others are refused."""
+
+import os
+import subprocess
+import sys
+import tomllib
+from collections.abc import Mapping
+from typing import Any
+
+import pytest
+from mindrun.errors import MindError
+from mindrun.sim import chipmunk_internals, versions
+
+from tests.project.sources import ROOT
+
+SIMULATE = "from mindlang.cli import main; main()", "run", "examples/collect/collect.mind", "--task", "Avoid"
+
+
+def test_what_is_asked_for_is_what_is_known() -> None:
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
+    assert {f"{name}>={first},<{last}" for name, (first, last) in versions.KNOWN.items()} <= {*project["dependencies"]}
+
+
+def test_what_is_installed_here_is_known() -> None:
+    versions.refuse_unknown()
+    chipmunk_internals.refuse_another()
+
+
+@pytest.mark.parametrize("found", ["0.60.9", "0.69.0", "0.69.0rc1", "1.0", "0.7"])
+def test_another_version_is_refused(found: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    first, last = versions.KNOWN["numba"]
+    monkeypatch.setattr(versions, "version", lambda name: found if name == "numba" else versions.KNOWN[name][0])
+    with pytest.raises(
+        MindError, match=f"numba {found} is installed, and the simulator knows {first} to below {last}"
+    ) as e:
+        versions.refuse_unknown()
+    assert e.value.hint == f"pip install 'numba>={first},<{last}'"
+
+
+@pytest.mark.parametrize("found", ["0.61", "0.61.0rc2", "0.68.1", "0.68.10"])
+def test_a_known_version_is_taken(found: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(versions, "version", lambda name: found if name == "numba" else versions.KNOWN[name][0])
+    versions.refuse_unknown()
+
+
+@pytest.mark.parametrize(
+    "changed",
+    [
+        {"LAYOUT": {"pmBatchedData": (32, {"intArray": 0, "floatArray": 8, "fields": 16})}},
+        {"LAYOUT": {"pmFloatArray": (16, {"num": 4, "max": 0, "arr": 8})}},
+        {"LAYOUT": {"pmNoArray": (16, {})}},
+        {"FUNCTIONS": ("cpSpaceNew", "cpSpaceNewer")},
+        {"PUSH_FIELDS": ("FORCE", "MOMENT")},
+        {"PERSISTENCE_TICKS": 4},
+    ],
+    ids=str,
+)
+def test_another_chipmunk_is_refused(changed: Mapping[str, Any], monkeypatch: pytest.MonkeyPatch) -> None:
+    for name, value in changed.items():
+        monkeypatch.setattr(chipmunk_internals, name, value)
+    with pytest.raises(MindError, match="is not the one that the simulator knows") as e:
+        chipmunk_internals.library()
+    assert e.value.hint == "pip install 'pymunk>=7.2,<8'"
+
+
+@pytest.mark.parametrize("optimised", ["", "2"])
+def test_a_user_reads_one_sentence(optimised: str) -> None:
+    """Before anything is imported that another version may not have; and `python -O` looks, too."""
+    program = "import importlib.metadata as m; m.version = lambda name: '99.0'; " + SIMULATE[0]
+    said = subprocess.run(
+        [sys.executable, "-c", program, *SIMULATE[1:]],
+        env=os.environ | {"PYTHONOPTIMIZE": optimised}, cwd=ROOT, capture_output=True, text=True, check=False,
+    )  # fmt: skip
+    assert said.returncode == 1
+    assert said.stderr.splitlines()[0].endswith("99.0 is installed, and the simulator knows 0.44 to below 0.51")
+    assert "Traceback" not in said.stderr
