@@ -4,12 +4,13 @@ import json
 import subprocess
 import sys
 import tomllib
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
+from graphlib import TopologicalSorter
 from pathlib import Path
 
 import pytest
 
-from tests.project.sources import COMPILER, ROOT, RUNTIME, imported, modules, package
+from tests.project.sources import COMPILER, ROOT, RUNTIME, arrows, imported, modules, package
 
 OUR_OWN = {"mindlang", "mindrun"}
 MODULES = {"opencv-python-headless": "cv2", "pyyaml": "yaml"}  # whose names differ from what is imported
@@ -41,6 +42,29 @@ print(json.dumps(sorted(sys.modules)))
 
 def test_the_runtime_never_imports_the_compiler() -> None:
     assert [path for path in modules(RUNTIME) if "mindlang" in {package(name) for name in imported(path)}] == []
+
+
+def test_no_arrow_runs_back_up() -> None:
+    """Neither files nor folders import each other in a circle: in every folder, what is in it has an order."""
+    found = arrows(COMPILER, RUNTIME)
+    static_order(found)
+    folders = {name.rpartition(".")[0] for name in found} - {""}
+    for folder in folders:
+        inside = {name: part(name, folder) for name in found if name.startswith(f"{folder}.")}
+        rooms: dict[str, set[str]] = {room: set() for room in inside.values()}
+        for name, room in inside.items():
+            rooms[room] |= {inside[other] for other in found[name] & inside.keys()} - {room}
+        static_order(rooms)
+
+
+def part(name: str, folder: str) -> str:
+    """Which of the files and folders in a folder a module is in."""
+    return name.removeprefix(f"{folder}.").partition(".")[0]
+
+
+def static_order(found: Mapping[str, Iterable[str]]) -> list[str]:
+    """What is imported before what imports it; CycleError where there is no such order."""
+    return [*TopologicalSorter(found).static_order()]
 
 
 def test_the_robot_needs_numpy_alone() -> None:

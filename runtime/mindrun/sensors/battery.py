@@ -6,7 +6,7 @@ from typing import Annotated, Any
 from mindrun.arithmetic import F
 from mindrun.quantity import RATIO
 from mindrun.registry import kind
-from mindrun.sensors.sensor import Physical, World
+from mindrun.sensors.sensor import BatteryModel, Physical, World
 
 
 @kind("sensor", "battery")
@@ -22,9 +22,9 @@ class Battery(Physical):
     remedy = "Give it a drain above 0"
 
     @property
-    def battery(self) -> "Battery":
-        """Itself."""
-        return self
+    def battery(self) -> BatteryModel:
+        """As its arguments say."""
+        return BatteryModel(self.start, self.drain, self.charge)
 
     def constant(self, world: World) -> float | None:
         """Its start, where nothing drains it, and nothing charges it or it is full."""

@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Mapping, Set
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Annotated, Any, Protocol
+from typing import Annotated, Any, NamedTuple, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,14 +11,17 @@ from mindrun.quantity import RATIO, TICKS
 from mindrun.registry import base
 from mindrun.things.about import AboutThing
 
-if TYPE_CHECKING:
-    from mindrun.sensors.battery import Battery
-
 Readings = NDArray[np.float32]
 Reader = Callable[[int, Readings, Readings | None], Readings | np.float32]
-
-
 Row = Mapping[str, float]  # columns of the lanes' table of sensors
+
+
+class BatteryModel(NamedTuple):
+    """With how much a battery starts, what it loses in a tick, and what it gains in one where it charges; 1 is full."""
+
+    start: float
+    drain: float
+    charge: float
 
 
 class Scene(Protocol):
@@ -93,8 +96,8 @@ class SensorKind(AboutThing):
         return ""
 
     @property
-    def battery(self) -> "Battery | None":
-        """The battery that it reads, and of which it says how it drains and charges."""
+    def battery(self) -> BatteryModel | None:
+        """How the battery that it reads drains and charges."""
         return None
 
     @property

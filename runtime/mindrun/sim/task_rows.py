@@ -103,7 +103,7 @@ def reward_row(reward: Reward, codes: Programs) -> tuple[int, ...]:
 def world_row(graph: Graph, task: Task, rays: int, used: Sequence[Sensor], master: int) -> Array:
     """The numbers of the body, the battery and the scene."""
     body, dt, scene = graph.body, graph.tick, task.scene
-    battery = next((s.kind.battery for s in graph.sensors if s.kind.battery), Battery())
+    battery = next((s.kind.battery for s in graph.sensors if s.kind.battery), Battery().battery)
     powered = any(event.is_of_battery for event in task.events) or any(s.kind.battery for s in used)
     held = [thing.kind.largest for thing in task.things if thing.kind.can_be_held]
     # How far the rays reach, or the item in the claw.
