@@ -1,6 +1,6 @@
 """A policy: a hierarchy with the weights that its skills were taught, which fit in its order alone."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 from mindrun.errors import WeightsError
@@ -25,7 +25,8 @@ class Policy:
         if strangers := sorted(self.weights.keys() - skills.keys()):
             raise WeightsError(f"there are weights of {strangers[0]}, but there is no such skill")
         ordered = _Ordered((name, checked(skills[name], weights)) for name, weights in self.weights.items())
-        ordered.orders = {name: _order(self.graph, skills[name]) for name in ordered}
+        readings = _readings(self.graph)
+        ordered.orders = {name: _order(self.graph, readings, skills[name]) for name in ordered}
         if isinstance(self.weights, _Ordered):
             for name, order in ordered.orders.items():
                 if self.weights.orders[name] != order:
@@ -39,9 +40,13 @@ class _Ordered(dict[str, Weights]):
     orders: Mapping[str, object]
 
 
-def _order(graph: Graph, skill: Skill) -> object:
+def _readings(graph: Graph) -> list[tuple[str, int]]:
+    """Whose each reading is, and which of its sensor."""
+    wide = [(sensor.name, number) for sensor in graph.sensors for number in range(sensor.width)]
+    return wide + [(memory.name, 0) for memory in graph.memories]
+
+
+def _order(graph: Graph, readings: Sequence[tuple[str, int]], skill: Skill) -> object:
     """What each of a skill's weights is for: its function, and by name what it reads and sends."""
-    readings = [(sensor.name, number) for sensor in graph.sensors for number in range(sensor.width)]
-    readings += [(memory.name, 0) for memory in graph.memories]
     sends = [(graph.named(edge.to, edge.target), edge.output) for edge in skill.edges if edge.output is not None]
     return skill.function, [readings[index] for index in skill.inputs], sends

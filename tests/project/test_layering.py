@@ -1,5 +1,6 @@
 """Who may import whom: the compiler imports what runs, never back, and the robot needs numpy alone."""
 
+import ast
 import json
 import subprocess
 import sys
@@ -10,7 +11,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.project.sources import COMPILER, ROOT, RUNTIME, arrows, imported, modules, package
+from tests.project.sources import COMPILER, ROOT, RUNTIME, arrows, imported, modules, package, tree
 
 OUR_OWN = {"mindlang", "mindrun"}
 MODULES = {"opencv-python-headless": "cv2", "pyyaml": "yaml"}  # whose names differ from what is imported
@@ -81,6 +82,25 @@ def test_the_robot_never_imports_the_simulated_world() -> None:
     names = RUNTIME / "__init__.py"  # imports what is asked for alone: tests/api/test_public.py
     robot = [path for path in modules(RUNTIME) if not path.is_relative_to(SIM) and path != names]
     assert [path for path in robot if any(name.startswith("mindrun.sim") for name in imported(path))] == []
+
+
+def test_weights_are_put_beside_a_graph_in_few_places() -> None:
+    """Where the graph is `arrange`d for them, they were taught in its order, or there are none; others take both."""
+    places = {
+        "mindlang/lock/ready.py": "arranged here",
+        "mindlang/editing/verify.py": "arranged there, before and after an edit",
+        "mindlang/training/teaching.py": "a run has those of its subject, which is arranged",
+        "runtime/mindrun/bundle.py": "a bundle has both, sealed",
+        "runtime/mindrun/sim/warmup.py": "none",
+        "runtime/mindrun/sim/commanded_world.py": "none",
+    }
+    made = {
+        path.relative_to(ROOT).as_posix()
+        for path in modules(COMPILER, RUNTIME)
+        for node in ast.walk(tree(path))
+        if isinstance(node, ast.Call) and ast.unparse(node.func).split(".")[-1] == "Policy"
+    }
+    assert made == set(places)
 
 
 def test_only_commands_know_the_command_line() -> None:
