@@ -1,33 +1,48 @@
 """Hypothesis strategies for whole hierarchies, their weights and what they read."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from pathlib import Path
 
 import numpy as np
 from hypothesis import strategies as st
 from mindrun.actuators import Gripper, Servo, Wheel
 from mindrun.bodies import Disc
-from mindrun.functions import Function, Mlp, Rule
+from mindrun.functions import Function, Mlp, Procedure, Rule
+from mindrun.functions.elman import Elman
 from mindrun.graph import Actuator, Edge, Graph, Memory, Program, Sensor, Skill
 from mindrun.memory import Cell
-from mindrun.sensors import Battery, Bearing, Contact, Derivative, Held, Inertial, Inside, RangeFinder, Sine
+from mindrun.sensors import Battery, Bearing, Contact, Derivative, Held, Inertial, Inside, Physical, RangeFinder, Sine
+from mindrun.sensors.compass import Compass
 from mindrun.weights import genes
 from numpy.typing import NDArray
 
 SHARES = st.floats(0, 1, width=32)
-EYES = 10
+EYES = tuple(map(float, range(10)))
 WORLDLY = [
-    RangeFinder(at=tuple(map(float, range(EYES)))),
-    RangeFinder(at=tuple(map(float, range(EYES))), noise=0.1, lost=0.2, every=3, delay=2, dead_zone=0.0),
+    RangeFinder(at=EYES),
+    RangeFinder(at=EYES[:3], range=4.0, dead_zone=0.0),
     Bearing("object"),
-    Bearing("object", range=5.0, dead_zone=0.1, lost=0.5, delay=1),
-    Contact("object", every=2),
-    Held("object", lost=0.1),
-    Inside("home", delay=3),
-    Inertial(2.0, dead_zone=0.05, noise=0.2),
+    Bearing("coin", range=5.0, dead_zone=0.1),
+    Compass(),
+    Compass(dead_zone=0.1),
+    Contact("object"),
+    Contact("coin"),
+    Held("object"),
+    Held("coin"),
+    Inside("home"),
+    Inside("plug"),
+    Inertial(),
+    Inertial(2.0, dead_zone=0.05),
     Battery(),
-    Battery(0.5, 0.01, 0.02, lost=0.5),
+    Battery(0.5, 0.01, 0.02),
 ]
+ROUGH = st.fixed_dictionaries({
+    "noise": st.sampled_from([0.0, 0.1, 0.2]), "lost": st.sampled_from([0.0, 0.2, 0.5]),
+    "every": st.integers(1, 3), "delay": st.integers(0, 3),
+})  # fmt: skip
 ACTUATORS = [Wheel("left", 0.5), Wheel("right", 0.5, delay=2), Gripper(0.0), Servo(0.3)]
+CALLED = Procedure("")
+PROCEDURES = Path(__file__).parent / "procedures"  # the folder of the modules that are called
 SCALES = [0.1, 0.3, 0.3, 1.0, 10.0, 1e4, 1e20, 3e38]
 
 
@@ -100,15 +115,25 @@ def random_case(draw: st.DrawFn, ticks: int = 6) -> Case:
 
 
 @st.composite
+def _physical_kinds(draw: st.DrawFn) -> Physical:
+    """What measures something, perfectly or not."""
+    kind = draw(st.sampled_from(WORLDLY))
+    return replace(kind, **draw(ROUGH)) if draw(st.booleans()) else kind
+
+
+_physical = _physical_kinds()
+
+
+@st.composite
 def _senses(draw: st.DrawFn) -> tuple[tuple[Sensor, ...], tuple[Memory, ...]]:
     """Sensors and memories; derivatives of anything, and of one another."""
-    kinds = draw(st.lists(st.sampled_from([*WORLDLY, "sine", "derivative", "derivative"]), min_size=2, max_size=7))
+    kinds = draw(st.lists(_physical | st.sampled_from(["sine", "derivative"]), min_size=2, max_size=7))
     cells = [Cell(draw(SHARES), draw(SHARES)) for _ in range(draw(st.integers(0, 2)))]
     widths = {f"m{i}": 1 for i in range(len(cells))}
     sensors: list[Sensor] = []
     start = 0
     for number, kind in enumerate(kinds):
-        width = EYES if isinstance(kind, RangeFinder) else 1
+        width = len(kind.at) if isinstance(kind, RangeFinder) else 1
         if kind == "sine" or (kind == "derivative" and not widths):
             kind = Sine(draw(st.sampled_from([0.05, 0.3, 2.0])))
         elif kind == "derivative":
@@ -132,8 +157,9 @@ def _placed(sensors: list[Sensor]) -> tuple[Sensor, ...]:
 @st.composite
 def _skills(draw: st.DrawFn, name: str, width: int, targets: list[tuple[str, int]], fewest: int) -> Skill:
     """A skill over some of the readings that sends to some of the targets."""
-    mlp = st.builds(Mlp, hidden=st.integers(fewest, 3), width=st.sampled_from([0, 0, 1, 5, 17]))
-    function: Function = draw(st.one_of(mlp, mlp, st.just(Rule())))
+    width_of = st.sampled_from([0, 0, 1, 5, 17])
+    mlp = st.builds(Mlp, hidden=st.integers(fewest, 3), width=width_of)
+    function: Function = draw(st.one_of(mlp, mlp, st.builds(Elman, width_of), st.just(Rule()), st.just(CALLED)))
     inputs = tuple(draw(st.lists(st.integers(0, width - 1), unique=True, max_size=16)))
     chosen = draw(st.lists(st.sampled_from(targets), unique=True, min_size=1, max_size=5))
     edges: list[Edge] = []
@@ -144,7 +170,8 @@ def _skills(draw: st.DrawFn, name: str, width: int, targets: list[tuple[str, int
         else:
             edges.append(Edge(to, target, outputs))
             outputs += 1
-    return Skill(name, function, inputs, tuple(edges))
+    called = Procedure(f"own.send{outputs}") if function is CALLED else function
+    return Skill(name, called, inputs, tuple(edges), frozen=draw(st.booleans()))
 
 
 def _programs(inputs: tuple[int, ...]) -> st.SearchStrategy[Program]:

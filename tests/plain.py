@@ -3,10 +3,14 @@
 import math
 
 import numpy as np
-from mindrun.functions import Mlp
+from mindrun.functions import Mlp, Procedure
+from mindrun.functions.elman import Elman
 from mindrun.sensors import Bearing, Derivative, Sine
+from mindrun.sensors.compass import Compass
 from mindrun.sigmoid import DENOMINATOR, LIMIT, NUMERATOR
 from mindrun.trigonometry import sine
+
+from tests.hierarchies import PROCEDURES
 
 f = np.float32
 
@@ -18,6 +22,7 @@ class Plain:
         self.graph, self.weights, self.master = graph, weights, master or graph.master
         self.t, self.before, self.faults = 0, None, 0
         self.cells = [f(memory.kind.start) for memory in graph.memories]
+        self.said, self.modules = {}, {}  # by skill: of an Elman network, and of a procedure
 
     def tick(self, readings):
         """The commands for the readings of one tick."""
@@ -62,7 +67,7 @@ class Plain:
         if not (math.isfinite(now) and math.isfinite(before)):
             return f(np.nan)
         d = now - before
-        if isinstance(source.kind, Bearing):
+        if isinstance(source.kind, Bearing | Compass):
             d = d - f(1) if d > 0.5 else d + f(1) if d < -0.5 else d
         v = clamp(f(0.5) + d * f(0.5 / (self.graph.tick * kind.range)))
         return f(0.5) if abs(v - f(0.5)) < f(kind.dead_zone) else v
@@ -76,10 +81,13 @@ class Plain:
             if own == 0:
                 continue
             inputs = [self.readings[i] for i in skill.inputs]
+            if not all(map(math.isfinite, inputs)):
+                self.faults += len(skill.edges)
+                continue
             outputs = self.outputs(skill, inputs)
             for edge in skill.edges:
                 value = outputs[edge.output] if edge.output is not None else f(postfix(edge.value, self.readings))
-                if not all(map(math.isfinite, inputs)) or not math.isfinite(value):
+                if not math.isfinite(value):
                     self.faults += 1
                 elif edge.to == "skill":
                     self.influence[edge.target] += clamp(value) * own
@@ -98,17 +106,38 @@ class Plain:
 
     def outputs(self, skill, inputs):
         """The internal function's outputs."""
-        if not isinstance(skill.function, Mlp):
+        if not skill.outputs:
             return []
-        shape = skill.function.layers(len(inputs), skill.outputs)
-        if not shape:
-            return [f(0)] * skill.outputs
-        weights = iter(self.weights[skill.name])
-        values = inputs
-        for number, (_, after) in enumerate(shape, 1):
-            sums = [dense([next(weights) for _ in values], values) for _ in range(after)]
-            values = sums if number == len(shape) else [sigmoid(s) for s in sums]
-        return values
+        match skill.function:
+            case Procedure(from_=name):
+                return self.called(skill, name.split("."), inputs)
+            case Mlp() | Elman() if not inputs:
+                return [f(0)] * skill.outputs
+            case Mlp(hidden=hidden, width=width):
+                width = width or max(len(inputs), skill.outputs) + 2
+                weights, values = iter(self.weights[skill.name]), inputs
+                for _ in range(hidden):
+                    values = [sigmoid(total) for total in layer(weights, values, width)]
+                return layer(weights, values, skill.outputs)
+            case Elman(width=width):
+                width = width or max(len(inputs), skill.outputs) + 2
+                weights, before = iter(self.weights[skill.name]), self.said.get(skill.name, [f(0)] * width)
+                said = self.said[skill.name] = [sigmoid(total) for total in layer(weights, inputs + before, width)]
+                return layer(weights, said, skill.outputs)
+
+    def called(self, skill, name, inputs):
+        """What a procedure returns, of a module that only this skill calls."""
+        module, function = name
+        if skill.name not in self.modules:
+            self.modules[skill.name] = {}
+            exec((PROCEDURES / f"{module}.py").read_text(), self.modules[skill.name])
+        found = self.modules[skill.name][function](*map(float, inputs))
+        return [f(value) for value in (found if isinstance(found, list | tuple) else [found])]
+
+
+def layer(weights, values, count):
+    """The sums of so many neurons, which take their weights one after the other."""
+    return [dense([next(weights) for _ in values], values) for _ in range(count)]
 
 
 def dense(weights, values):

@@ -69,7 +69,7 @@ def _taught_with(lock: Lock, hashes: Mapping[tuple[str, str], str]) -> dict[str,
 def widen(entry: Entry, old: Skill, graph: Graph, new: Skill) -> tuple[Entry, Weights] | None:
     """An entry, and its weights, for a skill that reads and influences more; None where it is not that alone.
 
-    What is new has weights of zero, so the outputs are the same to the bit: a sum that is followed by zeros is the same
+    What is new has weights of zero, so the outputs are the same to the bit: a sum that zeros stand in is the same
     sum, and an output of zero is no influence. It is a command, though, and would be averaged: a skill that drives more
     has no weights that do the same.
     """

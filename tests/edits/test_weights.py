@@ -10,7 +10,6 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from mindrun.engine import Engine
-from mindrun.functions import Mlp
 from mindrun.graph import Edge, Graph, Sensor
 from mindrun.policy import Policy
 from mindrun.sensors import Battery
@@ -29,7 +28,7 @@ from mindlang.lock.blobs import FOLDER, blob
 from mindlang.lock.ready import make_ready
 from mindlang.lock.status import NotLearning, Stale, Trained, Untaught
 from tests.edits.taught import MIND, statuses, teach, write_mind
-from tests.hierarchies import random_graph
+from tests.hierarchies import PROCEDURES, random_graph
 from tests.lock.test_trained import _whole_sensors as whole_sensors
 from tests.lock.test_trained import teach as teach_graph
 
@@ -321,7 +320,7 @@ def test_widened_skills_do_the_same_to_the_bit(
         name: followed.weights.get(blob(path.parent, entry.weights), weights[name])
         for name, entry in followed.locks[path].items()
     }
-    engines = Engine(Policy(graph, weights)), Engine(Policy(after, new))
+    engines = Engine(Policy(graph, weights), PROCEDURES), Engine(Policy(after, new), PROCEDURES)
     order = [[skill.name for skill in after.skills].index(skill.name) for skill in graph.skills]
     for readings in _readings(graph, data.draw):
         more = np.append(readings, np.float32(data.draw(st.sampled_from([0.0, 0.5, 1.0]))))
@@ -348,7 +347,7 @@ def _wider(graph: Graph, draw: Any) -> Graph:
             replace(edge, value=tuple((w, moved(int(v))) if w == "reading" else (w, v) for w, v in edge.value))
             for edge in skill.edges
         ]
-        if genes(skill) and isinstance(skill.function, Mlp):
+        if genes(skill):
             inputs += (place,) * draw(st.booleans())
             known = {edge.target for edge in edges if edge.to == "skill"}
             below = [n for n in range(number + 1, len(graph.skills)) if n not in known]

@@ -11,7 +11,7 @@ from mindrun.policy import Policy
 from mindrun.sigmoid import sigmoid
 from mindrun.trigonometry import cosine, sine
 
-from tests.hierarchies import Case, random_case
+from tests.hierarchies import PROCEDURES, Case, random_case
 from tests.plain import Plain
 
 
@@ -19,7 +19,10 @@ from tests.plain import Plain
 @settings(max_examples=300, suppress_health_check=[HealthCheck.too_slow])
 def test_same_bits_as_plain_python(case: Case, data: st.DataObject) -> None:
     master = data.draw(st.sampled_from([skill.name for skill in case.graph.skills]))
-    engine, plain = Engine(Policy(case.graph, case.weights), master=master), Plain(case.graph, case.weights, master)
+    engine, plain = (
+        Engine(Policy(case.graph, case.weights), PROCEDURES, master),
+        Plain(case.graph, case.weights, master),
+    )
     for readings in case.readings:
         commands = engine.tick(readings)
         assert commands.tobytes() == np.array(plain.tick(readings), np.float32).tobytes()
@@ -31,7 +34,7 @@ def test_same_bits_as_plain_python(case: Case, data: st.DataObject) -> None:
 
 @given(random_case())
 def test_reset_forgets_everything(case: Case) -> None:
-    engine = Engine(Policy(case.graph, case.weights))
+    engine = Engine(Policy(case.graph, case.weights), PROCEDURES)
     first = [engine.tick(readings).tobytes() for readings in case.readings]
     engine.reset()
     assert [engine.tick(readings).tobytes() for readings in case.readings] == first

@@ -20,7 +20,7 @@ from mindrun.bundle import Bundle, fingerprint, pack, read_bundle, unpack, write
 from mindrun.codec import encode
 from mindrun.describe import contents, describe
 from mindrun.encoding import decode, decode_wiring
-from mindrun.engine import Engine
+from mindrun.engine import Engine, procedure_sources
 from mindrun.errors import BundleError
 from mindrun.graph import Graph
 from mindrun.policy import Policy
@@ -30,7 +30,7 @@ from mindrun.wiring import Wiring
 
 from tests.engine.bundles import example, wired
 from tests.engine.resealed import resealed
-from tests.hierarchies import random_graph
+from tests.hierarchies import PROCEDURES, random_graph
 
 
 @given(random_graph(fewest_hidden=1), st.integers(0, 2**32 - 1))
@@ -38,13 +38,16 @@ from tests.hierarchies import random_graph
 def test_there_and_back(graph: Graph, seed: int) -> None:
     rng = np.random.default_rng(seed)
     weights = {s.name: rng.standard_normal(genes(s)).astype(np.float32) for s in graph.skills if genes(s)}
-    data = pack(Bundle(Policy(graph, weights), {}))
+    data = pack(Bundle(Policy(graph, weights), procedure_sources(graph, PROCEDURES)))
     back = unpack(data)
     assert back.graph == graph
     assert {name: w.tobytes() for name, w in back.policy.weights.items()} == {
         n: w.tobytes() for n, w in weights.items()
     }
     assert pack(back) == data
+    engines = Engine(Policy(graph, weights), PROCEDURES), Engine(back.policy, back.procedures)
+    for readings in rng.random((3, graph.width)):
+        assert engines[0].tick(readings).tobytes() == engines[1].tick(readings).tobytes()
 
 
 def test_a_bundle_runs_with_its_procedures(tmp_path: Path) -> None:

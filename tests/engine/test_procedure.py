@@ -27,6 +27,19 @@ def test_a_single_output_needs_no_tuple(tmp_path: Path) -> None:
     assert engine(tmp_path, "def grip(a, b): return a / 4", outputs=1).tick([1.0, 0.0]).tolist() == [0.25, 0.5]
 
 
+def test_what_a_module_remembers_is_of_one_run(tmp_path: Path) -> None:
+    """As in the simulated world, where every run has a module of its own; no module is run again for nothing."""
+    (tmp_path / "runs").write_text("")
+    text = f"open({str(tmp_path / 'runs')!r}, 'a').write('x')\nSEEN = []\n"
+    text += "def grip(a, b):\n    SEEN.append(a)\n    return len(SEEN) / 8"
+    running = engine(tmp_path, text, outputs=1)
+    for begun in (1, 2, 3):
+        assert [running.tick([0.0, 0.0])[0] for _ in range(3)] == [0.125, 0.25, 0.375]
+        assert len((tmp_path / "runs").read_text()) == begun
+        running.reset()
+        running.reset()
+
+
 def test_modules_stand_in_folders(tmp_path: Path) -> None:
     (tmp_path / "parts").mkdir()
     (tmp_path / "parts" / "arm.py").write_text("def up(a, b): return [a, b]")

@@ -6,6 +6,7 @@ from collections import deque
 import numpy as np
 import pymunk
 from mindrun import actuators, events, measures, scenes, sensors, things
+from mindrun.sensors.compass import Compass
 from mindrun.trigonometry import cosine, sine
 
 from tests.plain import f, postfix
@@ -56,6 +57,8 @@ class PlainWorld:
                 return [(float(f(self.charge)),) * 2], None
             case sensors.Bearing():
                 return [self.bearing(i, kind)], 0.5
+            case Compass():
+                return [pointed(math.sin(self.angle), math.cos(self.angle), kind.dead_zone)], 0.5
             case sensors.Contact():
                 value = i >= 0 and self.in_claw(i, self.reach())
             case sensors.Held():
@@ -77,10 +80,7 @@ class PlainWorld:
             return 0.5, 0.5
         dx, dy = self.places[i][0] - self.x, self.places[i][1] - self.y
         c, s = math.cos(self.angle), math.sin(self.angle)
-        ahead, aside = c * dx + s * dy, c * dy - s * dx
-        if math.hypot(ahead, aside) < 1e-4 or (ahead < 0 and abs(aside) < 1e-4):
-            return 0.0, 1.0
-        return zoned(0.5 - math.atan2(aside, ahead) / (2 * math.pi), kind.dead_zone, 0.5)
+        return pointed(c * dx + s * dy, c * dy - s * dx, kind.dead_zone)
 
     def ray(self, angle, kind):
         """Least and most of what a range finder reads: what it grazes, or stands in by a hair, may be met or missed."""
@@ -276,6 +276,13 @@ COMPARES = {
     ">": lambda a, b: a > b,
     ">=": lambda a, b: a >= b,
 }
+
+
+def pointed(ahead, aside, dead_zone):
+    """(least, most) of what reads a direction in the robot's frame."""
+    if math.hypot(ahead, aside) < 1e-4 or (ahead < 0 and abs(aside) < 1e-4):
+        return 0.0, 1.0
+    return zoned(0.5 - math.atan2(aside, ahead) / (2 * math.pi), dead_zone, 0.5)
 
 
 def zoned(value, dead_zone, otherwise):

@@ -18,14 +18,14 @@ from mindrun.things import Item, Obstacle
 from mindrun.weights import genes
 
 from mindlang.compiler.compile import load
-from tests.hierarchies import SCALES, random_graph
+from tests.hierarchies import PROCEDURES, SCALES, random_graph
 from tests.sim.test_rollout import COLLECT, some_weights
 
 
 def follow(graph: Graph, weights: dict[str, np.ndarray], task: str, master: str, seed: int, most: int) -> None:
     """Run a task in the lanes, and feed what they sensed to the engine: the same readings, influence and commands."""
-    rollout = Rollout(Policy(graph, weights), task, master, interrupt=False)
-    engine = Engine(Policy(graph, weights), None, master)
+    rollout = Rollout(Policy(graph, weights), task, master, procedures=PROCEDURES, interrupt=False)
+    engine = Engine(Policy(graph, weights), PROCEDURES, master)
     read = sorted({row for skill in rollout.tables.skills for row in _rows(rollout, skill)})
     run = trace(rollout, seed)
     for moment in run.moments:

@@ -1,18 +1,19 @@
 """Any world in the lanes: tick by tick what plain Python, the engine and pymunk say; the same in any company."""
 
+from collections import Counter
+
 import numpy as np
 import pytest
 from hypothesis import HealthCheck, event, given, settings
 from hypothesis import strategies as st
 from mindrun.engine import Engine
-from mindrun.functions import Mlp
 from mindrun.graph import Graph
 from mindrun.policy import Policy
 from mindrun.sim.rollout import Rollout
 from mindrun.sim.trace import trace
 from mindrun.weights import genes
 
-from tests.hierarchies import SCALES
+from tests.hierarchies import PROCEDURES, SCALES
 from tests.sim.following import follow
 from tests.sim.test_rollout import same
 from tests.sim.worlds import random_world
@@ -25,12 +26,16 @@ def weights_for(graph: Graph, scale: float, rng: np.random.Generator) -> Weights
     return {s.name: (scale * rng.uniform(-0.7, 1, genes(s))).astype(np.float32) for s in graph.skills}
 
 
+def followed(graph: Graph, weights: Weights, seed: int) -> Counter[str]:
+    rollout = Rollout(Policy(graph, weights), "World", graph.master, procedures=PROCEDURES)
+    return follow(rollout, Engine(Policy(graph, weights), PROCEDURES), seed % 1000)
+
+
 @settings(max_examples=50, suppress_health_check=SLOW)
 @given(random_world(), st.sampled_from(SCALES), st.integers(0, 2**32 - 1))
 def test_every_tick_is_what_plain_python_says(graph: Graph, scale: float, seed: int) -> None:
-    rollout = Rollout(Policy(graph, weights_for(graph, scale, np.random.default_rng(seed))), "World", graph.master)
-    engine = Engine(Policy(graph, weights_for(graph, scale, np.random.default_rng(seed))))
-    for happening in follow(rollout, engine, seed % 1000):
+    weights = weights_for(graph, scale, np.random.default_rng(seed))
+    for happening in followed(graph, weights, seed):
         event(f"{happening} happens")
 
 
@@ -40,10 +45,10 @@ def test_a_result_is_the_same_in_any_company(graph: Graph, scale: float, seed: i
     """Of its genome and its seed alone: whatever the lane, the batch, the worker and the order."""
     rng = np.random.default_rng(seed)
     weights = weights_for(graph, scale, rng)
-    learners = [skill.name for skill in graph.skills if isinstance(skill.function, Mlp)][:2]
+    learners = [skill.name for skill in graph.skills if genes(skill)][:2]
 
     def rollout(**options: int) -> Rollout:
-        return Rollout(Policy(graph, weights), "World", graph.master, learners, **options)
+        return Rollout(Policy(graph, weights), "World", graph.master, learners, procedures=PROCEDURES, **options)
 
     genomes = (scale * rng.uniform(-0.7, 1, (3, rollout().genome_length))).astype(np.float32)
     seeds = rng.integers(0, 2**63, 5).tolist()
@@ -62,5 +67,4 @@ def test_a_result_is_the_same_in_any_company(graph: Graph, scale: float, seed: i
 @given(random_world(most=120), st.sampled_from(SCALES), st.integers(0, 2**32 - 1))
 def test_many_worlds(graph: Graph, scale: float, seed: int) -> None:
     rng = np.random.default_rng(seed)
-    weights = weights_for(graph, scale, rng)
-    follow(Rollout(Policy(graph, weights), "World", graph.master), Engine(Policy(graph, weights)), seed % 1000)
+    followed(graph, weights_for(graph, scale, rng), seed)

@@ -6,11 +6,14 @@ from hypothesis import strategies as st
 from mindrun.actuators import Gripper, Servo, Wheel
 from mindrun.bodies import Disc
 from mindrun.events import Collision, Delivery, EventKind, Exhaustion, Reach, Visit
-from mindrun.graph import Actuator, Condition, Graph, Program, Reward, Task, Thing
+from mindrun.graph import Actuator, Condition, Graph, Lesson, Program, Reward, Task, Thing
+from mindrun.learners import Learner
 from mindrun.measures import Advance, Change, Forward, MeasureKind, Progress, Retreat
 from mindrun.quantity import Span
+from mindrun.registry import arguments, kinds
 from mindrun.scenes import Arena, Plain, SceneKind
 from mindrun.things import Item, Obstacle, Power, Zone
+from mindrun.weights import genes
 
 from tests.hierarchies import random_graph
 
@@ -38,7 +41,7 @@ def random_world(draw: st.DrawFn, most: int = 40) -> Graph:
     """A hierarchy with one task, World, in which what may happen happens often: all is large, and near."""
     graph = draw(random_graph())
     actuators = tuple(
-        Actuator(a.name, draw(WHEELS | WHEELS | CLAWS | st.builds(Servo, NEUTRAL))) for a in graph.actuators
+        Actuator(a.name, draw(WHEELS | WHEELS | CLAWS | st.builds(Servo, NEUTRAL, DELAY))) for a in graph.actuators
     )
     graph = replace(graph, tick=draw(st.sampled_from([1 / 60, 1 / 30, 0.1])), body=draw(BODIES), actuators=actuators)
     scene: SceneKind = draw(st.sampled_from([Plain(), Arena(20.0), Arena(33.0)]))
@@ -48,7 +51,26 @@ def random_world(draw: st.DrawFn, most: int = 40) -> Graph:
     some = st.lists(st.sampled_from(range(len(events))), unique=True, max_size=3) if events else st.just([])
     ticks = draw(st.integers(1, most))
     task = Task("World", scene, things, ticks, measures, events, tuple(draw(some)), rewards, tuple(draw(some)))
-    return replace(graph, tasks=(task,))
+    return replace(graph, tasks=(task,), lessons=tuple(draw(_lessons(graph))))
+
+
+def _lessons(graph: Graph) -> st.SearchStrategy[list[Lesson]]:
+    """Lessons of skills that learn."""
+    names = [skill.name for skill in graph.skills if genes(skill)]
+    lesson = st.builds(
+        Lesson, st.just("School"), st.sampled_from(names), st.just("World"), st.just(graph.master), st.integers(1, 9),
+        st.booleans(), st.booleans(), st.one_of(*map(_learner, kinds("curriculum").values())), st.integers(1, 9),
+    )  # fmt: skip
+    return st.lists(lesson, max_size=2) if names else st.just([])
+
+
+def _learner(of: type[Learner]) -> st.SearchStrategy[Learner]:
+    """A learner with each of its arguments as it is by default, or a little more."""
+    said = {
+        each.field: (each.default, each.default + (1 if isinstance(each.default, int) else 0.01))
+        for each in arguments(of)
+    }
+    return st.builds(of, **{field: st.sampled_from(values) for field, values in said.items()})
 
 
 @st.composite

@@ -49,13 +49,25 @@ class Elman(Function):
         """Random genomes as those of a perceptron that has the hidden neurons among its inputs."""
         return self._unrolled(inputs, outputs).draw(inputs + self.state_length(inputs, outputs), outputs, count, rng)
 
+    def widened(
+        self, weights: Weights, before: tuple[int, int], now: Function, after: tuple[int, int]
+    ) -> Weights | None:
+        """The genome in a larger one whose other weights are 0; None where anything is smaller."""
+        old, new = (self.state_length(*before), *before), (now.state_length(*after), *after)
+        if any(more < less for more, less in zip(new, old, strict=True)):
+            return None
+        (small, inputs, _), (large, more, outputs) = old, new
+        hidden, last = self._matrices(weights, *before)
+        into, out = np.zeros((large, more + large), np.float32), np.zeros((outputs, large), np.float32)
+        into[:small, :inputs], into[:small, more : more + small] = hidden[:, :inputs], hidden[:, inputs:]
+        out[: before[1], :small] = last
+        return np.concatenate([into.ravel(), out.ravel()])
+
     def ready(self, inputs: int, outputs: int, weights: Weights, sources: Mapping[str, str]) -> Compute:
         """Eq. 1 with these weights, from tick to tick."""
-        width = self.state_length(inputs, outputs)
-        if not width:
+        if not self.state_length(inputs, outputs):
             return Function.ready(self, inputs, outputs, weights, sources)
-        hidden, last = matrices(weights, self._unrolled(inputs, outputs).layers(inputs + width, outputs))
-        return Recurrent(hidden, last)
+        return Recurrent(*self._matrices(weights, inputs, outputs))
 
     def row(self, inputs: int, outputs: int) -> Mapping[str, int]:
         """Its width."""
@@ -84,6 +96,11 @@ class Elman(Function):
                 if s.sound[k] == ZERO and s.influence[skill.index, s.active[k]] != ZERO:
                     s.recurrent[skill.state + j, s.active[k]] = first[j, k]
         return half
+
+    def _matrices(self, weights: Weights, inputs: int, outputs: int) -> tuple[NDArray[np.float32], ...]:
+        """Those of the hidden neurons [width, inputs + width] and of the outputs [outputs, width]."""
+        read = inputs + self.state_length(inputs, outputs)
+        return matrices(weights, self._unrolled(inputs, outputs).layers(read, outputs))
 
     def _unrolled(self, inputs: int, outputs: int) -> Mlp:
         return Mlp(1, self.state_length(inputs, outputs))

@@ -2,8 +2,8 @@
 
 import sys
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
-from functools import lru_cache, partial
+from dataclasses import dataclass, field
+from functools import lru_cache
 from hashlib import sha256
 from io import StringIO
 from pathlib import Path
@@ -45,7 +45,32 @@ class Procedure(Function):
 
     def ready(self, inputs: int, outputs: int, weights: Weights, sources: Mapping[str, str]) -> Compute:
         """The Python function, in a module of its own."""
-        return partial(call, self.from_, load(self.from_, sources), outputs)
+        return Called(self.from_, sources, outputs)
+
+
+@dataclass(slots=True)
+class Called:
+    """A procedure at work: its function, of a module that is run anew for each run that calls it."""
+
+    calls: str
+    sources: Mapping[str, str]
+    outputs: int
+    function: Callable[..., Any] = field(init=False)
+    was_called: bool = False
+
+    def __post_init__(self) -> None:
+        """Run the module."""
+        self.function = load(self.calls, self.sources)
+
+    def reset(self) -> None:
+        """Forget what the module remembers."""
+        if self.was_called:
+            self.function, self.was_called = load(self.calls, self.sources), False
+
+    def __call__(self, inputs: NDArray[np.float32]) -> NDArray[np.float32]:
+        """Its outputs, before the clamp."""
+        self.was_called = True
+        return call(self.calls, self.function, self.outputs, inputs)
 
 
 def module_source(calls: str, folder: Path) -> str:
