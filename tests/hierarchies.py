@@ -36,10 +36,15 @@ WORLDLY = [
     Battery(),
     Battery(0.5, 0.01, 0.02),
 ]
-ROUGH = st.fixed_dictionaries({
-    "noise": st.sampled_from([0.0, 0.1, 0.2]), "lost": st.sampled_from([0.0, 0.2, 0.5]),
-    "every": st.integers(1, 3), "delay": st.integers(0, 3),
-})  # fmt: skip
+ROUGH = st.fixed_dictionaries(
+    {},
+    optional={
+        "noise": st.sampled_from([0.1, 0.2]),
+        "lost": st.sampled_from([0.2, 0.5]),
+        "every": st.integers(2, 3),
+        "delay": st.integers(1, 3),
+    },
+)
 ACTUATORS = [Wheel("left", 0.5), Wheel("right", 0.5, delay=2), Gripper(0.0), Servo(0.3)]
 CALLED = Procedure("")
 PROCEDURES = Path(__file__).parent / "procedures"  # the folder of the modules that are called
@@ -115,19 +120,17 @@ def random_case(draw: st.DrawFn, ticks: int = 6) -> Case:
 
 
 @st.composite
-def _physical_kinds(draw: st.DrawFn) -> Physical:
-    """What measures something, perfectly or not."""
+def physical_kinds(draw: st.DrawFn) -> Physical:
+    """A kind of sensor that measures something, perfectly or not."""
     kind = draw(st.sampled_from(WORLDLY))
     return replace(kind, **draw(ROUGH)) if draw(st.booleans()) else kind
-
-
-_physical = _physical_kinds()
 
 
 @st.composite
 def _senses(draw: st.DrawFn) -> tuple[tuple[Sensor, ...], tuple[Memory, ...]]:
     """Sensors and memories; derivatives of anything, and of one another."""
-    kinds = draw(st.lists(_physical | st.sampled_from(["sine", "derivative"]), min_size=2, max_size=7))
+    virtual = st.sampled_from(["sine", "derivative"])
+    kinds = draw(st.lists(physical_kinds() | physical_kinds() | virtual, min_size=2, max_size=7))
     cells = [Cell(draw(SHARES), draw(SHARES)) for _ in range(draw(st.integers(0, 2)))]
     widths = {f"m{i}": 1 for i in range(len(cells))}
     sensors: list[Sensor] = []

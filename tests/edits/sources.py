@@ -1,11 +1,14 @@
 """Hypothesis strategies for the texts of whole hierarchies, as people write them."""
 
+import re
 from dataclasses import dataclass
 from itertools import count
 from pathlib import Path
 from random import Random
 
 from hypothesis import strategies as st
+from mindrun.quantity import Reference
+from mindrun.registry import Argument, arguments, kinds
 
 from mindlang.compiler.compile import Compiled, compile_source
 from mindlang.compiler.source import Source
@@ -14,12 +17,24 @@ from mindlang.editing.project import Project, open_project
 FOLDER = Path("/nowhere/minds")
 MAIN, PARTS = FOLDER / "main.mind", FOLDER / "parts.mind"
 SKILLS = ("Go", "Avoid", "Go+Avoid", "Collect", "Fetch", "Grab", "Wait")
-NARROW = ("charge", "beat", "ball_bearing", "drift", "mood")  # readings of width 1
-BODY = ["body Robot is disc size 2", "body Robot is disc density 2 size 2"]
+FUNCTIONS = (
+    "mlp hidden 2",
+    "mlp hidden 1 width 4",
+    "mlp",
+    "elman",
+    "elman width 3",
+    "procedure from own.by",
+    "procedure from own.to",
+)
+BODY = ["body Robot is disc size 2", "body Robot is disc density 2 size 1.5"]
 ACTUATORS = {
-    "left_wheel": ["actuator left_wheel is wheel side left thrust 80 neutral 0.5"],
+    "left_wheel": [
+        "actuator left_wheel is wheel side left thrust 80 neutral 0.5",
+        "actuator left_wheel is wheel side left neutral 0.4",
+    ],
     "right_wheel": ["actuator right_wheel is wheel neutral 50% side right"],
-    "claw": ["actuator claw is gripper neutral 0"],
+    "claw": ["actuator claw is gripper neutral 0", "actuator claw is gripper neutral 10%"],
+    "mast": ["actuator mast is servo neutral 0.5", "actuator mast is servo neutral 1/4"],
 }
 SENSORS = {
     "eye": [
@@ -27,17 +42,37 @@ SENSORS = {
         "sensor eye is range_finder at -30 deg 0 deg 30 deg range 12",
     ],
     "charge": ["sensor charge is battery"],
-    "beat": ["sensor beat is sine period 2 s"],
-    "ball_bearing": ["sensor ball_bearing is bearing of ball"],
-    "drift": ["sensor drift is derivative of ball_bearing"],
-    "mood": ["memory mood is cell decay 0.9", "memory mood is cell decay 90%"],
+    "beat": ["sensor beat is sine period 2 s", "sensor beat is sine period 0.5 s"],
+    "ball_bearing": ["sensor ball_bearing is bearing of ball", "sensor ball_bearing is bearing of nest"],
+    "drift": ["sensor drift is derivative of ball_bearing", "sensor drift is derivative of north"],
+    "mood": ["memory mood is cell decay 0.9", "memory mood is cell decay 95%"],
+    "north": ["sensor north is compass"],
+    "near": ["sensor near is contact of ball", "sensor near is contact of coin"],
+    "holding": ["sensor holding is held of ball", "sensor holding is held of coin"],
+    "home": ["sensor home is inside of nest", "sensor home is inside of dock"],
+    "moving": ["sensor moving is inertial"],
 }
+NARROW = SENSORS.keys() - {"eye"}  # readings of width 1
+SCENES = ["plain", "arena size 40", "arena"]
+ROCKS = ["rock is obstacle grid 10 size 2 to 3", "rock is obstacle count 3"]
+THINGS = [
+    ["ball is item size 2 reached moves"],
+    ["coin is item"],
+    ["nest is zone size 8", "nest is zone"],
+    ["dock is power size 4", "dock is power"],
+]
 REWARDS = [
     ["rewards 10 on reach of ball"],
     ["rewards 0.01 * forward per tick"],
     ["rewards -0.03 * (1 - 4 * p) per tick for each p in eye when p < 1/4"],
     ["rewards 0.001 * progress toward ball per tick when charge > 0.5", "rewards charge / 2 per tick"],
+    ["rewards 0.1 * progress toward nest per tick", "rewards 1 on reach of dock"],
+    ["rewards 0.1 * advance toward ball per tick", "rewards 0.1 * advance toward dock per tick"],
+    ["rewards -0.1 * retreat from ball per tick", "rewards -0.1 * retreat from nest per tick"],
+    ["rewards -0.4 * change of thrust per tick", "rewards -0.4 * change of thrust beyond 20% over 4 ticks per tick"],
+    ["rewards 50 on delivery of ball", "rewards 50 on delivery of coin"],
 ]
+VISITS = ["rewards 1 on visit of patch", "rewards 1 on visit of patch size 8"]
 WORDS = ("note", "why?", "skill Go is rule", "  spaced  out", "é – “x”", "reads charge", "stays frozen", "#")
 
 
@@ -61,10 +96,13 @@ class Texts:
         return Texts(self.files | texts, self.airy)
 
 
-@st.composite
-def minds(draw: st.DrawFn) -> Texts:
+def minds() -> st.SearchStrategy[Texts]:
+    """Minds that compile."""
+    return st.randoms(use_true_random=False).map(a_mind)
+
+
+def a_mind(rng: Random) -> Texts:
     """A mind that compiles: one file or two, with LF or CRLF, with or without an end of its last line."""
-    rng = draw(st.randoms(use_true_random=False))
     declared = _declarations(rng)
     rng.shuffle(declared)
     apart = [lines for lines in declared if rng.random() < 0.3] if rng.random() < 0.3 else []
@@ -117,20 +155,45 @@ def _comment(style: _Style, numbers: "count[int]") -> str:
 
 def _declarations(rng: Random) -> list[list[str]]:
     skills = rng.sample(SKILLS, rng.randint(1, 6))
-    functions = {skill: rng.choice(["mlp hidden 2", "mlp hidden 1 width 4", "mlp", "rule"]) for skill in skills}
-    blocks = [[rng.choice(lines)] for part in (ACTUATORS, SENSORS) for lines in part.values()] + [[rng.choice(BODY)]]
+    functions = {skill: rng.choice([*FUNCTIONS, "rule", "rule"]) for skill in skills}
+    parts = [rng.choice(lines) for part in (ACTUATORS, SENSORS) for lines in part.values()] + [rng.choice(BODY)]
+    blocks = [[_more(rng, line.split()[0], line)] for line in parts]
     blocks += [_skill(rng, skill, functions[skill], skills[place + 1 :]) for place, skill in enumerate(skills)]
     tasks = rng.sample([*SKILLS[:3], "Roam"], rng.randint(1, 2))
     blocks += [_task(rng, task) for task in tasks]
-    learners = [skill for skill in skills if functions[skill] != "rule"]
+    learners = [skill for skill in skills if functions[skill].startswith(("mlp", "elman"))]
     if learners:
         lessons = [
             f"teaches {skill} on {rng.choice(tasks)} for {rng.randint(1, 9)} generations"
             + rng.choice(["", " from scratch"])
             for skill in rng.sample(learners, rng.randint(0, len(learners)))
         ]
-        blocks.append(["curriculum School is genetic population 8", *lessons])
+        learner = rng.choice(list(kinds("curriculum")))
+        blocks.append(
+            [_more(rng, "curriculum", f"curriculum School is {learner} population {rng.randint(8, 9)}"), *lessons]
+        )
     return blocks
+
+
+def _more(rng: Random, noun: str, line: str) -> str:
+    """A line that says what kind something is, with some of the arguments that it does not say."""
+    kind, *words = re.split(" is | in ", line)[1].split()
+    often = 0.5 if noun == "curriculum" else 0.2
+    for argument in arguments(kinds(noun)[kind]):
+        if not argument.required and argument.key not in words and rng.random() < often:
+            line += f" {argument.key} {_said(rng, argument)}"
+    return line
+
+
+def _said(rng: Random, argument: Argument) -> str:
+    """A value of an argument that is not its default, as it is written."""
+    if isinstance(argument.type, Reference):
+        return rng.choice([word for word in argument.type.words if word != argument.default])
+    if argument.shape == "span":
+        return rng.choice(["3 to 6", "4", "5 to 3 by 0.5"])
+    unit, factor = rng.choice([*argument.type.units.items()])
+    value = (argument.default + (5 if argument.type.high > 1 else 0.01)) / factor
+    return f"{value:g}{'' if unit == '%' else ' '}{unit}".rstrip()
 
 
 def _skill(rng: Random, name: str, function: str, below: list[str]) -> list[str]:
@@ -158,13 +221,14 @@ def _value(rng: Random, reads: list[str]) -> str:
 
 
 def _task(rng: Random, name: str) -> list[str]:
-    scene, *things = rng.choice([["plain"], ["arena size 40", "contains rock is obstacle grid 10 size 2 to 3"]])
-    rewards = [rng.choice(lines) for lines in rng.sample(REWARDS, rng.randint(1, 3))]
+    scene = rng.choice(SCENES)
+    arena = scene != "plain"
+    things = [*map(rng.choice, THINGS), *[rng.choice(ROCKS)] * (arena and rng.random() < 0.7)]
+    rewards = [rng.choice(lines) for lines in rng.sample(REWARDS + [VISITS] * arena, rng.randint(1, 3))]
     facts = [
-        *things,
-        "contains ball is item size 2 reached moves",
+        *(f"contains {_more(rng, 'content', thing)}" for thing in things),
         "lasts 600 ticks",
-        "ends on collision",
+        rng.choice(["ends on collision", "ends on exhaustion"]),
         *rewards,
         "counts reach of ball",
     ]

@@ -77,6 +77,15 @@ def test_the_lanes_remember_as_the_engine_does(seed: int) -> None:
     assert follow(learning, Engine(Policy(graph, weights)), seed, weights["Roam"]) > 20
 
 
+def test_one_that_reads_nothing_sends_nothing() -> None:
+    """In the lanes, too, whatever the skill before it has left in the rows of its outputs."""
+    graph = mind()
+    skills = tuple(replace(skill, inputs=()) if skill.name == "Roam" else skill for skill in graph.skills)
+    graph = replace(graph, skills=skills)
+    policy = Policy(graph, {})
+    assert follow(Rollout(policy, "World", "Top"), Engine(policy), 1) > 20
+
+
 def test_it_is_what_plain_python_says() -> None:
     graph, rng = mind(), np.random.default_rng(1)
     genome = drawn(graph, 1)[0]

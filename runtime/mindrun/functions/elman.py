@@ -83,8 +83,6 @@ class Elman(Function):
                 s.gathered[inputs + j, k] = s.recurrent[skill.state + j, s.active[k]]
         first, last = s.hidden[:half], s.hidden[half:]
         place = skill.weights + (inputs + width) * width
-        if width == 0:
-            return 0
         if skill.own:
             dense_own(s.genome[skill.weights :], s.gathered, inputs + width, first, width, False, n)
             dense_own(s.genome[place:], first, width, last, skill.outputs, True, n)

@@ -1,0 +1,78 @@
+"""What the tests draw is all that the language can say: every kind, and every argument of it with several values."""
+
+from collections import defaultdict
+from collections.abc import Callable, Iterable, Iterator
+from functools import cache
+from random import Random
+from typing import Any
+
+import pytest
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+from mindrun.graph import Graph
+from mindrun.registry import arguments, kinds
+
+from tests.edits.sources import a_mind
+from tests.hierarchies import physical_kinds
+from tests.sim.worlds import learner_kinds, random_world
+
+DRAWN = 120  # minds
+NOUNS = ("body", "actuator", "sensor", "memory", "skill", "task", "content", "event", "measure", "curriculum")
+ONE_VALUE = {("visit", "of"), ("change", "of")}  # the language has a single word for it
+
+Values = dict[tuple[type[Any], str], set[Any]]
+
+
+def parts(graph: Graph) -> Iterator[Any]:
+    """Every kind that stands in a mind."""
+    yield graph.body
+    yield from (part.kind for part in (*graph.sensors, *graph.memories, *graph.actuators))
+    yield from (skill.function for skill in graph.skills)
+    yield from (lesson.learner for lesson in graph.lessons)
+    for task in graph.tasks:
+        yield task.scene
+        yield from (thing.kind for thing in task.things)
+        yield from (*task.events, *task.measures)
+
+
+def of_worlds() -> Iterable[Any]:
+    """Kinds in worlds that are drawn, and more of those that have too many arguments for so few worlds."""
+    found: list[Any] = []
+
+    @settings(max_examples=DRAWN, database=None, suppress_health_check=list(HealthCheck))
+    @given(random_world(), st.lists(physical_kinds() | learner_kinds(), min_size=8))
+    def draw(graph: Graph, more: list[Any]) -> None:
+        found.extend((*parts(graph), *more))
+
+    draw()
+    return found
+
+
+def of_texts() -> Iterator[Any]:
+    """Kinds in texts that are drawn."""
+    for seed in range(DRAWN):
+        graph = a_mind(Random(seed)).compiled().graph
+        assert graph
+        yield from parts(graph)
+
+
+@cache
+def values(drawn: Callable[[], Iterable[Any]]) -> Values:
+    """The values of every argument of every kind; "" stands for the kind itself."""
+    found: Values = defaultdict(set)
+    for part in drawn():
+        found[type(part), ""].add(())
+        for argument in arguments(type(part)):
+            found[type(part), argument.field].add(getattr(part, argument.field))
+    return found
+
+
+@pytest.mark.parametrize("drawn", [of_worlds, of_texts])
+@pytest.mark.parametrize("noun", NOUNS)
+def test_every_kind_is_drawn_with_every_argument(drawn: Callable[[], Iterable[Any]], noun: str) -> None:
+    found = values(drawn)
+    for kind, cls in kinds(noun).items():
+        assert (cls, "") in found, f"no {noun} is drawn that is {kind}"
+        for argument in arguments(cls):
+            said = found[cls, argument.field]
+            assert len(said) > 1 or (kind, argument.key) in ONE_VALUE, f"{noun} {kind}: {argument.key} is always {said}"
