@@ -60,10 +60,7 @@ def command(file: str, output: Path, master: str | None, robot: Path | None, as_
     wiring = _wiring(robot, replace(compiled.graph, master=master or compiled.graph.master)) if robot else None
     try:
         ready = make_ready(compiled.graph, compiled.sources, master)
-        if ready.refusals:
-            for refusal in ready.refusals[:-1]:
-                say(refusal)
-            fail(ready.refusals[-1], f"mindc train {file}")
+        _refuse_missing(ready, file)
         procedures = procedure_sources(ready.policy.graph, compiled.sources[0].folder)
         digest = write_bundle(output, Bundle(ready.policy, procedures, wiring))
     except MindError as error:
@@ -78,6 +75,16 @@ def command(file: str, output: Path, master: str | None, robot: Path | None, as_
         policy = ready.policy
         wired = f", wired to {wiring.robot}" if wiring else ""
         click.echo(f"{output}: {policy.graph.master} in charge, {len(policy.weights)} trained skills{wired}", err=True)
+
+
+def _refuse_missing(ready: Ready, file: str) -> None:
+    """End the program where a skill that can act has no weights that fit."""
+    from mindlang.cli._terminal import fail, say
+
+    for refusal in ready.refusals[:-1]:
+        say(refusal)
+    if ready.refusals:
+        fail(ready.refusals[-1], f"mindc train {file}")
 
 
 def _refuse_procedures(compiled: Compiled, master: str | None) -> None:

@@ -1,8 +1,16 @@
 """`mindc diff`: what changed in meaning between two minds, and which weights survive it."""
 
+from __future__ import annotations
+
 import sys
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
 
 import click
+
+if TYPE_CHECKING:
+    from mindlang.compiler.comparison import Difference
+    from mindlang.lock.report import Row
 
 EXAMPLES = """\b
 Examples:
@@ -22,7 +30,7 @@ def command(old: str, new: str, as_json: bool) -> None:
     spellings of the same do not count. Standard input uses the files of the working directory. Ends with 0 where
     nothing changed, with 1 where something did.
     """
-    from mindlang.cli._terminal import FINDINGS, OK, console, load_compiled, print_json
+    from mindlang.cli._terminal import FINDINGS, OK, load_compiled, print_json
     from mindlang.compiler.comparison import differences
     from mindlang.lock import lock_path
     from mindlang.lock.report import as_data, rows
@@ -43,16 +51,22 @@ def command(old: str, new: str, as_json: bool) -> None:
             }
         )
     else:
-        from rich.text import Text
-
-        from mindlang.lock.report import survival
-
-        for each in found:
-            console().print(Text(each.what, "bold"))
-            for line in each.gone:
-                console().print(Text(f"  - {line}", "red"))
-            for line in each.new:
-                console().print(Text(f"  + {line}", "green"))
-        for line in survival(standing):
-            console().print(Text(line))
+        _print(found, standing)
     sys.exit(FINDINGS if found else OK)
+
+
+def _print(found: Sequence[Difference], standing: Sequence[Row]) -> None:
+    """The differences line by line, then which weights still fit."""
+    from rich.text import Text
+
+    from mindlang.cli._terminal import console
+    from mindlang.lock.report import survival
+
+    for each in found:
+        console().print(Text(each.what, "bold"))
+        for line in each.gone:
+            console().print(Text(f"  - {line}", "red"))
+        for line in each.new:
+            console().print(Text(f"  + {line}", "green"))
+    for line in survival(standing):
+        console().print(Text(line))

@@ -9,7 +9,7 @@ from mindlang.compiler.compile import load
 from mindlang.compiler.resolve.curricula import SWITCHES
 from mindlang.explaining.explanation import ERRORS, Explanation, errors, explanations
 from tests.explain.examples import write
-from tests.project.sources import COMPILER, modules, tree
+from tests.project.sources import COMPILER, RUNTIME, modules, tree
 
 ALL = list(errors())
 EMITTERS = {"error", "refuse", "Diagnostic", "Mistake"}
@@ -29,7 +29,7 @@ WITHOUT_EXAMPLES = FILES | {"impossible-edit", "damaged-lock", "too-many-things"
 def emitted() -> set[str]:
     """The codes of all diagnostics in the sources of the compiler."""
     found: set[str] = set()
-    for node in (node for path in modules(COMPILER) for node in ast.walk(tree(path))):
+    for node in (node for path in modules(COMPILER, RUNTIME / "things") for node in ast.walk(tree(path))):
         if isinstance(node, ast.Call) and _name(node.func) in EMITTERS and node.args:
             match node.args[0]:
                 case ast.Constant(value=str(code)):

@@ -22,11 +22,8 @@ LONG_FILES = {
     "tests/lock/test_worlds.py": "one mind with every kind, and what is noticed of each",
 }
 LONG_FUNCTIONS = {
-    "mindlang/cli/build.py: command": "a command line, most of it click's options",
-    "mindlang/cli/deploy.py: command": "a command line, most of it click's options",
-    "mindlang/cli/diff.py: command": "a command line, most of it click's options",
-    "mindlang/cli/train.py: command": "a command line, most of it click's options",
-    "runtime/mindrun/sim/tables.py: build": "one value with all tables, each named once",
+    "mindlang/cli/deploy.py: command": "a parameter in a line of its own for each option of the command",
+    "mindlang/cli/train.py: command": "a parameter in a line of its own for each option of the command",
 }
 METAPHORS = {
     *(
@@ -95,13 +92,7 @@ SHORT_CONSTANTS = {  # that are numbers of one word, or vague elsewhere
     "runtime/mindrun/robot/drivers/pca9685.py": "registers and bits, as the data sheet calls them",
     "runtime/mindrun/trigonometry.py": "the coefficients of Cody and Waite, in their order",
     "runtime/mindrun/arithmetic.py": "rows of a thing and lanes of a vector, which kinds name in every loop",
-    "runtime/mindrun/sim/cache.py": "a folder",
     "runtime/mindrun/sim/exact.py": "functions of one argument",
-    "runtime/mindrun/sim/lanes/chipmunk.py": "what Chipmunk is told, in its own words",
-    "runtime/mindrun/sim/lanes/placement.py": "the step between two numbers that are drawn",
-    "runtime/mindrun/sim/lanes/reach.py": "a code",
-    "runtime/mindrun/sim/rollout.py": "ticks between two looks",
-    "runtime/mindrun/sim/state.py": "rows of handles",
     "runtime/mindrun/sim/codes.py": "the codes of the tables, in the words of the language",
     "runtime/mindrun/sim/vector.py": "operations of vectors",
 }

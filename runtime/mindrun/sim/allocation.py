@@ -109,13 +109,13 @@ def _mind(tables: Tables, sizes: Sizes, room: _Room) -> Mind:
 
 
 def _contact(tables: Tables, sizes: Sizes, room: _Room) -> Contact:
-    shapes = len(tables.things) + sizes.boxes + chipmunk.WALLS
+    shapes = len(tables.things) + sizes.boxes + chipmunk.WALL_COUNT
     return Contact(
         near=room.each(),
         touching=room.each(),
         handles=room.columns(chipmunk.FIRST_HELD + shapes, np.uint64),
         gap=room.each(np.float64),
-        floats=room.columns(chipmunk.FLOATS),
+        floats=room.columns(chipmunk.BODY_FLOATS),
         batch=room.columns(chipmunk.BATCH_WORDS, np.int64),
         touches=room.each(),
     )

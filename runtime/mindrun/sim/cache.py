@@ -22,8 +22,8 @@ from llvmlite.binding import get_host_cpu_features, get_host_cpu_name
 
 from mindrun.sim.numba_internals import KeptCode, made_for, packed, unpacked
 
-HERE = Path(__file__).parent
-SHIPPED = HERE / "compiled"  # in the wheel
+SIM_FOLDER = Path(__file__).parent
+SHIPPED = SIM_FOLDER / "compiled"  # in the wheel
 # The kinds of processors for which wheels have machine code, and what one must have to run it, as LLVM writes it.
 PROCESSORS = {"x86-64-v3": "+avx,+avx2,+bmi,+bmi2,+f16c,+fma,+lzcnt,+movbe,+popcnt,+sse4.2", "generic": "+neon"}
 HASH_BYTES = 32
@@ -34,9 +34,9 @@ def stamp() -> str:
     """What all machine code depends on but the processor: numba would not notice when a callee elsewhere changes."""
     versions = f"{sys.implementation.cache_tag} {numba.__version__} {llvmlite.__version__}"
     digest = sha256(versions.encode())
-    beside = [HERE.parent / name for name in ("arithmetic.py", "sigmoid.py", "trigonometry.py")]
-    kinds = (path for noun in ("sensors", "functions") for path in HERE.parent.glob(f"{noun}/*.py"))
-    for path in sorted([*HERE.glob("*.py"), *HERE.glob("lanes/*.py"), *kinds, *beside]):
+    beside = [SIM_FOLDER.parent / name for name in ("arithmetic.py", "sigmoid.py", "trigonometry.py")]
+    kinds = (path for noun in ("sensors", "functions") for path in SIM_FOLDER.parent.glob(f"{noun}/*.py"))
+    for path in sorted([*SIM_FOLDER.glob("*.py"), *SIM_FOLDER.glob("lanes/*.py"), *kinds, *beside]):
         digest.update(path.read_bytes())
     return digest.hexdigest()[:16]
 

@@ -19,7 +19,7 @@ from mindrun.sim.versions import remedy
 
 ffi, lib = _chipmunk.ffi, _chipmunk.lib
 
-FRICTION = 0.2  # Box2D's default; elasticity is 0 in both engines
+FRICTION_COEFFICIENT = 0.2  # Box2D's default; elasticity is 0 in both engines
 PERSISTENCE_TICKS = 3  # for which Chipmunk remembers a contact that is no more
 LAYOUT: Mapping[str, tuple[int, Mapping[str, int]]] = {  # the size of a structure and where its fields stand, in bytes
     "pmFloatArray": (16, {"num": 0, "max": 4, "arr": 8}),
@@ -41,22 +41,17 @@ FUNCTIONS = (
     SHAPE_FRICTION, SHAPE_SENSOR, CIRCLE_RADIUS, BODY_GET, BODY_SET, EACH_ARBITER, COUNT,
 ) = range(len(FUNCTIONS) + 1)  # fmt: skip
 
-SPACE, BODY, ROBOT, FIRST_HELD = range(
-    4
-)  # columns of `handles`; after the shapes that can be held the boxes, the walls
-WALLS = 4
-FLOATS = 16  # of a lane: a body's nine in the order of its fields, and more than pymunk's arrays need to never grow
+# Columns of `handles`; after the shapes that can be held come the boxes, then the walls.
+SPACE, BODY, ROBOT, FIRST_HELD = range(4)
+WALL_COUNT = 4
+BODY_FLOATS = 16  # of a lane: a body has nine, in the order of its fields; with so many pymunk's arrays never grow
 MOTION_FIELDS = ("POSITION", "ANGLE", "VELOCITY", "ANGULAR_VELOCITY")  # six floats, as the rows of a body
 PUSH_FIELDS = ("FORCE", "TORQUE")
-MOTIONS, FLOAT_FORCE_X, FLOAT_FORCE_Y, FLOAT_TORQUE = (
-    6,
-    6,
-    7,
-    8,
-)  # how many floats are motion, and where the others stand
+MOTION_FLOATS = 6
+FLOAT_FORCE_X, FLOAT_FORCE_Y, FLOAT_TORQUE = 6, 7, 8  # where they stand behind the motion
 # Words of a lane's `batch`: a pmFloatArray, then a pmBatchedData over it for what is got and one for what is set.
-ARRAY_NUMBERS, ARRAY_FLOATS, GOT, SET, BATCH_WORDS = 0, 1, 2, 5, 8
-EMPTY_ARRAY = FLOATS << 32  # num = 0 in the lower half of an array's first word, max in the upper
+ARRAY_NUMBERS, ARRAY_FLOATS, GET_BATCH, SET_BATCH, BATCH_WORDS = 0, 1, 2, 5, 8
+EMPTY_ARRAY = BODY_FLOATS << 32  # num = 0 in the lower half of an array's first word, max in the upper
 
 
 def refuse_another() -> None:
@@ -114,14 +109,14 @@ def prepare(handles: Any, floats: Any, batch: Any, radius: float, holds: list[fl
         for number, hold in enumerate([0.0, *holds]):
             if hold is not None:
                 shape = lib.cpCircleShapeNew(ffi.NULL, radius if number == 0 else 1.0, (hold, 0.0))
-                lib.cpShapeSetFriction(shape, FRICTION)
+                lib.cpShapeSetFriction(shape, FRICTION_COEFFICIENT)
                 lib.cpShapeSetSensor(shape, number > 0)
                 kept.append(ffi.gc(shape, lib.cpShapeFree))
                 handles[lane, ROBOT + number] = int(ffi.cast("uintptr_t", shape))
         here = batch[lane].ctypes.data
         batch[lane, ARRAY_NUMBERS], batch[lane, ARRAY_FLOATS] = EMPTY_ARRAY, floats[lane].ctypes.data
-        batch[lane, GOT : GOT + 3] = 0, here, motion
-        batch[lane, SET : SET + 3] = 0, here, motion | _fields(PUSH_FIELDS)
+        batch[lane, GET_BATCH : GET_BATCH + 3] = 0, here, motion
+        batch[lane, SET_BATCH : SET_BATCH + 3] = 0, here, motion | _fields(PUSH_FIELDS)
     return kept
 
 

@@ -84,13 +84,8 @@ def skill_rows(
         if genes(skill) and not own:
             shared = np.concatenate([shared, weights_of(skill, weights)])
         state += function.state_length(count, outputs)
-    return Skills(
-        rows=records(rows, SKILL),
-        edges=records(edges, EDGE),
-        inputs=np.array(inputs, np.int64),
-        weights=shared,
-        state=state,
-    )
+    all_inputs = np.array(inputs, np.int64)
+    return Skills(rows=records(rows, SKILL), edges=records(edges, EDGE), inputs=all_inputs, weights=shared, state=state)
 
 
 def _edge(graph: Graph, edge: Edge, codes: Programs) -> Row:

@@ -23,7 +23,7 @@ from mindrun.sim.threads import in_threads
 
 Array = NDArray[Any]
 DEFAULT_LANES = 256
-SLICE, SLOW_SLICE = 1000, 20  # ticks between two looks at whether to stop; where procedures run in Python
+SLICE_TICKS, SLOW_SLICE_TICKS = 1000, 20  # ticks between two looks at whether to stop; where procedures run in Python
 
 
 @dataclass(frozen=True, slots=True)
@@ -135,7 +135,7 @@ class Rollout:
         self.fill(tile, mine)
         told, working = 0.0, 1
         while working and not stop.is_set():
-            working = self.advance(tile, mine, SLOW_SLICE if self.procedures.slow else SLICE)
+            working = self.advance(tile, mine, SLOW_SLICE_TICKS if self.procedures.slow else SLICE_TICKS)
             done = int(mine.next[0]) - working + float(tile.state.world.tick[:working].sum()) / self.task.ticks
             ran(done - told)
             told = done

@@ -20,11 +20,11 @@ from mindrun.sim.chipmunk_internals import (
     FLOAT_FORCE_X,
     FLOAT_FORCE_Y,
     FLOAT_TORQUE,
-    GOT,
-    MOTIONS,
+    GET_BATCH,
+    MOTION_FLOATS,
     POLY_NEW,
     ROBOT,
-    SET,
+    SET_BATCH,
     SHAPE_BODY,
     SHAPE_FREE,
     SHAPE_FRICTION,
@@ -44,10 +44,10 @@ from mindrun.sim.chipmunk_internals import (
 )
 from mindrun.sim.codes import FORCE_X, FORCE_Y, TORQUE
 from mindrun.sim.compiling import compiled
-from mindrun.sim.lanes.placement import ENDLESS
+from mindrun.sim.lanes.placement import ENDLESS_UNITS
 
-ITERATIONS = 8
-WALL = 1.0  # half the thickness of a wall, outside the arena
+SOLVER_ITERATIONS = 8
+HALF_WALL_UNITS = 1.0  # half the thickness of a wall, outside the arena
 HASH_COUNT = 20
 
 
@@ -56,7 +56,7 @@ def open_space(tables, world, contact, lane):
     """A Space with a lane's obstacles and walls, and its robot with the circles that it can hold."""
     library, constants, handles = tables.library, tables.world[0], contact.handles[lane]
     space = call(library[SPACE_NEW])
-    call(library[SPACE_ITERATIONS], space, ITERATIONS)
+    call(library[SPACE_ITERATIONS], space, SOLVER_ITERATIONS)
     call(library[SPACE_HASH], space, constants.cell, HASH_COUNT)
     add_boxes(library, space, world.boxes[lane], constants.half, handles, len(tables.things), contact.floats[lane])
     body = call(library[BODY_NEW], constants.mass, constants.moment)
@@ -78,8 +78,8 @@ def add_boxes(library, space, boxes, half, handles, things, corners):
         x, y, side = boxes[box + X], boxes[box + Y], boxes[box + HALF_SIDE]
         handles[shape + b] = add_box(library, space, static, corners, x - side, y - side, x + side, y + side)
     shape += count
-    if half < ENDLESS:
-        outer = half + 2 * WALL
+    if half < ENDLESS_UNITS:
+        outer = half + 2 * HALF_WALL_UNITS
         handles[shape] = add_box(library, space, static, corners, -outer, -outer, -half, outer)
         handles[shape + 1] = add_box(library, space, static, corners, half, -outer, outer, outer)
         handles[shape + 2] = add_box(library, space, static, corners, -outer, -outer, outer, -half)
@@ -121,12 +121,12 @@ def close_space(library, handles, things):
 def push_body(tables, world, contact, lane):
     """A lane's state, force and torque into its body; what the claw holds becomes solid, what it dropped does not."""
     library, floats, batch, handles = tables.library, contact.floats[lane], contact.batch[lane], contact.handles[lane]
-    for i in range(MOTIONS):
+    for i in range(MOTION_FLOATS):
         floats[i] = world.body[i, lane]
     floats[FLOAT_FORCE_X], floats[FLOAT_FORCE_Y] = world.push[FORCE_X, lane], world.push[FORCE_Y, lane]
     floats[FLOAT_TORQUE] = world.push[TORQUE, lane]
     batch[ARRAY_NUMBERS] = EMPTY_ARRAY
-    call(library[BODY_SET], handles[BODY], batch[SET:].ctypes.data)
+    call(library[BODY_SET], handles[BODY], batch[SET_BATCH:].ctypes.data)
     for i in range(len(tables.things)):
         circle, is_held = handles[FIRST_HELD + i], world.held[lane] == i
         if circle != 0:
@@ -141,8 +141,8 @@ def step_space(tables, world, contact, lane):
     library, batch, handles = tables.library, contact.batch[lane], contact.handles[lane]
     call(library[SPACE_STEP], handles[SPACE], tables.world[0].dt)
     batch[ARRAY_NUMBERS] = EMPTY_ARRAY
-    call(library[BODY_GET], handles[BODY], batch[GOT:].ctypes.data)
-    for i in range(MOTIONS):
+    call(library[BODY_GET], handles[BODY], batch[GET_BATCH:].ctypes.data)
+    for i in range(MOTION_FLOATS):
         world.body[i, lane] = contact.floats[lane, i]
     contact.touches[lane] = 0
     call(library[EACH_ARBITER], handles[BODY], library[COUNT], contact.touches[lane:].ctypes.data)

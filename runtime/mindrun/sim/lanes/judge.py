@@ -24,7 +24,7 @@ from mindrun.sim.codes import (
 )
 from mindrun.sim.compiling import compiled
 from mindrun.sim.lanes.evaluate import evaluate
-from mindrun.sim.lanes.reach import BEGUN, become, meet
+from mindrun.sim.lanes.reach import REACH_BEGUN, become, meet
 from mindrun.sim.state import PLACE_ROWS
 
 
@@ -131,9 +131,9 @@ def notice(tables, world, contact, visited, event, out, lanes):
     for lane in range(lanes):
         happened = False
         if kind == REACH:
-            happened = world.reached[i, lane] == BEGUN
+            happened = world.reached[i, lane] == REACH_BEGUN
         elif kind == DELIVERY:
-            happened = world.delivered[i, lane] == BEGUN
+            happened = world.delivered[i, lane] == REACH_BEGUN
         elif kind == VISIT:
             patch = event.board + patch_of(world.body, tables.world[0].half, event.patch, event.columns, lane)
             happened = visited[lane, patch] == 0

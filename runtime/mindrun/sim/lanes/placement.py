@@ -13,9 +13,9 @@ from mindrun.sim.compiling import compiled
 
 GOLDEN, MIX_1, MIX_2 = np.uint64(0x9E3779B97F4A7C15), np.uint64(0xBF58476D1CE4E5B9), np.uint64(0x94D049BB133111EB)
 S30, S27, S31, S11 = np.uint64(30), np.uint64(27), np.uint64(31), np.uint64(11)
-UNIT = 2.0**-53
+UNIFORM_STEP = 2.0**-53
 MAX_TRIES = 1000
-ENDLESS = 1e300  # half the side of what is no arena is infinite, above this
+ENDLESS_UNITS = 1e300  # half the side of what is no arena is infinite, above this
 
 
 @compiled
@@ -26,7 +26,7 @@ def uniform(random, lane, low, high):
     z = (z ^ (z >> S30)) * MIX_1
     z = (z ^ (z >> S27)) * MIX_2
     z = z ^ (z >> S31)
-    return low + (high - low) * (np.float64(z >> S11) * UNIT)
+    return low + (high - low) * (np.float64(z >> S11) * UNIFORM_STEP)
 
 
 @compiled
@@ -85,7 +85,7 @@ def start(world, half, radius, lane):
     """The robot at rest: in the origin of a plain scene, anywhere clear in an arena; facing anywhere."""
     body, random, room = world.body, world.random, half - 3 * radius
     body[:, lane] = 0.0
-    if half < ENDLESS:
+    if half < ENDLESS_UNITS:
         for _ in range(MAX_TRIES):
             body[X, lane] = uniform(random, lane, -room, room)
             body[Y, lane] = uniform(random, lane, -room, room)
@@ -114,7 +114,7 @@ def find(tables, world, low, high, extent, but, lane):
     half, margin, body = tables.world[0].half, extent + 2 * tables.world[0].radius, world.body
     x, y = 0.0, 0.0
     for _ in range(MAX_TRIES):
-        if half < ENDLESS:
+        if half < ENDLESS_UNITS:
             room = max(half - extent - 2 * tables.world[0].radius, 0.0)
             x, y = uniform(world.random, lane, -room, room), uniform(world.random, lane, -room, room)
         else:

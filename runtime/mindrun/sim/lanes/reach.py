@@ -9,7 +9,7 @@ from mindrun.sim.codes import ITEM, MOVES, STAYS, VANISHES, ZONE
 from mindrun.sim.compiling import compiled
 from mindrun.sim.lanes.placement import succeed, vanish
 
-BEGUN = 1  # in this tick and not in the one before
+REACH_BEGUN = 1  # in this tick and not in the one before
 
 
 @compiled
@@ -40,7 +40,7 @@ def meet(tables, world, lanes):
 def note(rows, i, lane, now):
     """One more tick of thing i; 1 where it begins to be so."""
     rows[i, lane] = (rows[i, lane] & 1) << 1 | (1 if now else 0)
-    return 1 if rows[i, lane] == BEGUN else 0
+    return 1 if rows[i, lane] == REACH_BEGUN else 0
 
 
 @compiled
@@ -61,8 +61,8 @@ def become(tables, world, lanes):
         if thing.reached == STAYS and thing.delivered == STAYS:
             continue
         for lane in range(lanes):
-            outcome = thing.reached if world.reached[i, lane] == BEGUN else STAYS
-            if world.delivered[i, lane] == BEGUN:
+            outcome = thing.reached if world.reached[i, lane] == REACH_BEGUN else STAYS
+            if world.delivered[i, lane] == REACH_BEGUN:
                 outcome = max(outcome, thing.delivered)
             if outcome == MOVES:
                 succeed(tables, world, i, lane)
