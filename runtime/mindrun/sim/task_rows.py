@@ -9,8 +9,19 @@ from numpy.typing import NDArray
 from mindrun.graph import Graph, Reward, Sensor, Task, Thing
 from mindrun.registry import names
 from mindrun.sensors import Battery
-from mindrun.sim.codes import COMPARES, EVENT_CODES, MEASURE_CODES, THING_CODES, WORLD
+from mindrun.sim.codes import (
+    COMPARES,
+    EVENT,
+    EVENT_CODES,
+    MEASURE_CODES,
+    MEASURES,
+    OBSTACLE,
+    THING,
+    THING_CODES,
+    WORLD,
+)  # fmt: skip
 from mindrun.sim.programs import Programs
+from mindrun.sim.records import Row, records
 from mindrun.things import OUTCOMES, STAYS
 
 Array = NDArray[Any]
@@ -29,59 +40,60 @@ def box_count(task: Task) -> int:
     return sum(thing.kind.obstacles(task.scene) for thing in task.things)
 
 
-def thing_rows(graph: Graph, task: Task) -> list[Any]:
+def thing_rows(graph: Graph, task: Task) -> Array:
     """Rows of THING, the items, zones and powers in the order of the source."""
-    rows = []
+    rows: list[Row] = []
     asked = {(event.outcome, event.thing) for event in task.events if event.outcome}
     for thing in things_of(task):
         kind, size = thing.kind, thing.kind.size
-        drawn = size.by is None and size.first != size.last
-        hold = graph.body.radius + kind.largest / 2
-        becomes = {what: kind.outcomes.get(what, STAYS) for what in ("reached", "delivered")}
-        noticed = [how != STAYS or (what, thing.name) in asked for what, how in becomes.items()]
-        rows.append((
-            THING_CODES[names()[type(kind)]], size.first, size.last, size.by or 0.0, *kind.distances(task.scene),
-            hold, drawn, *map(OUTCOMES.index, becomes.values()), *noticed,
-        ))  # fmt: skip
-    return rows
+        low, high = kind.distances(task.scene)
+        row: dict[str, float] = {
+            "kind": THING_CODES[names()[type(kind)]], "first": size.first, "last": size.last, "by": size.by or 0.0,
+            "low": low, "high": high, "hold": graph.body.radius + kind.largest / 2,
+            "drawn": size.by is None and size.first != size.last,
+        }  # fmt: skip
+        for what in ("reached", "delivered"):
+            outcome = kind.outcomes.get(what, STAYS)
+            row[what] = OUTCOMES.index(outcome)
+            row[f"is_{what}"] = outcome != STAYS or (what, thing.name) in asked
+        rows.append(row)
+    return records(rows, THING)
 
 
-def obstacle_rows(task: Task) -> list[Any]:
+def obstacle_rows(task: Task) -> Array:
     """Rows of OBSTACLE."""
-    rows = []
-    for thing in task.things:
-        if thing.kind.is_obstacle:
-            size, row = thing.kind.size, thing.kind.row(task.scene)
-            said = (row.get(column, 0.0) for column in ("grid", "jitter", "lines", "count"))
-            rows.append((size.first, size.last, *said, *thing.kind.distances(task.scene)))
-    return rows
+    rows: list[Row] = []
+    for kind in (thing.kind for thing in task.things if thing.kind.is_obstacle):
+        low, high = kind.distances(task.scene)
+        row = {"first": kind.size.first, "last": kind.size.last, "low": low, "high": high}
+        rows.append({**row, **kind.row(task.scene)})
+    return records(rows, OBSTACLE)
 
 
-def measure_rows(task: Task) -> tuple[list[Any], int]:
+def measure_rows(task: Task) -> tuple[Array, int]:
     """Rows of MEASURES, and how many changes of thrust are remembered."""
     places = _places(task)
-    rows: list[Any] = []
+    rows: list[Row] = []
     ring = 0
     for measure in task.measures:
-        code, beyond = MEASURE_CODES[names()[type(measure)]], measure.row().get("beyond", 0.0)
-        over = measure.remembered
-        rows.append((code, places[measure.thing], beyond, over, ring if over else 0))
+        code, over = MEASURE_CODES[names()[type(measure)]], measure.remembered
+        row = {"kind": code, "thing": places[measure.thing], "over": over, "ring": ring if over else 0}
+        rows.append({**row, **measure.row()})
         ring += over
-    return rows, ring
+    return records(rows, MEASURES), ring
 
 
-def event_rows(task: Task) -> tuple[list[Any], int]:
+def event_rows(task: Task) -> tuple[Array, int]:
     """Rows of EVENT, and how many patches there are to visit."""
     places = _places(task)
-    rows: list[Any] = []
+    rows: list[Row] = []
     board = 0
     for i, event in enumerate(task.events):
-        row = event.row(task.scene)
-        columns = int(row.get("columns", 0))
-        code, patch = EVENT_CODES[names()[type(event)]], row.get("patch", 1.0)
-        rows.append((code, places[event.thing], columns, patch, board, i in task.ends))
-        board += columns * columns
-    return rows, board
+        own, code = event.row(task.scene), EVENT_CODES[names()[type(event)]]
+        row = {"kind": code, "thing": places[event.thing], "patch": 1.0, "board": board, "ends": i in task.ends}
+        rows.append({**row, **own})
+        board += int(own.get("columns", 0)) ** 2
+    return records(rows, EVENT), board
 
 
 def _places(task: Task) -> dict[str, int]:
