@@ -26,7 +26,7 @@ def test_what_is_installed_here_is_known() -> None:
     chipmunk_internals.refuse_another()
 
 
-@pytest.mark.parametrize("found", ["0.60.9", "0.69.0", "0.69.0rc1", "1.0", "0.7"])
+@pytest.mark.parametrize("found", ["0.61.2", "0.62.1", "0.69.0", "0.69.0rc1", "1.0", "0.7"])
 def test_another_version_is_refused(found: str, monkeypatch: pytest.MonkeyPatch) -> None:
     first, last = versions.KNOWN["numba"]
     monkeypatch.setattr(versions, "version", lambda name: found if name == "numba" else versions.KNOWN[name][0])
@@ -37,7 +37,7 @@ def test_another_version_is_refused(found: str, monkeypatch: pytest.MonkeyPatch)
     assert e.value.hint == f"pip install 'numba>={first},<{last}'"
 
 
-@pytest.mark.parametrize("found", ["0.61", "0.61.0rc2", "0.68.1", "0.68.10"])
+@pytest.mark.parametrize("found", ["0.63", "0.63.0rc2", "0.68.1", "0.68.10"])
 def test_a_known_version_is_taken(found: str, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(versions, "version", lambda name: found if name == "numba" else versions.KNOWN[name][0])
     versions.refuse_unknown()
@@ -72,5 +72,5 @@ def test_a_user_reads_one_sentence(optimised: str) -> None:
         env=os.environ | {"PYTHONOPTIMIZE": optimised}, cwd=ROOT, capture_output=True, text=True, check=False,
     )  # fmt: skip
     assert said.returncode == 1
-    assert said.stderr.splitlines()[0].endswith("99.0 is installed, and the simulator knows 0.44 to below 0.51")
+    assert said.stderr.splitlines()[0].endswith("99.0 is installed, and the simulator knows 0.46 to below 0.51")
     assert "Traceback" not in said.stderr

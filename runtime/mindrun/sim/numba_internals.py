@@ -1,4 +1,4 @@
-"""What is known of numba's insides, held against numba 0.61 to 0.68 with llvmlite 0.44 to 0.50 (`versions`).
+"""What is known of numba's insides, held against numba 0.63 and 0.68 (`versions`).
 
 How a function is compiled into one piece of machine code with all that it calls, called from C, kept and taken back;
 what is more is in numba's documentation, above all `numba.extending`.

@@ -6,8 +6,8 @@ from importlib.metadata import version
 
 from mindrun.errors import MindError
 
-# from the first to below the last; pyproject.toml asks for the same
-KNOWN: Mapping[str, tuple[str, str]] = {"llvmlite": ("0.44", "0.51"), "numba": ("0.61", "0.69"), "pymunk": ("7.2", "8")}
+# From the first to below the last; pyproject.toml asks for the same. Numba 0.62 has no `_reload_init` to link with.
+KNOWN: Mapping[str, tuple[str, str]] = {"llvmlite": ("0.46", "0.51"), "numba": ("0.63", "0.69"), "pymunk": ("7.2", "8")}
 
 
 def refuse_unknown() -> None:

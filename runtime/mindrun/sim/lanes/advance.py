@@ -180,45 +180,50 @@ def finish(tables, state, jobs, lane):
 
 
 @compiled
-def move(state, a, b):
-    """Lane a becomes lane b, whose own run is over. What is of this tick stays; the circles move with their Space."""
-    move_world(state.world, a, b)
+def move(state, source, target):
+    """A lane takes the place of one whose run is over. What is of this tick stays; the circles go with their Space."""
+    move_world(state.world, source, target)
     mind, sight, judge, contact, run = state.mind, state.sight, state.judge, state.contact, state.run
     for rows in (mind.readings, mind.before, mind.measured, mind.rings, mind.genome, mind.recurrent):
-        copy_lane(rows, a, b)
+        copy_lane(rows, source, target)
     for rows in (mind.late, mind.commands, judge.last_commands):
-        copy_lane(rows, a, b)
+        copy_lane(rows, source, target)
     for rows in (sight.nearby, sight.anchor, judge.left_changes, judge.right_changes, judge.lines):
-        copy_lane(rows, a, b)
-    copy_lane(judge.counts, a, b)
-    copy_row(judge.visited, a, b)
+        copy_lane(rows, source, target)
+    copy_lane(judge.counts, source, target)
+    copy_row(judge.visited, source, target)
     for numbers in (sight.nearby_count, contact.near, contact.touching, run.job, run.ended, run.faults):
-        numbers[b] = numbers[a]
-    for i in range(contact.handles.shape[1]):
-        contact.handles[a, i], contact.handles[b, i] = contact.handles[b, i], contact.handles[a, i]
+        numbers[target] = numbers[source]
+    handles = contact.handles
+    for i in range(handles.shape[1]):
+        handles[source, i], handles[target, i] = handles[target, i], handles[source, i]
 
 
 @compiled
-def move_world(world, a, b):
-    """The world of lane a becomes that of lane b."""
+def move_world(world, source, target):
+    """The world of one lane becomes that of the other."""
     for rows in (world.body, world.heading, world.things, world.trail):
-        copy_lane(rows, a, b)
+        copy_lane(rows, source, target)
     for rows in (world.reached, world.delivered):
-        copy_lane(rows, a, b)
-    copy_row(world.boxes, a, b)
-    world.held[b], world.tick[b], world.battery[b] = world.held[a], world.tick[a], world.battery[a]
-    world.random[b], world.random_aside[b] = world.random[a], world.random_aside[a]
+        copy_lane(rows, source, target)
+    copy_row(world.boxes, source, target)
+    world.held[target], world.tick[target], world.battery[target] = (
+        world.held[source],
+        world.tick[source],
+        world.battery[source],
+    )
+    world.random[target], world.random_aside[target] = world.random[source], world.random_aside[source]
 
 
 @compiled
-def copy_lane(rows, a, b):
-    """Lane a of rows [row, lane] to lane b."""
+def copy_lane(rows, source, target):
+    """One lane of rows [row, lane] to another."""
     for i in range(rows.shape[0]):
-        rows[i, b] = rows[i, a]
+        rows[i, target] = rows[i, source]
 
 
 @compiled
-def copy_row(columns, a, b):
-    """Lane a of columns [lane, column] to lane b."""
+def copy_row(columns, source, target):
+    """One lane of columns [lane, column] to another."""
     for i in range(columns.shape[1]):
-        columns[b, i] = columns[a, i]
+        columns[target, i] = columns[source, i]
