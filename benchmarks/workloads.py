@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 import mindlang
 from mindlang.compiler.compile import Compiled, compile_source, load
 from mindlang.compiler.source import Source
-from mindlang.lock.ready import Ready, make_ready
+from mindlang.lock.ready import ReadyMind, make_ready
 
 Weights = dict[str, NDArray[np.float32]]
 # The first seed of `random_weights` under which all skills of the example are awake and nearly all robots move; and one
@@ -35,7 +35,7 @@ def graph_of(compiled: Compiled) -> Graph:
     return compiled.graph
 
 
-def shipped(name: str) -> Ready:
+def shipped(name: str) -> ReadyMind:
     """A file of the examples' folder collect/ with the weights of its locks."""
     compiled = load(COLLECT.with_name(name))
     return make_ready(graph_of(compiled), compiled.sources)

@@ -30,7 +30,7 @@ from mindlang.editing.apply import Edited, apply_edit
 from mindlang.editing.project import EditError, open_project
 from mindlang.editing.summary import broken_neighbours, diff, summarise
 from mindlang.editing.writing import write
-from mindlang.lock.ready import Ready, make_ready
+from mindlang.lock.ready import ReadyMind, make_ready
 from mindlang.resource_limits import refuse_too_large, refuse_too_many
 from mindlang.run.layouts import NO_GENOME, layouts
 from mindlang.run.outcome import bench_data
@@ -183,7 +183,7 @@ class Mind:
     def _folder(self) -> Path:
         return self.path.absolute().parent
 
-    def _ready(self, master: str | None) -> Ready:
+    def _ready(self, master: str | None) -> ReadyMind:
         if master is not None:
             self._refuse_unknown(master)
         ready = make_ready(self.graph, self.compiled.sources, master)
@@ -191,7 +191,7 @@ class Mind:
             raise self._untaught(ready)
         return ready
 
-    def _untaught(self, ready: Ready) -> MindError:
+    def _untaught(self, ready: ReadyMind) -> MindError:
         return MindError(ready.refusals[-1], f"mind.train() teaches it, or: mindc train {self.path}")
 
     def _refuse_unknown(self, skill: str) -> None:

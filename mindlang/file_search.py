@@ -19,7 +19,7 @@ MAX_READ_CHARACTERS = 8 << 20  # of all of them together
 SKIPPED_FOLDERS = ("node_modules", "build", "dist", "runs")
 
 
-def beside(folder: Path, suffix: str = ".mind") -> list[Path]:
+def files_beside(folder: Path, suffix: str = ".mind") -> list[Path]:
     """The files of a folder with this ending, sorted; none where the folder cannot be read."""
     try:
         with os.scandir(folder) as entries:
@@ -30,7 +30,7 @@ def beside(folder: Path, suffix: str = ".mind") -> list[Path]:
         return []
 
 
-def below(folder: Path, suffix: str = ".mind") -> Iterator[Path]:
+def files_below(folder: Path, suffix: str = ".mind") -> Iterator[Path]:
     """The files in a folder and in those below it, but for hidden ones and those in which nobody writes."""
     left = MAX_FOLDER_ENTRIES
     for at, folders, files in os.walk(folder):
@@ -41,7 +41,7 @@ def below(folder: Path, suffix: str = ".mind") -> Iterator[Path]:
             return
 
 
-def above(path: Path) -> list[Path]:
+def folders_above(path: Path) -> list[Path]:
     """The folders from which a file can be used: its own and those above, but for the root of everything."""
     return [folder for folder in path.parents if folder != folder.parent]
 

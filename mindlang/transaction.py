@@ -14,7 +14,7 @@ from hashlib import sha256
 from pathlib import Path
 from stat import S_ISREG
 
-from mindrun.atomic_write import alone, exchange, spare, sync_folder, write
+from mindrun.atomic_write import exchange, exclusive_access, spare, sync_folder, write
 from mindrun.errors import MindError
 from mindrun.regular_files import read_whole
 
@@ -46,7 +46,7 @@ def change(folder: Path, files: Mapping[Path, bytes], check: Callable[[], None] 
             kinds = ", ".join(CHANGED_SUFFIXES[:-1]) + f" and {CHANGED_SUFFIXES[-1]}"
             raise TransactionError(f"{path} cannot be changed together with others: it is a link, or none of {kinds}")
     waiting = set[Path]()
-    with alone(folder):
+    with exclusive_access(folder):
         try:
             _put_back(folder)
             check()
@@ -82,7 +82,7 @@ def _is_left(folder: Path) -> bool:
 
 
 def _recovered(folder: Path) -> bool:
-    with alone(folder):  # not while that change is still going on
+    with exclusive_access(folder):  # not while that change is still going on
         return _put_back(folder)
 
 

@@ -12,7 +12,7 @@ from mindlang.compiler.model import Condition, Expression, Reward, Task
 
 
 @dataclass(frozen=True, slots=True)
-class World:
+class AnalysedWorld:
     """The things in a world that sensors can be about, whether anything is solid, and whether the battery charges."""
 
     study: Study
@@ -70,18 +70,20 @@ class World:
         return not all(battery.start and not battery.drain for battery in batteries)
 
 
-def world(study: Study, task: Task) -> World:
+def world(study: Study, task: Task) -> AnalysedWorld:
     """The world of a task."""
     is_solid = task.scene.is_bounded or any(thing.kind.is_solid for thing in task.things)
     items = (thing for thing in task.things if thing.kind.can_be_held)
     fleeting = {thing.name for thing in items if thing.kind.outcomes.get("reached", STAYS) != STAYS}
-    return World(study, _named([task]), is_solid, _charges([task]), frozenset(fleeting))
+    return AnalysedWorld(study, _named([task]), is_solid, _charges([task]), frozenset(fleeting))
 
 
-def any_world(study: Study) -> World:
+def any_world(study: Study) -> AnalysedWorld:
     """A world in which there is everything that any task has."""
     tasks = study.mind.tasks
-    return World(study, _named(tasks), is_solid=True, charges=not tasks or _charges(tasks), fleeting=frozenset())
+    return AnalysedWorld(
+        study, _named(tasks), is_solid=True, charges=not tasks or _charges(tasks), fleeting=frozenset()
+    )
 
 
 def _named(tasks: Iterable[Task]) -> frozenset[str]:

@@ -26,7 +26,7 @@ from mindlang.lock import LockError
 from mindlang.training.lesson_choice import TrainOptions, chosen_lessons, is_due
 from mindlang.training.results import Result, opening, outcome
 from mindlang.training.subject import Subject, begin_run, open_subject, refuse_changed, refuse_frozen
-from mindlang.training.teaching import Taught, finish, has_ended, rollout_of
+from mindlang.training.teaching import TeachingResult, finish, has_ended, rollout_of
 
 
 @dataclass(frozen=True, slots=True)
@@ -97,7 +97,9 @@ class Trainer:
         return True
 
     @procedures_talk()
-    def _finished(self, run: RunFolder, subject: Subject, state: LessonState, rollout: Rollout, force: bool) -> Taught:
+    def _finished(
+        self, run: RunFolder, subject: Subject, state: LessonState, rollout: Rollout, force: bool
+    ) -> TeachingResult:
         try:
             return finish(run, subject, state, rollout, force)
         except LockError as error:

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from mindrun.wiring import Wiring
 
     from mindlang.compiler.compile import Compiled
-    from mindlang.lock.ready import Ready
+    from mindlang.lock.ready import ReadyMind
 
 EXAMPLES = """\b
 Examples:
@@ -77,7 +77,7 @@ def command(file: str, output: Path, master: str | None, robot: Path | None, as_
         click.echo(f"{output}: {policy.graph.master} in charge, {len(policy.weights)} trained skills{wired}", err=True)
 
 
-def _refuse_missing(ready: Ready, file: str) -> None:
+def _refuse_missing(ready: ReadyMind, file: str) -> None:
     """End the program where a skill that can act has no weights that fit."""
     from mindlang.cli._terminal import fail, say
 
@@ -112,7 +112,7 @@ def _wiring(path: Path, graph: Graph) -> Wiring:
     return checked.wiring
 
 
-def _built(output: Path, digest: str, ready: Ready, wiring: Wiring | None) -> dict[str, object]:
+def _built(output: Path, digest: str, ready: ReadyMind, wiring: Wiring | None) -> dict[str, object]:
     from mindrun.bundle import fingerprint
 
     robot = {"robot": {"name": wiring.robot, "wiring": fingerprint(wiring)}} if wiring else {}

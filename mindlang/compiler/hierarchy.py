@@ -49,12 +49,12 @@ def parents_first(children: Mapping[T, Iterable[T]]) -> list[T]:
     return order
 
 
-def reached(skills: Mapping[str, Skill], master: str) -> set[str]:
+def skills_reached(skills: Mapping[str, Skill], master: str) -> set[str]:
     """The names of the skills that a master influences, itself among them; there may be cycles yet."""
     return reached_from([master], lambda name: skills[name].subskills)
 
 
-def above(skills: Iterable[Skill], names: Iterable[str]) -> set[str]:
+def skills_above(skills: Iterable[Skill], names: Iterable[str]) -> set[str]:
     """The names of the skills that influence some of these, straight or through others, and these themselves."""
     parents: dict[str, list[str]] = {}
     for skill in skills:

@@ -5,7 +5,7 @@ from os.path import realpath
 from pathlib import Path
 
 from mindlang.compiler.compile import Compiled, load
-from mindlang.file_search import above, beside, text_of, within_read_limits
+from mindlang.file_search import files_beside, folders_above, text_of, within_read_limits
 
 
 def neighbours(files: Collection[Path]) -> Iterator[Compiled]:
@@ -14,8 +14,8 @@ def neighbours(files: Collection[Path]) -> Iterator[Compiled]:
     A file is used from its own folder or one above, so it is there that they can be.
     """
     main, *_ = files
-    folders = dict.fromkeys(folder for file in files for folder in above(file))
-    paths = (path for folder in folders for path in beside(folder) if path != main)
+    folders = dict.fromkeys(folder for file in files for folder in folders_above(file))
+    paths = (path for folder in folders for path in files_beside(folder) if path != main)
     for path, text in sorted(within_read_limits((path, text_of(path)) for path in paths)):
         if path in files or 'use "' in text:  # most of those that lie about need not be compiled
             compiled = load(path)

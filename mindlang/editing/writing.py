@@ -13,7 +13,7 @@ from mindlang.editing.apply import Edited
 from mindlang.editing.lock_update import locks_of
 from mindlang.editing.project import EditError
 from mindlang.lock import lock_text
-from mindlang.lock.blobs import FOLDER, alone
+from mindlang.lock.blobs import FOLDER, exclusive_folder
 
 
 def write(edited: Edited) -> None:
@@ -24,7 +24,7 @@ def write(edited: Edited) -> None:
     files |= {path: encoded(path, text) for path, text in edited.texts.items()}
     with ExitStack() as stack:
         for weights in sorted({path.parent / FOLDER for path in locks}):
-            stack.enter_context(alone(weights))  # a training may keep what it has taught just now
+            stack.enter_context(exclusive_folder(weights))  # a training may keep what it has taught just now
         transaction.change(_folder(files), files, lambda: _refuse_changed(edited))
 
 

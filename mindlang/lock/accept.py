@@ -8,7 +8,7 @@ from mindrun.graph import Graph, Lesson
 from mindrun.weights import genes, learners, reachable
 
 from mindlang.lock import Entry, Lock, LockError, lock_path, read_lock, read_locks, write_lock
-from mindlang.lock.blobs import FOLDER, alone
+from mindlang.lock.blobs import FOLDER, exclusive_folder
 from mindlang.lock.status import Trained, status
 from mindlang.lock.training_world import LessonKey, TrainingWorld
 from mindlang.lock.world_facts import Worlds, in_question, key_of, key_of_taught, last_lesson
@@ -34,7 +34,7 @@ def accept(graph: Graph, sources: Sequence[Path], skills: Sequence[str]) -> None
 
 def _write(path: Path, entries: Lock) -> None:
     try:
-        with alone(path.parent / FOLDER):
+        with exclusive_folder(path.parent / FOLDER):
             write_lock(path, read_lock(path) | dict(entries))
     except OSError as error:
         raise LockError(f"{path} cannot be written: {error.strerror}") from error

@@ -62,7 +62,7 @@ def record(
         entry = _entry(path, graph, skill, weights, taught)
         entries[skill] = replace(entry, worlds=_worlds(begun_with.get(skill), world))
     try:
-        with alone(path.parent / FOLDER):
+        with exclusive_folder(path.parent / FOLDER):
             lock = read_lock(path)
             for skill, entry in entries.items():
                 write(blob(path.parent, entry.weights), to_npy(learnt[skill]))
@@ -94,10 +94,10 @@ def digest(weights: Weights) -> str:
 
 
 @contextmanager
-def alone(folder: Path) -> Iterator[None]:
+def exclusive_folder(folder: Path) -> Iterator[None]:
     """Let one process at a time change a folder of weights and the locks beside it."""
     folder.mkdir(exist_ok=True)
-    with atomic_write.alone(folder):
+    with atomic_write.exclusive_access(folder):
         yield
 
 

@@ -8,7 +8,7 @@ from pathlib import Path
 from mindrun.regular_files import read_regular
 
 from mindlang.lock import LockError, read_lock
-from mindlang.lock.blobs import FOLDER, alone
+from mindlang.lock.blobs import FOLDER, exclusive_folder
 
 _BLOB = re.compile(r"(?P<hash>[0-9a-f]{64})\.npy")
 
@@ -26,7 +26,7 @@ def remove(blobs: list[Path]) -> None:
     """Remove those of these files that still no lock names; LockError where that fails."""
     for folder in sorted({blob.parent.parent for blob in blobs}):
         try:
-            with alone(folder / FOLDER):  # a training may be writing a lock
+            with exclusive_folder(folder / FOLDER):  # a training may be writing a lock
                 for blob in sorted(set(_unnamed(folder)) & set(blobs)):
                     blob.unlink()
         except OSError as error:

@@ -8,7 +8,7 @@ from mindrun.things import MOVES
 EVENTS = {"reached": "reach", "delivered": "delivery"}
 
 
-def brought_along(facts: Mapping[str, Any]) -> dict[str, Any]:
+def migrate_facts(facts: Mapping[str, Any]) -> dict[str, Any]:
     """The facts of a world; a thing moved where a reward or an end of its task named it.
 
     What was only counted is not known, so nothing is said of that.

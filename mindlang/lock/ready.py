@@ -15,7 +15,7 @@ from mindlang.lock.status import UNKNOWN, Status, Trained, status, trained_weigh
 
 
 @dataclass(frozen=True, slots=True)
-class Ready:
+class ReadyMind:
     """A policy, with its master and the weights of all skills below it; `refusals` say what is missing.
 
     `notes` say which of these skills were taught in a world that is not the mind's, or is not known.
@@ -26,7 +26,7 @@ class Ready:
     notes: tuple[str, ...]
 
 
-def make_ready(graph: Graph, sources: Iterable[Source], master: str | None = None) -> Ready:
+def make_ready(graph: Graph, sources: Iterable[Source], master: str | None = None) -> ReadyMind:
     """The graph of these sources with the weights of their locks; LockError where a lock or weights are damaged."""
     sources = tuple(sources)
     lock = read_locks(source.path for source in sources)
@@ -35,7 +35,7 @@ def make_ready(graph: Graph, sources: Iterable[Source], master: str | None = Non
     weights, refusals = trained_weights(graph, lock, frozenset(needed))
     states = status(graph, lock, sources[0].folder)
     acting = {name: states[name] for name in needed}
-    return Ready(
+    return ReadyMind(
         Policy(graph, weights), tuple(refusals), (*elsewhere_sentences(acting), *unknown_world_sentences(acting))
     )
 

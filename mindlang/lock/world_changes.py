@@ -4,7 +4,7 @@ from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
-from mindlang.lock.older_worlds import brought_along
+from mindlang.lock.older_worlds import migrate_facts
 from mindlang.lock.training_world import TrainingWorld
 from mindlang.lock.wording import argument, number
 
@@ -14,7 +14,7 @@ NOUNS = {"thing": "content"}  # of the registry, where it says another
 
 def changes(old: TrainingWorld, now: TrainingWorld) -> list[str]:
     """Each difference as a sentence. The order of lines is none, nor what a skill reads or sends beside its `at`s."""
-    return [*_changes(brought_along(old.facts), now.facts)]
+    return [*_changes(migrate_facts(old.facts), now.facts)]
 
 
 def _changes(old: Mapping[str, Any], now: Mapping[str, Any]) -> Iterator[str]:

@@ -6,7 +6,7 @@ amount is always 0. Learning goes on without it and nobody notices.
 
 from mindlang.analysis.intervals import range_in_words
 from mindlang.analysis.study import Finding, Found, Study
-from mindlang.analysis.worlds import World, world
+from mindlang.analysis.worlds import AnalysedWorld, world
 from mindlang.compiler.diagnostic import Fix
 from mindlang.compiler.model import Condition, Reward
 from mindlang.compiler.source import Span
@@ -46,7 +46,7 @@ def check(study: Study) -> Found:
                 yield Finding(span, f"This reward is never paid: {message}.", hint, fix=fix)
 
 
-def _why(place: World, reward: Reward) -> tuple[Span, str, str] | None:
+def _why(place: AnalysedWorld, reward: Reward) -> tuple[Span, str, str] | None:
     fact = reward.fact
     if reward.on and fact.on and (why := reward.on.prevented(place)):
         return fact.on.span, *why
@@ -58,6 +58,6 @@ def _why(place: World, reward: Reward) -> tuple[Span, str, str] | None:
     return None
 
 
-def _never(place: World, when: Condition, reward: Reward) -> str:
+def _never(place: AnalysedWorld, when: Condition, reward: Reward) -> str:
     left, right = (range_in_words(place.value(side, reward)) for side in (when.left, when.right))
     return f"{when.left.span.text} is {left}, never {WORDS[when.compare]} {right.removeprefix('always ')}"

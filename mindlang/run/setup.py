@@ -14,7 +14,7 @@ from mindrun.weights import genes, reachable
 
 from mindlang.compiler.compile import Compiled
 from mindlang.compiler.diagnostic import did_you_mean, listed
-from mindlang.lock.ready import Ready, make_ready
+from mindlang.lock.ready import ReadyMind, make_ready
 
 if TYPE_CHECKING:
     from mindrun.sim.rollout import Rollout
@@ -34,7 +34,7 @@ class RunSetup:
 
     task: Task
     master: str
-    ready: Ready
+    ready: ReadyMind
     folder: Path
     note: str = ""
 
@@ -90,7 +90,7 @@ def unknown(noun: str, name: str, known: Sequence[str]) -> Never:
     raise SetupError(f"there is no {noun} called {name}", hint, misuse=True)
 
 
-def _missing(ready: Ready) -> list[str]:
+def _missing(ready: ReadyMind) -> list[str]:
     """The skills without weights that fit, subskills first."""
     reached = reachable(ready.policy.graph, ready.policy.graph.master)
     return [skill.name for skill in reversed(reached) if genes(skill) and skill.name not in ready.policy.weights]

@@ -8,7 +8,7 @@ from pathlib import Path
 
 from mindlang.compiler.syntax import NOUNS, SETTINGS
 from mindlang.editing.project import OWNERS
-from mindlang.file_search import below
+from mindlang.file_search import files_below
 from mindlang.server.facts import FACTS, CursorLine
 from mindlang.server.offers import Offer, arguments_of, functions, kinds_of, words
 from mindlang.server.view import MindView, declaration_at
@@ -78,5 +78,5 @@ def _header(line: CursorLine, noun: str, rest: Sequence[str]) -> list[Offer]:
 
 def _paths(path: Path) -> list[Offer]:
     """The files that a file can use: those beside it and below."""
-    found = (other for other in below(path.parent) if other != path)
+    found = (other for other in files_below(path.parent) if other != path)
     return [Offer(other.relative_to(path.parent).as_posix(), "file") for other in islice(found, MAX_OFFERED_FILES)]

@@ -12,7 +12,7 @@ from mindlang.compiler.parse import parse
 from mindlang.compiler.source import Source, Span
 from mindlang.compiler.syntax import Argument, Contains, File, Name, Phrase, Use
 from mindlang.editing.references import Mention, introductions
-from mindlang.file_search import below, text_of, within_read_limits
+from mindlang.file_search import files_below, text_of, within_read_limits
 from mindlang.server.tree import path_to
 from mindlang.server.view import MindView
 from mindlang.server.workspace import Workspace
@@ -125,7 +125,7 @@ def _procedure(file: File, offset: int) -> list[Span]:
 
 def everything(workspace: Workspace, folders: Iterable[Path], query: str) -> list[Symbol]:
     """The declarations whose names hold the letters of a query in their order, by file."""
-    paths = dict.fromkeys(chain(workspace.texts, (path for folder in folders for path in below(folder))))
+    paths = dict.fromkeys(chain(workspace.texts, (path for folder in folders for path in files_below(folder))))
     files = within_read_limits((path, workspace.text(path)) for path in paths)
     found = (symbol for path, text in files for symbol in _declared(path, text))
     return list(islice((symbol for symbol in found if _fits(query.lower(), symbol.name.lower())), MAX_SYMBOLS))

@@ -12,7 +12,7 @@ from mindrun.registry import Argument, arguments, kinds
 from mindlang.compiler.names import things_of
 from mindlang.compiler.resolve.kinds import about
 from mindlang.compiler.syntax import Declaration
-from mindlang.file_search import beside, text_of
+from mindlang.file_search import files_beside, text_of
 from mindlang.server.describing import argument_line, kind_card, meaning
 from mindlang.server.view import MindView
 from mindlang.server.words import WORDS
@@ -156,5 +156,5 @@ def _named(view: MindView, noun: str, kind: str, parameter: Argument, task: Decl
 
 def functions(folder: Path) -> list[str]:
     """`module.function` for each function of the modules in a folder that has a name of the language."""
-    modules = [path for path in beside(folder, ".py") if "a" <= path.name[0] <= "z"][:MAX_MODULES]
+    modules = [path for path in files_beside(folder, ".py") if "a" <= path.name[0] <= "z"][:MAX_MODULES]
     return [f"{path.stem}.{name}" for path in modules for name in _FUNCTION.findall(text_of(path))]

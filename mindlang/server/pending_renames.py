@@ -17,7 +17,7 @@ from mindlang.editing.lock_update import Locks, locks_of, merged, update_locks
 from mindlang.editing.project import EditError, MindChange, Renamed, Replaced
 from mindlang.lock import Lock, lock_text
 from mindlang.lock.arrange import arrange
-from mindlang.lock.blobs import FOLDER, alone
+from mindlang.lock.blobs import FOLDER, exclusive_folder
 from mindlang.lock.status import Trained, status
 
 
@@ -95,7 +95,7 @@ def _write(before: Locks, now: Locks) -> None:
 
     with ExitStack() as stack:
         for folder in sorted({path.parent / FOLDER for path in now}):
-            stack.enter_context(alone(folder))
+            stack.enter_context(exclusive_folder(folder))
         for folder in sorted({path.parent for path in now}):
             files = {path: lock_text(lock).encode() for path, lock in now.items() if path.parent == folder}
             transaction.change(folder, files, refuse_changed)

@@ -9,7 +9,7 @@ from typing import Any
 from mindrun.weights import genes
 
 from mindlang.compiler.diagnostic import listed
-from mindlang.compiler.hierarchy import above, reached
+from mindlang.compiler.hierarchy import skills_above, skills_reached
 from mindlang.compiler.syntax import Declaration, Drives, Influences, Reads, Stays
 from mindlang.editing.project import EditError, Project, facts, has_outputs, kind_of
 from mindlang.server.changing import proposed
@@ -186,12 +186,12 @@ def replacements(project: Project, skill: str) -> list[str]:
     """Skills that are not above it; those that drive other actuators are refused by the edit itself."""
     skills = {known.name: known for known in project.mind.skills}
     parents = {name for name, known in skills.items() if skill in known.subskills}
-    higher = above(skills.values(), parents)
+    higher = skills_above(skills.values(), parents)
     others = (
         name
         for name in skills
         if name != skill
-        and (name not in higher or (name in parents and not (parents - {name}) & reached(skills, name)))
+        and (name not in higher or (name in parents and not (parents - {name}) & skills_reached(skills, name)))
     )
     return [*islice(others, 8 * MAX_TARGETS)]
 
@@ -210,5 +210,5 @@ def lesson(project: Project, skill: str) -> dict[str, Any]:
 def _below(project: Project, skill: str) -> list[str]:
     """The skills that a skill could influence without a circle, and does not."""
     skills = {known.name: known for known in project.mind.skills}
-    not_below = {*skills[skill].subskills, *above(skills.values(), [skill])}
+    not_below = {*skills[skill].subskills, *skills_above(skills.values(), [skill])}
     return [name for name in skills if name not in not_below]

@@ -8,7 +8,7 @@ from pathlib import Path
 
 from mindlang.compiler.compile import Compiled, load
 from mindlang.compiler.source import within
-from mindlang.file_search import above, beside, text_of, within_read_limits
+from mindlang.file_search import files_beside, folders_above, text_of, within_read_limits
 from mindlang.server.view import MindView, view
 
 _MASTER = re.compile(r"^[ \t]*master\b", re.MULTILINE)
@@ -77,9 +77,9 @@ class Workspace:
 
         As many as an editor can wait for.
         """
-        folders = dict.fromkeys(folder for path in paths for folder in above(path))
+        folders = dict.fromkeys(folder for path in paths for folder in folders_above(path))
         open_ = (other for other in self.texts if other.parent in folders)
-        others = dict.fromkeys(chain(open_, chain.from_iterable(map(beside, folders))))
+        others = dict.fromkeys(chain(open_, chain.from_iterable(map(files_beside, folders))))
         yield from within_read_limits((other, self.text(other)) for other in others if [other] != [*paths])
 
     def _users(self, path: Path) -> list[Path]:

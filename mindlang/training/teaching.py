@@ -15,7 +15,7 @@ from mindlang.training.subject import Subject
 
 
 @dataclass(frozen=True, slots=True)
-class Taught:
+class TeachingResult:
     """What came of a run that has ended."""
 
     result: Result
@@ -40,7 +40,7 @@ def rollout_of(run: RunFolder, subject: Subject, workers: int) -> Rollout:
     return rollout
 
 
-def finish(run: RunFolder, subject: Subject, state: LessonState, rollout: Rollout, force: bool) -> Taught:
+def finish(run: RunFolder, subject: Subject, state: LessonState, rollout: Rollout, force: bool) -> TeachingResult:
     """Put what a run has taught into the lock, unless what is there does better; with `force` even then.
 
     MindError where nothing was learnt, or the lock is damaged.
@@ -48,7 +48,7 @@ def finish(run: RunFolder, subject: Subject, state: LessonState, rollout: Rollou
     kept = keep(run, subject, state, rollout, force)
     result = result_of(run, state, kept)
     keep_result(run.folder, result)
-    return Taught(result, kept)
+    return TeachingResult(result, kept)
 
 
 def has_ended(run: RunFolder, state: LessonState) -> bool:

@@ -45,7 +45,7 @@ def write_out(path: Path, data: bytes) -> None:
 def rewrite(path: Path, data: bytes, was: bytes) -> None:
     """Write a file anew that has been read as `was`; OSError, too, where somebody has written it since."""
     path = destination(path)
-    with alone(path.parent):
+    with exclusive_access(path.parent):
         exchange(path, data, was)
 
 
@@ -123,7 +123,7 @@ def refuse(path: Path) -> None:
 
 
 @contextmanager
-def alone(folder: Path) -> Iterator[None]:
+def exclusive_access(folder: Path) -> Iterator[None]:
     """Let one process at a time change files of a folder."""
     descriptor = os.open(folder, os.O_RDONLY)
     try:

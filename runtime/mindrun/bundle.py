@@ -12,7 +12,7 @@ from typing import Any
 
 from mindrun.archive import read_archive, write_archive
 from mindrun.atomic_write import write_out
-from mindrun.bundle_migration import brought_along, with_whole_lessons
+from mindrun.bundle_migration import migrate_graph, with_whole_lessons
 from mindrun.codec import encode
 from mindrun.encoding import decode, decode_wiring
 from mindrun.errors import BundleError, WeightsError
@@ -138,7 +138,7 @@ def _bundle(members: dict[str, bytes]) -> Bundle:
         raise BundleError(_foreign(manifest))
     data = with_whole_lessons(_document(members, GRAPH))
     if manifest["format"] in OLDER_FORMATS:
-        data = brought_along(data)
+        data = migrate_graph(data)
         manifest = manifest | {"format": OLDER_FORMATS[manifest["format"]]}
     graph = decode(data)
     weights = {name: read_weights(content) for name, content in _below(members, WEIGHTS, ".npy")}

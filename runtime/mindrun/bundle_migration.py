@@ -7,7 +7,7 @@ from mindrun.registry import kinds
 from mindrun.things import MOVES, STAYS
 
 
-def brought_along(graph: Any) -> Any:
+def migrate_graph(graph: Any) -> Any:
     """The data of a graph from before things said what becomes of them: one moved where a line of its task named it.
 
     Data that is no graph stays as it is: who decodes it says what is wrong.

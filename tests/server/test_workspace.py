@@ -72,8 +72,8 @@ def test_no_more_is_looked_through_than_one_can_wait_for(tmp_path: Path, monkeyp
         (tmp_path / f"f{number:02}.mind").write_text("x")
         (tmp_path / f"d{number:02}").mkdir()
         (tmp_path / f"d{number:02}" / "g.mind").write_text("x")
-    assert len(file_search.beside(tmp_path)) <= 10
-    assert 0 < len([*file_search.below(tmp_path)]) <= 10
+    assert len(file_search.files_beside(tmp_path)) <= 10
+    assert 0 < len([*file_search.files_below(tmp_path)]) <= 10
     assert len([*file_search.within_read_limits((Path(str(n)), "x" * (1 << 20)) for n in range(99))]) == 8
     assert len([*file_search.within_read_limits((Path(str(n)), "") for n in range(9999))]) == file_search.MAX_READ_FILES
 

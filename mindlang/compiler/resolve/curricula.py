@@ -9,7 +9,7 @@ from mindrun.registry import kinds
 
 from mindlang.compiler import model
 from mindlang.compiler.diagnostic import Findings, listed
-from mindlang.compiler.hierarchy import reached
+from mindlang.compiler.hierarchy import skills_reached
 from mindlang.compiler.names import Names
 from mindlang.compiler.resolve.kinds import Scope, a_name, make, once, overrides
 from mindlang.compiler.resolve.parts import refuse_facts
@@ -104,7 +104,7 @@ def _check_switches(written: tuple[Argument, ...], findings: Findings) -> None:
 
 def _check_learns(fact: Teaches, skills: Mapping[str, model.Skill], with_subskills: bool, findings: Findings) -> None:
     """Report a lesson in which nobody learns."""
-    taught = reached(skills, fact.skill.text) if with_subskills else {fact.skill.text}
+    taught = skills_reached(skills, fact.skill.text) if with_subskills else {fact.skill.text}
     functions = [skills[name].function for name in taught]
     if None in functions or any(function.learns for function in functions):
         return
@@ -117,7 +117,7 @@ def _check_learns(fact: Teaches, skills: Mapping[str, model.Skill], with_subskil
 
 def _check_reached(fact: Teaches, master: Name, skills: Mapping[str, model.Skill], findings: Findings) -> None:
     """Report a learner that the master never influences: nothing that it does would show."""
-    if fact.skill.text not in reached(skills, master.text):
+    if fact.skill.text not in skills_reached(skills, master.text):
         hint = f"Let {master.text} or a skill below it influence {fact.skill.text}, or leave under out."
         message = f"{master.text} has no influence on {fact.skill.text}, which would learn nothing."
         findings.error("out-of-reach", master.span, message, hint)
