@@ -28,6 +28,7 @@ SENSORS = {
     "inside": ("inside of spot", 1),
     "inertial": ("inertial", 1),
     "battery": ("battery", 1),
+    "compass": ("compass", 1),
 }
 MIND = """\
 tick 1/20 s
