@@ -33,8 +33,29 @@ QUICK_TASKS = (
 GUARDIAN = ("frames", "urgent", "main", "decisions", "guard", "plan", "output", "serving", "client", "process")
 ROOMS = {
     "engine": Room(
-        tuple(f"{R}{name}.py" for name in ("engine", "virtual", "expression", "sigmoid", "portable", "functions/mlp")),
+        tuple(f"{R}{name}.py" for name in ("engine", "virtual_sensors", "expression", "sigmoid", "arithmetic")),
         tuple(f"tests/engine/test_{name}.py" for name in ("influence", "sound", "procedure", "bits")),
+    ),
+    "functions": Room(
+        (f"{R}functions/*.py",),
+        (
+            "tests/engine/test_procedure.py",
+            *(f"tests/functions/test_{name}.py" for name in ("recurrent_mind", "elman")),
+            "tests/engine/test_bits.py",
+            "tests/edits/test_weights.py",
+        ),
+        interpreted=True,
+    ),
+    "sensors": Room(
+        (f"{R}sensors/*.py",),
+        (
+            "tests/sensors/test_compass.py",
+            *(f"tests/sim/test_rough_sensors.py::{name}" for name in QUICK_SENSORS),
+            "tests/lint/test_rule_cases.py",
+            "tests/engine/test_bits.py",
+            "tests/sim/test_random_worlds.py",
+        ),
+        interpreted=True,
     ),
     "think": Room((f"{R}think.py",), ("tests/engine/test_influence.py", "tests/engine/test_bits.py")),
     "lanes": Room(
@@ -75,7 +96,7 @@ ROOMS = {
         ),
     ),
     "bundle": Room(
-        (f"{R}bundle.py", f"{R}encoding.py", f"{R}sound.py", f"{R}weights.py"),
+        tuple(f"{R}{name}.py" for name in ("bundle", "codec", "encoding", "policy", "validate", "weights")),
         tuple(
             f"tests/engine/test_{name}.py"
             for name in ("sound", "npy", "older", "resealed_bundle", "weights", "bundle", "encoding", "influence")
