@@ -9,13 +9,14 @@ import sys
 import time
 
 import numpy as np
-from learning import FRESH_LAYOUTS
 from mindrun.graph import Graph, Lesson
 from mindrun.policy import Policy
 from mindrun.sim.rollout import Rollout, cores
 from mindrun.train.lesson import teach
 from mindrun.train.lesson_state import Course, begin
-from workloads import COLLECT, collect
+
+from benchmarks.learning import FRESH_LAYOUTS
+from benchmarks.workloads import COLLECT, collect
 
 sys.path.append(str(COLLECT.parent / "paper"))
 from protocol import SUCCESS

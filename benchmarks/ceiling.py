@@ -10,11 +10,11 @@ from dataclasses import dataclass, field
 from math import atan2, inf, pi
 
 import numpy as np
-from commanded import Commanded
 from mindrun.sim.rollout import Rollout
 from numpy.typing import NDArray
-from workloads import COLLECT, graph_of, shipped
 
+from benchmarks.commanded import Commanded
+from benchmarks.workloads import COLLECT, graph_of, shipped
 from mindlang.compiler.compile import load
 
 REPLAN_TICKS = 120  # ticks after which a way is planned anew
@@ -134,7 +134,8 @@ def delivered(name: str, runs: int) -> Array:
     ready = shipped(name)
     rollout = Rollout(ready.policy, "Collect", "Collect", interrupt=False)
     none = np.zeros((1, 0), np.float32)
-    return rollout.score(none, [*range(1, runs + 1)]).counts[0].astype(float)
+    objects: Array = rollout.score(none, [*range(1, runs + 1)]).counts[0].astype(float)
+    return objects
 
 
 def main() -> None:

@@ -32,8 +32,8 @@ def main() -> None:
         found[name] = {"median": median(taken), "min": min(taken), "max": max(taken)}
     if options.json:
         print(json.dumps(found))
-    for name, taken in () if options.json else found.items():
-        print(f"{name}: {taken['median']:.3f} s  ({taken['min']:.3f} .. {taken['max']:.3f})")
+    for name, spread in () if options.json else found.items():
+        print(f"{name}: {spread['median']:.3f} s  ({spread['min']:.3f} .. {spread['max']:.3f})")
 
 
 if __name__ == "__main__":

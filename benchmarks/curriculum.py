@@ -15,8 +15,8 @@ from shutil import copy
 from tempfile import TemporaryDirectory
 from typing import Any
 
-from learning import prepared
-from workloads import COLLECT, collect
+from benchmarks.learning import prepared
+from benchmarks.workloads import COLLECT, collect
 
 MINDC = (sys.executable, "-c", "from mindlang.cli import main; main()")
 LINE = "seed {seed:>3}: {seconds:5.0f} s, {objects:5.2f} ± {error:.2f} objects, {runtime:.0%} of the run"

@@ -37,7 +37,8 @@ from mindlang.server.completing import complete
 from mindlang.server.hovering import hover
 from mindlang.server.mending import all_mended, mendings
 from mindlang.server.navigating import definitions, everything, highlights, references, symbols
-from mindlang.server.proposals import Selection, proposals
+from mindlang.server.proposals import proposals
+from mindlang.server.selection import Selection
 from mindlang.server.session import Session
 from mindlang.unified_diff import unified
 

@@ -11,8 +11,8 @@ from mindrun.engine import Engine
 from mindrun.graph import Graph
 from mindrun.policy import Policy
 from mindrun.weights import genes
-from workloads import COLLECT, graph_of
 
+from benchmarks.workloads import COLLECT, graph_of
 from mindlang.compiler.compile import load
 
 

@@ -13,12 +13,13 @@ from itertools import pairwise
 from typing import Self
 
 import numpy as np
-from commanded import Commanded
-from learning import FRESH_LAYOUTS, prepared
 from mindrun.functions.mlp import Mlp, matrices
 from mindrun.train.population import MAX_WEIGHT, Genomes
 from numpy.typing import NDArray
-from workloads import collect
+
+from benchmarks.commanded import Commanded
+from benchmarks.learning import FRESH_LAYOUTS, prepared
+from benchmarks.workloads import collect
 
 LANE_COUNT, ROLLOUT_STEPS, EPOCH_COUNT, BATCH_SIZE = 64, 128, 6, 1024
 DISCOUNT_FACTOR, TRACE_DECAY, CLIP_RATIO = 0.99, 0.95, 0.2
@@ -237,7 +238,8 @@ def main() -> None:
     _, rollout = prepared(graph, weights, options.skill, 1)
     ends = []
     for seed in range(1, options.seeds + 1):
-        begin, found = time.process_time(), []
+        begin = time.process_time()
+        found: list[float] = []
         learner = Learner.begin(options.skill, options.hold, options.rate, seed)
         for ticks, genome in learner.learn(options.ticks):
             if ticks >= options.ticks * (len(found) + 1) / 4:

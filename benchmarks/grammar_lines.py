@@ -39,7 +39,8 @@ def _phrase(random: Random, noun: str) -> str:
 def _value(random: Random, shape: str, type_: object) -> str:
     match shape:
         case "name":
-            return random.choice([*getattr(type_, "words", ()), _name(random), "module.function"])
+            words: tuple[str, ...] = getattr(type_, "words", ())
+            return random.choice([*words, _name(random), "module.function"])
         case "list":
             unit = random.choice(list(getattr(type_, "units", {"": 1})))
             return " ".join([*(_amount(random) for _ in range(random.choice((0, 1, 3)))), f"90 {unit}"])

@@ -25,6 +25,7 @@ os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # threads do not survive a f
 sys.path.insert(0, str(Path(__file__).parents[1]))
 
 from mindrun.train.progress import read_progress
+from mindrun.train.training import Watch
 
 from mindlang import cli
 from mindlang.cli import _trainer as trainer
@@ -45,7 +46,7 @@ def main() -> None:
     parser.add_argument("--kills", type=int, default=1000, help="how many (default 1000)")
     parser.add_argument("--log", type=Path, help="a file that the campaign is written to, and goes on from")
     options = parser.parse_args()
-    trainer.Watch = partial(trainer.Watch, save_every=CHECKPOINT_SECONDS)  # type: ignore[assignment,misc]
+    vars(trainer)["Watch"] = partial(Watch, save_every=CHECKPOINT_SECONDS)
     known = [json.loads(line) for line in options.log.read_text().splitlines()] if reads(options.log) else []
     with tempfile.TemporaryDirectory(prefix="mind-kills-") as name:
         seconds = undisturbed(Path(name) / "undisturbed")

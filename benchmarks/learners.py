@@ -22,7 +22,6 @@ from multiprocessing import get_context
 from typing import Any
 
 import numpy as np
-from learning import FRESH_LAYOUTS, prepared
 from mindrun.graph import Lesson
 from mindrun.learners import EvolutionStrategy, Genetic, Restarting
 from mindrun.sim.rollout import Rollout, cores
@@ -32,7 +31,9 @@ from mindrun.train.lesson_state import Course, begin
 from mindrun.train.population import MAX_WEIGHT, Genomes, order
 from mindrun.train.training import best
 from mindrun.weights import learners
-from workloads import COLLECT, collect, shipped
+
+from benchmarks.learning import FRESH_LAYOUTS, prepared
+from benchmarks.workloads import COLLECT, collect, shipped
 
 sys.path.append(str(COLLECT.parent / "paper"))
 from protocol import SUCCESS
@@ -108,7 +109,7 @@ def by_lesson(trial: Trial, teaching: Teaching) -> tuple[Genomes, int]:
     """The champion [1, weights] of as many attempts as the ticks allow, and the ticks taken."""
     said = dict(trial.said)
     generations = int(said.pop("generations", ENDLESS_GENERATIONS))
-    learner = replace(KINDS[trial.kind](), **said, attempts=1000)  # type: ignore[arg-type]
+    learner = replace(KINDS[trial.kind](), **said, attempts=1000)
     lesson = replace(teaching.lesson, learner=learner, generations=generations)
     course, rollout = Course(lesson, trial.seed, teaching.start), teaching.rollout
     state = begin(course)
@@ -121,7 +122,7 @@ def by_lesson(trial: Trial, teaching: Teaching) -> tuple[Genomes, int]:
 
 def by_covariance(trial: Trial, teaching: Teaching) -> tuple[Genomes, int]:
     """The champion [1, weights] of CMA-ES after so many ticks, and the ticks taken."""
-    from cmaes import CMA
+    from cmaes import CMA  # type: ignore[import-untyped]
 
     rng, layouts, rollout = np.random.default_rng(trial.seed), teaching.lesson.learner.layouts, teaching.rollout
     champion, taken, generations = teaching.start, 0, 0

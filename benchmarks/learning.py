@@ -17,7 +17,8 @@ from mindrun.policy import Policy
 from mindrun.sim.rollout import Rollout, cores
 from mindrun.train.lesson import teach
 from mindrun.train.lesson_state import Course, begin
-from workloads import collect
+
+from benchmarks.workloads import collect
 
 FRESH_LAYOUTS = np.random.SeedSequence(20_211_121).generate_state(100, np.uint64)
 ENDLESS_GENERATIONS = 10**6  # generations

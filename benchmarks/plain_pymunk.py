@@ -154,4 +154,5 @@ def perceive(layer_matrices: tuple[NDArray[np.float32], ...], values: NDArray[np
     *hidden, last = layer_matrices
     for matrix in hidden:
         values = 1 / (1 + np.exp(-np.dot(matrix, values)))
-    return np.clip(np.dot(last, values), 0.0, 1.0)
+    sent: NDArray[np.float32] = np.clip(np.dot(last, values), 0.0, 1.0)
+    return sent

@@ -1,8 +1,9 @@
 """Agent-ticks per second of CPU time for many workloads: python benchmarks/rates.py [--against COMMIT] [NAME…].
 
-With --against, a commit's checkout and this one take turns, a process each, and the ratio is printed beside the rates:
-the same minds, weights and layouts, each in its own checkout's words. CPU time is of all threads; `first start` is the
-CPU time in seconds of an import and a compilation into an empty cache, and its ratio is of the speeds.
+With --against, a commit's checkout and this one take turns, a process each, and the ratio is printed beside the rates;
+each measures itself, with its own copy of this program: one that had none yet cannot be compared. CPU time is of all
+threads; `first start` is the CPU time in seconds of an import and a compilation into an empty cache, and its ratio is of
+the speeds.
 """
 
 import argparse
@@ -23,7 +24,8 @@ from mindrun.learners import Genetic
 from mindrun.policy import Policy
 from mindrun.sim.rollout import Rollout
 from mindrun.train.genetic import mutate
-from workloads import STUCK_SEED, Lanes, collect, random_weights, with_obstacles, with_skills
+
+from benchmarks.workloads import STUCK_SEED, Lanes, collect, random_weights, with_obstacles, with_skills
 
 ROOT = Path(__file__).resolve().parent.parent
 AGENT_TICKS = 400_000  # agent-ticks of a measurement; a lesson's is a generation
@@ -146,10 +148,10 @@ def checkout(commit: str) -> Iterator[Path]:
 
 
 def in_checkout(root: Path, cache: Path, names: list[str]) -> dict[str, float]:
-    """What this program measures of a checkout, in a process of its own."""
-    paths = map(str, (root, root / "runtime", Path(__file__).parent))
+    """What a checkout's own program measures of it, in a process of its own: names change from commit to commit."""
+    paths = map(str, (root, root / "runtime"))
     environment = os.environ | {"PYTHONPATH": os.pathsep.join(paths), "NUMBA_CACHE_DIR": str(cache)}
-    command = [sys.executable, __file__, "--once", *names]
+    command = [sys.executable, str(root / "benchmarks" / "rates.py"), "--once", *names]
     found: dict[str, float] = json.loads(
         subprocess.run(command, env=environment, check=True, stdout=subprocess.PIPE).stdout
     )

@@ -22,8 +22,9 @@ from mindrun.policy import Policy
 from mindrun.sim.rollout import Rollout
 from mindrun.sim.trace import trace
 from mindrun.train.manifest import processor, versions
-from plain_pymunk import Robot
-from workloads import STUCK_SEED, WARMUP_TICKS, Lanes, Weights, collect, random_weights
+
+from benchmarks.plain_pymunk import Robot
+from benchmarks.workloads import STUCK_SEED, WARMUP_TICKS, Lanes, Weights, collect, random_weights
 
 
 @dataclass(frozen=True, slots=True)

@@ -12,7 +12,7 @@ import time
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
-from edits import tree
+from benchmarks.edits import tree
 
 PROGRAM = "from mindlang.cli import main; main()"
 PARSE = """

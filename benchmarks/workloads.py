@@ -12,7 +12,8 @@ from pathlib import Path
 import numpy as np
 from mindrun.graph import Graph
 from mindrun.policy import Policy
-from mindrun.sim.rollout import DEFAULT_LANES, Rollout
+from mindrun.sim.rollout import DEFAULT_LANES, Rollout, Tile
+from mindrun.sim.state import Jobs
 from mindrun.weights import genes
 from numpy.typing import NDArray
 
@@ -46,7 +47,7 @@ def collect() -> tuple[Graph, Weights, str]:
     ready = shipped(COLLECT.name)
     if ready.refusals:
         return ready.policy.graph, random_weights(ready.policy.graph, LIVELY_SEED), "random"
-    return ready.policy.graph, ready.policy.weights, "trained"
+    return ready.policy.graph, {**ready.policy.weights}, "trained"
 
 
 def random_weights(graph: Graph, seed: int) -> Weights:
@@ -102,7 +103,7 @@ class Lanes:
         rng, genome = np.random.default_rng(1), weights.get(learner or "", np.zeros(0, np.float32))
         genomes = genome + rng.normal(0.0, 0.02, (lanes, len(genome)))  # nearly the same behaviour
         each = np.arange(lanes)
-        self.parts = []
+        self.parts: list[tuple[Tile, Jobs]] = []
         for worker in range(workers):
             seeds = (1 + worker * lanes + each).astype(np.uint64)
             jobs = self.rollout.jobs(genomes.astype(np.float32), seeds[:1])._replace(seeds=seeds, seed=each)
@@ -116,7 +117,7 @@ class Lanes:
         """Agent-ticks per second of all workers together."""
         begin = clock()
         with ThreadPoolExecutor(len(self.parts)) as pool:
-            working = list(pool.map(lambda part: self.rollout.advance(*part, ticks), self.parts))
+            working = list(pool.map(lambda part: self.rollout.advance(part[0], part[1], ticks), self.parts))
         assert working == [self.lanes] * len(self.parts), "a run ended while it was measured"
         return len(self.parts) * self.lanes * ticks / (clock() - begin)
 

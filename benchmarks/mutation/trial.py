@@ -14,12 +14,21 @@ from time import monotonic, sleep
 import pytest
 from mutants import Mutant
 
-COPIED = ("benchmarks", "docs", "editors", "examples", "grammar", "mindlang", "runtime", "tests", "pyproject.toml")
-COPIED += ("README.md", "Makefile", "LICENSE")
+COPIED = ("benchmarks", "docs", "editors", "examples", "grammar", "mindlang", "runtime", "tests", "pyproject.toml",
+    "README.md", "Makefile", "LICENSE")  # fmt: skip
 POLL_SECONDS = 0.05  # seconds between two looks at whether a process has ended
 PASSED_CODE, BROKEN_CODE = 0, 70  # exit codes
-OPTIONS = ("-x", "-q", "-p", "no:cacheprovider", "-p", "no:xdist", "--hypothesis-seed=0")
-OPTIONS += ("-W", "ignore::pytest.PytestAssertRewriteWarning")  # of Hypothesis, which has been imported
+OPTIONS = (
+    "-x",
+    "-q",
+    "-p",
+    "no:cacheprovider",
+    "-p",
+    "no:xdist",
+    "--hypothesis-seed=0",
+    "-W",
+    "ignore::pytest.PytestAssertRewriteWarning",
+)  # of Hypothesis, which has been imported
 
 
 @contextmanager

@@ -78,8 +78,8 @@ def passages(recorded: RecordedRun) -> Iterator[tuple[int, int]]:
 
 def strip(film: Film, ticks: list[int]) -> Image:
     """The frames of some ticks one below the other."""
-    panel = Panel(film.recorded, NIGHT, FILM_HEIGHT + 8, 86, FILM_WIDTH - FILM_HEIGHT - 16, FILM_HEIGHT - 96)
-    trail = Trail.of(film.recorded, NIGHT)
+    panel = Panel(film.run, NIGHT, FILM_HEIGHT + 8, 86, FILM_WIDTH - FILM_HEIGHT - 16, FILM_HEIGHT - 96)
+    trail = Trail.of(film.run, NIGHT)
     frames = [film.frame(panel, trail, tick) for tick in ticks]
     return np.concatenate(
         [cv2.resize(f, None, fx=FRAME_SCALE, fy=FRAME_SCALE, interpolation=cv2.INTER_AREA) for f in frames]
