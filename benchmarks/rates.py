@@ -2,8 +2,8 @@
 
 With --against, a commit's checkout and this one take turns, a process each, and the ratio is printed beside the rates;
 each measures itself, with its own copy of this program: one that had none yet cannot be compared. CPU time is of all
-threads; `first start` is the CPU time in seconds of an import and a compilation into an empty cache, and its ratio is of
-the speeds.
+threads; `first start` is the CPU time in seconds of an import and a compilation into an empty cache, and its ratio is
+of the speeds.
 """
 
 import argparse

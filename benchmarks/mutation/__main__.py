@@ -22,9 +22,10 @@ import numba
 import numpy
 import pymunk
 import pytest
-from mutants import Mutant, mutants
-from rooms import ROOMS, Room
-from trial import PASSED_CODE, run_tests, survives, workshop
+
+from benchmarks.mutation.mutants import Mutant, mutants
+from benchmarks.mutation.rooms import ROOMS, Room
+from benchmarks.mutation.trial import PASSED_CODE, run_tests, survives, workshop
 
 ROOT = Path(__file__).resolve().parents[2]
 FOLDER = Path(__file__).resolve().parent

@@ -12,7 +12,8 @@ from tempfile import TemporaryDirectory
 from time import monotonic, sleep
 
 import pytest
-from mutants import Mutant
+
+from benchmarks.mutation.mutants import Mutant
 
 COPIED = ("benchmarks", "docs", "editors", "examples", "grammar", "mindlang", "runtime", "tests", "pyproject.toml",
     "README.md", "Makefile", "LICENSE")  # fmt: skip

@@ -5,19 +5,14 @@ from pathlib import Path
 
 import pytest
 
+from benchmarks.mutation.mutants import mutants
+from benchmarks.mutation.rooms import ROOMS
+
 ROOT = Path(__file__).parents[2]
 HERE = ROOT / "benchmarks" / "mutation"
 
 
-@pytest.fixture(autouse=True)
-def beside(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Its modules import one another by their names alone."""
-    monkeypatch.syspath_prepend(HERE)
-
-
 def test_rooms_name_files_and_tests_that_are_there() -> None:
-    from rooms import ROOMS  # type: ignore[import-not-found]
-
     for room in ROOMS.values():
         assert [pattern for pattern in (*room.files, *room.but) if not [*ROOT.glob(pattern)]] == []
         for test in room.tests:
@@ -27,8 +22,6 @@ def test_rooms_name_files_and_tests_that_are_there() -> None:
 
 @pytest.mark.slow
 def test_every_mutant_that_is_explained_can_still_be_made() -> None:
-    from mutants import mutants  # type: ignore[import-not-found]
-
     listed = tomllib.loads((HERE / "explained.toml").read_text(encoding="utf-8"))["mutant"]
     made = {mutant.key for path in {one["path"] for one in listed} for mutant in mutants(ROOT, ROOT / path)}
     assert [one for one in listed if (one["path"], one["where"], one["was"], one["now"]) not in made] == []
