@@ -69,22 +69,16 @@ class Vectors(importlib.abc.Loader):
         return None
 
     def exec_module(self, module: ModuleType) -> None:
-        from mindrun.sigmoid import sigmoid
+        from mindrun import arithmetic
 
+        plain = {name: getattr(arithmetic, name) for name in ("splat", "broadcast", "load", "store", "sigmoids")}
         vars(module).update(
-            VECTOR_LANES=VECTOR_LANES,
-            splat=lambda value: np.full(VECTOR_LANES, value, F),
-            load=lambda array, row, lane: array[row, lane : lane + VECTOR_LANES].copy(),
-            store=_store,
+            plain,
+            VECTOR_LANES=arithmetic.LANES,
             HIGHEST=lambda a, b: np.where(a > b, a, b),
             LOWEST=lambda a, b: np.where(a < b, a, b),
             where_ordered=lambda low, high, yes, no: np.where(low <= high, yes, no),
-            sigmoids=sigmoid,
         )
-
-
-def _store(array: Any, row: int, lane: int, value: Any) -> None:
-    array[row, lane : lane + VECTOR_LANES] = value
 
 
 class Row:
@@ -130,7 +124,7 @@ def _install() -> None:
     importlib.import_module("mindrun.sim.exact")  # what formulas call stays compiled, as they are
     numba.njit = _plain
     sys.meta_path.insert(0, Finder())
-    from mindrun.sim import procedures, rollout
+    from mindrun.sim import procedures, python_procedures, rollout
     from mindrun.sim.lanes import advance, chipmunk, stages
 
     chipmunk.call, procedures.call_address = call, call_procedure
@@ -143,7 +137,7 @@ def _install() -> None:
     rollout.build = build_rows
     for module in (advance, stages):
         for name in ("advance", "fill", "before", "after", "run_skills", "wake", "send"):
-            for place in (module, rollout, sys.modules.get(f"{ROOM}slow")):
+            for place in (module, rollout, python_procedures):
                 found = vars(place).get(name) if place else None
                 if callable(found) and getattr(found, "__name__", "") == name and found.__module__ == module.__name__:
                     setattr(place, name, _quiet(found))

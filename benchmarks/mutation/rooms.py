@@ -92,7 +92,7 @@ ROOMS = {
         ("mindlang/lock/*.py",),
         tuple(
             f"tests/lock/test_{name}.py"
-            for name in ("signature", "lock", "worlds", "trained", "garbage", "status_command")
+            for name in ("signature", "wording", "lock", "worlds", "trained", "accept", "garbage", "status_command")
         ),
     ),
     "bundle": Room(

@@ -23,7 +23,7 @@ from mindlang.lock.report import rows, survival
 from mindlang.lock.status import Stale, Trained, status
 from mindlang.lock.training_world import TrainingWorld, world_of
 from mindlang.lock.world_changes import changes
-from mindlang.lock.world_facts import Worlds
+from mindlang.lock.world_facts import Worlds, last_lesson
 
 # One of everything that a lesson can depend on, all of it below Top.
 MIND = """\
@@ -263,6 +263,8 @@ TEXTS = [
     ("genetic population 8", "genetic population 9", "taught with the learner population 8, now 9"),
     ("School is genetic", "School is restarting", None),
     ("drives mood at 1/2", "drives mood at 1/3", None),
+    ("  drives mood at 1/2\n", "", "Grab has changed: sends mood at 0.5 is gone"),
+    ("drives mood at 1/2", "drives mood at 1/2\n  drives mast at 1", "Grab has changed: sends mast at 1 is new"),
     ("influences Grab at 1", "influences Grab at 0.5", "Top has changed: sends Grab at 1, now sends Grab at 0.5"),
     ("Top on Fetch for 3 generations", "Top on Fetch for 3 generations from scratch", None),
     ("from turn.by", "from turn.to", None),
@@ -395,6 +397,17 @@ def test_an_earlier_lesson_is_known_too(tmp_path: Path) -> None:
     state = status(compiled(text.replace("rewards 10 on", "rewards 9 on")), lock)["Top"]
     assert isinstance(state, Trained)
     assert {lesson.task for lesson in state.outdated} == {"Fetch"}
+
+
+@pytest.mark.parametrize("place", [0, 1])
+def test_the_lesson_that_a_line_tells_of_is_known_by_curriculum_and_number(place: int) -> None:
+    again = "  teaches Top on Fetch for 3 generations\n"
+    lessons = [each for each in compiled(MIND.replace(again, again * 2)).lessons if each.skill == "Top"]
+    told = lessons[place]
+    of = Taught("Fetch", told.master, False, 3, 8, 1, 1.0, told.number, told.curriculum)
+    assert last_lesson(lessons, of) == told
+    for other in ({"number": 9}, {"curriculum": "Other"}, {"task": "Elsewhere"}, {"number": 0, "curriculum": ""}):
+        assert last_lesson(lessons, replace(of, **other)) is None
 
 
 def test_worlds_are_written_once_and_read_back(tmp_path: Path) -> None:
