@@ -40,6 +40,7 @@ ROOMS = {
         (f"{R}functions/*.py",),
         (
             "tests/engine/test_procedure.py",
+            "tests/language/test_procedures.py",
             *(f"tests/functions/test_{name}.py" for name in ("recurrent_mind", "elman")),
             "tests/engine/test_bits.py",
             "tests/edits/test_weights.py",

@@ -19,6 +19,7 @@ from mindrun.robot.sampling import Sampler
 from mindrun.sim.commanded_world import World
 from mindrun.sim.rollout import Rollout
 from mindrun.sim.trace import trace
+from mindrun.weights import genes
 from mindrun.wiring import SensorWire
 
 from mindlang.lock.signature import differences, signature
@@ -65,6 +66,23 @@ def test_commanded_from_outside_it_is_the_run_of_the_rollout(seed: int) -> None:
         world.step(commands)
         assert world.pose == tuple(moment.body[:3])
     assert world.ended == "time"
+
+
+def test_two_of_them_remember_apart() -> None:
+    also = "skill Also is elman width 3\n  reads pulse\n  drives left_wheel\nskill Roam"
+    text = MIND.replace("skill Roam", also).replace(
+        "  reads pulse\n  inf", "  reads pulse\n  influences Also at 1/2\n  inf"
+    )
+    rng, graph = np.random.default_rng(3), compile_text(text)
+    weights = {s.name: rng.uniform(-0.6, 1, genes(s)).astype(np.float32) for s in graph.skills if genes(s)}
+    mind = Policy(graph, weights)
+    engine = Engine(mind)
+    late = [np.float32(0.5)]  # the left wheel obeys a tick later
+    for moment in trace(Rollout(mind, "World", "Top"), 1).moments:
+        left, right = engine.tick(moment.readings)
+        assert (late.pop(), right) == tuple(moment.commands)
+        late.append(left)
+    assert set(weights) == {"Also", "Roam"}
 
 
 def recorded(path: Path, mind: Policy, runs: int) -> list[np.ndarray]:
