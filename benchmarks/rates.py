@@ -113,8 +113,8 @@ WORKLOADS: Mapping[str, Callable[[], Measure]] = {
 def first_start() -> float:
     """Seconds of CPU time of an import and a compilation into an empty cache."""
     program = (
-        "from workloads import collect; from mindrun.policy import Policy; from mindrun.sim.rollout import Rollout;"
-        "import time; graph, weights, _ = collect();"
+        "from benchmarks.workloads import collect; from mindrun.policy import Policy;"
+        "from mindrun.sim.rollout import Rollout; import time; graph, weights, _ = collect();"
         "Rollout(Policy(graph, weights), graph.master, graph.master).compile(); print(time.process_time())"
     )
     with tempfile.TemporaryDirectory() as cache:
@@ -149,8 +149,8 @@ def checkout(commit: str) -> Iterator[Path]:
 
 def in_checkout(root: Path, cache: Path, names: list[str]) -> dict[str, float]:
     """What a checkout's own program measures of it, in a process of its own: names change from commit to commit."""
-    paths = map(str, (root, root / "runtime"))
-    environment = os.environ | {"PYTHONPATH": os.pathsep.join(paths), "NUMBA_CACHE_DIR": str(cache)}
+    folders = (root, root / "runtime", root / "benchmarks")  # where older ones look for their neighbours
+    environment = os.environ | {"PYTHONPATH": os.pathsep.join(map(str, folders)), "NUMBA_CACHE_DIR": str(cache)}
     command = [sys.executable, str(root / "benchmarks" / "rates.py"), "--once", *names]
     found: dict[str, float] = json.loads(
         subprocess.run(command, env=environment, check=True, stdout=subprocess.PIPE).stdout
