@@ -122,7 +122,7 @@ def by_lesson(trial: Trial, teaching: Teaching) -> tuple[Genomes, int]:
 
 def by_covariance(trial: Trial, teaching: Teaching) -> tuple[Genomes, int]:
     """The champion [1, weights] of CMA-ES after so many ticks, and the ticks taken."""
-    from cmaes import CMA  # type: ignore[import-untyped]
+    from cmaes import CMA
 
     rng, layouts, rollout = np.random.default_rng(trial.seed), teaching.lesson.learner.layouts, teaching.rollout
     champion, taken, generations = teaching.start, 0, 0
