@@ -66,6 +66,7 @@ ROOMS = {
             *(f"tests/sim/test_rough_sensors.py::{name}" for name in QUICK_SENSORS),
             *(f"tests/sim/test_tasks.py::{name}" for name in QUICK_TASKS),
             "tests/sim/test_order.py",
+            "tests/sim/test_physics.py::test_contacts_equal_plain_pymunk",
             "tests/sim/test_procedures.py::test_compiled_slow_and_rule_agree",
             "tests/sim/test_full_worlds.py",
             "tests/sim/test_random_worlds.py",
