@@ -18,7 +18,6 @@ from mindrun.sim.trace import Trace, trace
 from mindrun.train.lesson_state import Record
 from mindrun.train.run_folder import read_result
 from mindrun.train.training import Watch, train
-from mindrun.weights import genes, reachable
 from mindrun.wiring import Wiring
 
 from mindlang import edits, transaction
@@ -28,13 +27,13 @@ from mindlang.compiler.diagnostic import Diagnostic
 from mindlang.compiler.source import Source
 from mindlang.editing.apply import Edited, apply_edit
 from mindlang.editing.project import EditError, open_project
-from mindlang.editing.summary import broken_neighbours, diff, summarise
+from mindlang.editing.summary import broken_sentences, diff, summarise
 from mindlang.editing.writing import write
 from mindlang.lock.ready import ReadyMind, make_ready
 from mindlang.resource_limits import refuse_too_large, refuse_too_many
 from mindlang.run.layouts import NO_GENOME, layouts
 from mindlang.run.outcome import bench_data
-from mindlang.run.setup import master_of, set_up, task_of, unknown
+from mindlang.run.setup import master_of, set_up, task_of, unknown, untaught_skills
 from mindlang.training.lesson_choice import TrainOptions, chosen_lessons, is_due
 from mindlang.training.results import Result
 from mindlang.training.subject import begin_run, open_subject, refuse_frozen
@@ -95,8 +94,7 @@ class Mind:
         for skill in learners:
             self._refuse_unknown(skill)
         ready = make_ready(self.graph, self.compiled.sources, leader)
-        acting = {skill.name for skill in reachable(ready.policy.graph, leader) if genes(skill)}
-        if acting - {*ready.policy.weights, *learners}:
+        if {*untaught_skills(ready)} - {*learners}:
             raise self._untaught(ready)
         return Rollout(ready.policy, chosen.name, leader, learners, procedures=self._folder, workers=workers)
 
@@ -214,7 +212,7 @@ class EditedMind:
     @property
     def summary(self) -> list[str]:
         """A sentence for each skill whose weights do not simply stay, and for each mind that would be broken."""
-        return [*summarise(self.edited), *self._broken]
+        return [*summarise(self.edited), *broken_sentences(self.edited)]
 
     def write(self, anyway: bool = False) -> Mind:
         """Write sources, locks and weights together, or nothing; the mind as it is then.
@@ -222,15 +220,11 @@ class EditedMind:
         MindError where another mind that uses the same files would no longer compile, unless `anyway`; and where a file
         has been changed since it was loaded.
         """
-        if self._broken and not anyway:
-            raise EditError(f"After this edit {self._broken[0]}", "write(anyway=True) makes it nevertheless")
+        broken = broken_sentences(self.edited)
+        if broken and not anyway:
+            raise EditError(f"After this edit {broken[0]}", "write(anyway=True) makes it nevertheless")
         write(self.edited)
         return load(self.path)
-
-    @property
-    def _broken(self) -> list[str]:
-        broken = broken_neighbours(self.edited)
-        return [f"{name} no longer compiles by itself: {why}" for name, why in broken.items()]
 
 
 def load(path: Path | str) -> Mind:

@@ -12,9 +12,8 @@ from mindrun import standard_streams
 
 from mindlang.cli._terminal import FINDINGS, INTERRUPTED, MISUSE, OK, say
 
-GARBAGE_COLLECTION_OBJECTS = (
-    200_000  # objects made before Python looks for garbage: a large mind is millions, and none of them garbage
-)
+# Objects made before Python looks for garbage: a large mind is millions, and none of them garbage.
+GARBAGE_COLLECTION_OBJECTS = 200_000
 
 
 class Suggesting(click.Group):

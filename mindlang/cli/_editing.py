@@ -20,7 +20,7 @@ from mindlang.cli._terminal import (
 from mindlang.compiler.diagnostic import Diagnostic, listed
 from mindlang.editing.apply import Edited, apply_edit
 from mindlang.editing.project import EditError, open_project
-from mindlang.editing.summary import broken_neighbours, diff, summarise
+from mindlang.editing.summary import broken_sentences, diff, summarise
 from mindlang.editing.writing import changed_locks, write
 from mindlang.edits import Edit
 
@@ -55,7 +55,7 @@ def perform(of: Edit, said: Mapping[str, Any], file: str, options: EditOptions) 
 
 def _broken(edited: Edited, options: EditOptions) -> list[str]:
     """A sentence for each mind that would no longer compile; EditError where that is not wished for."""
-    lines = [f"{name} no longer compiles by itself: {why}" for name, why in broken_neighbours(edited).items()]
+    lines = broken_sentences(edited)
     if lines and options.write and not options.anyway:
         raise EditError(f"After this edit {lines[0]}", "--anyway makes it nevertheless.")
     return lines

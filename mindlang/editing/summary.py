@@ -56,6 +56,11 @@ def broken_neighbours(edited: Edited) -> dict[str, str]:
     }
 
 
+def broken_sentences(edited: Edited) -> list[str]:
+    """A sentence for each neighbour that would no longer compile by itself."""
+    return [f"{name} no longer compiles by itself: {why}" for name, why in broken_neighbours(edited).items()]
+
+
 def _kept(number: int) -> str:
     match number:
         case 0:

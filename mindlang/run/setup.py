@@ -59,7 +59,7 @@ def set_up(file: str, compiled: Compiled, task: str | None, master: str | None) 
     leader = master_of(compiled.graph, chosen, master)
     ready = make_ready(compiled.graph, compiled.sources, leader)
     if ready.refusals:
-        raise SetupError("\n".join(ready.refusals), f"mindc train {file} {' '.join(_missing(ready))}")
+        raise SetupError("\n".join(ready.refusals), f"mindc train {file} {' '.join(untaught_skills(ready))}")
     return RunSetup(chosen, leader, ready, compiled.sources[0].folder, note)
 
 
@@ -90,7 +90,7 @@ def unknown(noun: str, name: str, known: Sequence[str]) -> Never:
     raise SetupError(f"there is no {noun} called {name}", hint, misuse=True)
 
 
-def _missing(ready: ReadyMind) -> list[str]:
+def untaught_skills(ready: ReadyMind) -> list[str]:
     """The skills without weights that fit, subskills first."""
     reached = reachable(ready.policy.graph, ready.policy.graph.master)
     return [skill.name for skill in reversed(reached) if genes(skill) and skill.name not in ready.policy.weights]
