@@ -8,8 +8,9 @@
 `Mind` has all of it. Nothing here prints, ends the program or reads its arguments.
 """
 
-from importlib import import_module
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
+
+from mindrun.lazy_import import lazy_names
 
 if TYPE_CHECKING:
     from mindrun.errors import MindError as MindError
@@ -22,19 +23,14 @@ if TYPE_CHECKING:
     from mindlang.compiler.diagnostic import Diagnostic as Diagnostic
     from mindlang.training.lesson_choice import TrainOptions as TrainOptions
 
-_HOMES = {
-    "mindlang.api": ("EditedMind", "Mind", "load", "loads"),
-    "mindlang.compiler.diagnostic": ("Diagnostic",),
-    "mindlang.training.lesson_choice": ("TrainOptions",),
-    "mindrun.errors": ("MindError",),
-    "mindrun.train.lesson_state": ("Record",),
-}
+__getattr__ = lazy_names(
+    __name__,
+    {
+        "mindlang.api": ("EditedMind", "Mind", "load", "loads"),
+        "mindlang.compiler.diagnostic": ("Diagnostic",),
+        "mindlang.training.lesson_choice": ("TrainOptions",),
+        "mindrun.errors": ("MindError",),
+        "mindrun.train.lesson_state": ("Record",),
+    },
+)
 __all__ = ["Diagnostic", "EditedMind", "Mind", "MindError", "Record", "TrainOptions", "load", "loads"]
-
-
-def __getattr__(name: str) -> Any:
-    """A public name, from the module in which it stands: `mindc --help` should not wait for numpy."""
-    for home, names in _HOMES.items():
-        if name in names:
-            return getattr(import_module(home), name)
-    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

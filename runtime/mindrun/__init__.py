@@ -7,8 +7,9 @@
 Each name is imported when it is asked for: a robot has numpy alone, and its guardian not even that.
 """
 
-from importlib import import_module
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
+
+from mindrun.lazy_import import lazy_names
 
 if TYPE_CHECKING:
     from mindrun.bundle import Bundle as Bundle
@@ -26,16 +27,19 @@ if TYPE_CHECKING:
     from mindrun.sim.trace import Trace as Trace
 
 VERSION = "0.1.0"
-_HOMES = {
-    "mindrun.bundle": ("Bundle", "read_bundle", "write_bundle"),
-    "mindrun.engine": ("Engine",),
-    "mindrun.errors": ("MindError",),
-    "mindrun.graph": ("Graph",),
-    "mindrun.policy": ("Policy",),
-    "mindrun.robot.replay": ("Replayed", "replay_recording"),
-    "mindrun.sim.rollout": ("Rollout", "Scores"),
-    "mindrun.sim.trace": ("Moment", "Trace"),
-}
+__getattr__ = lazy_names(
+    __name__,
+    {
+        "mindrun.bundle": ("Bundle", "read_bundle", "write_bundle"),
+        "mindrun.engine": ("Engine",),
+        "mindrun.errors": ("MindError",),
+        "mindrun.graph": ("Graph",),
+        "mindrun.policy": ("Policy",),
+        "mindrun.robot.replay": ("Replayed", "replay_recording"),
+        "mindrun.sim.rollout": ("Rollout", "Scores"),
+        "mindrun.sim.trace": ("Moment", "Trace"),
+    },
+)
 __all__ = [
     "VERSION",
     "Bundle",
@@ -52,11 +56,3 @@ __all__ = [
     "replay_recording",
     "write_bundle",
 ]
-
-
-def __getattr__(name: str) -> Any:
-    """A public name, from the module in which it stands."""
-    for home, names in _HOMES.items():
-        if name in names:
-            return getattr(import_module(home), name)
-    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

@@ -13,7 +13,8 @@ from tests.language.examples import ROOT
 
 FIRST_START = """
 from mindrun.sim import warmup
-from mindrun.sim.lanes.advance import advance, fill
+from mindrun.sim.lanes.advance import advance
+from mindrun.sim.lanes.runs import fill
 warmup.warm_up()
 print(sum(sum(each.stats.cache_hits.values()) for each in (advance, fill)))
 """
