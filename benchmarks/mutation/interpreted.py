@@ -125,7 +125,7 @@ def _install() -> None:
     numba.njit = _plain
     sys.meta_path.insert(0, Finder())
     from mindrun.sim import procedures, python_procedures, rollout
-    from mindrun.sim.lanes import advance, chipmunk, stages
+    from mindrun.sim.lanes import advance, chipmunk, runs, stages
 
     chipmunk.call, procedures.call_address = call, call_procedure
     build, tables = rollout.build, rollout.Tables
@@ -135,7 +135,7 @@ def _install() -> None:
         return tables(*([Row(row) for row in part] if part.dtype.names else part for part in found)), sizes
 
     rollout.build = build_rows
-    for module in (advance, stages):
+    for module in (advance, runs, stages):
         for name in ("advance", "fill", "before", "after", "run_skills", "wake", "send"):
             for place in (module, rollout, python_procedures):
                 found = vars(place).get(name) if place else None

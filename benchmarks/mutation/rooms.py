@@ -52,6 +52,9 @@ ROOMS = {
         (
             "tests/sensors/test_compass.py",
             *(f"tests/sim/test_rough_sensors.py::{name}" for name in QUICK_SENSORS),
+            "tests/sim/test_tasks.py",
+            "tests/sim/test_full_worlds.py",
+            "tests/sim/test_engine_and_lanes.py",
             "tests/lint/test_rule_cases.py",
             "tests/engine/test_bits.py",
             "tests/sim/test_random_worlds.py",

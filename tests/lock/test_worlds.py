@@ -239,6 +239,7 @@ def test_the_mind_of_these_tests_has_every_kind() -> None:
 
 TEXTS = [
     ("tick 1/60 s", "tick 1/20 s", "taught with tick 1/60 s, now 1/20 s"),
+    ("tick 1/60 s", "tick 0.3 s", "taught with tick 1/60 s, now 0.3 s"),
     ("range 12", "range 3", "taught with eye range 12, now 3"),
     ("0 30 330 deg", "0 30 331 deg", "taught with eye at 0 30 330 deg, now 0 30 331 deg"),
     ("is disc", "is disc size 3", "taught with body size 2, now 3"),

@@ -5,7 +5,8 @@ from typing import Any
 
 import pytest
 from mindrun.policy import Policy
-from mindrun.sim.lanes.advance import advance, fill
+from mindrun.sim.lanes.advance import advance
+from mindrun.sim.lanes.runs import fill
 from mindrun.sim.rollout import Rollout
 
 from mindlang.compiler.compile import load

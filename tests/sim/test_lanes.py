@@ -186,6 +186,15 @@ def test_a_robot_that_leaps_meets_what_stands_where_it_arrives() -> None:
     assert touched > 20
 
 
+@pytest.mark.parametrize("seed", range(8))
+def test_a_robot_meets_the_wall_that_its_next_step_reaches(seed: int) -> None:
+    """In ticks of four seconds its step is four times its speed, and still too short to be a leap."""
+    text = RUNNER.replace("tick 1/20 s", "tick 4 s").replace("thrust 3000", "thrust 7.4").replace("size 300", "size 60")
+    graph = compile_text(text.replace("  contains rock is obstacle grid 12 size 2 to 4\n", ""))
+    happened = follow(Rollout(Policy(graph, {}), "World", "Run"), Engine(Policy(graph, {})), seed)
+    assert happened["Collision"] > 0
+
+
 @pytest.mark.parametrize("away", [1, 2, 3, 4, 5, 7])
 def test_a_contact_that_was_left_is_forgotten_as_chipmunk_forgets(away: int) -> None:
     """A robot that slides along rocks and comes back after some ticks: as if Chipmunk had stepped all the time."""

@@ -14,7 +14,8 @@ from mindrun.policy import Policy
 from mindrun.sim import chipmunk_internals as chipmunk
 from mindrun.sim.allocation import empty_state
 from mindrun.sim.codes import ITEM
-from mindrun.sim.lanes.advance import advance, fill
+from mindrun.sim.lanes.advance import advance
+from mindrun.sim.lanes.runs import fill
 from mindrun.sim.procedures import Procedures
 from mindrun.sim.python_procedures import Memories, advance_slowly
 from mindrun.sim.state import FAILED_COLUMN, FAILED_SKILL, Jobs, State

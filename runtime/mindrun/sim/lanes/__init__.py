@@ -18,8 +18,10 @@ is the same in all of them stands in `tables`: a row for each sensor, skill, edg
 
 A stage is handed the whole `state`, what it calls the parts that it reads and writes. A skill runs only in the lanes in
 which it has influence: `active[0..count]` are these, and what is gathered for it stands side by side in the columns
-0 to count − 1. A run that is over is written down, and its lane begins the next job; when none is left the last lane
-takes its place.
+0 to count − 1.
+
+A run that is over is written down, and its lane begins the next job; when none is left the last lane moves to its
+place: `runs`.
 
 `@compiled` is what only compiled code calls, `@entry` can be called from Python. Compiled code owns nothing
 (`_nrt=False`), so in it

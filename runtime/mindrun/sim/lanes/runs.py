@@ -1,0 +1,174 @@
+"""Runs in lanes: how one begins, and what becomes of its lane when it is over: the next run, or the last lane's."""
+
+import numpy as np
+
+from mindrun.arithmetic import ANGLE, COSINE, SINE, X, Y
+from mindrun.sensors.inertial import TRAIL_TICKS
+from mindrun.sim.arithmetic import sine_cosine
+from mindrun.sim.codes import GOING_ON, LOST, VISIT
+from mindrun.sim.compiling import compiled, entry
+from mindrun.sim.lanes.chipmunk import close_space
+from mindrun.sim.lanes.judge import patch_of
+from mindrun.sim.lanes.placement import draw
+from mindrun.sim.lanes.step import is_lost
+from mindrun.sim.state import PLACE_ROWS
+
+MEASURED_ASIDE = np.uint64(0xD1B54A32D192ED03)  # what no skill reads draws from a generator of its own
+
+
+@entry
+def fill(tables, state, jobs, lanes):
+    """Begin as many jobs as there are lanes."""
+    for lane in range(lanes):
+        if not begin_job(tables, state, jobs, lane):
+            break
+        jobs.lanes[0] = lane + 1
+
+
+@compiled
+def end(tables, state, jobs, lane):
+    """A lane's run written down where it is over, and the next one begun, or the last lane in its place."""
+    run = state.run
+    if is_lost(state.world.body, lane):
+        run.faults[lane] += 1
+        run.ended[lane] = LOST
+    if run.ended[lane] != GOING_ON or state.world.tick[lane] >= tables.world[0].ticks:
+        finish(tables, state, jobs, lane)
+        if not begin_job(tables, state, jobs, lane):
+            last = jobs.lanes[0] - 1
+            if lane != last:
+                move(state, last, lane)
+            jobs.lanes[0] = last
+
+
+@compiled
+def begin_job(tables, state, jobs, lane):
+    """A lane begins the next job from nothing; False where there is none."""
+    job, world, mind = jobs.next[0], state.world, state.mind
+    if job >= len(jobs.genome):
+        return False
+    jobs.next[0] = job + 1
+    state.run.job[lane] = job
+    world.random[lane] = jobs.seeds[jobs.seed[job]]
+    world.random_aside[lane] = world.random[lane] ^ MEASURED_ASIDE
+    draw(tables, world, lane)
+    genome = jobs.genomes[jobs.genome[job]]
+    for i in range(len(genome)):
+        mind.genome[i, lane] = genome[i]
+    reset(tables, state, lane)
+    return True
+
+
+@compiled
+def reset(tables, state, lane):
+    """Everything of a lane that is not its world, its genome or its generator, as at the beginning of a run."""
+    reset_world(tables, state.world, lane)
+    reset_mind(tables, state.mind, lane)
+    reset_judge(tables, state.world, state.judge, lane)
+    state.sight.anchor[:, lane] = np.nan
+    state.contact.near[lane], state.contact.touching[lane] = 0, 0
+    state.run.ended[lane], state.run.faults[lane] = GOING_ON, 0
+
+
+@compiled
+def reset_world(tables, world, lane):
+    """What is not drawn."""
+    world.held[lane], world.tick[lane] = -1, 0
+    world.battery[lane] = tables.world[0].start
+    world.heading[SINE, lane], world.heading[COSINE, lane] = sine_cosine(world.body[ANGLE, lane])
+    world.reached[:, lane], world.delivered[:, lane] = 0, 0
+    for i in range(TRAIL_TICKS):
+        place = PLACE_ROWS * i
+        world.trail[place + X, lane], world.trail[place + Y, lane] = world.body[X, lane], world.body[Y, lane]
+
+
+@compiled
+def reset_mind(tables, mind, lane):
+    """Nothing remembered, and neutral commands on their way."""
+    mind.recurrent[:, lane] = 0.0
+    for i in range(len(tables.actuators)):
+        actuator = tables.actuators[i]
+        for k in range(actuator.delay):
+            mind.late[actuator.ring + k, lane] = actuator.neutral
+    for i in range(len(tables.memories)):
+        mind.readings[tables.memories[i].row, lane] = tables.memories[i].start
+
+
+@compiled
+def reset_judge(tables, world, judge, lane):
+    """Nothing paid, counted or visited, but for the patch that the robot starts in."""
+    judge.lines[:, lane] = 0.0
+    judge.counts[:, lane] = 0
+    judge.left_changes[:, lane], judge.right_changes[:, lane] = 0.0, 0.0
+    for i in range(len(tables.actuators)):
+        judge.last_commands[i, lane] = tables.actuators[i].neutral
+    judge.visited[lane] = 0
+    for i in range(len(tables.events)):
+        event = tables.events[i]
+        if event.kind == VISIT:
+            patch = patch_of(world.body, tables.world[0].half, event.patch, event.columns, lane)
+            judge.visited[lane, event.board + patch] = 1
+
+
+@compiled
+def finish(tables, state, jobs, lane):
+    """Write down what came of a lane's job, and free its Space."""
+    judge, run = state.judge, state.run
+    job = run.job[lane]
+    for i in range(len(tables.rewards)):
+        jobs.lines[job, i] = judge.lines[i, lane]
+    for i in range(len(tables.events)):
+        jobs.counts[job, i] = judge.counts[i, lane]
+    jobs.ticks[job], jobs.ended[job], jobs.faults[job] = state.world.tick[lane], run.ended[lane], run.faults[lane]
+    close_space(tables.library, state.contact.handles[lane], len(tables.things))
+    run.job[lane] = -1
+
+
+@compiled
+def move(state, source, target):
+    """A lane takes the place of one whose run is over. What is of this tick stays; the circles go with their Space."""
+    move_world(state.world, source, target)
+    mind, sight, judge, contact, run = state.mind, state.sight, state.judge, state.contact, state.run
+    for rows in (mind.readings, mind.before, mind.measured, mind.rings, mind.genome, mind.recurrent):
+        copy_lane(rows, source, target)
+    for rows in (mind.late, mind.commands, judge.last_commands):
+        copy_lane(rows, source, target)
+    for rows in (sight.nearby, sight.anchor, judge.left_changes, judge.right_changes, judge.lines):
+        copy_lane(rows, source, target)
+    copy_lane(judge.counts, source, target)
+    copy_row(judge.visited, source, target)
+    for numbers in (sight.nearby_count, contact.near, contact.touching, run.job, run.ended, run.faults):
+        numbers[target] = numbers[source]
+    handles = contact.handles
+    for i in range(handles.shape[1]):
+        handles[source, i], handles[target, i] = handles[target, i], handles[source, i]
+
+
+@compiled
+def move_world(world, source, target):
+    """The world of one lane becomes that of the other."""
+    for rows in (world.body, world.heading, world.things, world.trail):
+        copy_lane(rows, source, target)
+    for rows in (world.reached, world.delivered):
+        copy_lane(rows, source, target)
+    copy_row(world.boxes, source, target)
+    world.held[target], world.tick[target], world.battery[target] = (
+        world.held[source],
+        world.tick[source],
+        world.battery[source],
+    )
+    world.random[target], world.random_aside[target] = world.random[source], world.random_aside[source]
+
+
+@compiled
+def copy_lane(rows, source, target):
+    """One lane of rows [row, lane] to another."""
+    for i in range(rows.shape[0]):
+        rows[i, target] = rows[i, source]
+
+
+@compiled
+def copy_row(columns, source, target):
+    """One lane of columns [lane, column] to another."""
+    for i in range(columns.shape[1]):
+        columns[target, i] = columns[source, i]
