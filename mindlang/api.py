@@ -65,8 +65,7 @@ class Mind:
     def graph(self) -> Graph:
         """The compiled hierarchy, as plain data."""
         if self.compiled.graph is None:
-            first = next((each for each in self.diagnostics if each.severity == "error"), self.diagnostics[0])
-            raise MindError(first.message, first.hint or "mind.diagnostics says all that is wrong, and where")
+            raise self._invalid()
         return self.compiled.graph
 
     def policy(self, master: str | None = None) -> Policy:
@@ -110,7 +109,8 @@ class Mind:
         `count_mean` and `count_standard_error` are of the events that the task counts, `score_…` of the rewards;
         `best_seed` and `worst_seed` name runs that `mind.trace` repeats.
         """
-        _ = self.graph
+        if not self.is_valid:
+            raise self._invalid()
         setup = set_up(str(self.path), self.compiled, task, master)
         refuse_too_many(setup.task, runs)
         rollout = setup.rollout(workers=workers)
@@ -164,7 +164,8 @@ class Mind:
 
         Arguments and options are those of the command; EditError, a MindError, where it is impossible.
         """
-        _ = self.graph
+        if not self.is_valid:
+            raise self._invalid()
         if name not in edits.names():
             unknown("edit", name, edits.names())
         of, project = edits.edit(name), open_project(self.compiled)
@@ -188,6 +189,10 @@ class Mind:
         if ready.refusals:
             raise self._untaught(ready)
         return ready
+
+    def _invalid(self) -> MindError:
+        first = next((each for each in self.diagnostics if each.severity == "error"), self.diagnostics[0])
+        return MindError(first.message, first.hint or "mind.diagnostics says all that is wrong, and where")
 
     def _untaught(self, ready: ReadyMind) -> MindError:
         return MindError(ready.refusals[-1], f"mind.train() teaches it, or: mindc train {self.path}")

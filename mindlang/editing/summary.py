@@ -47,18 +47,14 @@ def summarise(edited: Edited) -> list[str]:
     return lines + _neighbour_sentences(edited)
 
 
-def broken_neighbours(edited: Edited) -> dict[str, str]:
-    """The neighbours that would no longer compile by themselves, and why."""
-    return {
+def broken_sentences(edited: Edited) -> list[str]:
+    """A sentence for each neighbour that would no longer compile by itself."""
+    broken = {
         other.before.main.source.path.name: other.after.diagnostics[0].message
         for other in edited.beside
         if other.after.graph is None
     }
-
-
-def broken_sentences(edited: Edited) -> list[str]:
-    """A sentence for each neighbour that would no longer compile by itself."""
-    return [f"{name} no longer compiles by itself: {why}" for name, why in broken_neighbours(edited).items()]
+    return [f"{name} no longer compiles by itself: {why}" for name, why in broken.items()]
 
 
 def _kept(number: int) -> str:

@@ -9,7 +9,7 @@ from mindlang.compiler.diagnostic import did_you_mean, listed
 from mindlang.compiler.splice import Splice
 from mindlang.editing.apply import apply_edit
 from mindlang.editing.project import EditError, MindChange, Project
-from mindlang.editing.summary import broken_neighbours, summarise
+from mindlang.editing.summary import broken_sentences, summarise
 from mindlang.editing.writing import changed_locks
 from mindlang.edits import Edit, edit, names
 from mindlang.server.navigating import sharing
@@ -50,8 +50,8 @@ def perform(workspace: Workspace, path: Path, name: str, arguments: Mapping[str,
     on = project(workspace, workspace.view(path))
     change = proposed(on, name, arguments)
     edited = apply_edit(on, _as_open(on, change, workspace), keep_weights=False)
-    for other, why in broken_neighbours(edited).items():
-        raise EditError(f"After this edit {other} no longer compiles: {why}", "mindc edit --anyway makes it.")
+    if broken := broken_sentences(edited):
+        raise EditError(f"After this edit {broken[0]}", "mindc edit --anyway makes it nevertheless.")
     sentences = summarise(edited)
     locks = [lock.name for lock in changed_locks(edited)]
     if not locks or not (change.renamed or change.replaced):

@@ -12,7 +12,6 @@ from mindrun.quantity import THING
 from mindrun.registry import arguments, bases, kinds
 from mindrun.sensors import SensorKind
 from mindrun.sim.codes import ACTUATOR_CODES, EVENT_CODES, MEASURE_CODES, THING_CODES
-from mindrun.things.about import AboutThing
 
 from mindlang.pictures.theme import NIGHT, PAPER
 from tests.project.sources import COMPILER, ROOT, RUNTIME, modules, tree
@@ -88,8 +87,9 @@ def test_every_function_is_the_same_in_both_executors(noun: str, name: str) -> N
 @every("sensor", "event", "measure")
 def test_every_kind_says_what_it_is_about(noun: str, name: str) -> None:
     cls = kinds(noun)[name]
-    has_thing = any(argument.type == THING for argument in arguments(cls))
-    assert has_thing == (cls.thing is not AboutThing.thing), f"{name} takes a thing and does not say which it is about"
+    one = cls(**{argument.field: f"its {argument.key}" for argument in arguments(cls)})
+    things = [f"its {argument.key}" for argument in arguments(cls) if argument.type == THING]
+    assert [one.thing] == (things or [""]), f"{name} does not say which thing it is about"
     about = [thing for thing, kind in kinds("content").items() if cls.is_about(kind)]
     assert about, f"{name} can be about no kind of thing"
 

@@ -18,11 +18,6 @@ class Delivery(EventKind):
 
     outcome = "delivered"
 
-    @property
-    def thing(self) -> str:
-        """What is delivered."""
-        return self.of
-
     @staticmethod
     def is_about(kind: type[ThingKind]) -> bool:
         """What a claw can take."""

@@ -16,8 +16,3 @@ class Reach(EventKind):
     of: Annotated[str, THING]
 
     outcome = "reached"
-
-    @property
-    def thing(self) -> str:
-        """What is reached."""
-        return self.of

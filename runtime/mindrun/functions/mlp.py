@@ -119,7 +119,7 @@ def matrices(weights: Weights, shape: Layers) -> tuple[NDArray[np.float32], ...]
 
 
 def perceive(layer_matrices: tuple[NDArray[np.float32], ...], inputs: NDArray[np.float32]) -> NDArray[np.float32]:
-    """The outputs [..., outputs] for float32 inputs [..., inputs] (Eq. 1), before the clamp."""
+    """The outputs [..., outputs] for float32 inputs [..., inputs], one or two axes (Eq. 1), before the clamp."""
     *hidden, last = layer_matrices
     values = inputs
     for matrix in hidden:
@@ -128,9 +128,14 @@ def perceive(layer_matrices: tuple[NDArray[np.float32], ...], inputs: NDArray[np
 
 
 def _dense(matrix: NDArray[np.float32], values: NDArray[np.float32]) -> NDArray[np.float32]:
-    # accumulate adds strictly from left to right; sum and @ leave the order, and with it the last bit, open.
-    products = matrix * values[..., None, :]
-    return np.add.accumulate(products, axis=-1, out=products)[..., -1]
+    # Strictly from left to right: sum and @ leave the order, and with it the last bit, open.
+    if values.ndim == 1:
+        return np.add.accumulate(matrix * values, axis=1)[:, -1]
+    columns = np.ascontiguousarray(values.T)
+    total: NDArray[np.float32] = matrix[:, :1] * columns[0]
+    for j in range(1, len(columns)):
+        total += matrix[:, j : j + 1] * columns[j]
+    return total.T
 
 
 def dense(w: Any, source: Any, inputs: int, target: Any, outputs: int, last: bool, n: int) -> None:

@@ -16,11 +16,6 @@ class Progress(MeasureKind):
 
     toward: Annotated[str, THING]
 
-    @property
-    def thing(self) -> str:
-        """Where to."""
-        return self.toward
-
 
 @kind("measure", "advance")
 @dataclass(frozen=True, slots=True)
@@ -31,11 +26,6 @@ class Advance(MeasureKind):
 
     interval = (0.0, inf)
 
-    @property
-    def thing(self) -> str:
-        """Where to."""
-        return self.toward
-
 
 @kind("measure", "retreat")
 @dataclass(frozen=True, slots=True)
@@ -45,8 +35,3 @@ class Retreat(MeasureKind):
     from_: Annotated[str, THING]
 
     interval = (0.0, inf)
-
-    @property
-    def thing(self) -> str:
-        """Where from."""
-        return self.from_

@@ -27,11 +27,6 @@ class Bearing(Physical):
     scaled = True
     blank = rest = 0.5
 
-    @property
-    def thing(self) -> str:
-        """What it points to."""
-        return self.of
-
     def constant(self, world: World) -> float | None:
         """0.5 without the thing, and where all directions are in the dead zone."""
         return 0.5 if self.of not in world.things or self.dead_zone > 0.5 else None

@@ -24,11 +24,6 @@ class Contact(Physical):
         """What a claw can take."""
         return kind.can_be_held
 
-    @property
-    def thing(self) -> str:
-        """What it feels."""
-        return self.of
-
     def constant(self, world: World) -> float | None:
         """0 without the thing."""
         return None if self.of in world.things else 0.0

@@ -25,11 +25,6 @@ class Held(Physical):
         """What a claw can take."""
         return kind.can_be_held
 
-    @property
-    def thing(self) -> str:
-        """What is held."""
-        return self.of
-
     def constant(self, world: World) -> float | None:
         """0 without the thing, and where no claw ever closes."""
         return None if self.of in world.things and world.can_hold else 0.0

@@ -22,11 +22,6 @@ class Inside(Physical):
         """What lies on the floor."""
         return kind.is_area
 
-    @property
-    def thing(self) -> str:
-        """Where it is."""
-        return self.of
-
     def constant(self, world: World) -> float | None:
         """0 without the thing."""
         return None if self.of in world.things else 0.0

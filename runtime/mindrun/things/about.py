@@ -1,5 +1,7 @@
 """What a sensor, an event or a measure says of the thing that it is about."""
 
+from mindrun.quantity import THING
+from mindrun.registry import arguments
 from mindrun.things.thing import ThingKind
 
 
@@ -10,8 +12,8 @@ class AboutThing:
 
     @property
     def thing(self) -> str:
-        """The name of the thing that it is about; empty where it is about none."""
-        return ""
+        """The name of the thing that it is about, which its argument of that type says; empty where it has none."""
+        return next((getattr(self, each.field) for each in arguments(type(self)) if each.type is THING), "")
 
     @staticmethod
     def is_about(kind: type[ThingKind]) -> bool:
