@@ -118,7 +118,7 @@ def test_what_no_controller_may_send_latches(log: Path, commands: tuple[float, .
         with pytest.raises(GuardianError, match="a frame") as caught:
             until_latched(guardian)
         assert caught.value.hint
-        assert all_at_rest(log)
+        wait_for(log, rest=True)  # the guardian says that it latches before the actuators' own threads have written
 
 
 @pytest.mark.parametrize("name", ["SIGTERM", "SIGHUP", "SIGQUIT"])
