@@ -97,6 +97,23 @@ def inside(things: Any, i: Any, x: Any, y: Any, p: Any) -> Any:
     return abs(things[THING_ROWS * i + X, p] - x) <= half and abs(things[THING_ROWS * i + Y, p] - y) <= half
 
 
+def nearest(s: Any, sensor: Any, n: Any) -> Any:
+    """The rows [THING_ROWS, lane] of the thing that a sensor speaks of: of several, in each lane the nearest one.
+
+    The first where two are as near; one that has vanished is nowhere, and NaN where all have.
+    """
+    if sensor.things == 1:
+        return s.things[THING_ROWS * sensor.thing : THING_ROWS * (sensor.thing + 1)]
+    for p in range(n):
+        best = THING_ROWS * sensor.thing
+        for i in range(sensor.thing + 1, sensor.thing + sensor.things):
+            away = s.things[best + DISTANCE, p]
+            best = THING_ROWS * i if np.isnan(away) or s.things[THING_ROWS * i + DISTANCE, p] < away else best
+        for row in range(THING_ROWS):
+            s.nearest[row, p] = s.things[best + row, p]
+    return s.nearest
+
+
 LANES = 16  # side by side, as one value
 
 

@@ -20,7 +20,8 @@ class PlainWorld:
 
     def __init__(self, graph, task, run, battery):
         self.graph, self.task, self.runs_down = graph, task, battery
-        self.things = [thing for thing in task.things if not isinstance(thing.kind, things.Obstacle)]
+        apart = [thing for thing in task.things if not isinstance(thing.kind, things.Obstacle)]
+        self.things = [thing for thing in apart for _ in range(thing.kind.copies)]
         self.places, self.boxes = run.things.copy(), run.boxes
         self.half = task.scene.size / 2 if isinstance(task.scene, scenes.Arena) else math.inf
         self.radius = graph.body.size / 2
@@ -48,37 +49,37 @@ class PlainWorld:
     def true(self, sensor):
         """A physical sensor's readings as they are: a list of (least, most), and what is read where one is lost."""
         kind = sensor.kind
-        names = [thing.name for thing in self.things]
-        i = names.index(kind.of) if getattr(kind, "of", None) in names else -1
+        all_of = [i for i, thing in enumerate(self.things) if thing.name == getattr(kind, "of", None)]
         match kind:
             case sensors.RangeFinder():
                 return [self.ray(self.angle + at, kind) for at in kind.at], 1.0
             case sensors.Battery():
                 return [(float(f(self.charge)),) * 2], None
             case sensors.Bearing():
-                return [self.bearing(i, kind)], 0.5
+                return [self.bearing(self.nearest(all_of), kind)], 0.5
             case Compass():
                 return [pointed(math.sin(self.angle), math.cos(self.angle), kind.dead_zone)], 0.5
             case sensors.Contact():
-                value = i >= 0 and self.in_claw(i, self.reach())
+                value = any(self.in_claw(i, self.reach()) for i in all_of)
             case sensors.Held():
-                value = self.held == i and i >= 0
+                value = self.held in all_of
             case sensors.Inside():
-                value = i >= 0 and self.inside(i, self.x, self.y)
+                value = any(self.inside(i, self.x, self.y) for i in all_of)
             case sensors.Inertial():
                 moved = math.dist((self.x, self.y), self.trail[0]) / (TRAIL * self.graph.tick * kind.range)
                 return [zoned(min(1.0, moved), kind.dead_zone, 0.0)], 0.0
         return [(float(value),) * 2], 0.0
 
-    def bearing(self, i, kind):
+    def nearest(self, all_of):
+        """The place of the nearest of these that have not vanished, if any."""
+        there = [self.places[i] for i in all_of if not math.isnan(self.places[i][0])]
+        return min(there, key=self.away, default=None)
+
+    def bearing(self, place, kind):
         """Least and most of a bearing; (0, 1) where it may be either side of the seam."""
-        if (
-            i < 0
-            or math.isnan(self.places[i][0])
-            or (kind.range and math.dist(self.places[i][:2], (self.x, self.y)) > kind.range)
-        ):
+        if place is None or (kind.range and self.away(place) > kind.range):
             return 0.5, 0.5
-        dx, dy = self.places[i][0] - self.x, self.places[i][1] - self.y
+        dx, dy = place[0] - self.x, place[1] - self.y
         c, s = math.cos(self.angle), math.sin(self.angle)
         return pointed(c * dx + s * dy, c * dy - s * dx, kind.dead_zone)
 

@@ -79,6 +79,7 @@ def _sight(tables: Tables, sizes: Sizes, room: _Room) -> Sight:
         nearby_most=np.zeros(1, np.int64),
         anchor=room.rows(PLACE_ROWS),
         sides=room.rows(SIDES * sizes.boxes, np.float32),
+        nearest=room.rows(THING_ROWS),
         sight=room.rows(FIRST_RAY + len(tables.ray_row), np.float32),
     )
 

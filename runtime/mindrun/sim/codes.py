@@ -51,7 +51,7 @@ def _row(**columns: str) -> np.dtype[Any]:
 
 
 SENSOR = _row(
-    kind="i8", start="i8", width="i8", thing="i8", source="i8", ray="i8", before="i8", turns="i8",
+    kind="i8", start="i8", width="i8", thing="i8", things="i8", source="i8", ray="i8", before="i8", turns="i8",
     range="f8", dead_zone="f4", gain="f4", period="f8",
     is_rough="i8", is_aside="i8", noise="f4", lost="f4", blank="f4", every="i8", delay="i8", held="i8", ring="i8",
 )  # fmt: skip

@@ -12,7 +12,7 @@ from mindrun.registry import names
 from mindrun.sensors import Physical
 from mindrun.sim.codes import SENSOR, sensor_codes
 from mindrun.sim.records import Row, records
-from mindrun.sim.task_rows import things_of
+from mindrun.sim.task_rows import NOWHERE, rows_by_name
 
 Array = NDArray[Any]
 
@@ -87,7 +87,7 @@ def sensor_rows(graph: Graph, used: Used, task: Task) -> Sensed:
 
     What is measured aside draws its noise from a generator of its own: a reward changes nothing in the world.
     """
-    things = {thing.name: i for i, thing in enumerate(things_of(task))}
+    things = rows_by_name(task)
     starts = {m.name: m.start for m in graph.memories} | {s.name: s.start for s in graph.sensors}
     circular = {s.name for s in graph.sensors if s.kind.circular}
     codes, scene = sensor_codes(), Scene(graph.tick, starts)
@@ -97,9 +97,10 @@ def sensor_rows(graph: Graph, used: Used, task: Task) -> Sensed:
     before = held = ring = 0
     for is_aside, sensor in [(False, s) for s in used.skills] + [(True, s) for s in used.aside]:
         kind = sensor.kind
+        about = things.get(kind.thing, NOWHERE)
         row: dict[str, float] = {
             "kind": codes[names()[type(kind)]], "start": sensor.start, "width": sensor.width,
-            "thing": things.get(kind.thing, -1), "turns": kind.source in circular,
+            "thing": about.start, "things": len(about), "turns": kind.source in circular,
             "ray": len(angles), "before": before, "held": held, "ring": ring, "is_aside": is_aside, "every": 1,
         }  # fmt: skip
         if isinstance(kind, Physical):

@@ -44,6 +44,7 @@ class Sight(NamedTuple):
     anchor: Array  # [PLACE_ROWS] float64: where they were chosen
     # for this tick
     sides: Array  # [SIDES·boxes] float32: those of the boxes nearby, relative to the robot
+    nearest: Array  # [THING_ROWS] float64: of several things of one name, for the sensor that is read
     sight: Array  # [FIRST_RAY + rays] float32: heading and place, then how far each ray goes
 
 
@@ -133,6 +134,7 @@ class Senses(NamedTuple):
     battery: Array
     tick: Array
     trail: Array
+    nearest: Array
     sight: Array
 
 

@@ -28,11 +28,20 @@ Array = NDArray[Any]
 MIN_CELL_UNITS = 20.0  # the side of a cell of Chipmunk's hash, in which what is large takes only so many
 CELLS_PER_SHAPE, CELLS_PER_WALL = 4, 64
 MIN_NEAR_UNITS = 1.0  # beyond the body's rim
+NOWHERE = range(-1, -1)  # rows of a thing that the task does not contain
 
 
 def things_of(task: Task) -> list[Thing]:
-    """What the task contains but its obstacles."""
-    return [thing for thing in task.things if not thing.kind.is_obstacle]
+    """What the task contains but its obstacles, in rows of the lanes: each as many times as there are copies of it."""
+    return [thing for thing in task.things if not thing.kind.is_obstacle for _ in range(thing.kind.copies)]
+
+
+def rows_by_name(task: Task) -> dict[str, range]:
+    """The rows of `things_of` that a name has. A name that is not there has none, as has the empty one: NOWHERE."""
+    found = {"": NOWHERE}
+    for row, thing in enumerate(things_of(task)):
+        found[thing.name] = range(found[thing.name].start if thing.name in found else row, row + 1)
+    return found
 
 
 def box_count(task: Task) -> int:
@@ -72,12 +81,12 @@ def obstacle_rows(task: Task) -> Array:
 
 def measure_rows(task: Task) -> tuple[Array, int]:
     """Rows of MEASURES, and how many changes of thrust are remembered."""
-    places = _places(task)
+    places = rows_by_name(task)
     rows: list[Row] = []
     ring = 0
     for measure in task.measures:
         code, over = MEASURE_CODES[names()[type(measure)]], measure.remembered
-        row = {"kind": code, "thing": places[measure.thing], "over": over, "ring": ring if over else 0}
+        row = {"kind": code, "thing": places[measure.thing].start, "over": over, "ring": ring if over else 0}
         rows.append({**row, **measure.row()})
         ring += over
     return records(rows, MEASURES), ring
@@ -85,20 +94,15 @@ def measure_rows(task: Task) -> tuple[Array, int]:
 
 def event_rows(task: Task) -> tuple[Array, int]:
     """Rows of EVENT, and how many patches there are to visit."""
-    places = _places(task)
+    places = rows_by_name(task)
     rows: list[Row] = []
     board = 0
     for i, event in enumerate(task.events):
         own, code = event.row(task.scene), EVENT_CODES[names()[type(event)]]
-        row = {"kind": code, "thing": places[event.thing], "patch": 1.0, "board": board, "ends": i in task.ends}
+        row = {"kind": code, "thing": places[event.thing].start, "patch": 1.0, "board": board, "ends": i in task.ends}
         rows.append({**row, **own})
         board += int(own.get("columns", 0)) ** 2
     return records(rows, EVENT), board
-
-
-def _places(task: Task) -> dict[str, int]:
-    """The rows of the things, by name; −1 for what is about none."""
-    return {"": -1} | {thing.name: place for place, thing in enumerate(things_of(task))}
 
 
 def reward_row(reward: Reward, codes: Programs) -> tuple[int, ...]:

@@ -52,6 +52,11 @@ class ThingKind:
     least_distance = 10.0  # from the robot, in world units, where walls keep it near
 
     @property
+    def copies(self) -> int:
+        """How many things of its name there are: each has a row of its own, one after the other."""
+        return 1
+
+    @property
     def largest(self) -> float:
         """The size that it has at most."""
         return max(self.size.first, self.size.last)

@@ -68,6 +68,7 @@ def sense(tables, state, lanes, clock):
         battery=world.battery,
         tick=world.tick,
         trail=world.trail,
+        nearest=sight.nearest,
         sight=sight.sight,
     )
     for i in range(len(tables.sensors)):
