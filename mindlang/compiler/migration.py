@@ -38,7 +38,7 @@ def _splices(source: Source, declaration: Declaration) -> Iterator[Splice]:
 def _events(declaration: Declaration) -> Iterator[Phrase]:
     for fact in declaration.facts:
         match fact:
-            case Ends(event) | Counts(event) | Rewards(on=Phrase() as event):
+            case Ends(event=Phrase() as event) | Counts(event) | Rewards(on=Phrase() as event):
                 yield event
 
 

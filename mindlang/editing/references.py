@@ -24,6 +24,7 @@ from mindlang.compiler.syntax import (
     Phrase,
     Reads,
     Rewards,
+    Succeeds,
     Teaches,
 )
 
@@ -62,16 +63,19 @@ class _Reader:
         match fact:
             case Reads(name):
                 yield from self.first_declared(name, *READABLE_NOUNS)
-            case Drives(name, at):
+            case Drives(name, at, gate):
                 yield from self.first_declared(name, *DRIVABLE_NOUNS)
-                yield from self.expression(at, "")
-            case Influences(name, at):
+                yield from self.expressions("", at, *(gate.expressions if gate else ()))
+            case Influences(name, at, gate):
                 yield from self.first_declared(name, "skill")
-                yield from self.expression(at, "")
+                yield from self.expressions("", at, *(gate.expressions if gate else ()))
             case Contains(name, phrase):
                 yield Mention("thing", name, self.by)
                 yield from self.phrase("content", phrase)
-            case Ends(event) | Counts(event):
+            case Ends(_, event, when) | Succeeds(_, event, when):
+                yield from self.phrase("event", event)
+                yield from self.expressions("", *(when.expressions if when else ()))
+            case Counts(event):
                 yield from self.phrase("event", event)
             case Rewards():
                 yield from self.reward(fact)
@@ -81,14 +85,11 @@ class _Reader:
     def reward(self, fact: Rewards) -> Iterator[Mention]:
         """The names in a reward; that of `for each` is its own."""
         own = fact.each.name.text if fact.each else ""
-        yield from self.expression(fact.amount, own)
+        yield from self.expressions(own, fact.amount, *(fact.when.expressions if fact.when else ()))
         if fact.on:
             yield from self.phrase("event", fact.on)
         if fact.each:
             yield from self.first_declared(fact.each.sensor, *READABLE_NOUNS)
-        if fact.when:
-            yield from self.expression(fact.when.left, own)
-            yield from self.expression(fact.when.right, own)
 
     def lesson(self, fact: Teaches) -> Iterator[Mention]:
         """The names in a lesson."""
@@ -97,9 +98,9 @@ class _Reader:
         if fact.master:
             yield from self.first_declared(fact.master, "skill")
 
-    def expression(self, expression: Expression | None, own: str) -> Iterator[Mention]:
-        """The readings in an expression, and the things that its measures are about."""
-        for term in expression.terms if expression else ():
+    def expressions(self, own: str, *expressions: Expression | None) -> Iterator[Mention]:
+        """The readings in expressions, and the things that their measures are about."""
+        for term in (term for expression in expressions if expression for term in expression.terms):
             if not isinstance(term, Phrase) or (term.kind.text == own and not term.arguments):
                 continue
             if not term.arguments and self.names.noun_of(term.kind.text, READABLE_NOUNS):

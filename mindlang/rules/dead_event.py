@@ -24,11 +24,12 @@ BAD = (
 def check(study: Study) -> Found:
     """Events after `ends on` and `counts` that the world of their task prevents."""
     for task in study.mind.tasks:
-        ends = (fact for fact in task.declaration.facts if isinstance(fact, Ends))
+        ends = (fact for fact in task.declaration.facts if isinstance(fact, Ends) and fact.event)
         counts = (fact for fact in task.declaration.facts if isinstance(fact, Counts))
         facts: list[Ends | Counts] = [*ends, *counts]
         place = world(study, task)
         for fact, event in zip(facts, [*task.ends, *task.counts], strict=True):
             if why := event.prevented(place):
                 fix = Fix("Remove the line", (without_fact(fact),), is_safe=False)
-                yield Finding(fact.event.span, f"This never happens: {why[0]}.", why[1], fix=fix)
+                written = fact.event or fact
+                yield Finding(written.span, f"This never happens: {why[0]}.", why[1], fix=fix)

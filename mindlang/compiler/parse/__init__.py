@@ -42,7 +42,7 @@ def parse(source: Source, findings: Findings) -> syntax.File:
             case syntax.Header():
                 above = _Block(line)
                 blocks.append(above)
-            case syntax.Use() | syntax.Master() | syntax.Tick():
+            case _ if isinstance(line, syntax.Setting):
                 above = None
                 settings.append(line)
             case _Unread():

@@ -65,10 +65,14 @@ def single_value(value: Value, quantity: Quantity, findings: Findings) -> float 
             hint = f"Here stands {quantity.name}, for example {_example(value)}."
             findings.error("one-number", value.span, "Only one number can stand here.", hint)
         case _:
-            findings.error(
-                "not-a-number", value.span, f"{value.text} is not a number.", f"Here stands {quantity.name}."
-            )
+            _not_a_number(value, quantity, findings)
     return None
+
+
+def _not_a_number(value: Value, quantity: Quantity, findings: Findings) -> None:
+    findings.error(
+        "not-a-number", value.span, f"{value.span.text} is not a number.", f"Here stands {quantity.name}."
+    )  # fmt: skip
 
 
 def _example(value: Numbers | Range) -> str:
@@ -89,9 +93,7 @@ def value_list(value: Value, quantity: Quantity, findings: Findings) -> tuple[fl
                 "no-range", value.span, "A list cannot be a range.", "Write each number, with spaces between."
             )
         case _:
-            findings.error(
-                "not-a-number", value.span, f"{value.text} is not a number.", f"Here stands {quantity.name}."
-            )
+            _not_a_number(value, quantity, findings)
     return None
 
 

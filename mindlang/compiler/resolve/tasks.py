@@ -63,7 +63,7 @@ def _task(name: str, declaration: Declaration, robot: RobotFacts, findings: Find
         scene,
         world.things,
         _ticks(declaration, robot.tick, findings),
-        tuple(_event(fact.event, world, findings) for fact in _facts(declaration, Ends)),
+        tuple(_event(fact.event, world, findings) for fact in _facts(declaration, Ends) if fact.event),
         tuple(_reward(fact, world, robot, findings) for fact in _facts(declaration, Rewards)),
         tuple(_event(fact.event, world, findings) for fact in _facts(declaration, Counts)),
         declaration,
@@ -148,4 +148,7 @@ def _reward(fact: Rewards, world: _World, robot: RobotFacts, findings: Findings)
 
 
 def _condition(when: syntax.When, visible: Visible, findings: Findings) -> model.Condition:
-    return model.Condition(resolve(when.left, visible, findings), when.compare, resolve(when.right, visible, findings))
+    first = when.alternatives[0][0]
+    return model.Condition(
+        resolve(first.left, visible, findings), first.compare, resolve(first.right, visible, findings)
+    )
