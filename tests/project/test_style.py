@@ -60,6 +60,9 @@ METAPHORS = {
 NAMED_METAPHORS = {
     "mindlang/compiler/parse/explain.py: _common_mistake": "a mistake that is common",
     "mindlang/wiring/driver_page.py: driver_page": "a page of the documentation",
+    "runtime/mindrun/robot/drivers/ball_eye.py: ball_eye": "the language's sensor eye, from a camera",
+    "runtime/mindrun/robot/drivers/ball_eye.py: BallEye": "the language's sensor eye, from a camera",
+    "runtime/mindrun/robot/drivers/ball_eye.py: BallEyeDevice": "the language's sensor eye, from a camera",
     "runtime/mindrun/sim/lanes/sense.py: look": "the rays of the range finders",
 }
 VAGUE = {
@@ -89,7 +92,9 @@ SHORT_CONSTANTS = {  # that are numbers of one word, or vague elsewhere
     "runtime/mindrun/robot/stop_signals.py": "an exit code",
     "runtime/mindrun/robot/drivers/ads1115.py": "registers and bits, as the data sheet calls them",
     "runtime/mindrun/robot/drivers/grove_motor.py": "commands, as the data sheet calls them",
+    "runtime/mindrun/robot/drivers/mpu6050.py": "registers and bits, as the data sheet calls them",
     "runtime/mindrun/robot/drivers/pca9685.py": "registers and bits, as the data sheet calls them",
+    "runtime/mindrun/robot/vl53l0x.py": "registers and bits, as the data sheet calls them",
     "runtime/mindrun/trigonometry.py": "the coefficients of Cody and Waite, in their order",
     "runtime/mindrun/arithmetic.py": "rows of a thing and lanes of a vector, which kinds name in every loop",
     "runtime/mindrun/sim/exact.py": "functions of one argument",
