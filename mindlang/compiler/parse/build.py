@@ -210,7 +210,11 @@ class _Builder(Transformer_NonRecursive[Token, Any]):
             return syntax.Range(first, last, by, self._span(meta))
         return syntax.Points(tuple(sides), by, self._span(meta))
 
-    def word(self, meta: Any, parts: list[Any]) -> Name:
+    def origin(self, meta: Any, parts: list[Any]) -> syntax.Argument:
+        key, skill = map(self._name, parts)
+        return syntax.Argument(key, skill, self._span(meta))
+
+    def name(self, meta: Any, parts: list[Any]) -> Name:
         return self._name(parts[0])
 
     def text(self, meta: Any, parts: list[Any]) -> syntax.Text:
@@ -229,7 +233,7 @@ class _Builder(Transformer_NonRecursive[Token, Any]):
             return Amount(-1.0 if parts[0] == "-" else 1.0, "", self._span(meta), name=str(parts[-1]))
         return Amount(number("".join(parts)), unit, self._span(meta), per)
 
-    under, call, setting, amounts, amount = word, phrase, argument, numbers, quantity
+    under, word, call, setting, amounts, amount = name, name, phrase, argument, numbers, quantity
 
     def expression(self, meta: Any, parts: list[Any]) -> Expression:
         return Expression(tuple(_terms(parts[0])), self._span(meta))
