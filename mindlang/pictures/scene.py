@@ -7,9 +7,10 @@ from math import cos, sin
 import numpy as np
 from mindrun.graph import Thing
 from mindrun.registry import names
+from mindrun.scenes import SceneKind
 from numpy.typing import NDArray
 
-from mindlang.pictures.canvas import Canvas, square, text_width
+from mindlang.pictures.canvas import Canvas, rectangle, square, text_width
 from mindlang.pictures.recorded_run import RecordedRun
 from mindlang.pictures.theme import Colour, Theme, mixed
 
@@ -20,20 +21,26 @@ NAME_PIXELS = 10.0  # the capitals of a thing's name
 
 def draw_floor(canvas: Canvas, run: RecordedRun, theme: Theme) -> None:
     """The floor with a line every ten units, the walls and the obstacles."""
-    half = run.task.scene.side / 2 if run.task.scene.is_bounded else 0.0
-    if half:
-        canvas.polygon(square(0, 0, half + WALL_UNITS), theme.wall)
-        canvas.polygon(square(0, 0, half), theme.floor)
-    _grid(canvas, theme, half)
+    if run.task.scene.is_bounded:
+        x, y = half_sides(run.task.scene)
+        canvas.polygon(rectangle(0, 0, x + WALL_UNITS, y + WALL_UNITS), theme.wall)
+        canvas.polygon(rectangle(0, 0, x, y), theme.floor)
+    _grid(canvas, theme, run.task.scene)
     for x, y, size in run.boxes:
         canvas.polygon(square(x, y, size), theme.rock)
         canvas.line(square(x, y, size), theme.rock_edge, 1.2, closed=True)
 
 
-def _grid(canvas: Canvas, theme: Theme, half: float) -> None:
-    view, (height, width) = canvas.view, canvas.image.shape[:2]
-    left, right = (-half, half) if half else (view.left, view.left + width / view.scale)
-    low, high = (-half, half) if half else (view.top - height / view.scale, view.top)
+def half_sides(scene: SceneKind) -> tuple[float, float]:
+    """How far its walls are from its middle, along x and y."""
+    width, depth = scene.sides
+    return width / 2, depth / 2
+
+
+def _grid(canvas: Canvas, theme: Theme, scene: SceneKind) -> None:
+    view, (height, width), (x, y) = canvas.view, canvas.image.shape[:2], half_sides(scene)
+    left, right = (-x, x) if scene.is_bounded else (view.left, view.left + width / view.scale)
+    low, high = (-y, y) if scene.is_bounded else (view.top - height / view.scale, view.top)
     for x in np.arange(np.floor(left / GRID_UNITS) * GRID_UNITS + GRID_UNITS, right - 1e-6, GRID_UNITS):
         canvas.line([(x, low), (x, high)], theme.grid)
     for y in np.arange(np.floor(low / GRID_UNITS) * GRID_UNITS + GRID_UNITS, high - 1e-6, GRID_UNITS):

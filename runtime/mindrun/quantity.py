@@ -1,7 +1,7 @@
 """The types that an argument of a kind can have: what a number means, which units it takes, what it may be."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from math import inf, pi
 
 
@@ -33,6 +33,9 @@ class Span:
     by: float | None = None
 
 
+Extent = float | tuple[float, float]  # `100`: both ways alike; `60 40`: along x and along y
+Place = tuple[float, float]  # `30 -20`
+
 UNSAID = Span(-1.0, -1.0)  # in place of lengths that nobody has given
 LEAST_STEP = 1e-9  # of a schedule
 
@@ -56,6 +59,7 @@ def fits(meaning: Quantity | Reference, value: object) -> bool:
 NUMBER = Quantity("a number", {"": 1.0}, low=-1e9, high=1e9)
 LENGTH = Quantity("a length in world units", {"": 1.0}, low=0.0, high=1e5)
 POSITIVE = Quantity("a number above zero", {"": 1.0}, low=1e-6, high=1e6)
+COORDINATE = replace(LENGTH, name="a coordinate in world units", low=-1e5)
 ANGLE = Quantity("an angle", {"deg": pi / 180}, low=-20 * pi, high=20 * pi)
 SECONDS = Quantity("a time", {"s": 1.0}, low=1e-6, high=1e9)
 TICK = Quantity("the length of a tick", {"s": 1.0}, low=1e-5, high=1000.0)

@@ -6,7 +6,7 @@ from importlib import import_module
 from pkgutil import iter_modules
 from typing import Annotated, Any, Literal, TypeVar, get_args, get_origin, get_type_hints
 
-from mindrun.quantity import Quantity, Reference, Span
+from mindrun.quantity import Extent, Place, Quantity, Reference, Span
 
 T = TypeVar("T")
 
@@ -16,7 +16,8 @@ _bases: dict[type[Any], str] = {}
 _arguments: dict[Any, tuple["Argument", ...]] = {}  # of each kind that was asked for
 
 
-Shape = Literal["one", "list", "span", "name"]  # of an argument: a number, several, a `Span`, a word
+Shape = Literal["one", "list", "span", "name", "extent", "place"]
+"""Of an argument: a number, several, a `Span`, a word, an `Extent`, a `Place` or None."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -101,6 +102,10 @@ def _type(hint: Any) -> tuple[Quantity | Reference, Shape]:
             return meaning, "name"
         case _ if plain is Span:
             return meaning, "span"
+        case _ if plain == Extent:
+            return meaning, "extent"
+        case _ if plain == Place | None:
+            return meaning, "place"
         case _ if get_origin(plain) is tuple:
             return meaning, "list"
     return meaning, "one"

@@ -53,13 +53,13 @@ SENSORS = {
     "moving": ["sensor moving is inertial"],
 }
 NARROW = SENSORS.keys() - {"eye"}  # readings of width 1
-SCENES = ["plain", "arena size 40", "arena"]
-ROCKS = ["rock is obstacle grid 10 size 2 to 3", "rock is obstacle count 3"]
+SCENES = ["plain", "arena size 40", "arena", "arena size 60 50"]
+ROCKS = ["rock is obstacle grid 10 size 2 to 3", "rock is obstacle count 3", "rock is obstacle size 2 at 15 -15"]
 THINGS = [
-    ["ball is item size 2 reached moves"],
-    ["coin is item"],
-    ["nest is zone size 8", "nest is zone"],
-    ["dock is power size 4", "dock is power"],
+    ["ball is item size 2 reached moves", "ball is item size 2 at 4 6"],
+    ["coin is item", "coin is item at 6 14"],
+    ["nest is zone size 8", "nest is zone at -12.5 10"],
+    ["dock is power size 4", "dock is power at -4 -6"],
 ]
 REWARDS = [
     ["rewards 10 on reach of ball"],
@@ -178,6 +178,7 @@ def _declarations(rng: Random) -> list[list[str]]:
 def _more(rng: Random, noun: str, line: str) -> str:
     """A line that says what kind something is, with some of the arguments that it does not say."""
     kind, *words = re.split(" is | in ", line)[1].split()
+    words += ["away", "grid", "count"] * ("at" in words) + ["at"]  # a place has to be free
     often = 0.5 if noun == "curriculum" else 0.2
     for argument in arguments(kinds(noun)[kind]):
         if not argument.required and argument.key not in words and rng.random() < often:

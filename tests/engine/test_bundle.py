@@ -194,7 +194,7 @@ def test_a_wiring_travels_with_its_mind(tmp_path: Path) -> None:
 def test_a_mind_without_a_robot_is_the_bundle_that_it_always_was() -> None:
     with zipfile.ZipFile(BytesIO(pack(example()))) as archive:
         manifest = json.loads(archive.read("manifest.json"))
-        assert manifest["format"] == "mind bundle 3"
+        assert manifest["format"] == "mind bundle 5"
         assert "wiring" not in manifest
         assert "wiring.json" not in archive.namelist()
 
@@ -241,5 +241,5 @@ def test_a_driver_that_this_mindrun_does_not_have_is_named() -> None:
 
 
 def test_a_newer_bundle_is_refused_in_words() -> None:
-    with pytest.raises(BundleError, match=r"'mind bundle 5'.*install the mindrun of the mindc that built it"):
-        unpack(resealed(pack(wired()), lambda members: None, {"format": "mind bundle 5"}))
+    with pytest.raises(BundleError, match=r"'mind bundle 7'.*install the mindrun of the mindc that built it"):
+        unpack(resealed(pack(wired()), lambda members: None, {"format": "mind bundle 7"}))

@@ -259,4 +259,5 @@ def _some(argument: Any) -> Any:
 
 def _shaped(shape: str, value: float) -> Any:
     value = int(value) if isinstance(value, float) and value.is_integer() and shape == "one" else value
-    return {"one": value, "list": [value], "span": {"first": value, "last": value, "by": None}}[shape]
+    span = {"first": value, "last": value, "by": None}
+    return {"one": value, "extent": value, "list": [value], "place": [value, value], "span": span}[shape]

@@ -72,10 +72,26 @@ def test_what_a_line_named_moves() -> None:
 def test_a_bundle_of_today_that_does_not_say_it_is_damaged() -> None:
     now = Bundle(Policy(compile_text(DRIFTER + TASKS), {}), {})
     with pytest.raises(BundleError, match="damaged"):
-        unpack(old(pack(now), "mind bundle 3"))
+        unpack(old(pack(now), "mind bundle 5"))
 
 
-@pytest.mark.parametrize("form", ["mind bundle 2", "mind bundle 5", "", None, 3, ["mind bundle 1"]])
+def test_what_had_no_word_is_as_where_nothing_is_said() -> None:
+    """A `mind bundle 3` said what becomes of things, and not all that a kind takes today."""
+    now = Bundle(Policy(compile_text(DRIFTER + TASKS), {}), {})
+
+    def forget(members: dict[str, bytes]) -> None:
+        graph = json.loads(members["graph.json"])
+        for task in graph["tasks"]:
+            for thing in task["things"]:
+                thing["kind"].pop("away")
+        members["graph.json"] = json.dumps(graph).encode()
+
+    assert unpack(resealed(pack(now), forget, {"format": "mind bundle 3"})) == now
+    with pytest.raises(BundleError, match="damaged"):
+        unpack(resealed(pack(now), forget, {}))
+
+
+@pytest.mark.parametrize("form", ["mind bundle 2", "mind bundle 7", "", None, 3, ["mind bundle 1"]])
 def test_other_formats_are_refused(form: Any) -> None:
     with pytest.raises(BundleError):
         unpack(old(pack(Bundle(Policy(compile_text(DRIFTER + TASKS), {}), {})), form))

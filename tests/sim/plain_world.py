@@ -23,7 +23,8 @@ class PlainWorld:
         apart = [thing for thing in task.things if not isinstance(thing.kind, things.Obstacle)]
         self.things = [thing for thing in apart for _ in range(thing.kind.copies)]
         self.places, self.boxes = run.things.copy(), run.boxes
-        self.half = task.scene.size / 2 if isinstance(task.scene, scenes.Arena) else math.inf
+        size = task.scene.size if isinstance(task.scene, scenes.Arena) else math.inf
+        self.half = tuple(side / 2 for side in (size if isinstance(size, tuple) else (size, size)))
         self.radius = graph.body.size / 2
         self.x, self.y, self.angle = (float(v) for v in run.begin)
         self.held, self.t, self.touched = -1, 0, False
@@ -43,8 +44,9 @@ class PlainWorld:
         """Where the robot is on an event's board, if it has one."""
         if not isinstance(event, events.Visit):
             return None
-        columns = math.ceil(self.task.scene.size / event.size)
-        return tuple(min(columns - 1, max(0, int((v + self.half) / event.size))) for v in (self.x, self.y))
+        patches = [math.ceil(2 * half / event.size) for half in self.half]
+        places = zip((self.x, self.y), self.half, patches, strict=True)
+        return tuple(min(last - 1, max(0, int((v + half) / event.size))) for v, half, last in places)
 
     def true(self, sensor):
         """A physical sensor's readings as they are: a list of (least, most), and what is read where one is lost."""
@@ -94,9 +96,9 @@ class PlainWorld:
         c, s = math.cos(angle), math.sin(angle)
         found = math.inf
         for sign in (-1, 1):
-            for position, direction in ((self.x, c), (self.y, s)):
+            for position, half, direction in ((self.x, self.half[0], c), (self.y, self.half[1], s)):
                 if direction * sign > 1e-12:
-                    found = min(found, (sign * self.half - position) / direction)
+                    found = min(found, (sign * half - position) / direction)
         for x, y, half in self.boxes:
             enter, leave = -math.inf, math.inf
             for low, high, direction in (
@@ -308,9 +310,9 @@ class PlainBody:
         self.space.use_spatial_hash(20.0, 20)
         for x, y, h in of.boxes:
             self.box(x - h, y - h, x + h, y + h)
-        if of.half < math.inf:
-            a, b = of.half, of.half + 2
-            for sides in ((-b, -b, -a, b), (a, -b, b, b), (-b, -b, b, -a), (-b, a, b, b)):
+        if of.half[0] < math.inf:
+            (a, b), (c, d) = of.half, (half + 2 for half in of.half)
+            for sides in ((-c, -d, -a, d), (a, -d, c, d), (-c, -d, c, -b), (-c, b, c, d)):
                 self.box(*sides)
         mass = body.density * math.pi * self.radius**2
         self.body = pymunk.Body(mass, mass * self.radius**2 / 2)

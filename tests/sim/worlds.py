@@ -9,7 +9,7 @@ from mindrun.events import Collision, Delivery, EventKind, Exhaustion, Reach, Vi
 from mindrun.graph import Actuator, Condition, Graph, Lesson, Program, Reward, Task, Thing
 from mindrun.learners import Learner
 from mindrun.measures import Advance, Change, Forward, MeasureKind, Progress, Retreat
-from mindrun.quantity import Span
+from mindrun.quantity import UNSAID, Span
 from mindrun.registry import arguments, kinds
 from mindrun.scenes import Arena, Plain, SceneKind
 from mindrun.things import Item, Obstacle, Power, Zone
@@ -20,6 +20,7 @@ from tests.hierarchies import random_graph
 SIZES = st.sampled_from([Span(1.0, 1.0), Span(2.0, 5.0), Span(4.0, 1.0, 0.75), Span(1.0, 3.0, 0.75)])
 WIDE = st.sampled_from([Span(8.0, 8.0), Span(4.0, 12.0), Span(14.0, 6.0, 2.0)])
 AWAY = st.sampled_from([Span(-1.0, -1.0), Span(0.0, 3.0), Span(0.0, 6.0), Span(2.0, 12.0)])
+PLACES = st.tuples(st.sampled_from([-6.0, 0.0, 4.5]), st.sampled_from([-4.0, 0.5, 3.0]))
 NEUTRAL = st.sampled_from([0.0, 0.4, 0.5, 0.9, 1.0])
 OUTCOMES = st.sampled_from(["stays", "moves", "moves", "vanishes"])
 DELAY = st.sampled_from([0, 0, 1, 2, 5])
@@ -44,7 +45,7 @@ def random_world(draw: st.DrawFn, most: int = 40) -> Graph:
         Actuator(a.name, draw(WHEELS | WHEELS | CLAWS | st.builds(Servo, NEUTRAL, DELAY))) for a in graph.actuators
     )
     graph = replace(graph, tick=draw(st.sampled_from([1 / 60, 1 / 30, 0.1])), body=draw(BODIES), actuators=actuators)
-    scene: SceneKind = draw(st.sampled_from([Plain(), Arena(20.0), Arena(33.0)]))
+    scene: SceneKind = draw(st.sampled_from([Plain(), Arena(20.0), Arena(33.0), Arena((26.0, 15.0))]))
     things = draw(_things(scene))
     measures, events = draw(_measures(things)), draw(_events(scene, things))
     rewards = tuple(draw(_rewards(graph, len(measures), len(events))) for _ in range(draw(st.integers(1, 4))))
@@ -85,7 +86,8 @@ def _things(draw: st.DrawFn, scene: SceneKind) -> tuple[Thing, ...]:
     ):
         if draw(st.integers(0, 2)):
             outcomes = {field.name: draw(OUTCOMES) for field in fields(kind) if field.name in ("reached", "delivered")}
-            things.append(Thing(name, kind(size=draw(size), away=draw(AWAY), **outcomes)))
+            at = draw(st.none() | st.none() | PLACES)
+            things.append(Thing(name, kind(size=draw(size), away=UNSAID if at else draw(AWAY), at=at, **outcomes)))
     grid = isinstance(scene, Arena) and draw(st.booleans())
     sizes = draw(st.sampled_from([Span(1.0, 1.0), Span(1.0, 3.0)]))
     if grid:
@@ -94,6 +96,8 @@ def _things(draw: st.DrawFn, scene: SceneKind) -> tuple[Thing, ...]:
         )
     if draw(st.booleans()):
         things.append(Thing("stone", Obstacle(sizes, count=draw(st.integers(0, 5)), away=draw(AWAY))))
+    if draw(st.booleans()):
+        things.append(Thing("block", Obstacle(sizes, at=draw(PLACES), jitter=draw(st.sampled_from([0.0, 1.5])))))
     return tuple(draw(st.permutations(things)))
 
 

@@ -143,6 +143,10 @@ def _number(parameter: Parameter, argument: Argument, findings: Findings) -> Any
             return quantities.single_value(argument.value, parameter.type, findings)
         case "list":
             return quantities.value_list(argument.value, parameter.type, findings)
+        case "extent":
+            return quantities.extent(argument.value, parameter.type, findings)
+        case "place":
+            return quantities.place(argument.value, parameter.type, findings)
         case _:
             return quantities.span(argument.value, parameter.type, findings)
 

@@ -2,7 +2,7 @@
 
 from math import ceil, floor, isfinite
 
-from mindrun.quantity import LEAST_STEP, Quantity, Span
+from mindrun.quantity import LEAST_STEP, Extent, Place, Quantity, Span
 
 from mindlang.compiler.diagnostic import Findings, listed
 from mindlang.compiler.syntax import Amount, Numbers, Range, Value
@@ -94,6 +94,32 @@ def value_list(value: Value, quantity: Quantity, findings: Findings) -> tuple[fl
             )
         case _:
             _not_a_number(value, quantity, findings)
+    return None
+
+
+def extent(value: Value, quantity: Quantity, findings: Findings) -> Extent | None:
+    """The value of an argument that takes one number, or a width and a depth."""
+    match value:
+        case Numbers(amounts=(_, _)):
+            return place(value, quantity, findings)
+        case Numbers(amounts=(_, _, third, *_)):
+            hint = "Write one number for a square, or two: the width and the depth."
+            findings.error("too-many-numbers", third.span, "Here stand one number or two.", hint)
+            return None
+    return single_value(value, quantity, findings)
+
+
+def place(value: Value, quantity: Quantity, findings: Findings) -> Place | None:
+    """The value of an argument that takes two numbers."""
+    match value:
+        case Numbers(amounts=(_, _)):
+            both = value_list(value, quantity, findings)
+            return (both[0], both[1]) if both else None
+        case Numbers() | Range():
+            hint = "Write two numbers with a space between: along x, then along y from the middle."
+            findings.error("not-a-place", value.span, "A place is two numbers.", hint)
+        case _:
+            single_value(value, quantity, findings)
     return None
 
 

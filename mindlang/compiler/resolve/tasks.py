@@ -15,6 +15,7 @@ from mindlang.compiler.names import Names, things_of
 from mindlang.compiler.resolve.expressions import Visible, resolve
 from mindlang.compiler.resolve.kinds import Scope, make
 from mindlang.compiler.resolve.parts import refuse_facts
+from mindlang.compiler.resolve.places import check_places
 from mindlang.compiler.resolve.quantities import convert
 from mindlang.compiler.syntax import Contains, Counts, Declaration, Ends, Fact, Lasts, Phrase, Rewards
 
@@ -89,6 +90,7 @@ def _things(declaration: Declaration, scene: Any, scope: Scope, findings: Findin
             obstacles += min(kind.obstacles(scene), MAX_OBSTACLES)  # as if there were few where there are too many
         found.setdefault(name, model.Part(name, kind, fact.name.span))
     _check_things(tuple(found.values()), findings)
+    check_places(tuple(found.values()), scene, findings)
     return tuple(found.values())
 
 

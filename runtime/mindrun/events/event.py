@@ -80,5 +80,7 @@ class EventKind(AboutThing):
         return None
 
     def row(self, scene: SceneKind) -> Row:
-        """What the lanes are told of it beside the thing that it is about: the `columns` of patches, and their side."""
+        """What the lanes are told of it beside the thing that it is about: the `columns` and
+        `rows` of patches, and their side.
+        """
         return {}

@@ -65,16 +65,19 @@ ACTUATOR = _row(kind="i8", thrust="f8", neutral="f4", reach="f8", delay="i8", ri
 MEMORY = _row(row="i8", decay="f4", rest="f4", start="f4")
 THING = _row(
     kind="i8", first="f8", last="f8", by="f8", low="f8", high="f8", hold="f8", drawn="i8",
-    reached="i8", delivered="i8", is_reached="i8", is_delivered="i8",
+    is_fixed="i8", x="f8", y="f8", reached="i8", delivered="i8", is_reached="i8", is_delivered="i8",
 )  # fmt: skip
-OBSTACLE = _row(first="f8", last="f8", grid="f8", jitter="f8", lines="i8", count="i8", low="f8", high="f8")
+OBSTACLE = _row(
+    first="f8", last="f8", grid="f8", jitter="f8", columns="i8", rows="i8", x="f8", y="f8",
+    count="i8", low="f8", high="f8",
+)  # fmt: skip
 MEASURES = _row(kind="i8", thing="i8", beyond="f8", over="i8", ring="i8")
-EVENT = _row(kind="i8", thing="i8", columns="i8", patch="f8", board="i8", ends="i8")
+EVENT = _row(kind="i8", thing="i8", columns="i8", rows="i8", patch="f8", board="i8", ends="i8")
 REWARD = _row(
     code="i8", length="i8", on="i8", each="i8", eachs="i8", compare="i8", left="i8", lefts="i8", right="i8", rights="i8"
 )
 WORLD = _row(
     dt="f8", linear="f8", angular="f8", mass="f8", moment="f8", mass_inv="f8", moment_inv="f8", radius="f8",
-    half="f8", ticks="i8", start="f8", drain="f8", charge="f8", rays="i8", near="f8", master="i8",
+    half_x="f8", half_y="f8", ticks="i8", start="f8", drain="f8", charge="f8", rays="i8", near="f8", master="i8",
     claw="f8", battery="i8", cell="f8",
 )  # fmt: skip

@@ -56,10 +56,11 @@ def thing_rows(graph: Graph, task: Task) -> Array:
     for thing in things_of(task):
         kind, size = thing.kind, thing.kind.size
         low, high = kind.distances(task.scene)
+        x, y = kind.at or (0.0, 0.0)
         row: dict[str, float] = {
             "kind": THING_CODES[names()[type(kind)]], "first": size.first, "last": size.last, "by": size.by or 0.0,
             "low": low, "high": high, "hold": graph.body.radius + kind.largest / 2,
-            "drawn": size.by is None and size.first != size.last,
+            "drawn": size.by is None and size.first != size.last, "is_fixed": kind.at is not None, "x": x, "y": y,
         }  # fmt: skip
         for what in ("reached", "delivered"):
             outcome = kind.outcomes.get(what, STAYS)
@@ -101,7 +102,7 @@ def event_rows(task: Task) -> tuple[Array, int]:
         own, code = event.row(task.scene), EVENT_CODES[names()[type(event)]]
         row = {"kind": code, "thing": places[event.thing].start, "patch": 1.0, "board": board, "ends": i in task.ends}
         rows.append({**row, **own})
-        board += int(own.get("columns", 0)) ** 2
+        board += int(own.get("columns", 0) * own.get("rows", 0))
     return records(rows, EVENT), board
 
 
@@ -125,11 +126,11 @@ def world_row(graph: Graph, task: Task, rays: int, used: Sequence[Sensor], maste
     # How far the rays reach, or the item in the claw.
     near = body.radius + max([MIN_NEAR_UNITS, *held, *(sensor.kind.reach for sensor in used)])
     solid = [thing.kind.largest for thing in task.things if thing.kind.is_solid]
-    spread = scene.side / CELLS_PER_WALL if scene.is_bounded else 0.0
+    spread = max(scene.sides) / CELLS_PER_WALL if scene.is_bounded else 0.0
     cell = max([MIN_CELL_UNITS, spread, *(size / CELLS_PER_SHAPE for size in (body.size, *held, *solid))])
     row = (
         dt, 1.0 / (1.0 + dt * body.linear_damping), 1.0 / (1.0 + dt * body.angular_damping), body.mass, body.moment,
-        1.0 / body.mass, 1.0 / body.moment, body.radius, scene.side / 2, task.ticks,
+        1.0 / body.mass, 1.0 / body.moment, body.radius, *(side / 2 for side in scene.sides), task.ticks,
         battery.start, battery.drain, battery.charge, rays, near, master, graph.claw_reach, powered, cell,
     )  # fmt: skip
     return np.array([row], WORLD)

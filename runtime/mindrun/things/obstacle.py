@@ -1,11 +1,14 @@
 """What stands in the way."""
 
+from collections.abc import Iterable
 from dataclasses import dataclass
+from itertools import product
 from typing import Annotated
 
-from mindrun.quantity import LENGTH, Quantity, Span
+from mindrun.quantity import COORDINATE, LENGTH, Place, Quantity, Span
 from mindrun.registry import kind
 from mindrun.scenes import SceneKind
+from mindrun.things.box import Box
 from mindrun.things.thing import DEFAULT_DISTANCE, DEFAULT_SIZE, MAX_OBSTACLES, Mistake, Row, ThingKind
 
 COUNT = Quantity("a whole number", {"": 1.0}, low=0, high=1000, whole=True)
@@ -15,7 +18,7 @@ MAX_GRID_LINES = 1e9  # lines of a grid, far more than can be
 @kind("content", "obstacle")
 @dataclass(frozen=True, slots=True)
 class Obstacle(ThingKind):
-    """Solid squares of side `size`: `count` of them anywhere, or one at each point of a `grid` of that spacing.
+    """Solid squares of side `size`: `count` of them anywhere, one `at` a place, or one at each point of a `grid`.
 
     Each stands up to `jitter` off its point, both ways along both axes.
     """
@@ -25,34 +28,53 @@ class Obstacle(ThingKind):
     jitter: Annotated[float, LENGTH] = 0.0
     count: Annotated[int, COUNT] = 0
     away: Annotated[Span, LENGTH] = DEFAULT_DISTANCE
+    at: Annotated[Place | None, COORDINATE] = None
 
     is_obstacle = True
     is_solid = True
     least_distance = 0.0
 
-    def grid_lines(self, scene: SceneKind | None) -> int:
-        """How many lines of its grid cross a scene, none on its walls; there is no grid without walls."""
+    def grid_lines(self, scene: SceneKind | None) -> tuple[int, int]:
+        """How many columns and rows its grid has in a scene, none on its walls; there is no grid without walls."""
         if scene and scene.is_bounded and self.grid:
-            return max(0, round(min(scene.side / self.grid, MAX_GRID_LINES)) - 1)
-        return 0
+            columns, rows = (max(0, round(min(side / self.grid, MAX_GRID_LINES)) - 1) for side in scene.sides)
+            return columns, rows
+        return 0, 0
 
     def obstacles(self, scene: SceneKind | None) -> int:
-        """One at each point of its grid, or its count."""
-        return self.grid_lines(scene) ** 2 if self.grid else self.count
+        """One at each point of its grid, one at its place, or its count."""
+        columns, rows = self.grid_lines(scene)
+        return columns * rows if self.grid else self.count or int(self.at is not None)
+
+    def standing(self, scene: SceneKind | None) -> Iterable[Box]:
+        """What the smallest of them covers wherever jitter moves it."""
+        half = min(self.size.first, self.size.last) / 2 - self.jitter
+        columns, rows = self.grid_lines(scene) if self.grid else (1, 1)
+        if half <= 0 or not (self.grid or self.at) or columns * rows > MAX_OBSTACLES:
+            return
+        x, y = self.at or (0.0, 0.0)
+        for column, row in product(range(columns), range(rows)):
+            yield Box(x + (column - (columns - 1) / 2) * self.grid, y + (row - (rows - 1) / 2) * self.grid, half, half)
 
     def row(self, scene: SceneKind) -> Row:
-        """A grid or a count."""
-        lines, count = self.grid_lines(scene), 0 if self.grid else self.count
-        return {"grid": self.grid, "jitter": self.jitter, "lines": lines, "count": count}
+        """A grid, which has a single point where it stands at a place, or a count."""
+        columns, rows = self.grid_lines(scene) if self.at is None else (1, 1)
+        x, y = self.at or (0.0, 0.0)
+        count = 0 if self.grid or self.at else self.count
+        grid = {"grid": self.grid, "jitter": self.jitter, "columns": columns, "rows": rows}
+        return {**grid, "x": x, "y": y, "count": count}
 
     def mistake(self, scene: SceneKind | None) -> Mistake | None:
-        """A grid needs the borders of an arena and must not be too close; without one it needs a count."""
+        """A grid needs the borders of an arena and must not be too close; without one it needs a count or a place."""
+        if self.at and (self.grid or self.count):
+            hint = "Write at and its place, or a count, or a grid."
+            return Mistake("place-for-many", "Several obstacles cannot stand at one place.", hint)
         if self.grid and scene and not scene.is_bounded:
             hint = "Write in arena size 100, or count 10 instead of the grid."
             return Mistake("endless-grid", "In a plain scene a grid of obstacles would never end.", hint)
         if (made := self.obstacles(scene)) > MAX_OBSTACLES:
             hint = f"A world takes {MAX_OBSTACLES}: space it out."
             return Mistake("too-many-obstacles", f"That is a grid of {made} obstacles.", hint)
-        if not self.grid and not self.count:
-            return Mistake("no-obstacles", "That makes no obstacle.", "Add grid 20, or count 10.")
-        return None
+        if not self.grid and not self.count and not self.at:
+            return Mistake("no-obstacles", "That makes no obstacle.", "Add grid 20, or count 10, or at 30 -20.")
+        return ThingKind.mistake(self, scene)

@@ -1,11 +1,12 @@
 """What every kind of thing says of itself: the rest of the program asks, and knows no kind by name."""
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from typing import Literal, NamedTuple, get_args
 
-from mindrun.quantity import UNSAID, Reference, Span
+from mindrun.quantity import UNSAID, Place, Reference, Span
 from mindrun.registry import base
 from mindrun.scenes import SceneKind
+from mindrun.things.box import Box
 
 DEFAULT_SIZE = Span(1.0, 1.0)
 DEFAULT_DISTANCE = UNSAID  # as far away as its scene says
@@ -34,13 +35,14 @@ class Mistake(NamedTuple):
 class ThingKind:
     """A thing with a place, which touches nothing; a kind says what is different about it.
 
-    Every kind has the arguments `size` and `away`, the distance from the robot at which it is placed.
+    Every kind has the arguments `size`, and `away`, the distance from the robot at which it is placed, or `at`, where.
     """
 
     __slots__ = ()
 
     size: Span
     away: Span
+    at: Place | None
 
     is_obstacle = False  # whether it is squares that stand in the way: no sensor, event or measure is about these
     is_solid = False  # whether the robot can collide with it, although nobody holds it
@@ -76,10 +78,24 @@ class ThingKind:
         """How many squares it puts in the way; `scene` is None where that is not known."""
         return 0
 
+    def standing(self, scene: SceneKind | None) -> Iterable[Box]:
+        """What it fills with something solid in every run; `scene` is None where that is not known."""
+        return ()
+
     def row(self, scene: SceneKind) -> Row:
-        """What the lanes are told of an obstacle: the spacing and `lines` of its `grid`, its `jitter` and `count`."""
+        """What the lanes are told of an obstacle: the spacing of its `grid`, how many `columns` and `rows` it has, its
+        `jitter` and `count`.
+        """
         return {}
 
     def mistake(self, scene: SceneKind | None) -> Mistake | None:
         """Why it cannot be in a scene; `scene` is None where that is not known."""
-        return None
+        if self.at is None:
+            return None
+        if self.away != DEFAULT_DISTANCE:
+            hint = "Leave away out: what stands at a place is as far away as that is."
+            return Mistake("place-and-distance", "It says where it is, and how far away.", hint)
+        if scene is None or scene.has_room(self.at, self.largest / 2):
+            return None
+        hint = "Write a place that is in it with all of the thing; 0 0 is the middle."
+        return Mistake("outside-arena", "That is not inside the arena.", hint)

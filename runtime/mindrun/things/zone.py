@@ -4,7 +4,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Annotated
 
-from mindrun.quantity import LENGTH, Span
+from mindrun.quantity import COORDINATE, LENGTH, Place, Span
 from mindrun.registry import kind
 from mindrun.things.thing import DEFAULT_DISTANCE, DEFAULT_SIZE, OUTCOME, STAYS, Outcome, ThingKind
 
@@ -20,6 +20,7 @@ class Zone(ThingKind):
 
     size: Annotated[Span, LENGTH] = DEFAULT_SIZE
     away: Annotated[Span, LENGTH] = DEFAULT_DISTANCE
+    at: Annotated[Place | None, COORDINATE] = None
     reached: Annotated[Outcome, OUTCOME] = STAYS
 
     is_area = True

@@ -58,7 +58,7 @@ def open_space(tables, world, contact, lane):
     space = call(library[SPACE_NEW])
     call(library[SPACE_ITERATIONS], space, SOLVER_ITERATIONS)
     call(library[SPACE_HASH], space, constants.cell, HASH_COUNT)
-    add_boxes(library, space, world.boxes[lane], constants.half, handles, len(tables.things), contact.floats[lane])
+    add_boxes(library, space, world.boxes[lane], constants, handles, len(tables.things), contact.floats[lane])
     body = call(library[BODY_NEW], constants.mass, constants.moment)
     call(library[SPACE_ADD_BODY], space, body)
     for circle in range(ROBOT, FIRST_HELD + len(tables.things)):
@@ -69,7 +69,7 @@ def open_space(tables, world, contact, lane):
 
 
 @compiled
-def add_boxes(library, space, boxes, half, handles, things, corners):
+def add_boxes(library, space, boxes, constants, handles, things, corners):
     """The obstacles of a lane, and the walls of an arena; their shapes into `handles`, after those of the things."""
     static = call(library[SPACE_STATIC], space)
     count, shape = len(boxes) // BOX_COLUMNS, FIRST_HELD + things
@@ -78,12 +78,13 @@ def add_boxes(library, space, boxes, half, handles, things, corners):
         x, y, side = boxes[box + X], boxes[box + Y], boxes[box + HALF_SIDE]
         handles[shape + b] = add_box(library, space, static, corners, x - side, y - side, x + side, y + side)
     shape += count
-    if half < ENDLESS_UNITS:
-        outer = half + 2 * HALF_WALL_UNITS
-        handles[shape] = add_box(library, space, static, corners, -outer, -outer, -half, outer)
-        handles[shape + 1] = add_box(library, space, static, corners, half, -outer, outer, outer)
-        handles[shape + 2] = add_box(library, space, static, corners, -outer, -outer, outer, -half)
-        handles[shape + 3] = add_box(library, space, static, corners, -outer, half, outer, outer)
+    x, y = constants.half_x, constants.half_y
+    if x < ENDLESS_UNITS:
+        far_x, far_y = x + 2 * HALF_WALL_UNITS, y + 2 * HALF_WALL_UNITS
+        handles[shape] = add_box(library, space, static, corners, -far_x, -far_y, -x, far_y)
+        handles[shape + 1] = add_box(library, space, static, corners, x, -far_y, far_x, far_y)
+        handles[shape + 2] = add_box(library, space, static, corners, -far_x, -far_y, far_x, -y)
+        handles[shape + 3] = add_box(library, space, static, corners, -far_x, y, far_x, far_y)
 
 
 @compiled

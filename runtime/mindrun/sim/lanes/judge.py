@@ -135,7 +135,7 @@ def notice(tables, world, contact, visited, event, out, lanes):
         elif kind == DELIVERY:
             happened = world.delivered[i, lane] == REACH_BEGUN
         elif kind == VISIT:
-            patch = event.board + patch_of(world.body, tables.world[0].half, event.patch, event.columns, lane)
+            patch = event.board + patch_of(world.body, tables.world[0], event, lane)
             happened = visited[lane, patch] == 0
             visited[lane, patch] = 1
         elif kind == COLLISION:
@@ -148,11 +148,11 @@ def notice(tables, world, contact, visited, event, out, lanes):
 
 
 @compiled
-def patch_of(body, half, patch, columns, lane):
+def patch_of(body, constants, event, lane):
     """The number of the patch that the robot's centre is in."""
-    x = min(columns - 1, max(0, int((body[X, lane] + half) / patch)))
-    y = min(columns - 1, max(0, int((body[Y, lane] + half) / patch)))
-    return y * columns + x
+    x = min(event.columns - 1, max(0, int((body[X, lane] + constants.half_x) / event.patch)))
+    y = min(event.rows - 1, max(0, int((body[Y, lane] + constants.half_y) / event.patch)))
+    return y * event.columns + x
 
 
 @compiled

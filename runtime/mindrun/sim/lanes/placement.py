@@ -31,12 +31,15 @@ def uniform(random, lane, low, high):
 
 @compiled
 def draw(tables, world, lane):
-    """A fresh world in a lane: grids of obstacles, the robot, loose obstacles, then the things in their order."""
+    """A fresh world in a lane: obstacles with a place, the robot, other obstacles, things with a place, other things.
+
+    Of each the first in the source come first.
+    """
     clear_away(world, lane)
     box = 0
     for i in range(len(tables.obstacles)):
         box = draw_grid(world, tables.obstacles[i], box, lane)
-    start(world, tables.world[0].half, tables.world[0].radius, lane)
+    start(tables, world, lane)
     for i in range(len(tables.obstacles)):
         obstacle = tables.obstacles[i]
         for _ in range(obstacle.count):
@@ -45,10 +48,22 @@ def draw(tables, world, lane):
             put_box(world.boxes, box, x, y, size / 2, lane)
             box += 1
     for i in range(len(tables.things)):
-        thing = tables.things[i]
-        size = uniform(world.random, lane, thing.first, thing.last) if thing.drawn else thing.first
-        world.things[THING_ROWS * i + SIZE, lane] = size
-        put(tables, world, i, lane)
+        if tables.things[i].is_fixed:
+            draw_size(tables, world, i, lane)
+            world.things[THING_ROWS * i + X, lane] = tables.things[i].x
+            world.things[THING_ROWS * i + Y, lane] = tables.things[i].y
+    for i in range(len(tables.things)):
+        if not tables.things[i].is_fixed:
+            draw_size(tables, world, i, lane)
+            put(tables, world, i, lane)
+
+
+@compiled
+def draw_size(tables, world, i, lane):
+    """The size that thing i begins with."""
+    thing = tables.things[i]
+    size = uniform(world.random, lane, thing.first, thing.last) if thing.drawn else thing.first
+    world.things[THING_ROWS * i + SIZE, lane] = size
 
 
 @compiled
@@ -69,11 +84,12 @@ def put_box(boxes, b, x, y, half, lane):
 @compiled
 def draw_grid(world, obstacle, box, lane):
     """One obstacle at each crossing of the grid, a little off it; the number of the next box."""
-    random, jitter, middle = world.random, obstacle.jitter, (obstacle.lines - 1) / 2
-    for row in range(obstacle.lines):
-        for column in range(obstacle.lines):
-            x = (column - middle) * obstacle.grid + uniform(random, lane, -jitter, jitter)
-            y = (row - middle) * obstacle.grid + uniform(random, lane, -jitter, jitter)
+    random, jitter = world.random, obstacle.jitter
+    middle_x, middle_y = (obstacle.columns - 1) / 2, (obstacle.rows - 1) / 2
+    for row in range(obstacle.rows):
+        for column in range(obstacle.columns):
+            x = obstacle.x + (column - middle_x) * obstacle.grid + uniform(random, lane, -jitter, jitter)
+            y = obstacle.y + (row - middle_y) * obstacle.grid + uniform(random, lane, -jitter, jitter)
             size = uniform(random, lane, obstacle.first, obstacle.last)
             put_box(world.boxes, box, x, y, size / 2, lane)
             box += 1
@@ -81,14 +97,15 @@ def draw_grid(world, obstacle, box, lane):
 
 
 @compiled
-def start(world, half, radius, lane):
+def start(tables, world, lane):
     """The robot at rest: in the origin of a plain scene, anywhere clear in an arena; facing anywhere."""
-    body, random, room = world.body, world.random, half - 3 * radius
+    body, random, constants, radius = world.body, world.random, tables.world[0], tables.world[0].radius
+    room_x, room_y = constants.half_x - 3 * radius, constants.half_y - 3 * radius
     body[:, lane] = 0.0
-    if half < ENDLESS_UNITS:
+    if constants.half_x < ENDLESS_UNITS:
         for _ in range(MAX_TRIES):
-            body[X, lane] = uniform(random, lane, -room, room)
-            body[Y, lane] = uniform(random, lane, -room, room)
+            body[X, lane] = uniform(random, lane, -room_x, room_x)
+            body[Y, lane] = uniform(random, lane, -room_y, room_y)
             if clear(world.boxes, body[X, lane], body[Y, lane], 3 * radius, lane):
                 break
     body[ANGLE, lane] = uniform(random, lane, 0.0, 2 * np.pi)
@@ -111,12 +128,13 @@ def find(tables, world, low, high, extent, but, lane):
 
     The last one tried where no try succeeds.
     """
-    half, margin, body = tables.world[0].half, extent + 2 * tables.world[0].radius, world.body
+    constants, margin, body = tables.world[0], extent + 2 * tables.world[0].radius, world.body
     x, y = 0.0, 0.0
     for _ in range(MAX_TRIES):
-        if half < ENDLESS_UNITS:
-            room = max(half - extent - 2 * tables.world[0].radius, 0.0)
-            x, y = uniform(world.random, lane, -room, room), uniform(world.random, lane, -room, room)
+        if constants.half_x < ENDLESS_UNITS:
+            room_x = max(constants.half_x - extent - 2 * constants.radius, 0.0)
+            room_y = max(constants.half_y - extent - 2 * constants.radius, 0.0)
+            x, y = uniform(world.random, lane, -room_x, room_x), uniform(world.random, lane, -room_y, room_y)
         else:
             sine, cosine = sine_cosine(uniform(world.random, lane, 0.0, 2 * np.pi))
             far = uniform(world.random, lane, low, high)

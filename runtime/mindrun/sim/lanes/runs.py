@@ -106,7 +106,7 @@ def reset_judge(tables, world, judge, lane):
     for i in range(len(tables.events)):
         event = tables.events[i]
         if event.kind == VISIT:
-            patch = patch_of(world.body, tables.world[0].half, event.patch, event.columns, lane)
+            patch = patch_of(world.body, tables.world[0], event, lane)
             judge.visited[lane, event.board + patch] = 1
 
 

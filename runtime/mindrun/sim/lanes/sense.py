@@ -121,7 +121,8 @@ def measure_distances(body, things, count, lanes):
 @compiled
 def look(tables, world, sight, lanes):
     """The distance from each robot's centre along each ray, into `sight` after heading and place."""
-    rows, count, half = sight.sight, sight.nearby_most[0], F(tables.world[0].half)
+    rows, count, constants = sight.sight, sight.nearby_most[0], tables.world[0]
+    half_x, half_y = F(constants.half_x), F(constants.half_y)
     for k in range(count):
         box = sight.nearby[BOX_COLUMNS * k : BOX_COLUMNS * (k + 1)]
         place(world.body, box, sight.sides[SIDES * k : SIDES * (k + 1)], lanes)
@@ -131,18 +132,18 @@ def look(tables, world, sight, lanes):
     for lane in range(0, lanes, VECTOR_LANES):
         for ray in range(len(tables.ray_row)):
             cosine, sine = tables.rays[COSINE, ray], tables.rays[SINE, ray]
-            store(rows, FIRST_RAY + ray, lane, along(rows, cosine, sine, half, sight.sides, count, lane))
+            store(rows, FIRST_RAY + ray, lane, along(rows, cosine, sine, half_x, half_y, sight.sides, count, lane))
 
 
 @compiled
-def along(sight, cosine, sine, half, sides, count, lane):
+def along(sight, cosine, sine, half_x, half_y, sides, count, lane):
     """The distance to what a ray meets first in sixteen lanes: a wall, or one of the boxes (the slab method)."""
     c, s = load(sight, SIGHT_COSINE, lane), load(sight, SIGHT_SINE, lane)
     ix = splat(ONE) / (c * splat(cosine) - s * splat(sine))
     iy = splat(ONE) / (s * splat(cosine) + c * splat(sine))
     x, y = load(sight, SIGHT_X, lane), load(sight, SIGHT_Y, lane)
-    to_x = HIGHEST((splat(half) - x) * ix, (splat(-half) - x) * ix)
-    to_y = HIGHEST((splat(half) - y) * iy, (splat(-half) - y) * iy)
+    to_x = HIGHEST((splat(half_x) - x) * ix, (splat(-half_x) - x) * ix)
+    to_y = HIGHEST((splat(half_y) - y) * iy, (splat(-half_y) - y) * iy)
     nearest = LOWEST(to_x, to_y)
     for k in range(count):
         box = SIDES * k

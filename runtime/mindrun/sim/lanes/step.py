@@ -109,7 +109,7 @@ def find_near(tables, world, sight, contact, lanes):
     A robot that would leave all places flies there alone.
     """
     body, near, gap, dt = world.body, contact.near, contact.gap, tables.world[0].dt
-    clearance(body, tables.world[0].half, dt, gap, lanes)
+    clearance(body, tables.world[0].half_x, tables.world[0].half_y, dt, gap, lanes)
     for k in range(sight.nearby_most[0]):
         approach(sight.nearby[BOX_COLUMNS * k : BOX_COLUMNS * (k + 1)], body, dt, gap, lanes)
     for lane in range(lanes):
@@ -145,11 +145,12 @@ def is_lost(body, lane):
 
 
 @compiled
-def clearance(body, half, dt, gap, lanes):
+def clearance(body, half_x, half_y, dt, gap, lanes):
     """The distance between the robot's next centre and the walls."""
     for lane in range(lanes):
-        x, y = abs(body[X, lane] + body[SPEED_X, lane] * dt), abs(body[Y, lane] + body[SPEED_Y, lane] * dt)
-        gap[lane] = half - (x if x > y else y)
+        x = half_x - abs(body[X, lane] + body[SPEED_X, lane] * dt)
+        y = half_y - abs(body[Y, lane] + body[SPEED_Y, lane] * dt)
+        gap[lane] = x if x < y else y
 
 
 @compiled
