@@ -56,10 +56,10 @@ NARROW = SENSORS.keys() - {"eye"}  # readings of width 1
 SCENES = ["plain", "arena size 40", "arena", "arena size 60 50"]
 ROCKS = ["rock is obstacle grid 10 size 2 to 3", "rock is obstacle count 3", "rock is obstacle size 2 at 15 -15"]
 THINGS = [
-    ["ball is item size 2 reached moves", "ball is item size 2 at 4 6"],
-    ["coin is item", "coin is item at 6 14"],
-    ["nest is zone size 8", "nest is zone at -12.5 10"],
-    ["dock is power size 4", "dock is power at -4 -6"],
+    ["ball is item size 2 reached moves", "ball is item size 2 at 2.5 7.5"],
+    ["coin is item", "coin is item at 7.5 12.5"],
+    ["nest is zone size 8", "nest is zone at -12.5 7.5"],
+    ["dock is power size 4", "dock is power at -2.5 -7.5"],
 ]
 REWARDS = [
     ["rewards 10 on reach of ball"],

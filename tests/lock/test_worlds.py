@@ -195,6 +195,8 @@ def _another(value: Any, meaning: Quantity | Reference) -> Any:
     match value, meaning:
         case Span(first=first, last=last, by=by), _:
             return Span(first + 1.0, last + 1.0, by)
+        case None, _:
+            return 1.0, 2.0
         case tuple(), _:
             return tuple(each + 0.1 for each in value)
         case str(), Reference(words=words) if words:

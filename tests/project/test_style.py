@@ -18,7 +18,6 @@ MEDIAN_LINES = range(60, 91)
 LONG_FILES = {
     "mindlang/compiler/parse/build.py": "one method for each rule of the grammar",
     "mindlang/compiler/parse/mistakes.py": "one table, a row for each mistake; the first row that fits explains a line",
-    "mindlang/compiler/syntax.py": "one small class for each fact of the language",
     "benchmarks/gradients.py": "a learner of its own, for comparison alone",
     "tests/lock/test_worlds.py": "one mind with every kind, and what is noticed of each",
 }
