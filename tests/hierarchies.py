@@ -12,7 +12,17 @@ from mindrun.functions.elman import Elman
 from mindrun.graph import Actuator, Edge, Graph, Memory, Program, Sensor, Skill
 from mindrun.memory import Cell
 from mindrun.sensors import Battery, Bearing, Contact, Derivative, Held, Inertial, Inside, Physical, RangeFinder, Sine
+from mindrun.sensors.bumper import Bumper
+from mindrun.sensors.clock import Clock
 from mindrun.sensors.compass import Compass
+from mindrun.sensors.distance import Distance
+from mindrun.sensors.eye import Eye
+from mindrun.sensors.floor import Floor
+from mindrun.sensors.light import Light
+from mindrun.sensors.odometer import Odometer
+from mindrun.sensors.position import Position
+from mindrun.sensors.speed import Speed
+from mindrun.sensors.turn_rate import TurnRate
 from mindrun.weights import genes
 from numpy.typing import NDArray
 
@@ -35,6 +45,24 @@ WORLDLY = [
     Inertial(2.0, dead_zone=0.05),
     Battery(),
     Battery(0.5, 0.01, 0.02),
+    Distance("object"),
+    Distance("home", range=9.0),
+    Light("coin"),
+    Light("plug", range=4.0),
+    Eye("object", at=EYES[:3]),
+    Eye("home", at=(-0.5, 0.0, 2.0, 3.5), range=9.0),
+    TurnRate(),
+    TurnRate(2.0, dead_zone=0.05),
+    Speed(),
+    Speed(2.0, dead_zone=0.05),
+    Odometer("left"),
+    Odometer("right", range=3.0),
+    Position("x"),
+    Position("y", range=8.0),
+    Floor("den"),
+    Floor("coin", at=(0.0, 0.7, -3.0), ahead=1.5),
+    Bumper(),
+    Bumper(at=EYES[:6], width_=1.2),
 ]
 ROUGH = st.fixed_dictionaries(
     {},
@@ -129,15 +157,17 @@ def physical_kinds(draw: st.DrawFn) -> Physical:
 @st.composite
 def _senses(draw: st.DrawFn) -> tuple[tuple[Sensor, ...], tuple[Memory, ...]]:
     """Sensors and memories; derivatives of anything, and of one another."""
-    virtual = st.sampled_from(["sine", "derivative"])
+    virtual = st.sampled_from(["sine", "clock", "derivative"])
     kinds = draw(st.lists(physical_kinds() | physical_kinds() | virtual, min_size=2, max_size=7))
     cells = [Cell(draw(SHARES), draw(SHARES)) for _ in range(draw(st.integers(0, 2)))]
     widths = {f"m{i}": 1 for i in range(len(cells))}
     sensors: list[Sensor] = []
     start = 0
     for number, kind in enumerate(kinds):
-        width = len(kind.at) if isinstance(kind, RangeFinder) else 1
-        if kind == "sine" or (kind == "derivative" and not widths):
+        width = getattr(kind, "width", 1)
+        if kind == "clock":
+            kind = Clock(draw(st.sampled_from([0.05, 0.3, 2.0])))
+        elif kind == "sine" or (kind == "derivative" and not widths):
             kind = Sine(draw(st.sampled_from([0.05, 0.3, 2.0])))
         elif kind == "derivative":
             of = draw(st.sampled_from(sorted(widths)))

@@ -6,6 +6,7 @@ import numpy as np
 from mindrun.functions import Mlp, Procedure
 from mindrun.functions.elman import Elman
 from mindrun.sensors import Bearing, Derivative, Sine
+from mindrun.sensors.clock import Clock
 from mindrun.sensors.compass import Compass
 from mindrun.sigmoid import DENOMINATOR, LIMIT, NUMERATOR
 from mindrun.trigonometry import sine
@@ -51,6 +52,9 @@ class Plain:
             if isinstance(sensor.kind, Sine):
                 turns = self.t / (sensor.kind.period / self.graph.tick)
                 self.readings[sensor.start] = f(0.5 + 0.5 * sine(2 * math.pi * (turns - math.floor(turns))))
+            if isinstance(sensor.kind, Clock):
+                turns = self.t / (sensor.kind.period / self.graph.tick)
+                self.readings[sensor.start] = f(turns - math.floor(turns))
         while waiting:
             sensor = next(s for s in waiting if s.kind.of in done)
             waiting.remove(sensor)

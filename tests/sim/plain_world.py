@@ -11,6 +11,7 @@ from mindrun.trigonometry import cosine, sine
 
 from tests.plain import f, postfix
 from tests.sim.plain import CATCH
+from tests.sim.plain_sensors import sensed
 
 TRAIL = 20
 
@@ -70,6 +71,8 @@ class PlainWorld:
             case sensors.Inertial():
                 moved = math.dist((self.x, self.y), self.trail[0]) / (TRAIL * self.graph.tick * kind.range)
                 return [zoned(min(1.0, moved), kind.dead_zone, 0.0)], 0.0
+            case _:
+                return sensed(self, kind, all_of)
         return [(float(value),) * 2], 0.0
 
     def nearest(self, all_of):

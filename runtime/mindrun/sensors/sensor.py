@@ -106,12 +106,17 @@ class SensorKind(AboutThing):
         return ()
 
     @property
+    def numbers(self) -> tuple[float, ...]:
+        """What its lane function reads beside its row: `t.numbers`, from `sensor.number` on."""
+        return ()
+
+    @property
     def reach(self) -> float:
         """How far it looks, in world units."""
         return 0.0
 
     def row(self, scene: Scene) -> Row:
-        """What its lane function is told: range, dead_zone, gain, period or source, those that it reads."""
+        """What its lane function is told: range, dead_zone, gain, period, source or part, those that it reads."""
         return {}
 
     @staticmethod

@@ -51,7 +51,8 @@ def _row(**columns: str) -> np.dtype[Any]:
 
 
 SENSOR = _row(
-    kind="i8", start="i8", width="i8", thing="i8", things="i8", source="i8", ray="i8", before="i8", turns="i8",
+    kind="i8", start="i8", width="i8", thing="i8", things="i8", source="i8", ray="i8", number="i8", part="i8",
+    before="i8", turns="i8",
     range="f8", dead_zone="f4", gain="f4", period="f8",
     is_rough="i8", is_aside="i8", noise="f4", lost="f4", blank="f4", every="i8", delay="i8", held="i8", ring="i8",
 )  # fmt: skip
@@ -64,7 +65,7 @@ CODE = _row(op="i8", arg="i8", value="f8")
 ACTUATOR = _row(kind="i8", thrust="f8", neutral="f4", reach="f8", delay="i8", ring="i8")
 MEMORY = _row(row="i8", decay="f4", rest="f4", start="f4")
 THING = _row(
-    kind="i8", first="f8", last="f8", by="f8", low="f8", high="f8", hold="f8", drawn="i8",
+    kind="i8", first="f8", last="f8", by="f8", low="f8", high="f8", hold="f8", drawn="i8", is_round="i8",
     is_fixed="i8", x="f8", y="f8", reached="i8", delivered="i8", is_reached="i8", is_delivered="i8",
 )  # fmt: skip
 OBSTACLE = _row(

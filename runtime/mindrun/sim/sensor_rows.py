@@ -69,14 +69,15 @@ class Scene:
 
 @dataclass(frozen=True, slots=True)
 class Sensed:
-    """Rows of SENSOR, the directions [2, rays] of all rays and the reading that each writes, and how many readings.
+    """Rows of SENSOR, the directions [2, rays] of all rays and the reading that each writes, and the numbers of kinds.
 
-    Those are: derived ones, rough ones, and what waits in their rings.
+    Then how many readings are derived, rough, and wait in their rings.
     """
 
     rows: Array
     rays: Array
     ray_row: Array
+    numbers: Array
     derived: int
     rough: int
     rings: int
@@ -94,6 +95,7 @@ def sensor_rows(graph: Graph, used: Used, task: Task) -> Sensed:
     rows: list[Row] = []
     angles: list[float] = []
     ray_row: list[int] = []
+    numbers: list[float] = []
     before = held = ring = 0
     for is_aside, sensor in [(False, s) for s in used.skills] + [(True, s) for s in used.aside]:
         kind = sensor.kind
@@ -101,7 +103,8 @@ def sensor_rows(graph: Graph, used: Used, task: Task) -> Sensed:
         row: dict[str, float] = {
             "kind": codes[names()[type(kind)]], "start": sensor.start, "width": sensor.width,
             "thing": about.start, "things": len(about), "turns": kind.source in circular,
-            "ray": len(angles), "before": before, "held": held, "ring": ring, "is_aside": is_aside, "every": 1,
+            "ray": len(angles), "number": len(numbers), "before": before, "held": held, "ring": ring,
+            "is_aside": is_aside, "every": 1,
         }  # fmt: skip
         if isinstance(kind, Physical):
             row |= _roughness(kind)
@@ -110,12 +113,14 @@ def sensor_rows(graph: Graph, used: Used, task: Task) -> Sensed:
         rows.append({**row, **kind.row(scene)})
         angles.extend(kind.rays)
         ray_row.extend(range(sensor.start, sensor.start + len(kind.rays)))
+        numbers.extend(kind.numbers)
         before += sensor.width if kind.remembers else 0
     turn = np.array(angles, np.float64)
     return Sensed(
         rows=records(rows, SENSOR),
         rays=np.array([np.cos(turn), np.sin(turn)], np.float32),
         ray_row=np.array(ray_row, np.int64),
+        numbers=np.array(numbers, np.float64),
         derived=before,
         rough=held,
         rings=ring,

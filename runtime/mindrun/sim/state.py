@@ -136,6 +136,9 @@ class Senses(NamedTuple):
     trail: Array
     nearest: Array
     sight: Array
+    boxes: Array
+    nearby: Array
+    nearby_count: Array
 
 
 class Jobs(NamedTuple):

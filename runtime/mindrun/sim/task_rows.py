@@ -61,6 +61,7 @@ def thing_rows(graph: Graph, task: Task) -> Array:
             "kind": THING_CODES[names()[type(kind)]], "first": size.first, "last": size.last, "by": size.by or 0.0,
             "low": low, "high": high, "hold": graph.body.radius + kind.largest / 2,
             "drawn": size.by is None and size.first != size.last, "is_fixed": kind.at is not None, "x": x, "y": y,
+            "is_round": kind.is_round,
         }  # fmt: skip
         for what in ("reached", "delivered"):
             outcome = kind.outcomes.get(what, STAYS)

@@ -70,6 +70,9 @@ def sense(tables, state, lanes, clock):
         trail=world.trail,
         nearest=sight.nearest,
         sight=sight.sight,
+        boxes=world.boxes,
+        nearby=sight.nearby,
+        nearby_count=sight.nearby_count,
     )
     for i in range(len(tables.sensors)):
         sensor = tables.sensors[i]

@@ -1,0 +1,80 @@
+"""Where the body touches something solid."""
+
+from dataclasses import dataclass
+from math import pi
+from typing import Annotated, Any
+
+import numpy as np
+
+from mindrun.arithmetic import BOX_COLUMNS, COSINE, HALF_SIDE, ONE, SINE, ZERO, X, Y
+from mindrun.quantity import ANGLE, Quantity
+from mindrun.registry import kind
+from mindrun.sensors.sensor import Physical, World
+from mindrun.trigonometry import cosine, sine
+
+WIDTH = Quantity("an angle", {"deg": pi / 180}, low=0.001, high=2 * pi)
+
+
+@kind("sensor", "bumper")
+@dataclass(frozen=True, slots=True)
+class Bumper(Physical):
+    """Switches around the body, one reading per angle: 1 while an obstacle or a wall touches it there, else 0.
+
+    Angles turn counterclockwise from straight ahead; each switch is `width` wide, half of it to either side.
+    """
+
+    at: Annotated[tuple[float, ...], ANGLE] = (0.0,)
+    width_: Annotated[float, WIDTH] = pi / 4
+
+    near = 1
+    remedy = "Let a task contain something solid"
+
+    @property
+    def width(self) -> int:
+        """One reading per angle."""
+        return len(self.at)
+
+    @property
+    def numbers(self) -> tuple[float, ...]:
+        """The cosine of half the width, then cosine and sine of each angle."""
+        return cosine(self.width_ / 2), *(f(angle) for angle in self.at for f in (cosine, sine))
+
+    def constant(self, world: World) -> float | None:
+        """0 where nothing is solid."""
+        return None if world.is_solid else 0.0
+
+    @staticmethod
+    def lane(t: Any, s: Any, n: int, clock: int, sensor: Any) -> None:
+        """The nearest point of each box and of each wall, where it is not outside of the body."""
+        half_x, half_y = t.world[0].half_x, t.world[0].half_y
+        for p in range(n):
+            for k in range(sensor.width):
+                s.readings[sensor.start + k, p] = ZERO
+            x, y = s.body[X, p], s.body[Y, p]
+            for b in range(s.nearby_count[p]):
+                box = BOX_COLUMNS * b
+                dx, dy, side = s.nearby[box + X, p] - x, s.nearby[box + Y, p] - y, s.nearby[box + HALF_SIDE, p]
+                press(t, s, sensor, beyond(dx, side), beyond(dy, side), p)
+            press(t, s, sensor, half_x - x, 0.0, p)
+            press(t, s, sensor, -half_x - x, 0.0, p)
+            press(t, s, sensor, 0.0, half_y - y, p)
+            press(t, s, sensor, 0.0, -half_y - y, p)
+
+
+def beyond(away: Any, side: Any) -> Any:
+    """How far along an axis the nearest point is of what reaches so far to both sides of its middle; 0 within."""
+    if away > side:
+        return away - side
+    return away + side if away < -side else 0.0
+
+
+def press(t: Any, s: Any, sensor: Any, dx: Any, dy: Any, p: Any) -> None:
+    """1 for the switches of lane p that a point so far from the body's middle presses, if it is not outside of it."""
+    far = np.sqrt(dx * dx + dy * dy)
+    if far <= t.world[0].radius:
+        c, sn = s.heading[COSINE, p], s.heading[SINE, p]
+        ahead, aside = c * dx + sn * dy, c * dy - sn * dx
+        for k in range(sensor.width):
+            first = sensor.number + 1 + 2 * k
+            if ahead * t.numbers[first + COSINE] + aside * t.numbers[first + SINE] >= t.numbers[sensor.number] * far:
+                s.readings[sensor.start + k, p] = ONE
