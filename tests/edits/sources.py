@@ -51,8 +51,19 @@ SENSORS = {
     "holding": ["sensor holding is held of ball", "sensor holding is held of coin"],
     "home": ["sensor home is inside of nest", "sensor home is inside of dock"],
     "moving": ["sensor moving is inertial"],
+    "way": ["sensor way is distance of ball", "sensor way is distance of nest range 9"],
+    "glow": ["sensor glow is light of ball", "sensor glow is light of dock range 4"],
+    "camera": ["sensor camera is eye of ball at -30 30 deg", "sensor camera is eye of nest at 0 40 deg range 9"],
+    "turning": ["sensor turning is turn_rate", "sensor turning is turn_rate range 90 deg dead_zone 1%"],
+    "pace": ["sensor pace is speed", "sensor pace is speed range 3 dead_zone 2%"],
+    "rolled": ["sensor rolled is odometer side left", "sensor rolled is odometer side right range 4"],
+    "place": ["sensor place is position along x", "sensor place is position along y range 20"],
+    "hour": ["sensor hour is clock period 4 s", "sensor hour is clock period 1 s"],
+    "line": ["sensor line is floor of nest", "sensor line is floor of ball at 0.5 -0.5 ahead 1"],
+    "bumps": ["sensor bumps is bumper at -45 45 deg", "sensor bumps is bumper at 0 180 deg width 90 deg"],
 }
-NARROW = SENSORS.keys() - {"eye"}  # readings of width 1
+WIDE = {"eye", "camera", "line", "bumps"}
+NARROW = SENSORS.keys() - WIDE  # readings of width 1
 SCENES = ["plain", "arena size 40", "arena", "arena size 60 50"]
 ROCKS = ["rock is obstacle grid 10 size 2 to 3", "rock is obstacle count 3", "rock is obstacle size 2 at 15 -15"]
 THINGS = [
@@ -193,7 +204,8 @@ def _said(rng: Random, argument: Argument) -> str:
     if argument.shape == "span":
         return rng.choice(["3 to 6", "4", "5 to 3 by 0.5"])
     unit, factor = rng.choice([*argument.type.units.items()])
-    value = (argument.default + (5 if argument.type.high > 1 else 0.01)) / factor
+    default = argument.default[0] if argument.shape == "list" else argument.default
+    value = (default + (5 if argument.type.high > 1 else 0.01)) / factor
     return f"{value:g}{'' if unit == '%' else ' '}{unit}".rstrip()
 
 

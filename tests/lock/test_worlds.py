@@ -44,6 +44,16 @@ sensor moving is inertial
 sensor charge is battery
 sensor pulse is sine period 2 s
 sensor north is compass
+sensor way is distance of ball
+sensor glow is light of ball
+sensor camera is eye of ball at -30 30 deg
+sensor turning is turn_rate
+sensor pace is speed
+sensor rolled is odometer side left
+sensor place is position along x
+sensor hour is clock period 4 s
+sensor line is floor of bin at 0.5 -0.5 ahead 1
+sensor bumps is bumper at -45 45 deg
 sensor fear is range_finder at 0 deg range 3
 memory mood is cell decay 0.9
 
@@ -64,6 +74,19 @@ skill Grab is rule
   drives claw at near + holding - home
   drives mood at 1/2
 
+skill Watch is rule
+  reads way
+  reads glow
+  reads camera
+  reads turning
+  reads pace
+  reads rolled
+  reads place
+  reads hour
+  reads line
+  reads bumps
+  drives mast at way * glow
+
 skill Turn is procedure from turn.by
   reads eye
   drives left_wheel
@@ -78,6 +101,7 @@ skill Top is mlp
   influences Go
   influences Search
   influences Turn
+  influences Watch
   influences Grab at 1
 
 task Fetch in arena size 80

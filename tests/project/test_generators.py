@@ -40,7 +40,7 @@ def of_worlds() -> Iterable[Any]:
     found: list[Any] = []
 
     @settings(max_examples=DRAWN, database=None, suppress_health_check=list(HealthCheck))
-    @given(random_world(), st.lists(physical_kinds() | learner_kinds(), min_size=8))
+    @given(random_world(), st.lists(physical_kinds() | learner_kinds(), min_size=24))
     def draw(graph: Graph, more: list[Any]) -> None:
         found.extend((*parts(graph), *more))
 

@@ -3,7 +3,8 @@
 from dataclasses import dataclass
 from typing import Annotated, Any
 
-from mindrun.actuators.wheel import SIDE, Side
+from mindrun.actuators import Side
+from mindrun.actuators.wheel import SIDE
 from mindrun.arithmetic import COSINE, HALF, SINE, SPEED_X, SPEED_Y, SPIN, F, clamp
 from mindrun.quantity import POSITIVE
 from mindrun.registry import kind
@@ -16,7 +17,7 @@ class Odometer(Physical):
     """Speed of a wheel on the body's rim, as its encoder counts it: 0.5 standing, 1 forward with `range` units/s.
 
     0.5 + 0.5 · (distance a second) / range, 0 backward; the wheel rolls as its side of the body moves along the heading
-    and never slips.
+    and never slips. The driver `encoder` measures it with `measure: speed`.
     """
 
     side: Annotated[Side, SIDE]

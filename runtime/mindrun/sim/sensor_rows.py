@@ -1,7 +1,7 @@
 """The rows of the sensors that somebody reads, and their rays."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from mindrun.graph import Graph, Sensor, Skill, Task
 from mindrun.registry import names
-from mindrun.sensors import Physical
+from mindrun.sensors import Physical, SensorKind
 from mindrun.sim.codes import SENSOR, sensor_codes
 from mindrun.sim.records import Row, records
 from mindrun.sim.task_rows import NOWHERE, rows_by_name
@@ -91,44 +91,61 @@ def sensor_rows(graph: Graph, used: Used, task: Task) -> Sensed:
     things = rows_by_name(task)
     starts = {m.name: m.start for m in graph.memories} | {s.name: s.start for s in graph.sensors}
     circular = {s.name for s in graph.sensors if s.kind.circular}
-    codes, scene = sensor_codes(), Scene(graph.tick, starts)
+    scene, room = Scene(graph.tick, starts), _Room()
     rows: list[Row] = []
-    angles: list[float] = []
-    ray_row: list[int] = []
-    numbers: list[float] = []
-    before = held = ring = 0
     for is_aside, sensor in [(False, s) for s in used.skills] + [(True, s) for s in used.aside]:
         kind = sensor.kind
         about = things.get(kind.thing, NOWHERE)
         row: dict[str, float] = {
-            "kind": codes[names()[type(kind)]], "start": sensor.start, "width": sensor.width,
+            "kind": sensor_codes()[names()[type(kind)]], "start": sensor.start, "width": sensor.width,
             "thing": about.start, "things": len(about), "turns": kind.source in circular,
-            "ray": len(angles), "number": len(numbers), "before": before, "held": held, "ring": ring,
             "is_aside": is_aside, "every": 1,
         }  # fmt: skip
-        if isinstance(kind, Physical):
-            row |= _roughness(kind)
-            held += sensor.width
-            ring += sensor.width * kind.delay
-        rows.append({**row, **kind.row(scene)})
-        angles.extend(kind.rays)
-        ray_row.extend(range(sensor.start, sensor.start + len(kind.rays)))
-        numbers.extend(kind.numbers)
-        before += sensor.width if kind.remembers else 0
-    turn = np.array(angles, np.float64)
+        rows.append({**row, **room.take(sensor), **_roughness(kind), **kind.row(scene)})
+    turn = np.array(room.rays, np.float64)
     return Sensed(
         rows=records(rows, SENSOR),
         rays=np.array([np.cos(turn), np.sin(turn)], np.float32),
-        ray_row=np.array(ray_row, np.int64),
-        numbers=np.array(numbers, np.float64),
-        derived=before,
-        rough=held,
-        rings=ring,
+        ray_row=np.array(room.ray_row, np.int64),
+        numbers=np.array(room.numbers, np.float64),
+        derived=room.before,
+        rough=room.held,
+        rings=room.ring,
     )
 
 
-def _roughness(kind: Physical) -> Row:
+@dataclass(slots=True)
+class _Room:
+    """What the sensors before have taken of what all share."""
+
+    rays: list[float] = field(default_factory=list)
+    ray_row: list[int] = field(default_factory=list)
+    numbers: list[float] = field(default_factory=list)
+    before: int = 0
+    held: int = 0
+    ring: int = 0
+
+    def take(self, sensor: Sensor) -> Row:
+        """Where what a sensor needs begins."""
+        kind = sensor.kind
+        row = {
+            "ray": len(self.rays), "number": len(self.numbers), "before": self.before, "held": self.held,
+            "ring": self.ring,
+        }  # fmt: skip
+        self.rays.extend(kind.rays)
+        self.ray_row.extend(range(sensor.start, sensor.start + len(kind.rays)))
+        self.numbers.extend(kind.numbers)
+        self.before += sensor.width if kind.remembers else 0
+        if isinstance(kind, Physical):
+            self.held += sensor.width
+            self.ring += sensor.width * kind.delay
+        return row
+
+
+def _roughness(kind: SensorKind) -> Row:
     """What is not perfect about it; `blank` is what is read where one is lost, −1 for the same as before."""
+    if not isinstance(kind, Physical):
+        return {}
     is_rough = kind.noise > 0 or kind.lost > 0 or kind.every > 1 or kind.delay > 0
     blank = -1.0 if kind.keeps_lost else kind.blank
     return {
