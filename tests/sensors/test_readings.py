@@ -1,6 +1,6 @@
 """What sensors of places, speeds, light and touch read: by hand, and in compiled lanes the bits of plain Python."""
 
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from math import pi
 from types import SimpleNamespace
 from typing import Any
@@ -47,7 +47,7 @@ class Place:
     speeds: tuple[float, float, float] = (0.0, 0.0, 0.0)
     half: float = 50.0
     middle: tuple[float, float] = (0.0, 0.0)
-    there: bool = field(default=True)
+    there: bool = True
 
     def reads(self, kind: Any) -> list[float]:
         """The readings of a sensor."""
@@ -56,8 +56,8 @@ class Place:
         boxes = np.array([number for box in self.boxes for number in box])
         columns = [F(cosine(angle)) for angle in kind.rays], [F(sine(angle)) for angle in kind.rays]
         tables = SimpleNamespace(
-            world=[SimpleNamespace(radius=1.0, half_x=self.half, half_y=self.half)], things=[SimpleNamespace(is_round=self.is_round)],
-            numbers=np.array(kind.numbers), rays=np.array(columns),
+            world=[SimpleNamespace(radius=1.0, half_x=self.half, half_y=self.half)],
+            things=[SimpleNamespace(is_round=self.is_round)], numbers=np.array(kind.numbers), rays=np.array(columns),
         )  # fmt: skip
         senses = SimpleNamespace(
             body=np.array([x, y, self.angle, *self.speeds])[:, None],
