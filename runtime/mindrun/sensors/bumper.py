@@ -12,7 +12,7 @@ from mindrun.registry import kind
 from mindrun.sensors.sensor import Physical, World
 from mindrun.trigonometry import cosine, sine
 
-WIDTH = Quantity("an angle", {"deg": pi / 180}, low=0.001, high=2 * pi)
+WIDTH = Quantity("an angle", {"deg": pi / 180}, low=pi / 180, high=2 * pi)
 
 
 @kind("sensor", "bumper")
@@ -33,6 +33,11 @@ class Bumper(Physical):
     def width(self) -> int:
         """One reading per angle."""
         return len(self.at)
+
+    @property
+    def directions(self) -> tuple[float, ...]:
+        """Its angles."""
+        return self.at
 
     @property
     def numbers(self) -> tuple[float, ...]:

@@ -106,6 +106,11 @@ class SensorKind(AboutThing):
         return ()
 
     @property
+    def directions(self) -> tuple[float, ...]:
+        """Where around the robot it measures, one angle for each reading: where it looks, if nothing else is said."""
+        return self.rays
+
+    @property
     def numbers(self) -> tuple[float, ...]:
         """What its lane function reads beside its row: `t.numbers`, from `sensor.number` on."""
         return ()

@@ -9,7 +9,7 @@ from mindrun.quantity import RATIO, Quantity
 from mindrun.registry import kind
 from mindrun.sensors.sensor import Physical, Row, Scene, World
 
-TURNING = Quantity("an angle a second", {"deg": pi / 180}, low=1e-4, high=2000 * pi)
+TURNING = Quantity("an angle a second", {"deg": pi / 180}, low=pi / 1800, high=2000 * pi)
 
 
 @kind("sensor", "turn_rate")
