@@ -60,9 +60,14 @@ class Study:
         return self.below(self.masters)
 
     @cached_property
+    def acting(self) -> set[str]:
+        """The skills that a master reaches, and those whose weights act in them."""
+        return self.active | {self.skills[name].owner for name in self.active}
+
+    @cached_property
     def learning(self) -> set[str]:
         """The skills that lessons can teach: those with weights that are not frozen."""
-        return {skill.name for skill in self.mind.skills if skill.function.learns and not skill.frozen}
+        return {each.name for each in self.mind.skills if each.function.learns and not each.frozen and not each.like}
 
     @cached_property
     def can_hold(self) -> bool:

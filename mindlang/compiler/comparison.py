@@ -139,6 +139,9 @@ def _lines(declaration: Declaration, of: Any) -> list[_Line]:
 def _parts(header: Header, of: Any) -> tuple[Any, dict[Forms, Sequence[Any]]]:
     """What a header has become, and what the facts of each form have, in their order."""
     match of:
+        case Skill(like=like) if like:
+            reads = [fact for fact in of.declaration.facts if isinstance(fact, Reads)]
+            return like, {(Reads,): [(fact.name.text, fact.stands_for and fact.stands_for.text) for fact in reads]}
         case Skill():
             return of.function, {(Reads,): of.reads, (Drives, Influences): of.edges, (Stays,): [True] * of.frozen}
         case Task(ticks=ticks, ends=ends, counts=counts):

@@ -33,12 +33,17 @@ def tree(mind: Mind) -> Tree:
             above.add(Text.assemble((name, "bold"), _at(edge), ("  (shown above)", "dim")))
             continue
         shown.add(name)
-        branch = above.add(Text.assemble((name, "bold"), _at(edge), (f"  {phrase(skills[name].function)}", "cyan")))
+        branch = above.add(Text.assemble((name, "bold"), _at(edge), (f"  {_what(skills[name])}", "cyan")))
         for line in _lines(skills[name]):
             branch.add(Text(line))
         below = [(branch, edge.target, edge) for edge in skills[name].edges if edge.to == "skill"]
         waiting += reversed(below)
     return root
+
+
+def _what(skill: Skill) -> str:
+    """What a skill is: its function, or the skill that it is like."""
+    return f"like {skill.like}" if skill.like else phrase(skill.function)
 
 
 def phrase(kind: object) -> str:
@@ -57,6 +62,9 @@ def dot(mind: Mind) -> str:
     for skill in mind.skills:
         bold = " style=bold" if skill.name == mind.master else ""
         lines.append(f"  {_id('skill', skill.name)} [label={_quoted(skill.name)} shape=box{bold}]")
+        if skill.like:
+            owner = _id("skill", skill.like)
+            lines.append(f"  {owner} -> {_id('skill', skill.name)} [style=dashed label=like constraint=false dir=none]")
     for skill in mind.skills:
         lines += _arrows(skill)
     return "\n".join([*lines, "}"])

@@ -58,6 +58,7 @@ def _skills(mind: model.Mind, places: Mapping[str, tuple[int, int]]) -> tuple[gr
             tuple(start + i for start, width in (places[read] for read in skill.reads) for i in range(width)),
             _edges(skill, targets, places),
             skill.frozen,
+            skill.like,
         )
         for skill in order
     )
@@ -143,4 +144,5 @@ def _lesson(lesson: model.Lesson) -> graph.Lesson:
         lesson.with_subskills,
         lesson.learner,
         lesson.number,
+        lesson.starts_from,
     )

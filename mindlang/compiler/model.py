@@ -89,7 +89,11 @@ class Edge:
 
 @dataclass(frozen=True, slots=True)
 class Skill:
-    """A skill; `reads` are names of sensors and memories; one that is `frozen` is not taught."""
+    """A skill; `reads` are names of sensors and memories; one that is `frozen` is not taught.
+
+    One that is `like` another has that one's function and weights; what it reads stands in that one's order, and its
+    edges are said there.
+    """
 
     name: str
     function: Function
@@ -97,6 +101,12 @@ class Skill:
     edges: tuple[Edge, ...]
     frozen: bool
     declaration: Declaration
+    like: str = ""
+
+    @property
+    def owner(self) -> str:
+        """The skill under whose name its weights stand: itself, or the one that it is like."""
+        return self.like or self.name
 
     @property
     def subskills(self) -> tuple[str, ...]:
@@ -151,6 +161,7 @@ class Lesson:
     with_subskills: bool
     learner: Learner
     number: int
+    starts_from: str
     fact: Teaches
 
 

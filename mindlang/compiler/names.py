@@ -122,7 +122,7 @@ def gather(files: Iterable[File], findings: Findings) -> Names:
     for declaration in (declaration for file in files for declaration in file.declarations):
         noun, name = declaration.header.noun.text, declaration.header.name
         other = names.noun_of(name.text, (noun, *SHARED.get(noun, ())))
-        if other and above and not declaration.header.phrase:
+        if other and above and not declaration.header.is_read:
             declaration = _with_facts(above, declaration.facts)  # `senses eyes` was meant as a fact, not as a sensor
             noun, name = above.header.noun.text, above.header.name
         elif other:

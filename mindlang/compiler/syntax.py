@@ -315,6 +315,11 @@ class Header:
     inside: Name | None = None
     at: Expression | None = None
 
+    @property
+    def is_read(self) -> bool:
+        """Whether what it declares could be read."""
+        return bool(self.phrase or self.like or self.inside)
+
 
 @dataclass(frozen=True, slots=True)
 class Declaration:

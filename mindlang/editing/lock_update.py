@@ -97,6 +97,7 @@ def _entry(entry: Entry, names: Names) -> Entry:
             curriculum=now_called(taught.curriculum, names, "curriculum"),
         ),
         subskills=tuple(sorted((skill(name), weights) for name, weights in entry.subskills)),
+        origin=entry.origin and (skill(entry.origin[0]), entry.origin[1]),
         worlds=tuple(relabelled(world, names) for world in entry.worlds),
     )
 

@@ -170,8 +170,8 @@ class Project:
             seen |= set(other.paths)
 
     def parents(self, skill: str) -> list[Declaration]:
-        """The skills that influence a skill."""
-        return [parent.declaration for parent in self.mind.skills if skill in parent.subskills]
+        """The skills that say that they influence a skill."""
+        return [parent.declaration for parent in self.mind.skills if skill in parent.subskills and not parent.like]
 
     def places(self, skill: str) -> Iterator[Mention]:
         """Where a skill has its place in the hierarchy: where skills influence it, and where it is the master."""

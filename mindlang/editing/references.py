@@ -61,8 +61,10 @@ class _Reader:
     def fact(self, fact: Fact) -> Iterator[Mention]:
         """The names in a fact."""
         match fact:
-            case Reads(name):
+            case Reads(name, stands_for):
                 yield from self.first_declared(name, *READABLE_NOUNS)
+                if stands_for:
+                    yield from self.first_declared(stands_for, *READABLE_NOUNS)
             case Drives(name, at, gate):
                 yield from self.first_declared(name, *DRIVABLE_NOUNS)
                 yield from self.expressions("", at, *(gate.expressions if gate else ()))
@@ -97,6 +99,9 @@ class _Reader:
         yield from self.first_declared(fact.task, "task")
         if fact.master:
             yield from self.first_declared(fact.master, "skill")
+        for argument in fact.arguments:
+            if argument.key.text == "from" and isinstance(argument.value, Name):
+                yield from self.first_declared(argument.value, "skill")
 
     def expressions(self, own: str, *expressions: Expression | None) -> Iterator[Mention]:
         """The readings in expressions, and the things that their measures are about."""
@@ -147,5 +152,7 @@ def _declaration(declaration: Declaration, reader: _Reader) -> Iterator[Mention]
     header = declaration.header
     yield Mention(header.noun.text, header.name, declaration)
     yield from reader.phrase(header.noun.text, header.phrase)
+    if header.like:
+        yield from reader.first_declared(header.like, header.noun.text)
     for fact in declaration.facts:
         yield from reader.fact(fact)

@@ -11,7 +11,7 @@ from mindrun.graph import Graph, Skill
 from mindrun.policy import Policy
 from mindrun.sim.rollout import Rollout
 from mindrun.sim.trace import trace
-from mindrun.weights import Weights, genes, reachable, weights_of
+from mindrun.weights import Weights, genes, owner_of, reachable, weights_of
 from numpy.typing import NDArray
 
 from mindlang.editing.apply import Edited
@@ -51,8 +51,8 @@ class MindVersion:
                     return None
                 entry = state.entry
                 fresh = self.fresh.get(blob(entry.folder, entry.weights))
-                found[skill.name] = (
-                    load_weights(entry, skill) if fresh is None else weights_of(skill, {skill.name: fresh})
+                found[skill.owner] = (
+                    load_weights(entry, skill) if fresh is None else weights_of(skill, {skill.owner: fresh})
                 )
         return found
 
@@ -85,14 +85,17 @@ def verify_unchanged(edited: Edited, prepare: Callable[[Rollout], None] = Rollou
 
 def _is_untouched(before: MindVersion, after: MindVersion, skill: str, master: str, names: Names) -> bool:
     """Whether all that a skill reaches is declared as before, or has been widened to do as before; and can act."""
-    old, new = before.weights(skill), master in after.lock and after.weights(master)
+    old, new = before.weights(skill), owner_of(after.graph, master) in after.lock and after.weights(master)
     if not old or not new:
         return False
     skills = {found.name: found for found in after.graph.skills}
     for found in reachable(before.graph, skill):
         name = names["skill"].get(found.name, found.name)
-        widened = name in new and found.name in old and len(new[name]) != len(old[found.name])
-        if name not in skills or not (widened or _shape(before, found, names) == _shape(after, skills[name], {})):
+        if name not in skills:
+            return False
+        owner = skills[name].owner
+        widened = owner in new and found.owner in old and len(new[owner]) != len(old[found.owner])
+        if not (widened or _shape(before, found, names) == _shape(after, skills[name], {})):
             return False
     return True
 

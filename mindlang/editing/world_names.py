@@ -44,7 +44,10 @@ def _fact(subject: str, value: Any, name: Name) -> Any:
         case "rewards":
             return sorted([_phrase(part, name) for part in reward] for reward in value)
         case "lesson":
-            return {**value, "task": name(value["task"], "task"), "master": name(value["master"], "skill")}
+            renamed = {"task": name(value["task"], "task"), "master": name(value["master"], "skill")}
+            if "starts_from" in value:
+                renamed["starts_from"] = name(value["starts_from"], "skill")
+            return {**value, **renamed}
     return value
 
 
@@ -56,11 +59,18 @@ def _named_by(kind: str) -> dict[str, str]:
 
 
 def _skill_part(key: str, value: Any, name: Name) -> Any:
+    if key == "like":
+        return name(value, "skill")
     if key == "reads":
-        return [name(each, "sensor", "memory") for each in value]
+        return [_read(each, name) for each in value]
     if key not in ("sends", "answers"):
         return value
     return [_sent(each, name) for each in value]
+
+
+def _read(text: str, name: Name) -> str:
+    """What a skill reads, and in place of what where it is like another."""
+    return " for ".join(name(each, "sensor", "memory") for each in text.split(" for "))
 
 
 def _sent(text: str, name: Name) -> str:

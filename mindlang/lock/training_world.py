@@ -120,7 +120,8 @@ def _is_task(value: dict[str, Any]) -> bool:
 def _is_lesson(value: dict[str, Any]) -> bool:
     match value:
         case {"task": str(), "master": str(), "with_subskills": bool(), "from_scratch": bool(), "learner": learner}:
-            return len(value) == 5 and _is_kind(learner)
+            origin = value.get("starts_from", "")
+            return len(value) == 5 + ("starts_from" in value) and isinstance(origin, str) and _is_kind(learner)
     return False
 
 

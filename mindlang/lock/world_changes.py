@@ -133,7 +133,14 @@ def _reward_changes(old: Sequence[Sequence[str]], now: Sequence[Sequence[str]]) 
 
 
 def _lesson_changes(old: Mapping[str, Any], now: Mapping[str, Any]) -> Iterator[str]:
-    if old["from_scratch"] != now["from_scratch"]:
-        before, after = ("from scratch" if each["from_scratch"] else "from its weights" for each in (old, now))
+    before, after = _beginning(old), _beginning(now)
+    if before != after:
         yield f"taught {before}, now {after}"
     yield from _kind_changes("curriculum", "the learner", old["learner"], now["learner"])
+
+
+def _beginning(lesson: Mapping[str, Any]) -> str:
+    """With which weights a lesson begins."""
+    if lesson["from_scratch"]:
+        return "from scratch"
+    return f"from {lesson['starts_from']}" if "starts_from" in lesson else "from its weights"

@@ -134,6 +134,8 @@ class Worlds:
         """What a skill does beside what its weights say: all of it where it does not learn."""
         fixed = [edge for edge in skill.edges if edge.output is None]
         sends = [f"{self.graph.named(edge.to, edge.target)} at {infix(edge.value, self._leaf)}" for edge in fixed]
+        if skill.like:
+            return {"like": skill.like, "reads": self._read_instead(skill), "sends": sorted(sends)}
         if genes(skill):
             return {"sends": sorted(sends)}
         reads = list(dict.fromkeys(self._names[index] for index in skill.inputs))
@@ -142,6 +144,13 @@ class Worlds:
         answers = [self.graph.named(edge.to, edge.target) for edge in skill.edges if edge.output is not None]
         function = {"is": f"procedure from {skill.function.calls}", "text": self._text(skill.function.calls)}
         return {**function, "reads": reads, "answers": answers, "sends": sorted(sends)}
+
+    def _read_instead(self, skill: Skill) -> list[str]:
+        """What a skill that is like another reads in place of what: the other's line in a lock has its order."""
+        owner = next(each for each in self.graph.skills if each.name == skill.like)
+        pairs = zip(skill.inputs, owner.inputs, strict=True)
+        names = dict.fromkeys((self._names[own], self._names[other]) for own, other in pairs)
+        return [f"{own} for {other}" for own, other in names if own != other]
 
     def _text(self, calls: str) -> str:
         """A hash of a procedure's module; empty where it does not count or cannot be read."""
@@ -174,7 +183,8 @@ class Worlds:
 def _lesson(lesson: Lesson) -> dict[str, Any]:
     learner = encode(lesson.learner)
     where = {"task": lesson.task, "master": lesson.master, "with_subskills": lesson.with_subskills}
-    return {**where, "from_scratch": lesson.from_scratch, "learner": learner}
+    origin = {"starts_from": lesson.starts_from} if lesson.starts_from else {}
+    return {**where, "from_scratch": lesson.from_scratch, **origin, "learner": learner}
 
 
 def _read(reward: Reward) -> set[int]:

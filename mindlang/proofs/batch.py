@@ -32,7 +32,7 @@ def think(graph: Graph, weights: Mapping[str, Weights], readings: Singles) -> Th
     with np.errstate(all="ignore"):
         for skill in reachable(graph, graph.master):
             own = influence[:, places[skill.name]].copy()
-            for edge, value in zip(skill.edges, values(skill, weights.get(skill.name), readings).T, strict=True):
+            for edge, value in zip(skill.edges, values(skill, weights.get(skill.owner), readings).T, strict=True):
                 sound = np.isfinite(value)
                 share = np.where(sound, np.clip(value, 0, 1), 0) * own
                 if edge.to == "skill":

@@ -66,7 +66,7 @@ def reach(graph: Graph, weights: Mapping[str, Weights]) -> ProvedReach:
     """Bounds for any readings in 0..1; of skills without weights, and of procedures, only that they send 0..1."""
     skills = reachable(graph, graph.master)
     boxes = max(1, min(MAX_SKILL_BOXES, MAX_TOTAL_BOXES // len(skills)))
-    edges = {skill.name: ranges(skill, weights.get(skill.name), boxes) for skill in skills}
+    edges = {skill.name: ranges(skill, weights.get(skill.owner), boxes) for skill in skills}
     found = flow(graph, 1, {name: as_sent(sends) for name, sends in edges.items()}.__getitem__)
     drivers: list[list[EdgeRange]] = [[] for _ in graph.actuators]
     for place, skill in enumerate(graph.skills):

@@ -26,7 +26,7 @@ BAD = (
 
 def check(study: Study) -> Found:
     """Values outside of 0..1, and those that read something and never get inside."""
-    for skill in study.mind.skills:
+    for skill in (each for each in study.mind.skills if not each.like):
         for edge in skill.edges:
             if edge.at and not _is_zero_influence(edge, found := interval(edge.at)):
                 is_outside = found[0] > 1 or found[1] < 0

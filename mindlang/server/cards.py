@@ -92,7 +92,8 @@ def _row(row: Row) -> str:
     words = [row.word] + ["frozen"] * row.is_frozen
     made = []
     if isinstance(row.status, Trained):
-        made.append(f"{row.status.entry.weights[:8]}…, {made_by(row.status.entry.taught)}")
+        how = f"those of {row.like}" if row.like else made_by(row.status.entry.taught)
+        made.append(f"{row.status.entry.weights[:8]}…, {how}")
     return "\n".join([f"Weights: **{', '.join(words)}**", *(f"- {line}" for line in [*made, *row.remarks])])
 
 

@@ -198,7 +198,7 @@ def replacements(project: Project, skill: str) -> list[str]:
 
 def lesson(project: Project, skill: str) -> dict[str, Any]:
     """The arguments with which `add` gives a skill that learns its first lesson; none where it has one, or cannot."""
-    learns = any(known.name == skill and genes(known) for known in project.graph.skills)
+    learns = any(known.name == skill and genes(known) and not known.like for known in project.graph.skills)
     taught = any(known.skill == skill for known in project.mind.lessons)
     curricula, tasks = project.names.of("curriculum"), project.names.of("task")
     if not learns or taught or not curricula or not tasks:

@@ -18,6 +18,7 @@ from mindlang.lock import Lock, lock_path, read_lock, read_locks
 from mindlang.lock.arrange import arrange
 from mindlang.lock.status import Status, status, trained_weights
 from mindlang.training.lesson_choice import subskills
+from mindlang.training.origin import origin_weights
 
 
 @dataclass(frozen=True, slots=True)
@@ -81,6 +82,7 @@ def begin_run(
     where that is why.
     """
     weights = _needed(subject, lesson) | (_known(subject, lesson) if not lesson.from_scratch else {})
+    weights |= origin_weights(subject.graph, subject.lock, lesson)
     manifest = Manifest(
         lesson=lesson,
         learners=learners(subject.graph, lesson),

@@ -156,7 +156,7 @@ def _bundle(members: dict[str, bytes]) -> Bundle:
 
 def _refuse_strangers(graph: Graph, skills: Iterable[str], modules: Iterable[str]) -> None:
     """BundleError where there are weights of nobody, or a module of no name."""
-    learning = {skill.name for skill in graph.skills if genes(skill)}
+    learning = {skill.name for skill in graph.skills if genes(skill) and not skill.like}
     for name in skills:
         if name not in learning:
             raise BundleError(f"this bundle has weights of {name!r:.60}, which is no skill of it that learns")

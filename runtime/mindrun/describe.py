@@ -28,7 +28,12 @@ def contents(bundle: Bundle) -> dict[str, Any]:
         "memories": [{**_named(m.name, m.kind), "decay": m.kind.decay} for m in graph.memories],
         "actuators": [{**_named(a.name, a.kind), "neutral": a.kind.neutral} for a in graph.actuators],
         "skills": [
-            {**_named(s.name, s.function), "inputs": len(s.inputs), "weights": len(weights.get(s.name, ()))}
+            {
+                **_named(s.name, s.function),
+                "inputs": len(s.inputs),
+                "weights": len(weights.get(s.owner, ())),
+                **({"like": s.like} if s.like else {}),
+            }
             for s in graph.skills
         ],
         "procedures": sorted(bundle.procedures),
@@ -61,7 +66,8 @@ def _lines(found: dict[str, Any]) -> Iterator[str]:
         yield f"actuator {part['name']} is {part['kind']}: neutral {part['neutral']:g}"
     for part in found["skills"]:
         weights = f", {_counted(part['weights'], 'weight')}" if part["weights"] else ""
-        yield f"skill {part['name']} is {part['kind']}: {_counted(part['inputs'], 'input')}{weights}"
+        shared = f", those of {part['like']}" if "like" in part else ""
+        yield f"skill {part['name']} is {part['kind']}: {_counted(part['inputs'], 'input')}{weights}{shared}"
     if "robot" in found:
         yield from _wires(found["robot"])
 

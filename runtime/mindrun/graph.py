@@ -63,7 +63,8 @@ class Edge:
 class Skill:
     """A skill: `inputs` are indices into the readings, `edges` in the order of the source.
 
-    Among a function's outputs number i belongs to the i-th edge without `at`. One that is `frozen` is not taught.
+    Among a function's outputs number i belongs to the i-th edge without `at`. One that is `frozen` is not taught. One
+    that is `like` another has the same function, which sends the same, and shares its weights for ever.
     """
 
     name: str
@@ -71,6 +72,12 @@ class Skill:
     inputs: tuple[int, ...]
     edges: tuple[Edge, ...]
     frozen: bool = False
+    like: str = ""
+
+    @property
+    def owner(self) -> str:
+        """The skill under whose name its weights stand: itself, or the one that it is like."""
+        return self.like or self.name
 
     @property
     def outputs(self) -> int:
@@ -140,7 +147,8 @@ class Lesson:
     """Who learns (`skill`), on which task, driven by which master, for how long, and how (`learner`).
 
     With `with_subskills`, all that learn below the skill and are not frozen learn with it, as one genome. `number` is
-    its place in its curriculum, from 1; 0 in what was made before lessons had one.
+    its place in its curriculum, from 1; 0 in what was made before lessons had one. One that `starts_from` another skill
+    begins with a copy of its weights.
     """
 
     curriculum: str
@@ -152,6 +160,7 @@ class Lesson:
     with_subskills: bool
     learner: Learner
     number: int = 0
+    starts_from: str = ""
 
     @property
     def name(self) -> str:

@@ -27,12 +27,14 @@ def _flaws(graph: Graph) -> Iterator[str]:
     width = graph.width
     for number, skill in enumerate(graph.skills):
         yield from (f"skill {skill.name} {what}" for what in _skill_flaws(graph, number, skill, width))
+    yield from _likeness_flaws(graph)
     for task in graph.tasks:
         yield from (f"task {task.name} {what}" for what in _task_flaws(task, width))
     skills, tasks = {skill.name for skill in graph.skills}, {task.name for task in graph.tasks}
     for lesson in graph.lessons:
         yield from lesson_flaws(lesson)
-        if not ({lesson.skill, lesson.master} <= skills and lesson.task in tasks):
+        named = {lesson.skill, lesson.master, lesson.starts_from or lesson.skill}
+        if not (named <= skills and lesson.task in tasks):
             yield f"the lesson of {lesson.skill} names what is not there"
 
 
@@ -50,7 +52,8 @@ def _name_flaws(graph: Graph) -> Iterator[str]:
 
 def lesson_flaws(lesson: Lesson) -> Iterator[str]:
     """What is wrong with a lesson by itself."""
-    for name in (lesson.curriculum, lesson.skill, lesson.task, lesson.master):
+    named = (lesson.curriculum, lesson.skill, lesson.task, lesson.master, lesson.starts_from or lesson.skill)
+    for name in named:
         if not NAME.fullmatch(name):
             yield f"a lesson cannot name {name!r:.60}"
     if lesson.generations < 1:
@@ -104,6 +107,22 @@ def _skill_flaws(graph: Graph, number: int, skill: Skill, width: int) -> Iterato
     readings = set(skill.inputs)
     if not all(_computes(edge.value, readings) for edge in skill.edges if edge.output is None):
         yield "has an expression that cannot be computed"
+
+
+def _likeness_flaws(graph: Graph) -> Iterator[str]:
+    """A skill that is like another has a function of its shape, and that other one owns its weights."""
+    owners = {skill.name: skill for skill in graph.skills if not skill.like}
+    for skill in (skill for skill in graph.skills if skill.like):
+        owner = owners.get(skill.like)
+        if owner is None or not owner.function.learns:
+            yield f"skill {skill.name} is like {skill.like!r:.60}, which owns no weights"
+        elif _shape(skill) != _shape(owner) or skill.frozen:
+            yield f"skill {skill.name} has not the shape of {owner.name}, which it is like"
+
+
+def _shape(skill: Skill) -> object:
+    """What weights have to fit, and where the outputs go."""
+    return skill.function, len(skill.inputs), [(edge.to, edge.target, edge.output) for edge in skill.edges]
 
 
 def _task_flaws(task: Task, width: int) -> Iterator[str]:

@@ -33,7 +33,7 @@ def resolve(files: Sequence[File], findings: Findings) -> model.Mind | None:
     check_cycles(known_skills, findings)
     has_battery = any(sensor.kind.battery for sensor in sensors)
     known_tasks = tasks(RobotFacts(names, width, tick, has_battery), findings)
-    known_lessons = tuple(lessons(names, known_skills, findings))
+    known_lessons = tuple(lessons(names, known_skills, width, findings))
     body = _body(names, findings)
     master = _master(files[0], names, findings)
     if all_read:

@@ -11,6 +11,7 @@ from mindlang.compiler.diagnostic import Findings, Label
 from mindlang.compiler.names import Names
 from mindlang.compiler.resolve.expressions import Visible, resolve
 from mindlang.compiler.resolve.kinds import Scope, make
+from mindlang.compiler.resolve.likeness import alike
 from mindlang.compiler.resolve.parts import refuse_facts
 from mindlang.compiler.source import Span
 from mindlang.compiler.syntax import Declaration, Drives, Influences, Reads, Stays
@@ -18,9 +19,14 @@ from mindlang.compiler.syntax import Declaration, Drives, Influences, Reads, Sta
 
 def skills(names: Names, widths: Mapping[str, int], findings: Findings) -> tuple[model.Skill, ...]:
     """Every skill, without the lines that are reported."""
-    return tuple(
-        _skill(name, declaration, names, widths, findings) for name, declaration in names.declarations("skill")
-    )
+    declared = dict(names.declarations("skill"))
+    own = {
+        name: _skill(name, declaration, names, widths, findings)
+        for name, declaration in declared.items()
+        if not declaration.header.like
+    }
+    known = own | alike(own, names, widths, findings)
+    return tuple(known[name] for name in declared)
 
 
 def _skill(
@@ -44,6 +50,9 @@ def _skill(
 def _reads(declaration: Declaration, names: Names, findings: Findings) -> tuple[str, ...]:
     found: dict[str, Span] = {}
     for fact in declaration.facts:
+        if isinstance(fact, Reads) and fact.stands_for:
+            message = f"{declaration.header.name.text} is like no other skill, so nothing stands for an input of it."
+            findings.error("for-without-like", fact.stands_for.span, message, f"Write reads {fact.name.text}.")
         if isinstance(fact, Reads) and names.find(fact.name, ("sensor", "memory"), findings):
             _once(found, fact.name.text, fact.span, "reads", findings)
     return tuple(found)

@@ -59,30 +59,33 @@ def skill_rows(
 ) -> Skills:
     """What the tables say of the skills that a master reaches.
 
-    A learner's weights begin at a place in the genome, the others' at one in what is shared.
+    A learner's weights begin at a place in the genome, the others' at one in what is shared. Skills that are like one
+    another have one place.
     """
-    lengths = {skill.name: genes(skill) for skill in reached}
+    lengths = {skill.owner: genes(skill) for skill in reached}
     starts = dict(zip(learners, np.cumsum([0, *(lengths.get(name, 0) for name in learners)]), strict=False))
     numbers = function_codes()
     rows: list[Row] = []
     edges: list[Row] = []
     inputs: list[int] = []
     shared = np.zeros(0, np.float32)
+    places: dict[str, int] = {}
     state = 0
     for skill in reached:
         function, count, outputs = skill.function, len(skill.inputs), skill.outputs
-        own = skill.name in starts
+        own = skill.owner in starts
+        if not own and skill.owner not in places:
+            places[skill.owner] = len(shared)
+            shared = np.concatenate([shared, weights_of(skill, weights)])
         rows.append({
             "kind": numbers[names()[type(function)]], "index": graph.skills.index(skill),
             "input": len(inputs), "inputs": count, "outputs": outputs,
-            "weights": int(starts[skill.name]) if own else len(shared), "own": own,
+            "weights": int(starts[skill.owner]) if own else places[skill.owner], "own": own,
             "edge": len(edges), "edges": len(skill.edges), "address": addresses.get(skill.name, 0), "state": state,
             **function.row(count, outputs),
         })  # fmt: skip
         inputs.extend(skill.inputs)
         edges.extend(_edge(graph, edge, codes) for edge in skill.edges)
-        if genes(skill) and not own:
-            shared = np.concatenate([shared, weights_of(skill, weights)])
         state += function.state_length(count, outputs)
     all_inputs = np.array(inputs, np.int64)
     return Skills(rows=records(rows, SKILL), edges=records(edges, EDGE), inputs=all_inputs, weights=shared, state=state)
