@@ -89,8 +89,11 @@ class Case:
 
 
 @st.composite
-def random_graph(draw: st.DrawFn, fewest_hidden: int = 0) -> Graph:
-    """A hierarchy: shared skills, several parents, drive and influence at once, `at`, memories, virtual sensors."""
+def random_graph(draw: st.DrawFn, fewest_hidden: int = 0, alike: bool = True) -> Graph:
+    """A hierarchy: shared skills, several parents, drive and influence at once, `at`, memories, virtual sensors.
+
+    With `alike`, skills may be like others.
+    """
     sensors, memories = draw(_senses())
     width = sum(sensor.width for sensor in sensors) + len(memories)
     actuators = tuple(Actuator(f"a{i}", draw(st.sampled_from(ACTUATORS))) for i in range(draw(st.integers(1, 3))))
@@ -100,7 +103,24 @@ def random_graph(draw: st.DrawFn, fewest_hidden: int = 0) -> Graph:
         targets = [("skill", i) for i in range(number + 1, count)]
         targets += [("actuator", i) for i in range(len(actuators))] + [("memory", i) for i in range(len(memories))]
         skills.append(draw(_skills(f"S{number}", width, targets, fewest_hidden)))
+    for number in reversed(range(count - 1)):
+        owners = [each for each in skills[number + 1 :] if each.function.learns and not each.like]
+        if alike and owners and draw(st.integers(0, 4)) == 0:
+            skills[number] = draw(_alike(f"S{number}", draw(st.sampled_from(owners)), width))
     return Graph(1 / 60, Disc(), "S0", sensors, memories, actuators, tuple(skills), (), ())
+
+
+@st.composite
+def _alike(draw: st.DrawFn, name: str, owner: Skill, width: int) -> Skill:
+    """A skill that is like another, and reads something else."""
+    count = len(owner.inputs)
+    inputs = tuple(draw(st.lists(st.integers(0, width - 1), unique=True, min_size=count, max_size=count)))
+    instead = dict(zip(owner.inputs, inputs, strict=True))
+    edges = tuple(
+        replace(edge, value=tuple((word, instead[value] if word == "reading" else value) for word, value in edge.value))
+        for edge in owner.edges
+    )
+    return Skill(name, owner.function, inputs, edges, like=owner.name)
 
 
 def doubling(levels: int, last: tuple[Edge, ...], value: float = 1.0) -> tuple[Skill, ...]:
@@ -139,7 +159,8 @@ def random_case(draw: st.DrawFn, ticks: int = 6) -> Case:
     graph = draw(overflowing_graph() if draw(st.integers(0, 15)) == 0 else random_graph())
     rng = np.random.default_rng(draw(st.integers(0, 2**32 - 1)))
     # more often above zero than below: most skills then have influence
-    weights = {skill.name: draw(st.sampled_from(SCALES)) * rng.uniform(-0.7, 1, genes(skill)) for skill in graph.skills}
+    own = [skill for skill in graph.skills if not skill.like]
+    weights = {skill.name: draw(st.sampled_from(SCALES)) * rng.uniform(-0.7, 1, genes(skill)) for skill in own}
     readings = rng.random((ticks, graph.width), np.float32)
     for _ in range(draw(st.integers(0, 6))):
         place = draw(st.tuples(st.integers(0, ticks - 1), st.integers(0, max(graph.width - 1, 0))))

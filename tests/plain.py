@@ -119,13 +119,13 @@ class Plain:
                 return [f(0)] * skill.outputs
             case Mlp(hidden=hidden, width=width):
                 width = width or max(len(inputs), skill.outputs) + 2
-                weights, values = iter(self.weights[skill.name]), inputs
+                weights, values = iter(self.weights[skill.owner]), inputs
                 for _ in range(hidden):
                     values = [sigmoid(total) for total in layer(weights, values, width)]
                 return layer(weights, values, skill.outputs)
             case Elman(width=width):
                 width = width or max(len(inputs), skill.outputs) + 2
-                weights, before = iter(self.weights[skill.name]), self.said.get(skill.name, [f(0)] * width)
+                weights, before = iter(self.weights[skill.owner]), self.said.get(skill.name, [f(0)] * width)
                 said = self.said[skill.name] = [sigmoid(total) for total in layer(weights, inputs + before, width)]
                 return layer(weights, said, skill.outputs)
 

@@ -55,12 +55,22 @@ class Replaced:
 
 
 @dataclass(frozen=True, slots=True)
+class Unshared:
+    """A skill that was like its `owner` and now stands for itself; what it reads `instead`, by the owner's inputs."""
+
+    skill: str
+    owner: str
+    instead: Mapping[str, str]
+
+
+@dataclass(frozen=True, slots=True)
 class MindChange:
     """What an edit does: `splices` of the sources, `created` files, and which names the weights have to follow."""
 
     splices: tuple[Splice, ...]
     renamed: tuple[Renamed, ...] = ()
     replaced: Replaced | None = None
+    unshared: Unshared | None = None
     created: Mapping[Path, str] = field(default_factory=dict)
 
 
@@ -172,6 +182,14 @@ class Project:
     def parents(self, skill: str) -> list[Declaration]:
         """The skills that say that they influence a skill."""
         return [parent.declaration for parent in self.mind.skills if skill in parent.subskills and not parent.like]
+
+    def refuse_like(self, declaration: Declaration) -> None:
+        """EditError where a skill is like another, so that nothing but what it reads instead is said of it."""
+        header = declaration.header
+        if header.like:
+            message = f"{header.name.text} is like {header.like.text}, and says nothing of its own."
+            hint = f"Edit {header.like.text}, or first: mindc edit unshare {header.name.text} {self.main.source.name}"
+            raise EditError(message, hint, header.span)
 
     def places(self, skill: str) -> Iterator[Mention]:
         """Where a skill has its place in the hierarchy: where skills influence it, and where it is the master."""

@@ -140,6 +140,11 @@ def mentions(files: Iterable[File], names: Names) -> Iterator[Mention]:
             yield from _declaration(declaration, _Reader(names, declaration))
 
 
+def names_in(fact: Fact, names: Names, by: Declaration) -> Iterator[Mention]:
+    """The names in a fact of a declaration."""
+    return _Reader(names, by).fact(fact)
+
+
 def introductions(files: Iterable[File]) -> Iterator[Mention]:
     """Every name where it is declared, those of things where a task contains them."""
     for declaration in (declaration for file in files for declaration in file.declarations):

@@ -26,6 +26,7 @@ def inline(project: Project, skill: str) -> MindChange:
     Example: mindc edit inline Fetch collect.mind
     """
     declaration = project.find(skill, "skill")
+    project.refuse_like(declaration)
     if not facts(declaration, Influences):
         message = f"{skill} is a base skill: there is nothing below it to take its place."
         raise EditError(message, "", declaration.header.span)

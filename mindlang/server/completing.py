@@ -10,8 +10,9 @@ from mindlang.compiler.syntax import NOUNS, SETTINGS
 from mindlang.editing.project import OWNERS
 from mindlang.file_search import files_below
 from mindlang.server.facts import FACTS, CursorLine
-from mindlang.server.offers import Offer, arguments_of, functions, kinds_of, words
+from mindlang.server.offers import Offer, arguments_of, functions, kinds_of, names, words
 from mindlang.server.view import MindView, declaration_at
+from mindlang.server.words import WORDS
 
 MAX_OFFERED_FILES = 200  # that are offered
 
@@ -67,6 +68,10 @@ def _header(line: CursorLine, noun: str, rest: Sequence[str]) -> list[Offer]:
             return []
         case [_]:
             return words("in" if noun == "task" else "is")
+        case [own, "is", "like"]:
+            return names(line.view, noun, but=[own])
+        case [_, "is"] if noun == "skill":
+            return [*kinds_of(noun), Offer("like", "word", text=WORDS["is like"])]
         case [_, "is" | "in"]:
             return kinds_of(noun)
         case [_, "is" | "in", "procedure", "from"] if noun == "skill":

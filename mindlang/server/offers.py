@@ -11,7 +11,7 @@ from mindrun.registry import Argument, arguments, kinds
 
 from mindlang.compiler.names import things_of
 from mindlang.compiler.resolve.kinds import about
-from mindlang.compiler.syntax import Declaration
+from mindlang.compiler.syntax import Declaration, Reads
 from mindlang.file_search import files_beside, text_of
 from mindlang.server.describing import argument_line, kind_card, meaning
 from mindlang.server.view import MindView
@@ -46,6 +46,22 @@ def names(view: MindView, *nouns: str, but: Iterable[str] = ()) -> list[Offer]:
         for name, declaration in view.names.declarations(noun)
         if name not in left
     ]
+
+
+def inputs_of(view: MindView, skill: str) -> set[str]:
+    """What a skill reads, by what it says or the skills say that it is like."""
+    found: set[str] = set()
+    replaced: set[str] = set()
+    seen: set[str] = set()
+    declared = dict(view.names.declarations("skill"))
+    while skill in declared and skill not in seen:
+        seen.add(skill)
+        reads = [fact for fact in declared[skill].facts if isinstance(fact, Reads)]
+        found |= {fact.name.text for fact in reads} - replaced
+        replaced |= {fact.stands_for.text for fact in reads if fact.stands_for}
+        like = declared[skill].header.like
+        skill = like.text if like else ""
+    return found
 
 
 def kinds_of(noun: str) -> list[Offer]:

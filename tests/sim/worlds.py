@@ -57,7 +57,7 @@ def random_world(draw: st.DrawFn, most: int = 40) -> Graph:
 
 def _lessons(graph: Graph) -> st.SearchStrategy[list[Lesson]]:
     """Lessons of skills that learn."""
-    names = [skill.name for skill in graph.skills if genes(skill)]
+    names = [skill.name for skill in graph.skills if genes(skill) and not skill.like]
     lesson = st.builds(
         Lesson, st.just("School"), st.sampled_from(names), st.just("World"), st.just(graph.master), st.integers(1, 9),
         st.booleans(), st.booleans(), learner_kinds(), st.integers(1, 9),

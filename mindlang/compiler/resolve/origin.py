@@ -63,4 +63,5 @@ def _sends(skill: model.Skill) -> list[str]:
 
 def _words(names: Sequence[str], but: Sequence[str]) -> str:
     """The names that are not among the others."""
-    return listed([name.partition(":")[0] for name in names if name not in but], "and") or "nothing more"
+    found = [name.partition(":")[0] for name in names if name not in but]
+    return listed(found, "and") if found else "nothing more"
