@@ -185,11 +185,10 @@ class Project:
 
     def refuse_like(self, declaration: Declaration) -> None:
         """EditError where a skill is like another, so that nothing but what it reads instead is said of it."""
-        header = declaration.header
-        if header.like:
-            message = f"{header.name.text} is like {header.like.text}, and says nothing of its own."
-            hint = f"Edit {header.like.text}, or first: mindc edit unshare {header.name.text} {self.main.source.name}"
-            raise EditError(message, hint, header.span)
+        if (header := declaration.header).like:
+            name, other = header.name.text, header.like.text
+            hint = f"Edit {other}, or first: mindc edit unshare {name}"
+            raise EditError(f"{name} is like {other}, and says nothing of its own.", hint, header.span)
 
     def places(self, skill: str) -> Iterator[Mention]:
         """Where a skill has its place in the hierarchy: where skills influence it, and where it is the master."""

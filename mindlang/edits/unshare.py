@@ -28,7 +28,7 @@ def unshare(project: Project, skill: str) -> MindChange:
     assert phrase
     instead_of = dict(zip(owner.reads, own.reads, strict=True))
     indent = indentation(declaration)
-    lines = [f"{indent}{_said(project, owner, fact, instead_of)}" for fact in owner.declaration.facts]
+    lines = [f"{indent}{_restated(project, owner, fact, instead_of)}" for fact in owner.declaration.facts]
     header = instead(declaration.header.span, f"skill {skill} is {phrase.span.text}")
     return MindChange((header, *_below(own, lines)), unshared=Unshared(skill, own.like, instead_of))
 
@@ -44,7 +44,7 @@ def _below(skill: Skill, lines: list[str]) -> Iterator[Splice]:
     yield from map(without_fact, others)
 
 
-def _said(project: Project, owner: Skill, fact: Fact, instead_of: Mapping[str, str]) -> str:
+def _restated(project: Project, owner: Skill, fact: Fact, instead_of: Mapping[str, str]) -> str:
     """A fact of the owner with what is read instead."""
     text, start = fact.span.text, fact.span.start
     names = [mention.name for mention in names_in(fact, project.names, owner.declaration)]
