@@ -16,7 +16,7 @@ EMITTERS = {"error", "refuse", "Diagnostic", "Mistake"}
 # Codes that are made of words as they are emitted: how, and which these are.
 MADE = {
     "f'unknown-{nouns[0]}'": {f"unknown-{noun}" for noun in ("sensor", "actuator", "skill", "task")},
-    "f'unknown-{type_.noun}'": {"unknown-side", "unknown-outcome"},
+    "f'unknown-{type_.noun}'": {"unknown-axis", "unknown-side", "unknown-outcome"},
     "said.replace(' ', '-')": {f"{key}-{word}" for key, (word, _) in SWITCHES.items()},
 }
 PASSED_ON = {"code", "mistake.code", "rule.code"}  # codes that are made elsewhere

@@ -29,6 +29,7 @@ from mindrun.trigonometry import cosine, sine
 
 from tests.hierarchies import WORLDLY
 from tests.minds import always, mind, rule
+from tests.sensors.test_constants import World
 from tests.sim.worlds import random_world
 
 F = np.float32
@@ -139,6 +140,14 @@ def robot(world: Graph, chosen: list[Any], drive: tuple[float, float]) -> Graph:
     return replace(mind(top), sensors=sensors, tasks=(task,), body=world.body)
 
 
+def known(graph: Graph) -> World:
+    """What is known of its world before anything runs."""
+    task = graph.tasks[0]
+    is_solid = task.scene.is_bounded or any(thing.kind.is_solid for thing in task.things)
+    names = frozenset(thing.name for thing in task.things if not thing.kind.is_obstacle)
+    return World(is_solid=is_solid, can_hold=True, things=names)
+
+
 @settings(max_examples=60, suppress_health_check=list(HealthCheck))
 @given(
     random_world(), st.lists(st.sampled_from(PURE), min_size=1, max_size=8),
@@ -153,6 +162,7 @@ def test_compiled_lanes_read_the_bits_of_plain_python(
     tile = rollout.tile(1)
     rollout.fill(tile, jobs)
     state, tables = tile.state, rollout.tables
+    constants = [(each, value) for each in graph.sensors if (value := each.kind.constant(known(graph))) is not None]
     rows = {name: part.view(np.recarray) if part.dtype.names else part for name, part in tables._asdict().items()}
     working = 1
     while working:
@@ -171,6 +181,8 @@ def test_compiled_lanes_read_the_bits_of_plain_python(
             for row, kind in zip(rows["sensors"], chosen, strict=True):
                 kind.lane(SimpleNamespace(**rows), senses, 1, 0, row)
         assert np.array_equal(plain[: graph.width, 0], state.mind.readings[: graph.width, 0]), chosen
+        for sensor, constant in constants:
+            assert (plain[sensor.start : sensor.start + sensor.width, 0] == F(constant)).all(), sensor
 
 
 def test_every_sensor_that_measures_takes_faults() -> None:
