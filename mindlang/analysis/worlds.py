@@ -13,12 +13,14 @@ from mindlang.compiler.model import Condition, Expression, Reward, Task
 
 @dataclass(frozen=True, slots=True)
 class AnalysedWorld:
-    """The things in a world that sensors can be about, whether anything is solid, and whether the battery charges."""
+    """The things in a world that sensors can be about, what stands in the way there, and whether the battery charges."""
 
     study: Study
     things: frozenset[str]
     is_solid: bool
+    has_fixed: bool  # what is solid and does not give way
     charges: bool
+    loose: frozenset[str]  # things that can be pushed
     fleeting: frozenset[str]  # items that are gone as soon as they are reached
 
     def constant(self, name: str) -> float | None:
@@ -72,17 +74,25 @@ class AnalysedWorld:
 
 def world(study: Study, task: Task) -> AnalysedWorld:
     """The world of a task."""
-    is_solid = task.scene.is_bounded or any(thing.kind.is_solid for thing in task.things)
+    solid = [thing for thing in task.things if thing.kind.is_solid]
+    loose = frozenset(thing.name for thing in solid if thing.kind.is_loose)
+    is_solid, has_fixed = task.scene.is_bounded or bool(solid), task.scene.is_bounded or len(solid) > len(loose)
     items = (thing for thing in task.things if thing.kind.can_be_held)
     fleeting = {thing.name for thing in items if thing.kind.outcomes.get("reached", STAYS) != STAYS}
-    return AnalysedWorld(study, _named([task]), is_solid, _charges([task]), frozenset(fleeting))
+    return AnalysedWorld(study, _named([task]), is_solid, has_fixed, _charges([task]), loose, frozenset(fleeting))
 
 
 def any_world(study: Study) -> AnalysedWorld:
     """A world in which there is everything that any task has."""
     tasks = study.mind.tasks
     return AnalysedWorld(
-        study, _named(tasks), is_solid=True, charges=not tasks or _charges(tasks), fleeting=frozenset()
+        study,
+        _named(tasks),
+        is_solid=True,
+        has_fixed=True,
+        charges=not tasks or _charges(tasks),
+        loose=frozenset(),
+        fleeting=frozenset(),
     )
 
 

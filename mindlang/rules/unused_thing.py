@@ -31,7 +31,7 @@ def check(study: Study) -> Found:
     sensed, named = {*study.senses.values()}, _named(study)
     charges = any(kind.battery for kind in study.sensors.values())
     for task in study.mind.tasks:
-        delivers = any(thing.kind.can_be_held for thing in task.things)
+        delivers = any(thing.kind.can_be_delivered for thing in task.things)
         facts = {fact.name.text: fact for fact in task.declaration.facts if isinstance(fact, Contains)}
         for thing in task.things:
             is_known = thing.name in sensed or (task.name, thing.name) in named

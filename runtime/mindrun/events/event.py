@@ -41,8 +41,8 @@ class World(Protocol):
     """What is known of a task's world from the whole mind, before anything runs in it."""
 
     @property
-    def is_solid(self) -> bool:
-        """Whether there is anything to collide with."""
+    def has_fixed(self) -> bool:
+        """Whether anything stands in the way that does not give way."""
         ...
 
     @property
@@ -53,6 +53,11 @@ class World(Protocol):
     @property
     def drains(self) -> bool:
         """Whether the battery can become empty."""
+        ...
+
+    @property
+    def loose(self) -> Set[str]:
+        """Things that can be pushed."""
         ...
 
     @property

@@ -48,7 +48,7 @@ class World(Protocol):
 
     @property
     def is_solid(self) -> bool:
-        """Whether there is anything to collide with."""
+        """Whether anything stands in the way, fixed or loose."""
         ...
 
     @property

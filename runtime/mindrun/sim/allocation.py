@@ -10,7 +10,7 @@ from mindrun.arithmetic import BOX_COLUMNS, HALF_SIDE, THING_ROWS, X, Y
 from mindrun.sensors.inertial import TRAIL_TICKS
 from mindrun.sim import chipmunk_internals as chipmunk
 from mindrun.sim.codes import AWAY
-from mindrun.sim.state import FIRST_RAY, PLACE_ROWS, SIDES, Contact, Judge, Mind, Run, Sight, State, World
+from mindrun.sim.state import FIRST_RAY, FRAME_ROWS, LOOSE_ROWS, PLACE_ROWS, SIDES, Contact, Judge, Mind, Run, Sight, State, World
 from mindrun.sim.tables import Sizes, Tables
 from mindrun.sim.vector import VECTOR_LANES
 
@@ -56,6 +56,9 @@ def _world(tables: Tables, sizes: Sizes, room: _Room) -> World:
         heading=room.rows(2),
         boxes=room.columns(BOX_COLUMNS * sizes.boxes),
         things=room.rows(THING_ROWS * things),
+        loose=room.rows(LOOSE_ROWS * len(tables.loose)),
+        still=room.rows(len(tables.loose), np.int64),
+        restless=room.each(),
         held=room.each(),
         reached=room.rows(things, np.uint8),
         delivered=room.rows(things, np.uint8),
@@ -80,6 +83,7 @@ def _sight(tables: Tables, sizes: Sizes, room: _Room) -> Sight:
         anchor=room.rows(PLACE_ROWS),
         sides=room.rows(SIDES * sizes.boxes, np.float32),
         nearest=room.rows(THING_ROWS),
+        frame=room.rows(FRAME_ROWS, np.float32),
         sight=room.rows(FIRST_RAY + len(tables.ray_row), np.float32),
     )
 
@@ -115,10 +119,12 @@ def _contact(tables: Tables, sizes: Sizes, room: _Room) -> Contact:
         near=room.each(),
         touching=room.each(),
         handles=room.columns(chipmunk.FIRST_HELD + shapes, np.uint64),
+        loose=room.columns(chipmunk.LOOSE_HANDLES * len(tables.loose), np.uint64),
+        sizes=room.columns(len(tables.loose)),
         gap=room.each(np.float64),
         floats=room.columns(chipmunk.BODY_FLOATS),
         batch=room.columns(chipmunk.BATCH_WORDS, np.int64),
-        touches=room.each(),
+        tally=room.columns(chipmunk.TALLY_WORDS, np.int64),
     )
 
 

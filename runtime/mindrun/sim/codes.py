@@ -9,7 +9,7 @@ import mindrun.sensors  # noqa: F401  # which registers them
 from mindrun.registry import kinds
 
 WHEEL_LEFT, WHEEL_RIGHT, GRIPPER, SERVO = range(4)
-ITEM, ZONE, POWER = range(3)
+ITEM, ZONE, POWER, BOX, BALL = range(5)
 STAYS, MOVES, VANISHES = range(3)
 PROGRESS, ADVANCE, RETREAT, FORWARD, CHANGE = range(5)
 REACH, DELIVERY, VISIT, COLLISION, EXHAUSTION = range(5)
@@ -26,7 +26,7 @@ OPERATIONS = {name: code for code, name in enumerate(("number", "reading", "each
 ACTUATOR_CODES = {  # of each kind, by the side that it is on
     ("wheel", "left"): WHEEL_LEFT, ("wheel", "right"): WHEEL_RIGHT, ("gripper", None): GRIPPER, ("servo", None): SERVO,
 }  # fmt: skip
-THING_CODES = {"item": ITEM, "zone": ZONE, "power": POWER}
+THING_CODES = {"item": ITEM, "zone": ZONE, "power": POWER, "box": BOX, "ball": BALL}
 MEASURE_CODES = {
     "progress": PROGRESS, "advance": ADVANCE, "retreat": RETREAT, "forward": FORWARD, "change": CHANGE,
 }  # fmt: skip
@@ -66,8 +66,10 @@ ACTUATOR = _row(kind="i8", thrust="f8", neutral="f4", reach="f8", delay="i8", ri
 MEMORY = _row(row="i8", decay="f4", rest="f4", start="f4")
 THING = _row(
     kind="i8", first="f8", last="f8", by="f8", low="f8", high="f8", hold="f8", drawn="i8", is_round="i8",
-    is_fixed="i8", x="f8", y="f8", reached="i8", delivered="i8", is_reached="i8", is_delivered="i8",
+    is_fixed="i8", x="f8", y="f8", reached="i8", delivered="i8", is_reached="i8", is_delivered="i8", is_area="i8",
+    loose="i8",
 )  # fmt: skip
+LOOSE = _row(thing="i8", is_round="i8", density="f8", friction="f8", slower="f8")
 OBSTACLE = _row(
     first="f8", last="f8", grid="f8", jitter="f8", columns="i8", rows="i8", x="f8", y="f8",
     count="i8", low="f8", high="f8",

@@ -10,8 +10,10 @@ from numpy.typing import NDArray
 
 Array = NDArray[Any]
 PLACE_ROWS = 2  # x and y
+TURN, PUSHED_X, PUSHED_Y, PUSHED_SPIN, LOOSE_ROWS = range(5)  # rows of a loose thing, and how many
 SIGHT_COSINE, SIGHT_SINE, SIGHT_X, SIGHT_Y, FIRST_RAY = range(5)  # rows of `sight`
 LEFT, RIGHT, LOW, HIGH, SIDES = range(5)  # rows of a box in `sides`, and how many
+LOOSE_COSINE, LOOSE_SINE, LOOSE_X, LOOSE_Y, LOOSE_HALF, FRAME_ROWS = range(6)  # of the frame of a loose thing
 FAILED_SKILL, FAILED_COLUMN = range(2)  # of `failed`
 
 
@@ -22,6 +24,9 @@ class World(NamedTuple):
     heading: Array  # [2] float64: cosine and sine of the angle
     boxes: Array  # [lane, BOX_COLUMNS·boxes] float64: x, y, half side of each
     things: Array  # [THING_ROWS·things] float64: x, y, size, distance to the robot when the tick began
+    loose: Array  # [LOOSE_ROWS·loose] float64: how far each loose thing has turned, its velocity and spin
+    still: Array  # [loose] int64: for how many ticks each has not moved, up to SETTLED_TICKS
+    restless: Array  # int64: how many have not settled
     held: Array  # int64: the thing that the claw holds, or −1
     reached: Array  # [things] uint8: bit 0 while it is in reach, bit 1 if it was in the tick before
     delivered: Array  # [things] uint8: the same of items that were carried into a zone and have not left
@@ -45,6 +50,7 @@ class Sight(NamedTuple):
     # for this tick
     sides: Array  # [SIDES·boxes] float32: those of the boxes nearby, relative to the robot
     nearest: Array  # [THING_ROWS] float64: of several things of one name, for the sensor that is read
+    frame: Array  # [FRAME_ROWS] float32: of the loose thing that is looked at: how it is turned, where it is, its size
     sight: Array  # [FIRST_RAY + rays] float32: heading and place, then how far each ray goes
 
 
@@ -78,11 +84,13 @@ class Contact(NamedTuple):
     near: Array  # int64: ticks for which it still steps this lane
     touching: Array  # int64: bit 0 while something touches, bit 1 if something did in the tick before
     handles: Array  # [lane, …] uint64: space, body, robot's shape, held shapes, boxes' shapes, walls' shapes
+    loose: Array  # [lane, LOOSE_HANDLES·loose] uint64: body and shape of each loose thing
+    sizes: Array  # [lane, loose] float64: of which size these are
     # for this tick
     gap: Array  # float64: to what is nearest after it
     floats: Array  # [lane, …] float64: a body's state on its way to Chipmunk and back
     batch: Array  # [lane, …] int64: pymunk's structures that point at `floats`
-    touches: Array  # int64: contacts of the last step
+    tally: Array  # [lane, TALLY_WORDS] int64: contacts of the last step, and what it takes to count them
 
 
 class Judge(NamedTuple):

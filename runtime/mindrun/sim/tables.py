@@ -16,6 +16,7 @@ from mindrun.sim.codes import (
     REWARD,
     THING,
 )  # fmt: skip
+from mindrun.sim.loose_rows import loose_rows
 from mindrun.sim.mind_rows import actuator_rows, memory_rows, skill_rows
 from mindrun.sim.programs import Programs
 from mindrun.sim.sensor_rows import sensor_rows, used_sensors
@@ -50,6 +51,7 @@ class Tables(NamedTuple):
     actuators: Array
     memories: Array
     things: Array
+    loose: Array
     obstacles: Array
     measures: Array
     events: Array
@@ -103,7 +105,8 @@ def build(
         skills=skills.rows, inputs=skills.inputs, edges=skills.edges, weights=skills.weights,
         codes=np.array(codes.rows, CODE),
         actuators=driven, memories=memory_rows(graph),
-        things=np.array(thing_rows(graph, task), THING), obstacles=np.array(obstacle_rows(task), OBSTACLE),
+        things=np.array(thing_rows(graph, task), THING), loose=loose_rows(task, graph.tick),
+        obstacles=np.array(obstacle_rows(task), OBSTACLE),
         measures=np.array(measured, MEASURES), events=np.array(noticed, EVENT), rewards=np.array(rewards, REWARD),
         library=library,
     )  # fmt: skip

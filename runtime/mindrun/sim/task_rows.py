@@ -1,6 +1,7 @@
 """The task's rows of the tables: its world, what it contains, its measures, events and rewards."""
 
 from collections.abc import Sequence
+from itertools import count
 from typing import Any
 
 import numpy as np
@@ -28,6 +29,7 @@ Array = NDArray[Any]
 MIN_CELL_UNITS = 20.0  # the side of a cell of Chipmunk's hash, in which what is large takes only so many
 CELLS_PER_SHAPE, CELLS_PER_WALL = 4, 64
 MIN_NEAR_UNITS = 1.0  # beyond the body's rim
+HALF_DIAGONAL = 0.7072  # of a square with side 1, and a little more
 NOWHERE = range(-1, -1)  # rows of a thing that the task does not contain
 
 
@@ -53,15 +55,19 @@ def thing_rows(graph: Graph, task: Task) -> Array:
     """Rows of THING, the items, zones and powers in the order of the source."""
     rows: list[Row] = []
     asked = {(event.outcome, event.thing) for event in task.events if event.outcome}
+    loose = count()
     for thing in things_of(task):
         kind, size = thing.kind, thing.kind.size
         low, high = kind.distances(task.scene)
         x, y = kind.at or (0.0, 0.0)
+        if kind.is_loose:  # not in the robot
+            low = max(low, graph.body.radius + kind.largest * HALF_DIAGONAL)
         row: dict[str, float] = {
             "kind": THING_CODES[names()[type(kind)]], "first": size.first, "last": size.last, "by": size.by or 0.0,
             "low": low, "high": high, "hold": graph.body.radius + kind.largest / 2,
             "drawn": size.by is None and size.first != size.last, "is_fixed": kind.at is not None, "x": x, "y": y,
             "is_round": kind.is_round,
+            "is_area": kind.is_area, "loose": next(loose) if kind.is_loose else -1,
         }  # fmt: skip
         for what in ("reached", "delivered"):
             outcome = kind.outcomes.get(what, STAYS)

@@ -1,7 +1,9 @@
 """Kinds of what a task's world contains, one file each."""
 
 from mindrun.registry import register_all
+from mindrun.things.ball import Ball
 from mindrun.things.item import Item
+from mindrun.things.loose_box import LooseBox
 from mindrun.things.obstacle import Obstacle
 from mindrun.things.power import Power
 from mindrun.things.thing import MOVES, OUTCOMES, STAYS, VANISHES, Outcome, ThingKind
@@ -10,5 +12,5 @@ from mindrun.things.zone import Zone
 register_all(__name__, __path__)
 
 __all__ = [
-    "MOVES", "OUTCOMES", "STAYS", "VANISHES", "Item", "Obstacle", "Outcome", "Power", "ThingKind", "Zone",
+    "MOVES", "OUTCOMES", "STAYS", "VANISHES", "Ball", "Item", "LooseBox", "Obstacle", "Outcome", "Power", "ThingKind", "Zone",
 ]  # fmt: skip

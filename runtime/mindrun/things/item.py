@@ -25,6 +25,7 @@ class Item(ThingKind):
     delivered: Annotated[Outcome, OUTCOME] = MOVES
 
     can_be_held = True
+    can_be_delivered = True
     is_round = True
 
     @property

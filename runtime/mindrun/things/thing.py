@@ -45,8 +45,10 @@ class ThingKind:
     at: Place | None
 
     is_obstacle = False  # whether it is squares that stand in the way: no sensor, event or measure is about these
-    is_solid = False  # whether the robot can collide with it, although nobody holds it
+    is_solid = False  # whether it stands in the way, although nobody holds it
+    is_loose = False  # whether it gives way when it is pushed
     can_be_held = False  # whether a claw can take it
+    can_be_delivered = False  # whether it counts as delivered when it comes into a zone
     is_area = False  # whether it lies on the floor, so that a robot or an item can be inside
     takes_items = False  # whether items are delivered into it
     charges = False  # whether the battery charges in it

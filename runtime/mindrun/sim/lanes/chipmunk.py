@@ -17,6 +17,7 @@ from mindrun.sim.chipmunk_internals import (
     EACH_ARBITER,
     EMPTY_ARRAY,
     FIRST_HELD,
+    FIXED_BODY,
     FLOAT_FORCE_X,
     FLOAT_FORCE_Y,
     FLOAT_TORQUE,
@@ -40,10 +41,12 @@ from mindrun.sim.chipmunk_internals import (
     SPACE_REMOVE_SHAPE,
     SPACE_STATIC,
     SPACE_STEP,
+    TALLIED,
     call,
 )
 from mindrun.sim.codes import FORCE_X, FORCE_Y, TORQUE
 from mindrun.sim.compiling import compiled
+from mindrun.sim.lanes.loose_space import add_loose, push_loose, remove_loose, take_loose
 from mindrun.sim.lanes.placement import ENDLESS_UNITS
 
 SOLVER_ITERATIONS = 8
@@ -66,6 +69,8 @@ def open_space(tables, world, contact, lane):
             call(library[SHAPE_BODY], handles[circle], body)
             call(library[SPACE_ADD_SHAPE], space, handles[circle])
     handles[SPACE], handles[BODY] = space, body
+    contact.tally[lane, FIXED_BODY] = call(library[SPACE_STATIC], space)
+    add_loose(tables, space, contact, lane)
 
 
 @compiled
@@ -99,8 +104,9 @@ def add_box(library, space, static, corners, left, low, right, high):
 
 
 @compiled
-def close_space(library, handles, things):
+def close_space(tables, contact, lane):
     """Free a lane's Space; its circles, the robot's and those of the things, stay for the next."""
+    library, handles, things = tables.library, contact.handles[lane], len(tables.things)
     space, body = handles[SPACE], handles[BODY]
     if space == 0:
         return
@@ -112,6 +118,7 @@ def close_space(library, handles, things):
             else:
                 call(library[SHAPE_FREE], handles[shape])
                 handles[shape] = 0
+    remove_loose(tables, space, contact, lane)
     call(library[SPACE_REMOVE_BODY], space, body)
     call(library[BODY_FREE], body)
     call(library[SPACE_FREE], space)
@@ -134,17 +141,20 @@ def push_body(tables, world, contact, lane):
             call(library[SHAPE_SENSOR], circle, 0 if is_held else 1)
             if is_held:
                 call(library[CIRCLE_RADIUS], circle, world.things[THING_ROWS * i + SIZE, lane] / 2)
+    push_loose(tables, world, contact, lane)
 
 
 @compiled
 def step_space(tables, world, contact, lane):
-    """Step a lane's Space, take its body's state back, and count the contacts."""
+    """Step a lane's Space, take the state of its bodies back, and count what its robot runs into."""
     library, batch, handles = tables.library, contact.batch[lane], contact.handles[lane]
     call(library[SPACE_STEP], handles[SPACE], tables.world[0].dt)
     batch[ARRAY_NUMBERS] = EMPTY_ARRAY
     call(library[BODY_GET], handles[BODY], batch[GET_BATCH:].ctypes.data)
     for i in range(MOTION_FLOATS):
         world.body[i, lane] = contact.floats[lane, i]
-    contact.touches[lane] = 0
-    call(library[EACH_ARBITER], handles[BODY], library[COUNT], contact.touches[lane:].ctypes.data)
-    return contact.touches[lane]
+    take_loose(tables, world, contact, lane)
+    tally = contact.tally[lane]
+    tally[TALLIED] = 0
+    call(library[EACH_ARBITER], handles[BODY], library[COUNT], tally.ctypes.data)
+    return tally[TALLIED]

@@ -10,6 +10,7 @@ from mindrun.arithmetic import ANGLE, BOX_COLUMNS, HALF_SIDE, SIZE, THING_ROWS, 
 from mindrun.sim.arithmetic import sine_cosine
 from mindrun.sim.codes import FAR
 from mindrun.sim.compiling import compiled
+from mindrun.sim.lanes.loose import stand
 
 GOLDEN, MIX_1, MIX_2 = np.uint64(0x9E3779B97F4A7C15), np.uint64(0xBF58476D1CE4E5B9), np.uint64(0x94D049BB133111EB)
 S30, S27, S31, S11 = np.uint64(30), np.uint64(27), np.uint64(31), np.uint64(11)
@@ -50,8 +51,7 @@ def draw(tables, world, lane):
     for i in range(len(tables.things)):
         if tables.things[i].is_fixed:
             draw_size(tables, world, i, lane)
-            world.things[THING_ROWS * i + X, lane] = tables.things[i].x
-            world.things[THING_ROWS * i + Y, lane] = tables.things[i].y
+            put_at(tables, world, i, tables.things[i].x, tables.things[i].y, lane)
     for i in range(len(tables.things)):
         if not tables.things[i].is_fixed:
             draw_size(tables, world, i, lane)
@@ -106,7 +106,8 @@ def start(tables, world, lane):
         for _ in range(MAX_TRIES):
             body[X, lane] = uniform(random, lane, -room_x, room_x)
             body[Y, lane] = uniform(random, lane, -room_y, room_y)
-            if clear(world.boxes, body[X, lane], body[Y, lane], 3 * radius, lane):
+            is_clear = clear(world.boxes, body[X, lane], body[Y, lane], 3 * radius, lane)
+            if is_clear and clear_of_loose(tables, body[X, lane], body[Y, lane], 3 * radius):
                 break
     body[ANGLE, lane] = uniform(random, lane, 0.0, 2 * np.pi)
 
@@ -118,6 +119,17 @@ def clear(boxes, x, y, margin, lane):
         box = BOX_COLUMNS * b
         gap = boxes[lane, box + HALF_SIDE] + margin
         if abs(boxes[lane, box + X] - x) < gap and abs(boxes[lane, box + Y] - y) < gap:
+            return False
+    return True
+
+
+@compiled
+def clear_of_loose(tables, x, y, margin):
+    """Whether no box or ball with a place of its own comes within `margin` of a point, along the axes."""
+    for i in range(len(tables.loose)):
+        thing = tables.things[tables.loose[i].thing]
+        gap = max(thing.first, thing.last) / 2 + margin
+        if thing.is_fixed and abs(thing.x - x) < gap and abs(thing.y - y) < gap:
             return False
     return True
 
@@ -163,7 +175,15 @@ def put(tables, world, i, lane):
     """Thing i somewhere else."""
     thing, rows = tables.things[i], THING_ROWS * i
     x, y = find(tables, world, thing.low, thing.high, world.things[rows + SIZE, lane] / 2, i, lane)
-    world.things[rows + X, lane], world.things[rows + Y, lane] = x, y
+    put_at(tables, world, i, x, y, lane)
+
+
+@compiled
+def put_at(tables, world, i, x, y, lane):
+    """Thing i at a place."""
+    world.things[THING_ROWS * i + X, lane], world.things[THING_ROWS * i + Y, lane] = x, y
+    if tables.things[i].loose >= 0:
+        stand(world, tables.things[i].loose, lane)
 
 
 @compiled
@@ -183,10 +203,10 @@ def succeed(tables, world, i, lane):
 
 
 @compiled
-def vanish(world, i, lane):
+def vanish(tables, world, i, lane):
     """Thing i is nowhere for the rest of the run: a place that is no number is in nobody's reach or way."""
     forget(world, i, lane)
-    world.things[THING_ROWS * i + X, lane], world.things[THING_ROWS * i + Y, lane] = np.nan, np.nan
+    put_at(tables, world, i, np.nan, np.nan, lane)
 
 
 @compiled

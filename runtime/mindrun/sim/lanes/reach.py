@@ -5,7 +5,7 @@ Nothing here depends on whether a line of the task names the event: what measure
 
 from mindrun.arithmetic import THING_ROWS, X, Y
 from mindrun.sim.arithmetic import in_claw, inside
-from mindrun.sim.codes import ITEM, MOVES, STAYS, VANISHES, ZONE
+from mindrun.sim.codes import MOVES, STAYS, VANISHES, ZONE
 from mindrun.sim.compiling import compiled
 from mindrun.sim.lanes.placement import succeed, vanish
 
@@ -22,7 +22,7 @@ def meet(tables, world, lanes):
     radius, claw = tables.world[0].radius, tables.world[0].claw
     for i in range(len(tables.things)):
         thing = tables.things[i]
-        if thing.is_reached and thing.kind == ITEM:
+        if thing.is_reached and not thing.is_area:
             for lane in range(lanes):
                 now = in_claw(body, world.heading, things, radius, claw, i, lane)
                 begun += note(world.reached, i, lane, now)
@@ -31,7 +31,7 @@ def meet(tables, world, lanes):
                 begun += note(world.reached, i, lane, inside(things, i, body[X, lane], body[Y, lane], lane))
         if thing.is_delivered:
             for lane in range(lanes):
-                carried = world.delivered[i, lane] & 1 == 1 or world.held[lane] == i
+                carried = thing.loose >= 0 or world.delivered[i, lane] & 1 == 1 or world.held[lane] == i
                 begun += note(world.delivered, i, lane, carried and in_zone(tables, things, i, lane))
     return begun
 
@@ -67,4 +67,4 @@ def become(tables, world, lanes):
             if outcome == MOVES:
                 succeed(tables, world, i, lane)
             elif outcome == VANISHES:
-                vanish(world, i, lane)
+                vanish(tables, world, i, lane)

@@ -5,6 +5,7 @@ import numpy as np
 from mindrun.arithmetic import ANGLE, COSINE, SINE, X, Y
 from mindrun.sensors.inertial import TRAIL_TICKS
 from mindrun.sim.arithmetic import sine_cosine
+from mindrun.sim.chipmunk_internals import FIXED_BODY
 from mindrun.sim.codes import GOING_ON, LOST, VISIT
 from mindrun.sim.compiling import compiled, entry
 from mindrun.sim.lanes.chipmunk import close_space
@@ -120,7 +121,7 @@ def finish(tables, state, jobs, lane):
     for i in range(len(tables.events)):
         jobs.counts[job, i] = judge.counts[i, lane]
     jobs.ticks[job], jobs.ended[job], jobs.faults[job] = state.world.tick[lane], run.ended[lane], run.faults[lane]
-    close_space(tables.library, state.contact.handles[lane], len(tables.things))
+    close_space(tables, state.contact, lane)
     run.job[lane] = -1
 
 
@@ -139,19 +140,23 @@ def move(state, source, target):
     copy_row(judge.visited, source, target)
     for numbers in (sight.nearby_count, contact.near, contact.touching, run.job, run.ended, run.faults):
         numbers[target] = numbers[source]
-    handles = contact.handles
-    for i in range(handles.shape[1]):
-        handles[source, i], handles[target, i] = handles[target, i], handles[source, i]
+    for handles in (contact.handles, contact.loose):
+        for i in range(handles.shape[1]):
+            handles[source, i], handles[target, i] = handles[target, i], handles[source, i]
+    copy_row(contact.sizes, source, target)
+    contact.tally[target, FIXED_BODY] = contact.tally[source, FIXED_BODY]
 
 
 @compiled
 def move_world(world, source, target):
     """The world of one lane becomes that of the other."""
-    for rows in (world.body, world.heading, world.things, world.trail):
+    for rows in (world.body, world.heading, world.things, world.trail, world.loose):
         copy_lane(rows, source, target)
     for rows in (world.reached, world.delivered):
         copy_lane(rows, source, target)
+    copy_lane(world.still, source, target)
     copy_row(world.boxes, source, target)
+    world.restless[target] = world.restless[source]
     world.held[target], world.tick[target], world.battery[target] = (
         world.held[source],
         world.tick[source],

@@ -10,6 +10,7 @@ from mindrun.registry import kinds
 from mindrun.sim.arithmetic import ONE, ZERO, F, clamp, compiled_lane
 from mindrun.sim.codes import AWAY, sensor_codes
 from mindrun.sim.compiling import compiled
+from mindrun.sim.lanes.loose_sight import look_at_loose
 from mindrun.sim.lanes.placement import uniform
 from mindrun.sim.state import (
     FIRST_RAY,
@@ -58,6 +59,7 @@ def sense(tables, state, lanes, clock):
     choose(world, sight, tables.world[0].near + CULLING_SLACK_UNITS, lanes)
     if tables.world[0].rays > 0:
         look(tables, world, sight, lanes)
+        look_at_loose(tables, world, sight, lanes)
     senses = Senses(
         readings=mind.readings,
         before=mind.before,

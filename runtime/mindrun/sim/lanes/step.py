@@ -16,10 +16,12 @@ from mindrun.arithmetic import (
 )
 from mindrun.sim.arithmetic import sine_cosine
 from mindrun.sim.chipmunk_internals import PERSISTENCE_TICKS, SPACE
-from mindrun.sim.codes import FAR, FORCE, FORCE_X, FORCE_Y, TORQUE, WHEEL_LEFT, WHEEL_RIGHT
+from mindrun.sim.codes import FORCE, FORCE_X, FORCE_Y, TORQUE, WHEEL_LEFT, WHEEL_RIGHT
 from mindrun.sim.compiling import compiled
 from mindrun.sim.lanes.act import carry
 from mindrun.sim.lanes.chipmunk import open_space, push_body, step_space
+from mindrun.sim.lanes.loose import approach_loose, could_touch, slide, slow_down
+from mindrun.sim.lanes.places import within
 from mindrun.sim.lanes.sense import CULLING_SLACK_UNITS
 
 CONTACT_MARGIN_UNITS = 0.01  # beyond the rounding of any distance here
@@ -31,6 +33,9 @@ def step(tables, state, lanes):
     """Damp, push with the wheels, move; then the headings and the held items follow."""
     world, contact, constants = state.world, state.contact, tables.world[0]
     thrust(tables, world, state.mind.commands, lanes)
+    for lane in range(lanes):
+        if world.restless[lane] > 0:
+            slow_down(tables, world, lane)
     find_near(tables, world, state.sight, contact, lanes)
     fly(world.body, world.push, contact.near, constants, lanes)
     touching = contact.touching
@@ -43,6 +48,8 @@ def step(tables, state, lanes):
             push_body(tables, world, contact, lane)
             if step_space(tables, world, contact, lane) > 0:
                 touching[lane] |= 1
+        elif world.restless[lane] > 0:
+            slide(tables, world, lane)
     for lane in range(lanes):
         world.heading[SINE, lane], world.heading[COSINE, lane] = sine_cosine(world.body[ANGLE, lane])
     carry(world, tables.things, lanes)
@@ -110,6 +117,7 @@ def find_near(tables, world, sight, contact, lanes):
     """
     body, near, gap, dt = world.body, contact.near, contact.gap, tables.world[0].dt
     clearance(body, tables.world[0].half_x, tables.world[0].half_y, dt, gap, lanes)
+    approach_loose(tables, world, gap, lanes)
     for k in range(sight.nearby_most[0]):
         approach(sight.nearby[BOX_COLUMNS * k : BOX_COLUMNS * (k + 1)], body, dt, gap, lanes)
     for lane in range(lanes):
@@ -118,6 +126,8 @@ def find_near(tables, world, sight, contact, lanes):
         away = (x - sight.anchor[X, lane]) ** 2 + (y - sight.anchor[Y, lane]) ** 2
         leap = away > CULLING_SLACK_UNITS * CULLING_SLACK_UNITS  # away from the boxes it knows
         if leap or gap[lane] < reach_of(tables, world, lane):
+            near[lane] = CONTACT_TICKS
+        if world.restless[lane] > 0 and could_touch(tables, world, lane):
             near[lane] = CONTACT_TICKS
         if not within(x, y, body[ANGLE, lane] + body[SPIN, lane] * dt):
             near[lane] = 0
@@ -130,12 +140,6 @@ def reach_of(tables, world, lane):
     if held >= 0:
         reach = max(reach, tables.things[held].hold + world.things[THING_ROWS * held + SIZE, lane] / 2)
     return reach + CONTACT_MARGIN_UNITS
-
-
-@compiled
-def within(x, y, angle):
-    """Whether Chipmunk can say anything of such a place; not where it is no number."""
-    return (abs(x) <= FAR) & (abs(y) <= FAR) & (abs(angle) <= FAR)
 
 
 @compiled
