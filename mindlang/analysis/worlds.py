@@ -13,7 +13,7 @@ from mindlang.compiler.model import Condition, Expression, Reward, Task
 
 @dataclass(frozen=True, slots=True)
 class AnalysedWorld:
-    """The things in a world that sensors can be about, what stands in the way there, and whether the battery charges."""
+    """The things in a world that sensors can be about, what stands in the way, and whether the battery charges."""
 
     study: Study
     things: frozenset[str]

@@ -108,7 +108,7 @@ class Worlds:
         for actuator in self.graph.actuators:
             if actuator.name in driven or actuator.kind.acts_at_rest:
                 yield f"actuator {actuator.name}", encode(actuator.kind)
-        if any(thing.kind.can_be_held for thing in task.things):
+        if any(thing.kind.can_be_delivered for thing in task.things):
             yield "claw", self.graph.claw_reach
 
     def _with_sources(self, read: set[str]) -> set[str]:

@@ -18,7 +18,8 @@ REAPPEARANCE_UNITS = 0.5  # nothing moves that far in a tick but what reappears 
 
 @dataclass(frozen=True, slots=True)
 class RecordedRun:
-    """Row 0 of `body` [ticks + 1, 3], `things` [ticks + 1, things, 3] and `held` is the beginning.
+    """Row 0 of `body` [ticks + 1, 3], `things` [ticks + 1, things, 3], `turned` [ticks + 1, things] and
+    `held` is the beginning.
 
     `readings`, `influence`, `commands`, `lines`, `touching` and `counts` [ticks, counted events] have a row per tick.
     """
@@ -27,6 +28,7 @@ class RecordedRun:
     boxes: Floats
     body: Floats
     things: Floats
+    turned: Floats
     held: NDArray[np.int64]
     readings: NDArray[np.float32]
     influence: NDArray[np.float32]
@@ -98,6 +100,7 @@ def record_run(setup: RunSetup, rollout: Rollout, seed: int) -> RecordedRun:
         run.boxes,
         np.array([run.begin, *(moment.body[:3] for moment in moments)]),
         np.array([run.things, *(moment.things for moment in moments)]),
+        np.array([np.zeros(len(run.things)), *(moment.turned for moment in moments)]),
         np.array([-1, *(moment.held for moment in moments)]),
         _as_read(setup.ready.policy.graph, np.array([moment.readings for moment in moments])),
         np.array([moment.influence for moment in moments]),

@@ -68,11 +68,24 @@ def draw_zones(canvas: Canvas, run: RecordedRun, theme: Theme, tick: int) -> Non
 
 
 def draw_items(canvas: Canvas, run: RecordedRun, theme: Theme, tick: int) -> None:
-    """The items as they are after a tick."""
-    for thing, fill, (x, y, size) in _each(run, theme, tick):
-        if not thing.kind.is_area:
+    """The items, boxes and balls as they are after a tick."""
+    turned = run.turned[tick][np.isfinite(run.things[tick, :, 0])]
+    for (thing, fill, (x, y, size)), angle in zip(_each(run, theme, tick), turned, strict=True):
+        edge = mixed(fill, theme.ink, 0.45)
+        if thing.kind.is_round:
             canvas.disc(x, y, size / 2, fill)
-            canvas.disc(x, y, size / 2, mixed(fill, theme.ink, 0.45), width=1.2)
+            canvas.disc(x, y, size / 2, edge, width=1.2)
+        elif not thing.kind.is_area:
+            shape = _turned_square(x, y, size / 2, angle)
+            canvas.polygon(shape, fill)
+            canvas.line(shape, edge, 1.2, closed=True)
+
+
+def _turned_square(x: float, y: float, half: float, angle: float) -> NDArray[np.float64]:
+    """The corners [4, 2] of a square that has turned about its middle."""
+    turn = np.array([(cos(angle), sin(angle)), (-sin(angle), cos(angle))])
+    corners: NDArray[np.float64] = np.array(square(0.0, 0.0, half)) @ turn + np.array([x, y])
+    return corners
 
 
 def draw_names(canvas: Canvas, run: RecordedRun, theme: Theme, tick: int) -> None:

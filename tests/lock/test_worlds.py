@@ -109,6 +109,8 @@ task Fetch in arena size 80
   contains bin is zone size 8
   contains rock is obstacle count 3 size 2
   contains dock is power size 4
+  contains crate is box size 2
+  contains marble is ball size 1
   lasts 600 ticks
   ends on collision
   ends on exhaustion
@@ -274,6 +276,8 @@ TEXTS = [
     ("ball is item size 2", "ball is item size 2 reached moves", "taught with ball reached stays, now moves"),
     ("ball is item size 2", "ball is item size 2 delivered stays", "taught with ball delivered moves, now stays"),
     ("bin is zone size 8", "bin is zone size 8 reached vanishes", "taught with bin reached stays, now vanishes"),
+    ("crate is box size 2", "crate is box size 2 friction 0.2", "taught with crate friction 0.5, now 0.2"),
+    ("crate is box size 2", "crate is ball size 2", None),
     ("  contains dock is power size 4\n", "", "its task has changed: no longer contains dock"),
     ("rewards 10 on", "rewards 5 on", "its task has changed: rewards 10 on reach of ball, now 5"),
     (

@@ -79,7 +79,7 @@ def hold_things(plain: PlainWorld, moment: Moment) -> None:
             hold_size(thing.kind.size, plain.places[i][2], moment.things[i][2])
     assert moment.held == (-1 if plain.held in plain.changed else plain.held)
     plain.places, plain.held = moment.things.copy(), moment.held
-    plain.body.replace(plain.places, plain.changed)
+    plain.body.loose.replace(plain.places, plain.changed)
     assert plain.charge == moment.battery
 
 

@@ -11,10 +11,10 @@ from mindrun.trigonometry import cosine, sine
 
 from tests.plain import f, postfix
 from tests.sim.plain import CATCH
+from tests.sim.plain_loose import PlainLoose
 from tests.sim.plain_sensors import sensed
 
 TRAIL = 20
-REST = 1e-3  # units and radians per second, below which what is loose stands still
 
 
 class PlainWorld:
@@ -116,7 +116,7 @@ class PlainWorld:
                     leave = -1.0
             if 0 <= enter <= leave:
                 found = min(found, enter)
-        return min([found, *self.body.distances(self, angle, more)])
+        return min([found, *self.body.loose.distances(self, angle, more)])
 
     def reach(self):
         """How far the claw reaches."""
@@ -175,7 +175,7 @@ class PlainWorld:
         self.trail.append(self.was)
         state = self.body.step(self.commands, cosine(self.angle), sine(self.angle), self.held, self.places)
         self.x, self.y, self.angle = state[:3]
-        for i, (body, _) in self.body.loose.items():
+        for i, (body, _) in self.body.loose.there.items():
             self.places[i][:2] = body.position
         if self.held >= 0:
             hold = self.radius + self.body.largest[self.held] / 2
@@ -213,12 +213,10 @@ class PlainWorld:
         """What begins to be in reach, and what to be delivered; `changed` is what moves or vanishes by it."""
         kinds = [thing.kind for thing in self.things]
         zones = [i for i, kind in enumerate(kinds) if isinstance(kind, things.Zone)]
-        reached = {
-            i
-            for i, kind in enumerate(kinds)
-            if (self.inside(i, self.x, self.y) if isinstance(kind, things.Zone | things.Power) else self.in_claw(i, self.reach()))
-        }
-        carried = {self.held, *self.delivered, *self.body.loose} - {-1}
+        areas = {i for i, kind in enumerate(kinds) if isinstance(kind, things.Zone | things.Power)}
+        reached = {i for i in areas if self.inside(i, self.x, self.y)}
+        reached |= {i for i in range(len(kinds)) if i not in areas and self.in_claw(i, self.reach())}
+        carried = {self.held, *self.delivered, *self.body.loose.there} - {-1}
         delivered = {i for i in carried if any(self.inside(z, *self.places[i][:2]) for z in zones)}
         new = reached - self.reached, delivered - self.delivered
         self.changed = {i for i in new[0] if kinds[i].reached != "stays"}
@@ -303,11 +301,6 @@ def zoned(value, dead_zone, otherwise):
     return (low, high) if off > 1e-6 else (min(low, otherwise), max(high, otherwise))
 
 
-def corners(half):
-    """Of a square about its middle."""
-    return [(-half, -half), (half, -half), (half, half), (-half, half)]
-
-
 class PlainBody:
     """The robot in a Space of its own that is stepped in every tick."""
 
@@ -331,72 +324,13 @@ class PlainBody:
         self.circle(self.radius, 0.0)
         spans = [thing.kind.size for thing in of.things]
         self.largest = [max(span.first, span.last) for span in spans]
-        self.kinds, self.loose = [thing.kind for thing in of.things], {}
         self.items = {
             i: self.circle(1.0, self.radius + self.largest[i] / 2)
             for i, thing in enumerate(of.things)
             if isinstance(thing.kind, things.Item)
         }
-        for i, kind in enumerate(self.kinds):
-            if isinstance(kind, things.LooseBox | things.Ball):
-                self.add(i, kind, of.places[i])
+        self.loose = PlainLoose(self.space, [thing.kind for thing in of.things], of.places, self.dt)
         self.touches = False
-
-    def add(self, i, kind, place):
-        """A loose thing at its place."""
-        body = pymunk.Body(1.0, 1.0)
-        is_ball = isinstance(kind, things.Ball)
-        shape = pymunk.Circle(body, 1.0) if is_ball else pymunk.Poly(body, corners(1.0))
-        shape.friction = kind.friction
-        self.space.add(body, shape)
-        self.loose[i] = body, shape
-        self.resize(i, place)
-
-    def resize(self, i, place):
-        """Loose thing i has another size, and stands at a new place."""
-        (body, shape), kind, size = self.loose[i], self.kinds[i], place[2]
-        if isinstance(kind, things.Ball):
-            shape.unsafe_set_radius(size / 2)
-            body.mass = kind.density * math.pi * (size / 2 * (size / 2))
-            body.moment = body.mass * (size / 2 * (size / 2)) / 2
-        else:
-            shape.unsafe_set_vertices(corners(size / 2))
-            body.mass = kind.density * (size * size)
-            body.moment = body.mass * (size * size + size * size) / 12
-        body.position, body.angle, body.velocity, body.angular_velocity = tuple(place[:2]), 0.0, (0.0, 0.0), 0.0
-
-    def damp(self):
-        """Loose things slow down, and rest."""
-        for i, (body, _) in self.loose.items():
-            slower = 1 / (1 + self.dt * self.kinds[i].damping)
-            (x, y), spin = body.velocity, body.angular_velocity * slower
-            rests = max(abs(x * slower), abs(y * slower), abs(spin)) < REST
-            body.velocity = (0.0, 0.0) if rests else (x * slower, y * slower)
-            body.angular_velocity = 0.0 if rests else spin
-
-    def distances(self, of, angle, more):
-        """How far a ray from the robot's centre goes to each loose thing that it meets, if these are `more` larger."""
-        for i, (body, _) in self.loose.items():
-            half = of.places[i][2] / 2 + more
-            turned = angle - body.angle
-            c, s = math.cos(turned), math.sin(turned)
-            x, y = (body.position - (of.x, of.y)).rotated(-body.angle)
-            if isinstance(self.kinds[i], things.Ball):
-                ahead, room = x * c + y * s, half**2 - (x * s - y * c) ** 2
-                enter, leave = (ahead - math.sqrt(room), math.inf) if room >= 0 else (0.0, -1.0)
-            else:
-                spans = [sorted(((v - half) / d, (v + half) / d)) for v, d in ((x, c), (y, s)) if abs(d) > 1e-12]
-                enter, leave = max(span[0] for span in spans), min(span[1] for span in spans)
-            if 0 <= enter <= leave:
-                yield enter
-
-    def replace(self, places, changed):
-        """What has been moved elsewhere or has vanished."""
-        for i in changed & self.loose.keys():
-            if math.isnan(places[i][0]):
-                self.space.remove(*self.loose.pop(i))
-            else:
-                self.resize(i, places[i])
 
     def box(self, left, low, right, high):
         """Something solid."""
@@ -426,7 +360,7 @@ class PlainBody:
         body.velocity = (body.velocity.x * self.linear, body.velocity.y * self.linear)
         body.angular_velocity *= self.angular
         body.force, body.torque = (force * c, force * s), torque
-        self.damp()
+        self.loose.damp()
         self.space.step(self.dt)
         contacts = []
         body.each_arbiter(lambda arbiter: contacts.extend(arbiter.shapes))

@@ -1,13 +1,9 @@
 """Boxes and balls that are pushed: bit for bit what plain pymunk makes of them, whatever Chipmunk is not asked."""
 
-from collections import Counter
-
-import numpy as np
 import pytest
 from mindrun.engine import Engine
 from mindrun.policy import Policy
 from mindrun.sim.rollout import Rollout
-from mindrun.sim.trace import trace
 
 from tests.sim.following import follow
 from tests.sim.minds import compile_text

@@ -12,7 +12,7 @@ from mindrun.measures import Advance, Change, Forward, MeasureKind, Progress, Re
 from mindrun.quantity import UNSAID, Span
 from mindrun.registry import arguments, kinds
 from mindrun.scenes import Arena, Plain, SceneKind
-from mindrun.things import Item, Obstacle, Power, Zone
+from mindrun.things import Ball, Item, LooseBox, Obstacle, Power, Zone
 from mindrun.weights import genes
 
 from tests.hierarchies import random_graph
@@ -23,6 +23,7 @@ AWAY = st.sampled_from([Span(-1.0, -1.0), Span(0.0, 3.0), Span(0.0, 6.0), Span(2
 PLACES = st.tuples(st.sampled_from([-6.0, 0.0, 4.5]), st.sampled_from([-4.0, 0.5, 3.0]))
 NEUTRAL = st.sampled_from([0.0, 0.4, 0.5, 0.9, 1.0])
 OUTCOMES = st.sampled_from(["stays", "moves", "moves", "vanishes"])
+DENSITY, FRICTION, DAMPING = st.sampled_from([0.1, 0.5]), st.sampled_from([0.0, 0.5, 1.0]), st.sampled_from([0.0, 5.0])
 DELAY = st.sampled_from([0, 0, 1, 2, 5])
 WHEELS = st.builds(
     Wheel, st.sampled_from(["left", "right"]), NEUTRAL, st.sampled_from([80.0, 80.0, 200.0, 3000.0, 15.0, -60.0]), DELAY
@@ -83,11 +84,16 @@ def _things(draw: st.DrawFn, scene: SceneKind) -> tuple[Thing, ...]:
         ("coin", Item, SIZES),
         ("plug", Power, WIDE),
         ("den", Zone, WIDE),
+        ("crate", LooseBox, SIZES),
+        ("ball", Ball, SIZES),
     ):
         if draw(st.integers(0, 2)):
             outcomes = {field.name: draw(OUTCOMES) for field in fields(kind) if field.name in ("reached", "delivered")}
+            own = {"density": DENSITY, "friction": FRICTION, "damping": DAMPING} if kind.is_loose else {}
+            drawn = {name: draw(of) for name, of in own.items()}
             at = draw(st.none() | st.none() | PLACES)
-            things.append(Thing(name, kind(size=draw(size), away=UNSAID if at else draw(AWAY), at=at, **outcomes)))
+            away = UNSAID if at else draw(AWAY)
+            things.append(Thing(name, kind(size=draw(size), away=away, at=at, **outcomes, **drawn)))
     grid = isinstance(scene, Arena) and draw(st.booleans())
     sizes = draw(st.sampled_from([Span(1.0, 1.0), Span(1.0, 3.0)]))
     if grid:
@@ -116,7 +122,7 @@ def _events(draw: st.DrawFn, scene: SceneKind, things: tuple[Thing, ...]) -> tup
     for thing in things:
         if not isinstance(thing.kind, Obstacle):
             events.append(Reach(thing.name))
-        if isinstance(thing.kind, Item):
+        if isinstance(thing.kind, Item | LooseBox | Ball):
             events.append(Delivery(thing.name))
     if isinstance(scene, Arena):
         events += [Visit("patch", 2.0), Visit("patch", 7.0)]

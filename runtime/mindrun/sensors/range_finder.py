@@ -12,7 +12,7 @@ from mindrun.sensors.sensor import Physical, Row, Scene, World
 @kind("sensor", "range_finder")
 @dataclass(frozen=True, slots=True)
 class RangeFinder(Physical):
-    """Distance from the body's rim to the nearest solid thing, one reading per angle: 0 touching, 1 clear within `range`.
+    """Distance from the body's rim to what is solid, one reading per angle: 0 touching, 1 clear within `range`.
 
     Angles turn counterclockwise from straight ahead. A reading below `dead_zone` is 0.
     """

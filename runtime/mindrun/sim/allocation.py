@@ -10,7 +10,20 @@ from mindrun.arithmetic import BOX_COLUMNS, HALF_SIDE, THING_ROWS, X, Y
 from mindrun.sensors.inertial import TRAIL_TICKS
 from mindrun.sim import chipmunk_internals as chipmunk
 from mindrun.sim.codes import AWAY
-from mindrun.sim.state import FIRST_RAY, FRAME_ROWS, LOOSE_ROWS, PLACE_ROWS, SIDES, Contact, Judge, Mind, Run, Sight, State, World
+from mindrun.sim.state import (
+    FIRST_RAY,
+    FRAME_ROWS,
+    LOOSE_ROWS,
+    PLACE_ROWS,
+    SIDES,
+    Contact,
+    Judge,
+    Mind,
+    Run,
+    Sight,
+    State,
+    World,
+)
 from mindrun.sim.tables import Sizes, Tables
 from mindrun.sim.vector import VECTOR_LANES
 

@@ -107,13 +107,11 @@ def _count(_body: Any, arbiter: Any, tally: Any) -> None:
         tally[TALLIED] += 1
 
 
-def prepare(
-    handles: Any, floats: Any, batch: Any, tally: Any, radius: float, holds: list[float | None]
-) -> list[Any]:
+def prepare(handles: Any, floats: Any, batch: Any, tally: Any, radius: float, holds: list[float | None]) -> list[Any]:
     """Give every lane its robot's circle and one for each thing that can be held; keep the result alive.
 
-    `handles` [lane, …]: the circles go to column ROBOT and on; `batch` gets pymunk's structures over `floats`, `tally` [lane, TALLY_WORDS]
-    what counting takes.
+    `handles` [lane, …]: the circles go to column ROBOT and on; `batch` gets pymunk's structures over `floats`, and
+    `tally` [lane, TALLY_WORDS] what it takes to count.
     """
     kept, motion = [], _fields(MOTION_FIELDS)
     for lane in range(len(handles)):

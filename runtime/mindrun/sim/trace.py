@@ -8,20 +8,22 @@ from numpy.typing import NDArray
 
 from mindrun.arithmetic import ANGLE, BOX_COLUMNS, SIZE, THING_ROWS
 from mindrun.sim.rollout import Rollout
-from mindrun.sim.state import Jobs, World
+from mindrun.sim.state import LOOSE_ROWS, TURN, Jobs, World
 
 
 @dataclass(frozen=True, slots=True)
 class Moment:
     """The world and the mind after one tick; `tick` counts from 1.
 
-    `body` is x, y, angle and their velocities; `things` [things, 3] is x, y and size of each; `held` the number of the
+    `body` is x, y, angle and their velocities; `things` [things, 3] is x, y and size of each, and
+    `turned` [things] how far each has turned, counterclockwise in radians; `held` the number of the
     thing in the claw or −1; `events` how often each happened; `lines` the sum of each reward line so far.
     """
 
     tick: int
     body: NDArray[np.float64]
     things: NDArray[np.float64]
+    turned: NDArray[np.float64]
     held: int
     battery: float
     touching: bool
@@ -61,6 +63,7 @@ def trace(rollout: Rollout, seed: int, genome: NDArray[np.float32] | None = None
                 tick=int(world.tick[0]),
                 body=world.body[:, 0].copy(),
                 things=_things(world, rollout),
+                turned=_turned(world, rollout),
                 held=int(world.held[0]),
                 battery=float(world.battery[0]),
                 touching=bool(tile.state.contact.touching[0] & 1),
@@ -72,6 +75,13 @@ def trace(rollout: Rollout, seed: int, genome: NDArray[np.float32] | None = None
             )
 
     return Trace(boxes, world.body[: ANGLE + 1, 0].copy(), things, moments(), jobs)
+
+
+def _turned(world: World, rollout: Rollout) -> NDArray[np.float64]:
+    turned = np.zeros(len(rollout.tables.things))
+    for i, row in enumerate(rollout.tables.loose):
+        turned[int(row["thing"])] = world.loose[LOOSE_ROWS * i + TURN, 0]
+    return turned
 
 
 def _things(world: World, rollout: Rollout) -> NDArray[np.float64]:

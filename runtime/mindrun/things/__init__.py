@@ -12,5 +12,6 @@ from mindrun.things.zone import Zone
 register_all(__name__, __path__)
 
 __all__ = [
-    "MOVES", "OUTCOMES", "STAYS", "VANISHES", "Ball", "Item", "LooseBox", "Obstacle", "Outcome", "Power", "ThingKind", "Zone",
+    "MOVES", "OUTCOMES", "STAYS", "VANISHES", "Ball", "Item", "LooseBox", "Obstacle", "Outcome", "Power",
+    "ThingKind", "Zone",
 ]  # fmt: skip

@@ -135,5 +135,8 @@ def take_loose(tables, world, contact, lane):
             world.still[i, lane], world.restless[lane] = 0, 1
         world.things[place + X, lane], world.things[place + Y, lane] = x, y
         world.loose[row + TURN, lane] = angle
-        world.loose[row + PUSHED_X, lane], world.loose[row + PUSHED_Y, lane] = 0.0 if rests else vx, 0.0 if rests else vy
+        world.loose[row + PUSHED_X, lane], world.loose[row + PUSHED_Y, lane] = (
+            0.0 if rests else vx,
+            0.0 if rests else vy,
+        )
         world.loose[row + PUSHED_SPIN, lane] = 0.0 if rests else spin
