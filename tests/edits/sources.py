@@ -71,6 +71,7 @@ THINGS = [
     ["coin is item", "coin is item at 7.5 12.5"],
     ["nest is zone size 8", "nest is zone at -12.5 7.5"],
     ["dock is power size 4", "dock is power at -2.5 -7.5"],
+    ["crate is box size 2", "crate is box at 12.5 -2.5", "crate is ball", "crate is ball at -7.5 -12.5"],
 ]
 REWARDS = [
     ["rewards 10 on reach of ball"],
