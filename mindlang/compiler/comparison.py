@@ -17,6 +17,7 @@ from mindlang.compiler.syntax import (
     Declaration,
     Drives,
     Ends,
+    Fact,
     Header,
     Influences,
     Lasts,
@@ -69,6 +70,10 @@ def differences(old: Mind, new: Mind) -> list[Difference]:
 def _settings(old: Mind, new: Mind) -> Iterator[Difference]:
     if old.master != new.master:
         yield Difference("master", (f"master {old.master}",), (f"master {new.master}",))
+    for name, value in old.numbers.items():
+        if name in new.numbers and new.numbers[name] != value:
+            before, after = (_written(mind.names.numbers[name]) for mind in (old, new))
+            yield Difference(f"number {name}", (before,), (after,))
     if old.tick != new.tick:
         yield Difference("tick", (f"tick {old.tick:.6g} s",), (f"tick {new.tick:.6g} s",))
 
@@ -105,12 +110,9 @@ def _in_order(before: Sequence[int], after: Sequence[int]) -> set[int]:
 def _declared(mind: Mind) -> dict[str, dict[str, list[_Line]]]:
     """The lines of every declaration, by noun and name."""
     found: dict[str, dict[str, list[_Line]]] = {noun: {} for noun in NOUNS}
-    kinds = _kinds(mind)
-    for file in mind.files:
-        for declaration in file.declarations:
-            noun, name = declaration.header.noun.text, declaration.header.name.text
-            of = kinds[noun].get(name)
-            found[noun][name] = _lines(declaration, of)
+    for noun, kinds in _kinds(mind).items():  # a scene means what the tasks in it say
+        for name, declaration in mind.names.declarations(noun):
+            found[noun][name] = _lines(declaration, kinds.get(name))
     return found
 
 
@@ -131,9 +133,14 @@ def _lines(declaration: Declaration, of: Any) -> list[_Line]:
     kind, facts = _parts(declaration.header, of)
     found = [_Line(_written(declaration.header), _meaning(kind))]
     for forms, meanings in facts.items():
-        written = [fact for fact in declaration.facts if isinstance(fact, forms)]
+        written = [fact for fact in _facts(declaration, of) if isinstance(fact, forms)]
         found += [_Line(_written(fact), (forms, _meaning(each))) for fact, each in zip(written, meanings, strict=True)]
     return found
+
+
+def _facts(declaration: Declaration, of: Any) -> Sequence[Fact]:
+    """What holds of a declaration: of a task, what its scene says or the task that it is like, too."""
+    return of.facts if isinstance(of, Task) else declaration.facts
 
 
 def _parts(header: Header, of: Any) -> tuple[Any, dict[Forms, Sequence[Any]]]:

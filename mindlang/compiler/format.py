@@ -19,7 +19,7 @@ from mindlang.compiler.syntax import NOUNS, SETTINGS
 
 INDENT = "  "
 Stretch = tuple[int, int]
-FACT_OWNERS = ("skill", "task", "curriculum")  # nouns that own facts
+FACT_OWNERS = ("skill", "scene", "task", "curriculum")  # nouns that own facts
 
 
 @dataclass(frozen=True, slots=True)

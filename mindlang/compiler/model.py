@@ -1,6 +1,7 @@
 """A mind: names resolved, units converted, every part with the place where it was written."""
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 from typing import Generic, TypeVar
 
 from mindrun.actuators import ActuatorKind
@@ -17,7 +18,7 @@ from mindrun.things import ThingKind
 
 from mindlang.compiler.names import Names
 from mindlang.compiler.source import Span
-from mindlang.compiler.syntax import Declaration, Drives, File, Influences, Operator, Rewards, Teaches
+from mindlang.compiler.syntax import Declaration, Drives, Fact, File, Influences, Operator, Rewards, Teaches
 
 K = TypeVar("K")
 
@@ -136,7 +137,10 @@ class Reward:
 
 @dataclass(frozen=True, slots=True)
 class Task:
-    """A task: its world, its end, its rewards and what its benchmark counts."""
+    """A task: its world, its end, its rewards and what its benchmark counts.
+
+    Its `facts` are those of its scene, too, or of the task that it is like; `declaration` has its own.
+    """
 
     name: str
     scene: SceneKind
@@ -145,6 +149,7 @@ class Task:
     ends: tuple[EventKind, ...]
     rewards: tuple[Reward, ...]
     counts: tuple[EventKind, ...]
+    facts: tuple[Fact, ...]
     declaration: Declaration
 
 
@@ -167,7 +172,10 @@ class Lesson:
 
 @dataclass(frozen=True, slots=True)
 class Mind:
-    """A whole mind, in the order of its sources. `tick` is in seconds; `names` are all declarations."""
+    """A whole mind, in the order of its sources. `tick` is in seconds; `names` are all declarations, as written.
+
+    `numbers` are what the names of numbers stand for, each with its unit.
+    """
 
     tick: float
     master: str
@@ -180,3 +188,4 @@ class Mind:
     lessons: tuple[Lesson, ...]
     files: tuple[File, ...]
     names: Names
+    numbers: Mapping[str, tuple[float, str, str]] = field(default_factory=dict)

@@ -27,7 +27,8 @@ class Name:
 class Amount:
     """A number with its unit, as written; `1/0` is not a number (nan). `per` is the time that a rate is for.
 
-    Where a `name` stands for the number, `number` is its sign.
+    Where a `name` stands for the number, `number` is its sign. When it is replaced by its number, `said` is where that
+    is written; when it is for a second, `tick_seconds` becomes how long a tick is.
     """
 
     number: float
@@ -35,6 +36,13 @@ class Amount:
     span: Span
     per: str = ""
     name: str = ""
+    said: Span | None = None
+    tick_seconds: float = 0.0
+
+    @property
+    def constant(self) -> Name:
+        """Its name where that stands, without its sign."""
+        return Name(self.name, Span(self.span.source, self.span.end - len(self.name), self.span.end))
 
 
 @dataclass(frozen=True, slots=True)

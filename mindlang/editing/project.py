@@ -24,7 +24,8 @@ F = TypeVar("F", bound=Fact)
 MAX_SUGGESTED_NAMES = 8  # names in a message
 OWNERS = {
     "skill": ("reads", "drives", "influences", "stays"),
-    "task": ("contains", "lasts", "ends", "rewards", "counts"),
+    "task": ("lasts", "ends", "succeeds", "rewards", "counts", "contains", "starts", "varies", "fails"),
+    "scene": ("contains", "starts", "varies", "fails"),
     "curriculum": ("teaches",),
 }
 

@@ -1,14 +1,17 @@
 """Every name in the files of a mind, with what it names: where a rename writes, and what a removal would break."""
 
-from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
+from collections.abc import Collection, Iterable, Iterator
+from dataclasses import dataclass, fields, is_dataclass
 from typing import Any
 
+from mindrun.quantity import Quantity
 from mindrun.quantity import Reference as Noun
 from mindrun.registry import arguments, kinds
 
 from mindlang.compiler.names import Names
+from mindlang.compiler.source import Span
 from mindlang.compiler.syntax import (
+    Amount,
     Argument,
     Contains,
     Counts,
@@ -17,33 +20,38 @@ from mindlang.compiler.syntax import (
     Ends,
     Expression,
     Fact,
+    Fails,
     File,
     Influences,
     Master,
     Name,
+    Number,
     Phrase,
     Reads,
     Rewards,
+    Setting,
     Succeeds,
     Teaches,
+    Varies,
 )
 
 READABLE_NOUNS = ("sensor", "memory")
+VALUE_NOUNS = (*READABLE_NOUNS, "number")
+VARYING_NOUNS = ("actuator", "sensor", "body", "memory")
 DRIVABLE_NOUNS = ("actuator", "memory")
 
 
 @dataclass(frozen=True, slots=True)
 class Mention:
-    """A name where it stands; `by` is the declaration in which that is, its own one perhaps."""
+    """A name where it stands; `by` is the declaration in which that is, its own one perhaps.
+
+    It `is_own` where it is declared.
+    """
 
     noun: str
     name: Name
     by: Declaration | None
-
-    @property
-    def is_own(self) -> bool:
-        """Whether this is where the name is declared."""
-        return self.by is not None and self.name is self.by.header.name
+    is_own: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -74,6 +82,10 @@ class _Reader:
             case Contains(name, phrase):
                 yield Mention("thing", name, self.by)
                 yield from self.phrase("content", phrase)
+            case Varies(of=of):
+                yield from self.varying(of)
+            case Fails(name):
+                yield from self.first_declared(name, "actuator", "sensor")
             case Ends(_, event, when) | Succeeds(_, event, when):
                 yield from self.phrase("event", event)
                 yield from self.expressions("", *(when.expressions if when else ()))
@@ -83,6 +95,26 @@ class _Reader:
                 yield from self.reward(fact)
             case Teaches():
                 yield from self.lesson(fact)
+
+    def varying(self, of: Name) -> Iterator[Mention]:
+        """What a number is of that varies: a part of the robot, or a thing."""
+        if self.names.noun_of(of.text, VARYING_NOUNS):
+            yield from self.first_declared(of, *VARYING_NOUNS)
+        else:
+            yield Mention("thing", of, self.by)
+
+    def amounts(self, node: Any) -> Iterator[Mention]:
+        """The numbers that are named in a line in the place of an amount."""
+        match node:
+            case Amount():
+                if node.name:
+                    yield from self.first_declared(node.constant, "number")
+            case tuple():
+                for part in node:
+                    yield from self.amounts(part)
+            case _ if is_dataclass(node) and not isinstance(node, Name | Span):
+                for field in fields(node):
+                    yield from self.amounts(getattr(node, field.name))
 
     def reward(self, fact: Rewards) -> Iterator[Mention]:
         """The names in a reward; that of `for each` is its own."""
@@ -108,8 +140,8 @@ class _Reader:
         for term in (term for expression in expressions if expression for term in expression.terms):
             if not isinstance(term, Phrase) or (term.kind.text == own and not term.arguments):
                 continue
-            if not term.arguments and self.names.noun_of(term.kind.text, READABLE_NOUNS):
-                yield from self.first_declared(term.kind, *READABLE_NOUNS)
+            if not term.arguments and self.names.noun_of(term.kind.text, VALUE_NOUNS):
+                yield from self.first_declared(term.kind, *VALUE_NOUNS)
             else:
                 yield from self.phrase("measure", term)
 
@@ -128,14 +160,15 @@ class _Reader:
                 yield Mention("thing", name, self.by)
             case Name() as name, Noun(noun="sensor"):
                 yield from self.first_declared(name, *READABLE_NOUNS)
+            case Name() as name, Quantity():
+                yield from self.first_declared(name, "number")
 
 
 def mentions(files: Iterable[File], names: Names) -> Iterator[Mention]:
     """Every name in these files that is declared somewhere in them, in no particular order."""
     for file in files:
         for setting in file.settings:
-            if isinstance(setting, Master):
-                yield from _Reader(names, None).first_declared(setting.name, "skill")
+            yield from _setting(setting, _Reader(names, None))
         for declaration in file.declarations:
             yield from _declaration(declaration, _Reader(names, declaration))
 
@@ -145,19 +178,35 @@ def names_in(fact: Fact, names: Names, by: Declaration) -> Iterator[Mention]:
     return _Reader(names, by).fact(fact)
 
 
-def introductions(files: Iterable[File]) -> Iterator[Mention]:
-    """Every name where it is declared, those of things where a task contains them."""
+def introductions(files: Collection[File]) -> Iterator[Mention]:
+    """Every name where it is declared, those of things where a task or a scene contains them."""
+    numbers = (each for file in files for each in file.settings if isinstance(each, Number))
+    yield from (Mention("number", number.name, None, is_own=True) for number in numbers)
     for declaration in (declaration for file in files for declaration in file.declarations):
-        yield Mention(declaration.header.noun.text, declaration.header.name, declaration)
+        yield Mention(declaration.header.noun.text, declaration.header.name, declaration, is_own=True)
         contained = (fact.name for fact in declaration.facts if isinstance(fact, Contains))
         yield from (Mention("thing", name, declaration) for name in contained)
 
 
+def _setting(setting: Setting, reader: _Reader) -> Iterator[Mention]:
+    if isinstance(setting, Master):
+        yield from reader.first_declared(setting.name, "skill")
+    if isinstance(setting, Number):
+        yield Mention("number", setting.name, None, is_own=True)
+    if reader.names.numbers:
+        yield from reader.amounts(setting)
+
+
 def _declaration(declaration: Declaration, reader: _Reader) -> Iterator[Mention]:
     header = declaration.header
-    yield Mention(header.noun.text, header.name, declaration)
-    yield from reader.phrase(header.noun.text, header.phrase)
+    yield Mention(header.noun.text, header.name, declaration, is_own=True)
     if header.like:
         yield from reader.first_declared(header.like, header.noun.text)
+    if header.inside:
+        yield from reader.first_declared(header.inside, "scene")
+    yield from reader.phrase(header.noun.text, header.phrase)
+    yield from reader.expressions("", header.at)
     for fact in declaration.facts:
         yield from reader.fact(fact)
+    if reader.names.numbers:
+        yield from reader.amounts((header, *declaration.facts))

@@ -24,8 +24,8 @@ BAD = (
 def check(study: Study) -> Found:
     """Events after `ends on` and `counts` that the world of their task prevents."""
     for task in study.mind.tasks:
-        ends = (fact for fact in task.declaration.facts if isinstance(fact, Ends) and fact.event)
-        counts = (fact for fact in task.declaration.facts if isinstance(fact, Counts))
+        ends = (fact for fact in task.facts if isinstance(fact, Ends) and fact.event)
+        counts = (fact for fact in task.facts if isinstance(fact, Counts))
         facts: list[Ends | Counts] = [*ends, *counts]
         place = world(study, task)
         for fact, event in zip(facts, [*task.ends, *task.counts], strict=True):

@@ -2,18 +2,32 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
+from decimal import Decimal
 from math import inf, pi
+from typing import Literal
+
+Rate = Literal["", "added", "kept"]
 
 
 @dataclass(frozen=True, slots=True)
 class Quantity:
-    """A number with a meaning. `units` maps a unit as written to the factor that gives the stored value."""
+    """A number with a meaning. `units` maps a unit as written to the factor that gives the stored value.
+
+    A `rate` is stored for each tick: so much is "added" in one, or is the share that is "kept" in one.
+    """
 
     name: str
     units: Mapping[str, float]
     low: float = -inf
     high: float = inf
     whole: bool = False
+    rate: Rate = ""
+
+    def in_tick(self, in_second: float, tick_seconds: float) -> float:
+        """What a rate per second is per tick: of what is kept, a power; the same bits on every machine."""
+        if self.rate == "kept":
+            return float(Decimal(in_second) ** Decimal(tick_seconds)) if in_second > 0 else 0.0
+        return in_second * tick_seconds
 
 
 @dataclass(frozen=True, slots=True)
@@ -66,6 +80,8 @@ TICK = Quantity("the length of a tick", {"s": 1.0}, low=1e-5, high=1000.0)
 TICKS = Quantity("a number of ticks", {"ticks": 1.0}, low=0, high=1000, whole=True)
 GENERATIONS = Quantity("a number of generations", {"generations": 1.0}, low=1, high=10_000_000, whole=True)
 RATIO = Quantity("a share between 0 and 1", {"": 1.0, "%": 0.01}, low=0.0, high=1.0)
+RATE = Quantity("a share between 0 and 1 for each tick", {"": 1.0, "%": 0.01}, low=0.0, high=1.0, rate="added")
+DECAY = Quantity("the share that is left after a tick", {"": 1.0, "%": 0.01}, low=0.0, high=1.0, rate="kept")
 COUNT = Quantity("a whole number", {"": 1.0}, low=1, high=1000, whole=True)
 
 THING = Reference("thing")

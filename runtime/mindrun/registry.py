@@ -52,6 +52,11 @@ def kinds(noun: str) -> dict[str, type[Any]]:
     return _kinds.get(noun, {})
 
 
+def share_kinds(noun: str, of: str) -> None:
+    """Say that a noun has the kinds of another: a scene is one of those that a task can be in."""
+    _kinds[noun] = _kinds[of]
+
+
 def base(noun: str) -> Callable[[type[T]], type[T]]:
     """Say that a class is what the kinds of a noun have in common: an annotation with it takes each of them."""
 

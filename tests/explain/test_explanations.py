@@ -15,7 +15,7 @@ ALL = list(errors())
 EMITTERS = {"error", "refuse", "Diagnostic", "Mistake"}
 # Codes that are made of words as they are emitted: how, and which these are.
 MADE = {
-    "f'unknown-{nouns[0]}'": {f"unknown-{noun}" for noun in ("sensor", "actuator", "skill", "task")},
+    "f'unknown-{nouns[0]}'": {f"unknown-{noun}" for noun in ("sensor", "actuator", "skill", "task", "scene", "number")},
     "f'unknown-{type_.noun}'": {"unknown-axis", "unknown-side", "unknown-outcome"},
     "said.replace(' ', '-')": {f"{key}-{word}" for key, (word, _) in SWITCHES.items()},
 }

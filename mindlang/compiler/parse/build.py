@@ -78,7 +78,8 @@ class _Builder(Transformer_NonRecursive[Token, Any]):
         return syntax.Unit(parts[0], self._span(meta))
 
     def number(self, meta: Any, parts: list[Any]) -> syntax.Number:
-        return syntax.Number(self._name(parts[0]), parts[1], self._span(meta))
+        name, amount = parts
+        return syntax.Number(self._name(name), amount, self._span(meta))
 
     def header(self, meta: Any, parts: list[Any]) -> syntax.Header:
         noun, name, what = parts

@@ -1,6 +1,7 @@
 """Files → Mind: names found, kinds built, units converted, and everything that is wrong reported."""
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import replace
 from typing import TypeVar
 
 from mindrun.bodies import Disc
@@ -8,6 +9,7 @@ from mindrun.quantity import TICK
 
 from mindlang.compiler import model
 from mindlang.compiler.diagnostic import Findings, Label
+from mindlang.compiler.expand import expand, in_place, numbers
 from mindlang.compiler.hierarchy import check_cycles
 from mindlang.compiler.names import Names, gather
 from mindlang.compiler.resolve.curricula import lessons
@@ -16,16 +18,19 @@ from mindlang.compiler.resolve.quantities import convert
 from mindlang.compiler.resolve.skills import skills
 from mindlang.compiler.resolve.tasks import RobotFacts, tasks
 from mindlang.compiler.source import Span
-from mindlang.compiler.syntax import File, Master, Setting, Tick
+from mindlang.compiler.syntax import Amount, File, Master, Setting, Tick
 
 S = TypeVar("S", bound=Setting)
+D = TypeVar("D", model.Skill, model.Task)
 
 
 def resolve(files: Sequence[File], findings: Findings) -> model.Mind | None:
     """The mind that the files declare, the main one first; None when anything in them is wrong."""
     all_read = not findings.diagnostics
-    names = gather(files, findings)
-    tick = _tick(files, findings)
+    written = gather(files, findings)
+    values = numbers(written, findings)
+    tick = _tick(files, values, findings)
+    names = expand(written, values, tick, findings)
     sensors = measured_widths(parts("sensor", names, findings), findings)
     width = dict.fromkeys(names.of("sensor", "memory"), 1) | {sensor.name: sensor.width for sensor in sensors}
     memories, actuators = parts("memory", names, findings), parts("actuator", names, findings)
@@ -41,19 +46,37 @@ def resolve(files: Sequence[File], findings: Findings) -> model.Mind | None:
     if findings.diagnostics or body is None:
         return None
     return model.Mind(
-        tick, master, body, sensors, memories, actuators, known_skills, known_tasks, known_lessons, tuple(files), names
+        tick,
+        master,
+        body,
+        sensors,
+        memories,
+        actuators,
+        tuple(_as_written(known_skills, "skill", written)),
+        tuple(_as_written(known_tasks, "task", written)),
+        known_lessons,
+        tuple(files),
+        written,
+        {name: (amount.number, amount.unit, amount.per) for name, amount in values.items()},
     )
+
+
+def _as_written(declared: Iterable[D], noun: str, names: Names) -> Iterator[D]:
+    """Skills or tasks with the declarations that stand in their files: edits change these."""
+    for each in declared:
+        written = names.table[noun][each.name]
+        yield each if each.declaration is written else replace(each, declaration=written)
 
 
 def _settings(file: File, form: type[S]) -> list[S]:
     return [setting for setting in file.settings if isinstance(setting, form)]
 
 
-def _tick(files: Sequence[File], findings: Findings) -> float:
+def _tick(files: Sequence[File], values: Mapping[str, Amount], findings: Findings) -> float:
     """The tick in seconds, on which all files agree."""
     first: tuple[float, Span] | None = None
     for setting in (setting for file in files for setting in _settings(file, Tick)):
-        seconds = convert(setting.amount, TICK, findings)
+        seconds = convert(in_place(setting.amount, values), TICK, findings)
         if seconds and first and seconds != first[0]:
             label = Label(first[1], "first said here")
             findings.error(

@@ -22,6 +22,9 @@ from mindlang.compiler.syntax import Contains, Counts, Declaration, Ends, Fact, 
 MAX_RUN_TICKS = 10_000_000  # of a run
 LASTS = replace(TICKS, low=1.0, high=MAX_RUN_TICKS)
 
+TASK_FACTS: tuple[type[Fact], ...] = (Contains, Lasts, Ends, Rewards, Counts)
+SCENE_FACTS: tuple[type[Fact], ...] = (Contains,)  # those that say what the world is, without what is to be done in it
+
 F = TypeVar("F", bound=Fact)
 
 
@@ -37,7 +40,7 @@ class RobotFacts:
 
 @dataclass(frozen=True, slots=True)
 class _World:
-    scene: SceneKind | None
+    scene: Any  # a SceneKind; None where it is not well said
     things: tuple[model.Part[Any], ...]
     scope: Scope
     has_battery: bool
@@ -49,24 +52,39 @@ class _World:
 
 
 def tasks(robot: RobotFacts, findings: Findings) -> tuple[model.Task, ...]:
-    """Every task, without the lines that are reported."""
-    return tuple(_task(name, declaration, robot, findings) for name, declaration in robot.names.declarations("task"))
+    """Every task, without the lines that are reported; one that several tasks have is reported once."""
+    for _, scene in robot.names.declarations("scene"):
+        with findings.each_once():
+            refuse_facts(scene, SCENE_FACTS, findings)
+            _world(scene, robot, findings)
+    found = []
+    for name, declaration in robot.names.declarations("task"):
+        with findings.each_once():
+            found.append(_task(name, declaration, robot, findings))
+    return tuple(found)
+
+
+def _world(declaration: Declaration, robot: RobotFacts, findings: Findings) -> _World:
+    """What a task or a scene says of the world."""
+    noun, name = declaration.header.noun.text, declaration.header.name.text
+    scope = Scope(robot.names, things_of(declaration) if declaration.whole else None, f"{noun} {name}")
+    phrase = declaration.header.phrase
+    scene: Any = make("task", phrase, scope, findings) if phrase else None
+    return _World(scene, _things(declaration, scene, scope, findings), scope, robot.has_battery)
 
 
 def _task(name: str, declaration: Declaration, robot: RobotFacts, findings: Findings) -> model.Task:
-    refuse_facts(declaration, (Contains, Lasts, Ends, Rewards, Counts), findings)
-    scope = Scope(robot.names, things_of(declaration) if declaration.whole else None, f"task {name}")
-    phrase = declaration.header.phrase
-    scene: Any = make("task", phrase, scope, findings) if phrase else None
-    world = _World(scene, _things(declaration, scene, scope, findings), scope, robot.has_battery)
+    refuse_facts(declaration, TASK_FACTS, findings)
+    world = _world(declaration, robot, findings)
     return model.Task(
         name,
-        scene,
+        world.scene,
         world.things,
         _ticks(declaration, robot.tick, findings),
         tuple(_event(fact.event, world, findings) for fact in _facts(declaration, Ends) if fact.event),
         tuple(_reward(fact, world, robot, findings) for fact in _facts(declaration, Rewards)),
         tuple(_event(fact.event, world, findings) for fact in _facts(declaration, Counts)),
+        declaration.facts,
         declaration,
     )
 
@@ -83,7 +101,7 @@ def _things(declaration: Declaration, scene: Any, scope: Scope, findings: Findin
         kind = make("content", fact.phrase, scope, findings)
         if name in found:
             first = Label(found[name].span, "first said here")
-            message = f"The task already contains something called {name}."
+            message = f"The {declaration.header.noun.text} already contains something called {name}."
             findings.error("duplicate-thing", fact.name.span, message, "Give one of the two another name.", first)
         if kind:
             _check_obstacles(kind, scene, obstacles, fact.phrase, findings)
