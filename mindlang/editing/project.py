@@ -22,12 +22,6 @@ from mindlang.editing.references import READABLE_NOUNS, Mention, mentions
 
 F = TypeVar("F", bound=Fact)
 MAX_SUGGESTED_NAMES = 8  # names in a message
-OWNERS = {
-    "skill": ("reads", "drives", "influences", "stays"),
-    "task": ("lasts", "ends", "succeeds", "rewards", "counts", "contains", "starts", "varies", "fails"),
-    "scene": ("contains", "starts", "varies", "fails"),
-    "curriculum": ("teaches",),
-}
 
 
 class EditError(MindError):
@@ -214,12 +208,6 @@ def _project(compiled: Compiled) -> Project:
 def facts(declaration: Declaration, form: type[F]) -> list[F]:
     """The facts of one verb."""
     return [fact for fact in declaration.facts if isinstance(fact, form)]
-
-
-def owner(fact: str) -> str:
-    """The noun below which a fact of this verb stands; nothing where it begins with no verb."""
-    verb = fact.partition(" ")[0]
-    return next((noun for noun, verbs in OWNERS.items() if verb in verbs), "")
 
 
 def kind_of(declaration: Declaration) -> str:

@@ -7,7 +7,7 @@ from itertools import islice
 from pathlib import Path
 
 from mindlang.compiler.syntax import NOUNS, SETTINGS
-from mindlang.editing.project import OWNERS
+from mindlang.editing.owners import OWNERS
 from mindlang.file_search import files_below
 from mindlang.server.facts import FACTS, CursorLine
 from mindlang.server.offers import Offer, arguments_of, functions, kinds_of, names, words
