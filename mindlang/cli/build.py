@@ -40,7 +40,8 @@ def command(file: str, output: Path, master: str | None, robot: Path | None, as_
     """Build a bundle of FILE, the one file that runs on a robot.
 
     It holds the hierarchy, the weights of every skill that can act, and the text of its procedures. With --robot also
-    what each sensor and actuator is wired to, checked here against FILE and not on the robot. Refuses skills that have
+    what each sensor and actuator is wired to, checked here against FILE and not on the robot; drivers of your own are
+    asked what they are, and travel along. Refuses skills that have
     not been taught, or whose weights belong to another declaration.
     """
     from mindrun.bundle import Bundle, write_bundle
@@ -114,8 +115,13 @@ def _wiring(path: Path, graph: Graph) -> Wiring:
 
 def _built(output: Path, digest: str, ready: ReadyMind, wiring: Wiring | None) -> dict[str, object]:
     from mindrun.bundle import fingerprint
+    from mindrun.wiring import code_digests
 
-    robot = {"robot": {"name": wiring.robot, "wiring": fingerprint(wiring)}} if wiring else {}
+    robot: dict[str, object] = {}
+    if wiring:
+        robot["robot"] = {"name": wiring.robot, "wiring": fingerprint(wiring)}
+        if digests := code_digests(wiring):
+            robot["drivers"] = digests
     return {
         "bundle": str(output),
         "sha256": digest,

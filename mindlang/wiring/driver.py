@@ -12,11 +12,11 @@ from mindlang.compiler.diagnostic import Findings, errors, listed, nearest
 from mindlang.compiler.source import Span
 from mindlang.wiring.nodes import Scalar, Table, TableEntry, report_error, shortened
 from mindlang.wiring.options import DRIVER, DriverOption, driver_options, drivers, own_options
-from mindlang.wiring.own_driver import DriverClass, own_class
+from mindlang.wiring.own_driver import BrokenDriverError, DriverClass, own_class
 from mindlang.wiring.values import by_option, first_line, is_empty, missing_key, unknown_key
 
 ENDS = ("from", "to")  # are in the unit of the driver, so they are read when there is one
-OWN_NAME = re.compile(r"[A-Za-z_]\w*\.[A-Za-z_]\w*", re.ASCII)  # FILE.CLASS, or PACKAGE.NAME
+OWN_NAME = re.compile(r"^[A-Za-z_][A-Za-z0-9_]*\.[A-Za-z_][A-Za-z0-9_]*$")  # FILE.CLASS, or PACKAGE.NAME
 COUNTERPARTS = {"sensor": "actuator", "actuator": "sensor"}
 
 
@@ -132,6 +132,9 @@ def _made(cls: DriverClass, values: Mapping[str, Any], name: Scalar, findings: F
     """The driver, unless it says itself that its options do not go together."""
     try:
         return cls.make(**values)
+    except BrokenDriverError as error:
+        report_error(findings, "broken-driver", name.span, f"{error}.", error.hint)
+        return None
     except (MindError, ValueError) as error:
         hint = getattr(error, "hint", "") or f"Look at the options of {name.text} in docs/drivers.md."
         report_error(findings, "impossible-driver", name.span, f"{name.text} cannot be wired so: {error}.", hint)

@@ -30,6 +30,10 @@ INSPECTION = "mindlang.wiring.driver_inspection"
 OUTSIDE = "What takes long, or waits for a device, belongs into open()."
 
 
+class BrokenDriverError(MindError):
+    """A driver of a user whose code cannot be read, does not run, or is no driver."""
+
+
 @dataclass(frozen=True, slots=True)
 class DriverClass:
     """What a driver can be told, and how it is made of that."""
@@ -49,7 +53,7 @@ def own_class(noun: str, name: Scalar, findings: Findings) -> DriverClass | None
             report_error(findings, "unknown-driver", name.span, message, hint)
             return None
         answer = _ask(code, noun, None)
-    except MindError as error:
+    except BrokenDriverError as error:
         report_error(findings, "broken-driver", name.span, f"{error}.", error.hint)
         return None
     if "absent" in answer:
@@ -68,7 +72,7 @@ def _report_absent(name: Scalar, code: DriverCode, classes: Sequence[str], findi
 
 
 def _found(name: str, folder: Path) -> DriverCode | None:
-    """The code of a driver; MindError where its file cannot be read."""
+    """The code of a driver; BrokenDriverError where its file cannot be read."""
     path = folder / f"{name.partition('.')[0]}.py"
     if not os.path.lexists(path):
         return of_package(name)
@@ -76,16 +80,18 @@ def _found(name: str, folder: Path) -> DriverCode | None:
         data = read_regular(path, MAX_DRIVER_BYTES + 1)
         text = data.decode()
     except OSError as error:
-        raise MindError(f"{path.name} cannot be read: {reason(error)}", "Is it a file that you may read?") from error
+        raise BrokenDriverError(
+            f"{path.name} cannot be read: {reason(error)}", "Is it a file that you may read?"
+        ) from error
     except UnicodeDecodeError as error:
-        raise MindError(f"{path.name} is not UTF-8", "Save it as UTF-8.") from error
+        raise BrokenDriverError(f"{path.name} is not UTF-8", "Save it as UTF-8.") from error
     if len(data) > MAX_DRIVER_BYTES:
         hint = "Put what it shares with others into an installed package."
-        raise MindError(f"{path.name} is larger than {MAX_DRIVER_BYTES >> 10} kB", hint)
+        raise BrokenDriverError(f"{path.name} is larger than {MAX_DRIVER_BYTES >> 10} kB", hint)
     for number, line in enumerate(text.split("\n"), 1):
         if not line.isprintable():
             hint = "Indent with spaces, and end lines as Linux does."
-            raise MindError(f"{path.name} has a character on line {number} that cannot be printed", hint)
+            raise BrokenDriverError(f"{path.name} has a character on line {number} that cannot be printed", hint)
     return of_file(name, text)
 
 
@@ -94,7 +100,7 @@ def _made(noun: str, code: DriverCode, **options: Any) -> Any:
     said = encoded(options)
     answer = _ask(code, noun, said)
     if "impossible" in answer:
-        raise MindError(answer["impossible"], answer["hint"])
+        raise MindError(answer["impossible"], answer["hint"] or f"So says its class, in {code.origin}.")
     facts: dict[str, Any] = {
         key: tuple(value) if isinstance(value, list) else value for key, value in answer["facts"].items()
     }
@@ -104,7 +110,7 @@ def _made(noun: str, code: DriverCode, **options: Any) -> Any:
 
 @cache
 def _ask(code: DriverCode, noun: str, options: str | None) -> dict[str, Any]:
-    """What a driver answers; MindError where it has no answer that is one."""
+    """What a driver answers; BrokenDriverError where it has no answer that is one."""
     question = json.dumps({"code": asdict(code), "noun": noun, "options": options})
     environment = {**os.environ, "PYTHONPATH": os.pathsep.join(filter(None, sys.path))}
     try:
@@ -118,17 +124,19 @@ def _ask(code: DriverCode, noun: str, options: str | None) -> dict[str, Any]:
             start_new_session=True,  # Ctrl-C is for who asks
         )
     except subprocess.TimeoutExpired as error:
-        raise MindError(f"{code.origin} has not been imported after {ANSWER_SECONDS:g} s", OUTSIDE) from error
+        raise BrokenDriverError(f"{code.origin} has not been imported after {ANSWER_SECONDS:g} s", OUTSIDE) from error
     try:
         answer: dict[str, Any] = json.loads(done.stdout)
     except ValueError as error:
-        raise MindError(f"{code.origin} ends the program that imports it", OUTSIDE) from error
+        raise BrokenDriverError(
+            f"{code.origin} ends the program that imports it", "Nothing in it may do that."
+        ) from error
     if "raised" in answer:
         failed = "cannot be imported" if options is None else "does not take these options"
         hint = "Mend it" if options is None else "Mend it, or let the class refuse them with a ValueError that says why"
-        raise MindError(f"{code.origin} {failed}: {answer['raised']}", f"{hint}.")
+        raise BrokenDriverError(f"{code.origin} {failed}: {answer['raised']}", f"{hint}.")
     if "unfit" in answer:
-        raise MindError(f"{code.name} {answer['unfit']}", "docs/robot-yaml.md shows a driver that is whole.")
+        raise BrokenDriverError(f"{code.name} {answer['unfit']}", "docs/robot-yaml.md shows a driver that is whole.")
     return answer
 
 

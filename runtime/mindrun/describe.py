@@ -7,7 +7,7 @@ from mindrun.bundle import Bundle, fingerprint
 from mindrun.codec import encode
 from mindrun.named_readings import physical
 from mindrun.registry import names
-from mindrun.wiring import Wiring
+from mindrun.wiring import Wiring, code_digests
 
 
 def describe(bundle: Bundle) -> str:
@@ -46,9 +46,14 @@ def _robot(wiring: Wiring) -> dict[str, Any]:
     return {
         "name": wiring.robot,
         "wiring": fingerprint(wiring),
+        **({"drivers": digests} if (digests := code_digests(wiring)) else {}),
         "sensors": [{**encode(wire), "unit": wire.driver.unit} for wire in wiring.sensors],
         "actuators": [encode(wire) for wire in wiring.actuators],
     }
+
+
+def _driver(wire: dict[str, Any]) -> str:
+    return str(wire["driver"].get("name", wire["driver"]["is"]))
 
 
 def _named(name: str, kind: object) -> dict[str, Any]:
@@ -74,18 +79,20 @@ def _lines(found: dict[str, Any]) -> Iterator[str]:
 
 def _wires(robot: dict[str, Any]) -> Iterator[str]:
     yield f"robot {robot['name']}, wiring {robot['wiring'][:12]}"
+    for name, digest in robot.get("drivers", {}).items():
+        yield f"driver {name} is the user's own, {digest[:12]}"
     for wire in robot["sensors"]:
         median = f", the median of {wire['median']}" if wire["median"] > 1 else ""
         values = f"{wire['low']:g} to {wire['high']:g} {wire['unit']}".rstrip()
         yield (
-            f"sensor {wire['sensor']} is wired to {wire['driver']['is']}: {values}, {wire['rate']:g} Hz{median}, "
+            f"sensor {wire['sensor']} is wired to {_driver(wire)}: {values}, {wire['rate']:g} Hz{median}, "
             f"{wire['on_fault']} when older than {wire['max_age']:g} s"
         )
     for wire in robot["actuators"]:
         slew = f", at most {wire['slew']:g} a second" if wire["slew"] else ""
         turned = ", reversed" if wire["reversed"] else ""
         limits = f"{wire['low']:g} to {wire['high']:g}"
-        yield f"actuator {wire['actuator']} is wired to {wire['driver']['is']}: {limits}{slew}{turned}"
+        yield f"actuator {wire['actuator']} is wired to {_driver(wire)}: {limits}{slew}{turned}"
 
 
 def _counted(count: int, noun: str) -> str:

@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 from math import isfinite, nan
 from typing import Annotated, Literal, get_args
 
-from mindrun.driver import ActuatorDriver, SensorDriver
+from mindrun.driver import ActuatorDriver, SensorDriver, driver_name
 from mindrun.graph import Graph
 from mindrun.named_readings import physical
 from mindrun.quantity import NUMBER, RATIO, Quantity, Reference
@@ -87,6 +87,12 @@ def reading(wire: SensorWire, raw: float | None) -> float:
         return nan
     share = max(0.0, min(1.0, share))
     return wire.rest if abs(share - wire.rest) < wire.dead_zone else share
+
+
+def code_digests(wiring: Wiring) -> dict[str, str]:
+    """The drivers that users bring, by name, with the SHA-256 of their code."""
+    drivers = [*(wire.driver for wire in wiring.sensors), *(wire.driver for wire in wiring.actuators)]
+    return {driver_name(driver): driver.digest for driver in drivers if hasattr(driver, "digest")}
 
 
 def still(wire: SensorWire) -> SensorWire:

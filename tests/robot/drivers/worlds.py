@@ -8,6 +8,7 @@ from typing import Any
 import pytest
 from mindrun.robot import camera, driver_support
 from mindrun.robot.ball_detection import focal_length
+from mindrun.robot.driver_code import of_file
 from mindrun.robot.drivers import ball_tracker as tracking
 from mindrun.robot.drivers import grove_motor as motors
 from mindrun.robot.drivers.ads1115 import Ads1115
@@ -26,6 +27,8 @@ from mindrun.robot.drivers.lsm9ds1_turn import Turn
 from mindrun.robot.drivers.mcp3008 import Mcp3008
 from mindrun.robot.drivers.mock import MockActuator, MockSensor
 from mindrun.robot.drivers.mpu6050 import Mpu6050
+from mindrun.robot.drivers.own import KIND as OWN_KIND
+from mindrun.robot.drivers.own import OwnActuator, OwnSensor
 from mindrun.robot.drivers.pca9685 import Pca9685
 from mindrun.robot.drivers.servo import PinServo
 from mindrun.robot.drivers.switch import Switch
@@ -182,6 +185,42 @@ def mock_actuator(patch: pytest.MonkeyPatch) -> World:
     return World(MockActuator(), state=lambda device: device.value)
 
 
+OWN = """
+from dataclasses import dataclass, field
+
+@dataclass
+class Device:
+    value: float = 0.0
+
+    def read(self):
+        return (0.25, None)
+
+    def write(self, value):
+        self.value = value
+
+    def close(self):
+        raise RuntimeError("closing must never raise")
+
+@dataclass(frozen=True)
+class Driver:
+    def open(self):
+        return Device()
+"""
+
+
+def own_sensor(patch: pytest.MonkeyPatch) -> World:
+    text = OWN.replace('raise RuntimeError("closing must never raise")', "pass")
+    code = of_file("own.Driver", text)
+    facts = {"unit": "m", "readings": 2, "usual": (0.0, 1.0), "possible": (0.0, 9.0), "near": 0.0, "device": ""}
+    return World(OwnSensor(code.name, code.digest, code.lines, "", "{}", **facts), (0.25, None))
+
+
+def own_actuator(patch: pytest.MonkeyPatch) -> World:
+    code = of_file("own.Driver", OWN)
+    driver = OwnActuator(code.name, code.digest, code.lines, "", "{}", device="")
+    return World(driver, state=lambda device: device.device.value)
+
+
 def lamp(patch: pytest.MonkeyPatch) -> World:
     pin = pulsing_pins(patch).pin(18)
     return World(Lamp(18), state=lambda device: pin.state)
@@ -243,12 +282,14 @@ SENSORS: dict[str, Callable[[pytest.MonkeyPatch], World]] = {
     "mpu6050": mpu6050,
     "ball_tracker": ball_tracker,
     "ball_eye": ball_eye,
+    OWN_KIND: own_sensor,
 }
 ACTUATORS: dict[str, Callable[[pytest.MonkeyPatch], World]] = {
     "mock": mock_actuator,
     "lamp": lamp,
     "servo": servo,
     "h_bridge": h_bridge,
+    OWN_KIND: own_actuator,
     "pca9685": pca9685,
     "grove_motor": grove_motor,
 }
