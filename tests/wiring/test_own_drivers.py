@@ -287,7 +287,7 @@ def test_a_package_is_named_by_version_and_hash(mindc: Call, rules: Path, instal
     assert sensor.open().read() == (0.5, 1.0, 1.5)
     assert log.exists()
     (installed / "more.py").write_text("")
-    with pytest.raises(DeviceError, match="its code is not that of acme-robots 1.2 in the bundle"):
+    with pytest.raises(DeviceError, match=r"its code is not that of acme-robots 1\.2 in the bundle"):
         actuator.open()
 
 
