@@ -3,7 +3,7 @@
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
-from mindrun.robot.driver_support import ADDRESS, BUS, CHANNEL, PIN
+from mindrun.robot.driver_support import ADDRESS, BUS, CHANNEL, CHIP, PIN
 
 from mindlang.compiler.diagnostic import Findings, Label
 from mindlang.compiler.source import Span
@@ -14,6 +14,7 @@ from mindlang.wiring.values import first_line
 
 OUTPUTS = ("channel", "motor", "port", "ports", "output", "input")  # which of the things on a board
 BUS_PINS = {0: (0, 1), 1: (2, 3)}  # of a Raspberry Pi
+SPI_PINS, CHIP_PINS = (9, 10, 11), {0: 8, 1: 7}  # of its SPI bus 0, and of its chip selects
 
 
 @dataclass(frozen=True, slots=True)
@@ -41,6 +42,9 @@ def _claims(wired: Wired) -> Iterator[Claim]:
     for option in wired.options:
         if option.type == PIN:
             yield from (Claim(f"GPIO {number}", span) for number, span in _numbers(wired, option))
+        if option.type == CHIP:
+            pins = *SPI_PINS, CHIP_PINS[wired.values[option.field]]
+            yield from (Claim(f"GPIO {pin}", wired.span(option.key, "driver"), "SPI bus 0") for pin in pins)
     bus = next((wired.values[option.field] for option in wired.options if option.type == BUS), None)
     used = [wired.values[option.field] is not None for option in _outputs(wired)]
     if bus is None or (used and not any(used)):  # a camera without servos

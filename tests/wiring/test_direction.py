@@ -65,6 +65,7 @@ def test_it_is_a_warning_that_says_what_to_write(tmp_path: Path, kind: str, driv
     (warning,) = found.diagnostics
     assert (warning.severity, warning.code, warning.hint) == ("warning", "reads-backwards", hint)
     assert plain(warning).startswith("robot.yaml:")
+    assert f" {kind.split()[0]} reads " in warning.message
 
 
 @pytest.mark.parametrize(

@@ -15,6 +15,7 @@ from mindrun.quantity import Quantity, Reference
 PIN = Quantity("a GPIO number", {"": 1.0}, low=0, high=27, whole=True)  # as Broadcom counts, not as the header does
 BUS = Quantity("the number of an I2C bus", {"": 1.0}, low=0, high=99, whole=True)
 ADDRESS = Quantity("an I2C address", {"": 1.0}, low=0x03, high=0x77, whole=True)
+CHIP = Quantity("a chip select of SPI bus 0", {"": 1.0}, low=0, high=1, whole=True)
 CHANNEL = Quantity("a channel", {"": 1.0}, low=0, high=15, whole=True)
 METRES = Quantity("a distance", {"m": 1.0, "cm": 0.01}, low=0.0)
 MICROSECONDS = Quantity("a pulse width", {"us": 1.0}, low=100.0, high=4000.0)

@@ -6,10 +6,9 @@ from typing import Annotated, Any
 from mindrun.driver import DeviceError
 from mindrun.quantity import Quantity
 from mindrun.registry import kind
-from mindrun.robot.driver_support import library, pins
+from mindrun.robot.driver_support import CHIP, library, pins
 
 INPUT = Quantity("an input", {"": 1.0}, low=0, high=7, whole=True)
-CHIP = Quantity("a chip select of SPI bus 0", {"": 1.0}, low=0, high=1, whole=True)
 
 
 @dataclass(frozen=True, slots=True)
