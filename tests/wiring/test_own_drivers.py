@@ -235,6 +235,13 @@ def test_a_file_that_is_wrong_is_told_on_its_line(mindc: Call, rules: Path, text
     assert said.err.count("error:") == 1
 
 
+def test_a_folder_of_that_name_is_told_on_its_line(mindc: Call, rules: Path) -> None:
+    rules.with_name("bad.py").mkdir()
+    said = build(mindc, rules, ROBOT.format(sensor="bad.Feelers", actuator="mock"))
+    assert (said.code, said.err.count("error:")) == (1, 1)
+    assert "robot.yaml:6:13: error: bad.py cannot be read: it is a folder. [broken-driver]" in said.err
+
+
 def test_what_fails_on_the_robot_is_a_fault_with_its_name(built: Path) -> None:
     wiring = read_bundle(built).wiring
     assert wiring
