@@ -8,7 +8,7 @@ from mindrun.quantity import Quantity, Reference
 from mindrun.registry import kind
 from mindrun.robot.driver_support import METRES, PIN, library, pins
 
-Measure = Literal["distance", "speed", "angle"]
+Measure = Literal["speed", "distance", "angle"]
 MEASURE = Reference("measure", get_args(Measure))
 STEPS = Quantity("steps of a turn", {"": 1.0}, low=1, high=100_000, whole=True)
 LEAST_SPEED_SECONDS = 0.02  # seconds over which a speed is taken at least
@@ -50,16 +50,17 @@ class EncoderDevice:
 class Encoder:
     """A rotary encoder with two pins, `a` and `b`, that has `steps` in a turn of the wheel (A leads B: forwards).
 
-    `measure` says what is read: for an `odometer` the distance in metres since it was opened, or the angle of the
-    wheel, 0 to 360 degrees; for a sensor `speed` metres a second. `circumference` is the wheel's. Its outputs connect
-    to ground; those that put out 5 V need a level shifter. Steps are counted by a program: some 1,000 a second at most.
+    `measure` says what is read: metres a second, for an `odometer` (0.5 standing, 1 forward) or a `speed`; the distance
+    in metres since it was opened, or the angle of the wheel, 0 to 360 degrees. `circumference` is the wheel's. A wheel
+    that counts the wrong way has `a` and `b` the other way round. Its outputs connect to ground; those that put out 5 V
+    need a level shifter. Steps are counted by a program: some 1,000 a second at most.
     """
 
     a: Annotated[int, PIN]
     b: Annotated[int, PIN]
     steps: Annotated[int, STEPS]
     circumference: Annotated[float, METRES] = 0.2
-    measure: Annotated[Measure, MEASURE] = "distance"
+    measure: Annotated[Measure, MEASURE] = "speed"
 
     readings = 1
     near = None  # metres that were travelled are no distance to anything
@@ -71,8 +72,8 @@ class Encoder:
 
     @property
     def usual(self) -> tuple[float, float]:
-        """A turn, or a metre, or a metre a second."""
-        return (0.0, 360.0) if self.measure == "angle" else (0.0, 1.0)
+        """A metre a second backward and forward; a metre, or a turn."""
+        return {"speed": (-1.0, 1.0), "distance": (0.0, 1.0), "angle": (0.0, 360.0)}[self.measure]
 
     def open(self) -> EncoderDevice:
         """The encoder, which counts from now on."""
