@@ -114,7 +114,7 @@ class _Likeness:
     def _stands(self, fact: Reads, other: model.Skill) -> bool:
         """Whether a line says for which input of the other one its own stands, and has as many readings."""
         name = fact.name.text
-        reads = f"{other.name} reads {listed(other.reads, 'and')}."
+        reads = f"{other.name} reads {listed(other.reads, 'and') if other.reads else 'nothing'}."
         if fact.stands_for is None:
             message = f"It is not said for which input of {other.name} {name} stands."
             self.findings.error("stands-for-nothing", fact.span, message, f"Write reads {name} for INPUT: {reads}")
