@@ -53,7 +53,7 @@ def lies_inside(
     """Hold what is computed for these readings against everything that was claimed."""
     names = {s.name: place for place, s in enumerate(graph.skills)}
     for s in reachable(graph, graph.master):
-        found = values(s, weights.get(s.name, np.zeros(0, np.float32)), readings)
+        found = values(s, weights.get(s.owner, np.zeros(0, np.float32)), readings)
         for value, sends in zip(found.T, bounds.edges[s.name], strict=True):
             sound = np.isfinite(value)
             assert sound.all() or not sends.sure
