@@ -50,6 +50,8 @@ WORLDLY = [
     Light("coin"),
     Light("plug", range=4.0),
     Eye("object", at=EYES[:3]),
+    Eye("crate", at=EYES[:3]),
+    Eye("ball", at=(0.0, 0.2)),
     Eye("home", at=(-0.5, 0.0, 2.0, 3.5), range=9.0),
     TurnRate(),
     TurnRate(2.0, dead_zone=0.05),

@@ -104,14 +104,19 @@ def nearest(s: Any, sensor: Any, n: Any) -> Any:
     """
     if sensor.things == 1:
         return s.things[THING_ROWS * sensor.thing : THING_ROWS * (sensor.thing + 1)]
-    for p in range(n):
-        best = THING_ROWS * sensor.thing
-        for i in range(sensor.thing + 1, sensor.thing + sensor.things):
-            away = s.things[best + DISTANCE, p]
-            best = THING_ROWS * i if np.isnan(away) or s.things[THING_ROWS * i + DISTANCE, p] < away else best
-        for row in range(THING_ROWS):
-            s.nearest[row, p] = s.things[best + row, p]
-    return s.nearest
+    found, first = s.nearest, THING_ROWS * sensor.thing
+    for row in range(THING_ROWS):
+        for p in range(n):
+            found[row, p] = s.things[first + row, p]
+    for i in range(sensor.thing + 1, sensor.thing + sensor.things):
+        one = s.things[THING_ROWS * i : THING_ROWS * (i + 1)]
+        for p in range(n):
+            closer = (one[DISTANCE, p] < found[DISTANCE, p]) | (found[DISTANCE, p] != found[DISTANCE, p])
+            found[X, p] = one[X, p] if closer else found[X, p]
+            found[Y, p] = one[Y, p] if closer else found[Y, p]
+            found[SIZE, p] = one[SIZE, p] if closer else found[SIZE, p]
+            found[DISTANCE, p] = one[DISTANCE, p] if closer else found[DISTANCE, p]
+    return found
 
 
 LANES = 16  # side by side, as one value

@@ -16,7 +16,7 @@ from tests.edits.sources import a_mind
 from tests.hierarchies import physical_kinds
 from tests.sim.worlds import learner_kinds, random_world
 
-DRAWN = 120  # minds
+DRAWN = 200  # minds
 NOUNS = ("body", "actuator", "sensor", "memory", "skill", "task", "content", "event", "measure", "curriculum")
 ONE_VALUE = {("visit", "of"), ("change", "of")}  # the language has a single word for it
 

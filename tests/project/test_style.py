@@ -67,6 +67,7 @@ NAMED_METAPHORS = {
     "runtime/mindrun/robot/drivers/ball_eye.py: BallEye": "the language's sensor eye, from a camera",
     "runtime/mindrun/robot/drivers/ball_eye.py: BallEyeDevice": "the language's sensor eye, from a camera",
     "runtime/mindrun/sim/lanes/sense.py: look": "the rays of the range finders",
+    "runtime/mindrun/sim/lanes/loose_sight.py: look_at_loose": "the rays of the range finders",
 }
 VAGUE = {
     *("MOST", "LEAST", "EVERY", "EACH", "ANY", "ALL", "MANY", "FEW", "FEWEST", "FEWER", "MORE", "LESS", "SOON", "LATE"),

@@ -58,7 +58,8 @@ class Place:
         columns = [F(cosine(angle)) for angle in kind.rays], [F(sine(angle)) for angle in kind.rays]
         tables = SimpleNamespace(
             world=[SimpleNamespace(radius=1.0, half_x=self.half, half_y=self.half)],
-            things=[SimpleNamespace(is_round=self.is_round)], numbers=np.array(kind.numbers), rays=np.array(columns),
+            things=[SimpleNamespace(is_round=self.is_round, loose=-1)],
+            numbers=np.array(kind.numbers), rays=np.array(columns),
         )  # fmt: skip
         senses = SimpleNamespace(
             body=np.array([x, y, self.angle, *self.speeds])[:, None],

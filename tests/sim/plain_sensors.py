@@ -82,10 +82,11 @@ def eye(world, kind, all_of, angle):
     for more in (1e-3, -1e-3):
         near = math.inf
         for i in all_of:
-            span = crossed(world, world.places[i], angle, more, world.things[i].kind.is_round)
+            kind_of = world.things[i].kind
+            span = crossed(world, world.places[i], angle, more, kind_of.is_round or kind_of.is_loose)
             if span and span[1] >= 0:
                 near = min(near, max(0.0, span[0]))
-        for solid in (world.distance(angle, 1e-3), world.distance(angle, -1e-3)):
+        for solid in (world.distance(angle, 1e-3, ()), world.distance(angle, -1e-3, ())):
             share = (near - world.radius) / kind.range
             found.append(min(1.0, max(0.0, share)) if near <= solid else 1.0)
     return min(found), max(found)

@@ -95,7 +95,7 @@ class PlainWorld:
         least, most = (min(1.0, max(0.0, (d - self.radius) / kind.range)) for d in (near, far))
         return zoned(least, kind.dead_zone, 0.0)[0], zoned(most, kind.dead_zone, 0.0)[1]
 
-    def distance(self, angle, more):
+    def distance(self, angle, more, loose=None):
         """How far a ray goes among boxes that are `more` larger; one that the robot's centre is in is not seen."""
         c, s = math.cos(angle), math.sin(angle)
         found = math.inf
@@ -116,7 +116,7 @@ class PlainWorld:
                     leave = -1.0
             if 0 <= enter <= leave:
                 found = min(found, enter)
-        return min([found, *self.body.loose.distances(self, angle, more)])
+        return min([found, *(self.body.loose.distances(self, angle, more) if loose is None else loose)])
 
     def reach(self):
         """How far the claw reaches."""

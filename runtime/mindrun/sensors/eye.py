@@ -17,7 +17,7 @@ class Eye(Physical):
     """Distance from the body's rim to a thing, one reading per angle: 0 touching or inside, 1 where the ray meets none.
 
     A range finder that sees all things of that name and no other; an obstacle or a wall before one hides it. Angles
-    turn counterclockwise from straight ahead.
+    turn counterclockwise from straight ahead. Of a box that can be pushed it sees the disc in it.
     """
 
     of: Annotated[str, THING]
@@ -25,6 +25,7 @@ class Eye(Physical):
     range: Annotated[float, POSITIVE] = 30.0
 
     scaled = True
+    pierces = True
     near = 0
     blank = 1.0
     remedy = "Let a task contain what it is about"
@@ -63,7 +64,7 @@ class Eye(Physical):
             cosine, sine = t.rays[COSINE, ray], t.rays[SINE, ray]
             for i in range(sensor.thing, sensor.thing + sensor.things):
                 rows = s.things[THING_ROWS * i : THING_ROWS * (i + 1)]
-                if t.things[i].is_round:
+                if t.things[i].is_round or t.things[i].loose >= 0:
                     meet_disc(s.body, s.heading, rows, cosine, sine, out, n)
                 else:
                     meet_square(s.body, s.heading, rows, cosine, sine, out, n)

@@ -7,6 +7,7 @@ from mindrun.arithmetic import COSINE, ONE, SINE, SIZE, THING_ROWS, ZERO, X, Y, 
 from mindrun.quantity import THING, Quantity
 from mindrun.registry import kind
 from mindrun.sensors.sensor import Physical, World
+from mindrun.things import ThingKind
 
 OFFSET = Quantity("a length in world units", {"": 1.0}, low=-1000.0, high=1000.0)
 
@@ -24,6 +25,11 @@ class Floor(Physical):
     ahead: Annotated[float, OFFSET] = 0.0
 
     remedy = "Let a task contain what it is about"
+
+    @staticmethod
+    def is_about(kind: type[ThingKind]) -> bool:
+        """What can lie on the floor."""
+        return not kind.is_solid
 
     @property
     def width(self) -> int:

@@ -81,6 +81,7 @@ class SensorKind(AboutThing):
     scaled = False  # whether its values mean something by themselves, so that they need no calibration
     near: int | None = None  # the reading of what is near
     keeps_lost = False  # whether a reading that fails is the one before, and not `blank`
+    pierces = False  # whether its rays go on through what is loose
     remembers = False  # whether the lanes keep its readings of the tick before
     blank, rest = 0.0, 0.0  # what it reads where there is nothing to measure, and in its dead zone
     remedy = "Give it a dead_zone below 0.5"  # for one that is constant

@@ -77,6 +77,7 @@ class Sensed:
     rows: Array
     rays: Array
     ray_row: Array
+    pierces: Array
     numbers: Array
     derived: int
     rough: int
@@ -107,6 +108,7 @@ def sensor_rows(graph: Graph, used: Used, task: Task) -> Sensed:
         rows=records(rows, SENSOR),
         rays=np.array([np.cos(turn), np.sin(turn)], np.float32),
         ray_row=np.array(room.ray_row, np.int64),
+        pierces=np.array(room.pierces, np.bool_),
         numbers=np.array(room.numbers, np.float64),
         derived=room.before,
         rough=room.held,
@@ -120,6 +122,7 @@ class _Room:
 
     rays: list[float] = field(default_factory=list)
     ray_row: list[int] = field(default_factory=list)
+    pierces: list[bool] = field(default_factory=list)
     numbers: list[float] = field(default_factory=list)
     before: int = 0
     held: int = 0
@@ -134,6 +137,7 @@ class _Room:
         }  # fmt: skip
         self.rays.extend(kind.rays)
         self.ray_row.extend(range(sensor.start, sensor.start + len(kind.rays)))
+        self.pierces.extend(kind.pierces for _ in kind.rays)
         self.numbers.extend(kind.numbers)
         self.before += sensor.width if kind.remembers else 0
         if isinstance(kind, Physical):

@@ -21,12 +21,14 @@ from mindrun.sim.state import (
 
 @compiled
 def look_at_loose(tables, world, sight, lanes):
-    """Shorten every ray that meets a loose thing."""
+    """Shorten every ray that meets a loose thing and does not go on through it."""
     rows, frame = sight.sight, sight.frame
     for i in range(len(tables.loose)):
         enter_frame(tables, world, frame, i, lanes)
         for ray in range(len(tables.ray_row)):
             cosine, sine, out = tables.rays[COSINE, ray], tables.rays[SINE, ray], rows[FIRST_RAY + ray]
+            if tables.pierces[ray]:
+                continue
             if tables.loose[i].is_round:
                 meet_ball(rows, frame, cosine, sine, out, lanes)
             else:
