@@ -135,12 +135,16 @@ def _is_argument(value: Any) -> bool:
         case None | bool() | str():
             return True
         case list():
-            return all(map(_is_number, value))
+            return all(map(_is_number, value)) or _are_strings(value) or all(map(_is_place, value))
         case dict():
             by = value.get("by")
             is_span = value.keys() == {"first", "last", "by"} and (by is None or _is_number(by))
             return is_span and _is_number(value["first"]) and _is_number(value["last"])
     return _is_number(value)
+
+
+def _is_place(value: Any) -> bool:
+    return isinstance(value, list) and len(value) == 2 and all(map(_is_number, value))
 
 
 def _is_number(value: Any) -> bool:

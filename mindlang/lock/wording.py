@@ -46,7 +46,10 @@ def argument(noun: str, kind: str, field: str, value: Any) -> str:
     """An argument of a kind, as plain data, in words: range 12, at 0 22.5 deg, size 3 to 1 by 0.1."""
     known = {each.field: each for each in arguments(kinds(noun)[kind])} if kind in kinds(noun) else {}
     meaning = known[field].type if field in known else None
-    words = " ".join(_converted(each, meaning) for each in (value if isinstance(value, list) else [value]))
+    if isinstance(value, list) and value and isinstance(value[0], list):
+        words = " to ".join(" ".join(_converted(each, meaning) for each in place) for place in value)
+    else:
+        words = " ".join(_converted(each, meaning) for each in (value if isinstance(value, list) else [value]))
     unit = next(iter(meaning.units), "") if isinstance(meaning, Quantity) else ""
     return f"{field.removesuffix('_')} {words} {unit}".rstrip()
 

@@ -26,9 +26,10 @@ def draw_floor(canvas: Canvas, run: RecordedRun, theme: Theme) -> None:
         canvas.polygon(rectangle(0, 0, x + WALL_UNITS, y + WALL_UNITS), theme.wall)
         canvas.polygon(rectangle(0, 0, x, y), theme.floor)
     _grid(canvas, theme, run.task.scene)
-    for x, y, size in run.boxes:
-        canvas.polygon(square(x, y, size), theme.rock)
-        canvas.line(square(x, y, size), theme.rock_edge, 1.2, closed=True)
+    for box in run.boxes:
+        canvas.line(rectangle(*box), theme.rock_edge, 2.4, closed=True)
+    for box in run.boxes:
+        canvas.polygon(rectangle(*box), theme.rock)
 
 
 def half_sides(scene: SceneKind) -> tuple[float, float]:
@@ -48,9 +49,13 @@ def _grid(canvas: Canvas, theme: Theme, scene: SceneKind) -> None:
 
 
 def thing_colours(things: Sequence[Thing], theme: Theme) -> list[Colour]:
-    """A colour for each thing: items, zones and power zones have their own, which begin again when they are used up."""
+    """A colour for each name: items, zones and power zones have their own, which begin again when they are used up."""
     left = {name: cycle(colours) for name, colours in theme.things.items()}
-    return [next(left[names()[type(thing.kind)]]) for thing in things]
+    known: dict[str, Colour] = {}
+    for thing in things:
+        if thing.name not in known:
+            known[thing.name] = next(left[names()[type(thing.kind)]])
+    return [known[thing.name] for thing in things]
 
 
 def _each(run: RecordedRun, theme: Theme, tick: int) -> Iterable[tuple[Thing, Colour, NDArray[np.float64]]]:

@@ -13,7 +13,7 @@ SHAPE_WORDS = {
     "list": ", several of them",
     "span": ", or a range of them",
     "extent": ", or two of them",
-    "place": ", along x and along y",
+    "places": ", along x and along y",
 }
 
 
@@ -60,7 +60,7 @@ def written(parameter: Argument) -> str:
             text = _figure(first / factor)
             text += f" to {_figure(last / factor)}" if last != first else ""
             text += f" by {_figure(by / factor)}" if by else ""
-        case None:
+        case ():
             return "none"
         case tuple():
             text = " ".join(_figure(each / factor) for each in value)

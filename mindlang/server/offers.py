@@ -161,7 +161,7 @@ def _named(view: MindView, noun: str, kind: str, parameter: Argument, task: Decl
     assert isinstance(parameter.type, Reference)
     match parameter.type:
         case Reference(noun="thing"):
-            return things(view, task, about(noun, kind))
+            return things(view, task, about(noun, kind, parameter.key))
         case Reference(noun="sensor"):
             return names(view, "sensor", "memory")
         case Reference(noun="Python function"):

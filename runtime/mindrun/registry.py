@@ -16,8 +16,8 @@ _bases: dict[type[Any], str] = {}
 _arguments: dict[Any, tuple["Argument", ...]] = {}  # of each kind that was asked for
 
 
-Shape = Literal["one", "list", "span", "name", "extent", "place"]
-"""Of an argument: a number, several, a `Span`, a word, an `Extent`, a `Place` or None."""
+Shape = Literal["one", "list", "span", "name", "extent", "places"]
+"""Of an argument: a number, several, a `Span`, a word, an `Extent`, places."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -109,8 +109,8 @@ def _type(hint: Any) -> tuple[Quantity | Reference, Shape]:
             return meaning, "span"
         case _ if plain == Extent:
             return meaning, "extent"
-        case _ if plain == Place | None:
-            return meaning, "place"
+        case _ if plain == tuple[Place, ...]:
+            return meaning, "places"
         case _ if get_origin(plain) is tuple:
             return meaning, "list"
     return meaning, "one"

@@ -134,7 +134,7 @@ def _task_flaws(task: Task, width: int) -> Iterator[str]:
         yield "contains what has no name of its own"
     if any(thing.kind.size == UNSAID for thing in task.things):
         yield "contains what has no size"
-    if not set(_things_named(task)) <= {thing.name for thing in task.things if not thing.kind.is_obstacle}:
+    if not {*_things_named(task)} - {""} <= {thing.name for thing in task.things if not thing.kind.is_obstacle}:
         yield "names a thing that is not there"
     yield from _world_flaws(task)
     events, readings = range(len(task.events)), range(width)
@@ -153,7 +153,7 @@ def _task_flaws(task: Task, width: int) -> Iterator[str]:
 
 def _world_flaws(task: Task) -> Iterator[str]:
     """A world has no more than it can look at, and only one with walls has patches."""
-    if sum(not thing.kind.is_obstacle for thing in task.things) > MAX_THINGS:
+    if sum(thing.kind.copies for thing in task.things if not thing.kind.is_obstacle) > MAX_THINGS:
         yield f"contains more than {MAX_THINGS} things"
     if sum(thing.kind.obstacles(task.scene) for thing in task.things) > MAX_OBSTACLES:
         yield f"contains more than {MAX_OBSTACLES} obstacles"

@@ -65,7 +65,12 @@ SENSORS = {
 WIDE = {"eye", "camera", "line", "bumps"}
 NARROW = SENSORS.keys() - WIDE  # readings of width 1
 SCENES = ["plain", "arena size 40", "arena", "arena size 60 50"]
-ROCKS = ["rock is obstacle grid 10 size 2 to 3", "rock is obstacle count 3", "rock is obstacle size 2 at 15 -15"]
+ROCKS = [
+    "rock is obstacle grid 10 size 2 to 3",
+    "rock is obstacle count 3",
+    "rock is obstacle size 2 at 15 -15",
+    "fence is wall from -14 -14 to 3 -14 to 3 -17",
+]
 THINGS = [
     ["ball is item size 2 reached moves", "ball is item size 2 at 2.5 7.5"],
     ["coin is item", "coin is item at 7.5 12.5"],
@@ -82,7 +87,7 @@ REWARDS = [
     ["rewards 0.1 * advance toward ball per tick", "rewards 0.1 * advance toward dock per tick"],
     ["rewards -0.1 * retreat from ball per tick", "rewards -0.1 * retreat from nest per tick"],
     ["rewards -0.4 * change of thrust per tick", "rewards -0.4 * change of thrust beyond 20% over 4 ticks per tick"],
-    ["rewards 50 on delivery of ball", "rewards 50 on delivery of coin"],
+    ["rewards 50 on delivery of ball", "rewards 50 on delivery of coin to nest"],
 ]
 VISITS = ["rewards 1 on visit of patch", "rewards 1 on visit of patch size 8"]
 WORDS = ("note", "why?", "skill Go is rule", "  spaced  out", "é – “x”", "reads charge", "stays frozen", "#")

@@ -111,6 +111,7 @@ task Fetch in arena size 80
   contains dock is power size 4
   contains crate is box size 2
   contains marble is ball size 1
+  contains fence is wall from 10 10 to -10 10
   lasts 600 ticks
   ends on collision
   ends on exhaustion
@@ -221,8 +222,10 @@ def _another(value: Any, meaning: Quantity | Reference) -> Any:
     match value, meaning:
         case Span(first=first, last=last, by=by), _:
             return Span(first + 1.0, last + 1.0, by)
-        case None, _:
-            return 1.0, 2.0
+        case (), _:
+            return ((1.0, 2.0),)
+        case (((x, y), *others), _):
+            return (x + 0.1, y), *others
         case tuple(), _:
             return tuple(each + 0.1 for each in value)
         case str(), Reference(words=words) if words:

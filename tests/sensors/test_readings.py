@@ -54,7 +54,7 @@ class Place:
         """The readings of a sensor."""
         x, y = self.middle
         way = np.hypot(self.at[0] - x, self.at[1] - y)
-        boxes = np.array([number for box in self.boxes for number in box])
+        boxes = np.array([number for box in self.boxes for number in (*box, box[-1])])
         columns = [F(cosine(angle)) for angle in kind.rays], [F(sine(angle)) for angle in kind.rays]
         tables = SimpleNamespace(
             world=[SimpleNamespace(radius=1.0, half_x=self.half, half_y=self.half)],

@@ -72,7 +72,7 @@ def light(world, kind, place):
 
 def is_cut(world, angle, away, more):
     """Whether a box that is `more` larger lies on the way so far from the robot, or the robot in it."""
-    spans = (crossed(world, (x, y, 2 * half), angle, more, False) for x, y, half in world.boxes)
+    spans = (crossed(world, (x, y, 2 * wide, 2 * high), angle, more, False) for x, y, wide, high in world.boxes)
     return any(span and span[0] <= away and span[1] >= 0 for span in spans)
 
 
@@ -94,7 +94,7 @@ def eye(world, kind, all_of, angle):
 
 def crossed(world, place, angle, more, is_round):
     """Where the line from the robot in a direction enters a disc or a square and where it leaves it, if it does."""
-    dx, dy, half = place[0] - world.x, place[1] - world.y, place[2] / 2 + more
+    dx, dy, half, high = place[0] - world.x, place[1] - world.y, place[2] / 2 + more, place[-1] / 2 + more
     c, s = math.cos(angle), math.sin(angle)
     if math.isnan(dx):
         return None
@@ -105,11 +105,11 @@ def crossed(world, place, angle, more, is_round):
         chord = math.sqrt(half**2 - aside**2)
         return along - chord, along + chord
     enter, leave = -math.inf, math.inf
-    for middle, way in ((dx, c), (dy, s)):
+    for middle, way, side in ((dx, c, half), (dy, s, high)):
         if abs(way) > 1e-12:
-            ends = sorted(((middle - half) / way, (middle + half) / way))
+            ends = sorted(((middle - side) / way, (middle + side) / way))
             enter, leave = max(enter, ends[0]), min(leave, ends[1])
-        elif abs(middle) > half:
+        elif abs(middle) > side:
             return None
     return (enter, leave) if enter <= leave else None
 
@@ -130,8 +130,8 @@ def bumper(world, at, half):
     """Whether the body touches something in the sector around an angle."""
     walls = world.half
     points = [(sign * walls[0], world.y) for sign in (-1, 1)] + [(world.x, sign * walls[1]) for sign in (-1, 1)]
-    for x, y, side in world.boxes:
-        points.append((min(x + side, max(x - side, world.x)), min(y + side, max(y - side, world.y))))
+    for x, y, wide, high in world.boxes:
+        points.append((min(x + wide, max(x - wide, world.x)), min(y + high, max(y - high, world.y))))
     inner = outer = False
     for x, y in points:
         far = math.hypot(x - world.x, y - world.y)

@@ -22,7 +22,7 @@ class PlainWorld:
 
     def __init__(self, graph, task, run, battery):
         self.graph, self.task, self.runs_down = graph, task, battery
-        apart = [thing for thing in task.things if not isinstance(thing.kind, things.Obstacle)]
+        apart = [thing for thing in task.things if not thing.kind.is_obstacle]
         self.things = [thing for thing in apart for _ in range(thing.kind.copies)]
         self.places, self.boxes = run.things.copy(), run.boxes
         size = task.scene.size if isinstance(task.scene, scenes.Arena) else math.inf
@@ -31,6 +31,7 @@ class PlainWorld:
         self.x, self.y, self.angle = (float(v) for v in run.begin)
         self.held, self.t, self.touched = -1, 0, False
         self.reached, self.delivered, self.changed = set(), set(), set()
+        self.arrivals = {}
         self.cell = next((s.kind for s in graph.sensors if isinstance(s.kind, sensors.Battery)), sensors.Battery())
         self.charge = self.cell.start
         self.trail = deque([(self.x, self.y)] * TRAIL, TRAIL)
@@ -103,11 +104,11 @@ class PlainWorld:
             for position, half, direction in ((self.x, self.half[0], c), (self.y, self.half[1], s)):
                 if direction * sign > 1e-12:
                     found = min(found, (sign * half - position) / direction)
-        for x, y, half in self.boxes:
+        for x, y, half_x, half_y in self.boxes:
             enter, leave = -math.inf, math.inf
             for low, high, direction in (
-                (x - half - more - self.x, x + half + more - self.x, c),
-                (y - half - more - self.y, y + half + more - self.y, s),
+                (x - half_x - more - self.x, x + half_x + more - self.x, c),
+                (y - half_y - more - self.y, y + half_y + more - self.y, s),
             ):
                 if abs(direction) > 1e-12:
                     one, other = low / direction, high / direction
@@ -188,26 +189,34 @@ class PlainWorld:
         return state
 
     def happened(self):
-        """Whether each event of the task did."""
-        names = [thing.name for thing in self.things]
+        """How often each event of the task did."""
         reached, delivered = self.begin()
         began, self.touched = self.body.touches and not self.touched, self.body.touches
         found = []
         for event, visited in zip(self.task.events, self.visited, strict=True):
-            i = names.index(event.of) if getattr(event, "of", None) in names else -1
+            about = {i for i, thing in enumerate(self.things) if thing.name == getattr(event, "of", None)}
             match event:
                 case events.Reach():
-                    found.append(i in reached)
+                    found.append(len(about & reached))
+                case events.Delivery(to=""):
+                    found.append(len(about & delivered))
                 case events.Delivery():
-                    found.append(i in delivered)
+                    found.append(self.arrived(event, about))
                 case events.Visit():
-                    found.append(self.patch(event) not in visited)
+                    found.append(int(self.patch(event) not in visited))
                     visited.add(self.patch(event))
                 case events.Collision():
-                    found.append(began)
+                    found.append(int(began))
                 case events.Exhaustion():
-                    found.append(self.charge == 0)
+                    found.append(int(self.charge == 0))
         return found
+
+    def arrived(self, event, items):
+        """How many items come into one of the zones of an event, and were not in one in the tick before."""
+        zones = [i for i, thing in enumerate(self.things) if thing.name == event.to]
+        now = {i for i in items & self.inside_now if any(self.inside(z, *self.places[i][:2]) for z in zones)}
+        before, self.arrivals[event] = self.arrivals.get(event, set()), now
+        return len(now - before)
 
     def begin(self):
         """What begins to be in reach, and what to be delivered; `changed` is what moves or vanishes by it."""
@@ -218,6 +227,7 @@ class PlainWorld:
         reached |= {i for i in range(len(kinds)) if i not in areas and self.in_claw(i, self.reach())}
         carried = {self.held, *self.delivered, *self.body.loose.there} - {-1}
         delivered = {i for i in carried if any(self.inside(z, *self.places[i][:2]) for z in zones)}
+        self.inside_now = delivered
         new = reached - self.reached, delivered - self.delivered
         self.changed = {i for i in new[0] if kinds[i].reached != "stays"}
         self.changed |= {i for i in new[1] if kinds[i].delivered != "stays"}
@@ -227,8 +237,7 @@ class PlainWorld:
     def measured(self):
         """The task's measures."""
         names = [thing.name for thing in self.things]
-        closed = [far - self.away(place) for far, place in zip(self.far, self.places, strict=True)]
-        closed = [0.0 if math.isnan(way) else way for way in closed]  # of what has vanished
+        closed = {name: self.closed([i for i, its in enumerate(names) if its == name]) for name in names}
         found = []
         for i, measure in enumerate(self.task.measures):
             match measure:
@@ -236,14 +245,19 @@ class PlainWorld:
                     dx, dy = self.x - self.was[0], self.y - self.was[1]
                     found.append(float(dx * cosine(self.angle) + dy * sine(self.angle) > 1e-6))
                 case measures.Progress(toward=of):
-                    found.append(closed[names.index(of)])
+                    found.append(closed[of])
                 case measures.Advance(toward=of):
-                    found.append(max(0.0, closed[names.index(of)]))
+                    found.append(max(0.0, closed[of]))
                 case measures.Retreat(from_=of):
-                    found.append(max(0.0, -closed[names.index(of)]))
+                    found.append(max(0.0, -closed[of]))
                 case measures.Change(beyond=beyond, over=over):
                     found.append(self.thrust_changed(self.turns[i], beyond, over))
         return found
+
+    def closed(self, rows):
+        """How much nearer the nearest of some things is; 0 where all have vanished."""
+        there = [i for i in rows if not math.isnan(self.far[i])]
+        return min(self.far[i] for i in there) - min(self.away(self.places[i]) for i in there) if there else 0.0
 
     def thrust_changed(self, ticks, beyond, over):
         """ΣΔ of both sides."""
@@ -268,7 +282,7 @@ class PlainWorld:
                 if line.when is None or COMPARES[line.when.compare](
                     self.value(line.when.left, readings, found, row), self.value(line.when.right, readings, found, row)
                 ):
-                    self.lines[i] = self.lines[i] + value
+                    self.lines[i] = self.lines[i] + value * (1 if line.on is None else happened[line.on])
         self.t += 1
 
     def value(self, program, readings, found, row):
@@ -312,8 +326,8 @@ class PlainBody:
         self.space = pymunk.Space()
         self.space.iterations = 8
         self.space.use_spatial_hash(20.0, 20)
-        for x, y, h in of.boxes:
-            self.box(x - h, y - h, x + h, y + h)
+        for x, y, wide, high in of.boxes:
+            self.box(x - wide, y - high, x + wide, y + high)
         if of.half[0] < math.inf:
             (a, b), (c, d) = of.half, (half + 2 for half in of.half)
             for sides in ((-c, -d, -a, d), (a, -d, c, d), (-c, -d, c, -b), (-c, b, c, d)):

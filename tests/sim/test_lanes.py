@@ -244,7 +244,7 @@ def test_everything_is_placed_clear_of_everything(scene: Plain | Arena) -> None:
         assert all(low <= d <= high for d, (low, high) in zip(far, spans, strict=True))
         rocks = np.hypot(run.boxes[:, 0] - x, run.boxes[:, 1] - y)
         assert ((rocks >= 5.0) & (rocks <= 25.0)).all()
-        squares = [(*box[:2], box[2], 2.0) for box in run.boxes] + [(*t[:2], t[2] / 2, 0.0) for t in run.things]
+        squares = [(*box[:3], 2.0) for box in run.boxes] + [(*t[:2], t[2] / 2, 0.0) for t in run.things]
         for i, (ax, ay, a, margin) in enumerate(squares):
             for bx, by, b, _ in squares[i + 1 :]:
                 assert max(abs(ax - bx), abs(ay - by)) >= a + b + margin

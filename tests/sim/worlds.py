@@ -12,7 +12,7 @@ from mindrun.measures import Advance, Change, Forward, MeasureKind, Progress, Re
 from mindrun.quantity import UNSAID, Span
 from mindrun.registry import arguments, kinds
 from mindrun.scenes import Arena, Plain, SceneKind
-from mindrun.things import Ball, Item, LooseBox, Obstacle, Power, Zone
+from mindrun.things import Ball, Item, LooseBox, Obstacle, Power, Wall, Zone
 from mindrun.weights import genes
 
 from tests.hierarchies import random_graph
@@ -21,6 +21,7 @@ SIZES = st.sampled_from([Span(1.0, 1.0), Span(2.0, 5.0), Span(4.0, 1.0, 0.75), S
 WIDE = st.sampled_from([Span(8.0, 8.0), Span(4.0, 12.0), Span(14.0, 6.0, 2.0)])
 AWAY = st.sampled_from([Span(-1.0, -1.0), Span(0.0, 3.0), Span(0.0, 6.0), Span(2.0, 12.0)])
 PLACES = st.tuples(st.sampled_from([-6.0, 0.0, 4.5]), st.sampled_from([-4.0, 0.5, 3.0]))
+WAYS = [((-9.0, -5.0), (-2.0, -5.0)), ((6.0, 6.0), (6.0, -3.0), (9.5, -3.0)), ((3.0, 7.0), (-3.0, 7.0))]
 NEUTRAL = st.sampled_from([0.0, 0.4, 0.5, 0.9, 1.0])
 OUTCOMES = st.sampled_from(["stays", "moves", "moves", "vanishes"])
 DENSITY, FRICTION, DAMPING = st.sampled_from([0.1, 0.5]), st.sampled_from([0.0, 0.5, 1.0]), st.sampled_from([0.0, 5.0])
@@ -92,8 +93,10 @@ def _things(draw: st.DrawFn, scene: SceneKind) -> tuple[Thing, ...]:
             own = {"density": DENSITY, "friction": FRICTION, "damping": DAMPING} if kind.is_loose else {}
             drawn = {name: draw(of) for name, of in own.items()}
             at = draw(st.none() | st.none() | PLACES)
-            away = UNSAID if at else draw(AWAY)
-            things.append(Thing(name, kind(size=draw(size), away=away, at=at, **outcomes, **drawn)))
+            at = (at,) if at else ()
+            count = 1 if at else draw(st.sampled_from([1, 1, 2, 3]))
+            placed = {"away": UNSAID if at else draw(AWAY), "at": at, "count": count}
+            things.append(Thing(name, kind(size=draw(size), **placed, **outcomes, **drawn)))
     grid = isinstance(scene, Arena) and draw(st.booleans())
     sizes = draw(st.sampled_from([Span(1.0, 1.0), Span(1.0, 3.0)]))
     if grid:
@@ -103,13 +106,15 @@ def _things(draw: st.DrawFn, scene: SceneKind) -> tuple[Thing, ...]:
     if draw(st.booleans()):
         things.append(Thing("stone", Obstacle(sizes, count=draw(st.integers(0, 5)), away=draw(AWAY))))
     if draw(st.booleans()):
-        things.append(Thing("block", Obstacle(sizes, at=draw(PLACES), jitter=draw(st.sampled_from([0.0, 1.5])))))
+        things.append(Thing("block", Obstacle(sizes, at=(draw(PLACES),), jitter=draw(st.sampled_from([0.0, 1.5])))))
+    if draw(st.booleans()):
+        things.append(Thing("fence", Wall(draw(st.sampled_from(WAYS)), draw(st.sampled_from([1.0, 0.5, 2.5])))))
     return tuple(draw(st.permutations(things)))
 
 
 @st.composite
 def _measures(draw: st.DrawFn, things: tuple[Thing, ...]) -> tuple[MeasureKind, ...]:
-    named = [thing.name for thing in things if not isinstance(thing.kind, Obstacle)]
+    named = [thing.name for thing in things if not thing.kind.is_obstacle]
     measures: list[MeasureKind] = [Forward(), Change("thrust", 0.2, 4), Change("thrust", 0.0, 1)]
     for name in named:
         measures += [Progress(name), Advance(name), Retreat(name)]
@@ -120,10 +125,11 @@ def _measures(draw: st.DrawFn, things: tuple[Thing, ...]) -> tuple[MeasureKind, 
 def _events(draw: st.DrawFn, scene: SceneKind, things: tuple[Thing, ...]) -> tuple[EventKind, ...]:
     events: list[EventKind] = [Collision(), Exhaustion()]
     for thing in things:
-        if not isinstance(thing.kind, Obstacle):
+        if not thing.kind.is_obstacle:
             events.append(Reach(thing.name))
         if isinstance(thing.kind, Item | LooseBox | Ball):
             events.append(Delivery(thing.name))
+            events += [Delivery(thing.name, zone.name) for zone in things if isinstance(zone.kind, Zone)]
     if isinstance(scene, Arena):
         events += [Visit("patch", 2.0), Visit("patch", 7.0)]
     return tuple(draw(st.lists(st.sampled_from(events), unique=True, max_size=5)))

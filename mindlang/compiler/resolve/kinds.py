@@ -132,7 +132,7 @@ def _value(
     name = a_name(argument, f"Here stands the name of a {parameter.type.noun}.", findings)
     if name is None:
         return None
-    _check(noun, phrase, parameter.type, name, scope, findings)
+    _check(noun, phrase, parameter, name, scope, findings)
     return name.text
 
 
@@ -145,16 +145,18 @@ def _number(parameter: Parameter, argument: Argument, findings: Findings) -> Any
             return quantities.value_list(argument.value, parameter.type, findings)
         case "extent":
             return quantities.extent(argument.value, parameter.type, findings)
-        case "place":
-            return quantities.place(argument.value, parameter.type, findings)
+        case "places":
+            return quantities.places(argument.value, parameter.type, findings)
         case _:
             return quantities.span(argument.value, parameter.type, findings)
 
 
-def _check(noun: str, phrase: Phrase, type_: Reference, name: Name, scope: Scope, findings: Findings) -> None:
+def _check(noun: str, phrase: Phrase, parameter: Parameter, name: Name, scope: Scope, findings: Findings) -> None:
+    type_, key = parameter.type, parameter.key
+    assert isinstance(type_, Reference)
     match type_.noun:
         case "thing":
-            _check_thing(name, about(noun, phrase.kind.text), phrase.kind.text, scope, findings)
+            _check_thing(name, about(noun, phrase.kind.text, key), phrase.kind.text, scope, findings)
         case "sensor":
             scope.names.find(name, ("sensor", "memory"), findings)
         case "Python function":
@@ -166,10 +168,10 @@ def _check(noun: str, phrase: Phrase, type_: Reference, name: Name, scope: Scope
             findings.error(f"unknown-{type_.noun}", name.span, f"There is no {type_.noun} called {name.text}.", hint)
 
 
-def about(noun: str, kind: str) -> Set[str]:
-    """The kinds of things that a kind can be about."""
+def about(noun: str, kind: str, argument: str = "of") -> Set[str]:
+    """The kinds of things that an argument of a kind can name."""
     cls = kinds(noun).get(kind, AboutThing)
-    return {name for name, thing in kinds("content").items() if cls.is_about(thing)}
+    return {name for name, thing in kinds("content").items() if cls.accepts(argument, thing)}
 
 
 def _check_thing(name: Name, about: Set[str], kind: str, scope: Scope, findings: Findings) -> None:

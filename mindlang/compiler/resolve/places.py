@@ -14,14 +14,14 @@ def check_places(things: Sequence[Part[Any]], scene: SceneKind | None, findings:
     """Report what stands where an obstacle stands in every run."""
     for thing in things:
         if thing.kind and thing.kind.at and not thing.kind.is_obstacle:
-            _check_place(thing, thing.kind.at, things, scene, findings)
+            _check_places(thing, thing.kind.at, things, scene, findings)
 
 
-def _check_place(
-    thing: Part[Any], at: Place, things: Sequence[Part[Any]], scene: SceneKind | None, findings: Findings
+def _check_places(
+    thing: Part[Any], at: Sequence[Place], things: Sequence[Part[Any]], scene: SceneKind | None, findings: Findings
 ) -> None:
     for other in things:
-        if other.kind and any(box.holds(at) for box in other.kind.standing(scene)):
+        if other.kind and any(box.holds(place) for box in other.kind.standing(scene) for place in at):
             hint = f"Write another place for {thing.name} or {other.name}."
             there = Label(other.span, "this one")
             findings.error("inside-obstacle", thing.span, "An obstacle stands there.", hint, there)

@@ -5,7 +5,7 @@ from math import ceil, floor, isfinite
 from mindrun.quantity import LEAST_STEP, Extent, Place, Quantity, Span
 
 from mindlang.compiler.diagnostic import Findings, Label, listed
-from mindlang.compiler.syntax import Amount, Name, Numbers, Range, Value
+from mindlang.compiler.syntax import Amount, Name, Numbers, Points, Range, Value
 
 
 def convert(amount: Amount, quantity: Quantity, findings: Findings, unit: str = "") -> float | int | None:
@@ -144,13 +144,20 @@ def extent(value: Value, quantity: Quantity, findings: Findings) -> Extent | Non
     return single_value(value, quantity, findings)
 
 
+def places(value: Value, quantity: Quantity, findings: Findings) -> tuple[Place, ...] | None:
+    """The value of an argument that takes a place, or several with `to` between."""
+    written = value.points if isinstance(value, Points) and not value.by else (value,)
+    found = [place(each, quantity, findings) for each in written]
+    return None if None in found else tuple(each for each in found if each)
+
+
 def place(value: Value, quantity: Quantity, findings: Findings) -> Place | None:
-    """The value of an argument that takes two numbers."""
+    """The value of two numbers."""
     match value:
         case Numbers(amounts=(_, _)):
             both = value_list(value, quantity, findings)
             return (both[0], both[1]) if both else None
-        case Numbers() | Range():
+        case Numbers() | Range() | Points():
             hint = "Write two numbers with a space between: along x, then along y from the middle."
             findings.error("not-a-place", value.span, "A place is two numbers.", hint)
         case _:

@@ -114,7 +114,12 @@ def _things(declaration: Declaration, scene: Any, scope: Scope, findings: Findin
 
 def _check_things(things: tuple[model.Part[Any], ...], findings: Findings) -> None:
     """A world looks at all of its things in every tick, and has so many."""
-    apart = [thing for thing in things if not (thing.kind and thing.kind.is_obstacle)]
+    apart = [
+        thing
+        for thing in things
+        if not (thing.kind and thing.kind.is_obstacle)
+        for _ in range(thing.kind.copies if thing.kind else 1)
+    ]
     if len(apart) > MAX_THINGS:
         hint = f"A world takes {MAX_THINGS} beside its obstacles: leave some out."
         findings.error("too-many-things", apart[MAX_THINGS].span, f"That is thing number {MAX_THINGS + 1}.", hint)

@@ -15,9 +15,11 @@ class Delivery(EventKind):
     """The middle of an item that the claw holds, or of a box or ball, comes into a zone.
 
     Once until it has left all zones again. A box or ball that stands in one when the run begins counts, too.
+    With `to` it is about zones of that name alone, whichever others it comes through.
     """
 
     of: Annotated[str, THING]
+    to: Annotated[str, THING] = ""
 
     outcome = "delivered"
 
@@ -25,6 +27,11 @@ class Delivery(EventKind):
     def is_about(kind: type[ThingKind]) -> bool:
         """What a claw can take, and what can be pushed."""
         return kind.can_be_delivered
+
+    @classmethod
+    def accepts(cls, argument: str, kind: type[ThingKind]) -> bool:
+        """A zone to deliver to."""
+        return kind.takes_items if argument == "to" else cls.is_about(kind)
 
     def missing(self, task: TaskWorld) -> Hindrance | None:
         """A place to deliver to."""

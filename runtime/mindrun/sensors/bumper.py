@@ -6,7 +6,7 @@ from typing import Annotated, Any
 
 import numpy as np
 
-from mindrun.arithmetic import BOX_COLUMNS, COSINE, HALF_SIDE, ONE, SINE, ZERO, X, Y
+from mindrun.arithmetic import BOX_COLUMNS, COSINE, HALF_X, HALF_Y, ONE, SINE, ZERO, X, Y
 from mindrun.quantity import ANGLE, Quantity
 from mindrun.registry import kind
 from mindrun.sensors.sensor import Physical, World
@@ -58,8 +58,9 @@ class Bumper(Physical):
             x, y = s.body[X, p], s.body[Y, p]
             for b in range(s.nearby_count[p]):
                 box = BOX_COLUMNS * b
-                dx, dy, side = s.nearby[box + X, p] - x, s.nearby[box + Y, p] - y, s.nearby[box + HALF_SIDE, p]
-                press(t, s, sensor, beyond(dx, side), beyond(dy, side), p)
+                dx = beyond(s.nearby[box + X, p] - x, s.nearby[box + HALF_X, p])
+                dy = beyond(s.nearby[box + Y, p] - y, s.nearby[box + HALF_Y, p])
+                press(t, s, sensor, dx, dy, p)
             press(t, s, sensor, half_x - x, 0.0, p)
             press(t, s, sensor, -half_x - x, 0.0, p)
             press(t, s, sensor, 0.0, half_y - y, p)

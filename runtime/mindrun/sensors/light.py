@@ -5,7 +5,7 @@ from typing import Annotated, Any
 
 import numpy as np
 
-from mindrun.arithmetic import BOX_COLUMNS, DISTANCE, HALF_SIDE, ZERO, F, X, Y, nearest
+from mindrun.arithmetic import BOX_COLUMNS, DISTANCE, HALF_X, HALF_Y, ZERO, F, X, Y, nearest
 from mindrun.quantity import POSITIVE, THING
 from mindrun.registry import kind
 from mindrun.sensors.sensor import Physical, Row, Scene, World
@@ -56,11 +56,11 @@ def is_shaded(boxes: Any, x: Any, y: Any, to_x: Any, to_y: Any, p: Any) -> Any:
     for b in range(boxes.shape[1] // BOX_COLUMNS):
         box = BOX_COLUMNS * b
         dx, dy = x + half_x - boxes[p, box + X], y + half_y - boxes[p, box + Y]
-        side = boxes[p, box + HALF_SIDE]
+        wide, high = boxes[p, box + HALF_X], boxes[p, box + HALF_Y]
         if (
-            abs(dx) <= side + abs(half_x)
-            and abs(dy) <= side + abs(half_y)
-            and abs(half_x * dy - half_y * dx) <= side * (abs(half_x) + abs(half_y))
+            abs(dx) <= wide + abs(half_x)
+            and abs(dy) <= high + abs(half_y)
+            and abs(half_x * dy - half_y * dx) <= high * abs(half_x) + wide * abs(half_y)
         ):
             return True
     return False

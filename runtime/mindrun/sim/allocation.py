@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from mindrun.arithmetic import BOX_COLUMNS, HALF_SIDE, THING_ROWS, X, Y
+from mindrun.arithmetic import BOX_COLUMNS, HALF_X, HALF_Y, THING_ROWS, X, Y
 from mindrun.sensors.inertial import TRAIL_TICKS
 from mindrun.sim import chipmunk_internals as chipmunk
 from mindrun.sim.codes import AWAY
@@ -88,7 +88,7 @@ def _world(tables: Tables, sizes: Sizes, room: _Room) -> World:
 def _sight(tables: Tables, sizes: Sizes, room: _Room) -> Sight:
     nearby = room.rows(BOX_COLUMNS * max(1, sizes.boxes))
     nearby[X::BOX_COLUMNS] = nearby[Y::BOX_COLUMNS] = AWAY
-    nearby[HALF_SIDE::BOX_COLUMNS] = 0.0
+    nearby[HALF_X::BOX_COLUMNS] = nearby[HALF_Y::BOX_COLUMNS] = 0.0
     return Sight(
         nearby=nearby,
         nearby_count=room.each(),
@@ -148,6 +148,7 @@ def _judge(tables: Tables, sizes: Sizes, room: _Room) -> Judge:
         left_changes=room.rows(sizes.changes),
         right_changes=room.rows(sizes.changes),
         visited=room.columns(max(1, sizes.patches), np.uint8),
+        arrived=room.rows(sizes.arrivals, np.uint8),
         lines=room.rows(len(tables.rewards)),
         counts=room.rows(events, np.int64),
         measures=room.rows(len(tables.measures)),

@@ -74,8 +74,11 @@ OBSTACLE = _row(
     first="f8", last="f8", grid="f8", jitter="f8", columns="i8", rows="i8", x="f8", y="f8",
     count="i8", low="f8", high="f8",
 )  # fmt: skip
-MEASURES = _row(kind="i8", thing="i8", beyond="f8", over="i8", ring="i8")
-EVENT = _row(kind="i8", thing="i8", columns="i8", rows="i8", patch="f8", board="i8", ends="i8")
+MEASURES = _row(kind="i8", thing="i8", things="i8", beyond="f8", over="i8", ring="i8")
+EVENT = _row(
+    kind="i8", thing="i8", things="i8", to="i8", tos="i8", arrival="i8",
+    columns="i8", rows="i8", patch="f8", board="i8", ends="i8",
+)  # fmt: skip
 REWARD = _row(
     code="i8", length="i8", on="i8", each="i8", eachs="i8", compare="i8", left="i8", lefts="i8", right="i8", rights="i8"
 )

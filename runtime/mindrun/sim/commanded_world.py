@@ -107,8 +107,8 @@ class World:
 
 def _written(event: EventKind) -> str:
     """An event as a mind writes it, without its numbers: "reach of ball"."""
-    of = getattr(event, "of", "")
-    return f"{names()[type(event)]} of {of}" if of else names()[type(event)]
+    words = [f" {word} {getattr(event, word)}" for word in ("of", "to") if getattr(event, word, "")]
+    return names()[type(event)] + "".join(words)
 
 
 def _check(noun: str, name: str, known: Sequence[str]) -> None:

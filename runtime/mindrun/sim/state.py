@@ -22,7 +22,7 @@ class World(NamedTuple):
 
     body: Array  # [6] float64: x, y, angle, their velocities
     heading: Array  # [2] float64: cosine and sine of the angle
-    boxes: Array  # [lane, BOX_COLUMNS·boxes] float64: x, y, half side of each
+    boxes: Array  # [lane, BOX_COLUMNS·boxes] float64: x, y, half of both sides of each
     things: Array  # [THING_ROWS·things] float64: x, y, size, distance to the robot when the tick began
     loose: Array  # [LOOSE_ROWS·loose] float64: how far each loose thing has turned, its velocity and spin
     still: Array  # [loose] int64: for how many ticks each has not moved, up to SETTLED_TICKS
@@ -100,11 +100,12 @@ class Judge(NamedTuple):
     left_changes: Array  # [changes] float64: how much the left wheel's command changed
     right_changes: Array
     visited: Array  # [lane, patches] uint8
+    arrived: Array  # [items by event] uint8: as `delivered`, of zones of one name
     lines: Array  # [rewards] float64: the sum of each reward line
     counts: Array  # [events] int64: how often each happened in this run
     # for this tick
     measures: Array  # [measures] float64
-    events: Array  # [events] float64: 1 where it happened
+    events: Array  # [events] float64: how often it happened
     happened: Array  # [events] int64: in how many lanes
     paid: Array  # float64: whether a reward line pays
     limit: Array  # float64: the right side of its condition

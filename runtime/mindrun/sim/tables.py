@@ -27,6 +27,7 @@ from mindrun.sim.task_rows import (
     obstacle_rows,
     reward_row,
     thing_rows,
+    wall_rows,
     world_row,
 )  # fmt: skip
 from mindrun.weights import genes, reachable
@@ -54,6 +55,7 @@ class Tables(NamedTuple):
     things: Array
     loose: Array
     obstacles: Array
+    walls: Array  # [walls, BOX_COLUMNS]: the boxes that stand in the same places in every run
     measures: Array
     events: Array
     rewards: Array
@@ -76,6 +78,7 @@ class Sizes:
     delays: int
     changes: int
     patches: int
+    arrivals: int
     boxes: int
     depth: int
 
@@ -98,7 +101,7 @@ def build(
     sensed = sensor_rows(graph, used, task)
     driven, delays = actuator_rows(graph)
     measured, changes = measure_rows(task)
-    noticed, patches = event_rows(task)
+    noticed, patches, arrivals = event_rows(task)
     index = [skill.name for skill in graph.skills].index(master)
     tables = Tables(
         world=world_row(graph, task, len(sensed.ray_row), [*used.skills, *used.aside], index),
@@ -107,7 +110,7 @@ def build(
         codes=np.array(codes.rows, CODE),
         actuators=driven, memories=memory_rows(graph),
         things=np.array(thing_rows(graph, task), THING), loose=loose_rows(task, graph.tick),
-        obstacles=np.array(obstacle_rows(task), OBSTACLE),
+        obstacles=np.array(obstacle_rows(task), OBSTACLE), walls=wall_rows(task),
         measures=np.array(measured, MEASURES), events=np.array(noticed, EVENT), rewards=np.array(rewards, REWARD),
         library=library,
     )  # fmt: skip
@@ -115,7 +118,7 @@ def build(
         readings=max(1, graph.width), before=sensed.derived, rough=sensed.rough, rings=sensed.rings,
         skills=len(graph.skills), inputs=skills.most_inputs, width=skills.most_outputs, recurrent=skills.state,
         genome=genome_length(graph, learners), depth=codes.depth, delays=delays,
-        changes=changes, patches=patches, boxes=box_count(task),
+        changes=changes, patches=patches, arrivals=arrivals, boxes=box_count(task),
     )  # fmt: skip
     return tables, sizes
 

@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from mindrun.arithmetic import BOX_COLUMNS
 from mindrun.graph import Graph, Reward, Sensor, Task, Thing
 from mindrun.registry import names
 from mindrun.sensors import Battery
@@ -56,16 +57,17 @@ def thing_rows(graph: Graph, task: Task) -> Array:
     rows: list[Row] = []
     asked = {(event.outcome, event.thing) for event in task.events if event.outcome}
     loose = count()
-    for thing in things_of(task):
-        kind, size = thing.kind, thing.kind.size
+    first = {name: found.start for name, found in rows_by_name(task).items()}
+    for number, thing in enumerate(things_of(task)):
+        kind, size, copy = thing.kind, thing.kind.size, number - first[thing.name]
         low, high = kind.distances(task.scene)
-        x, y = kind.at or (0.0, 0.0)
+        x, y = kind.at[copy] if kind.at else (0.0, 0.0)
         if kind.is_loose:  # not in the robot
             low = max(low, graph.body.radius + kind.largest * HALF_DIAGONAL)
         row: dict[str, float] = {
             "kind": THING_CODES[names()[type(kind)]], "first": size.first, "last": size.last, "by": size.by or 0.0,
             "low": low, "high": high, "hold": graph.body.radius + kind.largest / 2,
-            "drawn": size.by is None and size.first != size.last, "is_fixed": kind.at is not None, "x": x, "y": y,
+            "drawn": size.by is None and size.first != size.last, "is_fixed": bool(kind.at), "x": x, "y": y,
             "is_round": kind.is_round,
             "is_area": kind.is_area, "loose": next(loose) if kind.is_loose else -1,
         }  # fmt: skip
@@ -83,8 +85,14 @@ def obstacle_rows(task: Task) -> Array:
     for kind in (thing.kind for thing in task.things if thing.kind.is_obstacle):
         low, high = kind.distances(task.scene)
         row = {"first": kind.size.first, "last": kind.size.last, "low": low, "high": high}
-        rows.append({**row, **kind.row(task.scene)})
+        rows.extend({**row, **own} for own in kind.rows(task.scene))
     return records(rows, OBSTACLE)
+
+
+def wall_rows(task: Task) -> Array:
+    """The middle and half of the sides of what is solid in the same places in every run, [walls, BOX_COLUMNS]."""
+    walls = [wall for thing in task.things for wall in thing.kind.walls]
+    return np.array(walls, np.float64).reshape(-1, BOX_COLUMNS)
 
 
 def measure_rows(task: Task) -> tuple[Array, int]:
@@ -94,23 +102,35 @@ def measure_rows(task: Task) -> tuple[Array, int]:
     ring = 0
     for measure in task.measures:
         code, over = MEASURE_CODES[names()[type(measure)]], measure.remembered
-        row = {"kind": code, "thing": places[measure.thing].start, "over": over, "ring": ring if over else 0}
+        about = places[measure.thing]
+        row = {"kind": code, "thing": about.start, "things": len(about), "over": over, "ring": ring if over else 0}
         rows.append({**row, **measure.row()})
         ring += over
     return records(rows, MEASURES), ring
 
 
-def event_rows(task: Task) -> tuple[Array, int]:
-    """Rows of EVENT, and how many patches there are to visit."""
+def event_rows(task: Task) -> tuple[Array, int, int]:
+    """Rows of EVENT, how many patches there are to visit, and how many items that may come into a certain zone."""
     places = rows_by_name(task)
     rows: list[Row] = []
-    board = 0
+    board = arrivals = 0
     for i, event in enumerate(task.events):
         own, code = event.row(task.scene), EVENT_CODES[names()[type(event)]]
-        row = {"kind": code, "thing": places[event.thing].start, "patch": 1.0, "board": board, "ends": i in task.ends}
-        rows.append({**row, **own})
+        about, into = places[event.thing], places[getattr(event, "to", "")]
+        row = {
+            "kind": code,
+            "thing": about.start,
+            "things": len(about),
+            "to": into.start,
+            "tos": len(into),
+            "patch": 1.0,
+            "board": board,
+            "ends": i in task.ends,
+        }
+        rows.append({**row, **own, "arrival": arrivals})
         board += int(own.get("columns", 0) * own.get("rows", 0))
-    return records(rows, EVENT), board
+        arrivals += len(about) if into else 0
+    return records(rows, EVENT), board, arrivals
 
 
 def reward_row(reward: Reward, codes: Programs) -> tuple[int, ...]:
@@ -133,7 +153,8 @@ def world_row(graph: Graph, task: Task, rays: int, used: Sequence[Sensor], maste
     # How far the rays reach, or the item in the claw.
     near = body.radius + max([MIN_NEAR_UNITS, *held, *(sensor.kind.reach for sensor in used)])
     solid = [thing.kind.largest for thing in task.things if thing.kind.is_solid]
-    spread = max(scene.sides) / CELLS_PER_WALL if scene.is_bounded else 0.0
+    walls = [2 * max(wall.half_x, wall.half_y) for thing in task.things for wall in thing.kind.walls]
+    spread = max([*walls, *(scene.sides if scene.is_bounded else ()), 0.0]) / CELLS_PER_WALL
     cell = max([MIN_CELL_UNITS, spread, *(size / CELLS_PER_SHAPE for size in (body.size, *held, *solid))])
     row = (
         dt, 1.0 / (1.0 + dt * body.linear_damping), 1.0 / (1.0 + dt * body.angular_damping), body.mass, body.moment,

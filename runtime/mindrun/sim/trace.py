@@ -36,7 +36,7 @@ class Moment:
 
 @dataclass(frozen=True, slots=True)
 class Trace:
-    """A run that is about to begin: the obstacles [boxes, 3] as x, y and half side, and its moments."""
+    """A run that is about to begin: the obstacles [boxes, 4] as x, y and half of both sides, and its moments."""
 
     boxes: NDArray[np.float64]
     begin: NDArray[np.float64]  # the robot's x, y, angle

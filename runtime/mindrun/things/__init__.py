@@ -7,11 +7,12 @@ from mindrun.things.loose_box import LooseBox
 from mindrun.things.obstacle import Obstacle
 from mindrun.things.power import Power
 from mindrun.things.thing import MOVES, OUTCOMES, STAYS, VANISHES, Outcome, ThingKind
+from mindrun.things.wall import Wall
 from mindrun.things.zone import Zone
 
 register_all(__name__, __path__)
 
 __all__ = [
     "MOVES", "OUTCOMES", "STAYS", "VANISHES", "Ball", "Item", "LooseBox", "Obstacle", "Outcome", "Power",
-    "ThingKind", "Zone",
+    "ThingKind", "Wall", "Zone",
 ]  # fmt: skip

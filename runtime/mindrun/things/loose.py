@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from typing import Annotated
 
 from mindrun.bodies import DAMPING, DENSITY
-from mindrun.quantity import COORDINATE, LENGTH, RATIO, Place, Quantity, Span
+from mindrun.quantity import COORDINATE, COUNT, LENGTH, RATIO, Place, Quantity, Span
 from mindrun.things.thing import DEFAULT_DISTANCE, DEFAULT_SIZE, MOVES, OUTCOME, STAYS, Outcome, ThingKind
 
 SIZE = Quantity("a length in world units", {"": 1.0}, low=0.01, high=1000.0)
@@ -25,7 +25,8 @@ class Loose(ThingKind):
     friction: Annotated[float, RATIO] = DEFAULT_FRICTION
     damping: Annotated[float, DAMPING] = 5.0
     away: Annotated[Span, LENGTH] = DEFAULT_DISTANCE
-    at: Annotated[Place | None, COORDINATE] = None
+    at: Annotated[tuple[Place, ...], COORDINATE] = ()
+    count: Annotated[int, COUNT] = 1
     reached: Annotated[Outcome, OUTCOME] = STAYS
     delivered: Annotated[Outcome, OUTCOME] = MOVES
 

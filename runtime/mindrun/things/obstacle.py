@@ -8,10 +8,11 @@ from typing import Annotated
 from mindrun.quantity import COORDINATE, LENGTH, Place, Quantity, Span
 from mindrun.registry import kind
 from mindrun.scenes import SceneKind
-from mindrun.things.box import Box
+from mindrun.things.rectangle import Rectangle
 from mindrun.things.thing import DEFAULT_DISTANCE, DEFAULT_SIZE, MAX_OBSTACLES, Mistake, Row, ThingKind
 
 COUNT = Quantity("a whole number", {"": 1.0}, low=0, high=1000, whole=True)
+MIDDLE: tuple[Place, ...] = ((0.0, 0.0),)  # of a grid
 MAX_GRID_LINES = 1e9  # lines of a grid, far more than can be
 
 
@@ -28,7 +29,7 @@ class Obstacle(ThingKind):
     jitter: Annotated[float, LENGTH] = 0.0
     count: Annotated[int, COUNT] = 0
     away: Annotated[Span, LENGTH] = DEFAULT_DISTANCE
-    at: Annotated[Place | None, COORDINATE] = None
+    at: Annotated[tuple[Place, ...], COORDINATE] = ()
 
     is_obstacle = True
     is_solid = True
@@ -44,31 +45,31 @@ class Obstacle(ThingKind):
     def obstacles(self, scene: SceneKind | None) -> int:
         """One at each point of its grid, one at its place, or its count."""
         columns, rows = self.grid_lines(scene)
-        return columns * rows if self.grid else self.count or int(self.at is not None)
+        return columns * rows if self.grid else self.count or len(self.at)
 
-    def standing(self, scene: SceneKind | None) -> Iterable[Box]:
+    def standing(self, scene: SceneKind | None) -> Iterable[Rectangle]:
         """What the smallest of them covers wherever jitter moves it."""
         half = min(self.size.first, self.size.last) / 2 - self.jitter
         columns, rows = self.grid_lines(scene) if self.grid else (1, 1)
         if half <= 0 or not (self.grid or self.at) or columns * rows > MAX_OBSTACLES:
             return
-        x, y = self.at or (0.0, 0.0)
-        for column, row in product(range(columns), range(rows)):
-            yield Box(x + (column - (columns - 1) / 2) * self.grid, y + (row - (rows - 1) / 2) * self.grid, half, half)
+        for (x, y), column, row in product(self.at or MIDDLE, range(columns), range(rows)):
+            yield Rectangle(
+                x + (column - (columns - 1) / 2) * self.grid, y + (row - (rows - 1) / 2) * self.grid, half, half
+            )
 
-    def row(self, scene: SceneKind) -> Row:
+    def rows(self, scene: SceneKind) -> Iterable[Row]:
         """A grid, which has a single point where it stands at a place, or a count."""
-        columns, rows = self.grid_lines(scene) if self.at is None else (1, 1)
-        x, y = self.at or (0.0, 0.0)
+        columns, rows = (1, 1) if self.at else self.grid_lines(scene)
         count = 0 if self.grid or self.at else self.count
-        grid = {"grid": self.grid, "jitter": self.jitter, "columns": columns, "rows": rows}
-        return {**grid, "x": x, "y": y, "count": count}
+        grid = {"grid": self.grid, "jitter": self.jitter, "columns": columns, "rows": rows, "count": count}
+        return [{**grid, "x": x, "y": y} for x, y in self.at or MIDDLE]
 
     def mistake(self, scene: SceneKind | None) -> Mistake | None:
         """A grid needs the borders of an arena and must not be too close; without one it needs a count or a place."""
         if self.at and (self.grid or self.count):
             hint = "Write at and its place, or a count, or a grid."
-            return Mistake("place-for-many", "Several obstacles cannot stand at one place.", hint)
+            return Mistake("place-for-many", "Several things cannot stand at one place.", hint)
         if self.grid and scene and not scene.is_bounded:
             hint = "Write in arena size 100, or count 10 instead of the grid."
             return Mistake("endless-grid", "In a plain scene a grid of obstacles would never end.", hint)

@@ -6,7 +6,7 @@ from typing import Literal, NamedTuple, get_args
 from mindrun.quantity import UNSAID, Place, Reference, Span
 from mindrun.registry import base
 from mindrun.scenes import SceneKind
-from mindrun.things.box import Box
+from mindrun.things.rectangle import Rectangle
 
 DEFAULT_SIZE = Span(1.0, 1.0)
 DEFAULT_DISTANCE = UNSAID  # as far away as its scene says
@@ -42,7 +42,8 @@ class ThingKind:
 
     size: Span
     away: Span
-    at: Place | None
+    at: tuple[Place, ...]
+    count: int
 
     is_obstacle = False  # whether it is squares that stand in the way: no sensor, event or measure is about these
     is_solid = False  # whether it stands in the way, although nobody holds it
@@ -58,7 +59,7 @@ class ThingKind:
     @property
     def copies(self) -> int:
         """How many things of its name there are: each has a row of its own, one after the other."""
-        return 1
+        return len(self.at) or self.count
 
     @property
     def largest(self) -> float:
@@ -80,24 +81,32 @@ class ThingKind:
         """How many squares it puts in the way; `scene` is None where that is not known."""
         return 0
 
-    def standing(self, scene: SceneKind | None) -> Iterable[Box]:
+    def standing(self, scene: SceneKind | None) -> Iterable[Rectangle]:
         """What it fills with something solid in every run; `scene` is None where that is not known."""
+        return self.walls
+
+    @property
+    def walls(self) -> tuple[Rectangle, ...]:
+        """What it fills with something solid that is known before any run."""
         return ()
 
-    def row(self, scene: SceneKind) -> Row:
-        """What the lanes are told of an obstacle: the spacing of its `grid`, how many `columns` and `rows` it has, its
-        `jitter` and `count`.
+    def rows(self, scene: SceneKind) -> Iterable[Row]:
+        """What the lanes are told of its obstacles: the spacing of their `grid` and how many `columns` and `rows` it
+        has around `x` and `y`, their `jitter` and `count`.
         """
-        return {}
+        return ()
 
     def mistake(self, scene: SceneKind | None) -> Mistake | None:
         """Why it cannot be in a scene; `scene` is None where that is not known."""
-        if self.at is None:
+        if not self.at:
             return None
         if self.away != DEFAULT_DISTANCE:
             hint = "Leave away out: what stands at a place is as far away as that is."
             return Mistake("place-and-distance", "It says where it is, and how far away.", hint)
-        if scene is None or scene.has_room(self.at, self.largest / 2):
+        if self.count > 1 and self.count != len(self.at):
+            hint = "Leave the count out, or the place."
+            return Mistake("place-for-many", "Several things cannot stand at one place.", hint)
+        if scene is None or all(scene.has_room(place, self.largest / 2) for place in self.at):
             return None
         hint = "Write a place that is in it with all of the thing; 0 0 is the middle."
         return Mistake("outside-arena", "That is not inside the arena.", hint)

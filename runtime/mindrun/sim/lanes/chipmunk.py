@@ -4,7 +4,7 @@ The robot's body with its shapes, and the boxes and walls of one lane, live in a
 something could touch for the first time. `chipmunk_internals` has what is known of the library.
 """
 
-from mindrun.arithmetic import BOX_COLUMNS, HALF_SIDE, SIZE, THING_ROWS, X, Y
+from mindrun.arithmetic import BOX_COLUMNS, HALF_X, HALF_Y, SIZE, THING_ROWS, X, Y
 from mindrun.sim.chipmunk_internals import (
     ARRAY_NUMBERS,
     BODY,
@@ -80,8 +80,8 @@ def add_boxes(library, space, boxes, constants, handles, things, corners):
     count, shape = len(boxes) // BOX_COLUMNS, FIRST_HELD + things
     for b in range(count):
         box = BOX_COLUMNS * b
-        x, y, side = boxes[box + X], boxes[box + Y], boxes[box + HALF_SIDE]
-        handles[shape + b] = add_box(library, space, static, corners, x - side, y - side, x + side, y + side)
+        x, y, wide, high = boxes[box + X], boxes[box + Y], boxes[box + HALF_X], boxes[box + HALF_Y]
+        handles[shape + b] = add_box(library, space, static, corners, x - wide, y - high, x + wide, y + high)
     shape += count
     x, y = constants.half_x, constants.half_y
     if x < ENDLESS_UNITS:

@@ -24,7 +24,7 @@ from mindrun.sim.codes import (
 )
 from mindrun.sim.compiling import compiled
 from mindrun.sim.lanes.evaluate import evaluate
-from mindrun.sim.lanes.reach import REACH_BEGUN, become, meet
+from mindrun.sim.lanes.reach import arrivals, become, begun_of, meet
 from mindrun.sim.state import PLACE_ROWS
 
 
@@ -38,7 +38,7 @@ def judge(tables, state, lanes, clock, interrupt):
     begun = meet(tables, world, lanes)
     for i in range(len(tables.events)):
         out = judged.events[i]
-        judged.happened[i] = notice(tables, world, state.contact, judged.visited, tables.events[i], out, lanes)
+        judged.happened[i] = notice(tables, world, state.contact, judged, tables.events[i], out, lanes)
     for i in range(len(tables.rewards)):
         reward(tables, state.mind, judged, tables.rewards[i], judged.lines[i], lanes)
     for i in range(len(tables.events)):
@@ -62,19 +62,27 @@ def take_measures(tables, world, commands, judged, lanes, clock):
         elif measure.kind == FORWARD:
             forward(out, world.body, world.heading, world.begun_at, lanes)
         else:
-            progress(out, world.body, world.things, measure.thing, measure.kind, lanes)
+            progress(out, world.body, world.things, measure, lanes)
 
 
 @compiled
-def progress(out, body, things, i, kind, lanes):
-    """The distance to thing i that this tick closed, or its positive or negative part; 0 where it has vanished."""
-    thing = THING_ROWS * i
+def progress(out, body, things, measure, lanes):
+    """The distance to the nearest of the things that this tick closed, or its positive or negative part.
+
+    0 where all have vanished.
+    """
     for lane in range(lanes):
-        dx, dy = things[thing + X, lane] - body[X, lane], things[thing + Y, lane] - body[Y, lane]
-        closed = things[thing + DISTANCE, lane] - np.sqrt(dx * dx + dy * dy)
-        if kind == ADVANCE:
+        before, now = np.nan, np.nan
+        for i in range(measure.thing, measure.thing + measure.things):
+            thing = THING_ROWS * i
+            dx, dy = things[thing + X, lane] - body[X, lane], things[thing + Y, lane] - body[Y, lane]
+            away, here = things[thing + DISTANCE, lane], np.sqrt(dx * dx + dy * dy)
+            before = before if before <= away or np.isnan(away) else away
+            now = now if now <= here or np.isnan(here) else here
+        closed = before - now
+        if measure.kind == ADVANCE:
             closed = closed if closed > 0.0 else 0.0
-        elif kind == RETREAT:
+        elif measure.kind == RETREAT:
             closed = -closed if closed < 0.0 else 0.0
         out[lane] = 0.0 if np.isnan(closed) else closed
 
@@ -124,26 +132,28 @@ def drain(tables, world, lanes):
 
 
 @compiled
-def notice(tables, world, contact, visited, event, out, lanes):
-    """Whether the event happened in this tick, per lane; returns in how many."""
-    kind, i = event.kind, event.thing
+def notice(tables, world, contact, judged, event, out, lanes):
+    """How often the event happened in this tick, per lane; returns in how many."""
+    kind, visited = event.kind, judged.visited
     count = 0
     for lane in range(lanes):
-        happened = False
+        happened = 0
         if kind == REACH:
-            happened = world.reached[i, lane] == REACH_BEGUN
+            happened = begun_of(world.reached, event, lane)
+        elif kind == DELIVERY and event.tos == 0:
+            happened = begun_of(world.delivered, event, lane)
         elif kind == DELIVERY:
-            happened = world.delivered[i, lane] == REACH_BEGUN
+            happened = arrivals(world, judged.arrived, event, lane)
         elif kind == VISIT:
             patch = event.board + patch_of(world.body, tables.world[0], event, lane)
-            happened = visited[lane, patch] == 0
+            happened = 1 - visited[lane, patch]
             visited[lane, patch] = 1
         elif kind == COLLISION:
-            happened = contact.touching[lane] == 1
+            happened = 1 if contact.touching[lane] == 1 else 0
         elif kind == EXHAUSTION:
-            happened = world.battery[lane] == 0.0
-        out[lane] = 1.0 if happened else 0.0
-        count += 1 if happened else 0
+            happened = 1 if world.battery[lane] == 0.0 else 0
+        out[lane] = happened
+        count += 1 if happened > 0 else 0
     return count
 
 
@@ -173,7 +183,7 @@ def reward(tables, mind, judged, line, total, lanes):
             only_when(paid, mind.stack[0], judged.limit, line.compare, lanes)
         run(tables, mind, judged.measures, line.code, line.length, each, lanes)
         for lane in range(lanes):
-            total[lane] += amount[lane] if paid[lane] > 0.0 else 0.0
+            total[lane] += amount[lane] * paid[lane] if paid[lane] > 0.0 else 0.0
 
 
 @compiled
@@ -204,6 +214,6 @@ def settle(event, i, judged, ended, lanes, interrupt):
     """Count event number i, and end the runs that it ends."""
     for lane in range(lanes):
         if judged.events[i, lane] > 0.0:
-            judged.counts[i, lane] += 1
+            judged.counts[i, lane] += int(judged.events[i, lane])
             if event.ends and interrupt and ended[lane] < 0:
                 ended[lane] = i

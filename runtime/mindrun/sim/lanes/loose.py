@@ -7,7 +7,7 @@ more by then: what Chipmunk remembers of them has become too small to move anyth
 
 import numpy as np
 
-from mindrun.arithmetic import BOX_COLUMNS, HALF_SIDE, SIZE, SPEED_X, SPEED_Y, THING_ROWS, X, Y
+from mindrun.arithmetic import BOX_COLUMNS, HALF_X, HALF_Y, SIZE, SPEED_X, SPEED_Y, THING_ROWS, X, Y
 from mindrun.sim.compiling import compiled
 from mindrun.sim.lanes.places import within
 from mindrun.sim.state import LOOSE_ROWS, PUSHED_SPIN, PUSHED_X, PUSHED_Y, TURN
@@ -76,8 +76,8 @@ def meets_fixed(tables, world, x, y, extent, lane):
         return True
     for b in range(boxes.shape[1] // BOX_COLUMNS):
         box = BOX_COLUMNS * b
-        gap = boxes[lane, box + HALF_SIDE] + extent
-        if abs(boxes[lane, box + X] - x) < gap and abs(boxes[lane, box + Y] - y) < gap:
+        wide, high = boxes[lane, box + HALF_X] + extent, boxes[lane, box + HALF_Y] + extent
+        if abs(boxes[lane, box + X] - x) < wide and abs(boxes[lane, box + Y] - y) < high:
             return True
     return False
 

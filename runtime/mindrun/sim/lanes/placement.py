@@ -6,7 +6,7 @@ the same world. Everything is placed clear of everything else, with room for the
 
 import numpy as np
 
-from mindrun.arithmetic import ANGLE, BOX_COLUMNS, HALF_SIDE, SIZE, THING_ROWS, X, Y
+from mindrun.arithmetic import ANGLE, BOX_COLUMNS, HALF_X, HALF_Y, SIZE, THING_ROWS, X, Y
 from mindrun.sim.arithmetic import sine_cosine
 from mindrun.sim.codes import FAR
 from mindrun.sim.compiling import compiled
@@ -37,7 +37,7 @@ def draw(tables, world, lane):
     Of each the first in the source come first.
     """
     clear_away(world, lane)
-    box = 0
+    box = draw_walls(world, tables.walls, lane)
     for i in range(len(tables.obstacles)):
         box = draw_grid(world, tables.obstacles[i], box, lane)
     start(tables, world, lane)
@@ -75,10 +75,20 @@ def clear_away(world, lane):
 
 
 @compiled
+def draw_walls(world, walls, lane):
+    """What stands in the same places in every run; the number of the next box."""
+    for b in range(walls.shape[0]):
+        for i in range(BOX_COLUMNS):
+            world.boxes[lane, BOX_COLUMNS * b + i] = walls[b, i]
+    return walls.shape[0]
+
+
+@compiled
 def put_box(boxes, b, x, y, half, lane):
-    """Box number b stands at a place."""
+    """A square, box number b, stands at a place."""
     box = BOX_COLUMNS * b
-    boxes[lane, box + X], boxes[lane, box + Y], boxes[lane, box + HALF_SIDE] = x, y, half
+    boxes[lane, box + X], boxes[lane, box + Y] = x, y
+    boxes[lane, box + HALF_X], boxes[lane, box + HALF_Y] = half, half
 
 
 @compiled
@@ -117,8 +127,8 @@ def clear(boxes, x, y, margin, lane):
     """Whether no obstacle comes within `margin` of a point, along the axes."""
     for b in range(boxes.shape[1] // BOX_COLUMNS):
         box = BOX_COLUMNS * b
-        gap = boxes[lane, box + HALF_SIDE] + margin
-        if abs(boxes[lane, box + X] - x) < gap and abs(boxes[lane, box + Y] - y) < gap:
+        wide, high = boxes[lane, box + HALF_X] + margin, boxes[lane, box + HALF_Y] + margin
+        if abs(boxes[lane, box + X] - x) < wide and abs(boxes[lane, box + Y] - y) < high:
             return False
     return True
 

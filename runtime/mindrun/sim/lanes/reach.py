@@ -54,6 +54,27 @@ def in_zone(tables, things, i, lane):
 
 
 @compiled
+def begun_of(rows, event, lane):
+    """How many of the things that an event is about begin to be reached, or delivered."""
+    begun = 0
+    for i in range(event.thing, event.thing + event.things):
+        begun += 1 if rows[i, lane] == REACH_BEGUN else 0
+    return begun
+
+
+@compiled
+def arrivals(world, arrived, event, lane):
+    """How many of the items that an event is about begin to be delivered into one of its zones."""
+    things, begun = world.things, 0
+    for k in range(event.things):
+        item, found = THING_ROWS * (event.thing + k), False
+        for zone in range(event.to, event.to + event.tos):
+            found = found or inside(things, zone, things[item + X, lane], things[item + Y, lane], lane)
+        begun += note(arrived, event.arrival + k, lane, found and world.delivered[event.thing + k, lane] & 1 == 1)
+    return begun
+
+
+@compiled
 def become(tables, world, lanes):
     """What has been reached or delivered moves or vanishes where its kind says so; once, where it was both."""
     for i in range(len(tables.things)):

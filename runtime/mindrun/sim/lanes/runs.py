@@ -104,6 +104,7 @@ def reset_judge(tables, world, judge, lane):
     for i in range(len(tables.actuators)):
         judge.last_commands[i, lane] = tables.actuators[i].neutral
     judge.visited[lane] = 0
+    judge.arrived[:, lane] = 0
     for i in range(len(tables.events)):
         event = tables.events[i]
         if event.kind == VISIT:
@@ -137,6 +138,7 @@ def move(state, source, target):
     for rows in (sight.nearby, sight.anchor, judge.left_changes, judge.right_changes, judge.lines):
         copy_lane(rows, source, target)
     copy_lane(judge.counts, source, target)
+    copy_lane(judge.arrived, source, target)
     copy_row(judge.visited, source, target)
     for numbers in (sight.nearby_count, contact.near, contact.touching, run.job, run.ended, run.faults):
         numbers[target] = numbers[source]

@@ -5,7 +5,7 @@ from typing import Any
 
 import numpy as np
 
-from mindrun.arithmetic import BOX_COLUMNS, COSINE, DISTANCE, HALF_SIDE, MAX_FLOAT32, SINE, THING_ROWS, X, Y
+from mindrun.arithmetic import BOX_COLUMNS, COSINE, DISTANCE, HALF_X, HALF_Y, MAX_FLOAT32, SINE, THING_ROWS, X, Y
 from mindrun.registry import kinds
 from mindrun.sim.arithmetic import ONE, ZERO, F, clamp, compiled_lane
 from mindrun.sim.codes import AWAY, sensor_codes
@@ -185,14 +185,15 @@ def choose_in(boxes, sight, reach, lane):
     found = 0
     for b in range(boxes.shape[1] // BOX_COLUMNS):
         box = BOX_COLUMNS * b
-        margin = boxes[lane, box + HALF_SIDE] + reach
-        if abs(boxes[lane, box + X] - x) < margin and abs(boxes[lane, box + Y] - y) < margin:
+        wide, high = boxes[lane, box + HALF_X] + reach, boxes[lane, box + HALF_Y] + reach
+        if abs(boxes[lane, box + X] - x) < wide and abs(boxes[lane, box + Y] - y) < high:
             for i in range(BOX_COLUMNS):
                 nearby[BOX_COLUMNS * found + i, lane] = boxes[lane, box + i]
             found += 1
     for k in range(found, sight.nearby_count[lane]):
         box = BOX_COLUMNS * k
-        nearby[box + X, lane], nearby[box + Y, lane], nearby[box + HALF_SIDE, lane] = AWAY, AWAY, 0.0
+        nearby[box + X, lane], nearby[box + Y, lane] = AWAY, AWAY
+        nearby[box + HALF_X, lane], nearby[box + HALF_Y, lane] = 0.0, 0.0
     sight.nearby_count[lane] = found
 
 
@@ -201,6 +202,6 @@ def place(body, box, sides, lanes):
     """The sides of a box of each lane relative to the robot; no ray meets one that is AWAY before a wall."""
     for lane in range(lanes):
         dx, dy = F(box[X, lane] - body[X, lane]), F(box[Y, lane] - body[Y, lane])
-        half = F(box[HALF_SIDE, lane])
-        sides[LEFT, lane], sides[RIGHT, lane] = dx - half, dx + half
-        sides[LOW, lane], sides[HIGH, lane] = dy - half, dy + half
+        half_x, half_y = F(box[HALF_X, lane]), F(box[HALF_Y, lane])
+        sides[LEFT, lane], sides[RIGHT, lane] = dx - half_x, dx + half_x
+        sides[LOW, lane], sides[HIGH, lane] = dy - half_y, dy + half_y

@@ -4,7 +4,8 @@ from mindrun.arithmetic import (
     ANGLE,
     BOX_COLUMNS,
     COSINE,
-    HALF_SIDE,
+    HALF_X,
+    HALF_Y,
     SINE,
     SIZE,
     SPEED_X,
@@ -161,7 +162,7 @@ def clearance(body, half_x, half_y, dt, gap, lanes):
 def approach(box, body, dt, gap, lanes):
     """`gap` lowered to the distance along the axes between the robot's next centre and a box of each lane."""
     for lane in range(lanes):
-        x = abs(body[X, lane] + body[SPEED_X, lane] * dt - box[X, lane]) - box[HALF_SIDE, lane]
-        y = abs(body[Y, lane] + body[SPEED_Y, lane] * dt - box[Y, lane]) - box[HALF_SIDE, lane]
+        x = abs(body[X, lane] + body[SPEED_X, lane] * dt - box[X, lane]) - box[HALF_X, lane]
+        y = abs(body[Y, lane] + body[SPEED_Y, lane] * dt - box[Y, lane]) - box[HALF_Y, lane]
         far = x if x > y else y
         gap[lane] = far if far < gap[lane] else gap[lane]

@@ -5,7 +5,7 @@ from typing import NamedTuple
 from mindrun.quantity import Place
 
 
-class Box(NamedTuple):
+class Rectangle(NamedTuple):
     """Its middle, and half of its sides along x and y."""
 
     x: float
