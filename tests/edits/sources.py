@@ -70,6 +70,7 @@ ROCKS = [
     "rock is obstacle count 3",
     "rock is obstacle size 2 at 15 -15",
     "fence is wall from -14 -14 to 3 -14 to 3 -17",
+    "fence is wall from 4 -16 to 4 -18",
 ]
 THINGS = [
     ["ball is item size 2 reached moves", "ball is item size 2 at 2.5 7.5"],

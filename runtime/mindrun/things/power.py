@@ -12,7 +12,10 @@ from mindrun.things.thing import DEFAULT_DISTANCE, DEFAULT_SIZE, OUTCOME, STAYS,
 @kind("content", "power")
 @dataclass(frozen=True, slots=True)
 class Power(ThingKind):
-    """A square of side `size` on the floor, or `count` of them, in which the battery charges. `reached` is as for a zone."""
+    """A square of side `size` on the floor, or `count` of them, in which the battery charges.
+
+    `reached` is as for a zone.
+    """
 
     size: Annotated[Span, LENGTH] = DEFAULT_SIZE
     away: Annotated[Span, LENGTH] = DEFAULT_DISTANCE
