@@ -45,10 +45,16 @@ def _kind_changes(noun: str, name: str, old: Mapping[str, Any], now: Mapping[str
         yield f"taught with {name} as {old['is']}, now {now['is']}"
         return
     for field in now:
-        if field != "is" and field in old and old[field] != now[field]:
+        if field != "is" and field in old and old[field] != now[field] and _are_lines(now[field]):
+            yield f"the text of {name} has changed"
+        elif field != "is" and field in old and old[field] != now[field]:
             before = argument(noun, now["is"], field, old[field])
             after = argument(noun, now["is"], field, now[field]).partition(" ")[2]
             yield f"taught with {name} {before}, now {after}"
+
+
+def _are_lines(value: Any) -> bool:
+    return isinstance(value, list) and any(isinstance(each, str) for each in value)
 
 
 def _skill_changes(name: str, old: Mapping[str, Any], now: Mapping[str, Any]) -> Iterator[str]:

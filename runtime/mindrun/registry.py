@@ -16,8 +16,8 @@ _bases: dict[type[Any], str] = {}
 _arguments: dict[Any, tuple["Argument", ...]] = {}  # of each kind that was asked for
 
 
-Shape = Literal["one", "list", "span", "name", "extent", "places"]
-"""Of an argument: a number, several, a `Span`, a word, an `Extent`, places."""
+Shape = Literal["one", "list", "span", "name", "extent", "places", "lines"]
+"""Of an argument: a number, several, a `Span`, a word, an `Extent`, places, the lines of a text file."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -103,6 +103,8 @@ def _type(hint: Any) -> tuple[Quantity | Reference, Shape]:
         raise TypeError(f"{hint} does not say what an argument means")
     plain, meaning = get_args(hint)[:2]
     match plain, meaning:
+        case _, Reference() if plain == tuple[str, ...]:
+            return meaning, "lines"
         case _, Reference():
             return meaning, "name"
         case _ if plain is Span:

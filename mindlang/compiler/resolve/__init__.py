@@ -37,7 +37,7 @@ def resolve(files: Sequence[File], findings: Findings) -> model.Mind | None:
     known_skills = skills(names, width, findings)
     check_cycles(known_skills, findings)
     has_battery = any(sensor.kind.battery for sensor in sensors)
-    known_tasks = tasks(RobotFacts(names, width, tick, has_battery), findings)
+    known_tasks = tasks(RobotFacts(names, width, tick, has_battery, files[0].source.folder), findings)
     known_lessons = tuple(lessons(names, known_skills, width, findings))
     body = _body(names, findings)
     master = _master(files[0], names, findings)

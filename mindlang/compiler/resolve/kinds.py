@@ -2,6 +2,7 @@
 
 from collections.abc import Iterable, Mapping, Set
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any
 
 from mindrun.quantity import Quantity, Reference
@@ -12,6 +13,7 @@ from mindrun.things.about import AboutThing
 from mindlang.compiler.diagnostic import Findings, Label, a, did_you_mean, listed
 from mindlang.compiler.names import Names
 from mindlang.compiler.resolve import quantities
+from mindlang.compiler.resolve.maps import text_lines
 from mindlang.compiler.syntax import VERBS, Argument, Name, Phrase
 
 USER_NOUNS = {"content": "thing", "task": "scene"}  # nouns of the registry in the user's words
@@ -25,13 +27,14 @@ UNKNOWN_KIND_HINTS = {
 class Scope:
     """What the arguments of a phrase can name. `things` are None where no task says which there are.
 
-    A declaration is `whole` when all lines below it could be read: one that could not be may have had an argument.
+    Text files are in the folder `root`, where that is known, or below it. A declaration is `whole` when all lines below it could be read: one that could not be may have had an argument.
     """
 
     names: Names
     things: Mapping[str, Set[str]] | None
     place: str = "any task"
     whole: bool = True
+    root: Path | None = None
 
 
 def make(noun: str, phrase: Phrase, scope: Scope, findings: Findings) -> Any:
@@ -127,6 +130,8 @@ def _missing(phrase: Phrase, key: str, findings: Findings) -> None:
 def _value(
     noun: str, phrase: Phrase, parameter: Parameter, argument: Argument, scope: Scope, findings: Findings
 ) -> Any:
+    if parameter.shape == "lines":
+        return text_lines(argument.value, scope.root, findings)
     if not isinstance(parameter.type, Reference):
         return _number(parameter, argument, findings)
     name = a_name(argument, f"Here stands the name of a {parameter.type.noun}.", findings)

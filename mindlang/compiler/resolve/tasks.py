@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
+from pathlib import Path
 from typing import Any, TypeVar
 
 from mindrun.quantity import SECONDS, TICKS
@@ -14,6 +15,7 @@ from mindlang.compiler.diagnostic import Findings, Label
 from mindlang.compiler.names import Names, things_of
 from mindlang.compiler.resolve.expressions import Visible, resolve
 from mindlang.compiler.resolve.kinds import Scope, make
+from mindlang.compiler.resolve.maps import with_places
 from mindlang.compiler.resolve.parts import refuse_facts
 from mindlang.compiler.resolve.places import check_places
 from mindlang.compiler.resolve.quantities import convert
@@ -36,6 +38,7 @@ class RobotFacts:
     widths: Mapping[str, int]
     tick: float
     has_battery: bool
+    root: Path
 
 
 @dataclass(frozen=True, slots=True)
@@ -67,7 +70,8 @@ def tasks(robot: RobotFacts, findings: Findings) -> tuple[model.Task, ...]:
 def _world(declaration: Declaration, robot: RobotFacts, findings: Findings) -> _World:
     """What a task or a scene says of the world."""
     noun, name = declaration.header.noun.text, declaration.header.name.text
-    scope = Scope(robot.names, things_of(declaration) if declaration.whole else None, f"{noun} {name}")
+    things = things_of(declaration) if declaration.whole else None
+    scope = Scope(robot.names, things, f"{noun} {name}", root=robot.root)
     phrase = declaration.header.phrase
     scene: Any = make("task", phrase, scope, findings) if phrase else None
     return _World(scene, _things(declaration, scene, scope, findings), scope, robot.has_battery)
@@ -107,9 +111,10 @@ def _things(declaration: Declaration, scene: Any, scope: Scope, findings: Findin
             _check_obstacles(kind, scene, obstacles, fact.phrase, findings)
             obstacles += min(kind.obstacles(scene), MAX_OBSTACLES)  # as if there were few where there are too many
         found.setdefault(name, model.Part(name, kind, fact.name.span))
-    _check_things(tuple(found.values()), findings)
-    check_places(tuple(found.values()), scene, findings)
-    return tuple(found.values())
+    things = with_places(tuple(found.values()), findings)
+    _check_things(things, findings)
+    check_places(things, scene, findings)
+    return things
 
 
 def _check_things(things: tuple[model.Part[Any], ...], findings: Findings) -> None:

@@ -4,6 +4,7 @@ from mindrun.registry import register_all
 from mindrun.things.ball import Ball
 from mindrun.things.item import Item
 from mindrun.things.loose_box import LooseBox
+from mindrun.things.map import Map
 from mindrun.things.obstacle import Obstacle
 from mindrun.things.power import Power
 from mindrun.things.thing import MOVES, OUTCOMES, STAYS, VANISHES, Outcome, ThingKind
@@ -13,6 +14,6 @@ from mindrun.things.zone import Zone
 register_all(__name__, __path__)
 
 __all__ = [
-    "MOVES", "OUTCOMES", "STAYS", "VANISHES", "Ball", "Item", "LooseBox", "Obstacle", "Outcome", "Power",
-    "ThingKind", "Wall", "Zone",
+    "MOVES", "OUTCOMES", "STAYS", "VANISHES", "Ball", "Item", "LooseBox", "Map", "Obstacle", "Outcome",
+    "Power", "ThingKind", "Wall", "Zone",
 ]  # fmt: skip
