@@ -18,6 +18,7 @@ from tests.sim.worlds import learner_kinds, random_world
 
 DRAWN = 200  # minds
 NOUNS = ("body", "actuator", "sensor", "memory", "skill", "task", "content", "event", "measure", "curriculum")
+OF_FILES = {"map"}  # which no text says by itself
 ONE_VALUE = {("visit", "of"), ("change", "of")}  # the language has a single word for it
 
 Values = dict[tuple[type[Any], str], set[Any]]
@@ -72,6 +73,8 @@ def values(drawn: Callable[[], Iterable[Any]]) -> Values:
 def test_every_kind_is_drawn_with_every_argument(drawn: Callable[[], Iterable[Any]], noun: str) -> None:
     found = values(drawn)
     for kind, cls in kinds(noun).items():
+        if drawn is of_texts and kind in OF_FILES:
+            continue
         assert (cls, "") in found, f"no {noun} is drawn that is {kind}"
         for argument in arguments(cls):
             said = found[cls, argument.field]

@@ -12,7 +12,7 @@ from mindrun.measures import Advance, Change, Forward, MeasureKind, Progress, Re
 from mindrun.quantity import UNSAID, Span
 from mindrun.registry import arguments, kinds
 from mindrun.scenes import Arena, Plain, SceneKind
-from mindrun.things import Ball, Item, LooseBox, Obstacle, Power, Wall, Zone
+from mindrun.things import Ball, Item, LooseBox, Map, Obstacle, Power, Wall, Zone
 from mindrun.weights import genes
 
 from tests.hierarchies import random_graph
@@ -22,6 +22,7 @@ WIDE = st.sampled_from([Span(8.0, 8.0), Span(4.0, 12.0), Span(14.0, 6.0, 2.0)])
 AWAY = st.sampled_from([Span(-1.0, -1.0), Span(0.0, 3.0), Span(0.0, 6.0), Span(2.0, 12.0)])
 PLACES = st.tuples(st.sampled_from([-6.0, 0.0, 4.5]), st.sampled_from([-4.0, 0.5, 3.0]))
 WAYS = [((-9.0, -5.0), (-2.0, -5.0)), ((6.0, 6.0), (6.0, -3.0), (9.5, -3.0)), ((3.0, 7.0), (-3.0, 7.0))]
+MAZES = [("#..#", "....", "##.."), ("#.#", "...", "###", "..#")]
 NEUTRAL = st.sampled_from([0.0, 0.4, 0.5, 0.9, 1.0])
 OUTCOMES = st.sampled_from(["stays", "moves", "moves", "vanishes"])
 DENSITY, FRICTION, DAMPING = st.sampled_from([0.1, 0.5]), st.sampled_from([0.0, 0.5, 1.0]), st.sampled_from([0.0, 5.0])
@@ -107,6 +108,8 @@ def _things(draw: st.DrawFn, scene: SceneKind) -> tuple[Thing, ...]:
         things.append(Thing("stone", Obstacle(sizes, count=draw(st.integers(0, 5)), away=draw(AWAY))))
     if draw(st.booleans()):
         things.append(Thing("block", Obstacle(sizes, at=(draw(PLACES),), jitter=draw(st.sampled_from([0.0, 1.5])))))
+    if draw(st.integers(0, 3)) == 0:
+        things.append(Thing("maze", Map(draw(st.sampled_from(MAZES)), draw(st.sampled_from([2.0, 3.5])))))
     if draw(st.booleans()):
         things.append(Thing("fence", Wall(draw(st.sampled_from(WAYS)), draw(st.sampled_from([1.0, 0.5, 2.5])))))
     return tuple(draw(st.permutations(things)))

@@ -27,7 +27,8 @@ UNKNOWN_KIND_HINTS = {
 class Scope:
     """What the arguments of a phrase can name. `things` are None where no task says which there are.
 
-    Text files are in the folder `root`, where that is known, or below it. A declaration is `whole` when all lines below it could be read: one that could not be may have had an argument.
+    Text files are in the folder `root`, where that is known, or below it. A declaration is `whole` when all lines below
+    it could be read: one that could not be may have had an argument.
     """
 
     names: Names

@@ -25,7 +25,7 @@ def text_lines(value: Value, root: Path | None, findings: Findings) -> tuple[str
         findings.error("not-a-file", value.span, "Here stands the name of a text file.", hint)
         return None
     path = path_of(value)
-    if path is None or (root and not path.is_relative_to(root)):
+    if path is None or (root and not path.is_relative_to(root.resolve())):
         hint = "A map is in the folder of the mind or below it; its path is relative to the file in which it stands."
         findings.error("outside-project", value.span, f'"{value.text}" is not inside the project.', hint)
         return None
@@ -58,7 +58,7 @@ def with_places(things: Parts, findings: Findings) -> tuple[Part[Any], ...]:
     """The things of a task, those at a place of which a map has their letter."""
     placed: dict[str, tuple[Place, ...]] = {}
     for drawn in things:
-        if isinstance(drawn.kind, Map):
+        if isinstance(drawn.kind, Map) and not drawn.kind.mistake(None):
             for letter, places in drawn.kind.letters.items():
                 if name := _named(letter, drawn, things, findings):
                     placed[name] = placed.get(name, ()) + places
@@ -75,15 +75,9 @@ def _named(letter: str, drawn: Part[Any], things: Parts, findings: Findings) -> 
         message = f"The letter {letter} of this map can be {listed(fit)}."
         findings.error("ambiguous-letter", drawn.span, message, hint)
         return None
-    add = (
-        f"Add contains {letter} is item, or a thing whose name begins with {letter}, or"
-        if letter.islower()
-        else "In the map"
-    )
-    hint = f"{add} write {FLOOR} for floor."
-    findings.error(
-        "unknown-letter", drawn.span, f"The map has {letter!r}, which no thing of the task begins with.", hint
-    )
+    add = f"Add contains {letter} is item to the task, or write" if letter.isalpha() and letter.islower() else "Write"
+    message = f"The map has {letter!r}, which no thing of the task begins with."
+    findings.error("unknown-letter", drawn.span, message, f"{add} {FLOOR} for floor.")
     return None
 
 
@@ -93,7 +87,7 @@ def _placed(thing: Part[Any], placed: Mapping[str, tuple[Place, ...]], findings:
         return thing
     if thing.kind.at or thing.kind.count not in (0, 1, len(places)):
         hint = "Leave its place and its count out: the map says both."
-        message = f"A map places {thing.name} {len(places)} times, and here stands otherwise."
+        message = f"A map places {thing.name}, and its own line says otherwise."
         findings.error("placed-twice", thing.span, message, hint)
         return thing
     return replace(thing, kind=replace(thing.kind, at=places))

@@ -71,7 +71,8 @@ class Map(ThingKind):
         columns = max(map(len, self.from_), default=0)
         for number, line in enumerate(self.from_, 1):
             if len(line) != columns:
-                hint = f"Line {number} has {len(line)} characters, the longest has {columns}: fill it up with {FLOOR} or {WALL}."
+                long = f"Line {number} has {len(line)} characters, the longest has {columns}"
+                hint = f"{long}: fill it up with {FLOOR} or {WALL}."
                 return Mistake("ragged-map", "The lines of this map are of different lengths.", hint)
         if columns * len(self.from_) > MAX_MAP_CELLS:
             hint = f"A map has up to {MAX_MAP_CELLS} squares: draw it coarser, with a larger cell."
@@ -88,6 +89,8 @@ class Map(ThingKind):
 @lru_cache(64)
 def _rectangles(lines: Lines) -> Sequence[tuple[int, int, int, int]]:
     """Column, row, width and height of rectangles that cover the walls, few and none twice: wide ones, then high."""
+    if sum(map(len, lines)) > MAX_MAP_CELLS:
+        return ()
     left = {(column, row) for row, line in enumerate(lines) for column, mark in enumerate(line) if mark == WALL}
     return tuple(_taken(left))
 
