@@ -69,7 +69,7 @@ ROCKS = [
     "rock is obstacle grid 10 size 2 to 3",
     "rock is obstacle count 3",
     "rock is obstacle size 2 at 15 -15",
-    "fence is wall from -14 -14 to 3 -14 to 3 -17",
+    "fence is wall from -14 -18 to 3 -18 to 3 -19",
     "fence is wall from 4 -16 to 4 -18",
 ]
 THINGS = [

@@ -23,7 +23,11 @@ PASSED_ON = {"code", "mistake.code", "rule.code"}  # codes that are made elsewhe
 NEEDED = {"no-tick", "no-master", "no-body"}  # in a table of what every mind needs
 # What no small mind shows: files that are not there or too many, locks and edits.
 FILES = {"unreadable", "use-too-deep", "too-many-mistakes", "faulty-procedure"}
-WITHOUT_EXAMPLES = FILES | {"impossible-edit", "damaged-lock", "too-many-things", "too-many-readings"}
+MAPS = {
+    *("not-a-file", "unreadable-map", "ragged-map", "map-too-large", "map-without-floor"),
+    *("unknown-letter", "ambiguous-letter", "placed-twice"),
+}
+WITHOUT_EXAMPLES = FILES | MAPS | {"impossible-edit", "damaged-lock", "too-many-things", "too-many-readings"}
 
 
 def emitted() -> set[str]:

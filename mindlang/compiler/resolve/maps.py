@@ -54,18 +54,18 @@ def map_paths(files: Iterable[File]) -> list[Path]:
     return [path for value in values if isinstance(value, Text) and (path := path_of(value))]
 
 
-def with_places(things: Parts, findings: Findings) -> tuple[Part[Any], ...]:
-    """The things of a task, those at a place of which a map has their letter."""
+def with_places(things: Parts, are_all: bool, findings: Findings) -> tuple[Part[Any], ...]:
+    """The things of a task, those at a place of which a map has their letter; `are_all` where no others follow."""
     placed: dict[str, tuple[Place, ...]] = {}
     for drawn in things:
         if isinstance(drawn.kind, Map) and not drawn.kind.mistake(None):
             for letter, places in drawn.kind.letters.items():
-                if name := _named(letter, drawn, things, findings):
+                if name := _named(letter, drawn, things, are_all, findings):
                     placed[name] = placed.get(name, ()) + places
     return tuple(_placed(thing, placed, findings) for thing in things)
 
 
-def _named(letter: str, drawn: Part[Any], things: Parts, findings: Findings) -> str | None:
+def _named(letter: str, drawn: Part[Any], things: Parts, are_all: bool, findings: Findings) -> str | None:
     """The thing that a letter stands for, None after reporting that there is none."""
     fit = [thing.name for thing in things if thing.name.startswith(letter) and not isinstance(thing.kind, Map)]
     if letter in fit or len(fit) == 1:
@@ -74,6 +74,8 @@ def _named(letter: str, drawn: Part[Any], things: Parts, findings: Findings) -> 
         hint = f"Call one of them {letter}, or let their names begin with different letters."
         message = f"The letter {letter} of this map can be {listed(fit)}."
         findings.error("ambiguous-letter", drawn.span, message, hint)
+        return None
+    if not are_all:
         return None
     add = f"Add contains {letter} is item to the task, or write" if letter.isalpha() and letter.islower() else "Write"
     message = f"The map has {letter!r}, which no thing of the task begins with."

@@ -111,7 +111,8 @@ def _things(declaration: Declaration, scene: Any, scope: Scope, findings: Findin
             _check_obstacles(kind, scene, obstacles, fact.phrase, findings)
             obstacles += min(kind.obstacles(scene), MAX_OBSTACLES)  # as if there were few where there are too many
         found.setdefault(name, model.Part(name, kind, fact.name.span))
-    things = with_places(tuple(found.values()), findings)
+    is_task = declaration.header.noun.text == "task"  # which has all that a scene lacks
+    things = with_places(tuple(found.values()), is_task, findings)
     _check_things(things, findings)
     check_places(things, scene, findings)
     return things
