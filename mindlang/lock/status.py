@@ -134,14 +134,16 @@ class _Standing:
         yield from (f"taught without {skill}" for skill in sorted(subskills - known))
 
     def _other_origin(self, entry: Entry) -> str:
-        """What is different about the weights of another skill that a skill began with."""
+        """What is different about another skill's weights that a skill began with, but for lessons of both."""
         if entry.origin is None:
             return ""
         name, weights = entry.origin
         now = self.lock.get(self._owners.get(name, name))
         if now is None:
             return f"began with {name} ({weights[:4]}…), which has no weights now"
-        return "" if now.weights == weights else f"began with another {name} ({weights[:4]}…, now {now.weights[:4]}…)"
+        if now.weights == weights or self._took_part(entry.skill, now):
+            return ""
+        return f"began with another {name} ({weights[:4]}…, now {now.weights[:4]}…)"
 
     def _lessons_from(self, entry: Entry) -> set[Lesson]:
         """The lessons in which a skill begins with the weights of another."""

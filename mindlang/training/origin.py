@@ -1,5 +1,7 @@
 """The weights of another skill with a copy of which a lesson begins."""
 
+from pathlib import Path
+
 from mindrun.graph import Graph, Lesson, Skill
 from mindrun.train import RunError
 from mindrun.weights import Weights, learners, owner_of
@@ -11,10 +13,10 @@ from mindlang.lock.signature import signature
 from mindlang.lock.status import trained_weights
 
 
-def origin_weights(graph: Graph, lock: Lock, lesson: Lesson) -> dict[str, Weights]:
+def origin_weights(graph: Graph, lock: Lock, lesson: Lesson, shown: Path) -> dict[str, Weights]:
     """The weights with which its skill begins; none where the lesson starts from no other. The graph is `arrange`d.
 
-    RunError where the other skill has none that fit.
+    RunError where the other skill has none that fit, and how to teach it in the file that is `shown`.
     """
     skills = {skill.name: skill for skill in graph.skills}
     if not lesson.starts_from or lesson.skill not in learners(graph, lesson):
@@ -23,7 +25,7 @@ def origin_weights(graph: Graph, lock: Lock, lesson: Lesson) -> dict[str, Weight
     weights, refusals = trained_weights(graph, lock, [origin.name])
     if refusals:
         message = f"{lesson.skill} cannot begin with the weights of {origin.name}: {refusals[0]}"
-        raise RunError(message, f"first: teach {origin.owner}")
+        raise RunError(message, f"first: mindc train {shown} {origin.owner}")
     return {lesson.skill: _brought(graph, skills[lesson.skill], origin, weights[origin.owner])}
 
 

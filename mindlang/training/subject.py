@@ -82,7 +82,7 @@ def begin_run(
     where that is why.
     """
     weights = _needed(subject, lesson) | (_known(subject, lesson) if not lesson.from_scratch else {})
-    weights |= origin_weights(subject.graph, subject.lock, lesson)
+    weights |= origin_weights(subject.graph, subject.lock, lesson, subject.shown)
     manifest = Manifest(
         lesson=lesson,
         learners=learners(subject.graph, lesson),

@@ -20,6 +20,7 @@ from tests.likeness.test_lock import teach
 from tests.likeness.test_meaning import ALIKE, GO, SCHOOL, TOP, compiled, graph, named
 
 FAR = "\nskill Far is mlp\n  reads far\n  reads eyes\n  drives right_wheel\n  drives left_wheel at far / 2\n"
+FILE = Path("far.mind")
 LESSONS = "  teaches Go on Roam for 10 generations\n  teaches Far on Roam for 10 generations from Go\n"
 
 
@@ -55,7 +56,7 @@ def test_weights_are_copied_into_the_order_of_the_learner(tmp_path: Path) -> Non
     own = "\nskill Go is mlp\n  reads eyes\n  reads near\n  drives left_wheel\n  drives right_wheel\n"
     mind = arrange(graph(own, other, ALIKE, TOP, SCHOOL, LESSONS), {})
     weights = teach(lock, mind, "Go")
-    copy = origin_weights(mind, read_lock(lock), mind.lessons[1])
+    copy = origin_weights(mind, read_lock(lock), mind.lessons[1], FILE)
     assert list(copy) == ["Far"]
     go, far = (named(mind, name) for name in ("Go", "Far"))
     one, two = go.function.ready(3, 2, weights, {}), far.function.ready(3, 2, copy["Far"], {})
@@ -66,9 +67,9 @@ def test_weights_are_copied_into_the_order_of_the_learner(tmp_path: Path) -> Non
 def test_a_lesson_waits_for_the_weights_that_it_begins_with(tmp_path: Path) -> None:
     mind = arrange(graph(GO, FAR, ALIKE, TOP, SCHOOL, LESSONS), {})
     with pytest.raises(RunError, match="Far cannot begin with the weights of Go: Go has not been taught") as refused:
-        origin_weights(mind, {}, mind.lessons[1])
-    assert refused.value.hint == "first: teach Go"
-    assert origin_weights(mind, {}, mind.lessons[0]) == {}
+        origin_weights(mind, {}, mind.lessons[1], FILE)
+    assert refused.value.hint == "first: mindc train far.mind Go"
+    assert origin_weights(mind, {}, mind.lessons[0], FILE) == {}
 
 
 def test_from_scratch_on_the_command_line_begins_with_nothing() -> None:
