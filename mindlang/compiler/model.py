@@ -5,7 +5,7 @@ from dataclasses import dataclass, field
 from typing import Generic, TypeVar
 
 from mindrun.actuators import ActuatorKind
-from mindrun.bodies import Disc
+from mindrun.bodies import BodyKind
 from mindrun.events import EventKind
 from mindrun.functions import Function
 from mindrun.graph import Receiver
@@ -179,7 +179,7 @@ class Mind:
 
     tick: float
     master: str
-    body: Part[Disc]
+    body: Part[BodyKind]
     sensors: tuple[Part[SensorKind], ...]
     memories: tuple[Part[Cell], ...]
     actuators: tuple[Part[ActuatorKind], ...]

@@ -13,12 +13,12 @@ from mindlang.pictures.canvas import Canvas, Image, Viewport, blank, pasted, tex
 from mindlang.pictures.hierarchy_panel import Panel
 from mindlang.pictures.path import Path, draw_cross
 from mindlang.pictures.recorded_run import RecordedRun
+from mindlang.pictures.robot import draw_robot
 from mindlang.pictures.scene import (
     WALL_UNITS,
     draw_floor,
     draw_items,
     draw_names,
-    draw_robot,
     draw_zones,
     half_sides,
 )

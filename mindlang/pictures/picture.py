@@ -9,12 +9,12 @@ from mindlang.pictures.canvas import Canvas, Image, Viewport, blank, pasted
 from mindlang.pictures.caption import draw_legend, draw_scale, draw_title
 from mindlang.pictures.path import Path, draw_collisions, draw_former, draw_start
 from mindlang.pictures.recorded_run import RecordedRun
+from mindlang.pictures.robot import draw_robot
 from mindlang.pictures.scene import (
     WALL_UNITS,
     draw_floor,
     draw_items,
     draw_names,
-    draw_robot,
     draw_zones,
     half_sides,
 )

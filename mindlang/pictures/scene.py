@@ -98,7 +98,7 @@ def draw_names(canvas: Canvas, run: RecordedRun, theme: Theme, tick: int) -> Non
     pixel = 1 / canvas.view.scale
     (height, width), (left, top) = canvas.image.shape[:2], (canvas.view.left, canvas.view.top)
     right, low = left + width * pixel, top - height * pixel
-    robot, radius = run.body[tick, :2], run.graph.body.size / 2
+    robot, radius = run.body[tick, :2], run.graph.body.radius
     high, gap = NAME_PIXELS * canvas.pen * pixel, 4 * canvas.pen * pixel
     for thing, _, (x, y, size) in _each(run, theme, tick):
         if not (left < x < right and low < y < top):
@@ -110,43 +110,3 @@ def draw_names(canvas: Canvas, run: RecordedRun, theme: Theme, tick: int) -> Non
         if is_covered or line < low + gap:
             line = y + size / 2 + gap
         canvas.text(middle, line, thing.name, NAME_PIXELS, theme.ink, align="centre", halo=theme.floor)
-
-
-def draw_robot(canvas: Canvas, run: RecordedRun, theme: Theme, tick: int) -> None:
-    """The robot as it is after a tick: rays, claw, body, and a line that shows its heading."""
-    x, y, angle = run.body[tick]
-    radius = run.graph.body.size / 2
-    if tick:
-        _rays(canvas, run, theme, tick)
-        _claw(canvas, run, theme, tick)
-    canvas.disc(x, y, radius, theme.robot)
-    canvas.disc(x, y, radius, theme.floor, width=1.2)
-    tip = (x + 0.95 * radius * cos(angle), y + 0.95 * radius * sin(angle))
-    canvas.line([(x, y), tip], theme.floor, 2.0)
-
-
-def _rays(canvas: Canvas, run: RecordedRun, theme: Theme, tick: int) -> None:
-    x, y, angle = run.body[tick]
-    radius = run.graph.body.size / 2
-    for sensor in run.graph.sensors:
-        rows = slice(sensor.start, sensor.start + sensor.width)
-        if not sensor.kind.rays or not run.readings[:, rows].any():  # nobody reads it
-            continue
-        for at, reading in zip(sensor.kind.rays, run.readings[tick - 1, rows], strict=True):
-            way = np.array([cos(angle + at), sin(angle + at)])
-            end = (x, y) + way * (radius + float(reading) * sensor.kind.reach)
-            canvas.line([(x, y) + way * radius, end], theme.ray, 1.0, 0.3 + 0.4 * (reading < 1.0))
-            if reading < 1.0:
-                canvas.disc(end[0], end[1], 2.5 * canvas.pen / canvas.view.scale, theme.ray)
-
-
-def _claw(canvas: Canvas, run: RecordedRun, theme: Theme, tick: int) -> None:
-    x, y, angle = run.body[tick]
-    radius = run.graph.body.size / 2
-    for number, actuator in enumerate(run.graph.actuators):
-        if actuator.kind.can_hold:
-            apart = 0.35 if run.commands[tick - 1, number] > 0.5 else 0.75
-            for side in (-1.0, 1.0):
-                shape = np.array([(0.8, 0.5 * side), (1.4, apart * side), (1.9, apart * 0.8 * side)]) * radius
-                turned = shape @ np.array([(cos(angle), sin(angle)), (-sin(angle), cos(angle))])
-                canvas.line(turned + np.array([x, y]), theme.robot, 2.2)

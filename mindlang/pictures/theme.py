@@ -38,6 +38,7 @@ class Theme:
     faint: Colour
     things: Mapping[str, tuple[Colour, ...]]  # by kind: one each, as long as they last
     robot: Colour
+    lamp: Colour
     ray: Colour
     crash: Colour
     early: Colour  # a path by time, from
@@ -64,6 +65,7 @@ PAPER = Theme(
         "ball": colours("#e05a47", "#3f8fb5", "#d98a9b", "#5f9e6e"),
     },
     robot=colour("#23272f"),
+    lamp=colour("#ffb703"),
     ray=colour("#e2555f"),
     crash=colour("#d62839"),
     early=colour("#a9d6f5"),
@@ -89,6 +91,7 @@ NIGHT = Theme(
         "ball": colours("#ff7d68", "#66b8e0", "#ffb0c0", "#86cf98"),
     },
     robot=colour("#f4f6fa"),
+    lamp=colour("#ffb703"),
     ray=colour("#ff6b74"),
     crash=colour("#ff4d5e"),
     early=colour("#1f3a5c"),

@@ -13,6 +13,7 @@ SHAPE_WORDS = {
     "list": ", several of them",
     "span": ", or a range of them",
     "extent": ", or two of them",
+    "place": ", along x and along y",
     "places": ", along x and along y",
 }
 

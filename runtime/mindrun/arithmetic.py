@@ -82,10 +82,10 @@ def bearing(x: Any, y: Any) -> Any:
     return HALF - angle * PER_TURN
 
 
-def in_claw(body: Any, heading: Any, things: Any, radius: Any, reach: Any, i: Any, p: Any) -> Any:
-    """Whether thing i is ahead of the claw and its rim within the claw's reach, in lane p."""
+def in_claw(body: Any, heading: Any, things: Any, front: Any, reach: Any, i: Any, p: Any) -> Any:
+    """Whether thing i is ahead of the claw, `front` ahead of the body's middle, and its rim within reach, in lane p."""
     dx, dy = things[THING_ROWS * i + X, p] - body[X, p], things[THING_ROWS * i + Y, p] - body[Y, p]
-    ahead = heading[COSINE, p] * dx + heading[SINE, p] * dy - radius
+    ahead = heading[COSINE, p] * dx + heading[SINE, p] * dy - front
     aside = heading[COSINE, p] * dy - heading[SINE, p] * dx
     far = reach + things[THING_ROWS * i + SIZE, p] / 2
     return ahead >= 0 and ahead * ahead + aside * aside <= far * far

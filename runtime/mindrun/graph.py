@@ -5,7 +5,7 @@ from typing import Literal
 
 from mindrun.actuators import ActuatorKind
 from mindrun.actuators.gripper import REACH_UNITS
-from mindrun.bodies import Disc
+from mindrun.bodies import BodyKind
 from mindrun.events import EventKind
 from mindrun.expression import Program as Program
 from mindrun.functions import Function
@@ -174,7 +174,7 @@ class Graph:
     """A whole mind, compiled. `tick` is in seconds; `skills` stand in topological order, parents first."""
 
     tick: float
-    body: Disc
+    body: BodyKind
     master: str
     sensors: tuple[Sensor, ...]
     memories: tuple[Memory, ...]

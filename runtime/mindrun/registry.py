@@ -16,8 +16,8 @@ _bases: dict[type[Any], str] = {}
 _arguments: dict[Any, tuple["Argument", ...]] = {}  # of each kind that was asked for
 
 
-Shape = Literal["one", "list", "span", "name", "extent", "places", "lines"]
-"""Of an argument: a number, several, a `Span`, a word, an `Extent`, places, the lines of a text file."""
+Shape = Literal["one", "list", "span", "name", "extent", "place", "places", "lines"]
+"""Of an argument: a number, several, a `Span`, a word, an `Extent`, a place, several, the lines of a text file."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -113,6 +113,8 @@ def _type(hint: Any) -> tuple[Quantity | Reference, Shape]:
             return meaning, "extent"
         case _ if plain == tuple[Place, ...]:
             return meaning, "places"
+        case _ if plain == Place:
+            return meaning, "place"
         case _ if get_origin(plain) is tuple:
             return meaning, "list"
     return meaning, "one"

@@ -26,16 +26,36 @@ FUNCTIONS = (
     "procedure from own.by",
     "procedure from own.to",
 )
-BODY = ["body Robot is disc size 2", "body Robot is disc density 2 size 1.5"]
-ACTUATORS = {
+CLAW = ["actuator claw is gripper neutral 0", "actuator claw is gripper neutral 10%"]
+MAST = [
+    "actuator mast is servo neutral 0.5",
+    "actuator mast is servo neutral 1/4",
+    "actuator mast is lamp neutral 0",
+    "actuator mast is lamp neutral 10%",
+]
+WHEELS = {
     "left_wheel": [
         "actuator left_wheel is wheel side left thrust 80 neutral 0.5",
         "actuator left_wheel is wheel side left neutral 0.4",
     ],
     "right_wheel": ["actuator right_wheel is wheel neutral 50% side right"],
-    "claw": ["actuator claw is gripper neutral 0", "actuator claw is gripper neutral 10%"],
-    "mast": ["actuator mast is servo neutral 0.5", "actuator mast is servo neutral 1/4"],
 }
+THRUSTERS = {
+    "left_wheel": ["actuator left_wheel is thruster at 0 1 facing 90 deg neutral 0.5"],
+    "right_wheel": ["actuator right_wheel is thruster neutral 50%", "actuator right_wheel is thruster neutral 0.4"],
+}
+STEERED = {
+    "left_wheel": ["actuator left_wheel is steering neutral 0.5", "actuator left_wheel is steering neutral 0.4"],
+    "right_wheel": ["actuator right_wheel is motor neutral 50%", "actuator right_wheel is motor neutral 0.6"],
+}
+ROBOTS = [  # a body, and what moves it
+    ("body Robot is disc size 2", WHEELS),
+    ("body Robot is disc density 2 size 1.5", WHEELS),
+    ("body Robot is box", WHEELS),
+    ("body Robot is holonomic", THRUSTERS),
+    ("body Robot is car", STEERED),
+]
+ACTUATORS = {**WHEELS, "claw": CLAW, "mast": MAST}
 SENSORS = {
     "eye": [
         "sensor eye is range_finder at 0 30 330 deg",
@@ -174,7 +194,9 @@ def _comment(style: _Style, numbers: "count[int]") -> str:
 def _declarations(rng: Random) -> list[list[str]]:
     skills = rng.sample(SKILLS, rng.randint(1, 6))
     functions = {skill: rng.choice([*FUNCTIONS, "rule", "rule"]) for skill in skills}
-    parts = [rng.choice(lines) for part in (ACTUATORS, SENSORS) for lines in part.values()] + [rng.choice(BODY)]
+    body, drives = rng.choice([*ROBOTS[:2], *ROBOTS])
+    choices = [*drives.values(), CLAW, MAST, *SENSORS.values()]
+    parts = [*(rng.choice(lines) for lines in choices), body]
     blocks = [[_more(rng, line.split()[0], line)] for line in parts]
     blocks += [_skill(rng, skill, functions[skill], skills[place + 1 :]) for place, skill in enumerate(skills)]
     tasks = rng.sample([*SKILLS[:3], "Roam"], rng.randint(1, 2))
@@ -196,8 +218,9 @@ def _declarations(rng: Random) -> list[list[str]]:
 def _more(rng: Random, noun: str, line: str) -> str:
     """A line that says what kind something is, with some of the arguments that it does not say."""
     kind, *words = re.split(" is | in ", line)[1].split()
-    words += ["away", "grid", "count"] * ("at" in words) + ["at"]  # a place has to be free
-    often = 0.5 if noun == "curriculum" else 0.2
+    if noun == "content":
+        words += ["away", "grid", "count"] * ("at" in words) + ["at"]  # a place has to be free
+    often = 0.5 if noun in ("curriculum", "body", "actuator") else 0.2
     for argument in arguments(kinds(noun)[kind]):
         if not argument.required and argument.key not in words and rng.random() < often:
             line += f" {argument.key} {_said(rng, argument)}"
@@ -210,9 +233,13 @@ def _said(rng: Random, argument: Argument) -> str:
         return rng.choice([word for word in argument.type.words if word != argument.default])
     if argument.shape == "span":
         return rng.choice(["3 to 6", "4", "5 to 3 by 0.5"])
+    if argument.shape == "extent":
+        return rng.choice(["60 40", "2 3", "7"])
+    if argument.shape == "place":
+        return rng.choice(["1.5 1", "2 -0.5"])
     unit, factor = rng.choice([*argument.type.units.items()])
     default = argument.default[0] if argument.shape == "list" else argument.default
-    value = (default + (5 if argument.type.high > 1 else 0.01)) / factor
+    value = min(default + (5 if argument.type.high > 1 else 0.01), argument.type.high) / factor
     return f"{value:g}{'' if unit == '%' else ' '}{unit}".rstrip()
 
 

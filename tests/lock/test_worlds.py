@@ -34,6 +34,7 @@ actuator left_wheel is wheel side left neutral 0.5
 actuator right_wheel is wheel side right neutral 0.5
 actuator claw is gripper neutral 0
 actuator mast is servo neutral 0.5
+actuator light is lamp neutral 0
 sensor eye is range_finder at 0 30 330 deg range 12
 sensor ball_bearing is bearing of ball
 sensor ball_drift is derivative of ball_bearing
@@ -66,6 +67,7 @@ skill Go is mlp hidden 1
   drives left_wheel
   drives right_wheel
   drives mast at 2 * moving
+  drives light at pulse
 
 skill Grab is rule
   reads near
@@ -181,12 +183,32 @@ def _entry(path: Path, graph: Graph, name: str, made: Taught) -> Any:
     return entry(path, graph, name, weights, made)
 
 
+# The robots of which a mind has one only.
+WHEELS = """\
+body Robot is disc
+actuator left_wheel is wheel side left neutral 0.5
+actuator right_wheel is wheel side right neutral 0.5
+"""
+OTHER_ROBOTS = (
+    WHEELS.replace("is disc", "is box"),
+    """\
+body Robot is car
+actuator left_wheel is steering neutral 0.5
+actuator right_wheel is motor neutral 0.5
+""",
+    """\
+body Robot is holonomic
+actuator left_wheel is thruster neutral 0.5 at 1 0
+actuator right_wheel is thruster neutral 0.5 facing 90 deg
+""",
+)
 GRAPH = compiled(MIND)
 LOCK = taught(GRAPH)
+GRAPHS = [GRAPH, *(compiled(MIND.replace(WHEELS, robot)) for robot in OTHER_ROBOTS)]
 
 
-def is_noticed(graph: Graph, skill: str = "Top") -> bool:
-    state = status(graph, LOCK)[skill]
+def is_noticed(graph: Graph, skill: str = "Top", lock: Lock = LOCK) -> bool:
+    state = status(graph, lock)[skill]
     return isinstance(state, Stale) or (isinstance(state, Trained) and bool(state.changes))
 
 
@@ -240,31 +262,41 @@ def _another(value: Any, meaning: Quantity | Reference) -> Any:
     return moved
 
 
+def _parts_of_robots() -> Iterator[tuple[Graph, str, Any]]:
+    """All of one mind, and of the others what it has not."""
+    yield from ((GRAPH, noun, kind) for noun, kind in _parts(GRAPH))
+    known = {type(kind) for _, kind in _parts(GRAPH)}
+    for graph in GRAPHS[1:]:
+        yield from ((graph, noun, kind) for noun, kind in _parts(graph) if type(kind) not in known)
+
+
 ARGUMENTS = [
-    pytest.param(noun, kind, argument, id=f"{noun}-{names()[type(kind)]}-{argument.key}")
-    for noun, kind in _parts(GRAPH)
+    pytest.param(graph, noun, kind, argument, id=f"{noun}-{names()[type(kind)]}-{argument.key}")
+    for graph, noun, kind in _parts_of_robots()
     for argument in arguments(type(kind))
 ]
 
 
-@pytest.mark.parametrize(("noun", "kind", "argument"), ARGUMENTS)
-def test_every_argument_of_every_kind_is_noticed(noun: str, kind: Any, argument: Any) -> None:
+@pytest.mark.parametrize(("graph", "noun", "kind", "argument"), ARGUMENTS)
+def test_every_argument_of_every_kind_is_noticed(graph: Graph, noun: str, kind: Any, argument: Any) -> None:
     if (noun, names()[type(kind)], argument.field) in NEED_NOT_BE_NOTICED:
         return
     old = getattr(kind, argument.field)
     new = replace(kind, **{argument.field: _another(old, argument.type)})
-    changed = _exchanged(GRAPH, kind, new)
-    assert changed != GRAPH
-    taught = next((lesson.skill for lesson in GRAPH.lessons if lesson.learner is kind), "Top")
-    learner = next((skill.name for skill in GRAPH.skills if skill.function is kind and genes(skill)), taught)
-    assert is_noticed(changed, learner), f"{noun} {kind} with {argument.key} {new}"
+    changed = _exchanged(graph, kind, new)
+    assert changed != graph
+    taught_skill = next((lesson.skill for lesson in GRAPH.lessons if lesson.learner is kind), "Top")
+    learner = next((skill.name for skill in GRAPH.skills if skill.function is kind and genes(skill)), taught_skill)
+    assert is_noticed(changed, learner, LOCK if graph is GRAPH else taught(graph)), (
+        f"{noun} {kind} with {argument.key} {new}"
+    )
 
 
 def test_the_mind_of_these_tests_has_every_kind() -> None:
     """A kind that is new to the language has to stand here, or its changes might go unnoticed."""
     nouns = ("body", "actuator", "sensor", "memory", "skill", "task", "content", "event", "measure", "curriculum")
     everywhere = {(noun, cls) for noun in nouns for cls in kinds(noun).values()}
-    here = {(noun, type(kind)) for noun, kind in _parts(GRAPH)}
+    here = {(noun, type(kind)) for _, noun, kind in _parts_of_robots()}
     elsewhere = {"plain", "restarting", "map"}  # of which Other has one, and tests/language/test_maps.py
     assert {names()[cls] for _, cls in everywhere - here} == elsewhere
 

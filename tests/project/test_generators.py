@@ -14,7 +14,7 @@ from mindrun.registry import arguments, kinds
 
 from tests.edits.sources import a_mind
 from tests.hierarchies import physical_kinds
-from tests.sim.worlds import learner_kinds, random_world
+from tests.sim.worlds import learner_kinds, random_world, robot_kinds
 
 DRAWN = 200  # minds
 NOUNS = ("body", "actuator", "sensor", "memory", "skill", "task", "content", "event", "measure", "curriculum")
@@ -41,7 +41,7 @@ def of_worlds() -> Iterable[Any]:
     found: list[Any] = []
 
     @settings(max_examples=DRAWN, database=None, suppress_health_check=list(HealthCheck))
-    @given(random_world(), st.lists(physical_kinds() | learner_kinds(), min_size=24))
+    @given(random_world(), st.lists(physical_kinds() | learner_kinds() | robot_kinds(), min_size=24))
     def draw(graph: Graph, more: list[Any]) -> None:
         found.extend((*parts(graph), *more))
 

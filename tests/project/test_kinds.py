@@ -23,7 +23,7 @@ NOUNS = ("body", "actuator", "sensor", "memory", "skill", "task", "content", "cu
 KINDS = {cls for noun in NOUNS for cls in kinds(noun).values()}
 COMMON = {"actuator": ("neutral", "delay"), "content": ("size", "away")}  # the arguments that each kind of a noun has
 CODES = {
-    "actuator": {name for name, _ in ACTUATOR_CODES},
+    "actuator": ACTUATOR_CODES,
     "content": THING_CODES,
     "measure": MEASURE_CODES,
     "event": EVENT_CODES,

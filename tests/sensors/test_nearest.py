@@ -63,7 +63,7 @@ def test_it_is_held_where_one_of_its_name_is() -> None:
 
 
 def test_it_is_inside_and_in_contact_where_one_of_its_name_is() -> None:
-    world = SimpleNamespace(world=[SimpleNamespace(radius=1.0, claw=1.5)])
+    world = SimpleNamespace(world=[SimpleNamespace(radius=1.0, front=1.0, claw=1.5)])
     for near in range(6):
         lanes, sensor = state([1.0] * 6, 6, 2, 3)
         lanes.things[:] = 50.0

@@ -57,9 +57,10 @@ class Place:
         boxes = np.array([number for box in self.boxes for number in (*box, box[-1])])
         columns = [F(cosine(angle)) for angle in kind.rays], [F(sine(angle)) for angle in kind.rays]
         tables = SimpleNamespace(
-            world=[SimpleNamespace(radius=1.0, half_x=self.half, half_y=self.half)],
+            world=[SimpleNamespace(radius=1.0, front=1.0, side=1.0, is_round=True, half_x=self.half, half_y=self.half)],
             things=[SimpleNamespace(is_round=self.is_round, loose=-1)],
             numbers=np.array(kind.numbers), rays=np.array(columns),
+            rims=np.ones(len(kind.rays), F),
         )  # fmt: skip
         senses = SimpleNamespace(
             body=np.array([x, y, self.angle, *self.speeds])[:, None],

@@ -218,7 +218,7 @@ def test_a_used_file_that_is_not_saved_counts_and_alone_it_says_no_nonsense(shar
     editor.change(parts, PARTS.replace("neutral 0.5", "neutral 5"))
     assert codes(editor.settle(parts)) == ["out-of-range"] * 2
     editor.close(main)
-    assert labels(editor, parts, "body Robot is", 14) == ["disc"]
+    assert labels(editor, parts, "body Robot is", 14) == ["box", "car", "disc", "holonomic"]
     editor.close(parts)
     while editor.found[uri(parts)]["diagnostics"]:
         editor._until(lambda _: True)

@@ -4,6 +4,7 @@ from collections import Counter
 
 import numpy as np
 from mindrun.engine import Engine
+from mindrun.graph import Graph
 from mindrun.quantity import Span
 from mindrun.sensors import Physical
 from mindrun.sim.rollout import Rollout
@@ -29,7 +30,9 @@ def follow(rollout: Rollout, engine: Engine, seed: int) -> Counter[str]:
         commands = plain.act(engine.tick(moment.readings))
         hold_mind(engine, used, moment)
         assert np.array_equal(commands, moment.commands)
-        assert plain.step() == tuple(moment.body)
+        hold_acting(graph, moment)
+        plain.grip(moment.acting)
+        assert plain.step(moment.acting, moment.grip) == tuple(moment.body)
         happened = plain.happened()
         assert happened == moment.events.tolist()
         assert plain.touched == moment.touching
@@ -66,6 +69,15 @@ def hold_mind(engine: Engine, used: set[int], moment: Moment) -> None:
     rows = [s.start + k for s in engine.graph.sensors if s.start in used for k in range(s.width)]
     assert np.array_equal(engine.readings[rows], moment.readings[rows], equal_nan=True)
     assert engine.influence.tobytes() == moment.influence.tobytes()
+
+
+def hold_acting(graph: Graph, moment: Moment) -> None:
+    """What is rough acts with its noise and slips as it says; all else does what it is told."""
+    for i, actuator in enumerate(graph.actuators):
+        noise, slip = getattr(actuator.kind, "noise", 0.0), getattr(actuator.kind, "slip", 0.0)
+        assert abs(float(moment.acting[i]) - float(moment.commands[i])) <= noise * (1 + 1e-6)
+        assert 0.0 <= moment.acting[i] <= 1.0
+        assert 1.0 - slip <= moment.grip[i] <= 1.0
 
 
 def hold_things(plain: PlainWorld, moment: Moment) -> None:

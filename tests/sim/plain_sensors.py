@@ -12,6 +12,8 @@ from mindrun.sensors.position import Position
 from mindrun.sensors.speed import Speed
 from mindrun.sensors.turn_rate import TurnRate
 
+from tests.sim.plain_bodies import rim_of, side_of
+
 HAIR = 1e-6  # by which something may be met or missed
 
 
@@ -31,7 +33,7 @@ def sensed(world, kind, all_of):
         case Speed():
             return [signed(ahead / kind.range, kind.dead_zone)], 0.5
         case Odometer():
-            out = world.radius if kind.side == "right" else -world.radius
+            out = side_of(world.graph.body) * (1 if kind.side == "right" else -1)
             return [signed((ahead + out * body.angular_velocity) / kind.range)], 0.5
         case Position():
             return [signed((world.x if kind.along == "x" else world.y) / kind.range)], 0.5
@@ -87,7 +89,7 @@ def eye(world, kind, all_of, angle):
             if span and span[1] >= 0:
                 near = min(near, max(0.0, span[0]))
         for solid in (world.distance(angle, 1e-3, ()), world.distance(angle, -1e-3, ())):
-            share = (near - world.radius) / kind.range
+            share = (near - rim_of(world.graph.body, angle - world.angle)) / kind.range
             found.append(min(1.0, max(0.0, share)) if near <= solid else 1.0)
     return min(found), max(found)
 
@@ -137,6 +139,7 @@ def bumper(world, at, half):
         far = math.hypot(x - world.x, y - world.y)
         turned = math.atan2(y - world.y, x - world.x) - world.angle - at
         off = abs(math.remainder(turned, 2 * math.pi)) if far > HAIR else 0.0
-        inner = inner or (far <= world.radius - HAIR and off <= half - HAIR)
+        rim = rim_of(world.graph.body, turned + at)
+        inner = inner or (far <= rim - HAIR and off <= half - HAIR)
         outer = outer or (far <= world.radius + HAIR and off <= half + HAIR)
     return float(inner), float(outer)

@@ -6,11 +6,13 @@ from collections import deque
 import numpy as np
 import pymunk
 from mindrun import actuators, events, measures, scenes, sensors, things
+from mindrun.bodies import Car, Disc, Holonomic
 from mindrun.sensors.compass import Compass
 from mindrun.trigonometry import cosine, sine
 
 from tests.plain import f, postfix
 from tests.sim.plain import CATCH
+from tests.sim.plain_bodies import front_of, radius_of, rim_of, side_of, sides_of
 from tests.sim.plain_loose import PlainLoose
 from tests.sim.plain_sensors import sensed
 
@@ -27,7 +29,7 @@ class PlainWorld:
         self.places, self.boxes = run.things.copy(), run.boxes
         size = task.scene.size if isinstance(task.scene, scenes.Arena) else math.inf
         self.half = tuple(side / 2 for side in (size if isinstance(size, tuple) else (size, size)))
-        self.radius = graph.body.size / 2
+        self.radius = radius_of(graph.body)
         self.x, self.y, self.angle = (float(v) for v in run.begin)
         self.held, self.t, self.touched = -1, 0, False
         self.reached, self.delivered, self.changed = set(), set(), set()
@@ -93,7 +95,8 @@ class PlainWorld:
     def ray(self, angle, kind):
         """Least and most of what a range finder reads: what it grazes, or stands in by a hair, may be met or missed."""
         near, far = sorted(self.distance(angle, more) for more in (1e-3, -1e-3))
-        least, most = (min(1.0, max(0.0, (d - self.radius) / kind.range)) for d in (near, far))
+        rim = rim_of(self.graph.body, angle - self.angle)
+        least, most = (min(1.0, max(0.0, (d - rim) / kind.range)) for d in (near, far))
         return zoned(least, kind.dead_zone, 0.0)[0], zoned(most, kind.dead_zone, 0.0)[1]
 
     def distance(self, angle, more, loose=None):
@@ -127,7 +130,7 @@ class PlainWorld:
         """Whether a thing is ahead of the claw's place on the rim, and near enough."""
         dx, dy = self.places[i][0] - self.x, self.places[i][1] - self.y
         c, s = cosine(self.angle), sine(self.angle)
-        ahead, aside = c * dx + s * dy - self.radius, c * dy - s * dx
+        ahead, aside = c * dx + s * dy - front_of(self.graph.body), c * dy - s * dx
         return ahead >= 0 and ahead**2 + aside**2 <= (reach + self.places[i][2] / 2) ** 2
 
     def away(self, place):
@@ -159,27 +162,30 @@ class PlainWorld:
         for command, late in zip(wanted, self.late, strict=True):
             late.append(command)
             now.append(late.popleft())
-        for actuator, command in zip(self.graph.actuators, now, strict=True):
+        self.last, self.commands = self.commands, [float(c) for c in now]
+        return now
+
+    def grip(self, acting):
+        """What the claw holds under the commands as they act."""
+        for actuator, command in zip(self.graph.actuators, acting, strict=True):
             if isinstance(actuator.kind, actuators.Gripper):
                 if command <= 0.5:
                     self.held = -1
                 elif self.held < 0:
                     items = [i for i, thing in enumerate(self.things) if isinstance(thing.kind, things.Item)]
                     self.held = next((i for i in items if self.in_claw(i, actuator.kind.reach)), -1)
-        self.last, self.commands = self.commands, [float(c) for c in now]
-        return now
 
-    def step(self):
-        """One tick of physics, the battery, and what is carried."""
+    def step(self, acting, kept):
+        """One tick of physics, the battery, and what is carried; each actuator has kept a share of its force."""
         self.was = self.x, self.y
         self.far = [self.away(place) for place in self.places]
         self.trail.append(self.was)
-        state = self.body.step(self.commands, cosine(self.angle), sine(self.angle), self.held, self.places)
+        state = self.body.step(acting, kept, cosine(self.angle), sine(self.angle), self.held, self.places)
         self.x, self.y, self.angle = state[:3]
         for i, (body, _) in self.body.loose.there.items():
             self.places[i][:2] = body.position
         if self.held >= 0:
-            hold = self.radius + self.body.largest[self.held] / 2
+            hold = front_of(self.graph.body) + self.body.largest[self.held] / 2
             self.places[self.held][:2] = self.x + cosine(self.angle) * hold, self.y + sine(self.angle) * hold
         powered = [i for i, thing in enumerate(self.things) if isinstance(thing.kind, things.Power)]
         if self.runs_down:
@@ -260,11 +266,16 @@ class PlainWorld:
         return min(self.far[i] for i in there) - min(self.away(self.places[i]) for i in there) if there else 0.0
 
     def thrust_changed(self, ticks, beyond, over):
-        """ΣΔ of both sides."""
+        """ΣΔ of both sides; what is in the middle counts to the left."""
         sides = dict.fromkeys(("left", "right"), 0.0)
         for actuator, now, before in zip(self.graph.actuators, self.commands, self.last, strict=True):
-            if isinstance(actuator.kind, actuators.Wheel):
-                sides[actuator.kind.side] += abs(now - float(f(before)))
+            match actuator.kind:
+                case actuators.Wheel(side=side):
+                    sides[side] += abs(now - float(f(before)))
+                case actuators.Thruster(at=(_, y)):
+                    sides["right" if y < 0 else "left"] += abs(now - float(f(before)))
+                case actuators.Motor():
+                    sides["left"] += abs(now - float(f(before)))
         ticks.append(sides)
         while len(ticks) > over:
             ticks.popleft()
@@ -320,9 +331,9 @@ class PlainBody:
 
     def __init__(self, of):
         graph = of.graph
-        body, dt = graph.body, graph.tick
-        self.dt, self.radius, self.wheels = dt, of.radius, [a.kind for a in graph.actuators]
-        self.linear, self.angular = 1 / (1 + dt * body.linear_damping), 1 / (1 + dt * body.angular_damping)
+        kind, dt = graph.body, graph.tick
+        self.dt, self.kind, self.actuators = dt, kind, [a.kind for a in graph.actuators]
+        self.linear, self.angular = 1 / (1 + dt * kind.linear_damping), 1 / (1 + dt * kind.angular_damping)
         self.space = pymunk.Space()
         self.space.iterations = 8
         self.space.use_spatial_hash(20.0, 20)
@@ -332,51 +343,101 @@ class PlainBody:
             (a, b), (c, d) = of.half, (half + 2 for half in of.half)
             for sides in ((-c, -d, -a, d), (a, -d, c, d), (-c, -d, c, -b), (-c, b, c, d)):
                 self.box(*sides)
-        mass = body.density * math.pi * self.radius**2
-        self.body = pymunk.Body(mass, mass * self.radius**2 / 2)
+        self.body = self.solid()
         self.body.position, self.body.angle = (of.x, of.y), of.angle
-        self.circle(self.radius, 0.0)
         spans = [thing.kind.size for thing in of.things]
         self.largest = [max(span.first, span.last) for span in spans]
         self.items = {
-            i: self.circle(1.0, self.radius + self.largest[i] / 2)
+            i: self.add(pymunk.Circle(self.body, 1.0, (front_of(kind) + self.largest[i] / 2, 0.0)), CATCH)
             for i, thing in enumerate(of.things)
             if isinstance(thing.kind, things.Item)
         }
         self.loose = PlainLoose(self.space, [thing.kind for thing in of.things], of.places, self.dt)
         self.touches = False
 
+    def solid(self):
+        """The body with its outline."""
+        kind = self.kind
+        if isinstance(kind, Disc | Holonomic):
+            radius = kind.size / 2
+            mass = kind.density * math.pi * radius**2
+            body = pymunk.Body(mass, mass * radius**2 / 2)
+            shape = pymunk.Circle(body, radius)
+        else:
+            long, wide = sides_of(kind)
+            mass = kind.density * long * wide
+            body = pymunk.Body(mass, pymunk.moment_for_box(mass, (long, wide)))
+            x, y = long / 2, wide / 2
+            shape = pymunk.Poly(body, [(-x, -y), (x, -y), (x, y), (-x, y)])
+        self.space.add(body)
+        self.add(shape, kind.friction)
+        return body
+
     def box(self, left, low, right, high):
         """Something solid."""
         shape = pymunk.Poly(self.space.static_body, [(left, low), (right, low), (right, high), (left, high)])
-        shape.friction = 1.0
-        self.space.add(shape)
+        self.add(shape, 1.0)
 
-    def circle(self, radius, ahead):
-        """A part of the robot."""
-        shape = pymunk.Circle(self.body, radius, (ahead, 0.0))
-        shape.friction = CATCH
-        self.space.add(*([] if self.body in self.space.bodies else [self.body]), shape)
+    def add(self, shape, friction):
+        """A shape of the world or of the robot."""
+        shape.friction = friction
+        self.space.add(shape)
         return shape
 
-    def step(self, commands, c, s, held, places):
+    def step(self, commands, kept, c, s, held, places):
         """x, y, angle and their velocities a tick later."""
         for i, item in self.items.items():
             item.sensor = i != held
             if i == held:
                 item.unsafe_set_radius(places[i][2] / 2)
-        body, force, torque = self.body, 0.0, 0.0
-        for kind, command in zip(self.wheels, commands, strict=True):
-            if isinstance(kind, actuators.Wheel):
-                push = (2.0 * command - 1.0) * kind.thrust
-                force += push
-                torque += (-self.radius if kind.side == "left" else self.radius) * push
+        body = self.body
+        ahead, aside, torque, turned = self.pushes(commands, kept)
         body.velocity = (body.velocity.x * self.linear, body.velocity.y * self.linear)
         body.angular_velocity *= self.angular
-        body.force, body.torque = (force * c, force * s), torque
+        if isinstance(self.kind, Car):
+            self.roll(turned, c, s)
+        body.force, body.torque = (ahead * c - aside * s, ahead * s + aside * c), torque
         self.loose.damp()
         self.space.step(self.dt)
         contacts = []
         body.each_arbiter(lambda arbiter: contacts.extend(arbiter.shapes))
         self.touches = any(shape.body is self.space.static_body for shape in contacts)
         return (*body.position, body.angle, *body.velocity, body.angular_velocity)
+
+    def pushes(self, commands, kept):
+        """The force ahead and to the left, the torque, and how far to the left the wheels of a car are turned."""
+        ahead = aside = torque = turned = 0.0
+        for kind, command, share in zip(self.actuators, commands, kept, strict=True):
+            way = 1.0 - 2.0 * float(command)
+            match kind:
+                case actuators.Steering():
+                    turned = way * kind.range
+                case actuators.Wheel():
+                    half = side_of(self.kind)
+                    push = -way * kind.thrust * share
+                    ahead += push
+                    torque += (-half if kind.side == "left" else half) * push
+                case actuators.Motor():
+                    ahead += -way * kind.thrust * share
+                case actuators.Thruster(at=(x, y), facing=facing):
+                    push, forward, left = -way * kind.thrust * share, cosine(facing), sine(facing)
+                    ahead += forward * push
+                    aside += left * push
+                    torque += (x * left - y * forward) * push
+        return ahead, aside, torque, turned
+
+    def roll(self, turned, c, s):
+        """Nothing but what a bicycle's axles let through, of the same momentum along it."""
+        body, axles = self.body, self.kind.wheelbase * sides_of(self.kind)[0]
+        slope = sine(turned) / cosine(turned)
+        way = 1.0, slope / 2, slope / axles  # ahead, to the left, and turning
+        weight = 1.0, 1.0, body.moment * (1 / body.mass)
+        now = (
+            body.velocity.x * c + body.velocity.y * s,
+            body.velocity.y * c - body.velocity.x * s,
+            body.angular_velocity,
+        )
+        along = sum(a * b * w for a, b, w in zip(now, way, weight, strict=True))
+        along /= sum(a * a * w for a, w in zip(way, weight, strict=True))
+        body.velocity = along * c - along * way[1] * s, along * s + along * way[1] * c
+        body.angular_velocity = along * way[2]

@@ -1,10 +1,11 @@
 """Hypothesis strategies for whole worlds: any hierarchy in any body, among anything, judged in any way."""
 
 from dataclasses import fields, replace
+from math import pi
 
 from hypothesis import strategies as st
-from mindrun.actuators import Gripper, Servo, Wheel
-from mindrun.bodies import Disc
+from mindrun.actuators import Gripper, Lamp, Motor, Servo, Steering, Thruster, Wheel
+from mindrun.bodies import Box, Car, Disc, Holonomic
 from mindrun.events import Collision, Delivery, EventKind, Exhaustion, Reach, Visit
 from mindrun.graph import Actuator, Condition, Graph, Lesson, Program, Reward, Task, Thing
 from mindrun.learners import Learner
@@ -27,27 +28,57 @@ NEUTRAL = st.sampled_from([0.0, 0.4, 0.5, 0.9, 1.0])
 OUTCOMES = st.sampled_from(["stays", "moves", "moves", "vanishes"])
 DENSITY, FRICTION, DAMPING = st.sampled_from([0.1, 0.5]), st.sampled_from([0.0, 0.5, 1.0]), st.sampled_from([0.0, 5.0])
 DELAY = st.sampled_from([0, 0, 1, 2, 5])
-WHEELS = st.builds(
-    Wheel, st.sampled_from(["left", "right"]), NEUTRAL, st.sampled_from([80.0, 80.0, 200.0, 3000.0, 15.0, -60.0]), DELAY
+THRUST = st.sampled_from([80.0, 80.0, 200.0, 3000.0, 15.0, -60.0])
+NOISE, SLIP = st.sampled_from([0.0, 0.0, 0.1]), st.sampled_from([0.0, 0.0, 0.3])
+WHEELS = st.builds(Wheel, st.sampled_from(["left", "right"]), NEUTRAL, THRUST, DELAY, NOISE, SLIP)
+MOTORS = st.builds(Motor, NEUTRAL, THRUST, DELAY, NOISE, SLIP)
+STEERINGS = st.builds(Steering, NEUTRAL, st.sampled_from([0.5, 1.2, 0.0]), DELAY, NOISE)
+THRUSTERS = st.builds(
+    Thruster,
+    NEUTRAL,
+    st.sampled_from([(0.0, 0.0), (0.0, -1.0), (-0.5, 1.0), (1.0, 0.0)]),
+    st.sampled_from([0.0, 1.0, -pi / 2, 4.0]),
+    THRUST,
+    DELAY,
+    NOISE,
+    SLIP,
 )
-CLAWS = st.builds(Gripper, st.sampled_from([0.0, 0.5, 0.9, 1.0]), st.sampled_from([1.5, 4.0]), DELAY)
-BODIES = st.builds(
-    Disc,
-    st.sampled_from([2.0, 2.0, 0.7, 3.0]),
+CLAWS = st.builds(Gripper, st.sampled_from([0.0, 0.5, 0.9, 1.0]), st.sampled_from([1.5, 4.0]), DELAY, NOISE)
+OTHERS = CLAWS | st.builds(Servo, NEUTRAL, DELAY) | st.builds(Lamp, NEUTRAL, DELAY)
+DIAMETERS = st.sampled_from([2.0, 2.0, 0.7, 3.0])
+RECTANGLES = st.sampled_from([2.0, (3.0, 2.0), (1.0, 2.5), (4.0, 1.0)])
+MATERIAL = (  # density, friction, damping
     st.sampled_from([2.0, 0.5]),
+    st.sampled_from([0.2, 0.2, 0.0, 1.5]),
     st.sampled_from([5.0, 0.0]),
     st.sampled_from([20.0, 1.0]),
 )
+DRIVES = {
+    st.builds(Disc, DIAMETERS, *MATERIAL): WHEELS | WHEELS | THRUSTERS,
+    st.builds(Box, RECTANGLES, *MATERIAL): WHEELS | WHEELS | THRUSTERS,
+    st.builds(Car, RECTANGLES, st.sampled_from([0.6, 0.3]), *MATERIAL): MOTORS | STEERINGS,
+    st.builds(Holonomic, DIAMETERS, *MATERIAL): THRUSTERS,
+}
+
+
+def robot_kinds() -> st.SearchStrategy[object]:
+    """Any body, or any actuator."""
+    return st.one_of(OTHERS, *DRIVES, *DRIVES.values())
+
+
+@st.composite
+def _robots(draw: st.DrawFn, graph: Graph) -> Graph:
+    """A graph with any body, and on it actuators that can move it; others now and then."""
+    bodies, drives = draw(st.sampled_from([*DRIVES.items(), *[*DRIVES.items()][:1] * 2]))
+    actuators = tuple(Actuator(a.name, draw(drives | drives | OTHERS)) for a in graph.actuators)
+    return replace(graph, body=draw(bodies), actuators=actuators)
 
 
 @st.composite
 def random_world(draw: st.DrawFn, most: int = 40) -> Graph:
     """A hierarchy with one task, World, in which what may happen happens often: all is large, and near."""
     graph = draw(random_graph())
-    actuators = tuple(
-        Actuator(a.name, draw(WHEELS | WHEELS | CLAWS | st.builds(Servo, NEUTRAL, DELAY))) for a in graph.actuators
-    )
-    graph = replace(graph, tick=draw(st.sampled_from([1 / 60, 1 / 30, 0.1])), body=draw(BODIES), actuators=actuators)
+    graph = replace(draw(_robots(graph)), tick=draw(st.sampled_from([1 / 60, 1 / 30, 0.1])))
     scene: SceneKind = draw(st.sampled_from([Plain(), Arena(20.0), Arena(33.0), Arena((26.0, 15.0))]))
     things = draw(_things(scene))
     measures, events = draw(_measures(things)), draw(_events(scene, things))

@@ -128,7 +128,7 @@ class _Builder(Transformer_NonRecursive[Token, Any]):
         return syntax.Gate(when, otherwise, self._span(meta))
 
     def cuts(self, meta: Any, parts: list[Any]) -> Amount:
-        return cast(Amount, parts[0])
+        return cast(Amount, parts[-1])
 
     facing = cuts
 

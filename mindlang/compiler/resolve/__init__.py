@@ -4,7 +4,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from typing import TypeVar
 
-from mindrun.bodies import Disc
+from mindrun.bodies import BodyKind
 from mindrun.quantity import TICK
 
 from mindlang.compiler import model
@@ -13,6 +13,7 @@ from mindlang.compiler.expand import expand, in_place, numbers
 from mindlang.compiler.hierarchy import check_cycles
 from mindlang.compiler.names import Names, gather
 from mindlang.compiler.resolve.curricula import lessons
+from mindlang.compiler.resolve.drives import check_drives
 from mindlang.compiler.resolve.parts import measured_widths, parts
 from mindlang.compiler.resolve.quantities import convert
 from mindlang.compiler.resolve.skills import skills
@@ -40,6 +41,8 @@ def resolve(files: Sequence[File], findings: Findings) -> model.Mind | None:
     known_tasks = tasks(RobotFacts(names, width, tick, has_battery, files[0].source.folder), findings)
     known_lessons = tuple(lessons(names, known_skills, width, findings))
     body = _body(names, findings)
+    if body:
+        check_drives(body, actuators, findings)
     master = _master(files[0], names, findings)
     if all_read:
         _check_complete(files, names, known_skills, findings)
@@ -87,7 +90,7 @@ def _tick(files: Sequence[File], values: Mapping[str, Amount], findings: Finding
     return first[0] if first else 1.0
 
 
-def _body(names: Names, findings: Findings) -> model.Part[Disc] | None:
+def _body(names: Names, findings: Findings) -> model.Part[BodyKind] | None:
     declared = list(names.declarations("body"))
     for _, again in declared[1:]:
         first = Label(declared[0][1].header.span, "the first one")

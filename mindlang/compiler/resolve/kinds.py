@@ -151,6 +151,8 @@ def _number(parameter: Parameter, argument: Argument, findings: Findings) -> Any
             return quantities.value_list(argument.value, parameter.type, findings)
         case "extent":
             return quantities.extent(argument.value, parameter.type, findings)
+        case "place":
+            return quantities.place(argument.value, parameter.type, findings)
         case "places":
             return quantities.places(argument.value, parameter.type, findings)
         case _:

@@ -74,12 +74,26 @@ def beyond(away: Any, side: Any) -> Any:
     return away + side if away < -side else 0.0
 
 
+def touches(body: Any, ahead: Any, aside: Any, is_flat: Any) -> Any:
+    """Whether the nearest point of something inside of the circle around a body is not outside of the body.
+
+    What is flat there meets a corner of a rectangle before that point is in it.
+    """
+    if body.is_round:
+        return True
+    if is_flat:
+        return ahead * ahead + aside * aside <= body.front * ahead + body.side * aside
+    return ahead <= body.front and aside <= body.side
+
+
 def press(t: Any, s: Any, sensor: Any, dx: Any, dy: Any, p: Any) -> None:
     """1 for the switches of lane p that a point so far from the body's middle presses, if it is not outside of it."""
     far = np.sqrt(dx * dx + dy * dy)
-    if far <= t.world[0].radius:
-        c, sn = s.heading[COSINE, p], s.heading[SINE, p]
-        ahead, aside = c * dx + sn * dy, c * dy - sn * dx
+    if far > t.world[0].radius:  # infinitely far, where there is no wall
+        return
+    c, sn = s.heading[COSINE, p], s.heading[SINE, p]
+    ahead, aside = c * dx + sn * dy, c * dy - sn * dx
+    if touches(t.world[0], abs(ahead), abs(aside), dx == 0.0 or dy == 0.0):
         for k in range(sensor.width):
             first = sensor.number + 1 + 2 * k
             if ahead * t.numbers[first + COSINE] + aside * t.numbers[first + SINE] >= t.numbers[sensor.number] * far:

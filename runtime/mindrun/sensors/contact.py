@@ -35,5 +35,5 @@ class Contact(Physical):
         for p in range(n):
             there = False
             for i in range(sensor.thing, sensor.thing + sensor.things):
-                there = there or in_claw(s.body, s.heading, s.things, world.radius, world.claw, i, p)
+                there = there or in_claw(s.body, s.heading, s.things, world.front, world.claw, i, p)
             s.readings[sensor.start, p] = ONE if there else ZERO

@@ -56,7 +56,7 @@ class Eye(Physical):
     @staticmethod
     def lane(t: Any, s: Any, n: int, clock: int, sensor: Any) -> None:
         """The distance along each ray to the thing that it meets first, if nothing solid comes before."""
-        radius, scale = F(t.world[0].radius), ONE / F(sensor.range)
+        scale = ONE / F(sensor.range)
         for k in range(sensor.width):
             ray, out = sensor.ray + k, s.readings[sensor.start + k]
             for p in range(n):
@@ -68,9 +68,9 @@ class Eye(Physical):
                     meet_disc(s.body, s.heading, rows, cosine, sine, out, n)
                 else:
                     meet_square(s.body, s.heading, rows, cosine, sine, out, n)
-            solid = s.sight[4 + ray]
+            solid, rim = s.sight[4 + ray], t.rims[ray]
             for p in range(n):
-                out[p] = clamp((out[p] - radius) * scale) if out[p] <= solid[p] else ONE
+                out[p] = clamp((out[p] - rim) * scale) if out[p] <= solid[p] else ONE
 
 
 def meet_disc(body: Any, heading: Any, thing: Any, cosine: Any, sine: Any, out: Any, n: Any) -> None:

@@ -32,8 +32,8 @@ class Odometer(Physical):
 
     @staticmethod
     def lane(t: Any, s: Any, n: int, clock: int, sensor: Any) -> None:
-        """0.5 + (speed ± spin · radius) · gain."""
-        arm = t.world[0].radius if sensor.part > 0 else -t.world[0].radius
+        """0.5 + (speed ± spin · arm) · gain."""
+        arm = t.world[0].side if sensor.part > 0 else -t.world[0].side
         out, x, y, spin = s.readings[sensor.start], s.body[SPEED_X], s.body[SPEED_Y], s.body[SPIN]
         for p in range(n):
             ahead = x[p] * s.heading[COSINE, p] + y[p] * s.heading[SINE, p] + arm * spin[p]

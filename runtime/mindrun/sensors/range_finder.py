@@ -51,9 +51,10 @@ class RangeFinder(Physical):
     @staticmethod
     def lane(t: Any, s: Any, n: int, clock: int, sensor: Any) -> None:
         """The distance along each ray, from the body's rim."""
-        radius, scale = F(t.world[0].radius), ONE / F(sensor.range)
+        scale = ONE / F(sensor.range)
         for ray in range(sensor.width):
             out, far = s.readings[sensor.start + ray], s.sight[4 + sensor.ray + ray]
+            rim = t.rims[sensor.ray + ray]
             for p in range(n):
-                v = clamp((far[p] - radius) * scale)
+                v = clamp((far[p] - rim) * scale)
                 out[p] = ZERO if v < sensor.dead_zone else v

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from mindrun.arithmetic import BOX_COLUMNS, HALF_X, HALF_Y, THING_ROWS, X, Y
 from mindrun.sensors.inertial import TRAIL_TICKS
 from mindrun.sim import chipmunk_internals as chipmunk
-from mindrun.sim.codes import AWAY
+from mindrun.sim.codes import AWAY, PUSH_ROWS
 from mindrun.sim.state import (
     FIRST_RAY,
     FRAME_ROWS,
@@ -80,7 +80,9 @@ def _world(tables: Tables, sizes: Sizes, room: _Room) -> World:
         random_aside=room.each(np.uint64),
         tick=room.each(),
         trail=room.rows(PLACE_ROWS * TRAIL_TICKS),
-        push=room.rows(4),
+        push=room.rows(PUSH_ROWS),
+        acting=room.rows(len(tables.actuators), np.float32),
+        grip=room.rows(len(tables.actuators)),
         begun_at=room.rows(PLACE_ROWS),
     )
 

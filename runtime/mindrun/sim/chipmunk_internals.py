@@ -13,13 +13,15 @@ from numba import types
 from numba.extending import intrinsic
 from pymunk import _chipmunk
 
+from mindrun.bodies import BodyKind
+from mindrun.bodies.body import FRICTION_COEFFICIENT
 from mindrun.errors import MindError
 from mindrun.sim.compiling import callback
 from mindrun.sim.versions import remedy
 
 ffi, lib = _chipmunk.ffi, _chipmunk.lib
 
-FRICTION_COEFFICIENT = 0.2  # Box2D's default; elasticity is 0 in both engines
+UNMOVED_TRANSFORM = (1.0, 0.0, 0.0, 1.0, 0.0, 0.0)  # leaves a shape where it is
 PERSISTENCE_TICKS = 3  # for which Chipmunk remembers a contact that is no more
 LAYOUT: Mapping[str, tuple[int, Mapping[str, int]]] = {  # the size of a structure and where its fields stand, in bytes
     "pmFloatArray": (16, {"num": 0, "max": 4, "arr": 8}),
@@ -107,18 +109,18 @@ def _count(_body: Any, arbiter: Any, tally: Any) -> None:
         tally[TALLIED] += 1
 
 
-def prepare(handles: Any, floats: Any, batch: Any, tally: Any, radius: float, holds: list[float | None]) -> list[Any]:
-    """Give every lane its robot's circle and one for each thing that can be held; keep the result alive.
+def prepare(handles: Any, floats: Any, batch: Any, tally: Any, body: BodyKind, holds: list[float | None]) -> list[Any]:
+    """Give every lane its robot's shape and a circle for each thing that can be held; keep the result alive.
 
-    `handles` [lane, …]: the circles go to column ROBOT and on; `batch` gets pymunk's structures over `floats`, and
+    `handles` [lane, …]: the shapes go to column ROBOT and on; `batch` gets pymunk's structures over `floats`, and
     `tally` [lane, TALLY_WORDS] what it takes to count.
     """
     kept, motion = [], _fields(MOTION_FIELDS)
     for lane in range(len(handles)):
         for number, hold in enumerate([0.0, *holds]):
             if hold is not None:
-                shape = lib.cpCircleShapeNew(ffi.NULL, radius if number == 0 else 1.0, (hold, 0.0))
-                lib.cpShapeSetFriction(shape, FRICTION_COEFFICIENT)
+                shape = lib.cpCircleShapeNew(ffi.NULL, 1.0, (hold, 0.0)) if number else _outline(body)
+                lib.cpShapeSetFriction(shape, FRICTION_COEFFICIENT if number else body.friction)
                 lib.cpShapeSetSensor(shape, number > 0)
                 kept.append(ffi.gc(shape, lib.cpShapeFree))
                 handles[lane, ROBOT + number] = int(ffi.cast("uintptr_t", shape))
@@ -130,6 +132,13 @@ def prepare(handles: Any, floats: Any, batch: Any, tally: Any, radius: float, ho
         tally[lane, FIRST_PLACE] = tally[lane, FIRST_BODY:].ctypes.data
         tally[lane, SECOND_PLACE] = tally[lane, SECOND_BODY:].ctypes.data
     return kept
+
+
+def _outline(body: BodyKind) -> Any:
+    """The shape of a body that is in no Space yet."""
+    if not body.outline:
+        return lib.cpCircleShapeNew(ffi.NULL, body.radius, (0.0, 0.0))
+    return lib.cpPolyShapeNew(ffi.NULL, len(body.outline), body.outline, UNMOVED_TRANSFORM, 0.0)
 
 
 def _fields(names: tuple[str, ...]) -> int:

@@ -8,7 +8,7 @@ import mindrun.functions
 import mindrun.sensors  # noqa: F401  # which registers them
 from mindrun.registry import kinds
 
-WHEEL_LEFT, WHEEL_RIGHT, GRIPPER, SERVO = range(4)
+PUSH, STEERING, GRIPPER, IDLE = range(4)
 ITEM, ZONE, POWER, BOX, BALL = range(5)
 STAYS, MOVES, VANISHES = range(3)
 PROGRESS, ADVANCE, RETREAT, FORWARD, CHANGE = range(5)
@@ -20,11 +20,12 @@ GOING_ON, LOST = -1, -2  # of a run that no event has ended: on its way or out o
 AWAY = 1e30  # units: where a box is that is none
 FAR = 1e9  # units from the origin, and radians: nothing is there, and a little further Chipmunk never comes back
 
-FORCE, TORQUE, FORCE_X, FORCE_Y = range(4)  # rows of what pushes a body
+FORCE, TORQUE, FORCE_X, FORCE_Y, FORCE_ASIDE, PUSH_ROWS = range(6)  # rows of what pushes a body, and how many
 
 OPERATIONS = {name: code for code, name in enumerate(("number", "reading", "each", "measure", *"+-*/", "negate"))}
-ACTUATOR_CODES = {  # of each kind, by the side that it is on
-    ("wheel", "left"): WHEEL_LEFT, ("wheel", "right"): WHEEL_RIGHT, ("gripper", None): GRIPPER, ("servo", None): SERVO,
+ACTUATOR_CODES = {
+    "wheel": PUSH, "motor": PUSH, "thruster": PUSH, "steering": STEERING, "gripper": GRIPPER,
+    "servo": IDLE, "lamp": IDLE,
 }  # fmt: skip
 THING_CODES = {"item": ITEM, "zone": ZONE, "power": POWER, "box": BOX, "ball": BALL}
 MEASURE_CODES = {
@@ -62,7 +63,10 @@ SKILL = _row(
 )  # fmt: skip
 EDGE = _row(to_skill="i8", target="i8", output="i8", code="i8", length="i8")
 CODE = _row(op="i8", arg="i8", value="f8")
-ACTUATOR = _row(kind="i8", thrust="f8", neutral="f4", reach="f8", delay="i8", ring="i8")
+ACTUATOR = _row(
+    kind="i8", thrust="f8", ahead="f8", aside="f8", arm="f8", is_right="i8", turn="f8", neutral="f4", reach="f8",
+    delay="i8", ring="i8", noise="f4", slip="f8", is_rough="i8",
+)  # fmt: skip
 MEMORY = _row(row="i8", decay="f4", rest="f4", start="f4")
 THING = _row(
     kind="i8", first="f8", last="f8", by="f8", low="f8", high="f8", hold="f8", drawn="i8", is_round="i8",
@@ -84,6 +88,7 @@ REWARD = _row(
 )
 WORLD = _row(
     dt="f8", linear="f8", angular="f8", mass="f8", moment="f8", mass_inv="f8", moment_inv="f8", radius="f8",
-    half_x="f8", half_y="f8", ticks="i8", start="f8", drain="f8", charge="f8", rays="i8", near="f8", master="i8",
-    claw="f8", battery="i8", cell="f8",
+    front="f8", side="f8", is_round="i8", axles="f8", half_x="f8", half_y="f8",
+    ticks="i8", start="f8", drain="f8", charge="f8", rays="i8",
+    near="f8", master="i8", claw="f8", battery="i8", cell="f8",
 )  # fmt: skip

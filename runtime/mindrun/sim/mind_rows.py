@@ -106,8 +106,9 @@ def actuator_rows(graph: Graph) -> tuple[Array, int]:
     ring = 0
     for actuator in graph.actuators:
         kind = actuator.kind
-        code = ACTUATOR_CODES[names()[type(kind)], kind.mounted]
-        rows.append({"kind": code, "neutral": kind.neutral, "delay": kind.delay, "ring": ring, **kind.row()})
+        row = {"kind": ACTUATOR_CODES[names()[type(kind)]], "neutral": kind.neutral, "delay": kind.delay, "ring": ring}
+        own = kind.row(graph.body)
+        rows.append({**row, **own, "is_rough": own.get("noise", 0.0) > 0.0})
         ring += kind.delay
     return records(rows, ACTUATOR), ring
 

@@ -124,9 +124,8 @@ class Rollout:
         """Room for so many lanes."""
         state = empty_state(self.tables, self.sizes, lanes)
         holds = [float(thing["hold"]) if thing["kind"] == ITEM else None for thing in self.tables.things]
-        radius = float(self.tables.world[0]["radius"])
         contact = state.contact
-        kept = chipmunk.prepare(contact.handles, contact.floats, contact.batch, contact.tally, radius, holds)
+        kept = chipmunk.prepare(contact.handles, contact.floats, contact.batch, contact.tally, self.graph.body, holds)
         return Tile(state, Memories(self.procedures), kept)
 
     def _run(self, jobs: Jobs, share: NDArray[np.int64], stop: Event, ran: Callable[[float], None]) -> Jobs:

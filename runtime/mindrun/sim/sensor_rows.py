@@ -69,13 +69,14 @@ class Scene:
 
 @dataclass(frozen=True, slots=True)
 class Sensed:
-    """Rows of SENSOR, the directions [2, rays] of all rays and the reading that each writes, and the numbers of kinds.
+    """Rows of SENSOR, the directions [2, rays] of all rays, where they leave the body, the readings they write.
 
-    Then how many readings are derived, rough, and wait in their rings.
+    Then the numbers of kinds, and how many readings are derived, rough, and wait in their rings.
     """
 
     rows: Array
     rays: Array
+    rims: Array
     ray_row: Array
     pierces: Array
     numbers: Array
@@ -107,6 +108,7 @@ def sensor_rows(graph: Graph, used: Used, task: Task) -> Sensed:
     return Sensed(
         rows=records(rows, SENSOR),
         rays=np.array([np.cos(turn), np.sin(turn)], np.float32),
+        rims=np.array([graph.body.rim(angle) for angle in room.rays], np.float32),
         ray_row=np.array(room.ray_row, np.int64),
         pierces=np.array(room.pierces, np.bool_),
         numbers=np.array(room.numbers, np.float64),

@@ -36,7 +36,9 @@ class World(NamedTuple):
     tick: Array  # int64: how many the run has lasted
     trail: Array  # [PLACE_ROWS·TRAIL_TICKS] float64: where the robot was in the last ticks
     # for this tick
-    push: Array  # [4] float64: force along the heading, torque, and the force's x and y
+    push: Array  # [PUSH_ROWS] float64: force along the heading, torque, the force's x and y, force to the left
+    acting: Array  # [actuators] float32: the commands of what is rough, with its noise
+    grip: Array  # [actuators] float64: the share of its force that each keeps that slips
     begun_at: Array  # [PLACE_ROWS] float64: where the robot was when the tick began
 
 

@@ -42,6 +42,7 @@ class Tables(NamedTuple):
     world: Array
     sensors: Array
     rays: Array  # [2, rays] float32: cosine and sine of each ray's angle
+    rims: Array  # [rays] float32: how far from the robot's middle each ray leaves it
     ray_row: Array  # the row of readings that each ray writes
     pierces: Array  # whether each ray goes on through what is loose
     numbers: Array  # float64, of the sensors whose kinds say `numbers`
@@ -105,7 +106,8 @@ def build(
     index = [skill.name for skill in graph.skills].index(master)
     tables = Tables(
         world=world_row(graph, task, len(sensed.ray_row), [*used.skills, *used.aside], index),
-        sensors=sensed.rows, rays=sensed.rays, ray_row=sensed.ray_row, pierces=sensed.pierces, numbers=sensed.numbers,
+        sensors=sensed.rows, rays=sensed.rays, rims=sensed.rims, ray_row=sensed.ray_row,
+        pierces=sensed.pierces, numbers=sensed.numbers,
         skills=skills.rows, inputs=skills.inputs, edges=skills.edges, weights=skills.weights,
         codes=np.array(codes.rows, CODE),
         actuators=driven, memories=memory_rows(graph),

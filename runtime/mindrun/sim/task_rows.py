@@ -66,7 +66,7 @@ def thing_rows(graph: Graph, task: Task) -> Array:
             low = max(low, graph.body.radius + kind.largest * HALF_DIAGONAL)
         row: dict[str, float] = {
             "kind": THING_CODES[names()[type(kind)]], "first": size.first, "last": size.last, "by": size.by or 0.0,
-            "low": low, "high": high, "hold": graph.body.radius + kind.largest / 2,
+            "low": low, "high": high, "hold": graph.body.front + kind.largest / 2,
             "drawn": size.by is None and size.first != size.last, "is_fixed": bool(kind.at), "x": x, "y": y,
             "is_round": kind.is_round,
             "is_area": kind.is_area, "loose": next(loose) if kind.is_loose else -1,
@@ -155,10 +155,12 @@ def world_row(graph: Graph, task: Task, rays: int, used: Sequence[Sensor], maste
     solid = [thing.kind.largest for thing in task.things if thing.kind.is_solid]
     walls = [2 * max(wall.half_x, wall.half_y) for thing in task.things for wall in thing.kind.walls]
     spread = max([*walls, *(scene.sides if scene.is_bounded else ()), 0.0]) / CELLS_PER_WALL
-    cell = max([MIN_CELL_UNITS, spread, *(size / CELLS_PER_SHAPE for size in (body.size, *held, *solid))])
+    cell = max([MIN_CELL_UNITS, spread, *(size / CELLS_PER_SHAPE for size in (2 * body.radius, *held, *solid))])
     row = (
         dt, 1.0 / (1.0 + dt * body.linear_damping), 1.0 / (1.0 + dt * body.angular_damping), body.mass, body.moment,
-        1.0 / body.mass, 1.0 / body.moment, body.radius, *(side / 2 for side in scene.sides), task.ticks,
+        1.0 / body.mass, 1.0 / body.moment, body.radius, body.front, body.side,
+        not body.outline, body.axle_distance,
+        *(side / 2 for side in scene.sides), task.ticks,
         battery.start, battery.drain, battery.charge, rays, near, master, graph.claw_reach, powered, cell,
     )  # fmt: skip
     return np.array([row], WORLD)

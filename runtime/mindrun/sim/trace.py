@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mindrun.arithmetic import ANGLE, BOX_COLUMNS, SIZE, THING_ROWS
+from mindrun.sim.mind_rows import actuator_rows
 from mindrun.sim.rollout import Rollout
 from mindrun.sim.state import LOOSE_ROWS, TURN, Jobs, World
 
@@ -17,7 +18,8 @@ class Moment:
 
     `body` is x, y, angle and their velocities; `things` [things, 3] is x, y and size of each, and
     `turned` [things] how far each has turned, counterclockwise in radians; `held` the number of the
-    thing in the claw or −1; `events` how often each happened; `lines` the sum of each reward line so far.
+    thing in the claw or −1; `acting` the commands with the noise of their actuators, and `grip` the share of its force
+    that each kept; `events` how often each event happened; `lines` the sum of each reward line so far.
     """
 
     tick: int
@@ -30,6 +32,8 @@ class Moment:
     readings: NDArray[np.float32]
     influence: NDArray[np.float32]
     commands: NDArray[np.float32]
+    acting: NDArray[np.float32]
+    grip: NDArray[np.float64]
     events: NDArray[np.int64]
     lines: NDArray[np.float64]
 
@@ -54,6 +58,8 @@ def trace(rollout: Rollout, seed: int, genome: NDArray[np.float32] | None = None
     world, mind, judge = tile.state.world, tile.state.mind, tile.state.judge
     boxes = world.boxes[0].reshape(-1, BOX_COLUMNS).copy()
     things = _things(world, rollout)
+    rows, _ = actuator_rows(rollout.graph)
+    rough, slipping, count = rows["is_rough"] != 0, rows["slip"] > 0, len(rows)
 
     def moments() -> Iterator[Moment]:
         working = 1
@@ -70,6 +76,8 @@ def trace(rollout: Rollout, seed: int, genome: NDArray[np.float32] | None = None
                 readings=mind.readings[:, 0].copy(),
                 influence=mind.influence[:, 0].copy(),
                 commands=mind.commands[:, 0].copy(),
+                acting=np.where(rough, world.acting[:count, 0], mind.commands[:count, 0]),
+                grip=np.where(slipping, world.grip[:count, 0], 1.0),
                 events=judge.events[: len(rollout.task.events), 0].astype(np.int64),
                 lines=judge.lines[: len(rollout.task.rewards), 0].copy(),
             )

@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 from typing import Annotated
 
-from mindrun.bodies import DAMPING, DENSITY
+from mindrun.bodies.body import DAMPING, DENSITY
 from mindrun.registry import kind
 from mindrun.things.loose import Loose
 

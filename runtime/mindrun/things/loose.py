@@ -4,7 +4,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Annotated
 
-from mindrun.bodies import DAMPING, DENSITY
+from mindrun.bodies.body import DAMPING, DENSITY
 from mindrun.quantity import COORDINATE, COUNT, LENGTH, RATIO, Place, Quantity, Span
 from mindrun.things.thing import DEFAULT_DISTANCE, DEFAULT_SIZE, MOVES, OUTCOME, STAYS, Outcome, ThingKind
 

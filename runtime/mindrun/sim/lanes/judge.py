@@ -16,11 +16,10 @@ from mindrun.sim.codes import (
     LESS,
     LESS_EQUAL,
     POWER,
+    PUSH,
     REACH,
     RETREAT,
     VISIT,
-    WHEEL_LEFT,
-    WHEEL_RIGHT,
 )
 from mindrun.sim.compiling import compiled
 from mindrun.sim.lanes.evaluate import evaluate
@@ -105,9 +104,9 @@ def change(tables, commands, judged, measure, out, lanes, clock):
         judged.right_changes[now, lane] = 0.0
         out[lane] = 0.0
     for i in range(len(tables.actuators)):
-        kind = tables.actuators[i].kind
-        if kind in (WHEEL_LEFT, WHEEL_RIGHT):
-            changes = judged.left_changes[now] if kind == WHEEL_LEFT else judged.right_changes[now]
+        actuator = tables.actuators[i]
+        if actuator.kind == PUSH:
+            changes = judged.right_changes[now] if actuator.is_right else judged.left_changes[now]
             for lane in range(lanes):
                 changes[lane] += abs(np.float64(commands[i, lane]) - np.float64(judged.last_commands[i, lane]))
     for changes in (judged.left_changes, judged.right_changes):

@@ -19,12 +19,12 @@ def meet(tables, world, lanes):
     How many begin to be so, in all lanes.
     """
     body, things, begun = world.body, world.things, 0
-    radius, claw = tables.world[0].radius, tables.world[0].claw
+    front, claw = tables.world[0].front, tables.world[0].claw
     for i in range(len(tables.things)):
         thing = tables.things[i]
         if thing.is_reached and not thing.is_area:
             for lane in range(lanes):
-                now = in_claw(body, world.heading, things, radius, claw, i, lane)
+                now = in_claw(body, world.heading, things, front, claw, i, lane)
                 begun += note(world.reached, i, lane, now)
         elif thing.is_reached:
             for lane in range(lanes):

@@ -17,7 +17,7 @@ from mindrun.arithmetic import (
 )
 from mindrun.sim.arithmetic import sine_cosine
 from mindrun.sim.chipmunk_internals import PERSISTENCE_TICKS, SPACE
-from mindrun.sim.codes import FORCE, FORCE_X, FORCE_Y, TORQUE, WHEEL_LEFT, WHEEL_RIGHT
+from mindrun.sim.codes import FORCE, FORCE_ASIDE, FORCE_X, FORCE_Y, PUSH, STEERING, TORQUE
 from mindrun.sim.compiling import compiled
 from mindrun.sim.lanes.act import carry
 from mindrun.sim.lanes.chipmunk import open_space, push_body, step_space
@@ -31,7 +31,7 @@ CONTACT_TICKS = PERSISTENCE_TICKS + 2  # for which Chipmunk goes on with a lane 
 
 @compiled
 def step(tables, state, lanes):
-    """Damp, push with the wheels, move; then the headings and the held items follow."""
+    """Damp, push, move; then the headings and the held items follow."""
     world, contact, constants = state.world, state.contact, tables.world[0]
     thrust(tables, world, state.mind.commands, lanes)
     for lane in range(lanes):
@@ -58,26 +58,87 @@ def step(tables, state, lanes):
 
 @compiled
 def thrust(tables, world, commands, lanes):
-    """Damped velocities into the body; force and torque into `push`."""
-    push, radius = world.push, tables.world[0].radius
+    """Damped velocities into the body, those of a car as its axles let it move; force and torque into `push`."""
+    push, constants, is_aside = world.push, tables.world[0], False
     push[FORCE, :lanes] = 0.0
     push[TORQUE, :lanes] = 0.0
+    push[FORCE_ASIDE, :lanes] = 0.0
     for i in range(len(tables.actuators)):
         actuator = tables.actuators[i]
-        if actuator.kind == WHEEL_LEFT:
-            wheel(commands[i], actuator.thrust, push[FORCE], push[TORQUE], -radius, lanes)
-        elif actuator.kind == WHEEL_RIGHT:
-            wheel(commands[i], actuator.thrust, push[FORCE], push[TORQUE], radius, lanes)
-    damp(world.body, world.heading, push, tables.world[0].linear, tables.world[0].angular, lanes)
+        if actuator.kind == PUSH:
+            acting = world.acting[i] if actuator.is_rough else commands[i]
+            if actuator.slip > 0.0 or actuator.aside != 0.0:
+                drive_anywhere(acting, actuator, world.grip[i], push, lanes)
+                is_aside |= actuator.aside != 0.0
+            else:
+                drive(acting, actuator, push[FORCE], push[TORQUE], lanes)
+    damp(world.body, world.heading, push, constants.linear, constants.angular, lanes)
+    if is_aside:
+        push_aside(world.heading, push, lanes)
+    if constants.axles > 0.0:
+        roll(tables, world, commands, lanes)
 
 
 @compiled
-def wheel(commands, strength, force, torque, arm, lanes):
-    """(2v − 1)·thrust on the left (arm < 0) or right rim."""
+def drive(commands, actuator, force, torque, lanes):
+    """(2v − 1)·thrust along the heading at a point of the body: a wheel's on its rim."""
+    strength, ahead, arm = actuator.thrust, actuator.ahead, actuator.arm
     for lane in range(lanes):
-        on_rim = (2.0 * commands[lane] - 1.0) * strength
-        force[lane] += on_rim
-        torque[lane] += arm * on_rim
+        pushed = (2.0 * commands[lane] - 1.0) * strength
+        force[lane] += ahead * pushed
+        torque[lane] += arm * pushed
+
+
+@compiled
+def drive_anywhere(commands, actuator, kept, push, lanes):
+    """(2v − 1)·thrust in any direction, less what slips."""
+    for lane in range(lanes):
+        pushed = (2.0 * commands[lane] - 1.0) * actuator.thrust
+        pushed *= kept[lane] if actuator.slip > 0.0 else 1.0
+        push[FORCE, lane] += actuator.ahead * pushed
+        push[FORCE_ASIDE, lane] += actuator.aside * pushed
+        push[TORQUE, lane] += actuator.arm * pushed
+
+
+@compiled
+def push_aside(heading, push, lanes):
+    """The force to the left of the heading turned into the world."""
+    for lane in range(lanes):
+        push[FORCE_X, lane] -= push[FORCE_ASIDE, lane] * heading[SINE, lane]
+        push[FORCE_Y, lane] += push[FORCE_ASIDE, lane] * heading[COSINE, lane]
+
+
+@compiled
+def roll(tables, world, commands, lanes):
+    """Leave a car's velocity the motion that its axles let through, of which kinetic energy is nearest: v ahead,
+    v·tan δ / 2 to the left and a turn of v·tan δ / distance of the axles.
+    """
+    body, heading, constants = world.body, world.heading, tables.world[0]
+    inertia = constants.moment * constants.mass_inv
+    for lane in range(lanes):
+        sine, cosine = sine_cosine(steered(tables, world, commands, lane))
+        aside = sine / cosine / 2.0
+        turn = sine / cosine / constants.axles
+        c, s = heading[COSINE, lane], heading[SINE, lane]
+        ahead = body[SPEED_X, lane] * c + body[SPEED_Y, lane] * s
+        left = body[SPEED_Y, lane] * c - body[SPEED_X, lane] * s
+        speed = ahead + left * aside + body[SPIN, lane] * turn * inertia
+        speed /= 1.0 + aside * aside + turn * turn * inertia
+        body[SPEED_X, lane] = speed * c - speed * aside * s
+        body[SPEED_Y, lane] = speed * s + speed * aside * c
+        body[SPIN, lane] = speed * turn
+
+
+@compiled
+def steered(tables, world, commands, lane):
+    """How far to the left a car's wheels are turned."""
+    angle = 0.0
+    for i in range(len(tables.actuators)):
+        actuator = tables.actuators[i]
+        if actuator.kind == STEERING:
+            command = world.acting[i, lane] if actuator.is_rough else commands[i, lane]
+            angle = (1.0 - 2.0 * command) * actuator.turn
+    return angle
 
 
 @compiled
