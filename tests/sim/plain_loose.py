@@ -56,7 +56,12 @@ class PlainLoose:
 
     def distances(self, of, angle, more):
         """How far a ray from the robot's centre goes to each loose thing that it meets, if these are `more` larger."""
-        for i, (body, _) in self.there.items():
+        yield from (self.distance(of, i, angle, more) for i in self.there)
+
+    def distance(self, of, i, angle, more):
+        """The same to one of them; infinitely far where the ray passes it."""
+        if i in self.there:
+            body = self.there[i][0]
             half = of.places[i][2] / 2 + more
             turned = angle - body.angle
             c, s = math.cos(turned), math.sin(turned)
@@ -68,7 +73,8 @@ class PlainLoose:
                 spans = [sorted(((v - half) / d, (v + half) / d)) for v, d in ((x, c), (y, s)) if abs(d) > 1e-12]
                 enter, leave = max(span[0] for span in spans), min(span[1] for span in spans)
             if 0 <= enter <= leave:
-                yield enter
+                return enter
+        return math.inf
 
     def replace(self, places, changed):
         """What has been moved elsewhere or has vanished."""

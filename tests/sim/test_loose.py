@@ -22,6 +22,8 @@ sensor crate_bearing is bearing of crate
 sensor ball_bearing is bearing of ball
 sensor crate_near is contact of crate
 sensor eyes is range_finder at 0 35 -35 90 180 -90 deg range 15
+sensor box_ahead is eye of crate at -20 0 20 deg range 15
+sensor item_ahead is eye of object at -10 10 deg range 15
 skill Push is rule
   reads slow
   reads quick
@@ -29,6 +31,8 @@ skill Push is rule
   reads crate_bearing
   reads ball_bearing
   reads eyes
+  reads box_ahead
+  reads item_ahead
   drives left_wheel at 1.8 - 2 * odd + 0.9 * (quick - 0.5) + 2 * (crate_bearing - 0.5) * slow + (ball_bearing - 0.5)
   drives right_wheel at 1.8 - 2 * odd - 0.9 * (quick - 0.5) - 2 * (crate_bearing - 0.5) * slow - (ball_bearing - 0.5)
   drives claw at 0.2 + slow

@@ -136,6 +136,7 @@ def _contact(tables: Tables, sizes: Sizes, room: _Room) -> Contact:
         handles=room.columns(chipmunk.FIRST_HELD + shapes, np.uint64),
         loose=room.columns(chipmunk.LOOSE_HANDLES * len(tables.loose), np.uint64),
         sizes=room.columns(len(tables.loose)),
+        placed=room.columns(len(tables.loose), np.uint8),
         gap=room.each(np.float64),
         floats=room.columns(chipmunk.BODY_FLOATS),
         batch=room.columns(chipmunk.BATCH_WORDS, np.int64),

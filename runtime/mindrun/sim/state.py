@@ -88,6 +88,7 @@ class Contact(NamedTuple):
     handles: Array  # [lane, …] uint64: space, body, robot's shape, held shapes, boxes' shapes, walls' shapes
     loose: Array  # [lane, LOOSE_HANDLES·loose] uint64: body and shape of each loose thing
     sizes: Array  # [lane, loose] float64: of which size these are
+    placed: Array  # [lane, loose] uint8: 1 where a body stands still just where its settled thing does
     # for this tick
     gap: Array  # float64: to what is nearest after it
     floats: Array  # [lane, …] float64: a body's state on its way to Chipmunk and back

@@ -33,7 +33,7 @@ from mindrun.sim.chipmunk_internals import (
     call,
 )
 from mindrun.sim.compiling import compiled
-from mindrun.sim.lanes.loose import is_at_rest
+from mindrun.sim.lanes.loose import SETTLED_TICKS, is_at_rest
 from mindrun.sim.state import LOOSE_ROWS, PUSHED_SPIN, PUSHED_X, PUSHED_Y, TURN
 
 GONE_UNITS, APART_UNITS = 1e8, 1e4  # where a Space keeps what is gone, each far from the others
@@ -55,7 +55,7 @@ def add_loose(tables, space, contact, lane):
         call(library[SHAPE_FRICTION], shape, tables.loose[i].friction)
         call(library[SPACE_ADD_SHAPE], space, shape)
         handles[LOOSE_HANDLES * i + LOOSE_BODY], handles[LOOSE_HANDLES * i + LOOSE_SHAPE] = body, shape
-        contact.sizes[lane, i] = 0.0
+        contact.sizes[lane, i], contact.placed[lane, i] = 0.0, 0
 
 
 @compiled
@@ -82,6 +82,10 @@ def push_loose(tables, world, contact, lane):
     """Where each loose thing of a lane is and how it moves, into its body."""
     library, floats, batch, handles = tables.library, contact.floats[lane], contact.batch[lane], contact.loose[lane]
     for i in range(len(tables.loose)):
+        if world.still[i, lane] >= SETTLED_TICKS:
+            if contact.placed[lane, i] == 1:
+                continue  # its body knows
+            contact.placed[lane, i] = 1
         row, place = LOOSE_ROWS * i, THING_ROWS * tables.loose[i].thing
         size, is_gone = world.things[place + SIZE, lane], np.isnan(world.things[place + X, lane])
         if contact.sizes[lane, i] != size:
@@ -133,6 +137,8 @@ def take_loose(tables, world, contact, lane):
         rests = is_at_rest(vx, vy, spin)
         if not (rests and stood and world.loose[row + TURN, lane] == angle):
             world.still[i, lane], world.restless[lane] = 0, 1
+        if world.still[i, lane] < SETTLED_TICKS or vx != 0.0 or vy != 0.0 or spin != 0.0:
+            contact.placed[lane, i] = 0
         world.things[place + X, lane], world.things[place + Y, lane] = x, y
         world.loose[row + TURN, lane] = angle
         world.loose[row + PUSHED_X, lane], world.loose[row + PUSHED_Y, lane] = (

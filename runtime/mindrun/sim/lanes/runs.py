@@ -146,6 +146,7 @@ def move(state, source, target):
         for i in range(handles.shape[1]):
             handles[source, i], handles[target, i] = handles[target, i], handles[source, i]
     copy_row(contact.sizes, source, target)
+    copy_row(contact.placed, source, target)
     contact.tally[target, FIXED_BODY] = contact.tally[source, FIXED_BODY]
 
 
