@@ -69,8 +69,8 @@ def meet_box(rows, frame, cosine, sine, out, lanes):
         x, y, half = frame[LOOSE_X, lane], frame[LOOSE_Y, lane], frame[LOOSE_HALF, lane]
         ix, iy = ONE / c, ONE / s
         left, right, low, high = (x - half) * ix, (x + half) * ix, (y - half) * iy, (y + half) * iy
-        first_x, last_x = (left, right) if left < right else (right, left)
-        first_y, last_y = (low, high) if low < high else (high, low)
+        first_x, last_x = left if left < right else right, right if left < right else left
+        first_y, last_y = low if low < high else high, high if low < high else low
         enter = first_x if first_x > first_y else first_y
         leave = last_x if last_x < last_y else last_y
         hit = (enter >= ZERO) & (enter <= leave) & (enter < out[lane])
