@@ -56,7 +56,7 @@ def thing_rows(graph: Graph, task: Task) -> Array:
     """Rows of THING, the items, zones and powers in the order of the source."""
     rows: list[Row] = []
     asked = {(event.outcome, event.thing) for event in task.events if event.outcome}
-    loose = count()
+    loose, takes_items = count(), any(thing.kind.takes_items for thing in task.things)
     first = {name: found.start for name, found in rows_by_name(task).items()}
     for number, thing in enumerate(things_of(task)):
         kind, size, copy = thing.kind, thing.kind.size, number - first[thing.name]
@@ -75,6 +75,7 @@ def thing_rows(graph: Graph, task: Task) -> Array:
             outcome = kind.outcomes.get(what, STAYS)
             row[what] = OUTCOMES.index(outcome)
             row[f"is_{what}"] = outcome != STAYS or (what, thing.name) in asked
+        row["is_delivered"] = row["is_delivered"] and takes_items  # elsewhere nobody looks for zones
         rows.append(row)
     return records(rows, THING)
 
