@@ -1,7 +1,8 @@
 """A lesson that comes before those of skills that it needs.
 
 A lesson runs the whole hierarchy below its master, and a skill that has not been taught yet has no weights: training
-stops there. Teach subskills first; lessons are taught in the order in which they stand.
+stops there; and so does a lesson that begins `from` a skill without weights. Teach these first; lessons are taught in
+the order in which they stand.
 """
 
 from collections.abc import Sequence
@@ -31,7 +32,16 @@ GOOD = (
     HIERARCHY + FIRST_LESSON + SECOND_LESSON,
     f"{HIERARCHY}  teaches Live on Course for 10 generations with subskills\n{FIRST_LESSON}",
 )
-BAD = (HIERARCHY + SECOND_LESSON + FIRST_LESSON,)
+OTHER = """
+skill Turn is mlp
+  reads eye
+  drives left_wheel
+"""
+FROM_GO = "  teaches Turn on Course for 10 generations from Go\n"
+BAD = (
+    HIERARCHY + SECOND_LESSON + FIRST_LESSON,
+    HIERARCHY.replace("task Course", f"{OTHER}task Course") + FROM_GO + FIRST_LESSON,
+)
 
 Latest = dict[str, tuple[int, str]]
 

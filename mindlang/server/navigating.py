@@ -87,7 +87,7 @@ def symbols(file: File) -> list[Symbol]:
         things = (fact for fact in declaration.facts if isinstance(fact, Contains))
         inner = (Symbol("thing", f.name.text, f.phrase.kind.text, f.span, f.name.span) for f in things)
         whole = Span(file.source, header.span.start, end)
-        kind = header.phrase.kind.text if header.phrase else ""
+        kind = header.phrase.kind.text if header.phrase else f"like {header.like.text}" if header.like else ""
         found.append(Symbol(header.noun.text, header.name.text, kind, whole, header.name.span, tuple(inner)))
     return found
 
