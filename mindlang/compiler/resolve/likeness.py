@@ -1,7 +1,7 @@
 """Skills that are like others: the same function with the same weights, which reads something else."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
+from dataclasses import fields, is_dataclass, replace
 from typing import Any
 
 from mindlang.compiler import model
@@ -84,7 +84,7 @@ class _Likeness:
         instead = self._instead(other)
         reads = tuple(instead.get(name, name) for name in other.reads)
         self._refuse_twice(reads)
-        edges = tuple(_edge(edge, instead) for edge in other.edges)
+        edges = _reading(other.edges, instead)
         return model.Skill(self.name, other.function, reads, edges, False, self.declaration, other.owner)
 
     def _refuse_more(self, other: model.Skill) -> None:
@@ -140,15 +140,16 @@ class _Likeness:
                 return
 
 
-def _edge(edge: model.Edge, instead: Mapping[str, str]) -> model.Edge:
-    """An edge whose values are computed of what is read instead."""
-    if edge.at is None:
-        return edge
-    terms = (
-        replace(term, name=instead.get(term.name, term.name)) if isinstance(term, model.Reading) else term
-        for term in edge.at.terms
-    )
-    return replace(edge, at=replace(edge.at, terms=tuple(terms)))
+def _reading(node: Any, instead: Mapping[str, str]) -> Any:
+    """An edge, or a part of one, whose values are computed of what is read instead."""
+    match node:
+        case model.Reading(name=name):
+            return replace(node, name=instead.get(name, name))
+        case tuple():
+            return tuple(_reading(each, instead) for each in node)
+    if not is_dataclass(node) or type(node).__module__ != model.__name__:  # a span, a fact, an operator
+        return node
+    return replace(node, **{field.name: _reading(getattr(node, field.name), instead) for field in fields(node)})
 
 
 def _readings(width: int) -> str:
