@@ -88,7 +88,7 @@ def _task(task: model.Task, places: Mapping[str, tuple[int, int]]) -> graph.Task
     things = tuple(graph.Thing(thing.name, thing.kind) for thing in task.things)
     return graph.Task(
         task.name, task.scene, things, task.ticks, tuple(measures), tuple(events), ends, rewards, counts
-    )  # fmt: skip
+    , task.start)  # fmt: skip
 
 
 def _index(value: T, known: dict[T, int]) -> int:

@@ -8,7 +8,7 @@ from mindrun.actuators import ActuatorKind
 from mindrun.bodies import BodyKind
 from mindrun.events import EventKind
 from mindrun.functions import Function
-from mindrun.graph import Receiver
+from mindrun.graph import Receiver, Start
 from mindrun.learners import Learner
 from mindrun.measures import MeasureKind
 from mindrun.memory import Cell
@@ -145,6 +145,7 @@ class Task:
     name: str
     scene: SceneKind
     things: tuple[Part[ThingKind], ...]
+    start: Start
     ticks: int
     ends: tuple[EventKind, ...]
     rewards: tuple[Reward, ...]

@@ -101,6 +101,10 @@ def _is_valid_fact(subject: str, value: Any) -> bool:
             return _is_skill(value)
         case ["task"]:
             return isinstance(value, dict) and value.keys() == {"scene", "ticks", "ends"} and _is_task(value)
+        case ["start"]:
+            return (
+                isinstance(value, dict) and value.keys() == {"at", "facing"} and all(map(_is_argument, value.values()))
+            )
         case ["rewards"]:
             return isinstance(value, list) and all(_are_strings(each) and len(each) == 2 for each in value)
         case ["lesson"]:

@@ -2,6 +2,7 @@
 
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
+from math import degrees
 from typing import Any
 
 from mindlang.lock.older_worlds import migrate_facts
@@ -104,6 +105,15 @@ def _reach(facts: Mapping[str, Any]) -> str:
 def _task_changes(old: Mapping[str, Any], now: Mapping[str, Any]) -> Iterator[str]:
     told = [*_scene_changes(old.get("task"), now.get("task")), *_reward_changes(old["rewards"], now["rewards"])]
     yield from (f"its task has changed: {change}" for change in told)
+    if old.get("start") != now.get("start"):
+        yield f"its task has changed: {_start(now.get('start'))}, before {_start(old.get('start'))}"
+
+
+def _start(start: Any) -> str:
+    """Where a robot starts, in words."""
+    at, facing = (start["at"], start["facing"]) if start else (None, None)
+    words = [f"at {number(at[0])} {number(at[1])}"] if isinstance(at, list) and len(at) == 2 else ["anywhere"]
+    return " ".join(["starts", *words, *([f"facing {degrees(facing):g} deg"] if isinstance(facing, float) else [])])
 
 
 def _scene_changes(old: Mapping[str, Any] | None, now: Mapping[str, Any] | None) -> Iterator[str]:

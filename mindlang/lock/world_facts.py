@@ -16,7 +16,7 @@ from mindrun.codec import encode
 from mindrun.errors import ProcedureError
 from mindrun.expression import leaves
 from mindrun.functions.procedure import module_source
-from mindrun.graph import Graph, Lesson, Reward, Skill, Task
+from mindrun.graph import Graph, Lesson, Reward, Skill, Start, Task
 from mindrun.reachability import reached_from
 from mindrun.registry import names
 from mindrun.sensors import SensorKind
@@ -86,6 +86,8 @@ class Worlds:
         yield "body", encode(self.graph.body)
         ends = sorted(phrase(task.events[event]) for event in task.ends)
         yield "task", {"scene": encode(task.scene), "ticks": task.ticks, "ends": ends}
+        if task.start != Start():
+            yield "start", {"at": encode(task.start.at), "facing": task.start.facing}
         yield "rewards", sorted([*self._reward(task, reward)] for reward in task.rewards)
         yield from ((f"thing {thing.name}", encode(thing.kind)) for thing in task.things)
         yield from ((f"skill {skill.name}", self._skill(skill)) for skill in skills)

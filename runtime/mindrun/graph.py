@@ -1,7 +1,7 @@
 """The compiled hierarchy as plain data: names as indices, units converted, skills in the order of influence."""
 
 from dataclasses import dataclass
-from typing import Literal
+from typing import Annotated, Literal
 
 from mindrun.actuators import ActuatorKind
 from mindrun.actuators.gripper import REACH_UNITS
@@ -12,6 +12,7 @@ from mindrun.functions import Function
 from mindrun.learners import Learner
 from mindrun.measures import MeasureKind
 from mindrun.memory import Cell
+from mindrun.quantity import ANGLE, COORDINATE, Place
 from mindrun.scenes import SceneKind
 from mindrun.sensors import SensorKind
 from mindrun.things import ThingKind
@@ -128,6 +129,14 @@ class Reward:
 
 
 @dataclass(frozen=True, slots=True)
+class Start:
+    """Where the robot is when a run begins, and which way it faces; None where that is drawn."""
+
+    at: Annotated[Place | None, COORDINATE] = None
+    facing: Annotated[float | None, ANGLE] = None
+
+
+@dataclass(frozen=True, slots=True)
 class Task:
     """A task: its world, its end, its rewards. `ends` and `counts` are indices into `events`."""
 
@@ -140,6 +149,7 @@ class Task:
     ends: tuple[int, ...]
     rewards: tuple[Reward, ...]
     counts: tuple[int, ...]
+    start: Start = Start()
 
 
 @dataclass(frozen=True, slots=True)

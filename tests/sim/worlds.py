@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 from mindrun.actuators import Gripper, Lamp, Motor, Servo, Steering, Thruster, Wheel
 from mindrun.bodies import Box, Car, Disc, Holonomic
 from mindrun.events import Collision, Delivery, EventKind, Exhaustion, Reach, Visit
-from mindrun.graph import Actuator, Condition, Graph, Lesson, Program, Reward, Task, Thing
+from mindrun.graph import Actuator, Condition, Graph, Lesson, Program, Reward, Start, Task, Thing
 from mindrun.learners import Learner
 from mindrun.measures import Advance, Change, Forward, MeasureKind, Progress, Retreat
 from mindrun.quantity import UNSAID, Span
@@ -85,7 +85,18 @@ def random_world(draw: st.DrawFn, most: int = 40) -> Graph:
     rewards = tuple(draw(_rewards(graph, len(measures), len(events))) for _ in range(draw(st.integers(1, 4))))
     some = st.lists(st.sampled_from(range(len(events))), unique=True, max_size=3) if events else st.just([])
     ticks = draw(st.integers(1, most))
-    task = Task("World", scene, things, ticks, measures, events, tuple(draw(some)), rewards, tuple(draw(some)))
+    task = Task(
+        "World",
+        scene,
+        things,
+        ticks,
+        measures,
+        events,
+        tuple(draw(some)),
+        rewards,
+        tuple(draw(some)),
+        draw(st.sampled_from([Start(), Start(), Start((2.0, -1.0)), Start(None, 1.0), Start((0.0, 0.5), -3.0)])),
+    )
     return replace(graph, tasks=(task,), lessons=tuple(draw(_lessons(graph))))
 
 

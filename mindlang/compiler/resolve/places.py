@@ -1,13 +1,17 @@
 """Whether what a task puts at a place can be there, beside what else it puts somewhere."""
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from typing import Any
 
-from mindrun.quantity import Place
+from mindrun.graph import Start
+from mindrun.quantity import ANGLE, COORDINATE, Place
 from mindrun.scenes import SceneKind
+from mindrun.things.rectangle import Rectangle
 
 from mindlang.compiler.diagnostic import Findings, Label
 from mindlang.compiler.model import Part
+from mindlang.compiler.resolve.quantities import convert
+from mindlang.compiler.syntax import Declaration, Starts
 
 
 def check_places(things: Sequence[Part[Any]], scene: SceneKind | None, findings: Findings) -> None:
@@ -15,6 +19,45 @@ def check_places(things: Sequence[Part[Any]], scene: SceneKind | None, findings:
     for thing in things:
         if thing.kind and thing.kind.at and not thing.kind.is_obstacle:
             _check_places(thing, thing.kind.at, things, scene, findings)
+
+
+def start_of(
+    declaration: Declaration, scene: SceneKind | None, things: Sequence[Part[Any]], findings: Findings
+) -> Start:
+    """Where the robot starts, as the last line of a task or scene that says so has it."""
+    start = Start()
+    for fact in declaration.facts:
+        if isinstance(fact, Starts):
+            start = Start(_start(fact, scene, things, findings), _facing(fact, findings))
+    return start
+
+
+def _facing(fact: Starts, findings: Findings) -> float | None:
+    return convert(fact.facing, ANGLE, findings) if fact.facing else None
+
+
+def _start(fact: Starts, scene: SceneKind | None, things: Sequence[Part[Any]], findings: Findings) -> Place | None:
+    """The place that a line names, None where it names none or after reporting that nobody can be there."""
+    if fact.place is None:
+        return None
+    x, y = (convert(amount, COORDINATE, findings) for amount in fact.place)
+    if x is None or y is None:
+        return None
+    if scene and not scene.has_room((x, y), 0.0):
+        hint = "Write a place that is in it; 0 0 is the middle."
+        findings.error("outside-arena", fact.span, "That is not inside the arena.", hint)
+    for thing in things:
+        if thing.kind and any(box.holds((x, y)) for box in (*thing.kind.standing(scene), *_loose(thing.kind))):
+            hint, there = f"Write another place for the robot or {thing.name}.", Label(thing.span, "this one")
+            findings.error("inside-obstacle", fact.span, "Something solid stands there.", hint, there)
+            break
+    return x, y
+
+
+def _loose(kind: Any) -> Iterator[Rectangle]:
+    """Where loose things stand when a run begins, as far as that is said."""
+    half = min(kind.size.first, kind.size.last) / 2
+    yield from (Rectangle(x, y, half, half) for x, y in kind.at if kind.is_loose)
 
 
 def _check_places(

@@ -17,15 +17,18 @@ from mindlang.compiler.resolve.expressions import Visible, resolve
 from mindlang.compiler.resolve.kinds import Scope, make
 from mindlang.compiler.resolve.maps import with_places
 from mindlang.compiler.resolve.parts import refuse_facts
-from mindlang.compiler.resolve.places import check_places
+from mindlang.compiler.resolve.places import check_places, start_of
 from mindlang.compiler.resolve.quantities import convert
-from mindlang.compiler.syntax import Contains, Counts, Declaration, Ends, Fact, Lasts, Phrase, Rewards
+from mindlang.compiler.syntax import Contains, Counts, Declaration, Ends, Fact, Lasts, Phrase, Rewards, Starts
 
 MAX_RUN_TICKS = 10_000_000  # of a run
 LASTS = replace(TICKS, low=1.0, high=MAX_RUN_TICKS)
 
-TASK_FACTS: tuple[type[Fact], ...] = (Contains, Lasts, Ends, Rewards, Counts)
-SCENE_FACTS: tuple[type[Fact], ...] = (Contains,)  # those that say what the world is, without what is to be done in it
+TASK_FACTS: tuple[type[Fact], ...] = (Contains, Starts, Lasts, Ends, Rewards, Counts)
+SCENE_FACTS: tuple[type[Fact], ...] = (
+    Contains,
+    Starts,
+)  # what the world is, not what is to be done in it
 
 F = TypeVar("F", bound=Fact)
 
@@ -59,7 +62,8 @@ def tasks(robot: RobotFacts, findings: Findings) -> tuple[model.Task, ...]:
     for _, scene in robot.names.declarations("scene"):
         with findings.each_once():
             refuse_facts(scene, SCENE_FACTS, findings)
-            _world(scene, robot, findings)
+            world = _world(scene, robot, findings)
+            start_of(scene, world.scene, world.things, findings)
     found = []
     for name, declaration in robot.names.declarations("task"):
         with findings.each_once():
@@ -84,6 +88,7 @@ def _task(name: str, declaration: Declaration, robot: RobotFacts, findings: Find
         name,
         world.scene,
         world.things,
+        start_of(declaration, world.scene, world.things, findings),
         _ticks(declaration, robot.tick, findings),
         tuple(_event(fact.event, world, findings) for fact in _facts(declaration, Ends) if fact.event),
         tuple(_reward(fact, world, robot, findings) for fact in _facts(declaration, Rewards)),

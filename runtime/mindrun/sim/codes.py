@@ -89,6 +89,7 @@ REWARD = _row(
 WORLD = _row(
     dt="f8", linear="f8", angular="f8", mass="f8", moment="f8", mass_inv="f8", moment_inv="f8", radius="f8",
     front="f8", side="f8", is_round="i8", axles="f8", half_x="f8", half_y="f8",
+    is_placed="i8", start_x="f8", start_y="f8", is_faced="i8", facing="f8",
     ticks="i8", start="f8", drain="f8", charge="f8", rays="i8",
     near="f8", master="i8", claw="f8", battery="i8", cell="f8",
 )  # fmt: skip

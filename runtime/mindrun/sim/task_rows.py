@@ -147,7 +147,7 @@ def reward_row(reward: Reward, codes: Programs) -> tuple[int, ...]:
 
 def world_row(graph: Graph, task: Task, rays: int, used: Sequence[Sensor], master: int) -> Array:
     """The numbers of the body, the battery and the scene."""
-    body, dt, scene = graph.body, graph.tick, task.scene
+    body, dt, scene, begin = graph.body, graph.tick, task.scene, task.start
     battery = next((s.kind.battery for s in graph.sensors if s.kind.battery), Battery().battery)
     powered = any(event.is_of_battery for event in task.events) or any(s.kind.battery for s in used)
     held = [thing.kind.largest for thing in task.things if thing.kind.can_be_held]
@@ -161,7 +161,8 @@ def world_row(graph: Graph, task: Task, rays: int, used: Sequence[Sensor], maste
         dt, 1.0 / (1.0 + dt * body.linear_damping), 1.0 / (1.0 + dt * body.angular_damping), body.mass, body.moment,
         1.0 / body.mass, 1.0 / body.moment, body.radius, body.front, body.side,
         not body.outline, body.axle_distance,
-        *(side / 2 for side in scene.sides), task.ticks,
+        *(side / 2 for side in scene.sides),
+        begin.at is not None, *(begin.at or (0.0, 0.0)), begin.facing is not None, begin.facing or 0.0, task.ticks,
         battery.start, battery.drain, battery.charge, rays, near, master, graph.claw_reach, powered, cell,
     )  # fmt: skip
     return np.array([row], WORLD)

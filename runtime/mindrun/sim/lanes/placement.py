@@ -108,18 +108,20 @@ def draw_grid(world, obstacle, box, lane):
 
 @compiled
 def start(tables, world, lane):
-    """The robot at rest: in the origin of a plain scene, anywhere clear in an arena; facing anywhere."""
+    """The robot at rest: where its task says, or in the origin of a plain scene, or anywhere clear in an arena."""
     body, random, constants, radius = world.body, world.random, tables.world[0], tables.world[0].radius
     room_x, room_y = constants.half_x - 3 * radius, constants.half_y - 3 * radius
     body[:, lane] = 0.0
-    if constants.half_x < ENDLESS_UNITS:
+    if constants.is_placed:
+        body[X, lane], body[Y, lane] = constants.start_x, constants.start_y
+    elif constants.half_x < ENDLESS_UNITS:
         for _ in range(MAX_TRIES):
             body[X, lane] = uniform(random, lane, -room_x, room_x)
             body[Y, lane] = uniform(random, lane, -room_y, room_y)
             is_clear = clear(world.boxes, body[X, lane], body[Y, lane], 3 * radius, lane)
             if is_clear and clear_of_loose(tables, body[X, lane], body[Y, lane], 3 * radius):
                 break
-    body[ANGLE, lane] = uniform(random, lane, 0.0, 2 * np.pi)
+    body[ANGLE, lane] = constants.facing if constants.is_faced else uniform(random, lane, 0.0, 2 * np.pi)
 
 
 @compiled
