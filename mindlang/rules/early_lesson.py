@@ -32,15 +32,15 @@ GOOD = (
     HIERARCHY + FIRST_LESSON + SECOND_LESSON,
     f"{HIERARCHY}  teaches Live on Course for 10 generations with subskills\n{FIRST_LESSON}",
 )
-OTHER = """
+BESIDE_GO = """
 skill Turn is mlp
   reads eye
   drives left_wheel
 """
-FROM_GO = "  teaches Turn on Course for 10 generations from Go\n"
+LESSON_FROM_GO = "  teaches Turn on Course for 10 generations from Go\n"
 BAD = (
     HIERARCHY + SECOND_LESSON + FIRST_LESSON,
-    HIERARCHY.replace("task Course", f"{OTHER}task Course") + FROM_GO + FIRST_LESSON,
+    HIERARCHY.replace("task Course", f"{BESIDE_GO}task Course") + LESSON_FROM_GO + FIRST_LESSON,
 )
 
 Latest = dict[str, tuple[int, str]]

@@ -1,7 +1,7 @@
 """Skills that are like others: the same function with the same weights, which reads something else."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import fields, is_dataclass, replace
+from dataclasses import fields, replace
 from typing import Any
 
 from mindlang.compiler import model
@@ -147,7 +147,7 @@ def _reading(node: Any, instead: Mapping[str, str]) -> Any:
             return replace(node, name=instead.get(name, name))
         case tuple():
             return tuple(_reading(each, instead) for each in node)
-    if not is_dataclass(node) or type(node).__module__ != model.__name__:  # a span, a fact, an operator
+    if type(node).__module__ != model.__name__:  # a name, a span, a fact, an operator
         return node
     return replace(node, **{field.name: _reading(getattr(node, field.name), instead) for field in fields(node)})
 
