@@ -8,7 +8,7 @@ from typing import Any
 from mindrun.errors import reason
 from mindrun.quantity import Place
 from mindrun.regular_files import read_regular
-from mindrun.things.map import FLOOR, Map
+from mindrun.things.map import FLOOR
 
 from mindlang.compiler.diagnostic import Findings, listed
 from mindlang.compiler.model import Part
@@ -58,7 +58,7 @@ def with_places(things: Parts, are_all: bool, findings: Findings) -> tuple[Part[
     """The things of a task, those at a place of which a map has their letter; `are_all` where no others follow."""
     placed: dict[str, tuple[Place, ...]] = {}
     for drawn in things:
-        if isinstance(drawn.kind, Map) and not drawn.kind.mistake(None):
+        if drawn.kind and drawn.kind.letters and not drawn.kind.mistake(None):
             for letter, places in drawn.kind.letters.items():
                 if name := _named(letter, drawn, things, are_all, findings):
                     placed[name] = placed.get(name, ()) + places
@@ -67,7 +67,7 @@ def with_places(things: Parts, are_all: bool, findings: Findings) -> tuple[Part[
 
 def _named(letter: str, drawn: Part[Any], things: Parts, are_all: bool, findings: Findings) -> str | None:
     """The thing that a letter stands for, None after reporting that there is none."""
-    fit = [thing.name for thing in things if thing.name.startswith(letter) and not isinstance(thing.kind, Map)]
+    fit = [thing.name for thing in things if thing.name.startswith(letter) and thing is not drawn]
     if letter in fit or len(fit) == 1:
         return letter if letter in fit else fit[0]
     if fit:

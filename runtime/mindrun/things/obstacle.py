@@ -12,7 +12,7 @@ from mindrun.things.rectangle import Rectangle
 from mindrun.things.thing import DEFAULT_DISTANCE, DEFAULT_SIZE, MAX_OBSTACLES, Mistake, Row, ThingKind
 
 COUNT = Quantity("a whole number", {"": 1.0}, low=0, high=1000, whole=True)
-MIDDLE: tuple[Place, ...] = ((0.0, 0.0),)  # of a grid
+MIDDLE_UNITS: tuple[Place, ...] = ((0.0, 0.0),)  # of a grid
 MAX_GRID_LINES = 1e9  # lines of a grid, far more than can be
 
 
@@ -53,7 +53,7 @@ class Obstacle(ThingKind):
         columns, rows = self.grid_lines(scene) if self.grid else (1, 1)
         if half <= 0 or not (self.grid or self.at) or columns * rows > MAX_OBSTACLES:
             return
-        for (x, y), column, row in product(self.at or MIDDLE, range(columns), range(rows)):
+        for (x, y), column, row in product(self.at or MIDDLE_UNITS, range(columns), range(rows)):
             yield Rectangle(
                 x + (column - (columns - 1) / 2) * self.grid, y + (row - (rows - 1) / 2) * self.grid, half, half
             )
@@ -63,7 +63,7 @@ class Obstacle(ThingKind):
         columns, rows = (1, 1) if self.at else self.grid_lines(scene)
         count = 0 if self.grid or self.at else self.count
         grid = {"grid": self.grid, "jitter": self.jitter, "columns": columns, "rows": rows, "count": count}
-        return [{**grid, "x": x, "y": y} for x, y in self.at or MIDDLE]
+        return [{**grid, "x": x, "y": y} for x, y in self.at or MIDDLE_UNITS]
 
     def mistake(self, scene: SceneKind | None) -> Mistake | None:
         """A grid needs the borders of an arena and must not be too close; without one it needs a count or a place."""

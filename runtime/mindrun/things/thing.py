@@ -90,6 +90,11 @@ class ThingKind:
         """What it fills with something solid that is known before any run."""
         return ()
 
+    @property
+    def letters(self) -> Mapping[str, tuple[Place, ...]]:
+        """The places of things that it draws, by their letters."""
+        return {}
+
     def rows(self, scene: SceneKind) -> Iterable[Row]:
         """What the lanes are told of its obstacles: the spacing of their `grid` and how many `columns` and `rows` it
         has around `x` and `y`, their `jitter` and `count`.
