@@ -58,7 +58,8 @@ def command(file: str, output: Path, master: str | None, robot: Path | None, as_
     if master is not None and master not in skills:
         fail(f"There is no skill {master}.", did_you_mean(master, skills), MISUSE)
     _refuse_procedures(compiled, master)
-    wiring = _wiring(robot, replace(compiled.graph, master=master or compiled.graph.master)) if robot else None
+    led = replace(compiled.graph, master=master or compiled.graph.master)
+    wiring = _wiring(robot, led, compiled.mind.unit_metres if compiled.mind else None) if robot else None
     try:
         ready = make_ready(compiled.graph, compiled.sources, master)
         _refuse_missing(ready, file)
@@ -100,13 +101,13 @@ def _refuse_procedures(compiled: Compiled, master: str | None) -> None:
         sys.exit(FINDINGS)
 
 
-def _wiring(path: Path, graph: Graph) -> Wiring:
+def _wiring(path: Path, graph: Graph, unit_metres: float | None) -> Wiring:
     """What the mind is wired to; its report goes to stderr, and one with errors ends the program."""
     from mindlang.cli._diagnostic_printer import print_report
     from mindlang.cli._terminal import FINDINGS, MISUSE, console
     from mindlang.wiring.wire import load_wiring
 
-    checked = load_wiring(path, graph)
+    checked = load_wiring(path, graph, unit_metres)
     print_report(checked.diagnostics, console(stderr=True))
     if checked.wiring is None:
         sys.exit(FINDINGS if checked.readable else MISUSE)

@@ -74,8 +74,14 @@ def _settings(old: Mind, new: Mind) -> Iterator[Difference]:
         if name in new.numbers and new.numbers[name] != value:
             before, after = (_written(mind.names.numbers[name]) for mind in (old, new))
             yield Difference(f"number {name}", (before,), (after,))
+    if old.unit_metres != new.unit_metres:
+        yield Difference("unit", *(_unit(mind.unit_metres) for mind in (old, new)))
     if old.tick != new.tick:
         yield Difference("tick", (f"tick {old.tick:.6g} s",), (f"tick {new.tick:.6g} s",))
+
+
+def _unit(metres: float | None) -> tuple[str, ...]:
+    return () if metres is None else (f"unit {100 * metres:.6g} cm",)
 
 
 def _difference(what: str, old: Sequence[_Line], new: Sequence[_Line], ordered: bool) -> Iterator[Difference]:

@@ -175,7 +175,8 @@ class Lesson:
 class Mind:
     """A whole mind, in the order of its sources. `tick` is in seconds; `names` are all declarations, as written.
 
-    `numbers` are what the names of numbers stand for, each with its unit.
+    `numbers` are what the names of numbers stand for, each with its unit; `unit_metres` is how long a unit of the world
+    is on a robot, None where that is not said.
     """
 
     tick: float
@@ -190,3 +191,4 @@ class Mind:
     files: tuple[File, ...]
     names: Names
     numbers: Mapping[str, tuple[float, str, str]] = field(default_factory=dict)
+    unit_metres: float | None = None

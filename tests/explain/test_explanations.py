@@ -17,6 +17,7 @@ EMITTERS = {"error", "refuse", "Diagnostic", "Mistake"}
 MADE = {
     "f'unknown-{nouns[0]}'": {f"unknown-{noun}" for noun in ("sensor", "actuator", "skill", "task", "scene", "number")},
     "f'unknown-{type_.noun}'": {"unknown-axis", "unknown-side", "unknown-outcome"},
+    "f'{word}-differs'": {"tick-differs", "unit-differs"},
     "said.replace(' ', '-')": {f"{key}-{word}" for key, (word, _) in SWITCHES.items()},
 }
 PASSED_ON = {"code", "mistake.code", "rule.code"}  # codes that are made elsewhere
