@@ -200,7 +200,9 @@ def _declarations(rng: Random) -> list[list[str]]:
     blocks = [[_more(rng, line.split()[0], line)] for line in parts]
     blocks += [_skill(rng, skill, functions[skill], skills[place + 1 :]) for place, skill in enumerate(skills)]
     tasks = rng.sample([*SKILLS[:3], "Roam"], rng.randint(1, 2))
-    blocks += [_task(rng, task) for task in tasks]
+    blocks += [block for task in tasks for block in _in_scene(rng, _task(rng, task))]
+    if rng.random() < 0.3:
+        blocks = [["number wide is 2"], *([line.replace(" size 2", " size wide") for line in each] for each in blocks)]
     learners = [skill for skill in skills if functions[skill].startswith(("mlp", "elman"))]
     if learners:
         lessons = [
@@ -265,6 +267,20 @@ def _value(rng: Random, reads: list[str]) -> str:
         return number
     reading = rng.choice(narrow)
     return rng.choice([reading, f"1 - {reading}", f"({number} + {reading}) * {rng.choice(narrow)}", f"{reading}/2"])
+
+
+def _in_scene(rng: Random, task: list[str]) -> list[list[str]]:
+    """A task as it is, or with its world in a scene of its own, of which it may say something itself."""
+    if rng.random() < 0.6:
+        return [task]
+    (header, phrase), facts = task[0].split(" in "), task[1:]
+    name = f"{header.split()[1].replace('+', '')}World"
+    things = [fact for fact in facts if fact.startswith("contains") and rng.random() < 0.7]
+    scene = [f"scene {name} is {phrase}", *things]
+    other = [f"scene {name}More is like {name}", *(thing for thing in things if rng.random() < 0.2)]
+    is_like = rng.random() < 0.3
+    mine = [f"{header} in {name}{'More' * is_like}", *(fact for fact in facts if fact not in things)]
+    return [mine, scene, *([other] if is_like else [])]
 
 
 def _task(rng: Random, name: str) -> list[str]:
