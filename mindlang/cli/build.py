@@ -12,7 +12,6 @@ import click
 from mindlang.cli._options import NewFile
 
 if TYPE_CHECKING:
-    from mindrun.graph import Graph
     from mindrun.wiring import Wiring
 
     from mindlang.compiler.compile import Compiled
@@ -58,8 +57,7 @@ def command(file: str, output: Path, master: str | None, robot: Path | None, as_
     if master is not None and master not in skills:
         fail(f"There is no skill {master}.", did_you_mean(master, skills), MISUSE)
     _refuse_procedures(compiled, master)
-    led = replace(compiled.graph, master=master or compiled.graph.master)
-    wiring = _wiring(robot, led, compiled.mind.unit_metres if compiled.mind else None) if robot else None
+    wiring = _wiring(robot, compiled, master) if robot else None
     try:
         ready = make_ready(compiled.graph, compiled.sources, master)
         _refuse_missing(ready, file)
@@ -101,13 +99,16 @@ def _refuse_procedures(compiled: Compiled, master: str | None) -> None:
         sys.exit(FINDINGS)
 
 
-def _wiring(path: Path, graph: Graph, unit_metres: float | None) -> Wiring:
+def _wiring(path: Path, compiled: Compiled, master: str | None) -> Wiring:
     """What the mind is wired to; its report goes to stderr, and one with errors ends the program."""
     from mindlang.cli._diagnostic_printer import print_report
     from mindlang.cli._terminal import FINDINGS, MISUSE, console
     from mindlang.wiring.wire import load_wiring
 
-    checked = load_wiring(path, graph, unit_metres)
+    assert compiled.mind is not None
+    assert compiled.graph is not None
+    graph = replace(compiled.graph, master=master or compiled.graph.master)
+    checked = load_wiring(path, graph, compiled.mind.unit_metres)
     print_report(checked.diagnostics, console(stderr=True))
     if checked.wiring is None:
         sys.exit(FINDINGS if checked.readable else MISUSE)

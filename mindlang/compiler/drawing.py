@@ -34,6 +34,8 @@ def tree(mind: Mind) -> Tree:
             continue
         shown.add(name)
         branch = above.add(Text.assemble((name, "bold"), _at(edge), (f"  {_what(skills[name])}", "cyan")))
+        if comment := skills[name].declaration.comment:
+            branch.add(Text(comment, "italic"))
         for line in _lines(skills[name]):
             branch.add(Text(line))
         below = [(branch, edge.target, edge) for edge in skills[name].edges if edge.to == "skill"]

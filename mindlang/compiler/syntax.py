@@ -2,6 +2,7 @@
 
 from dataclasses import dataclass
 
+from mindlang.compiler.comments import comment_of
 from mindlang.compiler.source import Source, Span
 
 # The words with which a line begins; the names of parts begin with a small letter, all others with a capital one.
@@ -336,6 +337,11 @@ class Declaration:
     header: Header
     facts: tuple[Fact, ...]
     whole: bool = True
+
+    @property
+    def comment(self) -> str:
+        """Its documentation: what the comments right above it say, and the one behind its first line."""
+        return comment_of(self.header.span)
 
 
 @dataclass(frozen=True, slots=True)

@@ -18,7 +18,7 @@ from mindlang.compiler.source import Span
 from mindlang.compiler.splice import Splice
 from mindlang.compiler.syntax import NOUNS, Declaration, Drives, Fact, File, Influences, Master, Reads
 from mindlang.editing.neighbours import neighbours
-from mindlang.editing.references import READABLE_NOUNS, Mention, mentions
+from mindlang.editing.references import VALUE_NOUNS, Mention, mentions
 
 F = TypeVar("F", bound=Fact)
 MAX_SUGGESTED_NAMES = 8  # names in a message
@@ -100,12 +100,13 @@ class Project:
 
     def refuse_taken(self, noun: str, name: str) -> None:
         """EditError where a noun has the name already, or a measure that a reading would hide."""
-        if noun in READABLE_NOUNS and name in kinds("measure"):
-            message = f"{name} is a measure: rewards that say it would mean the reading then."
+        if noun in VALUE_NOUNS and name in kinds("measure"):
+            meant = "number" if noun == "number" else "reading"
+            message = f"{name} is a measure: rewards that say it would mean the {meant} then."
             raise EditError(message, "Choose another name.")
         for taken in (noun, *SHARED.get(noun, ())):
-            if other := self.names.table.get(taken, {}).get(name):
-                label = other.header.name.span
+            if self.names.noun_of(name, (taken,)):
+                label = self.names.place_of(taken, name)
                 raise EditError(f"There is already {a(taken)} called {name}.", "Choose another name.", label)
 
     def declared(self, name: str, noun: str, say: str = "--noun {}") -> Declaration:

@@ -15,7 +15,7 @@ from mindlang.editing.project import (
     refuse_no_noun,
     suggestion,
 )
-from mindlang.editing.references import Mention, introductions
+from mindlang.editing.references import VALUE_NOUNS, Mention, introductions
 
 
 def rename(
@@ -42,7 +42,7 @@ def rename(
 def _declared(project: Project, name: str, noun: str) -> Mention:
     """Where a name is declared with a noun, or with the only one that has it."""
     if noun:
-        refuse_no_noun(noun, (*NOUNS, "thing"))
+        refuse_no_noun(noun, (*NOUNS, "thing", "number"))
     known = [mention for mention in introductions(project.files) if noun in ("", mention.noun)]
     found = {mention.noun: mention for mention in known if mention.name.text == name}
     if not found:
@@ -62,7 +62,7 @@ def _refuse_taken(project: Project, noun: str, name: str) -> None:
         _refuse_taken_thing(project, name)
     else:
         project.refuse_taken(noun, name)
-    if noun in ("sensor", "memory"):
+    if noun in VALUE_NOUNS:
         _refuse_captured(project, name)
 
 
@@ -74,7 +74,7 @@ def _refuse_taken_thing(project: Project, name: str) -> None:
 
 
 def _refuse_captured(project: Project, name: str) -> None:
-    """A reading with the name of a `for each` would be taken for that in the reward."""
+    """A reading or a number with the name of a `for each` would be taken for that in the reward."""
     tasks = (declaration for _, declaration in project.names.declarations("task"))
     for reward in (reward for task in tasks for reward in facts(task, Rewards)):
         if reward.each and reward.each.name.text == name:

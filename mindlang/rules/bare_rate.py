@@ -1,17 +1,19 @@
 """A rate for each tick in a file that leaves the tick to others.
 
 `drain 0.00005` is what the battery loses in a tick, however long that is, and here the minds that use the file say how
-long: with twice the tick, the battery lasts twice as long. `drain 0.003 per s` stays what it is, and `per tick` says that
-it is meant so.
+long: with twice the tick, the battery lasts twice as long. `drain 0.003 per s` stays what it is, and `per tick` says
+that it is meant so.
 """
 
 from collections.abc import Iterator
+from pathlib import Path
 
 from mindrun.quantity import Quantity
 from mindrun.registry import arguments, kinds
 
 from mindlang.analysis.study import Finding, Found, Study
-from mindlang.compiler.syntax import Amount, Argument, Declaration, Name, Numbers, Tick
+from mindlang.compiler.diagnostic import Label
+from mindlang.compiler.syntax import Amount, Argument, Declaration, Name, Numbers, Tick, Use
 
 PARTS = "-- parts.mind --\nsensor battery is battery drain {}\n"
 USE = 'use "parts.mind"\nskill Go is rule\n  reads battery\n  drives left_wheel at battery\n'
@@ -20,16 +22,19 @@ BAD = (USE + PARTS.format("0.00005"),)
 
 
 def check(study: Study) -> Found:
-    """Rates of used files that do not say for how long they are."""
-    for file in study.mind.files:
-        if any(isinstance(setting, Tick) for setting in file.settings):
-            continue
-        for argument in (each for declaration in file.declarations for each in _rates(declaration)):
-            if not _said_per(study, argument):
-                said = f"{argument.key.text} {argument.value.span.text}"
-                hint = f"Write how much it is in a second, such as {argument.key.text} 0.003 per s, or {said} per tick."
-                message = "This is for each tick, and how long that is, is said elsewhere."
-                yield Finding(argument.value.span, message, hint)
+    """Lines that use a file with rates that do not say for how long they are."""
+    main, *others = study.mind.files
+    for file in (file for file in others if not any(isinstance(setting, Tick) for setting in file.settings)):
+        use = next((use for use in main.settings if isinstance(use, Use) and _path(use) == file.source.path), None)
+        bare = [rate for each in file.declarations for rate in _rates(each) if not _tells_time(study, rate)]
+        if use and bare:
+            labels = (Label(argument.span, "for each tick, however long that is") for argument in bare)
+            hint = "Write there how much it is in a second, such as drain 0.003 per s, or add per tick."
+            yield Finding(use.span, f"What {use.path} says for each tick depends on the tick here.", hint, (*labels,))
+
+
+def _path(use: Use) -> Path:
+    return (use.span.source.folder / use.path).resolve()
 
 
 def _rates(declaration: Declaration) -> Iterator[Argument]:
@@ -41,7 +46,7 @@ def _rates(declaration: Declaration) -> Iterator[Argument]:
         yield from (argument for argument in phrase.arguments if argument.key.text in rates)
 
 
-def _said_per(study: Study, argument: Argument) -> bool:
+def _tells_time(study: Study, argument: Argument) -> bool:
     """Whether a rate says for how long it is, itself or where its number is declared."""
     match argument.value:
         case Numbers(amounts=(Amount(per=per, name=""),)):

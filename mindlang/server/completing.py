@@ -67,10 +67,14 @@ def _header(line: CursorLine, noun: str, rest: Sequence[str]) -> list[Offer]:
         case []:
             return []
         case [_]:
-            return words("in" if noun == "task" else "is")
+            return words("in", "is") if noun == "task" else words("is")
         case [own, "is", "like"]:
             return names(line.view, noun, but=[own])
-        case [_, "is"] if noun == "skill":
+        case [_, "in"]:
+            return [*names(line.view, "scene"), *kinds_of(noun)]
+        case [_, "is"] if noun == "task":
+            return [Offer("like", "word", text=WORDS["is like"])]
+        case [_, "is"] if noun in ("skill", "scene"):
             return [*kinds_of(noun), Offer("like", "word", text=WORDS["is like"])]
         case [_, "is" | "in"]:
             return kinds_of(noun)

@@ -196,7 +196,7 @@ def reward_offers(view: MindView, task: Declaration | None, rest: Sequence[str])
 def _term(view: MindView, task: Declaration | None, rest: Sequence[str]) -> list[Offer]:
     """A reading or a measure, or what the measure that was begun still needs."""
     if not rest or rest[-1] in UNFINISHED_WORDS:
-        return [*names(view, *READABLE_NOUNS), *kinds_of("measure")]
+        return [*names(view, *READABLE_NOUNS), *offers.numbers(view), *kinds_of("measure")]
     begun = _begun(rest)
     return arguments_of(view, "measure", begun[0], begun[1:], task) if begun else []
 

@@ -9,6 +9,7 @@ from typing import Any
 from mindrun.quantity import Quantity, Reference
 from mindrun.registry import Argument, arguments, kinds
 
+from mindlang.compiler.comments import comment_of
 from mindlang.compiler.names import things_of
 from mindlang.compiler.resolve.kinds import about
 from mindlang.compiler.syntax import Declaration, Reads
@@ -41,7 +42,7 @@ def names(view: MindView, *nouns: str, but: Iterable[str] = ()) -> list[Offer]:
     """What is declared with one of these nouns, but for some."""
     left = set(but)
     return [
-        Offer(name, noun, declaration.header.span.text.strip())
+        Offer(name, noun, declaration.header.span.text.strip(), declaration.comment)
         for noun in nouns
         for name, declaration in view.names.declarations(noun)
         if name not in left
@@ -64,6 +65,12 @@ def inputs_of(view: MindView, skill: str) -> set[str]:
     return found
 
 
+def numbers(view: MindView) -> list[Offer]:
+    """The names of numbers."""
+    declared = view.names.numbers.items()
+    return [Offer(name, "number", number.span.text.strip(), comment_of(number.span)) for name, number in declared]
+
+
 def kinds_of(noun: str) -> list[Offer]:
     """The kinds of a noun with their documentation."""
     return [Offer(name, "kind", noun, kind_card(noun, name, cls)) for name, cls in sorted(kinds(noun).items())]
@@ -72,7 +79,9 @@ def kinds_of(noun: str) -> list[Offer]:
 def things(view: MindView, task: Declaration | None, about: Iterable[str]) -> list[Offer]:
     """The things of a task, or of all, of which a kind can be."""
     fit = set(about)
-    tasks = [task] if task else [declaration for _, declaration in view.names.declarations("task")]
+    worlds = [each for noun in ("task", "scene") for _, each in view.whole.declarations(noun)]
+    own = [each for each in worlds if task and each.header.name is task.header.name]
+    tasks = own or ([task] if task else worlds)
     found: dict[str, set[str]] = {}
     for declaration in tasks:
         for name, kinds_ in things_of(declaration).items():
@@ -129,7 +138,7 @@ def arguments_of(view: MindView, noun: str, kind: str, rest: Iterable[str], task
     if state.awaits_name and state.current:
         return _named(view, noun, kind, state.current, task)
     if state.awaits_number:
-        return []
+        return numbers(view)
     return [*_after_number(state), *keys(state.left)]
 
 

@@ -12,7 +12,7 @@ from mindlang.compiler.resolve.quantities import convert
 from mindlang.compiler.source import Span
 from mindlang.compiler.syntax import Amount, File, Master, Setting, Tick, Unit, Version
 
-VERSION = 1  # of the language
+LANGUAGE_VERSION = 1
 
 S = TypeVar("S", bound=Setting)
 
@@ -68,7 +68,7 @@ def check_versions(files: Sequence[File], findings: Findings) -> None:
     """Report files that were written for another language than this one."""
     for setting in (setting for file in files for setting in settings(file, Version)):
         amount = setting.amount
-        if (amount.number, amount.unit, amount.per, amount.name) != (VERSION, "", "", ""):
-            message = f"This is mind {VERSION}, and the file says {setting.span.text.strip()}."
-            hint = f"Write mind {VERSION}, or take the mindc for which the file was written."
+        if (amount.number, amount.unit, amount.per, amount.name) != (LANGUAGE_VERSION, "", "", ""):
+            message = f"This is mind {LANGUAGE_VERSION}, and the file says {setting.span.text.strip()}."
+            hint = f"Write mind {LANGUAGE_VERSION}, or take the mindc for which the file was written."
             findings.error("other-version", setting.span, message, hint)
