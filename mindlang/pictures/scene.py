@@ -1,5 +1,6 @@
 """The world of a run: floor, walls, obstacles, things and their names, and the robot with its rays and its claw."""
 
+from collections import Counter
 from collections.abc import Iterable, Sequence
 from itertools import cycle
 from math import cos, sin
@@ -16,6 +17,7 @@ from mindlang.pictures.theme import Colour, Theme, mixed
 
 GRID_UNITS = 10.0
 WALL_UNITS = 0.8
+MAX_NAMED_COPIES = 6  # things of one name that each have it beside them
 NAME_PIXELS = 10.0  # the capitals of a thing's name
 
 
@@ -94,15 +96,21 @@ def _turned_square(x: float, y: float, half: float, angle: float) -> NDArray[np.
 
 
 def draw_names(canvas: Canvas, run: RecordedRun, theme: Theme, tick: int) -> None:
-    """The name of each thing in sight: below it, or above it where the robot or the lower edge is."""
+    """The name of each thing in sight: below it, or above it where the robot or the lower edge is.
+
+    Of many things of one name the first alone has it.
+    """
     pixel = 1 / canvas.view.scale
     (height, width), (left, top) = canvas.image.shape[:2], (canvas.view.left, canvas.view.top)
     right, low = left + width * pixel, top - height * pixel
     robot, radius = run.body[tick, :2], run.graph.body.radius
     high, gap = NAME_PIXELS * canvas.pen * pixel, 4 * canvas.pen * pixel
+    many = Counter(thing.name for thing in run.contents)
+    named: set[str] = set()
     for thing, _, (x, y, size) in _each(run, theme, tick):
-        if not (left < x < right and low < y < top):
+        if not (left < x < right and low < y < top) or (thing.name in named and many[thing.name] > MAX_NAMED_COPIES):
             continue
+        named.add(thing.name)
         half = text_width(thing.name, NAME_PIXELS * canvas.pen) * pixel / 2
         middle = min(max(x, left + half), right - half)
         line = y - size / 2 - gap - high

@@ -3,6 +3,7 @@
 import json
 from itertools import pairwise
 from pathlib import Path
+from typing import Any
 
 import cv2
 import numpy as np
@@ -75,6 +76,22 @@ def test_things_of_a_kind_are_told_apart(rules: Path) -> None:
     for x, y, size in story.things[-1]:
         below = [pixel(story, image, x + aside / 10, y - size / 2 - 0.55) for aside in range(-10, 10)]
         assert any(near(found, PAPER.ink) for found in below)
+
+
+def test_many_things_of_one_name_have_it_once(rules: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """In the legend always, in the world where they are many."""
+    said: list[str] = []
+
+    def text(canvas: Canvas, x: float, y: float, text: str, *rest: Any, **how: Any) -> None:
+        said.append(text)
+
+    monkeypatch.setattr(Canvas, "text", text)
+    for count, times in ((3, 1 + 3), (20, 1 + 1)):
+        said.clear()
+        more = f"  contains cube is item size 1 count {count}\n  lasts 1 ticks\n"
+        rules.write_text(RULES.replace("  lasts 600 ticks\n", more))
+        told(rules, "Roam")
+        assert said.count("cube") == times
 
 
 def test_more_things_than_colours_begin_again() -> None:
