@@ -14,9 +14,9 @@ from mindlang.compiler.compile import Compiled
 from mindlang.compiler.diagnostic import Fix, Label
 from mindlang.compiler.hierarchy import in_order
 from mindlang.compiler.model import Mind, Skill, Task
+from mindlang.compiler.references import Mention, mentions
 from mindlang.compiler.source import Source, Span
-from mindlang.editing.references import Mention, mentions
-from mindlang.lock import Lock, read_locks
+from mindlang.lock import Lock, lock_sources, read_locks
 
 _WORD = re.compile(r"[A-Z]?[a-z]+|[A-Z]+(?![a-z])")
 
@@ -156,7 +156,7 @@ def study(compiled: Compiled) -> Study:
     """The study of a mind that compiled; LockError where a lock is damaged."""
     assert compiled.mind is not None
     assert compiled.graph is not None
-    lock = read_locks(source.path for source in compiled.sources)
+    lock = read_locks(lock_sources(compiled.sources))
     return Study(compiled.mind, compiled.graph, lock)
 
 

@@ -42,8 +42,9 @@ class Amount:
 
     @property
     def constant(self) -> Name:
-        """Its name where that stands, without its sign."""
-        return Name(self.name, Span(self.span.source, self.span.end - len(self.name), self.span.end))
+        """Its name where that stands, without its sign; there it is shorter in a file that has an alias."""
+        written = self.span.text.lstrip("+- \t")
+        return Name(self.name, Span(self.span.source, self.span.end - len(written), self.span.end))
 
 
 @dataclass(frozen=True, slots=True)

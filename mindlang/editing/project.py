@@ -14,11 +14,12 @@ from mindlang.compiler.compile import Compiled
 from mindlang.compiler.diagnostic import Diagnostic, Label, a, did_you_mean, listed
 from mindlang.compiler.model import Mind
 from mindlang.compiler.names import SHARED, Names
+from mindlang.compiler.references import VALUE_NOUNS, Mention, mentions
 from mindlang.compiler.source import Span
 from mindlang.compiler.splice import Splice
 from mindlang.compiler.syntax import NOUNS, Declaration, Drives, Fact, File, Influences, Master, Reads
 from mindlang.editing.neighbours import neighbours
-from mindlang.editing.references import VALUE_NOUNS, Mention, mentions
+from mindlang.lock import lock_sources
 
 F = TypeVar("F", bound=Fact)
 MAX_SUGGESTED_NAMES = 8  # names in a message
@@ -153,6 +154,11 @@ class Project:
     def paths(self) -> dict[Path, File]:
         """The files by their paths."""
         return {file.source.path: file for file in self.files}
+
+    @property
+    def taught(self) -> list[Path]:
+        """The files whose locks tell of the skills of this mind."""
+        return lock_sources(file.source for file in self.files)
 
     def mentions(self, noun: str, name: str) -> Iterator[Mention]:
         """Where a name stands, in all files."""

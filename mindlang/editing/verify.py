@@ -14,10 +14,10 @@ from mindrun.sim.trace import trace
 from mindrun.weights import Weights, genes, owner_of, reachable, weights_of
 from numpy.typing import NDArray
 
+from mindlang.compiler.references import READABLE_NOUNS
 from mindlang.editing.apply import Edited
 from mindlang.editing.lock_update import Names, merged, new_names, now_called
 from mindlang.editing.project import EditError
-from mindlang.editing.references import READABLE_NOUNS
 from mindlang.lock import Lock
 from mindlang.lock.arrange import arrange
 from mindlang.lock.blobs import blob, load_weights
@@ -67,7 +67,7 @@ def verify_unchanged(edited: Edited, prepare: Callable[[Rollout], None] = Rollou
     What they read is recorded from a run in the simulator, as the mind was; `prepare` compiles it. EditError where one
     did something else. Runs the Python code of the mind's procedures.
     """
-    lock = merged(edited.locks, edited.project.paths)
+    lock = merged(edited.locks, edited.project.taught)
     folder = edited.project.main.source.folder
     before = MindVersion(arrange(edited.project.graph, lock), lock, {}, folder)
     now = merged(edited.followed.locks, edited.sources)

@@ -1,8 +1,10 @@
 """`mindc edit rename`."""
 
+from collections.abc import Iterator
 from typing import Annotated
 
 from mindlang.compiler.diagnostic import Label, a, listed
+from mindlang.compiler.references import VALUE_NOUNS, Mention, introductions
 from mindlang.compiler.syntax import NOUNS, Rewards
 from mindlang.editing.insertion import instead
 from mindlang.editing.naming import refuse_misnamed
@@ -15,7 +17,6 @@ from mindlang.editing.project import (
     refuse_no_noun,
     suggestion,
 )
-from mindlang.editing.references import VALUE_NOUNS, Mention, introductions
 
 
 def rename(
@@ -31,12 +32,30 @@ def rename(
 
     Example: mindc edit rename Avoid Dodge --noun skill collect.mind
     """
-    of = _declared(project, old, noun).noun
+    declared = _declared(project, old, noun)
+    of = declared.noun
     refuse_misnamed(of, new)
     for each in (project, *project.sharing(of, old)):
         _refuse_taken(each, of, new)
     places = (mention.name.span for mention in project.everywhere(of, old))
-    return MindChange(tuple(instead(place, new) for place in places), (Renamed(of, old, new),))
+    aliases = dict(_aliases(project, declared))
+    others = (
+        instead(mention.name.span, f"{alias}.{new}")
+        for alias, other in aliases.items()
+        for mention in other.mentions(of, f"{alias}.{old}")
+        if not mention.name.span.source.alias
+    )
+    splices = (*(instead(place, new) for place in places), *others)
+    elsewhere = (Renamed(of, f"{alias}.{old}", f"{alias}.{new}") for alias in aliases)
+    return MindChange(splices, (Renamed(of, old, new), *elsewhere))
+
+
+def _aliases(project: Project, declared: Mention) -> Iterator[tuple[str, Project]]:
+    """The neighbours that use the file of a declaration under another name, by that name."""
+    path = declared.name.span.source.path
+    for other in project.neighbours if declared.noun != "thing" else ():
+        if path in other.paths and (alias := other.paths[path].source.alias):
+            yield alias, other
 
 
 def _declared(project: Project, name: str, noun: str) -> Mention:

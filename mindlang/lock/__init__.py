@@ -16,6 +16,7 @@ from mindrun.atomic_write import write
 from mindrun.errors import MindError
 from mindrun.regular_files import read_regular
 
+from mindlang.compiler.source import Source
 from mindlang.lock.training_world import HEADING, TrainingWorld, world_of
 
 VERSIONS = ("# mind lock 1:", "# mind lock 2:", "# mind lock 3:", "# mind lock 4:")
@@ -143,6 +144,11 @@ def _hashed(text: str | None) -> tuple[tuple[str, str], ...]:
 def lock_path(source: Path) -> Path:
     """The lock of a `.mind` file."""
     return source.with_suffix(".lock")
+
+
+def lock_sources(sources: Iterable[Source]) -> list[Path]:
+    """The files of a mind whose locks count: the skills of one that is used under a name are others than it has."""
+    return [source.path for source in sources if not source.alias]
 
 
 def read_lock(path: Path) -> dict[str, Entry]:

@@ -7,6 +7,7 @@ from mindrun.registry import kinds
 
 from mindlang.compiler.comments import comment_of
 from mindlang.compiler.syntax import Contains, Declaration, Drives, Influences, Reads, Teaches
+from mindlang.lock import lock_sources
 from mindlang.lock.report import Row, made_by, rows
 from mindlang.lock.status import Trained
 from mindlang.server.describing import kind_card
@@ -83,7 +84,8 @@ def _weights(view: MindView, skill: str) -> str:
     if view.compiled.graph is None:
         return ""
     try:
-        row = next((row for row in rows(view.compiled.graph, view.paths) if row.skill == skill), None)
+        found = rows(view.compiled.graph, lock_sources(view.compiled.sources))
+        row = next((row for row in found if row.skill == skill), None)
     except MindError as error:
         return f"Weights: {error}"
     return _row(row) if row else ""

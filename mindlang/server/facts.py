@@ -6,8 +6,8 @@ from pathlib import Path
 
 from mindrun.registry import kinds
 
+from mindlang.compiler.references import DRIVABLE_NOUNS, READABLE_NOUNS
 from mindlang.compiler.syntax import Declaration, Drives, Influences, Reads
-from mindlang.editing.references import DRIVABLE_NOUNS, READABLE_NOUNS
 from mindlang.server import offers
 from mindlang.server.offers import (
     NUMBER,

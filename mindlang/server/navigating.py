@@ -9,9 +9,9 @@ from pathlib import Path
 
 from mindlang.compiler.diagnostic import Findings
 from mindlang.compiler.parse import parse
+from mindlang.compiler.references import Mention, introductions
 from mindlang.compiler.source import Source, Span
 from mindlang.compiler.syntax import Argument, Contains, File, Name, Phrase, Use
-from mindlang.editing.references import Mention, introductions
 from mindlang.file_search import files_below, text_of, within_read_limits
 from mindlang.server.tree import path_to
 from mindlang.server.view import MindView

@@ -11,10 +11,10 @@ from mindlang.compiler.compile import Compiled, load
 from mindlang.compiler.diagnostic import Diagnostic, Findings
 from mindlang.compiler.expand import expand
 from mindlang.compiler.names import Names, gather
+from mindlang.compiler.references import Mention, mentions
 from mindlang.compiler.source import Span
 from mindlang.compiler.syntax import Declaration, Fact, File, Setting
 from mindlang.compiler.use import files
-from mindlang.editing.references import Mention, mentions
 
 Texts = Mapping[Path, str]
 

@@ -1,7 +1,7 @@
 """Names of numbers replaced by what they stand for, and rates told how long a tick is."""
 
 import re
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Set
 from dataclasses import dataclass, fields, is_dataclass, replace
 from typing import Any
 
@@ -34,12 +34,12 @@ NOUNS: Mapping[type, str] = {
     Contains: "content", Ends: "event", Succeeds: "event", Counts: "event", Rewards: "event", Expression: "measure",
     Teaches: LEARNER,
 }  # fmt: skip
-_WORD = re.compile(r"[a-z]\w*(?:\.\w+)*")
+_WORD = re.compile(r"[a-z]\w*")
 
 
 def written_out(declaration: Declaration, numbers: Mapping[str, Amount], tick_seconds: float) -> Declaration:
     """A declaration with its numbers; itself where it has none that has to be replaced."""
-    writer = _Writer(numbers, tick_seconds)
+    writer = _Writer(numbers, tick_seconds, frozenset(name.rpartition(".")[2] for name in numbers))
     header = writer.line(declaration.header)
     facts = tuple(writer.line(fact) for fact in declaration.facts)
     if header is declaration.header and all(new is old for new, old in zip(facts, declaration.facts, strict=True)):
@@ -54,18 +54,22 @@ def in_place(amount: Amount, numbers: Mapping[str, Amount]) -> Amount:
 
 @dataclass(frozen=True, slots=True)
 class _Writer:
+    """`words` are the last ones of the names: all that stands of them in a file that has an alias."""
+
     numbers: Mapping[str, Amount]
     tick_seconds: float
+    words: Set[str]
 
     def line(self, line: Any) -> Any:
         """A line with its numbers; most have none, which their text says at once."""
         text = line.span.text
-        has_names = self.numbers and not self.numbers.keys().isdisjoint(_WORD.findall(text))
+        has_names = self.words and not self.words.isdisjoint(_WORD.findall(text))
         if not has_names and "per" not in text:
             return line
         if isinstance(line, Rewards) and line.each and line.each.name.text in self.numbers:
             own = line.each.name.text  # as it would hide a reading
-            return _Writer({n: a for n, a in self.numbers.items() if n != own}, self.tick_seconds).node(line, "")
+            others = {name: amount for name, amount in self.numbers.items() if name != own}
+            return replace(self, numbers=others).node(line, "")
         return self.node(line, "")
 
     def node(self, node: Any, noun: str) -> Any:

@@ -45,7 +45,7 @@ def _followed(noun: str, names: Names, begun: Callable[[Declaration], Declaratio
             like = each.header.like
             other = found.get(like.text) if like else None
             found[own] = _like(each, other) if other else replace(each, whole=False) if like else begun(each)
-    return found
+    return {name: found[name] for name in names.of(noun)}
 
 
 def _next(declaration: Declaration, noun: str, names: Names, findings: Findings) -> str | None:
