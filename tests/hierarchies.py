@@ -9,9 +9,25 @@ from mindrun.actuators import Gripper, Servo, Wheel
 from mindrun.bodies import Disc
 from mindrun.functions import Function, Mlp, Procedure, Rule
 from mindrun.functions.elman import Elman
-from mindrun.graph import Actuator, Edge, Graph, Memory, Program, Sensor, Skill
+from mindrun.graph import Actuator, Edge, Gate, Graph, Memory, Program, Sensor, Skill
 from mindrun.memory import Cell
-from mindrun.sensors import Battery, Bearing, Contact, Derivative, Held, Inertial, Inside, Physical, RangeFinder, Sine
+from mindrun.sensors import (
+    Average,
+    Battery,
+    Bearing,
+    Computed,
+    Contact,
+    Derivative,
+    Held,
+    Inertial,
+    Inside,
+    Latch,
+    Physical,
+    RangeFinder,
+    Reading,
+    SensorKind,
+    Sine,
+)
 from mindrun.sensors.bumper import Bumper
 from mindrun.sensors.clock import Clock
 from mindrun.sensors.compass import Compass
@@ -180,7 +196,7 @@ def physical_kinds(draw: st.DrawFn) -> Physical:
 @st.composite
 def _senses(draw: st.DrawFn) -> tuple[tuple[Sensor, ...], tuple[Memory, ...]]:
     """Sensors and memories; derivatives of anything, and of one another."""
-    virtual = st.sampled_from(["sine", "clock", "derivative"])
+    virtual = st.sampled_from(["sine", "clock", "derivative", "computed", "latch", "average", "reading"])
     kinds = draw(st.lists(physical_kinds() | physical_kinds() | virtual, min_size=2, max_size=7))
     cells = [Cell(draw(SHARES), draw(SHARES)) for _ in range(draw(st.integers(0, 2)))]
     widths = {f"m{i}": 1 for i in range(len(cells))}
@@ -188,18 +204,35 @@ def _senses(draw: st.DrawFn) -> tuple[tuple[Sensor, ...], tuple[Memory, ...]]:
     start = 0
     for number, kind in enumerate(kinds):
         width = getattr(kind, "width", 1)
-        if kind == "clock":
-            kind = Clock(draw(st.sampled_from([0.05, 0.3, 2.0])))
-        elif kind == "sine" or (kind == "derivative" and not widths):
-            kind = Sine(draw(st.sampled_from([0.05, 0.3, 2.0])))
-        elif kind == "derivative":
-            of = draw(st.sampled_from(sorted(widths)))
-            width, kind = widths[of], Derivative(of, draw(st.sampled_from([0.5, 1.0, 30.0])), draw(_dead_zones))
+        if isinstance(kind, str):
+            width, kind = draw(_virtual(kind, widths))
         sensors.append(Sensor(f"s{number}", kind, start, width))
         widths[f"s{number}"] = width
         start += width
     places = draw(st.permutations(range(len(sensors))))  # a derivative may stand before its source
     return _placed([sensors[i] for i in places]), tuple(Memory(f"m{i}", c, start + i) for i, c in enumerate(cells))
+
+
+@st.composite
+def _virtual(draw: st.DrawFn, kind: str, widths: dict[str, int]) -> tuple[int, SensorKind]:
+    """A sensor that is computed, and how many readings it has; of a source, where there is one."""
+    if kind == "clock":
+        return 1, Clock(draw(st.sampled_from([0.05, 0.3, 2.0])))
+    if kind == "sine" or not widths:
+        return 1, Sine(draw(st.sampled_from([0.05, 0.3, 2.0])))
+    of = draw(st.sampled_from(sorted(widths)))
+    match kind:
+        case "derivative":
+            return widths[of], Derivative(of, draw(st.sampled_from([0.5, 1.0, 30.0])), draw(_dead_zones))
+        case "latch":
+            return widths[of], Latch(of, *sorted(draw(st.tuples(SHARES, SHARES))))
+        case "average":
+            return widths[of], Average(of, draw(st.integers(1, 5)))
+        case "reading":
+            return 1, Reading(draw(st.integers(1, widths[of])), of)
+    single = [name for name, width in widths.items() if width == 1]
+    numbered = draw(programs(tuple(range(len(single)))))
+    return 1, Computed(tuple((word, single[int(x)] if word == "reading" else x) for word, x in numbered))
 
 
 _dead_zones = st.sampled_from([0.0, 0.0, 0.01, 0.4])
@@ -222,23 +255,48 @@ def _skills(draw: st.DrawFn, name: str, width: int, targets: list[tuple[str, int
     outputs = 0
     for to, target in chosen:
         if isinstance(function, Rule) or draw(st.integers(0, 3)) == 0:
-            edges.append(Edge(to, target, None, draw(_programs(inputs))))
+            edge = Edge(to, target, None, draw(programs(inputs)))
         else:
-            edges.append(Edge(to, target, outputs))
+            edge = Edge(to, target, outputs)
             outputs += 1
+        gate = draw(_gates(inputs)) if draw(st.integers(0, 3)) == 0 else None
+        cuts = draw(st.sampled_from([0.0, 0.05, 0.5])) if to == "skill" else 0.0
+        edges.append(replace(edge, gate=gate, cuts=cuts))
     called = Procedure(f"own.send{outputs}") if function is CALLED else function
     return Skill(name, called, inputs, tuple(edges), frozen=draw(st.booleans()))
 
 
-def _programs(inputs: tuple[int, ...]) -> st.SearchStrategy[Program]:
+@st.composite
+def _gates(draw: st.DrawFn, inputs: tuple[int, ...]) -> Gate:
+    """A gate over a skill's inputs; often its condition holds."""
+    return Gate(draw(conditions(programs(inputs))), draw(st.none() | programs(inputs)))
+
+
+@st.composite
+def conditions(draw: st.DrawFn, sides: st.SearchStrategy[Program]) -> Program:
+    """Comparisons joined with `and` and `or`."""
+    found: Program = ()
+    for number in range(draw(st.integers(1, 3))):
+        comparison = draw(st.sampled_from(["<", "<=", ">", ">="]))
+        found = (*found, *draw(sides), *draw(sides), (comparison, 0))
+        found = (*found, (draw(st.sampled_from(["and", "or"])), 0)) if number else found
+    return found
+
+
+def programs(inputs: tuple[int, ...]) -> st.SearchStrategy[Program]:
     """An expression over a skill's inputs, in postfix order."""
     number = st.sampled_from([0.0, 0.1, 0.25, 1.0, 2.0, 3.5]).map(lambda x: (("number", x),))
-    reading = st.sampled_from(inputs).map(lambda i: (("reading", i),)) if inputs else number
+    return combined(number | st.sampled_from(inputs).map(lambda i: (("reading", i),)) if inputs else number, 5)
+
+
+def combined(leaves: st.SearchStrategy[Program], most: int) -> st.SearchStrategy[Program]:
+    """Expressions of so many leaves."""
+    operators = st.sampled_from(["+", "-", "*", "/", "least", "greatest"])
     return st.recursive(
-        number | reading,
+        leaves,
         lambda part: st.one_of(
-            st.tuples(part, part, st.sampled_from("+-*/")).map(lambda p: (*p[0], *p[1], (p[2], 0))),
+            st.tuples(part, part, operators).map(lambda p: (*p[0], *p[1], (p[2], 0))),
             part.map(lambda p: (*p, ("negate", 0))),
         ),
-        max_leaves=5,
+        max_leaves=most,
     )

@@ -6,9 +6,9 @@ from dataclasses import dataclass
 from mindrun.sensors import Physical
 from mindrun.things import STAYS
 
-from mindlang.analysis.intervals import UNIT_INTERVAL, Interval, interval
+from mindlang.analysis.intervals import UNIT_INTERVAL, Interval, interval, unmet
 from mindlang.analysis.study import Study
-from mindlang.compiler.model import Condition, Expression, Reward, Task
+from mindlang.compiler.model import Comparison, Expression, Reward, Task, When
 
 
 @dataclass(frozen=True, slots=True)
@@ -32,7 +32,7 @@ class AnalysedWorld:
 
     def is_constant(self, reading: str) -> bool:
         """Whether what a reading comes from in the end always reads the same."""
-        return self.constant(self.study.roots.get(reading, reading)) is not None
+        return all(self.constant(root) is not None for root in self.study.roots.get(reading, {reading}))
 
     @property
     def can_hold(self) -> bool:
@@ -49,21 +49,21 @@ class AnalysedWorld:
         constant = self.constant(name)
         return UNIT_INTERVAL if constant is None else (constant, constant)
 
+    def range_of(self, of: Expression) -> Interval:
+        """The range of an expression in this world."""
+        return interval(of, self.reading)
+
     def value(self, of: Expression, reward: Reward) -> Interval:
         """The range of an expression of a reward."""
-        return interval(of, self.reading, self.reading(reward.each) if reward.each else UNIT_INTERVAL)
+        return interval(of, self.reading, self.each(reward))
 
-    def holds(self, when: Condition, reward: Reward) -> bool:
-        """Whether the condition of a reward can ever hold."""
-        left, right = self.value(when.left, reward), self.value(when.right, reward)
-        match when.compare:
-            case "<":
-                return left[0] < right[1]
-            case "<=":
-                return left[0] <= right[1]
-            case ">":
-                return left[1] > right[0]
-        return left[1] >= right[0]
+    def each(self, reward: Reward) -> Interval:
+        """The range of the readings that a reward goes through."""
+        return self.reading(reward.each) if reward.each else UNIT_INTERVAL
+
+    def unmet(self, when: When, reward: Reward) -> Comparison | None:
+        """The first comparison of the condition of a reward that never holds, where that is why it never does."""
+        return unmet(when, lambda side: self.value(side, reward))
 
     @property
     def drains(self) -> bool:

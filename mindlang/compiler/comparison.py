@@ -24,6 +24,7 @@ from mindlang.compiler.syntax import (
     Reads,
     Rewards,
     Stays,
+    Succeeds,
     Teaches,
 )
 
@@ -158,7 +159,7 @@ def _parts(header: Header, of: Any) -> tuple[Any, dict[Forms, Sequence[Any]]]:
         case Skill():
             return of.function, {(Reads,): of.reads, (Drives, Influences): of.edges, (Stays,): [True] * of.frozen}
         case Task(ticks=ticks, ends=ends, counts=counts):
-            plain: dict[Forms, Sequence[Any]] = {(Lasts,): [ticks], (Ends,): ends, (Counts,): counts}
+            plain: dict[Forms, Sequence[Any]] = {(Lasts,): [ticks], (Ends, Succeeds): ends, (Counts,): counts}
             return of.scene, plain | {(Contains,): of.things, (Rewards,): of.rewards}
         case Part():
             return of.kind, {}

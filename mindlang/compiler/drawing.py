@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 from mindrun.registry import arguments, names
 
 from mindlang.compiler.model import Edge, Mind, Skill
+from mindlang.compiler.syntax import Drives, Influences
 
 if TYPE_CHECKING:
     from rich.tree import Tree
@@ -30,10 +31,10 @@ def tree(mind: Mind) -> Tree:
     while waiting:
         above, name, edge = waiting.pop()
         if name in shown:
-            above.add(Text.assemble((name, "bold"), _at(edge), ("  (shown above)", "dim")))
+            above.add(Text.assemble((name, "bold"), _said(edge), ("  (shown above)", "dim")))
             continue
         shown.add(name)
-        branch = above.add(Text.assemble((name, "bold"), _at(edge), (f"  {_what(skills[name])}", "cyan")))
+        branch = above.add(Text.assemble((name, "bold"), _said(edge), (f"  {_what(skills[name])}", "cyan")))
         if comment := skills[name].declaration.comment:
             branch.add(Text(comment, "italic"))
         for line in _lines(skills[name]):
@@ -77,7 +78,7 @@ def _arrows(skill: Skill) -> Iterator[str]:
     for name in skill.reads:
         yield f"  {_id('input', name)} -> {here} [style=dotted]"
     for edge in skill.edges:
-        label = f" [label={_quoted(edge.at.span.text)}]" if edge.at else ""
+        label = f" [label={_quoted(said.removeprefix(' at '))}]" if (said := _said(edge)) else ""
         yield f"  {here} -> {_id('input' if edge.to == 'memory' else edge.to, edge.target)}{label}"
 
 
@@ -89,8 +90,14 @@ def _quoted(text: str) -> str:
     return f'"{text}"'
 
 
-def _at(edge: Edge | None) -> str:
-    return f" at {edge.at.span.text}" if edge and edge.at else ""
+def _said(edge: Edge | None) -> str:
+    """What a line says after the name: its value, its condition, and below what it cuts."""
+    return said_after_name(edge.fact) if edge else ""
+
+
+def said_after_name(fact: Drives | Influences) -> str:
+    """What a line says after the name of whom it is for, as written."""
+    return fact.span.source.text[fact.name.span.end : fact.span.end]
 
 
 def _lines(skill: Skill) -> Iterator[str]:
@@ -98,4 +105,4 @@ def _lines(skill: Skill) -> Iterator[str]:
         yield f"reads {', '.join(skill.reads)}"
     for edge in skill.edges:
         if edge.to != "skill":
-            yield f"drives {edge.target}{_at(edge)}"
+            yield f"drives {edge.target}{_said(edge)}"

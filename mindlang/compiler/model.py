@@ -18,7 +18,18 @@ from mindrun.things import ThingKind
 
 from mindlang.compiler.names import Names
 from mindlang.compiler.source import Span
-from mindlang.compiler.syntax import Declaration, Drives, Fact, File, Influences, Operator, Rewards, Teaches
+from mindlang.compiler.syntax import (
+    Declaration,
+    Drives,
+    Ends,
+    Fact,
+    File,
+    Influences,
+    Operator,
+    Rewards,
+    Succeeds,
+    Teaches,
+)  # fmt: skip
 
 K = TypeVar("K")
 
@@ -60,6 +71,14 @@ class EachReading:
 
 
 @dataclass(frozen=True, slots=True)
+class Command:
+    """The command of an actuator, as it acts."""
+
+    name: str
+    span: Span
+
+
+@dataclass(frozen=True, slots=True)
 class Measured:
     """The value of a measure."""
 
@@ -67,7 +86,7 @@ class Measured:
     span: Span
 
 
-Term = Number | Reading | EachReading | Measured | Operator
+Term = Number | Reading | EachReading | Command | Measured | Operator
 
 
 @dataclass(frozen=True, slots=True)
@@ -79,13 +98,56 @@ class Expression:
 
 
 @dataclass(frozen=True, slots=True)
+class Comparison:
+    """`left compare right`."""
+
+    left: Expression
+    compare: str
+    right: Expression
+
+
+@dataclass(frozen=True, slots=True)
+class When:
+    """A condition: one of the alternatives holds, each of which is comparisons that all hold."""
+
+    alternatives: tuple[tuple[Comparison, ...], ...]
+    span: Span
+
+    @property
+    def expressions(self) -> tuple[Expression, ...]:
+        """Both sides of every comparison."""
+        return tuple(side for all_ in self.alternatives for each in all_ for side in (each.left, each.right))
+
+
+@dataclass(frozen=True, slots=True)
+class Gate:
+    """When something is sent, and what is sent otherwise: nothing, where that is None."""
+
+    when: When
+    otherwise: Expression | None
+
+
+@dataclass(frozen=True, slots=True)
 class Edge:
-    """What a skill sends: an output of its function, or the value of `at`."""
+    """What a skill sends: an output of its function, or the value of `at`; an influence below `cuts` is none."""
 
     to: Receiver
     target: str
     at: Expression | None
     fact: Drives | Influences
+    gate: Gate | None = None
+    cuts: float = 0.0
+
+    @property
+    def values(self) -> tuple[Expression, ...]:
+        """What it says that it sends: after `at`, and after `otherwise`."""
+        otherwise = self.gate.otherwise if self.gate else None
+        return tuple(value for value in (self.at, otherwise) if value)
+
+    @property
+    def expressions(self) -> tuple[Expression, ...]:
+        """All that it computes beside the function."""
+        return (*self.values, *(self.gate.when.expressions if self.gate else ()))
 
 
 @dataclass(frozen=True, slots=True)
@@ -116,23 +178,30 @@ class Skill:
 
 
 @dataclass(frozen=True, slots=True)
-class Condition:
-    """`left compare right`."""
-
-    left: Expression
-    compare: str
-    right: Expression
-
-
-@dataclass(frozen=True, slots=True)
 class Reward:
     """A reward, per tick where `on` is None; `each` is the sensor that it goes through."""
 
     amount: Expression
     on: EventKind | None
     each: str | None
-    when: Condition | None
+    when: When | None
     fact: Rewards
+
+    @property
+    def expressions(self) -> tuple[Expression, ...]:
+        """Its amount, and both sides of its comparisons."""
+        return (self.amount, *(self.when.expressions if self.when else ()))
+
+
+@dataclass(frozen=True, slots=True)
+class End:
+    """What ends a run, as a success or not: an event the `times`th time that it happens, or a condition."""
+
+    event: EventKind | None
+    times: int
+    when: When | None
+    succeeds: bool
+    fact: Ends | Succeeds
 
 
 @dataclass(frozen=True, slots=True)
@@ -147,7 +216,7 @@ class Task:
     things: tuple[Part[ThingKind], ...]
     start: Start
     ticks: int
-    ends: tuple[EventKind, ...]
+    ends: tuple[End, ...]
     rewards: tuple[Reward, ...]
     counts: tuple[EventKind, ...]
     facts: tuple[Fact, ...]

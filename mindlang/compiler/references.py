@@ -36,7 +36,7 @@ from mindlang.compiler.syntax import (
 )
 
 READABLE_NOUNS = ("sensor", "memory")
-VALUE_NOUNS = (*READABLE_NOUNS, "number")
+VALUE_NOUNS = (*READABLE_NOUNS, "number", "actuator")  # an actuator is its command, in a task
 VARYING_NOUNS = ("actuator", "sensor", "body", "memory")
 DRIVABLE_NOUNS = ("actuator", "memory")
 
@@ -73,12 +73,12 @@ class _Reader:
                 yield from self.first_declared(name, *READABLE_NOUNS)
                 if stands_for:
                     yield from self.first_declared(stands_for, *READABLE_NOUNS)
-            case Drives(name, at, gate):
+            case Drives(name):
                 yield from self.first_declared(name, *DRIVABLE_NOUNS)
-                yield from self.expressions("", at, *(gate.expressions if gate else ()))
-            case Influences(name, at, gate):
+                yield from self.expressions("", *fact.expressions)
+            case Influences(name):
                 yield from self.first_declared(name, "skill")
-                yield from self.expressions("", at, *(gate.expressions if gate else ()))
+                yield from self.expressions("", *fact.expressions)
             case Contains(name, phrase):
                 yield Mention("thing", name, self.by)
                 yield from self.phrase("content", phrase)
@@ -136,7 +136,7 @@ class _Reader:
                 yield from self.first_declared(argument.value, "skill")
 
     def expressions(self, own: str, *expressions: Expression | None) -> Iterator[Mention]:
-        """The readings in expressions, and the things that their measures are about."""
+        """The readings and commands in expressions, and the things that their measures are about."""
         for term in (term for expression in expressions if expression for term in expression.terms):
             if not isinstance(term, Phrase) or (term.kind.text == own and not term.arguments):
                 continue

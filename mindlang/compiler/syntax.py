@@ -177,6 +177,11 @@ class Drives:
     gate: Gate | None
     span: Span
 
+    @property
+    def expressions(self) -> tuple[Expression, ...]:
+        """All that it computes: its value, its condition and what it sends otherwise."""
+        return (*((self.at,) if self.at else ()), *(self.gate.expressions if self.gate else ()))
+
 
 @dataclass(frozen=True, slots=True)
 class Influences:
@@ -187,6 +192,11 @@ class Influences:
     gate: Gate | None
     cuts: Amount | None
     span: Span
+
+    @property
+    def expressions(self) -> tuple[Expression, ...]:
+        """All that it computes: its value, its condition and what it sends otherwise."""
+        return (*((self.at,) if self.at else ()), *(self.gate.expressions if self.gate else ()))
 
 
 @dataclass(frozen=True, slots=True)

@@ -129,8 +129,14 @@ def _scene_changes(old: Mapping[str, Any] | None, now: Mapping[str, Any] | None)
                 yield f"in {kind} {before}, now {after.partition(' ')[2]}"
     if old["ticks"] != now["ticks"]:
         yield f"lasts {old['ticks']} ticks, now {now['ticks']}"
-    yield from (f"no longer ends on {event}" for event in sorted(set(old["ends"]) - set(now["ends"])))
-    yield from (f"ends on {event}" for event in sorted(set(now["ends"]) - set(old["ends"])))
+    for verb in ("ends", "succeeds"):
+        gone, new = (set(a.get(verb, ())) - set(b.get(verb, ())) for a, b in ((old, now), (now, old)))
+        yield from (f"no longer {verb} {_on(end)}" for end in sorted(gone))
+        yield from (f"{verb} {_on(end)}" for end in sorted(new))
+
+
+def _on(end: str) -> str:
+    return end if end.startswith("when ") else f"on {end}"
 
 
 def _reward_changes(old: Sequence[Sequence[str]], now: Sequence[Sequence[str]]) -> Iterator[str]:

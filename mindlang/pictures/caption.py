@@ -38,7 +38,7 @@ def _facts(run: RecordedRun, found: dict[str, Any]) -> list[tuple[str, str]]:
     facts = [("in charge", found["master"]), ("seed", str(found["seed"])), ("score", score(found["score"], 1))]
     facts += [(event, str(times)) for event, times in found["by_event"].items()]
     facts.append(("ticks", f"{found['ticks']:,} of {found['of_ticks']:,} ({seconds:.0f} s)"))
-    return [*facts, ("ended by", found["ended_by"] or "time")]
+    return [*facts, ("success" if found.get("succeeded") else "ended by", found["ended_by"] or "time")]
 
 
 def draw_legend(canvas: Canvas, run: RecordedRun, path: Path, theme: Theme, x: float, y: float, right: float) -> None:

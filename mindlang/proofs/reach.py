@@ -104,6 +104,8 @@ def flow(graph: Graph, boxes: int, sends: Callable[[str], SentBounds]) -> Influe
                     continue
                 least = low[:, place] * (1 if drives else found.low[:, number])
                 most = high[:, place] * (1 if drives else found.high[:, number])
+                least = np.where(least < np.float32(edge.cuts), np.float32(0), least)
+                most = np.where(most < np.float32(edge.cuts), np.float32(0), most)
                 arrives = found.sure[:, number] & np.isfinite(high[:, place])  # else maybe no number, and not sent
                 into_low, into_high = (total_low, total_high) if drives else (low, high)
                 into_low[:, edge.target] += np.where(arrives, least, np.float32(0))

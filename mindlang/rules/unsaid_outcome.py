@@ -55,4 +55,5 @@ def check(study: Study) -> Found:
 def _reached(task: Task) -> set[str]:
     """The things whose reach is rewarded or counted and does not end the run."""
     events = [*task.counts, *(reward.on for reward in task.rewards if reward.on)]
-    return {event.thing for event in events if event.outcome == REACHED and event not in task.ends}
+    ending = {end.event for end in task.ends if end.times == 1}
+    return {event.thing for event in events if event.outcome == REACHED and event not in ending}

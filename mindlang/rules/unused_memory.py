@@ -63,12 +63,11 @@ def _read(study: Study) -> Iterator[str]:
     for skill in study.mind.skills:
         yield from skill.reads
     for kind in study.sensors.values():
-        yield from [kind.source] if kind.source else []
+        yield from kind.sources
     for reward in (reward for task in study.mind.tasks for reward in task.rewards):
         yield from [reward.each] if reward.each else []
-        yield from _readings(reward.amount)
-        for side in (reward.when.left, reward.when.right) if reward.when else ():
-            yield from _readings(side)
+        for expression in reward.expressions:
+            yield from _readings(expression)
 
 
 def _readings(of: Expression) -> Iterator[str]:

@@ -12,7 +12,7 @@ from typing import Any
 
 from mindrun.archive import read_archive, write_archive
 from mindrun.atomic_write import write_out
-from mindrun.bundle_migration import migrate_graph, with_whole_lessons
+from mindrun.bundle_migration import migrate_graph, with_programs, with_whole_lessons
 from mindrun.codec import encode
 from mindrun.encoding import decode, decode_wiring
 from mindrun.errors import BundleError, WeightsError
@@ -142,6 +142,7 @@ def _bundle(members: dict[str, bytes]) -> Bundle:
     if manifest["format"] in WITHOUT_OUTCOMES:
         data = migrate_graph(data)
     if is_older:
+        data = with_programs(data)
         manifest = manifest | {"format": OLDER_FORMATS[manifest["format"]]}
     graph = decode(data, is_older)
     weights = {name: read_weights(content) for name, content in _below(members, WEIGHTS, ".npy")}

@@ -48,16 +48,37 @@ class Actuator:
 
 
 @dataclass(frozen=True, slots=True)
+class Gate:
+    """When an edge sends its value. Where `when` does not hold it sends `otherwise`, or nothing where that is None."""
+
+    when: Program
+    otherwise: Program | None = None
+
+    @property
+    def programs(self) -> tuple[Program, ...]:
+        """Both programs, or the one that there is."""
+        return (self.when,) if self.otherwise is None else (self.when, self.otherwise)
+
+
+@dataclass(frozen=True, slots=True)
 class Edge:
     """What a skill sends: to the skill, actuator or memory with index `target`.
 
-    The value is the function's output number `output`, or where that is None the `value` program, clamped to 0..1.
+    The value is the function's output number `output`, or where that is None the `value` program, clamped to 0..1;
+    `gate` says when. An influence that is smaller than `cuts` when it arrives is none.
     """
 
     to: Receiver
     target: int
     output: int | None
     value: Program = ()
+    gate: Gate | None = None
+    cuts: float = 0.0
+
+    @property
+    def programs(self) -> tuple[Program, ...]:
+        """All that is computed beside the function."""
+        return ((self.value,) if self.output is None else ()) + (self.gate.programs if self.gate else ())
 
 
 @dataclass(frozen=True, slots=True)
@@ -105,17 +126,8 @@ class Thing:
 
 
 @dataclass(frozen=True, slots=True)
-class Condition:
-    """`left compare right`, with compare one of < <= > >=."""
-
-    left: Program
-    compare: str
-    right: Program
-
-
-@dataclass(frozen=True, slots=True)
 class Reward:
-    """One reward line. `on` is an index into the task's events, or None for "per tick".
+    """One reward line. `on` is an index into the task's events, or None for "per tick"; `when` is a condition.
 
     With `each`, a sensor's (start, width), the amount is added once for each of those readings, which the programs
     read as ("each", 0).
@@ -125,7 +137,26 @@ class Reward:
     amount: Program
     on: int | None
     each: tuple[int, int] | None = None
-    when: Condition | None = None
+    when: Program | None = None
+
+    @property
+    def programs(self) -> tuple[Program, ...]:
+        """Its amount, and its condition if it has one."""
+        return (self.amount,) if self.when is None else (self.amount, self.when)
+
+
+@dataclass(frozen=True, slots=True)
+class End:
+    """What ends a run: an event, by its index, the `times`th time that it happens, or the condition `when`.
+
+    One that `succeeds` ends it as a success. `text` is the condition as it is written.
+    """
+
+    event: int | None
+    times: int = 1
+    when: Program | None = None
+    succeeds: bool = False
+    text: str = ""
 
 
 @dataclass(frozen=True, slots=True)
@@ -138,7 +169,7 @@ class Start:
 
 @dataclass(frozen=True, slots=True)
 class Task:
-    """A task: its world, its end, its rewards. `ends` and `counts` are indices into `events`."""
+    """A task: its world, its ends, its rewards. `counts` are indices into `events`."""
 
     name: str
     scene: SceneKind
@@ -146,10 +177,21 @@ class Task:
     ticks: int
     measures: tuple[MeasureKind, ...]
     events: tuple[EventKind, ...]
-    ends: tuple[int, ...]
+    ends: tuple[End, ...]
     rewards: tuple[Reward, ...]
     counts: tuple[int, ...]
     start: Start = Start()
+
+    @property
+    def programs(self) -> tuple[Program, ...]:
+        """All that its rewards and its ends compute."""
+        ends = (end.when for end in self.ends if end.when is not None)
+        return (*(program for reward in self.rewards for program in reward.programs), *ends)
+
+    @property
+    def can_succeed(self) -> bool:
+        """Whether any of its ends is a success."""
+        return any(end.succeeds for end in self.ends)
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,9 +1,9 @@
 """Whether a graph holds together: the promises that the types of `mindrun.graph` cannot make."""
 
 import re
-from collections.abc import Container, Iterator
+from collections.abc import Container, Iterator, Mapping, Sequence
 
-from mindrun.expression import OPERATORS, is_valid_program, leaves
+from mindrun.expression import OPERATORS, is_condition, is_valid_program, leaves
 from mindrun.graph import Graph, Lesson, Program, Skill, Task
 from mindrun.quantity import THING, UNSAID
 from mindrun.registry import arguments
@@ -29,7 +29,7 @@ def _flaws(graph: Graph) -> Iterator[str]:
         yield from (f"skill {skill.name} {what}" for what in _skill_flaws(graph, number, skill, width))
     yield from _likeness_flaws(graph)
     for task in graph.tasks:
-        yield from (f"task {task.name} {what}" for what in _task_flaws(task, width))
+        yield from (f"task {task.name} {what}" for what in _task_flaws(task, width, len(graph.actuators)))
     skills, tasks = {skill.name for skill in graph.skills}, {task.name for task in graph.tasks}
     for lesson in graph.lessons:
         yield from lesson_flaws(lesson)
@@ -68,6 +68,8 @@ def _sense_flaws(graph: Graph) -> Iterator[str]:
         width = widths.get(sensor.kind.source) if sensor.kind.width is None else sensor.kind.width
         if sensor.width != width or sensor.start != start or sensor.width < 1:
             yield f"sensor {sensor.name} has not the readings of its kind"
+        elif not set(sensor.kind.sources) <= widths.keys() or sensor.kind.flaw(widths):
+            yield f"sensor {sensor.name} cannot be computed"
         start += sensor.width
     ending = depths(graph)
     yield from (f"sensor {each.name} is the derivative of itself" for each in graph.sensors if each.name not in ending)
@@ -76,17 +78,26 @@ def _sense_flaws(graph: Graph) -> Iterator[str]:
 
 
 def depths(graph: Graph) -> dict[str, int]:
-    """How many derivatives stand between a sensor or memory and what is measured; without those that never end."""
-    sources = {sensor.name: sensor.kind.source for sensor in graph.sensors if sensor.kind.source}
-    derived: dict[str, list[str]] = {}
-    for name, source in sources.items():
-        derived.setdefault(source, []).append(name)
-    known = dict.fromkeys({*derived, *(sensor.name for sensor in graph.sensors)} - sources.keys(), 0)
+    """How many virtual sensors stand between a sensor or memory and what is measured; without those that never end."""
+    return depths_of({sensor.name: sensor.kind.sources for sensor in graph.sensors})
+
+
+def depths_of(sources: Mapping[str, Sequence[str]]) -> dict[str, int]:
+    """The same of sensors with all that they are computed from."""
+    above: dict[str, list[str]] = {}
+    for name, of in sources.items():
+        for source in of:
+            above.setdefault(source, []).append(name)
+    left = {name: len(of) for name, of in sources.items()}
+    known = dict.fromkeys((name for name in (*above, *sources) if not sources.get(name)), 0)
     waiting = list(known)
     while waiting:
-        name = waiting.pop()
-        known |= dict.fromkeys(derived.get(name, ()), known[name] + 1)
-        waiting += derived.get(name, ())
+        source = waiting.pop()
+        for name in above.get(source, ()):
+            left[name] -= 1
+            if left[name] == 0:
+                known[name] = 1 + max(known[each] for each in sources[name])
+                waiting.append(name)
     return known
 
 
@@ -105,8 +116,12 @@ def _skill_flaws(graph: Graph, number: int, skill: Skill, width: int) -> Iterato
     if outputs != list(range(len(outputs))) or (outputs and not skill.function.has_outputs):
         yield "has outputs that are not its function's"
     readings = set(skill.inputs)
-    if not all(_computes(edge.value, readings) for edge in skill.edges if edge.output is None):
+    if not all(_computes(program, readings) for edge in skill.edges for program in edge.programs):
         yield "has an expression that cannot be computed"
+    if not all(is_condition(edge.gate.when) for edge in skill.edges if edge.gate):
+        yield "has a condition that cannot be computed"
+    if not all(0 <= edge.cuts <= 1 and (edge.to == "skill" or edge.cuts == 0) for edge in skill.edges):
+        yield "cuts what cannot be cut"
 
 
 def _likeness_flaws(graph: Graph) -> Iterator[str]:
@@ -125,7 +140,7 @@ def _shape(skill: Skill) -> object:
     return skill.function, len(skill.inputs), [(edge.to, edge.target, edge.output) for edge in skill.edges]
 
 
-def _task_flaws(task: Task, width: int) -> Iterator[str]:
+def _task_flaws(task: Task, width: int, actuators: int) -> Iterator[str]:
     """A task names its own things, measures and events, and readings that exist."""
     if task.ticks < 1:
         yield "does not last"
@@ -138,17 +153,32 @@ def _task_flaws(task: Task, width: int) -> Iterator[str]:
         yield "names a thing that is not there"
     yield from _world_flaws(task)
     events, readings = range(len(task.events)), range(width)
-    named = [*task.ends, *task.counts, *(reward.on for reward in task.rewards if reward.on is not None)]
-    if not all(event in events for event in named):
+    rewarded = [reward.on for reward in task.rewards if reward.on is not None]
+    ending = [end.event for end in task.ends if end.event is not None]
+    if not all(event in events for event in (*ending, *task.counts, *rewarded)):
         yield "names an event that is not there"
+    yield from _end_flaws(task, width, actuators)
     for reward in task.rewards:
-        programs = [reward.amount, *((reward.when.left, reward.when.right) if reward.when else ())]
-        if not all(_computes(program, readings, len(task.measures), reward.each is not None) for program in programs):
+        known = readings, len(task.measures), reward.each is not None, actuators
+        if not all(_computes(program, *known) for program in reward.programs):
             yield "has a reward that cannot be computed"
-        if reward.when and reward.when.compare not in ("<", "<=", ">", ">="):
+        if reward.when is not None and not is_condition(reward.when):
             yield "has a condition that cannot be computed"
         if reward.each and not (reward.each[0] >= 0 and 0 < reward.each[1] <= width - reward.each[0]):
             yield "rewards readings that are not there"
+
+
+def _end_flaws(task: Task, width: int, actuators: int) -> Iterator[str]:
+    """An end is an event or a condition; a success comes of none that it makes itself."""
+    for end in task.ends:
+        if (end.event is None) == (end.when is None) or end.times < 1:
+            yield "has an end that never comes"
+        if end.when is not None and not (
+            is_condition(end.when) and _computes(end.when, range(width), len(task.measures), commands=actuators)
+        ):
+            yield "has an end that cannot be computed"
+        if end.event is not None and task.events[end.event].is_of_success:
+            yield "ends on its own success"
 
 
 def _world_flaws(task: Task) -> Iterator[str]:
@@ -167,13 +197,16 @@ def _things_named(task: Task) -> Iterator[str]:
         yield from (getattr(part, argument.field) for argument in arguments(type(part)) if argument.type == THING)
 
 
-def _computes(program: Program, readings: Container[int], measures: int = 0, each: bool = False) -> bool:
-    """Whether a program has a value, and uses only these readings, measures and, in a loop, the reading at hand."""
-    words = {*OPERATORS, "negate", "number", "reading", "measure"} | ({"each"} if each else set())
+def _computes(
+    program: Program, readings: Container[int], measures: int = 0, each: bool = False, commands: int = 0
+) -> bool:
+    """Whether a program has a value, and uses only these readings, measures, commands and, in a loop, the reading."""
+    words = {*OPERATORS, "negate", "number", "reading", "measure", "command"} | ({"each"} if each else set())
     return (
         is_valid_program(program)
         and {word for word, _ in program} <= words
         and all(isinstance(operand, int) for word, operand in program if word != "number")
         and all(index in readings for index in leaves(program, "reading"))
         and all(index in range(measures) for index in leaves(program, "measure"))
+        and all(index in range(commands) for index in leaves(program, "command"))
     )

@@ -105,7 +105,7 @@ def read_by(graph: Graph, master: str) -> Set[str]:
     sensors = {sensor.name: sensor for sensor in graph.sensors}
     inputs = {index for skill in reachable(graph, master) for index in skill.inputs}
     read = [s.name for s in graph.sensors if not inputs.isdisjoint(range(s.start, s.start + s.width))]
-    return reached_from(read, lambda name: {sensors[name].kind.source} & sensors.keys()) & physical(graph).keys()
+    return reached_from(read, lambda name: {*sensors[name].kind.sources} & sensors.keys()) & physical(graph).keys()
 
 
 def flaws(wiring: Wiring, graph: Graph) -> Iterator[str]:

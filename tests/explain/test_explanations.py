@@ -12,7 +12,7 @@ from tests.explain.examples import write
 from tests.project.sources import COMPILER, RUNTIME, modules, tree
 
 ALL = list(errors())
-EMITTERS = {"error", "refuse", "Diagnostic", "Mistake"}
+EMITTERS = {"error", "refuse", "Diagnostic", "Flaw", "Mistake"}
 # Codes that are made of words as they are emitted: how, and which these are.
 MADE = {
     "f'unknown-{nouns[0]}'": {f"unknown-{noun}" for noun in ("sensor", "actuator", "skill", "task", "scene", "number")},
@@ -34,7 +34,9 @@ WITHOUT_EXAMPLES = FILES | MAPS | {"impossible-edit", "damaged-lock", "too-many-
 def emitted() -> set[str]:
     """The codes of all diagnostics in the sources of the compiler."""
     found: set[str] = set()
-    for node in (node for path in modules(COMPILER, RUNTIME / "things") for node in ast.walk(tree(path))):
+    for node in (
+        node for path in modules(COMPILER, RUNTIME / "things", RUNTIME / "sensors") for node in ast.walk(tree(path))
+    ):
         if isinstance(node, ast.Call) and _name(node.func) in EMITTERS and node.args:
             match node.args[0]:
                 case ast.Constant(value=str(code)):

@@ -114,7 +114,7 @@ def test_what_the_real_engine_does(graph: Graph, scale: float, seed: int) -> Non
             thought = really_think(made, now)
             for ready, s in zip(made.skills, reachable(graph, graph.master), strict=True):
                 for value, sends in zip(really_sent(ready, now), bounds.edges[s.name], strict=True):
-                    assert not np.isfinite(value) or sends.low <= min(1, max(0, value)) <= sends.high
+                    assert value is None or not np.isfinite(value) or sends.low <= min(1, max(0, value)) <= sends.high
         if any(s.function.opaque for s in reachable(graph, graph.master)):
             continue
         assert np.array_equal(thought.influence, thoughts.influence[row], equal_nan=True)

@@ -34,17 +34,17 @@ def follow(rollout: Rollout, engine: Engine, seed: int) -> Counter[str]:
         plain.grip(moment.acting)
         assert plain.step(moment.acting, moment.grip) == tuple(moment.body)
         happened = plain.happened()
-        assert happened == moment.events.tolist()
         assert plain.touched == moment.touching
         with np.errstate(all="ignore"):
             readings = moment.readings.copy()
             readings[cells] = known  # a reward reads what the skills have read
+            ended = plain.ends(happened, readings)
             plain.reward(happened, readings)
+        assert happened == moment.events.tolist()
         known = moment.readings[cells]
         assert np.array_equal(plain.lines, moment.lines, equal_nan=True)
         hold_things(plain, moment)
         counts += np.array(happened, np.int64)
-        ended = next((i for i, it in enumerate(happened) if it and i in task.ends), -1)
     assert moment.tick == task.ticks or ended >= 0
     jobs = run.jobs
     assert (jobs.ticks[0], jobs.ended[0], jobs.faults[0]) == (moment.tick, ended, engine.faults)

@@ -40,6 +40,7 @@ class PlainWorld:
         self.commands = [a.kind.neutral for a in graph.actuators]
         self.late = [deque([f(a.kind.neutral)] * a.kind.delay) for a in graph.actuators]
         self.turns = {i: deque() for i, m in enumerate(task.measures) if isinstance(m, measures.Change)}
+        self.counts = [0] * len(task.events)
         self.visited = [{self.patch(event)} for event in task.events]
         self.lines = [np.float64(0)] * len(task.rewards)
         self.history = {}
@@ -215,6 +216,8 @@ class PlainWorld:
                     found.append(int(began))
                 case events.Exhaustion():
                     found.append(int(self.charge == 0))
+                case events.Success():
+                    found.append(0)  # `ends` knows
         return found
 
     def arrived(self, event, items):
@@ -281,33 +284,42 @@ class PlainWorld:
             ticks.popleft()
         return sum(max(0.0, sum(tick[side] for tick in ticks) - beyond) for side in sides)
 
+    def ends(self, happened, readings):
+        """The number of the end that has come, −1 for none; where that is a success, its event has happened."""
+        self.found = self.measured()
+        self.counts = [count + it for count, it in zip(self.counts, happened, strict=True)]
+        for number, end in enumerate(self.task.ends):
+            if end.when is None:
+                met = happened[end.event] and self.counts[end.event] >= end.times
+            else:
+                met = self.value(end.when, readings, self.found, 0) > 0
+            if met:
+                for i, event in enumerate(self.task.events):
+                    happened[i] += int(end.succeeds and isinstance(event, events.Success))
+                return number
+        return -1
+
     def reward(self, happened, readings):
         """Add what each line pays."""
-        found = self.measured()
+        found = self.found
         for i, line in enumerate(self.task.rewards):
             if line.on is not None and not happened[line.on]:
                 continue
             rows = range(line.each[0], sum(line.each)) if line.each else [0]
             for row in rows:
                 value = self.value(line.amount, readings, found, row)
-                if line.when is None or COMPARES[line.when.compare](
-                    self.value(line.when.left, readings, found, row), self.value(line.when.right, readings, found, row)
-                ):
+                if line.when is None or self.value(line.when, readings, found, row) > 0:
                     self.lines[i] = self.lines[i] + value * (1 if line.on is None else happened[line.on])
         self.t += 1
 
     def value(self, program, readings, found, row):
         """A reward's program as one over readings alone."""
-        words = {"measure": lambda i: ("number", found[i]), "each": lambda i: ("reading", row)}
+        words = {
+            "measure": lambda i: ("number", found[i]),
+            "each": lambda i: ("reading", row),
+            "command": lambda i: ("number", self.commands[i]),
+        }
         return postfix([words.get(word, lambda i, word=word: (word, i))(i) for word, i in program], readings)
-
-
-COMPARES = {
-    "<": lambda a, b: a < b,
-    "<=": lambda a, b: a <= b,
-    ">": lambda a, b: a > b,
-    ">=": lambda a, b: a >= b,
-}
 
 
 def pointed(ahead, aside, dead_zone):

@@ -6,8 +6,8 @@ from math import pi
 from hypothesis import strategies as st
 from mindrun.actuators import Gripper, Lamp, Motor, Servo, Steering, Thruster, Wheel
 from mindrun.bodies import Box, Car, Disc, Holonomic
-from mindrun.events import Collision, Delivery, EventKind, Exhaustion, Reach, Visit
-from mindrun.graph import Actuator, Condition, Graph, Lesson, Program, Reward, Start, Task, Thing
+from mindrun.events import Collision, Delivery, EventKind, Exhaustion, Reach, Success, Visit
+from mindrun.graph import Actuator, End, Graph, Lesson, Program, Reward, Start, Task, Thing
 from mindrun.learners import Learner
 from mindrun.measures import Advance, Change, Forward, MeasureKind, Progress, Retreat
 from mindrun.quantity import UNSAID, Span
@@ -16,7 +16,7 @@ from mindrun.scenes import Arena, Plain, SceneKind
 from mindrun.things import Ball, Item, LooseBox, Map, Obstacle, Power, Wall, Zone
 from mindrun.weights import genes
 
-from tests.hierarchies import random_graph
+from tests.hierarchies import combined, conditions, random_graph
 
 SIZES = st.sampled_from([Span(1.0, 1.0), Span(2.0, 5.0), Span(4.0, 1.0, 0.75), Span(1.0, 3.0, 0.75)])
 WIDE = st.sampled_from([Span(8.0, 8.0), Span(4.0, 12.0), Span(14.0, 6.0, 2.0)])
@@ -85,6 +85,7 @@ def random_world(draw: st.DrawFn, most: int = 40) -> Graph:
     rewards = tuple(draw(_rewards(graph, len(measures), len(events))) for _ in range(draw(st.integers(1, 4))))
     some = st.lists(st.sampled_from(range(len(events))), unique=True, max_size=3) if events else st.just([])
     ticks = draw(st.integers(1, most))
+    ends = tuple(draw(st.lists(_ends(graph, measures, events), max_size=3)))
     task = Task(
         "World",
         scene,
@@ -92,7 +93,7 @@ def random_world(draw: st.DrawFn, most: int = 40) -> Graph:
         ticks,
         measures,
         events,
-        tuple(draw(some)),
+        ends,
         rewards,
         tuple(draw(some)),
         draw(st.sampled_from([Start(), Start(), Start((2.0, -1.0)), Start(None, 1.0), Start((0.0, 0.5), -3.0)])),
@@ -168,7 +169,7 @@ def _measures(draw: st.DrawFn, things: tuple[Thing, ...]) -> tuple[MeasureKind, 
 
 @st.composite
 def _events(draw: st.DrawFn, scene: SceneKind, things: tuple[Thing, ...]) -> tuple[EventKind, ...]:
-    events: list[EventKind] = [Collision(), Exhaustion()]
+    events: list[EventKind] = [Collision(), Exhaustion(), Success()]
     for thing in things:
         if not thing.kind.is_obstacle:
             events.append(Reach(thing.name))
@@ -181,32 +182,35 @@ def _events(draw: st.DrawFn, scene: SceneKind, things: tuple[Thing, ...]) -> tup
 
 
 @st.composite
+def _ends(draw: st.DrawFn, graph: Graph, measures: tuple[MeasureKind, ...], events: tuple[EventKind, ...]) -> End:
+    """An event, the first time or later, or a condition; a success or not."""
+    happening = [number for number, event in enumerate(events) if not event.is_of_success]
+    succeeds = draw(st.booleans())
+    if happening and draw(st.booleans()):
+        return End(draw(st.sampled_from(happening)), draw(st.integers(1, 3)), None, succeeds)
+    programs = _programs(graph.width, len(measures), len(graph.actuators), in_loop=False)
+    return End(None, 1, draw(conditions(programs)), succeeds, "it is so")
+
+
+@st.composite
 def _rewards(draw: st.DrawFn, graph: Graph, measures: int, events: int) -> Reward:
     """An amount per tick or on an event, for each reading of a sensor or once, always or when a condition holds."""
     each = None
     if graph.sensors and draw(st.integers(0, 3)) == 0:
         sensor = draw(st.sampled_from(graph.sensors))
         each = sensor.start, sensor.width
-    programs = _programs(graph.width, measures, each is not None)
+    programs = _programs(graph.width, measures, len(graph.actuators), each is not None)
     on = draw(st.integers(0, events - 1)) if events and draw(st.booleans()) else None
-    when = None
-    if draw(st.booleans()):
-        when = Condition(draw(programs), draw(st.sampled_from(["<", "<=", ">", ">="])), draw(programs))
+    when = draw(conditions(programs)) if draw(st.booleans()) else None
     return Reward("", draw(programs), on, each, when)
 
 
-def _programs(readings: int, measures: int, in_loop: bool) -> st.SearchStrategy[Program]:
+def _programs(readings: int, measures: int, commands: int, in_loop: bool) -> st.SearchStrategy[Program]:
     leaves = [st.sampled_from([0.0, 0.5, 1.0, -2.0]).map(lambda x: (("number", x),))]
     leaves.append(st.integers(0, measures - 1).map(lambda i: (("measure", i),)))
+    leaves.append(st.integers(0, commands - 1).map(lambda i: (("command", i),)))
     if readings:
         leaves.append(st.integers(0, readings - 1).map(lambda i: (("reading", i),)))
     if in_loop:
         leaves.append(st.just((("each", 0),)))
-    return st.recursive(
-        st.one_of(leaves),
-        lambda part: st.one_of(
-            st.tuples(part, part, st.sampled_from("+-*/")).map(lambda p: (*p[0], *p[1], (p[2], 0))),
-            part.map(lambda p: (*p, ("negate", 0))),
-        ),
-        max_leaves=4,
-    )
+    return combined(st.one_of(leaves), 4)

@@ -35,7 +35,7 @@ LINES = {
     "task": "task Avoid in arena size 100",
     "reads": "reads eyes",
     "drives": "drives left_wheel",
-    "influences": "influences Avoid, or influences Avoid at 0.5",
+    "influences": "influences Avoid, or influences Avoid at 0.5 when ahead < 20%",
     "stays": "stays frozen",
     "scene": "scene Rocks is arena size 100",
     "contains": "contains rock is obstacle count 10",

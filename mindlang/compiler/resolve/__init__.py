@@ -13,7 +13,7 @@ from mindlang.compiler.hierarchy import check_cycles
 from mindlang.compiler.names import Names, gather
 from mindlang.compiler.resolve.curricula import lessons
 from mindlang.compiler.resolve.drives import check_drives
-from mindlang.compiler.resolve.parts import measured_widths, parts
+from mindlang.compiler.resolve.parts import parts, sensors
 from mindlang.compiler.resolve.settings import check_versions, master, settings, tick_seconds, unit_metres
 from mindlang.compiler.resolve.skills import skills
 from mindlang.compiler.resolve.tasks import RobotFacts, tasks
@@ -32,12 +32,12 @@ def resolve(files: Sequence[File], findings: Findings) -> model.Mind | None:
     unit = unit_metres(files, values, findings)
     check_versions(files, findings)
     names = expand(written, values, tick, findings)
-    sensors = measured_widths(parts("sensor", names, findings), findings)
-    width = dict.fromkeys(names.of("sensor", "memory"), 1) | {sensor.name: sensor.width for sensor in sensors}
+    known_sensors = sensors(names, findings)
+    width = dict.fromkeys(names.of("sensor", "memory"), 1) | {sensor.name: sensor.width for sensor in known_sensors}
     memories, actuators = parts("memory", names, findings), parts("actuator", names, findings)
     known_skills = skills(names, width, findings)
     check_cycles(known_skills, findings)
-    has_battery = any(sensor.kind.battery for sensor in sensors)
+    has_battery = any(sensor.kind.battery for sensor in known_sensors)
     known_tasks = tasks(RobotFacts(names, width, tick, has_battery, files[0].source.folder), findings)
     known_lessons = tuple(lessons(names, known_skills, width, findings))
     body = _body(names, findings)
@@ -52,7 +52,7 @@ def resolve(files: Sequence[File], findings: Findings) -> model.Mind | None:
         tick,
         head,
         body,
-        sensors,
+        known_sensors,
         memories,
         actuators,
         tuple(_as_written(known_skills, "skill", written)),

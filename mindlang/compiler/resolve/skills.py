@@ -5,14 +5,16 @@ from typing import Any
 
 from mindrun.functions import Function
 from mindrun.graph import Receiver
+from mindrun.quantity import RATIO
 
-from mindlang.compiler import model
+from mindlang.compiler import model, syntax
 from mindlang.compiler.diagnostic import Findings, Label
 from mindlang.compiler.names import Names
-from mindlang.compiler.resolve.expressions import Visible, resolve
+from mindlang.compiler.resolve.expressions import Visible, condition, resolve
 from mindlang.compiler.resolve.kinds import Scope, make
 from mindlang.compiler.resolve.likeness import alike
 from mindlang.compiler.resolve.parts import refuse_facts
+from mindlang.compiler.resolve.quantities import convert
 from mindlang.compiler.source import Span
 from mindlang.compiler.syntax import Declaration, Drives, Influences, Reads, Stays
 
@@ -71,10 +73,17 @@ def _edges(declaration: Declaration, names: Names, visible: Visible, findings: F
             case _:
                 continue
         at = resolve(fact.at, visible, findings) if fact.at else None
+        gate = _gate(fact.gate, visible, findings) if fact.gate else None
+        cuts = convert(fact.cuts, RATIO, findings) if isinstance(fact, Influences) and fact.cuts else None
         verb = type(fact).__name__.lower()
         if to and _once(seen, fact.name.text, fact.span, verb, findings):
-            edges.append(model.Edge(to, fact.name.text, at, fact))
+            edges.append(model.Edge(to, fact.name.text, at, fact, gate, cuts or 0.0))
     return tuple(edges)
+
+
+def _gate(gate: syntax.Gate, visible: Visible, findings: Findings) -> model.Gate:
+    otherwise = resolve(gate.otherwise, visible, findings) if gate.otherwise else None
+    return model.Gate(condition(gate.when, visible, findings), otherwise)
 
 
 def _is_frozen(declaration: Declaration, findings: Findings) -> bool:

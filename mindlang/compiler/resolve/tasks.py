@@ -5,26 +5,27 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any, TypeVar
 
-from mindrun.quantity import SECONDS, TICKS
+from mindrun.quantity import SECONDS, TICKS, Quantity
 from mindrun.scenes import SceneKind
 from mindrun.things import ThingKind
 from mindrun.things.thing import MAX_OBSTACLES, MAX_THINGS
 
-from mindlang.compiler import model, syntax
+from mindlang.compiler import model
 from mindlang.compiler.diagnostic import Findings, Label
 from mindlang.compiler.names import Names, things_of
-from mindlang.compiler.resolve.expressions import Visible, resolve
+from mindlang.compiler.resolve.expressions import Visible, condition, resolve
 from mindlang.compiler.resolve.kinds import Scope, make
 from mindlang.compiler.resolve.maps import with_places
 from mindlang.compiler.resolve.parts import refuse_facts
 from mindlang.compiler.resolve.places import check_places, start_of
 from mindlang.compiler.resolve.quantities import convert
-from mindlang.compiler.syntax import Contains, Counts, Declaration, Ends, Fact, Lasts, Phrase, Rewards, Starts
+from mindlang.compiler.syntax import Contains, Counts, Declaration, Ends, Fact, Lasts, Phrase, Rewards, Starts, Succeeds
 
 MAX_RUN_TICKS = 10_000_000  # of a run
+TIMES = Quantity("how many times", {"": 1.0}, low=1, high=MAX_RUN_TICKS, whole=True)
 LASTS = replace(TICKS, low=1.0, high=MAX_RUN_TICKS)
 
-TASK_FACTS: tuple[type[Fact], ...] = (Contains, Starts, Lasts, Ends, Rewards, Counts)
+TASK_FACTS: tuple[type[Fact], ...] = (Contains, Starts, Lasts, Ends, Succeeds, Rewards, Counts)
 SCENE_FACTS: tuple[type[Fact], ...] = (
     Contains,
     Starts,
@@ -50,6 +51,7 @@ class _World:
     things: tuple[model.Part[Any], ...]
     scope: Scope
     has_battery: bool
+    can_succeed: bool
 
     @property
     def kinds(self) -> list[ThingKind]:
@@ -78,7 +80,8 @@ def _world(declaration: Declaration, robot: RobotFacts, findings: Findings) -> _
     scope = Scope(robot.names, things, f"{noun} {name}", root=robot.root)
     phrase = declaration.header.phrase
     scene: Any = make("task", phrase, scope, findings) if phrase else None
-    return _World(scene, _things(declaration, scene, scope, findings), scope, robot.has_battery)
+    succeeds = not declaration.whole or any(isinstance(fact, Succeeds) for fact in declaration.facts)
+    return _World(scene, _things(declaration, scene, scope, findings), scope, robot.has_battery, succeeds)
 
 
 def _task(name: str, declaration: Declaration, robot: RobotFacts, findings: Findings) -> model.Task:
@@ -90,7 +93,7 @@ def _task(name: str, declaration: Declaration, robot: RobotFacts, findings: Find
         world.things,
         start_of(declaration, world.scene, world.things, findings),
         _ticks(declaration, robot.tick, findings),
-        tuple(_event(fact.event, world, findings) for fact in _facts(declaration, Ends) if fact.event),
+        _ends(declaration, world, robot, findings),
         tuple(_reward(fact, world, robot, findings) for fact in _facts(declaration, Rewards)),
         tuple(_event(fact.event, world, findings) for fact in _facts(declaration, Counts)),
         declaration.facts,
@@ -172,19 +175,32 @@ def _event(written: Phrase, world: _World, findings: Findings) -> Any:
     return event
 
 
+def _ends(declaration: Declaration, world: _World, robot: RobotFacts, findings: Findings) -> tuple[model.End, ...]:
+    """What ends a run, in the order of the source; of two that come in one tick the first one counts."""
+    ends = []
+    for fact in (fact for fact in declaration.facts if isinstance(fact, Ends | Succeeds)):
+        times = convert(fact.times, TIMES, findings) if fact.times else 1
+        event = _event(fact.event, world, findings) if fact.event else None
+        when = condition(fact.when, _visible(world, robot), findings) if fact.when else None
+        if fact.event and event and event.is_of_success:
+            hint = "Write what a success is: succeeds on 5 delivery of red."
+            findings.error("own-success", fact.event.span, "A success ends the run by itself.", hint)
+        ends.append(model.End(event, int(times or 1), when, isinstance(fact, Succeeds), fact))
+    return tuple(ends)
+
+
+def _visible(world: _World, robot: RobotFacts) -> Visible:
+    """What the expressions of a task can see."""
+    commands = frozenset(robot.names.of("actuator"))
+    return Visible(robot.widths, world.scope, unread=robot.names.unread, commands=commands)
+
+
 def _reward(fact: Rewards, world: _World, robot: RobotFacts, findings: Findings) -> model.Reward:
-    visible = Visible(robot.widths, world.scope, unread=robot.names.unread)
+    visible = _visible(world, robot)
     each = None
     if fact.each:
         visible = replace(visible, each=fact.each.name.text)
         each = fact.each.sensor.text if robot.names.find(fact.each.sensor, ("sensor", "memory"), findings) else None
     on = _event(fact.on, world, findings) if fact.on else None
-    when = _condition(fact.when, visible, findings) if fact.when else None
+    when = condition(fact.when, visible, findings) if fact.when else None
     return model.Reward(resolve(fact.amount, visible, findings), on, each, when, fact)
-
-
-def _condition(when: syntax.When, visible: Visible, findings: Findings) -> model.Condition:
-    first = when.alternatives[0][0]
-    return model.Condition(
-        resolve(first.left, visible, findings), first.compare, resolve(first.right, visible, findings)
-    )

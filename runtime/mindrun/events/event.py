@@ -36,6 +36,11 @@ class TaskWorld(Protocol):
         """Whether a sensor reads a battery."""
         ...
 
+    @property
+    def can_succeed(self) -> bool:
+        """Whether a line says when a run is a success."""
+        ...
+
 
 class World(Protocol):
     """What is known of a task's world from the whole mind, before anything runs in it."""
@@ -74,6 +79,7 @@ class EventKind(AboutThing):
 
     outcome = ""  # the argument by which a thing says what becomes of it when the event happens
     needs_walls = False  # whether it can be computed in an arena alone
+    is_of_success = False  # whether an end of the task makes it happen
     is_of_battery = False  # whether it depends on the battery, of which it names no sensor
 
     def missing(self, task: TaskWorld) -> Hindrance | None:

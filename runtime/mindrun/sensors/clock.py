@@ -25,9 +25,9 @@ class Clock(SensorKind):
         """0 where each tick begins a period."""
         return 0.0 if self.period == world.tick else None
 
-    def reader(self, tick: float, source: slice, turns: bool) -> Reader:
+    def reader(self, scene: Scene) -> Reader:
         """t/period without its whole part, t in seconds since the first tick."""
-        period = self.period / tick
+        period = self.period / scene.tick
 
         def read(number: int, now: Readings, before: Readings | None) -> np.float32:
             turned = number / period

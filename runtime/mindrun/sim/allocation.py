@@ -39,7 +39,7 @@ def empty_state(tables: Tables, sizes: Sizes, lanes: int) -> State:
         _mind(tables, sizes, room),
         _contact(tables, sizes, room),
         _judge(tables, sizes, room),
-        Run(job=room.each(), ended=room.each(), faults=room.each(), failed=np.full(2, -1, np.int64)),
+        Run(job=room.each(), ended=room.each(), met=room.each(), faults=room.each(), failed=np.full(2, -1, np.int64)),
     )
 
 
@@ -124,6 +124,9 @@ def _mind(tables: Tables, sizes: Sizes, room: _Room) -> Mind:
         hidden=room.rows(2 * sizes.width, np.float32),
         stack=room.rows(sizes.depth),
         values=room.each(np.float32),
+        opened=room.each(np.float32),
+        other=room.each(np.float32),
+        gated=room.each(np.float32),
         sent=room.each(np.float32),
     )
 
@@ -158,5 +161,4 @@ def _judge(tables: Tables, sizes: Sizes, room: _Room) -> Judge:
         events=room.rows(events),
         happened=np.zeros(max(1, events), np.int64),
         paid=room.each(np.float64),
-        limit=room.each(np.float64),
     )

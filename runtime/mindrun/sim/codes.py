@@ -12,9 +12,7 @@ PUSH, STEERING, GRIPPER, IDLE = range(4)
 ITEM, ZONE, POWER, BOX, BALL = range(5)
 STAYS, MOVES, VANISHES = range(3)
 PROGRESS, ADVANCE, RETREAT, FORWARD, CHANGE = range(5)
-REACH, DELIVERY, VISIT, COLLISION, EXHAUSTION = range(5)
-NUMBER, READING, EACH, MEASURE, ADD, SUBTRACT, MULTIPLY, DIVIDE, NEGATE = range(9)
-LESS, LESS_EQUAL, GREATER, GREATER_EQUAL = range(4)
+REACH, DELIVERY, VISIT, COLLISION, EXHAUSTION, SUCCESS = range(6)
 
 GOING_ON, LOST = -1, -2  # of a run that no event has ended: on its way or out of time, or beyond FAR
 AWAY = 1e30  # units: where a box is that is none
@@ -22,7 +20,6 @@ FAR = 1e9  # units from the origin, and radians: nothing is there, and a little 
 
 FORCE, TORQUE, FORCE_X, FORCE_Y, FORCE_ASIDE, PUSH_ROWS = range(6)  # rows of what pushes a body, and how many
 
-OPERATIONS = {name: code for code, name in enumerate(("number", "reading", "each", "measure", *"+-*/", "negate"))}
 ACTUATOR_CODES = {
     "wheel": PUSH, "motor": PUSH, "thruster": PUSH, "steering": STEERING, "gripper": GRIPPER,
     "servo": IDLE, "lamp": IDLE,
@@ -33,8 +30,8 @@ MEASURE_CODES = {
 }  # fmt: skip
 EVENT_CODES = {
     "reach": REACH, "delivery": DELIVERY, "visit": VISIT, "collision": COLLISION, "exhaustion": EXHAUSTION,
+    "success": SUCCESS,
 }  # fmt: skip
-COMPARES = {"<": LESS, "<=": LESS_EQUAL, ">": GREATER, ">=": GREATER_EQUAL}
 
 
 def sensor_codes() -> dict[str, int]:
@@ -53,7 +50,7 @@ def _row(**columns: str) -> np.dtype[Any]:
 
 SENSOR = _row(
     kind="i8", start="i8", width="i8", thing="i8", things="i8", source="i8", ray="i8", number="i8", part="i8",
-    before="i8", turns="i8",
+    before="i8", turns="i8", code="i8", length="i8", over="i8", low="f4", high="f4",
     range="f8", dead_zone="f4", gain="f4", period="f8",
     is_rough="i8", is_aside="i8", noise="f4", lost="f4", blank="f4", every="i8", delay="i8", held="i8", ring="i8",
 )  # fmt: skip
@@ -61,7 +58,10 @@ SKILL = _row(
     kind="i8", index="i8", input="i8", inputs="i8", outputs="i8", hidden="i8", width="i8", weights="i8", own="i8",
     edge="i8", edges="i8", address="u8", state="i8",
 )  # fmt: skip
-EDGE = _row(to_skill="i8", target="i8", output="i8", code="i8", length="i8")
+EDGE = _row(
+    to_skill="i8", target="i8", output="i8", code="i8", length="i8",
+    when="i8", whens="i8", other="i8", others="i8", cuts="f4",
+)  # fmt: skip
 CODE = _row(op="i8", arg="i8", value="f8")
 ACTUATOR = _row(
     kind="i8", thrust="f8", ahead="f8", aside="f8", arm="f8", is_right="i8", turn="f8", neutral="f4", reach="f8",
@@ -81,11 +81,10 @@ OBSTACLE = _row(
 MEASURES = _row(kind="i8", thing="i8", things="i8", beyond="f8", over="i8", ring="i8")
 EVENT = _row(
     kind="i8", thing="i8", things="i8", to="i8", tos="i8", arrival="i8",
-    columns="i8", rows="i8", patch="f8", board="i8", ends="i8",
+    columns="i8", rows="i8", patch="f8", board="i8",
 )  # fmt: skip
-REWARD = _row(
-    code="i8", length="i8", on="i8", each="i8", eachs="i8", compare="i8", left="i8", lefts="i8", right="i8", rights="i8"
-)
+END = _row(event="i8", times="i8", when="i8", whens="i8", succeeds="i8")
+REWARD = _row(code="i8", length="i8", on="i8", each="i8", eachs="i8", when="i8", whens="i8")
 WORLD = _row(
     dt="f8", linear="f8", angular="f8", mass="f8", moment="f8", mass_inv="f8", moment_inv="f8", radius="f8",
     front="f8", side="f8", is_round="i8", axles="f8", half_x="f8", half_y="f8",

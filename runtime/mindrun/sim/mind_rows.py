@@ -93,10 +93,13 @@ def skill_rows(
 
 def _edge(graph: Graph, edge: Edge, codes: Programs) -> Row:
     first, length = codes.add(edge.value)
+    when, whens = codes.add(edge.gate.when if edge.gate else ())
+    other, others = codes.add((edge.gate and edge.gate.otherwise) or ())
     sinks_before = len(graph.actuators) if edge.to == "memory" else 0
     return {
         "to_skill": edge.to == "skill", "target": edge.target + sinks_before,
         "output": -1 if edge.output is None else edge.output, "code": first, "length": length,
+        "when": when, "whens": whens, "other": other, "others": others, "cuts": edge.cuts,
     }  # fmt: skip
 
 

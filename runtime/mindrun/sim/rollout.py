@@ -33,8 +33,8 @@ class Scores:
 
     `total` is −∞ where a reward was not a number; `by_line` [genomes, seeds, lines] sums each reward line; `counts` are
     all events that the task counts together, `by_event` [genomes, seeds, events] each event of the task; `ended_by` is
-    an index into these, −1 where the run lasted its time, −2 where the robot was beyond all places (FAR); `faults`
-    counts values that were not sent, and such a flight.
+    an index into the task's ends, −1 where the run lasted its time, −2 where the robot was beyond all places (FAR);
+    `faults` counts values that were not sent, and such a flight.
     """
 
     total: NDArray[np.float64]

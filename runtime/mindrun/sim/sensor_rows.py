@@ -1,18 +1,21 @@
 """The rows of the sensors that somebody reads, and their rays."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from mindrun.expression import leaves, placed
 from mindrun.graph import Graph, Sensor, Skill, Task
 from mindrun.registry import names
 from mindrun.sensors import Physical, SensorKind
 from mindrun.sim.codes import SENSOR, sensor_codes
+from mindrun.sim.programs import Programs
 from mindrun.sim.records import Row, records
 from mindrun.sim.task_rows import NOWHERE, rows_by_name
+from mindrun.virtual_sensors import scene_of
 
 Array = NDArray[Any]
 
@@ -36,11 +39,9 @@ def used_sensors(graph: Graph, reached: Sequence[Skill], task: Task) -> Used:
 
 
 def _rewarded(task: Task) -> set[int]:
-    """The readings that rewards depend on."""
-    rows: set[int] = set()
+    """The readings that rewards and ends depend on."""
+    rows = {index for program in task.programs for index in leaves(program, "reading")}
     for reward in task.rewards:
-        programs = [reward.amount] + ([reward.when.left, reward.when.right] if reward.when else [])
-        rows |= {int(value) for program in programs for name, value in program if name == "reading"}
         rows |= set(range(reward.each[0], sum(reward.each))) if reward.each else set()
     return rows
 
@@ -51,20 +52,15 @@ def _measured(graph: Graph, rows: set[int]) -> list[Sensor]:
     ordered: dict[str, Sensor] = {}
     for sensor in graph.sensors:
         if rows.intersection(range(sensor.start, sensor.start + sensor.width)):
-            chain = [sensor]
-            while chain[-1].kind.source in by_name:
-                chain.append(by_name[chain[-1].kind.source])
-            for link in reversed(chain):
-                ordered.setdefault(link.name, link)
+            waiting = [sensor]
+            while waiting:
+                last = waiting[-1]
+                missing = [name for name in last.kind.sources if name in by_name and name not in ordered]
+                if missing:
+                    waiting.append(by_name[missing[0]])
+                else:
+                    ordered.setdefault(last.name, waiting.pop())
     return list(ordered.values())
-
-
-@dataclass(frozen=True, slots=True)
-class Scene:
-    """What the row of a sensor can depend on beside its own arguments."""
-
-    tick: float
-    starts: Mapping[str, int]
 
 
 @dataclass(frozen=True, slots=True)
@@ -85,24 +81,23 @@ class Sensed:
     rings: int
 
 
-def sensor_rows(graph: Graph, used: Used, task: Task) -> Sensed:
+def sensor_rows(graph: Graph, used: Used, task: Task, programs: Programs) -> Sensed:
     """What the table of sensors says of those that are used.
 
     What is measured aside draws its noise from a generator of its own: a reward changes nothing in the world.
     """
     things = rows_by_name(task)
-    starts = {m.name: m.start for m in graph.memories} | {s.name: s.start for s in graph.sensors}
-    circular = {s.name for s in graph.sensors if s.kind.circular}
-    scene, room = Scene(graph.tick, starts), _Room()
+    scene, room = scene_of(graph), _Room()
     rows: list[Row] = []
     for is_aside, sensor in [(False, s) for s in used.skills] + [(True, s) for s in used.aside]:
         kind = sensor.kind
         about = things.get(kind.thing, NOWHERE)
         row: dict[str, float] = {
             "kind": sensor_codes()[names()[type(kind)]], "start": sensor.start, "width": sensor.width,
-            "thing": about.start, "things": len(about), "turns": kind.source in circular,
+            "thing": about.start, "things": len(about), "turns": kind.source in scene.circular,
             "is_aside": is_aside, "every": 1,
         }  # fmt: skip
+        row["code"], row["length"] = programs.add(placed(kind.formula, scene.starts))
         rows.append({**row, **room.take(sensor), **_roughness(kind), **kind.row(scene)})
     turn = np.array(room.rays, np.float64)
     return Sensed(
@@ -141,7 +136,7 @@ class _Room:
         self.ray_row.extend(range(sensor.start, sensor.start + len(kind.rays)))
         self.pierces.extend(kind.pierces for _ in kind.rays)
         self.numbers.extend(kind.numbers)
-        self.before += sensor.width if kind.remembers else 0
+        self.before += sensor.width * kind.remembered
         if isinstance(kind, Physical):
             self.held += sensor.width
             self.ring += sensor.width * kind.delay

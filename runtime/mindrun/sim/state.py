@@ -60,7 +60,7 @@ class Mind(NamedTuple):
     """What is read, remembered and sent."""
 
     readings: Array  # [readings] float32
-    before: Array  # [derivatives] float32: what they read in the tick before
+    before: Array  # [what virtual sensors remember] float32: of a derivative what its source read before
     measured: Array  # [rough readings] float32: what was measured last
     rings: Array  # [rough readings · delay] float32: what was measured and is not seen yet
     genome: Array  # [weights] float32, of the learner
@@ -77,6 +77,9 @@ class Mind(NamedTuple):
     hidden: Array  # [2·width] float32
     stack: Array  # [depth] float64, of expressions
     values: Array  # float32: of an edge with `at`
+    opened: Array  # float32: of an edge with `when`, 1 where that holds
+    other: Array  # float32: what it sends otherwise
+    gated: Array  # float32: which of the two it sends
     sent: Array  # float32: the values of an edge, −1 where nothing is sent
 
 
@@ -110,15 +113,15 @@ class Judge(NamedTuple):
     measures: Array  # [measures] float64
     events: Array  # [events] float64: how often it happened
     happened: Array  # [events] int64: in how many lanes
-    paid: Array  # float64: whether a reward line pays
-    limit: Array  # float64: the right side of its condition
+    paid: Array  # float64: whether a reward line pays, or an end has come
 
 
 class Run(NamedTuple):
     """How the run of each lane stands."""
 
     job: Array  # int64: which it is, −1 for none
-    ended: Array  # int64: the event that ended it, or GOING_ON, or LOST
+    ended: Array  # int64: what ended it, by its place among the task's ends, or GOING_ON, or LOST
+    met: Array  # int64: the end that came first, or GOING_ON; where nothing interrupts, the run goes on
     faults: Array  # int64: values that were not sent
     failed: Array  # [2] int64: the skill whose procedure failed, −1 where none did, and the column of `gathered`
 
@@ -151,6 +154,8 @@ class Senses(NamedTuple):
     boxes: Array
     nearby: Array
     nearby_count: Array
+    stack: Array
+    active: Array
 
 
 class Jobs(NamedTuple):

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from mindrun.graph import Graph, Task
 from mindrun.sim.codes import (
     CODE,
+    END,
     EVENT,
     MEASURES,
     OBSTACLE,
@@ -22,6 +23,7 @@ from mindrun.sim.programs import Programs
 from mindrun.sim.sensor_rows import sensor_rows, used_sensors
 from mindrun.sim.task_rows import (
     box_count,
+    end_row,
     event_rows,
     measure_rows,
     obstacle_rows,
@@ -59,6 +61,7 @@ class Tables(NamedTuple):
     walls: Array  # [walls, BOX_COLUMNS]: the boxes that stand in the same places in every run
     measures: Array
     events: Array
+    ends: Array
     rewards: Array
     library: Array  # addresses of Chipmunk's functions
 
@@ -98,8 +101,9 @@ def build(
     reached = reachable(graph, master)
     skills = skill_rows(graph, reached, weights, learners, addresses, codes)
     rewards = [reward_row(reward, codes) for reward in task.rewards]
+    ends = [end_row(end, codes) for end in task.ends]
     used = used_sensors(graph, reached, task)
-    sensed = sensor_rows(graph, used, task)
+    sensed = sensor_rows(graph, used, task, codes)
     driven, delays = actuator_rows(graph)
     measured, changes = measure_rows(task)
     noticed, patches, arrivals = event_rows(task)
@@ -113,7 +117,8 @@ def build(
         actuators=driven, memories=memory_rows(graph),
         things=np.array(thing_rows(graph, task), THING), loose=loose_rows(task, graph.tick),
         obstacles=np.array(obstacle_rows(task), OBSTACLE), walls=wall_rows(task),
-        measures=np.array(measured, MEASURES), events=np.array(noticed, EVENT), rewards=np.array(rewards, REWARD),
+        measures=np.array(measured, MEASURES), events=np.array(noticed, EVENT),
+        ends=np.array(ends, END), rewards=np.array(rewards, REWARD),
         library=library,
     )  # fmt: skip
     sizes = Sizes(

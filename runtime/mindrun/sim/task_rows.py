@@ -8,11 +8,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mindrun.arithmetic import BOX_COLUMNS
-from mindrun.graph import Graph, Reward, Sensor, Task, Thing
+from mindrun.graph import End, Graph, Reward, Sensor, Task, Thing
 from mindrun.registry import names
 from mindrun.sensors import Battery
 from mindrun.sim.codes import (
-    COMPARES,
     EVENT,
     EVENT_CODES,
     MEASURE_CODES,
@@ -115,7 +114,7 @@ def event_rows(task: Task) -> tuple[Array, int, int]:
     places = rows_by_name(task)
     rows: list[Row] = []
     board = arrivals = 0
-    for i, event in enumerate(task.events):
+    for event in task.events:
         own, code = event.row(task.scene), EVENT_CODES[names()[type(event)]]
         about, into = places[event.thing], places[getattr(event, "to", "")]
         row = {
@@ -126,7 +125,6 @@ def event_rows(task: Task) -> tuple[Array, int, int]:
             "tos": len(into),
             "patch": 1.0,
             "board": board,
-            "ends": i in task.ends,
         }
         rows.append({**row, **own, "arrival": arrivals})
         board += int(own.get("columns", 0) * own.get("rows", 0))
@@ -134,15 +132,16 @@ def event_rows(task: Task) -> tuple[Array, int, int]:
     return records(rows, EVENT), board, arrivals
 
 
+def end_row(end: End, codes: Programs) -> tuple[int, ...]:
+    """A row of END; its condition goes to `codes`."""
+    return -1 if end.event is None else end.event, end.times, *codes.add(end.when or ()), end.succeeds
+
+
 def reward_row(reward: Reward, codes: Programs) -> tuple[int, ...]:
     """A row of REWARD; its programs go to `codes`."""
     first, length = codes.add(reward.amount)
     each, eachs = reward.each or (0, 0)
-    left, right, compare = (0, 0), (0, 0), -1
-    if reward.when:
-        left, right = codes.add(reward.when.left), codes.add(reward.when.right)
-        compare = COMPARES[reward.when.compare]
-    return first, length, -1 if reward.on is None else reward.on, each, eachs, compare, *left, *right
+    return first, length, -1 if reward.on is None else reward.on, each, eachs, *codes.add(reward.when or ())
 
 
 def world_row(graph: Graph, task: Task, rays: int, used: Sequence[Sensor], master: int) -> Array:

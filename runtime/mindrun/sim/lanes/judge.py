@@ -12,13 +12,12 @@ from mindrun.sim.codes import (
     DELIVERY,
     EXHAUSTION,
     FORWARD,
-    GREATER,
-    LESS,
-    LESS_EQUAL,
+    GOING_ON,
     POWER,
     PUSH,
     REACH,
     RETREAT,
+    SUCCESS,
     VISIT,
 )
 from mindrun.sim.compiling import compiled
@@ -38,11 +37,13 @@ def judge(tables, state, lanes, clock, interrupt):
     for i in range(len(tables.events)):
         out = judged.events[i]
         judged.happened[i] = notice(tables, world, state.contact, judged, tables.events[i], out, lanes)
-    for i in range(len(tables.rewards)):
-        reward(tables, state.mind, judged, tables.rewards[i], judged.lines[i], lanes)
     for i in range(len(tables.events)):
         if judged.happened[i] > 0:
-            settle(tables.events[i], i, judged, state.run.ended, lanes, interrupt)
+            tally(judged.events[i], judged.counts[i], lanes)
+    for i in range(len(tables.ends)):
+        meet_end(tables, state, tables.ends[i], i, lanes, interrupt)
+    for i in range(len(tables.rewards)):
+        reward(tables, state.mind, judged, tables.rewards[i], judged.lines[i], lanes)
     if begun > 0:
         become(tables, world, lanes)
     oldest = PLACE_ROWS * (clock % TRAIL_TICKS)
@@ -174,45 +175,62 @@ def reward(tables, mind, judged, line, total, lanes):
         each = line.each + k
         for lane in range(lanes):
             paid[lane] = judged.events[line.on, lane] if line.on >= 0 else 1.0
-        if line.compare >= 0:
-            run(tables, mind, judged.measures, line.right, line.rights, each, lanes)
+        if line.whens > 0:
+            value(tables, mind, judged.measures, line.when, line.whens, each, lanes)
             for lane in range(lanes):
-                judged.limit[lane] = mind.stack[0, lane]
-            run(tables, mind, judged.measures, line.left, line.lefts, each, lanes)
-            only_when(paid, mind.stack[0], judged.limit, line.compare, lanes)
-        run(tables, mind, judged.measures, line.code, line.length, each, lanes)
+                paid[lane] = paid[lane] if mind.stack[0, lane] > 0.0 else 0.0
+        value(tables, mind, judged.measures, line.code, line.length, each, lanes)
         for lane in range(lanes):
             total[lane] += amount[lane] * paid[lane] if paid[lane] > 0.0 else 0.0
 
 
 @compiled
-def run(tables, mind, measures, first, length, each, lanes):
+def value(tables, mind, measures, first, length, each, lanes):
     """Evaluate a program into stack[0], in every lane."""
-    evaluate(tables.codes[first : first + length], mind.readings, measures, each, mind.stack, mind.active, lanes, True)
+    codes = tables.codes[first : first + length]
+    evaluate(codes, mind.readings, measures, mind.commands, each, mind.stack, mind.active, lanes, True)
 
 
 @compiled
-def only_when(paid, left, right, compare, lanes):
-    """Nothing is paid where left compare right does not hold."""
-    if compare == LESS:
-        for lane in range(lanes):
-            paid[lane] = paid[lane] if left[lane] < right[lane] else 0.0
-    elif compare == LESS_EQUAL:
-        for lane in range(lanes):
-            paid[lane] = paid[lane] if left[lane] <= right[lane] else 0.0
-    elif compare == GREATER:
-        for lane in range(lanes):
-            paid[lane] = paid[lane] if left[lane] > right[lane] else 0.0
-    else:
-        for lane in range(lanes):
-            paid[lane] = paid[lane] if left[lane] >= right[lane] else 0.0
-
-
-@compiled
-def settle(event, i, judged, ended, lanes, interrupt):
-    """Count event number i, and end the runs that it ends."""
+def tally(happened, counts, lanes):
+    """Count an event."""
     for lane in range(lanes):
-        if judged.events[i, lane] > 0.0:
-            judged.counts[i, lane] += int(judged.events[i, lane])
-            if event.ends and interrupt and ended[lane] < 0:
-                ended[lane] = i
+        counts[lane] += int(happened[lane])
+
+
+@compiled
+def meet_end(tables, state, end, i, lanes, interrupt):
+    """End the runs to which end number i has come before any other."""
+    judged, run = state.judge, state.run
+    if end.event >= 0:
+        if judged.happened[end.event] == 0:
+            return
+        for lane in range(lanes):
+            is_last = judged.counts[end.event, lane] >= end.times
+            judged.paid[lane] = 1.0 if is_last and judged.events[end.event, lane] > 0.0 else 0.0
+    else:
+        value(tables, state.mind, judged.measures, end.when, end.whens, 0, lanes)
+        for lane in range(lanes):
+            judged.paid[lane] = 1.0 if state.mind.stack[0, lane] > 0.0 else 0.0
+    met = 0
+    for lane in range(lanes):
+        if judged.paid[lane] > 0.0 and run.met[lane] == GOING_ON:
+            run.met[lane] = i
+            run.ended[lane] = i if interrupt else GOING_ON
+            met += 1
+        else:
+            judged.paid[lane] = 0.0
+    if met > 0 and end.succeeds:
+        succeed(tables, judged, lanes)
+
+
+@compiled
+def succeed(tables, judged, lanes):
+    """The event of a success happens where a run has succeeded in this tick."""
+    for i in range(len(tables.events)):
+        if tables.events[i].kind == SUCCESS:
+            for lane in range(lanes):
+                if judged.paid[lane] > 0.0:
+                    judged.events[i, lane] = 1.0
+                    judged.counts[i, lane] += 1
+                    judged.happened[i] += 1

@@ -68,7 +68,7 @@ def reset(tables, state, lane):
     reset_judge(tables, state.world, state.judge, lane)
     state.sight.anchor[:, lane] = np.nan
     state.contact.near[lane], state.contact.touching[lane] = 0, 0
-    state.run.ended[lane], state.run.faults[lane] = GOING_ON, 0
+    state.run.ended[lane], state.run.met[lane], state.run.faults[lane] = GOING_ON, GOING_ON, 0
 
 
 @compiled
@@ -140,7 +140,7 @@ def move(state, source, target):
     copy_lane(judge.counts, source, target)
     copy_lane(judge.arrived, source, target)
     copy_row(judge.visited, source, target)
-    for numbers in (sight.nearby_count, contact.near, contact.touching, run.job, run.ended, run.faults):
+    for numbers in (sight.nearby_count, contact.near, contact.touching, run.job, run.ended, run.met, run.faults):
         numbers[target] = numbers[source]
     for handles in (contact.handles, contact.loose):
         for i in range(handles.shape[1]):

@@ -75,6 +75,8 @@ def sense(tables, state, lanes, clock):
         boxes=world.boxes,
         nearby=sight.nearby,
         nearby_count=sight.nearby_count,
+        stack=mind.stack,
+        active=mind.active,
     )
     for i in range(len(tables.sensors)):
         sensor = tables.sensors[i]
