@@ -229,6 +229,7 @@ def _virtual(draw: st.DrawFn, kind: str, widths: dict[str, int]) -> tuple[int, S
         case "average":
             return widths[of], Average(of, draw(st.integers(1, 5)))
         case "reading":
+            of = draw(st.sampled_from([name for name, width in sorted(widths.items()) if width > 1] or [of]))
             return 1, Reading(draw(st.integers(1, widths[of])), of)
     single = [name for name, width in widths.items() if width == 1]
     numbered = draw(programs(tuple(range(len(single)))))
