@@ -3,6 +3,7 @@
 import re
 from collections.abc import Iterable, Mapping, Set
 from dataclasses import dataclass, fields, is_dataclass, replace
+from functools import cache
 from typing import Any
 
 from mindrun.quantity import Quantity
@@ -75,6 +76,8 @@ class _Writer:
     def node(self, node: Any, noun: str) -> Any:
         """A part of a line; `noun` is that of the kinds which its phrases name."""
         match node:
+            case Name() | Span() | None:
+                return node
             case Amount():
                 amount = in_place(node, self.numbers)
                 return replace(amount, tick_seconds=self.tick_seconds) if amount.per == "s" else amount
@@ -87,10 +90,10 @@ class _Writer:
                 return self._argument(node, kinds(noun).values())
             case tuple():
                 return tuple(self.node(part, noun) for part in node)
-            case _ if is_dataclass(node) and not isinstance(node, Name | Span):
+            case _ if is_dataclass(node):
                 of = node.noun.text if isinstance(node, Header) else NOUNS.get(type(node), noun)
                 cls: Any = type(node)
-                return cls(*(self.node(getattr(node, field.name), of) for field in fields(node)))
+                return cls(*[self.node(getattr(node, name), of) for name in _fields(cls)])
         return node
 
     def _term(self, term: Term) -> Term:
@@ -110,6 +113,11 @@ class _Writer:
     def _named(self, name: Name) -> Amount:
         amount: Amount = self.node(Amount(1.0, "", name.span, name=name.text), "")
         return amount
+
+
+@cache
+def _fields(cls: type[Any]) -> tuple[str, ...]:
+    return tuple(field.name for field in fields(cls))
 
 
 def _takes_number(classes: Iterable[type[Any]], key: str) -> bool:
