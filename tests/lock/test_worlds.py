@@ -11,7 +11,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from mindrun.graph import Graph
-from mindrun.quantity import Quantity, Reference, Span
+from mindrun.quantity import EXPRESSION, Quantity, Reference, Span
 from mindrun.registry import arguments, kinds, names
 from mindrun.weights import genes, learners
 
@@ -55,6 +55,10 @@ sensor place is position along x
 sensor hour is clock period 4 s
 sensor line is floor of bin at 0.5 -0.5 ahead 1
 sensor bumps is bumper at -45 45 deg
+sensor tilt is computed at 1/2 + north - pulse
+sensor hungry is latch of charge below 20% above 80%
+sensor calm is average of moving over 30 ticks
+sensor ahead is reading 1 of eye
 sensor fear is range_finder at 0 deg range 3
 memory mood is cell decay 0.9
 
@@ -87,6 +91,10 @@ skill Watch is rule
   reads hour
   reads line
   reads bumps
+  reads tilt
+  reads hungry
+  reads calm
+  reads ahead
   drives mast at way * glow
 
 skill Turn is procedure from turn.by
@@ -117,6 +125,9 @@ task Fetch in arena size 80
   lasts 600 ticks
   ends on collision
   ends on exhaustion
+  ends when charge < 5%
+  succeeds on 5 delivery of ball to bin
+  rewards 20 on success
   rewards 10 on reach of ball
   rewards 50 on delivery of ball
   rewards 1 on visit of patch size 5
@@ -242,6 +253,8 @@ def _exchanged(part: Any, old: Any, new: Any) -> Any:
 def _another(value: Any, meaning: Quantity | Reference) -> Any:
     """Another value that an argument may have."""
     match value, meaning:
+        case tuple(), _ if meaning == EXPRESSION:
+            return (*value, ("negate", 0))
         case Span(first=first, last=last, by=by), _:
             return Span(first + 1.0, last + 1.0, by)
         case (), _:
@@ -326,6 +339,8 @@ TEXTS = [
     ("each p in fear", "each p in eye", None),
     ("lasts 600", "lasts 601", "its task has changed: lasts 600 ticks, now 601"),
     ("  ends on exhaustion\n", "", "its task has changed: no longer ends on exhaustion"),
+    ("succeeds on 5", "succeeds on 4", None),
+    ("at 1/2 + north", "at 1/4 + north", "taught with tilt at 0.5 + north - pulse, now 0.25 + north - pulse"),
     ("arena size 80", "arena size 81", "its task has changed: in arena size 80, now 81"),
     ("genetic population 8", "genetic population 9", "taught with the learner population 8, now 9"),
     ("School is genetic", "School is restarting", None),
