@@ -7,7 +7,7 @@ from typing import Any
 from mindrun.quantity import Reference
 from mindrun.registry import arguments, kinds
 
-from mindlang.editing.references import READABLE_NOUNS
+from mindlang.compiler.references import READABLE_NOUNS
 from mindlang.lock.training_world import TrainingWorld
 
 NounNames = Mapping[str, Mapping[str, str]]  # what is called otherwise now, by noun
