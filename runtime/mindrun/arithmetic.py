@@ -100,22 +100,26 @@ def inside(things: Any, i: Any, x: Any, y: Any, p: Any) -> Any:
 def nearest(s: Any, sensor: Any, n: Any) -> Any:
     """The rows [THING_ROWS, lane] of the thing that a sensor speaks of: of several, in each lane the nearest one.
 
-    The first where two are as near; one that has vanished is nowhere, and NaN where all have.
+    The first where two are as near; one that has vanished is nowhere, and NaN where all have. Sensors that follow one
+    another and are about the same things look for it once.
     """
     if sensor.things == 1:
         return s.things[THING_ROWS * sensor.thing : THING_ROWS * (sensor.thing + 1)]
     found, first = s.nearest, THING_ROWS * sensor.thing
-    for row in range(THING_ROWS):
-        for p in range(n):
-            found[row, p] = s.things[first + row, p]
-    for i in range(sensor.thing + 1, sensor.thing + sensor.things):
-        one = s.things[THING_ROWS * i : THING_ROWS * (i + 1)]
-        for p in range(n):
-            closer = (one[DISTANCE, p] < found[DISTANCE, p]) | (found[DISTANCE, p] != found[DISTANCE, p])
-            found[X, p] = one[X, p] if closer else found[X, p]
-            found[Y, p] = one[Y, p] if closer else found[Y, p]
-            found[SIZE, p] = one[SIZE, p] if closer else found[SIZE, p]
-            found[DISTANCE, p] = one[DISTANCE, p] if closer else found[DISTANCE, p]
+    if s.nearest_of[0] == sensor.thing:
+        return found
+    s.nearest_of[0] = sensor.thing
+    for p in range(n):  # lane by lane: in numbers, not in rows
+        x, y = s.things[first + X, p], s.things[first + Y, p]
+        size, far = s.things[first + SIZE, p], s.things[first + DISTANCE, p]
+        for i in range(sensor.thing + 1, sensor.thing + sensor.things):
+            one = THING_ROWS * i
+            closer = (s.things[one + DISTANCE, p] < far) | (far != far)
+            x = s.things[one + X, p] if closer else x
+            y = s.things[one + Y, p] if closer else y
+            size = s.things[one + SIZE, p] if closer else size
+            far = s.things[one + DISTANCE, p] if closer else far
+        found[X, p], found[Y, p], found[SIZE, p], found[DISTANCE, p] = x, y, size, far
     return found
 
 

@@ -28,7 +28,8 @@ def state(distances: list[float], things: int, first: int = 0, count: int | None
     rows = np.repeat(np.arange(things, dtype=float), THING_ROWS)[:, None].copy()
     rows[DISTANCE::THING_ROWS, 0] = distances
     lanes = SimpleNamespace(
-        things=rows, nearest=np.zeros((THING_ROWS, 1)), readings=np.zeros((1, 1), np.float32), held=np.array([-1]),
+        things=rows, nearest=np.zeros((THING_ROWS, 1)), nearest_of=np.array([-1]),
+        readings=np.zeros((1, 1), np.float32), held=np.array([-1]),
         body=np.zeros((6, 1)), heading=np.array([[1.0], [0.0]]),
     )  # fmt: skip
     return lanes, SimpleNamespace(thing=first, things=things - first if count is None else count, start=0)

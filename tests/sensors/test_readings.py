@@ -25,6 +25,7 @@ from mindrun.sensors.position import Position
 from mindrun.sensors.speed import Speed
 from mindrun.sensors.turn_rate import TurnRate
 from mindrun.sim.rollout import Rollout
+from mindrun.sim.state import FIRST_RAY, FRAME_ROWS
 from mindrun.trigonometry import cosine, sine
 
 from tests.hierarchies import WORLDLY
@@ -55,6 +56,8 @@ class Place:
         x, y = self.middle
         way = np.hypot(self.at[0] - x, self.at[1] - y)
         boxes = np.array([number for box in self.boxes for number in (*box, box[-1])])
+        sight = np.full((FIRST_RAY + len(kind.rays), 1), F(40))
+        sight[:FIRST_RAY, 0] = cosine(self.angle), sine(self.angle), x, y
         columns = [F(cosine(angle)) for angle in kind.rays], [F(sine(angle)) for angle in kind.rays]
         tables = SimpleNamespace(
             world=[SimpleNamespace(radius=1.0, front=1.0, side=1.0, is_round=True, half_x=self.half, half_y=self.half)],
@@ -66,8 +69,9 @@ class Place:
             body=np.array([x, y, self.angle, *self.speeds])[:, None],
             heading=np.array([[cosine(self.angle)], [sine(self.angle)]]),
             things=np.array([*self.at, self.size, way])[:, None], nearest=np.zeros((THING_ROWS, 1)),
+            nearest_of=np.array([-1]), frame=np.zeros((FRAME_ROWS, 1), F),
             readings=np.zeros((kind.width, 1), F), boxes=boxes[None], nearby=boxes[:, None],
-            nearby_count=[len(self.boxes)], sight=np.full((4 + len(kind.rays), 1), F(40)), tick=np.array([90]),
+            nearby_count=[len(self.boxes)], sight=sight, tick=np.array([90]),
         )  # fmt: skip
         row = {"start": 0, "width": kind.width, "thing": 0, "things": int(self.there), "ray": 0, "number": 0}
         scene = SimpleNamespace(tick=TICK, starts={})
@@ -177,6 +181,7 @@ def test_compiled_lanes_read_the_bits_of_plain_python(
             things[THING_ROWS * i + DISTANCE] = np.sqrt(dx * dx + dy * dy)
         senses = SimpleNamespace(
             **before, readings=plain, nearest=np.zeros((THING_ROWS, 1)), sight=state.sight.sight,
+            nearest_of=np.array([-1]), frame=np.zeros((FRAME_ROWS, 1), F),
             boxes=state.world.boxes, nearby=state.sight.nearby, nearby_count=state.sight.nearby_count,
         )  # fmt: skip
         with np.errstate(all="ignore"):

@@ -56,47 +56,56 @@ class Eye(Physical):
     @staticmethod
     def lane(t: Any, s: Any, n: int, clock: int, sensor: Any) -> None:
         """The distance along each ray to the thing that it meets first, if nothing solid comes before."""
-        scale = ONE / F(sensor.range)
+        scale, out = ONE / F(sensor.range), s.readings[sensor.start : sensor.start + sensor.width]
         for k in range(sensor.width):
-            ray, out = sensor.ray + k, s.readings[sensor.start + k]
             for p in range(n):
-                out[p] = MAX_FLOAT32
-            cosine, sine = t.rays[COSINE, ray], t.rays[SINE, ray]
-            for i in range(sensor.thing, sensor.thing + sensor.things):
-                rows = s.things[THING_ROWS * i : THING_ROWS * (i + 1)]
-                if t.things[i].is_round or t.things[i].loose >= 0:
-                    meet_disc(s.body, s.heading, rows, cosine, sine, out, n)
+                out[k, p] = MAX_FLOAT32
+        for i in range(sensor.thing, sensor.thing + sensor.things):
+            locate(s.body, s.things[THING_ROWS * i : THING_ROWS * (i + 1)], s.frame, n)
+            is_disc = t.things[i].is_round or t.things[i].loose >= 0
+            for k in range(sensor.width):
+                cosine, sine = t.rays[COSINE, sensor.ray + k], t.rays[SINE, sensor.ray + k]
+                if is_disc:
+                    meet_disc(s.sight, s.frame, cosine, sine, out[k], n)
                 else:
-                    meet_square(s.body, s.heading, rows, cosine, sine, out, n)
-            solid, rim = s.sight[4 + ray], t.rims[ray]
+                    meet_square(s.sight, s.frame, cosine, sine, out[k], n)
+        for k in range(sensor.width):
+            solid, rim = s.sight[4 + sensor.ray + k], t.rims[sensor.ray + k]
             for p in range(n):
-                out[p] = clamp((out[p] - rim) * scale) if out[p] <= solid[p] else ONE
+                out[k, p] = clamp((out[k, p] - rim) * scale) if out[k, p] <= solid[p] else ONE
 
 
-def meet_disc(body: Any, heading: Any, thing: Any, cosine: Any, sine: Any, out: Any, n: Any) -> None:
+def locate(body: Any, thing: Any, frame: Any, n: Any) -> None:
+    """Where a thing is from each robot's middle, and half of its size, in float32."""
+    for p in range(n):
+        frame[X, p], frame[Y, p] = F(thing[X, p] - body[X, p]), F(thing[Y, p] - body[Y, p])
+        frame[SIZE, p] = F(thing[SIZE, p] / 2)
+
+
+def meet_disc(heading: Any, frame: Any, cosine: Any, sine: Any, out: Any, n: Any) -> None:
     """`out` lowered to the distance from each robot's middle along a ray to a disc, where that is less."""
     for p in range(n):
-        c = F(heading[COSINE, p]) * cosine - F(heading[SINE, p]) * sine
-        s = F(heading[SINE, p]) * cosine + F(heading[COSINE, p]) * sine
-        dx, dy, half = F(thing[X, p] - body[X, p]), F(thing[Y, p] - body[Y, p]), F(thing[SIZE, p] / 2)
+        c = heading[COSINE, p] * cosine - heading[SINE, p] * sine
+        s = heading[SINE, p] * cosine + heading[COSINE, p] * sine
+        dx, dy, half, before = frame[X, p], frame[Y, p], frame[SIZE, p], out[p]
         along, aside = c * dx + s * dy, c * dy - s * dx
         inner = half * half - aside * aside
         chord = F(np.sqrt(inner if inner > ZERO else ZERO))
         near = along - chord
         near = near if near > ZERO else ZERO
-        out[p] = near if (inner >= ZERO) & (along + chord >= ZERO) & (near < out[p]) else out[p]
+        out[p] = near if (inner >= ZERO) & (along + chord >= ZERO) & (near < before) else before
 
 
-def meet_square(body: Any, heading: Any, thing: Any, cosine: Any, sine: Any, out: Any, n: Any) -> None:
+def meet_square(heading: Any, frame: Any, cosine: Any, sine: Any, out: Any, n: Any) -> None:
     """The same to a square (the slab method)."""
     for p in range(n):
-        ix = ONE / (F(heading[COSINE, p]) * cosine - F(heading[SINE, p]) * sine)
-        iy = ONE / (F(heading[SINE, p]) * cosine + F(heading[COSINE, p]) * sine)
-        dx, dy, half = F(thing[X, p] - body[X, p]), F(thing[Y, p] - body[Y, p]), F(thing[SIZE, p] / 2)
+        ix = ONE / (heading[COSINE, p] * cosine - heading[SINE, p] * sine)
+        iy = ONE / (heading[SINE, p] * cosine + heading[COSINE, p] * sine)
+        dx, dy, half, before = frame[X, p], frame[Y, p], frame[SIZE, p], out[p]
         left, right, low, high = (dx - half) * ix, (dx + half) * ix, (dy - half) * iy, (dy + half) * iy
         enter_x, leave_x = (left, right) if left < right else (right, left)
         enter_y, leave_y = (low, high) if low < high else (high, low)
         enter = enter_x if enter_x > enter_y else enter_y
         leave = leave_x if leave_x < leave_y else leave_y
         near = enter if enter > ZERO else ZERO
-        out[p] = near if (enter <= leave) & (leave >= ZERO) & (near < out[p]) else out[p]
+        out[p] = near if (enter <= leave) & (leave >= ZERO) & (near < before) else before

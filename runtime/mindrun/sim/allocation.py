@@ -98,6 +98,7 @@ def _sight(tables: Tables, sizes: Sizes, room: _Room) -> Sight:
         anchor=room.rows(PLACE_ROWS),
         sides=room.rows(SIDES * sizes.boxes, np.float32),
         nearest=room.rows(THING_ROWS),
+        nearest_of=np.zeros(1, np.int64),
         frame=room.rows(FRAME_ROWS, np.float32),
         sight=room.rows(FIRST_RAY + len(tables.ray_row), np.float32),
     )

@@ -51,8 +51,9 @@ class Sight(NamedTuple):
     anchor: Array  # [PLACE_ROWS] float64: where they were chosen
     # for this tick
     sides: Array  # [SIDES·boxes] float32: those of the boxes nearby, relative to the robot
-    nearest: Array  # [THING_ROWS] float64: of several things of one name, for the sensor that is read
-    frame: Array  # [FRAME_ROWS] float32: of the loose thing that is looked at: how it is turned, where it is, its size
+    nearest: Array  # [THING_ROWS] float64: of several things of one name
+    nearest_of: Array  # [1] int64: the first row of these, −1 before any sensor has asked
+    frame: Array  # [FRAME_ROWS] float32: of the thing that is looked at: how it is turned, where it is, its size
     sight: Array  # [FIRST_RAY + rays] float32: heading and place, then how far each ray goes
 
 
@@ -150,6 +151,8 @@ class Senses(NamedTuple):
     tick: Array
     trail: Array
     nearest: Array
+    nearest_of: Array
+    frame: Array
     sight: Array
     boxes: Array
     nearby: Array

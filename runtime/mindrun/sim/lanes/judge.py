@@ -62,24 +62,28 @@ def take_measures(tables, world, commands, judged, lanes, clock):
         elif measure.kind == FORWARD:
             forward(out, world.body, world.heading, world.begun_at, lanes)
         else:
-            progress(out, world.body, world.things, measure, lanes)
+            progress(out, judged.limit, world.body, world.things, measure, lanes)
 
 
 @compiled
-def progress(out, body, things, measure, lanes):
+def progress(out, now, body, things, measure, lanes):
     """The distance to the nearest of the things that this tick closed, or its positive or negative part.
 
-    0 where all have vanished.
+    0 where all have vanished. `now` is room for the square of what is left of the distance.
     """
+    before = out
     for lane in range(lanes):
-        before, now = np.nan, np.nan
-        for i in range(measure.thing, measure.thing + measure.things):
-            thing = THING_ROWS * i
+        before[lane], now[lane] = np.nan, np.nan
+    for i in range(measure.thing, measure.thing + measure.things):
+        thing = THING_ROWS * i
+        for lane in range(lanes):
             dx, dy = things[thing + X, lane] - body[X, lane], things[thing + Y, lane] - body[Y, lane]
-            away, here = things[thing + DISTANCE, lane], np.sqrt(dx * dx + dy * dy)
-            before = before if before <= away or np.isnan(away) else away
-            now = now if now <= here or np.isnan(here) else here
-        closed = before - now
+            away, here = things[thing + DISTANCE, lane], dx * dx + dy * dy
+            least, less = before[lane], now[lane]
+            before[lane] = away if (away < least) | (least != least) else least
+            now[lane] = here if (here < less) | (less != less) else less
+    for lane in range(lanes):
+        closed = before[lane] - np.sqrt(now[lane])
         if measure.kind == ADVANCE:
             closed = closed if closed > 0.0 else 0.0
         elif measure.kind == RETREAT:
@@ -134,27 +138,34 @@ def drain(tables, world, lanes):
 @compiled
 def notice(tables, world, contact, judged, event, out, lanes):
     """How often the event happened in this tick, per lane; returns in how many."""
-    kind, visited = event.kind, judged.visited
+    if event.kind == REACH:
+        begun_of(out, world.reached, event, lanes)
+    elif event.kind == DELIVERY and event.tos == 0:
+        begun_of(out, world.delivered, event, lanes)
+    elif event.kind == DELIVERY:
+        for lane in range(lanes):
+            out[lane] = arrivals(world, judged.arrived, event, lane)
+    elif event.kind == VISIT:
+        visit(out, tables.world[0], world.body, judged.visited, event, lanes)
+    elif event.kind == COLLISION:
+        for lane in range(lanes):
+            out[lane] = 1 if contact.touching[lane] == 1 else 0
+    elif event.kind == EXHAUSTION:
+        for lane in range(lanes):
+            out[lane] = 1 if world.battery[lane] == 0.0 else 0
     count = 0
     for lane in range(lanes):
-        happened = 0
-        if kind == REACH:
-            happened = begun_of(world.reached, event, lane)
-        elif kind == DELIVERY and event.tos == 0:
-            happened = begun_of(world.delivered, event, lane)
-        elif kind == DELIVERY:
-            happened = arrivals(world, judged.arrived, event, lane)
-        elif kind == VISIT:
-            patch = event.board + patch_of(world.body, tables.world[0], event, lane)
-            happened = 1 - visited[lane, patch]
-            visited[lane, patch] = 1
-        elif kind == COLLISION:
-            happened = 1 if contact.touching[lane] == 1 else 0
-        elif kind == EXHAUSTION:
-            happened = 1 if world.battery[lane] == 0.0 else 0
-        out[lane] = happened
-        count += 1 if happened > 0 else 0
+        count += 1 if out[lane] > 0 else 0
     return count
+
+
+@compiled
+def visit(out, constants, body, visited, event, lanes):
+    """1 where the robot's centre is in a patch for the first time."""
+    for lane in range(lanes):
+        patch = event.board + patch_of(body, constants, event, lane)
+        out[lane] = 1 - visited[lane, patch]
+        visited[lane, patch] = 1
 
 
 @compiled

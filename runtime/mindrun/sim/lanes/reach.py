@@ -54,12 +54,22 @@ def in_zone(tables, things, i, lane):
 
 
 @compiled
-def begun_of(rows, event, lane):
+def begun_of(out, rows, event, lanes):
     """How many of the things that an event is about begin to be reached, or delivered."""
-    begun = 0
+    for lane in range(lanes):
+        out[lane] = 0
     for i in range(event.thing, event.thing + event.things):
-        begun += 1 if rows[i, lane] == REACH_BEGUN else 0
-    return begun
+        for lane in range(lanes):
+            out[lane] += 1 if rows[i, lane] == REACH_BEGUN else 0
+
+
+@compiled
+def begins(row, lanes):
+    """In how many lanes a thing begins to be reached, or delivered."""
+    count = 0
+    for lane in range(lanes):
+        count += 1 if row[lane] == REACH_BEGUN else 0
+    return count
 
 
 @compiled
@@ -80,6 +90,8 @@ def become(tables, world, lanes):
     for i in range(len(tables.things)):
         thing = tables.things[i]
         if thing.reached == STAYS and thing.delivered == STAYS:
+            continue
+        if begins(world.reached[i], lanes) + begins(world.delivered[i], lanes) == 0:
             continue
         for lane in range(lanes):
             outcome = thing.reached if world.reached[i, lane] == REACH_BEGUN else STAYS

@@ -60,6 +60,7 @@ def sense(tables, state, lanes, clock):
     if tables.world[0].rays > 0:
         look(tables, world, sight, lanes)
         look_at_loose(tables, world, sight, lanes)
+    sight.nearest_of[0] = -1
     senses = Senses(
         readings=mind.readings,
         before=mind.before,
@@ -71,6 +72,8 @@ def sense(tables, state, lanes, clock):
         tick=world.tick,
         trail=world.trail,
         nearest=sight.nearest,
+        nearest_of=sight.nearest_of,
+        frame=sight.frame,
         sight=sight.sight,
         boxes=world.boxes,
         nearby=sight.nearby,
