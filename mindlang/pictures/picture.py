@@ -53,8 +53,8 @@ def view_of(run: RecordedRun, width: int, height: int) -> Viewport:
 
 
 def png(image: Image) -> bytes:
-    """An image as the contents of a PNG file."""
-    done, data = cv2.imencode(".png", image)
+    """An image as the contents of a PNG file, which is kept and sent more often than written: as small as can be."""
+    done, data = cv2.imencode(".png", image, [cv2.IMWRITE_PNG_COMPRESSION, 9])
     assert done
     return bytes(data)
 
