@@ -114,7 +114,7 @@ class Judge(NamedTuple):
     measures: Array  # [measures] float64
     events: Array  # [events] float64: how often it happened
     happened: Array  # [events] int64: in how many lanes
-    paid: Array  # float64: whether a reward line pays, or an end has come
+    paid: Array  # float64: whether a reward line pays, or an end has come; before that, room for a measure
 
 
 class Run(NamedTuple):

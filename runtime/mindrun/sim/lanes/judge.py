@@ -62,7 +62,7 @@ def take_measures(tables, world, commands, judged, lanes, clock):
         elif measure.kind == FORWARD:
             forward(out, world.body, world.heading, world.begun_at, lanes)
         else:
-            progress(out, judged.limit, world.body, world.things, measure, lanes)
+            progress(out, judged.paid, world.body, world.things, measure, lanes)
 
 
 @compiled
