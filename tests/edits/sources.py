@@ -78,6 +78,16 @@ SENSORS = {
     "pace": ["sensor pace is speed", "sensor pace is speed range 3 dead_zone 2%"],
     "rolled": ["sensor rolled is odometer side left", "sensor rolled is odometer side right range 4"],
     "place": ["sensor place is position along x", "sensor place is position along y range 20"],
+    "level": [
+        "sensor level is computed at 1 - charge",
+        "sensor level is computed at least of charge moving",
+    ],
+    "hungry": [
+        "sensor hungry is latch of charge below 20% above 80%",
+        "sensor hungry is latch of moving below 1/9 above 1",
+    ],
+    "calm": ["sensor calm is average of moving over 30 ticks", "sensor calm is average of holding over 2 ticks"],
+    "first": ["sensor first is reading 1 of eye", "sensor first is reading 2 of camera"],
     "hour": ["sensor hour is clock period 4 s", "sensor hour is clock period 1 s"],
     "line": ["sensor line is floor of nest", "sensor line is floor of ball at 0.5 -0.5 ahead 1"],
     "bumps": ["sensor bumps is bumper at -45 45 deg", "sensor bumps is bumper at 0 180 deg width 90 deg"],
@@ -108,8 +118,10 @@ REWARDS = [
     ["rewards 0.1 * advance toward ball per tick", "rewards 0.1 * advance toward dock per tick"],
     ["rewards -0.1 * retreat from ball per tick", "rewards -0.1 * retreat from nest per tick"],
     ["rewards -0.4 * change of thrust per tick", "rewards -0.4 * change of thrust beyond 20% over 4 ticks per tick"],
+    ["rewards -0.01 * claw per tick when charge > 0.5 and moving < 0.9 or holding > 0.5"],
     ["rewards 50 on delivery of ball", "rewards 50 on delivery of coin to nest"],
 ]
+GATES = [" when {} < 0.7", " when {} > 0.2 and 1 > 0.5 otherwise 0.3"]
 VISITS = ["rewards 1 on visit of patch", "rewards 1 on visit of patch size 8"]
 WORDS = ("note", "why?", "skill Go is rule", "  spaced  out", "é – “x”", "reads charge", "stays frozen", "#")
 
@@ -256,6 +268,8 @@ def _skill(rng: Random, name: str, function: str, below: list[str]) -> list[str]
         f"{edge} at {_value(rng, reads)}" if function == "rule" or (i and rng.random() < 0.3) else edge
         for i, edge in enumerate(edges)
     ]
+    said = [edge + rng.choice(GATES).format(_value(rng, reads)) if rng.random() < 0.2 else edge for edge in said]
+    said = [f"{edge} cuts below 5%" if edge.startswith("inf") and rng.random() < 0.2 else edge for edge in said]
     frozen = ["stays frozen"] * (rng.random() < 0.2)
     return [f"skill {name} is {function}", *(f"reads {reading}" for reading in reads), *said, *frozen]
 
@@ -291,8 +305,9 @@ def _task(rng: Random, name: str) -> list[str]:
     facts = [
         *(f"contains {_more(rng, 'content', thing)}" for thing in things),
         "lasts 600 ticks",
-        rng.choice(["ends on collision", "ends on exhaustion"]),
+        rng.choice(["ends on collision", "ends on exhaustion", "ends on 2 collision", "ends when charge < 5%"]),
         *rewards,
+        *(["succeeds on 3 reach of ball", "rewards 5 on success"] if rng.random() < 0.3 else []),
         "counts reach of ball",
     ]
     return [f"task {name} in {scene}", *facts]
