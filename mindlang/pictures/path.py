@@ -76,9 +76,12 @@ def draw_cross(canvas: Canvas, x: float, y: float, size: float, theme: Theme) ->
 
 
 def draw_former(canvas: Canvas, run: RecordedRun, theme: Theme) -> None:
-    """Faintly, where things were before, numbered in their order where there are not too many."""
+    """Faintly, where things were before, numbered where there are not too many; and how walkers went."""
     for number, (thing, colour) in enumerate(zip(run.contents, thing_colours(run.contents, theme), strict=True)):
         former = run.former(number)
+        if thing.kind.walks:
+            for stretch in run.stretches(number):
+                canvas.line(stretch, colour, 1.0, 0.5)
         for order, (x, y, size) in enumerate(former, 1):
             if thing.kind.is_round:
                 canvas.disc(x, y, size / 2, colour, 0.16)

@@ -121,6 +121,7 @@ task Fetch in arena size 80
   contains dock is power size 4
   contains crate is box size 2
   contains marble is ball size 1
+  contains cat is walker size 2
   contains fence is wall from 10 10 to -10 10
   lasts 600 ticks
   ends on collision

@@ -94,6 +94,22 @@ def test_many_things_of_one_name_have_it_once(rules: Path, monkeypatch: pytest.M
         assert said.count("cube") == times
 
 
+def test_a_walker_stands_where_it_has_come_to_at_the_end_of_its_way(rules: Path) -> None:
+    """However fast it is, its way is one line and no row of places where it has been before."""
+    more = "  contains cat is walker size 2 speed 120 along 15 15 to 15 -15\n  lasts 10 ticks\n"
+    rules.write_text(RULES.replace("  lasts 600 ticks\n", more))
+    story, image = told(rules, "Roam")
+    cat = [thing.name for thing in story.contents].index("cat")
+    assert story.things[-1, cat].tolist() == pytest.approx([15, 15 - 10 * 120 * story.graph.tick, 2])
+    assert len(story.former(cat)) == 0
+    (stretch,) = story.stretches(cat)
+    assert len(stretch) == 11
+    colour = PAPER.things["walker"][0]
+    assert near(pixel(story, image, *story.things[-1, cat, :2]), colour)
+    beside = [pixel(story, image, 15 + aside / 20, 13) for aside in range(-10, 11)]
+    assert any(near(found, mixed(PAPER.floor, colour, 0.5)) for found in beside)
+
+
 def test_more_things_than_colours_begin_again() -> None:
     colours = thing_colours([Thing(f"thing_{i}", Item()) for i in range(9)], PAPER)
     assert colours[8] == colours[4] == colours[0] == PAPER.things["item"][0]

@@ -92,6 +92,7 @@ def hold_things(plain: PlainWorld, moment: Moment) -> None:
     assert moment.held == (-1 if plain.held in plain.changed else plain.held)
     plain.places, plain.held = moment.things.copy(), moment.held
     plain.body.loose.replace(plain.places, plain.changed)
+    plain.walkers.turn(moment.turned)
     assert plain.charge == moment.battery
 
 

@@ -15,6 +15,7 @@ from tests.sim.plain import CATCH
 from tests.sim.plain_bodies import front_of, radius_of, rim_of, side_of, sides_of
 from tests.sim.plain_loose import PlainLoose
 from tests.sim.plain_sensors import sensed
+from tests.sim.plain_walkers import PlainWalkers
 
 TRAIL = 20
 
@@ -45,6 +46,7 @@ class PlainWorld:
         self.lines = [np.float64(0)] * len(task.rewards)
         self.history = {}
         self.body = PlainBody(self)
+        self.walkers = PlainWalkers(self, run.turned)
 
     def patch(self, event):
         """Where the robot is on an event's board, if it has one."""
@@ -185,6 +187,7 @@ class PlainWorld:
         self.x, self.y, self.angle = state[:3]
         for i, (body, _) in self.body.loose.there.items():
             self.places[i][:2] = body.position
+        self.walkers.walk()
         if self.held >= 0:
             hold = front_of(self.graph.body) + self.body.largest[self.held] / 2
             self.places[self.held][:2] = self.x + cosine(self.angle) * hold, self.y + sine(self.angle) * hold

@@ -13,7 +13,7 @@ from mindrun.measures import Advance, Change, Forward, MeasureKind, Progress, Re
 from mindrun.quantity import UNSAID, Span
 from mindrun.registry import arguments, kinds
 from mindrun.scenes import Arena, Plain, SceneKind
-from mindrun.things import Ball, Item, LooseBox, Map, Obstacle, Power, Wall, Zone
+from mindrun.things import Ball, Item, LooseBox, Map, Obstacle, Power, Walker, Wall, Zone
 from mindrun.weights import genes
 
 from tests.hierarchies import combined, conditions, random_graph
@@ -23,6 +23,8 @@ WIDE = st.sampled_from([Span(8.0, 8.0), Span(4.0, 12.0), Span(14.0, 6.0, 2.0)])
 AWAY = st.sampled_from([Span(-1.0, -1.0), Span(0.0, 3.0), Span(0.0, 6.0), Span(2.0, 12.0)])
 PLACES = st.tuples(st.sampled_from([-6.0, 0.0, 4.5]), st.sampled_from([-4.0, 0.5, 3.0]))
 WAYS = [((-9.0, -5.0), (-2.0, -5.0)), ((6.0, 6.0), (6.0, -3.0), (9.5, -3.0)), ((3.0, 7.0), (-3.0, 7.0))]
+PATHS = [((-5.0, 0.0), (5.0, 2.0)), ((0.0, 0.0), (3.0, 0.0), (3.0, -6.0))]
+SPEEDS, TURNINGS = st.sampled_from([0.5, 3.0, 20.0]), st.sampled_from([0.0, 1.5, 10.0])
 MAZES = [("#..#", "....", "##.."), ("#.#", "...", "###", "..#")]
 NEUTRAL = st.sampled_from([0.0, 0.4, 0.5, 0.9, 1.0])
 OUTCOMES = st.sampled_from(["stays", "moves", "moves", "vanishes"])
@@ -131,15 +133,19 @@ def _things(draw: st.DrawFn, scene: SceneKind) -> tuple[Thing, ...]:
         ("den", Zone, WIDE),
         ("crate", LooseBox, SIZES),
         ("ball", Ball, SIZES),
+        ("cat", Walker, SIZES),
     ):
         if draw(st.integers(0, 2)):
             outcomes = {field.name: draw(OUTCOMES) for field in fields(kind) if field.name in ("reached", "delivered")}
             own = {"density": DENSITY, "friction": FRICTION, "damping": DAMPING} if kind.is_loose else {}
+            own = {"speed": SPEEDS, "turning": TURNINGS} if kind is Walker else own
             drawn = {name: draw(of) for name, of in own.items()}
             at = draw(st.none() | st.none() | PLACES)
             at = (at,) if at else ()
             count = 1 if at else draw(st.sampled_from([1, 1, 2, 3]))
             placed = {"away": UNSAID if at else draw(AWAY), "at": at, "count": count}
+            if kind is Walker and draw(st.booleans()):
+                placed = {"along": draw(st.sampled_from(PATHS)), "count": draw(st.sampled_from([1, 2]))}
             things.append(Thing(name, kind(size=draw(size), **placed, **outcomes, **drawn)))
     grid = isinstance(scene, Arena) and draw(st.booleans())
     sizes = draw(st.sampled_from([Span(1.0, 1.0), Span(1.0, 3.0)]))

@@ -87,7 +87,7 @@ def _placed(thing: Part[Any], placed: Mapping[str, tuple[Place, ...]], findings:
     places = placed.get(thing.name, ())
     if not thing.kind or not places:
         return thing
-    if thing.kind.at or thing.kind.count not in (0, 1, len(places)):
+    if thing.kind.places or thing.kind.count not in (0, 1, len(places)):
         hint = "Leave its place and its count out: the map says both."
         message = f"A map places {thing.name}, and its own line says otherwise."
         findings.error("placed-twice", thing.span, message, hint)

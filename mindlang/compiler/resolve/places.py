@@ -17,8 +17,8 @@ from mindlang.compiler.syntax import Declaration, Starts
 def check_places(things: Sequence[Part[Any]], scene: SceneKind | None, findings: Findings) -> None:
     """Report what stands where an obstacle stands in every run."""
     for thing in things:
-        if thing.kind and thing.kind.at and not thing.kind.is_obstacle:
-            _check_places(thing, thing.kind.at, things, scene, findings)
+        if thing.kind and thing.kind.places and not thing.kind.is_obstacle:
+            _check_places(thing, thing.kind.places, things, scene, findings)
 
 
 def start_of(

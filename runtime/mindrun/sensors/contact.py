@@ -21,8 +21,8 @@ class Contact(Physical):
 
     @staticmethod
     def is_about(kind: type[ThingKind]) -> bool:
-        """What a claw can take, and what stands before it and can be pushed."""
-        return kind.can_be_held or kind.is_loose
+        """What a claw can take, push or catch."""
+        return kind.can_be_held or kind.is_loose or kind.walks
 
     def constant(self, world: World) -> float | None:
         """0 without the thing."""

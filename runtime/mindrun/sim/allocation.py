@@ -72,6 +72,8 @@ def _world(tables: Tables, sizes: Sizes, room: _Room) -> World:
         loose=room.rows(LOOSE_ROWS * len(tables.loose)),
         still=room.rows(len(tables.loose), np.int64),
         restless=room.each(),
+        direction=room.rows(len(tables.walkers)),
+        goal=room.rows(len(tables.walkers), np.int64),
         held=room.each(),
         reached=room.rows(things, np.uint8),
         delivered=room.rows(things, np.uint8),

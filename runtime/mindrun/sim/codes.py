@@ -9,7 +9,7 @@ import mindrun.sensors  # noqa: F401  # which registers them
 from mindrun.registry import kinds
 
 PUSH, STEERING, GRIPPER, IDLE = range(4)
-ITEM, ZONE, POWER, BOX, BALL = range(5)
+ITEM, ZONE, POWER, BOX, BALL, WALKER = range(6)
 STAYS, MOVES, VANISHES = range(3)
 PROGRESS, ADVANCE, RETREAT, FORWARD, CHANGE = range(5)
 REACH, DELIVERY, VISIT, COLLISION, EXHAUSTION, SUCCESS = range(6)
@@ -24,7 +24,7 @@ ACTUATOR_CODES = {
     "wheel": PUSH, "motor": PUSH, "thruster": PUSH, "steering": STEERING, "gripper": GRIPPER,
     "servo": IDLE, "lamp": IDLE,
 }  # fmt: skip
-THING_CODES = {"item": ITEM, "zone": ZONE, "power": POWER, "box": BOX, "ball": BALL}
+THING_CODES = {"item": ITEM, "zone": ZONE, "power": POWER, "box": BOX, "ball": BALL, "walker": WALKER}
 MEASURE_CODES = {
     "progress": PROGRESS, "advance": ADVANCE, "retreat": RETREAT, "forward": FORWARD, "change": CHANGE,
 }  # fmt: skip
@@ -71,9 +71,10 @@ MEMORY = _row(row="i8", decay="f4", rest="f4", start="f4")
 THING = _row(
     kind="i8", first="f8", last="f8", by="f8", low="f8", high="f8", hold="f8", drawn="i8", is_round="i8",
     is_fixed="i8", x="f8", y="f8", reached="i8", delivered="i8", is_reached="i8", is_delivered="i8", is_area="i8",
-    loose="i8",
+    loose="i8", walker="i8",
 )  # fmt: skip
 LOOSE = _row(thing="i8", is_round="i8", density="f8", friction="f8", slower="f8")
+WALKING = _row(thing="i8", step="f8", turn="f8", first="i8", places="i8", begins="i8")
 OBSTACLE = _row(
     first="f8", last="f8", grid="f8", jitter="f8", columns="i8", rows="i8", x="f8", y="f8",
     count="i8", low="f8", high="f8",

@@ -27,6 +27,8 @@ class World(NamedTuple):
     loose: Array  # [LOOSE_ROWS·loose] float64: how far each loose thing has turned, its velocity and spin
     still: Array  # [loose] int64: for how many ticks each has not moved, up to SETTLED_TICKS
     restless: Array  # int64: how many have not settled
+    direction: Array  # [walkers] float64: in which each wanders
+    goal: Array  # [walkers] int64: the place of its way that each goes to
     held: Array  # int64: the thing that the claw holds, or −1
     reached: Array  # [things] uint8: bit 0 while it is in reach, bit 1 if it was in the tick before
     delivered: Array  # [things] uint8: the same of items that were carried into a zone and have not left

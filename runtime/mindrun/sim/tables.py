@@ -32,6 +32,7 @@ from mindrun.sim.task_rows import (
     wall_rows,
     world_row,
 )  # fmt: skip
+from mindrun.sim.walker_rows import walker_rows
 from mindrun.weights import genes, reachable
 
 Array = NDArray[Any]
@@ -57,6 +58,8 @@ class Tables(NamedTuple):
     memories: Array
     things: Array
     loose: Array
+    walkers: Array
+    ways: Array  # [places, 2] float64: those that walkers go along, way after way
     obstacles: Array
     walls: Array  # [walls, BOX_COLUMNS]: the boxes that stand in the same places in every run
     measures: Array
@@ -108,6 +111,7 @@ def build(
     measured, changes = measure_rows(task)
     noticed, patches, arrivals = event_rows(task)
     index = [skill.name for skill in graph.skills].index(master)
+    walkers, ways = walker_rows(task, graph.tick)
     tables = Tables(
         world=world_row(graph, task, len(sensed.ray_row), [*used.skills, *used.aside], index),
         sensors=sensed.rows, rays=sensed.rays, rims=sensed.rims, ray_row=sensed.ray_row,
@@ -116,6 +120,7 @@ def build(
         codes=np.array(codes.rows, CODE),
         actuators=driven, memories=memory_rows(graph),
         things=np.array(thing_rows(graph, task), THING), loose=loose_rows(task, graph.tick),
+        walkers=walkers, ways=ways,
         obstacles=np.array(obstacle_rows(task), OBSTACLE), walls=wall_rows(task),
         measures=np.array(measured, MEASURES), events=np.array(noticed, EVENT),
         ends=np.array(ends, END), rewards=np.array(rewards, REWARD),

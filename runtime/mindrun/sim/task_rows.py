@@ -55,20 +55,21 @@ def thing_rows(graph: Graph, task: Task) -> Array:
     """Rows of THING, the items, zones and powers in the order of the source."""
     rows: list[Row] = []
     asked = {(event.outcome, event.thing) for event in task.events if event.outcome}
-    loose, takes_items = count(), any(thing.kind.takes_items for thing in task.things)
+    loose, walkers, takes_items = count(), count(), any(thing.kind.takes_items for thing in task.things)
     first = {name: found.start for name, found in rows_by_name(task).items()}
     for number, thing in enumerate(things_of(task)):
         kind, size, copy = thing.kind, thing.kind.size, number - first[thing.name]
         low, high = kind.distances(task.scene)
-        x, y = kind.at[copy] if kind.at else (0.0, 0.0)
+        x, y = kind.places[copy] if kind.places else (0.0, 0.0)
         if kind.is_loose:  # not in the robot
             low = max(low, graph.body.radius + kind.largest * HALF_DIAGONAL)
         row: dict[str, float] = {
             "kind": THING_CODES[names()[type(kind)]], "first": size.first, "last": size.last, "by": size.by or 0.0,
             "low": low, "high": high, "hold": graph.body.front + kind.largest / 2,
-            "drawn": size.by is None and size.first != size.last, "is_fixed": bool(kind.at), "x": x, "y": y,
+            "drawn": size.by is None and size.first != size.last, "is_fixed": bool(kind.places), "x": x, "y": y,
             "is_round": kind.is_round,
             "is_area": kind.is_area, "loose": next(loose) if kind.is_loose else -1,
+            "walker": next(walkers) if kind.walks else -1,
         }  # fmt: skip
         for what in ("reached", "delivered"):
             outcome = kind.outcomes.get(what, STAYS)

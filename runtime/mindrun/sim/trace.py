@@ -17,9 +17,9 @@ class Moment:
     """The world and the mind after one tick; `tick` counts from 1.
 
     `body` is x, y, angle and their velocities; `things` [things, 3] is x, y and size of each, and
-    `turned` [things] how far each has turned, counterclockwise in radians; `held` the number of the
-    thing in the claw or −1; `acting` the commands with the noise of their actuators, and `grip` the share of its force
-    that each kept; `events` how often each event happened; `lines` the sum of each reward line so far.
+    `turned` [things] how far each has turned, counterclockwise in radians, or the direction of one that wanders;
+    `held` the number of the thing in the claw or −1; `acting` the commands with the noise of their actuators, and `grip`
+    the share of its force that each kept; `events` how often each event happened; `lines` the sum of each reward line so far.
     """
 
     tick: int
@@ -45,6 +45,7 @@ class Trace:
     boxes: NDArray[np.float64]
     begin: NDArray[np.float64]  # the robot's x, y, angle
     things: NDArray[np.float64]
+    turned: NDArray[np.float64]
     moments: Iterator[Moment]
     jobs: Jobs
 
@@ -57,7 +58,7 @@ def trace(rollout: Rollout, seed: int, genome: NDArray[np.float32] | None = None
     rollout.fill(tile, jobs)
     world, mind, judge = tile.state.world, tile.state.mind, tile.state.judge
     boxes = world.boxes[0].reshape(-1, BOX_COLUMNS).copy()
-    things = _things(world, rollout)
+    things, turned = _things(world, rollout), _turned(world, rollout)
     rows, _ = actuator_rows(rollout.graph)
     rough, slipping, count = rows["is_rough"] != 0, rows["slip"] > 0, len(rows)
 
@@ -82,13 +83,15 @@ def trace(rollout: Rollout, seed: int, genome: NDArray[np.float32] | None = None
                 lines=judge.lines[: len(rollout.task.rewards), 0].copy(),
             )
 
-    return Trace(boxes, world.body[: ANGLE + 1, 0].copy(), things, moments(), jobs)
+    return Trace(boxes, world.body[: ANGLE + 1, 0].copy(), things, turned, moments(), jobs)
 
 
 def _turned(world: World, rollout: Rollout) -> NDArray[np.float64]:
     turned = np.zeros(len(rollout.tables.things))
     for i, row in enumerate(rollout.tables.loose):
         turned[int(row["thing"])] = world.loose[LOOSE_ROWS * i + TURN, 0]
+    for i, row in enumerate(rollout.tables.walkers):
+        turned[int(row["thing"])] = world.direction[i, 0]
     return turned
 
 

@@ -8,6 +8,7 @@ from mindrun.things.map import Map
 from mindrun.things.obstacle import Obstacle
 from mindrun.things.power import Power
 from mindrun.things.thing import MOVES, OUTCOMES, STAYS, VANISHES, Outcome, ThingKind
+from mindrun.things.walker import Walker
 from mindrun.things.wall import Wall
 from mindrun.things.zone import Zone
 
@@ -15,5 +16,5 @@ register_all(__name__, __path__)
 
 __all__ = [
     "MOVES", "OUTCOMES", "STAYS", "VANISHES", "Ball", "Item", "LooseBox", "Map", "Obstacle", "Outcome",
-    "Power", "ThingKind", "Wall", "Zone",
+    "Power", "ThingKind", "Walker", "Wall", "Zone",
 ]  # fmt: skip

@@ -48,6 +48,8 @@ class ThingKind:
     is_obstacle = False  # whether it is squares that stand in the way: no sensor, event or measure is about these
     is_solid = False  # whether it stands in the way, although nobody holds it
     is_loose = False  # whether it gives way when it is pushed
+    walks = False  # whether it moves by itself
+    speed = 0.0  # at which it does, in units per second
     can_be_held = False  # whether a claw can take it
     can_be_delivered = False  # whether it counts as delivered when it comes into a zone
     is_area = False  # whether it lies on the floor, so that a robot or an item can be inside
@@ -55,6 +57,11 @@ class ThingKind:
     charges = False  # whether the battery charges in it
     is_round = False  # its outline: a disc, not a square
     least_distance = 10.0  # from the robot, in world units, where walls keep it near
+
+    @property
+    def places(self) -> tuple[Place, ...]:
+        """Every place that it names; its copies stand at the first of them when a run begins."""
+        return self.at
 
     @property
     def copies(self) -> int:

@@ -196,6 +196,8 @@ def put_at(tables, world, i, x, y, lane):
     world.things[THING_ROWS * i + X, lane], world.things[THING_ROWS * i + Y, lane] = x, y
     if tables.things[i].loose >= 0:
         stand(world, tables.things[i].loose, lane)
+    if tables.things[i].walker >= 0:
+        world.direction[tables.things[i].walker, lane] = uniform(world.random, lane, 0.0, 2 * np.pi)
 
 
 @compiled

@@ -78,6 +78,8 @@ def reset_world(tables, world, lane):
     world.battery[lane] = tables.world[0].start
     world.heading[SINE, lane], world.heading[COSINE, lane] = sine_cosine(world.body[ANGLE, lane])
     world.reached[:, lane], world.delivered[:, lane] = 0, 0
+    for i in range(len(tables.walkers)):
+        world.goal[i, lane] = tables.walkers[i].begins
     for i in range(TRAIL_TICKS):
         place = PLACE_ROWS * i
         world.trail[place + X, lane], world.trail[place + Y, lane] = world.body[X, lane], world.body[Y, lane]
@@ -158,6 +160,8 @@ def move_world(world, source, target):
     for rows in (world.reached, world.delivered):
         copy_lane(rows, source, target)
     copy_lane(world.still, source, target)
+    copy_lane(world.direction, source, target)
+    copy_lane(world.goal, source, target)
     copy_row(world.boxes, source, target)
     world.restless[target] = world.restless[source]
     world.held[target], world.tick[target], world.battery[target] = (

@@ -24,6 +24,7 @@ from mindrun.sim.lanes.chipmunk import open_space, push_body, step_space
 from mindrun.sim.lanes.loose import approach_loose, could_touch, slide, slow_down
 from mindrun.sim.lanes.places import within
 from mindrun.sim.lanes.sense import CULLING_SLACK_UNITS
+from mindrun.sim.lanes.walk import walk
 
 CONTACT_MARGIN_UNITS = 0.01  # beyond the rounding of any distance here
 CONTACT_TICKS = PERSISTENCE_TICKS + 2  # for which Chipmunk goes on with a lane in which something could have touched
@@ -31,7 +32,7 @@ CONTACT_TICKS = PERSISTENCE_TICKS + 2  # for which Chipmunk goes on with a lane 
 
 @compiled
 def step(tables, state, lanes):
-    """Damp, push, move; then the headings and the held items follow."""
+    """Damp, push, move; then the headings and the held items follow, and what walks by itself takes its step."""
     world, contact, constants = state.world, state.contact, tables.world[0]
     thrust(tables, world, state.mind.commands, lanes)
     for lane in range(lanes):
@@ -54,6 +55,7 @@ def step(tables, state, lanes):
     for lane in range(lanes):
         world.heading[SINE, lane], world.heading[COSINE, lane] = sine_cosine(world.body[ANGLE, lane])
     carry(world, tables.things, lanes)
+    walk(tables, world, lanes)
 
 
 @compiled
