@@ -18,8 +18,9 @@ class Moment:
 
     `body` is x, y, angle and their velocities; `things` [things, 3] is x, y and size of each, and
     `turned` [things] how far each has turned, counterclockwise in radians, or the direction of one that wanders;
-    `held` the number of the thing in the claw or −1; `acting` the commands with the noise of their actuators, and `grip`
-    the share of its force that each kept; `events` how often each event happened; `lines` the sum of each reward line so far.
+    `held` the number of the thing in the claw or −1; `acting` the commands with the noise of their actuators, and
+    `grip` the share of its force that each kept; `events` how often each event happened; `lines` the sum of each
+    reward line so far.
     """
 
     tick: int
