@@ -32,7 +32,7 @@ from mindrun.sim.task_rows import (
     wall_rows,
     world_row,
 )  # fmt: skip
-from mindrun.sim.walker_rows import walker_rows
+from mindrun.sim.walker_rows import walker_rows, way_rows
 from mindrun.weights import genes, reachable
 
 Array = NDArray[Any]
@@ -111,20 +111,17 @@ def build(
     measured, changes = measure_rows(task)
     noticed, patches, arrivals = event_rows(task)
     index = [skill.name for skill in graph.skills].index(master)
-    walkers, ways = walker_rows(task, graph.tick)
     tables = Tables(
         world=world_row(graph, task, len(sensed.ray_row), [*used.skills, *used.aside], index),
         sensors=sensed.rows, rays=sensed.rays, rims=sensed.rims, ray_row=sensed.ray_row,
         pierces=sensed.pierces, numbers=sensed.numbers,
         skills=skills.rows, inputs=skills.inputs, edges=skills.edges, weights=skills.weights,
-        codes=np.array(codes.rows, CODE),
-        actuators=driven, memories=memory_rows(graph),
+        codes=np.array(codes.rows, CODE), actuators=driven, memories=memory_rows(graph),
         things=np.array(thing_rows(graph, task), THING), loose=loose_rows(task, graph.tick),
-        walkers=walkers, ways=ways,
+        walkers=walker_rows(task, graph.tick), ways=way_rows(task),
         obstacles=np.array(obstacle_rows(task), OBSTACLE), walls=wall_rows(task),
         measures=np.array(measured, MEASURES), events=np.array(noticed, EVENT),
-        ends=np.array(ends, END), rewards=np.array(rewards, REWARD),
-        library=library,
+        ends=np.array(ends, END), rewards=np.array(rewards, REWARD), library=library,
     )  # fmt: skip
     sizes = Sizes(
         readings=max(1, graph.width), before=sensed.derived, rough=sensed.rough, rings=sensed.rings,
