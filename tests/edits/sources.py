@@ -108,6 +108,7 @@ THINGS = [
     ["nest is zone size 8", "nest is zone at -12.5 7.5"],
     ["dock is power size 4", "dock is power at -2.5 -7.5"],
     ["crate is box size 2", "crate is box at 12.5 -2.5", "crate is ball", "crate is ball at -7.5 -12.5"],
+    ["cat is walker size 2", "cat is walker at 2.5 2.5", "cat is walker along 2.5 -2.5 to 7.5 -2.5"],
 ]
 REWARDS = [
     ["rewards 10 on reach of ball"],
@@ -214,7 +215,10 @@ def _declarations(rng: Random) -> list[list[str]]:
     tasks = rng.sample([*SKILLS[:3], "Roam"], rng.randint(1, 2))
     blocks += [block for task in tasks for block in _in_scene(rng, _task(rng, task))]
     if rng.random() < 0.3:
-        blocks = [["number wide is 2"], *([line.replace(" size 2", " size wide") for line in each] for each in blocks)]
+        blocks = [
+            ["number wide is 2"],
+            *([re.sub(r" size 2(?! \d)", " size wide", line) for line in each] for each in blocks),
+        ]
     learners = [skill for skill in skills if functions[skill].startswith(("mlp", "elman"))]
     if learners:
         lessons = [
@@ -233,7 +237,8 @@ def _more(rng: Random, noun: str, line: str) -> str:
     """A line that says what kind something is, with some of the arguments that it does not say."""
     kind, *words = re.split(" is | in ", line)[1].split()
     if noun == "content":
-        words += ["away", "grid", "count"] * ("at" in words) + ["at"]  # a place has to be free
+        is_placed = "at" in words or "along" in words
+        words += ["away", "grid", "count"] * is_placed + ["at", "along"]  # a place has to be free
     often = 0.5 if noun in ("curriculum", "body", "actuator") else 0.2
     for argument in arguments(kinds(noun)[kind]):
         if not argument.required and argument.key not in words and rng.random() < often:
