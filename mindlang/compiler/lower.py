@@ -109,7 +109,7 @@ def _task(task: model.Task, readings: Mapping[str, tuple[int, int]], actuators: 
 def _end(end: model.End, events: dict[Any, int], places: Places) -> graph.End:
     event = None if end.event is None else _index(end.event, events)
     when, text = (None, "") if end.when is None else (_condition(end.when, places), end.when.span.text)
-    return graph.End(event, end.times, when, end.succeeds, spaced(f"ends {text}").removeprefix("ends "))
+    return graph.End(event, end.times, when, end.succeeds, spaced(f"ends {text}").removeprefix("ends when "))
 
 
 def _index(value: T, known: dict[T, int]) -> int:
