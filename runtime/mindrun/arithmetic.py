@@ -15,6 +15,7 @@ X, Y, ANGLE, SPEED_X, SPEED_Y, SPIN = range(6)  # rows of a body; of all else th
 COSINE, SINE = range(2)  # rows of a heading
 THING_ROWS, SIZE, DISTANCE = 4, 2, 3  # of a thing: how many, its size, how far the robot was as the tick began
 BOX_COLUMNS, HALF_X, HALF_Y = 4, 2, 3  # of a box: how many, and half of its sides along x and y
+TURN, PUSHED_X, PUSHED_Y, PUSHED_SPIN, LOOSE_ROWS = range(5)  # rows of a loose thing beside those, and how many
 ZERO, HALF, ONE, NAN = F(0), F(0.5), F(1), F(np.nan)
 MIN_DENOMINATOR = F(1e-7)
 A1, A3, A5, A7, A9, A11, A13 = (F(a) for a in NUMERATOR)

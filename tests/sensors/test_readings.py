@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
-from mindrun.arithmetic import DISTANCE, THING_ROWS
+from mindrun.arithmetic import DISTANCE, LOOSE_ROWS, THING_ROWS
 from mindrun.graph import Graph, Reward, Sensor
 from mindrun.policy import Policy
 from mindrun.registry import kinds
@@ -39,7 +39,7 @@ TICK = 1 / 60
 
 @dataclass
 class Place:
-    """A robot of radius 1 in the origin facing east, one thing at a place, and boxes."""
+    """A robot of radius 1, or a rectangular one, in the origin facing east, one thing at a place, and boxes."""
 
     at: tuple[float, float] = (0.0, 0.0)
     size: float = 2.0
@@ -50,6 +50,8 @@ class Place:
     half: float = 50.0
     middle: tuple[float, float] = (0.0, 0.0)
     there: bool = True
+    turned: float | None = None  # how far the thing is, if it is loose
+    halves: tuple[float, float] | None = None  # of the sides of a rectangular robot
 
     def reads(self, kind: Any) -> list[float]:
         """The readings of a sensor."""
@@ -59,9 +61,13 @@ class Place:
         sight = np.full((FIRST_RAY + len(kind.rays), 1), F(40))
         sight[:FIRST_RAY, 0] = cosine(self.angle), sine(self.angle), x, y
         columns = [F(cosine(angle)) for angle in kind.rays], [F(sine(angle)) for angle in kind.rays]
+        front, side = self.halves or (1.0, 1.0)
+        outline = {"front": front, "side": side, "radius": np.hypot(front, side) if self.halves else 1.0}
+        world = SimpleNamespace(**outline, is_round=not self.halves, half_x=self.half, half_y=self.half)
         tables = SimpleNamespace(
-            world=[SimpleNamespace(radius=1.0, front=1.0, side=1.0, is_round=True, half_x=self.half, half_y=self.half)],
+            world=[world],
             things=[SimpleNamespace(is_round=self.is_round, loose=-1)],
+            loose=[] if self.turned is None else [SimpleNamespace(thing=0, is_round=self.is_round)],
             numbers=np.array(kind.numbers), rays=np.array(columns),
             rims=np.ones(len(kind.rays), F),
         )  # fmt: skip
@@ -70,6 +76,7 @@ class Place:
             heading=np.array([[cosine(self.angle)], [sine(self.angle)]]),
             things=np.array([*self.at, self.size, way])[:, None], nearest=np.zeros((THING_ROWS, 1)),
             nearest_of=np.array([-1]), frame=np.zeros((FRAME_ROWS, 1), F),
+            loose=np.full((LOOSE_ROWS, 1), self.turned or 0.0),
             readings=np.zeros((kind.width, 1), F), boxes=boxes[None], nearby=boxes[:, None],
             nearby_count=[len(self.boxes)], sight=sight, tick=np.array([90]),
         )  # fmt: skip
@@ -88,6 +95,13 @@ class Place:
         (Distance("x", range=40.0), Place((42.0, 0.0)), [1.0]),
         (Distance("x", range=40.0), Place(there=False), [1.0]),
         (Distance("x"), Place((np.nan, np.nan)), [1.0]),
+        (Distance("x", range=10.0), Place((7.5, 0.0), halves=(1.5, 1.0)), [0.5]),
+        (Distance("x", range=10.0), Place((0.0, 7.0), halves=(1.5, 1.0)), [0.5]),
+        (Distance("x", range=10.0), Place((0.0, 7.5), halves=(1.5, 1.0), angle=pi / 2), [0.5]),
+        (Distance("x", range=10.0), Place((4.0, -4.0), halves=(1.5, 1.0)), [F(0.3 * 2**0.5 - 0.1)]),
+        (Distance("x"), Place((0.5, 0.5), halves=(1.5, 1.0)), [0.0]),
+        (Distance("x"), Place((0.0, 0.0), halves=(1.5, 1.0)), [0.0]),
+        (Distance("x"), Place((np.nan, np.nan), halves=(1.5, 1.0)), [1.0]),
         (Light("x", range=10.0), Place((0.0, 0.0)), [1.0]),
         (Light("x", range=10.0), Place((0.0, 10.0)), [0.5]),
         (Light("x", range=10.0), Place((0.0, 30.0)), [0.1]),
@@ -127,6 +141,22 @@ class Place:
         (Bumper(at=(0.0, pi / 2)), Place(middle=(49.5, 0.0)), [1.0, 0.0]),
         (Bumper(at=(0.0, pi / 2)), Place(middle=(0.0, -49.5), angle=pi), [0.0, 1.0]),
         (Bumper(at=(0.0, pi / 2)), Place(half=np.inf), [0.0, 0.0]),
+        (Bumper(at=(0.0, pi / 2)), Place((0.0, 1.99), turned=0.0), [0.0, 1.0]),
+        (Bumper(at=(0.0, pi / 2)), Place((0.0, 2.01), turned=0.0), [0.0, 0.0]),
+        (Bumper(at=(0.0, pi / 2)), Place((0.0, 2.4), is_round=False, turned=pi / 4), [0.0, 1.0]),
+        (Bumper(at=(0.0, pi / 2)), Place((0.0, 2.4), is_round=False, turned=0.0), [0.0, 0.0]),
+        (Bumper(at=(0.0, pi / 4)), Place((1.4, 1.4), is_round=False, turned=pi / 4), [0.0, 1.0]),
+        (Bumper(at=(0.0, pi / 4)), Place((1.45, 1.45), is_round=False, turned=pi / 4), [0.0, 0.0]),
+        (Bumper(at=(0.0, pi / 2)), Place((np.nan, np.nan), turned=0.0), [0.0, 0.0]),
+        (Bumper(at=(0.0, pi / 2)), Place((2.45, 0.0), turned=0.0, halves=(1.5, 1.0)), [1.0, 0.0]),
+        (Bumper(at=(0.0, pi / 2)), Place((0.0, 2.2), turned=0.0, halves=(1.5, 1.0)), [0.0, 0.0]),
+        (Bumper(at=(0.0, pi / 2)), Place(boxes=((3.5, 0.0, 2.0),), halves=(1.5, 1.0)), [1.0, 0.0]),
+        (Bumper(at=(0.0, pi / 2)), Place(boxes=((3.6, 0.0, 2.0),), halves=(1.5, 1.0)), [0.0, 0.0]),
+        (Bumper(at=(0.0, pi / 2)), Place(boxes=((0.0, 3.0, 2.0),), halves=(1.5, 1.0)), [0.0, 1.0]),
+        (Bumper(at=(0.0, pi / 2)), Place(boxes=((0.0, 3.2, 2.0),), halves=(1.5, 1.0)), [0.0, 0.0]),
+        (Bumper(at=(0.0, pi / 2)), Place(boxes=((0.0, 3.5, 2.0),), halves=(1.5, 1.0), angle=pi / 2), [1.0, 0.0]),
+        (Bumper(at=(-pi / 4, pi / 4)), Place(middle=(48.24, 0.0), halves=(1.5, 1.0), angle=pi / 4), [1.0, 0.0]),
+        (Bumper(at=(-pi / 4, pi / 4)), Place(middle=(48.23, 0.0), halves=(1.5, 1.0), angle=pi / 4), [0.0, 0.0]),
     ],
 )  # fmt: skip
 def test_what_it_reads(kind: SensorKind, place: Place, reads: list[float]) -> None:
@@ -172,7 +202,9 @@ def test_compiled_lanes_read_the_bits_of_plain_python(
     rows = {name: part.view(np.recarray) if part.dtype.names else part for name, part in tables._asdict().items()}
     working = 1
     while working:
-        before = {name: getattr(state.world, name).copy() for name in ("body", "heading", "things", "held", "tick")}
+        before = {
+            name: getattr(state.world, name).copy() for name in ("body", "heading", "things", "loose", "held", "tick")
+        }
         working = rollout.advance(tile, jobs, 1)
         plain = np.zeros_like(state.mind.readings)
         things = before["things"]

@@ -54,10 +54,13 @@ def signed(share, dead_zone=0.0):
 
 
 def distance(world, kind, place):
-    """Between the rims of two discs."""
+    """Between the rim of the body in the direction of a disc, and that of the disc."""
     if place is None:
         return 1.0, 1.0
-    value = (math.hypot(place[0] - world.x, place[1] - world.y) - world.radius - place[2] / 2) / kind.range
+    dx, dy = place[0] - world.x, place[1] - world.y
+    away = math.hypot(dx, dy)
+    rim = rim_of(world.graph.body, math.atan2(dy, dx) - world.angle)
+    value = (away - rim - place[2] / 2) / kind.range
     return (min(1.0, max(0.0, value)),) * 2
 
 
@@ -134,6 +137,7 @@ def bumper(world, at, half):
     points = [(sign * walls[0], world.y) for sign in (-1, 1)] + [(world.x, sign * walls[1]) for sign in (-1, 1)]
     for x, y, wide, high in world.boxes:
         points.append((min(x + wide, max(x - wide, world.x)), min(y + high, max(y - high, world.y))))
+    points += [touched_at(world, i) for i in world.body.loose.there]
     inner = outer = False
     for x, y in points:
         far = math.hypot(x - world.x, y - world.y)
@@ -143,3 +147,13 @@ def bumper(world, at, half):
         inner = inner or (far <= rim - HAIR and off <= half - HAIR)
         outer = outer or (far <= world.radius + HAIR and off <= half + HAIR)
     return float(inner), float(outer)
+
+
+def touched_at(world, i):
+    """The point of a box or ball that is nearest to the robot's middle."""
+    body, half = world.body.loose.there[i][0], world.places[i][2] / 2
+    away = body.position - (world.x, world.y)
+    if world.things[i].kind.is_round:
+        return away * max(0.0, 1 - half / away.length if away.length else 0.0) + (world.x, world.y)
+    x, y = (-away).rotated(-body.angle)
+    return body.position + type(away)(min(half, max(-half, x)), min(half, max(-half, y))).rotated(body.angle)

@@ -24,6 +24,7 @@ sensor crate_near is contact of crate
 sensor eyes is range_finder at 0 35 -35 90 180 -90 deg range 15
 sensor box_ahead is eye of crate at -20 0 20 deg range 15
 sensor item_ahead is eye of object at -10 10 deg range 15
+sensor touch is bumper at 0 45 -45 90 -90 180 deg width 50 deg
 skill Push is rule
   reads slow
   reads quick
@@ -33,6 +34,7 @@ skill Push is rule
   reads eyes
   reads box_ahead
   reads item_ahead
+  reads touch
   drives left_wheel at 1.8 - 2 * odd + 0.9 * (quick - 0.5) + 2 * (crate_bearing - 0.5) * slow + (ball_bearing - 0.5)
   drives right_wheel at 1.8 - 2 * odd - 0.9 * (quick - 0.5) - 2 * (crate_bearing - 0.5) * slow - (ball_bearing - 0.5)
   drives claw at 0.2 + slow

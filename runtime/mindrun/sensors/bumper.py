@@ -6,7 +6,22 @@ from typing import Annotated, Any
 
 import numpy as np
 
-from mindrun.arithmetic import BOX_COLUMNS, COSINE, HALF_X, HALF_Y, ONE, SINE, ZERO, X, Y
+from mindrun.arithmetic import (
+    BOX_COLUMNS,
+    COSINE,
+    HALF_X,
+    HALF_Y,
+    LOOSE_ROWS,
+    ONE,
+    SINE,
+    SIZE,
+    THING_ROWS,
+    TURN,
+    ZERO,
+    X,
+    Y,
+    sine_cosine,
+)
 from mindrun.quantity import ANGLE, Quantity
 from mindrun.registry import kind
 from mindrun.sensors.sensor import Physical, World
@@ -18,8 +33,9 @@ WIDTH = Quantity("an angle", {"deg": pi / 180}, low=pi / 180, high=2 * pi)
 @kind("sensor", "bumper")
 @dataclass(frozen=True, slots=True)
 class Bumper(Physical):
-    """Switches around the body, one reading per angle: 1 while an obstacle or a wall touches it there, else 0.
+    """Switches around the body, one reading per angle: 1 while something solid touches it there, else 0.
 
+    That is an obstacle, a wall, or a box or ball that can be pushed; what the claw holds has no switch.
     Angles turn counterclockwise from straight ahead; each switch is `width` wide, half of it to either side.
     """
 
@@ -60,11 +76,29 @@ class Bumper(Physical):
                 box = BOX_COLUMNS * b
                 dx = beyond(s.nearby[box + X, p] - x, s.nearby[box + HALF_X, p])
                 dy = beyond(s.nearby[box + Y, p] - y, s.nearby[box + HALF_Y, p])
-                press(t, s, sensor, dx, dy, p)
-            press(t, s, sensor, half_x - x, 0.0, p)
-            press(t, s, sensor, -half_x - x, 0.0, p)
-            press(t, s, sensor, 0.0, half_y - y, p)
-            press(t, s, sensor, 0.0, -half_y - y, p)
+                press(t, s, sensor, dx, dy, dx == 0.0 or dy == 0.0, p)
+            press(t, s, sensor, half_x - x, 0.0, True, p)
+            press(t, s, sensor, -half_x - x, 0.0, True, p)
+            press(t, s, sensor, 0.0, half_y - y, True, p)
+            press(t, s, sensor, 0.0, -half_y - y, True, p)
+            for i in range(len(t.loose)):
+                lean(t, s, sensor, i, p)
+
+
+def lean(t: Any, s: Any, sensor: Any, i: Any, p: Any) -> None:
+    """The same of loose thing i, however it is turned."""
+    thing = THING_ROWS * t.loose[i].thing
+    dx, dy = s.things[thing + X, p] - s.body[X, p], s.things[thing + Y, p] - s.body[Y, p]
+    half = s.things[thing + SIZE, p] / 2
+    if t.loose[i].is_round:
+        far = np.sqrt(dx * dx + dy * dy)
+        share = 1.0 - half / far if far > half else 0.0
+        press(t, s, sensor, dx * share, dy * share, False, p)
+    else:
+        sn, c = sine_cosine(s.loose[LOOSE_ROWS * i + TURN, p])
+        along, across = beyond(c * dx + sn * dy, half), beyond(c * dy - sn * dx, half)
+        is_flat = along == 0.0 or across == 0.0
+        press(t, s, sensor, c * along - sn * across, sn * along + c * across, is_flat, p)
 
 
 def beyond(away: Any, side: Any) -> Any:
@@ -86,14 +120,14 @@ def touches(body: Any, ahead: Any, aside: Any, is_flat: Any) -> Any:
     return ahead <= body.front and aside <= body.side
 
 
-def press(t: Any, s: Any, sensor: Any, dx: Any, dy: Any, p: Any) -> None:
+def press(t: Any, s: Any, sensor: Any, dx: Any, dy: Any, is_flat: Any, p: Any) -> None:
     """1 for the switches of lane p that a point so far from the body's middle presses, if it is not outside of it."""
     far = np.sqrt(dx * dx + dy * dy)
-    if far > t.world[0].radius:  # infinitely far, where there is no wall
+    if not far <= t.world[0].radius:  # infinitely far, where there is no wall, and no number, where it has vanished
         return
     c, sn = s.heading[COSINE, p], s.heading[SINE, p]
     ahead, aside = c * dx + sn * dy, c * dy - sn * dx
-    if touches(t.world[0], abs(ahead), abs(aside), dx == 0.0 or dy == 0.0):
+    if touches(t.world[0], abs(ahead), abs(aside), is_flat):
         for k in range(sensor.width):
             first = sensor.number + 1 + 2 * k
             if ahead * t.numbers[first + COSINE] + aside * t.numbers[first + SINE] >= t.numbers[sensor.number] * far:

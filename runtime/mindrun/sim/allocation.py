@@ -6,24 +6,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from mindrun.arithmetic import BOX_COLUMNS, HALF_X, HALF_Y, THING_ROWS, X, Y
+from mindrun.arithmetic import BOX_COLUMNS, HALF_X, HALF_Y, LOOSE_ROWS, THING_ROWS, X, Y
 from mindrun.sensors.inertial import TRAIL_TICKS
 from mindrun.sim import chipmunk_internals as chipmunk
 from mindrun.sim.codes import AWAY, PUSH_ROWS
-from mindrun.sim.state import (
-    FIRST_RAY,
-    FRAME_ROWS,
-    LOOSE_ROWS,
-    PLACE_ROWS,
-    SIDES,
-    Contact,
-    Judge,
-    Mind,
-    Run,
-    Sight,
-    State,
-    World,
-)
+from mindrun.sim.state import FIRST_RAY, FRAME_ROWS, PLACE_ROWS, SIDES, Contact, Judge, Mind, Run, Sight, State, World
 from mindrun.sim.tables import Sizes, Tables
 from mindrun.sim.vector import VECTOR_LANES
 

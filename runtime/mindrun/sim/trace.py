@@ -6,10 +6,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from mindrun.arithmetic import ANGLE, BOX_COLUMNS, SIZE, THING_ROWS
+from mindrun.arithmetic import ANGLE, BOX_COLUMNS, LOOSE_ROWS, SIZE, THING_ROWS, TURN
 from mindrun.sim.mind_rows import actuator_rows
 from mindrun.sim.rollout import Rollout
-from mindrun.sim.state import LOOSE_ROWS, TURN, Jobs, World
+from mindrun.sim.state import Jobs, World
 
 
 @dataclass(frozen=True, slots=True)

@@ -7,10 +7,24 @@ more by then: what Chipmunk remembers of them has become too small to move anyth
 
 import numpy as np
 
-from mindrun.arithmetic import BOX_COLUMNS, HALF_X, HALF_Y, SIZE, SPEED_X, SPEED_Y, THING_ROWS, X, Y
+from mindrun.arithmetic import (
+    BOX_COLUMNS,
+    HALF_X,
+    HALF_Y,
+    LOOSE_ROWS,
+    PUSHED_SPIN,
+    PUSHED_X,
+    PUSHED_Y,
+    SIZE,
+    SPEED_X,
+    SPEED_Y,
+    THING_ROWS,
+    TURN,
+    X,
+    Y,
+)
 from mindrun.sim.compiling import compiled
 from mindrun.sim.lanes.places import within
-from mindrun.sim.state import LOOSE_ROWS, PUSHED_SPIN, PUSHED_X, PUSHED_Y, TURN
 
 REST_SPEED = 1e-3  # units and radians per second: what is slower stands still
 SETTLED_TICKS = 32

@@ -2,20 +2,18 @@
 
 import numpy as np
 
-from mindrun.arithmetic import COSINE, SINE, SIZE, THING_ROWS, X, Y
+from mindrun.arithmetic import COSINE, LOOSE_ROWS, SINE, SIZE, THING_ROWS, TURN, X, Y
 from mindrun.sim.arithmetic import ONE, ZERO, F, sine_cosine
 from mindrun.sim.compiling import compiled
 from mindrun.sim.state import (
     FIRST_RAY,
     LOOSE_COSINE,
     LOOSE_HALF,
-    LOOSE_ROWS,
     LOOSE_SINE,
     LOOSE_X,
     LOOSE_Y,
     SIGHT_COSINE,
     SIGHT_SINE,
-    TURN,
 )
 
 

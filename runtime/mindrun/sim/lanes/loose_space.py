@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from mindrun.arithmetic import SIZE, THING_ROWS, X, Y
+from mindrun.arithmetic import LOOSE_ROWS, PUSHED_SPIN, PUSHED_X, PUSHED_Y, SIZE, THING_ROWS, TURN, X, Y
 from mindrun.sim.chipmunk_internals import (
     ARRAY_NUMBERS,
     BODY_FREE,
@@ -34,7 +34,6 @@ from mindrun.sim.chipmunk_internals import (
 )
 from mindrun.sim.compiling import compiled
 from mindrun.sim.lanes.loose import SETTLED_TICKS, is_at_rest
-from mindrun.sim.state import LOOSE_ROWS, PUSHED_SPIN, PUSHED_X, PUSHED_Y, TURN
 
 GONE_UNITS, APART_UNITS = 1e8, 1e4  # where a Space keeps what is gone, each far from the others
 FLOAT_X, FLOAT_Y, FLOAT_ANGLE, FLOAT_SPEED_X, FLOAT_SPEED_Y, FLOAT_SPIN = range(6)

@@ -71,6 +71,7 @@ def sense(tables, state, lanes, clock):
         battery=world.battery,
         tick=world.tick,
         trail=world.trail,
+        loose=world.loose,
         nearest=sight.nearest,
         nearest_of=sight.nearest_of,
         frame=sight.frame,
