@@ -18,6 +18,7 @@ from mindlang.compiler.syntax import (
     Drives,
     Ends,
     Fact,
+    Fails,
     Header,
     Influences,
     Lasts,
@@ -26,6 +27,7 @@ from mindlang.compiler.syntax import (
     Stays,
     Succeeds,
     Teaches,
+    Varies,
 )
 
 PLACES = {"span", "fact", "declaration", "curriculum"}  # fields of the model that say where a thing stands
@@ -160,7 +162,8 @@ def _parts(header: Header, of: Any) -> tuple[Any, dict[Forms, Sequence[Any]]]:
             return of.function, {(Reads,): of.reads, (Drives, Influences): of.edges, (Stays,): [True] * of.frozen}
         case Task(ticks=ticks, ends=ends, counts=counts):
             plain: dict[Forms, Sequence[Any]] = {(Lasts,): [ticks], (Ends, Succeeds): ends, (Counts,): counts}
-            return of.scene, plain | {(Contains,): of.things, (Rewards,): of.rewards}
+            plain |= {(Contains,): of.things, (Varies,): of.varies, (Fails,): of.fails, (Rewards,): of.rewards}
+            return of.scene, plain
         case Part():
             return of.kind, {}
     phrase = header.phrase

@@ -103,7 +103,7 @@ def _task(task: model.Task, readings: Mapping[str, tuple[int, int]], actuators: 
     things = tuple(graph.Thing(thing.name, thing.kind) for thing in task.things)
     return graph.Task(
         task.name, task.scene, things, task.ticks, tuple(places.measures), tuple(events), ends, rewards, counts
-    , task.start)  # fmt: skip
+    , task.start, task.varies, task.fails)  # fmt: skip
 
 
 def _end(end: model.End, events: dict[Any, int], places: Places) -> graph.End:

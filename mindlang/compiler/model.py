@@ -8,7 +8,7 @@ from mindrun.actuators import ActuatorKind
 from mindrun.bodies import BodyKind
 from mindrun.events import EventKind
 from mindrun.functions import Function
-from mindrun.graph import Receiver, Start
+from mindrun.graph import Failure, Receiver, Start, Variation
 from mindrun.learners import Learner
 from mindrun.measures import MeasureKind
 from mindrun.memory import Cell
@@ -215,6 +215,8 @@ class Task:
     scene: SceneKind
     things: tuple[Part[ThingKind], ...]
     start: Start
+    varies: tuple[Variation, ...]
+    fails: tuple[Failure, ...]
     ticks: int
     ends: tuple[End, ...]
     rewards: tuple[Reward, ...]

@@ -105,6 +105,8 @@ def _is_valid_fact(subject: str, value: Any) -> bool:
             return (
                 isinstance(value, dict) and value.keys() == {"at", "facing"} and all(map(_is_argument, value.values()))
             )
+        case ["varying"]:
+            return _are_strings(value)
         case ["rewards"]:
             return isinstance(value, list) and all(_are_strings(each) and len(each) == 2 for each in value)
         case ["lesson"]:

@@ -103,10 +103,20 @@ def _reach(facts: Mapping[str, Any]) -> str:
 
 
 def _task_changes(old: Mapping[str, Any], now: Mapping[str, Any]) -> Iterator[str]:
-    told = [*_scene_changes(old.get("task"), now.get("task")), *_reward_changes(old["rewards"], now["rewards"])]
+    told = [
+        *_scene_changes(old.get("task"), now.get("task")),
+        *_variations(old.get("varying", []), now.get("varying", [])),
+        *_reward_changes(old["rewards"], now["rewards"]),
+    ]
     yield from (f"its task has changed: {change}" for change in told)
     if old.get("start") != now.get("start"):
         yield f"its task has changed: {_start(now.get('start'))}, before {_start(old.get('start'))}"
+
+
+def _variations(old: Sequence[str], now: Sequence[str]) -> Iterator[str]:
+    """What differs from run to run only in one of the worlds."""
+    yield from (f"no longer {each}" for each in sorted(set(old) - set(now)))
+    yield from (f"{each} is new" for each in sorted(set(now) - set(old)))
 
 
 def _start(start: Any) -> str:

@@ -89,6 +89,8 @@ class Worlds:
         yield "task", said | ({"succeeds": successes} if successes else {})
         if task.start != Start():
             yield "start", {"at": encode(task.start.at), "facing": task.start.facing}
+        if varying := sorted([*_varying(task)]):
+            yield "varying", varying
         yield "rewards", sorted([*self._reward(task, reward)] for reward in task.rewards)
         yield from ((f"thing {thing.name}", encode(thing.kind)) for thing in task.things)
         yield from ((f"skill {skill.name}", self._skill(skill)) for skill in skills)
@@ -218,6 +220,13 @@ def _read(task: Task) -> set[int]:
     """The readings that rewards and ends depend on."""
     found = {index for program in task.programs for index in leaves(program, "reading")}
     return found | {reward.each[0] for reward in task.rewards if reward.each}
+
+
+def _varying(task: Task) -> Iterator[str]:
+    """What differs from run to run; the body is called body."""
+    for each in task.varies:
+        yield f"varies {each.argument} of {each.of or each.noun} {number(each.low)} to {number(each.high)}"
+    yield from (f"fails {each.actuator} {number(each.rate)} per tick" for each in task.fails)
 
 
 def _happening(task: Task) -> set[int]:

@@ -16,6 +16,8 @@ from mindrun.quantity import ANGLE, COORDINATE, Place
 from mindrun.scenes import SceneKind
 from mindrun.sensors import SensorKind
 from mindrun.things import ThingKind
+from mindrun.variation import Failure as Failure
+from mindrun.variation import Variation as Variation
 
 Receiver = Literal["skill", "actuator", "memory"]  # of what a skill sends
 
@@ -169,7 +171,10 @@ class Start:
 
 @dataclass(frozen=True, slots=True)
 class Task:
-    """A task: its world, its ends, its rewards. `counts` are indices into `events`."""
+    """A task: its world, its ends, its rewards. `counts` are indices into `events`.
+
+    What of the world and the robot `varies` is drawn for each run, and so is when what `fails` does.
+    """
 
     name: str
     scene: SceneKind
@@ -181,6 +186,8 @@ class Task:
     rewards: tuple[Reward, ...]
     counts: tuple[int, ...]
     start: Start = Start()
+    varies: tuple[Variation, ...] = ()
+    fails: tuple[Failure, ...] = ()
 
     @property
     def programs(self) -> tuple[Program, ...]:

@@ -8,6 +8,8 @@ from mindrun.graph import Graph, Lesson, Program, Skill, Task
 from mindrun.quantity import THING, UNSAID
 from mindrun.registry import arguments
 from mindrun.things.thing import MAX_OBSTACLES, MAX_THINGS
+from mindrun.variation import varied_quantity
+from mindrun.varied import varied_kind
 
 NAME = re.compile(r"[^\W\d_]\w*([+.]\w+)*")
 MIN_TICK_SECONDS, MAX_TICK_SECONDS = 1e-9, 1e9  # seconds of a tick
@@ -29,7 +31,8 @@ def _flaws(graph: Graph) -> Iterator[str]:
         yield from (f"skill {skill.name} {what}" for what in _skill_flaws(graph, number, skill, width))
     yield from _likeness_flaws(graph)
     for task in graph.tasks:
-        yield from (f"task {task.name} {what}" for what in _task_flaws(task, width, len(graph.actuators)))
+        flaws = (*_task_flaws(task, width, len(graph.actuators)), *_variation_flaws(graph, task))
+        yield from (f"task {task.name} {what}" for what in flaws)
     skills, tasks = {skill.name for skill in graph.skills}, {task.name for task in graph.tasks}
     for lesson in graph.lessons:
         yield from lesson_flaws(lesson)
@@ -189,6 +192,20 @@ def _world_flaws(task: Task) -> Iterator[str]:
         yield f"contains more than {MAX_OBSTACLES} obstacles"
     if not task.scene.is_bounded and any(event.needs_walls for event in task.events):
         yield "has patches without an arena"
+
+
+def _variation_flaws(graph: Graph, task: Task) -> Iterator[str]:
+    """What varies is an argument that can, within its bounds, and once; what fails is an actuator."""
+    for each in task.varies:
+        kind = varied_kind(graph, task, each)
+        quantity = varied_quantity(kind, each.argument) if kind else None
+        if quantity is None or not quantity.low <= each.low <= each.high <= quantity.high:
+            yield f"varies {each.argument!r:.60} of {each.of!r:.60}, which it cannot"
+    if len({(each.noun, each.of, each.argument) for each in task.varies}) < len(task.varies):
+        yield "varies something twice"
+    failing = [each.actuator for each in task.fails]
+    if len({*failing}) < len(failing) or not {*failing} <= {actuator.name for actuator in graph.actuators}:
+        yield "has failures of what is no actuator, or twice"
 
 
 def _things_named(task: Task) -> Iterator[str]:

@@ -123,6 +123,9 @@ task Fetch in arena size 80
   contains marble is ball size 1
   contains cat is walker size 2
   contains fence is wall from 10 10 to -10 10
+  varies noise of left_wheel 0 to 10%
+  varies density of Robot 1 to 3
+  fails right_wheel 1% per tick
   lasts 600 ticks
   ends on collision
   ends on exhaustion
@@ -341,6 +344,15 @@ TEXTS = [
     ("lasts 600", "lasts 601", "its task has changed: lasts 600 ticks, now 601"),
     ("  ends on exhaustion\n", "", "its task has changed: no longer ends on exhaustion"),
     ("succeeds on 5", "succeeds on 4", None),
+    (
+        "left_wheel 0 to 10%",
+        "left_wheel 0 to 20%",
+        "its task has changed: no longer varies noise of left_wheel 0 to 0.1; "
+        "its task has changed: varies noise of left_wheel 0 to 0.2 is new",
+    ),
+    ("  varies density of Robot 1 to 3\n", "", "its task has changed: no longer varies density of body 1 to 3"),
+    ("fails right_wheel 1% per tick", "fails right_wheel 2% per tick", None),
+    ("fails right_wheel 1% per tick", "fails claw 1% per tick", None),
     ("at 1/2 + north", "at 1/4 + north", "taught with tilt at 0.5 + north - pulse, now 0.25 + north - pulse"),
     ("arena size 80", "arena size 81", "its task has changed: in arena size 80, now 81"),
     ("genetic population 8", "genetic population 9", "taught with the learner population 8, now 9"),
@@ -378,6 +390,7 @@ def test_what_changed_is_a_sentence(old: str, new: str, told: str | None) -> Non
         ("  rewards 10 on reach of ball\n", "  rewards 10   on reach of ball\n"),
         ("  ends on collision\n  ends on exhaustion\n", "  ends on exhaustion\n  ends on collision\n"),
         ("near + holding - home", "(near + holding) - home"),
+        ("left_wheel 0 to 10%", "left_wheel 0% to 0.1"),
         ("task Elsewhere in plain", "task Elsewhere in arena size 9"),
         ("skill Top is mlp", "actuator flag is servo neutral 0.1\nskill Top is mlp"),
         ("skill Top is mlp", "actuator third is wheel side left neutral 0.5\nskill Top is mlp"),

@@ -1,6 +1,7 @@
 """A run followed tick by tick: what plain Python, the engine and pymunk say of it."""
 
 from collections import Counter
+from collections.abc import Mapping
 
 import numpy as np
 from mindrun.engine import Engine
@@ -11,12 +12,14 @@ from mindrun.sim.rollout import Rollout
 from mindrun.sim.trace import Moment, trace
 
 from tests.sim.plain_world import PlainWorld
+from tests.sim.varied import as_drawn, stuck
 
 
 def follow(rollout: Rollout, engine: Engine, seed: int) -> Counter[str]:
     """Hold a run against a plain world and the engine; how often each kind of event happened."""
-    graph, task = rollout.graph, rollout.task
     run = trace(rollout, seed)
+    graph, task = as_drawn(rollout.graph, rollout.task, run.drawn)
+    failing = stuck(rollout.task, run.drawn)
     plain = PlainWorld(graph, task, run, bool(rollout.tables.world[0]["battery"]))
     used = {int(row["start"]) for row in rollout.tables.sensors}
     counts = np.zeros(len(task.events), np.int64)
@@ -30,7 +33,7 @@ def follow(rollout: Rollout, engine: Engine, seed: int) -> Counter[str]:
         commands = plain.act(engine.tick(moment.readings))
         hold_mind(engine, used, moment)
         assert np.array_equal(commands, moment.commands)
-        hold_acting(graph, moment)
+        hold_acting(graph, moment, failing)
         plain.grip(moment.acting)
         assert plain.step(moment.acting, moment.grip) == tuple(moment.body)
         happened = plain.happened()
@@ -71,9 +74,15 @@ def hold_mind(engine: Engine, used: set[int], moment: Moment) -> None:
     assert engine.influence.tobytes() == moment.influence.tobytes()
 
 
-def hold_acting(graph: Graph, moment: Moment) -> None:
-    """What is rough acts with its noise and slips as it says; all else does what it is told."""
+def hold_acting(graph: Graph, moment: Moment, failing: Mapping[str, int]) -> None:
+    """What is rough acts with its noise and slips as it says, and neutrally when it has failed.
+
+    All else does what it is told.
+    """
     for i, actuator in enumerate(graph.actuators):
+        if moment.tick > failing.get(actuator.name, moment.tick):
+            assert moment.acting[i] == np.float32(actuator.kind.neutral)
+            continue
         noise, slip = getattr(actuator.kind, "noise", 0.0), getattr(actuator.kind, "slip", 0.0)
         assert abs(float(moment.acting[i]) - float(moment.commands[i])) <= noise * (1 + 1e-6)
         assert 0.0 <= moment.acting[i] <= 1.0

@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 from mindrun.actuators import Gripper, Lamp, Motor, Servo, Steering, Thruster, Wheel
 from mindrun.bodies import Box, Car, Disc, Holonomic
 from mindrun.events import Collision, Delivery, EventKind, Exhaustion, Reach, Success, Visit
-from mindrun.graph import Actuator, End, Graph, Lesson, Program, Reward, Start, Task, Thing
+from mindrun.graph import Actuator, End, Failure, Graph, Lesson, Program, Reward, Start, Task, Thing, Variation
 from mindrun.learners import Learner
 from mindrun.measures import Advance, Change, Forward, MeasureKind, Progress, Retreat
 from mindrun.quantity import UNSAID, Span
@@ -47,6 +47,19 @@ THRUSTERS = st.builds(
 )
 CLAWS = st.builds(Gripper, st.sampled_from([0.0, 0.5, 0.9, 1.0]), st.sampled_from([1.5, 4.0]), DELAY, NOISE)
 OTHERS = CLAWS | st.builds(Servo, NEUTRAL, DELAY) | st.builds(Lamp, NEUTRAL, DELAY)
+RANGES = {  # of what varies
+    "thrust": st.sampled_from([(60.0, 200.0), (-50.0, 15.0), (80.0, 80.0)]),
+    "delay": st.sampled_from([(0.0, 3.0), (2.0, 2.0), (1.0, 6.0)]),
+    "noise": st.sampled_from([(0.0, 0.1), (0.05, 0.3)]),
+    "slip": st.sampled_from([(0.0, 0.5), (0.2, 0.3)]),
+    "lost": st.sampled_from([(0.0, 0.5), (0.9, 1.0)]),
+    "range": st.just((0.2, 1.2)),
+    "density": st.sampled_from([(0.1, 3.0), (1.0, 1.5)]),
+    "friction": st.sampled_from([(0.0, 1.0), (0.3, 0.3)]),
+    "damping": st.just((0.0, 9.0)),
+    "linear_damping": st.just((0.0, 9.0)),
+    "angular_damping": st.just((1.0, 30.0)),
+}
 DIAMETERS = st.sampled_from([2.0, 2.0, 0.7, 3.0])
 RECTANGLES = st.sampled_from([2.0, (3.0, 2.0), (1.0, 2.5), (4.0, 1.0)])
 MATERIAL = (  # density, friction, damping
@@ -100,7 +113,27 @@ def random_world(draw: st.DrawFn, most: int = 40) -> Graph:
         tuple(draw(some)),
         draw(st.sampled_from([Start(), Start(), Start((2.0, -1.0)), Start(None, 1.0), Start((0.0, 0.5), -3.0)])),
     )
+    task = replace(task, varies=draw(_variations(graph, task)), fails=draw(_failures(graph)))
     return replace(graph, tasks=(task,), lessons=tuple(draw(_lessons(graph))))
+
+
+@st.composite
+def _variations(draw: st.DrawFn, graph: Graph, task: Task) -> tuple[Variation, ...]:
+    """Up to four arguments of anything, each in a range; most often none."""
+    kinds = [("body", "", graph.body), *(("actuator", each.name, each.kind) for each in graph.actuators)]
+    kinds += [("sensor", each.name, each.kind) for each in graph.sensors]
+    kinds += [("thing", each.name, each.kind) for each in task.things]
+    known = [(noun, name, argument) for noun, name, kind in kinds for argument in kind.varying]
+    some = draw(st.lists(st.sampled_from(known), unique=True, max_size=4)) if draw(st.booleans()) else []
+    return tuple(Variation(*about, *draw(RANGES[about[2]])) for about in some)
+
+
+@st.composite
+def _failures(draw: st.DrawFn, graph: Graph) -> tuple[Failure, ...]:
+    """Actuators that fail soon; most often none."""
+    names = [actuator.name for actuator in graph.actuators]
+    some = draw(st.lists(st.sampled_from(names), unique=True, max_size=2)) if names and draw(st.booleans()) else []
+    return tuple(Failure(name, draw(st.sampled_from([0.02, 0.2, 1.0, 0.0]))) for name in some)
 
 
 def _lessons(graph: Graph) -> st.SearchStrategy[list[Lesson]]:

@@ -37,10 +37,10 @@ def resolve(files: Sequence[File], findings: Findings) -> model.Mind | None:
     memories, actuators = parts("memory", names, findings), parts("actuator", names, findings)
     known_skills = skills(names, width, findings)
     check_cycles(known_skills, findings)
-    has_battery = any(sensor.kind.battery for sensor in known_sensors)
-    known_tasks = tasks(RobotFacts(names, width, tick, has_battery, files[0].source.folder), findings)
-    known_lessons = tuple(lessons(names, known_skills, width, findings))
     body = _body(names, findings)
+    robot = RobotFacts(names, width, tick, files[0].source.folder, body, actuators, known_sensors)
+    known_tasks = tasks(robot, findings)
+    known_lessons = tuple(lessons(names, known_skills, width, findings))
     if body:
         check_drives(body, actuators, findings)
     head = master(files[0], names, findings)

@@ -19,16 +19,32 @@ from mindlang.compiler.resolve.maps import with_places
 from mindlang.compiler.resolve.parts import refuse_facts
 from mindlang.compiler.resolve.places import check_places, start_of
 from mindlang.compiler.resolve.quantities import convert
-from mindlang.compiler.syntax import Contains, Counts, Declaration, Ends, Fact, Lasts, Phrase, Rewards, Starts, Succeeds
+from mindlang.compiler.resolve.variations import Variable, failures, variations
+from mindlang.compiler.syntax import (
+    Contains,
+    Counts,
+    Declaration,
+    Ends,
+    Fact,
+    Fails,
+    Lasts,
+    Phrase,
+    Rewards,
+    Starts,
+    Succeeds,
+    Varies,
+)
 
 MAX_RUN_TICKS = 10_000_000  # of a run
 TIMES = Quantity("how many times", {"": 1.0}, low=1, high=MAX_RUN_TICKS, whole=True)
 LASTS = replace(TICKS, low=1.0, high=MAX_RUN_TICKS)
 
-TASK_FACTS: tuple[type[Fact], ...] = (Contains, Starts, Lasts, Ends, Succeeds, Rewards, Counts)
+TASK_FACTS: tuple[type[Fact], ...] = (Contains, Starts, Varies, Fails, Lasts, Ends, Succeeds, Rewards, Counts)
 SCENE_FACTS: tuple[type[Fact], ...] = (
     Contains,
     Starts,
+    Varies,
+    Fails,
 )  # what the world is, not what is to be done in it
 
 F = TypeVar("F", bound=Fact)
@@ -41,8 +57,15 @@ class RobotFacts:
     names: Names
     widths: Mapping[str, int]
     tick: float
-    has_battery: bool
     root: Path
+    body: model.Part[Any] | None
+    actuators: tuple[model.Part[Any], ...]
+    sensors: tuple[model.Part[Any], ...]
+
+    @property
+    def has_battery(self) -> bool:
+        """Whether any sensor reads one."""
+        return any(sensor.kind.battery for sensor in self.sensors)
 
 
 @dataclass(frozen=True, slots=True)
@@ -58,6 +81,11 @@ class _World:
         """The kinds of the things that are well said."""
         return [thing.kind for thing in self.things if thing.kind]
 
+    def variable(self, robot: RobotFacts) -> Variable:
+        """What can differ from run to run in it."""
+        parts = {"body": (robot.body,) if robot.body else (), "actuator": robot.actuators, "sensor": robot.sensors}
+        return Variable(robot.names, {**parts, "thing": self.things}, self.scope.place)
+
 
 def tasks(robot: RobotFacts, findings: Findings) -> tuple[model.Task, ...]:
     """Every task, without the lines that are reported; one that several tasks have is reported once."""
@@ -66,6 +94,8 @@ def tasks(robot: RobotFacts, findings: Findings) -> tuple[model.Task, ...]:
             refuse_facts(scene, SCENE_FACTS, findings)
             world = _world(scene, robot, findings)
             start_of(scene, world.scene, world.things, findings)
+            variations(scene, world.variable(robot), findings)
+            failures(scene, world.variable(robot), findings)
     found = []
     for name, declaration in robot.names.declarations("task"):
         with findings.each_once():
@@ -92,6 +122,8 @@ def _task(name: str, declaration: Declaration, robot: RobotFacts, findings: Find
         world.scene,
         world.things,
         start_of(declaration, world.scene, world.things, findings),
+        variations(declaration, world.variable(robot), findings),
+        failures(declaration, world.variable(robot), findings),
         _ticks(declaration, robot.tick, findings),
         _ends(declaration, world, robot, findings),
         tuple(_reward(fact, world, robot, findings) for fact in _facts(declaration, Rewards)),

@@ -27,6 +27,7 @@ class ActuatorKind:
     neutral: float
     delay: int
 
+    varying: tuple[str, ...] = ("delay",)  # the arguments that can differ from run to run
     drive: Drive | None = None  # what it does to a body, where it can move one
     is_light = False  # whether it shines with its command
 

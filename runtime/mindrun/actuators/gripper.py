@@ -25,6 +25,7 @@ class Gripper(ActuatorKind):
     delay: Annotated[int, TICKS] = 0
     noise: Annotated[float, RATIO] = 0.0
 
+    varying = ("delay", "noise")
     zero = 0.0
 
     @property

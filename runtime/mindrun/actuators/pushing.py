@@ -14,6 +14,8 @@ class Pushing(ActuatorKind):
     noise: float
     slip: float
 
+    varying = ("thrust", "delay", "noise", "slip")
+
     def place(self, body: BodyKind) -> Point:
         """Where on the body it pushes."""
         return 0.0, 0.0

@@ -26,6 +26,7 @@ class Steering(ActuatorKind):
     delay: Annotated[int, TICKS] = 0
     noise: Annotated[float, RATIO] = 0.0
 
+    varying = ("range", "delay", "noise")
     drive = "steering"
 
     @property

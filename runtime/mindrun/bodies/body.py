@@ -31,6 +31,8 @@ class BodyKind:
     linear_damping: float
     angular_damping: float
 
+    # The arguments that can differ from run to run.
+    varying: tuple[str, ...] = ("density", "friction", "linear_damping", "angular_damping")
     drives: tuple[Drive, ...] = ()  # what can move it
 
     @property
@@ -59,14 +61,24 @@ class BodyKind:
         return self.radius
 
     @property
+    def area(self) -> tuple[float, float]:
+        """Two numbers whose product is its area."""
+        raise NotImplementedError
+
+    @property
+    def gyration(self) -> tuple[float, float]:
+        """Two numbers whose quotient is its moment of inertia about its middle for each unit of mass."""
+        raise NotImplementedError
+
+    @property
     def mass(self) -> float:
         """Density times area."""
-        raise NotImplementedError
+        return self.density * self.area[0] * self.area[1]
 
     @property
     def moment(self) -> float:
         """The moment of inertia about its middle."""
-        raise NotImplementedError
+        return self.mass * self.gyration[0] / self.gyration[1]
 
     def rim(self, angle: float) -> float:
         """How far from its middle it ends in a direction, counterclockwise from straight ahead."""

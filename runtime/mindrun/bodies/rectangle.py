@@ -42,14 +42,14 @@ class Rectangle(BodyKind):
         return self.sides[1] / 2
 
     @property
-    def mass(self) -> float:
-        """Density times area."""
-        return self.density * self.sides[0] * self.sides[1]
+    def area(self) -> tuple[float, float]:
+        """Its sides."""
+        return self.sides
 
     @property
-    def moment(self) -> float:
-        """The moment of inertia of a rectangle about its middle."""
-        return self.mass * (self.sides[0] * self.sides[0] + self.sides[1] * self.sides[1]) / 12
+    def gyration(self) -> tuple[float, float]:
+        """Of a rectangle: (a² + b²) / 12."""
+        return self.sides[0] * self.sides[0] + self.sides[1] * self.sides[1], 12.0
 
     def rim(self, angle: float) -> float:
         """Where a ray from the middle leaves it."""

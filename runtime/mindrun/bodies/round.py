@@ -18,11 +18,11 @@ class Round(BodyKind):
         return self.size / 2
 
     @property
-    def mass(self) -> float:
-        """Density times area."""
-        return self.density * pi * self.radius**2
+    def area(self) -> tuple[float, float]:
+        """Of a disc: π·r²."""
+        return pi, self.radius**2
 
     @property
-    def moment(self) -> float:
-        """The moment of inertia of a disc about its middle."""
-        return self.mass * self.radius**2 / 2
+    def gyration(self) -> tuple[float, float]:
+        """Of a disc: r² / 2."""
+        return self.radius**2, 2.0

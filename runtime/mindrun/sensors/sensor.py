@@ -90,6 +90,7 @@ class SensorKind(AboutThing):
 
     __slots__ = ()
 
+    varying: tuple[str, ...] = ()  # the arguments that can differ from run to run
     circular = False  # whether the readings 0 and 1 are neighbours
     scaled = False  # whether its values mean something by themselves, so that they need no calibration
     near: int | None = None  # the reading of what is near
@@ -185,3 +186,5 @@ class Physical(SensorKind):
     lost: Annotated[float, RATIO] = 0.0
     every: Annotated[int, TICKS] = 1
     delay: Annotated[int, TICKS] = 0
+
+    varying = ("noise", "lost", "delay")

@@ -68,6 +68,7 @@ def _world(tables: Tables, sizes: Sizes, room: _Room) -> World:
         random=room.each(np.uint64),
         random_aside=room.each(np.uint64),
         tick=room.each(),
+        numbers=room.rows(len(tables.parameters)),
         trail=room.rows(PLACE_ROWS * TRAIL_TICKS),
         push=room.rows(PUSH_ROWS),
         acting=room.rows(len(tables.actuators), np.float32),

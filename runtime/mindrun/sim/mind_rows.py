@@ -10,12 +10,14 @@ from numpy.typing import NDArray
 from mindrun.graph import Edge, Graph, Skill
 from mindrun.registry import names
 from mindrun.sim.codes import ACTUATOR, ACTUATOR_CODES, EDGE, MEMORY, SKILL, function_codes
+from mindrun.sim.parameter_rows import SAME_IN_EVERY_RUN, Parameters
 from mindrun.sim.programs import Programs
 from mindrun.sim.records import Row, records
 from mindrun.weights import genes, weights_of
 
 Array = NDArray[Any]
 Floats = NDArray[np.float32]
+VARYING_COLUMNS = {"thrust": "thrust", "noise": "noise", "slip": "slip", "turn": "range"}  # arguments that may vary
 
 
 @dataclass(frozen=True, slots=True)
@@ -103,15 +105,27 @@ def _edge(graph: Graph, edge: Edge, codes: Programs) -> Row:
     }  # fmt: skip
 
 
-def actuator_rows(graph: Graph) -> tuple[Array, int]:
+def actuator_rows(graph: Graph, parameters: Parameters) -> tuple[Array, int]:
     """Rows of ACTUATOR, and how many commands wait at any time."""
     rows: list[Row] = []
     ring = 0
     for actuator in graph.actuators:
-        kind = actuator.kind
-        row = {"kind": ACTUATOR_CODES[names()[type(kind)]], "neutral": kind.neutral, "delay": kind.delay, "ring": ring}
+        kind, fails = parameters.greatest("actuator", actuator.name, actuator.kind), parameters.failing(actuator.name)
         own = kind.row(graph.body)
-        rows.append({**row, **own, "is_rough": own.get("noise", 0.0) > 0.0})
+        is_noisy = own.get("noise", 0.0) > 0.0
+        row = {
+            "kind": ACTUATOR_CODES[names()[type(kind)]], "neutral": kind.neutral, "delay": kind.delay, "ring": ring,
+            "is_noisy": is_noisy, "is_slipping": own.get("slip", 0.0) > 0.0,
+            "is_rough": is_noisy or fails != SAME_IN_EVERY_RUN, "fails": fails,
+            "is_late": parameters.varies("actuator", actuator.name, "delay"),
+        }  # fmt: skip
+        values = {column: getattr(actuator.kind, key) for column, key in VARYING_COLUMNS.items() if column in own}
+        varying = {
+            column: parameters.row("actuator", actuator.name, VARYING_COLUMNS[column], value)
+            for column, value in values.items()
+        }
+        wait = parameters.row("actuator", actuator.name, "delay", actuator.kind.delay)
+        rows.append({**own, **row, **varying, "wait": wait})
         ring += kind.delay
     return records(rows, ACTUATOR), ring
 

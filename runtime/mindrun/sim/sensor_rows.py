@@ -10,8 +10,9 @@ from numpy.typing import NDArray
 from mindrun.expression import leaves, placed
 from mindrun.graph import Graph, Sensor, Skill, Task
 from mindrun.registry import names
-from mindrun.sensors import Physical, SensorKind
+from mindrun.sensors import Physical
 from mindrun.sim.codes import SENSOR, sensor_codes
+from mindrun.sim.parameter_rows import Parameters
 from mindrun.sim.programs import Programs
 from mindrun.sim.records import Row, records
 from mindrun.sim.task_rows import NOWHERE, rows_by_name
@@ -81,7 +82,7 @@ class Sensed:
     rings: int
 
 
-def sensor_rows(graph: Graph, used: Used, task: Task, programs: Programs) -> Sensed:
+def sensor_rows(graph: Graph, used: Used, task: Task, programs: Programs, parameters: Parameters) -> Sensed:
     """What the table of sensors says of those that are used.
 
     What is measured aside draws its noise from a generator of its own: a reward changes nothing in the world.
@@ -98,7 +99,7 @@ def sensor_rows(graph: Graph, used: Used, task: Task, programs: Programs) -> Sen
             "is_aside": is_aside, "every": 1,
         }  # fmt: skip
         row["code"], row["length"] = programs.add(placed(kind.formula, scene.starts))
-        rows.append({**row, **room.take(sensor), **_roughness(kind), **kind.row(scene)})
+        rows.append({**row, **room.take(sensor, parameters), **_roughness(sensor, parameters), **kind.row(scene)})
     turn = np.array(room.rays, np.float64)
     return Sensed(
         rows=records(rows, SENSOR),
@@ -125,7 +126,7 @@ class _Room:
     held: int = 0
     ring: int = 0
 
-    def take(self, sensor: Sensor) -> Row:
+    def take(self, sensor: Sensor, parameters: Parameters) -> Row:
         """Where what a sensor needs begins."""
         kind = sensor.kind
         row = {
@@ -139,17 +140,23 @@ class _Room:
         self.before += sensor.width * kind.remembered
         if isinstance(kind, Physical):
             self.held += sensor.width
-            self.ring += sensor.width * kind.delay
+            self.ring += sensor.width * parameters.greatest("sensor", sensor.name, kind).delay
         return row
 
 
-def _roughness(kind: SensorKind) -> Row:
+def _roughness(sensor: Sensor, parameters: Parameters) -> Row:
     """What is not perfect about it; `blank` is what is read where one is lost, −1 for the same as before."""
+    kind, name = sensor.kind, sensor.name
     if not isinstance(kind, Physical):
         return {}
+    varying = {
+        "noise": parameters.row("sensor", name, "noise", kind.noise),
+        "lost": parameters.row("sensor", name, "lost", kind.lost),
+        "wait": parameters.row("sensor", name, "delay", kind.delay),
+    }
+    kind = parameters.greatest("sensor", name, kind)
     is_rough = kind.noise > 0 or kind.lost > 0 or kind.every > 1 or kind.delay > 0
     blank = -1.0 if kind.keeps_lost else kind.blank
     return {
-        "is_rough": is_rough, "noise": kind.noise, "lost": kind.lost, "blank": blank,
-        "every": max(1, kind.every), "delay": kind.delay,
+        "is_rough": is_rough, "blank": blank, "every": max(1, kind.every), "delay": kind.delay, **varying,
     }  # fmt: skip

@@ -35,6 +35,7 @@ class World(NamedTuple):
     random: Array  # uint64: the generator
     random_aside: Array  # uint64: the generator of what no skill reads
     tick: Array  # int64: how many the run has lasted
+    numbers: Array  # [parameters] float64: what may differ from run to run
     trail: Array  # [PLACE_ROWS·TRAIL_TICKS] float64: where the robot was in the last ticks
     # for this tick
     push: Array  # [PUSH_ROWS] float64: force along the heading, torque, the force's x and y, force to the left

@@ -12,15 +12,20 @@ from mindrun.graph import End, Graph, Reward, Sensor, Task, Thing
 from mindrun.registry import names
 from mindrun.sensors import Battery
 from mindrun.sim.codes import (
+    DAMPING,
     EVENT,
     EVENT_CODES,
+    INVERSE,
     MEASURE_CODES,
     MEASURES,
     OBSTACLE,
+    OVER,
     THING,
     THING_CODES,
+    TIMES,
     WORLD,
 )  # fmt: skip
+from mindrun.sim.parameter_rows import Parameters, Step
 from mindrun.sim.programs import Programs
 from mindrun.sim.records import Row, records
 from mindrun.things import OUTCOMES, STAYS
@@ -145,9 +150,12 @@ def reward_row(reward: Reward, codes: Programs) -> tuple[int, ...]:
     return first, length, -1 if reward.on is None else reward.on, each, eachs, *codes.add(reward.when or ())
 
 
-def world_row(graph: Graph, task: Task, rays: int, used: Sequence[Sensor], master: int) -> Array:
+def world_row(
+    graph: Graph, task: Task, parameters: Parameters, rays: int, used: Sequence[Sensor], master: str
+) -> Array:
     """The numbers of the body, the battery and the scene."""
     body, dt, scene, begin = graph.body, graph.tick, task.scene, task.start
+    index = [skill.name for skill in graph.skills].index(master)
     battery = next((s.kind.battery for s in graph.sensors if s.kind.battery), Battery().battery)
     powered = any(event.is_of_battery for event in task.events) or any(s.kind.battery for s in used)
     held = [thing.kind.largest for thing in task.things if thing.kind.can_be_held]
@@ -158,11 +166,29 @@ def world_row(graph: Graph, task: Task, rays: int, used: Sequence[Sensor], maste
     spread = max([*walls, *(scene.sides if scene.is_bounded else ()), 0.0]) / CELLS_PER_WALL
     cell = max([MIN_CELL_UNITS, spread, *(size / CELLS_PER_SHAPE for size in (2 * body.radius, *held, *solid))])
     row = (
-        dt, 1.0 / (1.0 + dt * body.linear_damping), 1.0 / (1.0 + dt * body.angular_damping), body.mass, body.moment,
-        1.0 / body.mass, 1.0 / body.moment, body.radius, body.front, body.side,
-        not body.outline, body.axle_distance,
+        dt, *_body_rows(graph, parameters), body.radius, body.front, body.side, not body.outline, body.axle_distance,
         *(side / 2 for side in scene.sides),
         begin.at is not None, *(begin.at or (0.0, 0.0)), begin.facing is not None, begin.facing or 0.0, task.ticks,
-        battery.start, battery.drain, battery.charge, rays, near, master, graph.claw_reach, powered, cell,
+        battery.start, battery.drain, battery.charge, rays, near, index, graph.claw_reach, powered, cell,
     )  # fmt: skip
     return np.array([row], WORLD)
+
+
+def _body_rows(graph: Graph, parameters: Parameters) -> tuple[int, ...]:
+    """The rows of how a body is damped, of its friction, its mass and its moment of inertia, and one over both."""
+    body, slows = graph.body, (DAMPING, graph.tick)
+    mass: tuple[Step, ...] = tuple((TIMES, length) for length in body.area)
+    moment: tuple[Step, ...] = (*mass, (TIMES, body.gyration[0]), (OVER, body.gyration[1]))
+
+    def of_density(*steps: Step) -> int:
+        return parameters.row("body", "", "density", body.density, *steps)
+
+    return (
+        parameters.row("body", "", "linear_damping", body.linear_damping, slows),
+        parameters.row("body", "", "angular_damping", body.angular_damping, slows),
+        parameters.row("body", "", "friction", body.friction),
+        of_density(*mass),
+        of_density(*moment),
+        of_density(*mass, (INVERSE, 1.0)),
+        of_density(*moment, (INVERSE, 1.0)),
+    )

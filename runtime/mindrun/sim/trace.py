@@ -7,7 +7,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mindrun.arithmetic import ANGLE, BOX_COLUMNS, LOOSE_ROWS, SIZE, THING_ROWS, TURN
-from mindrun.sim.mind_rows import actuator_rows
 from mindrun.sim.rollout import Rollout
 from mindrun.sim.state import Jobs, World
 
@@ -41,12 +40,16 @@ class Moment:
 
 @dataclass(frozen=True, slots=True)
 class Trace:
-    """A run that is about to begin: the obstacles [boxes, 4] as x, y and half of both sides, and its moments."""
+    """A run that is about to begin: the obstacles [boxes, 4] as x, y and half of both sides, and its moments.
+
+    `drawn` has what each argument that varies is, and from which tick on, counted from 0, what fails is stuck.
+    """
 
     boxes: NDArray[np.float64]
     begin: NDArray[np.float64]  # the robot's x, y, angle
     things: NDArray[np.float64]
     turned: NDArray[np.float64]
+    drawn: NDArray[np.float64]
     moments: Iterator[Moment]
     jobs: Jobs
 
@@ -60,8 +63,10 @@ def trace(rollout: Rollout, seed: int, genome: NDArray[np.float32] | None = None
     world, mind, judge = tile.state.world, tile.state.mind, tile.state.judge
     boxes = world.boxes[0].reshape(-1, BOX_COLUMNS).copy()
     things, turned = _things(world, rollout), _turned(world, rollout)
-    rows, _ = actuator_rows(rollout.graph)
-    rough, slipping, count = rows["is_rough"] != 0, rows["slip"] > 0, len(rows)
+    rows = rollout.tables.actuators
+    rough, slipping = (np.array([bool(row[name]) for row in rows], bool) for name in ("is_rough", "is_slipping"))
+    count = len(rows)
+    drawn = world.numbers[: len(rollout.task.varies) + len(rollout.task.fails), 0].copy()
 
     def moments() -> Iterator[Moment]:
         working = 1
@@ -84,7 +89,7 @@ def trace(rollout: Rollout, seed: int, genome: NDArray[np.float32] | None = None
                 lines=judge.lines[: len(rollout.task.rewards), 0].copy(),
             )
 
-    return Trace(boxes, world.body[: ANGLE + 1, 0].copy(), things, turned, moments(), jobs)
+    return Trace(boxes, world.body[: ANGLE + 1, 0].copy(), things, turned, drawn, moments(), jobs)
 
 
 def _turned(world: World, rollout: Rollout) -> NDArray[np.float64]:

@@ -30,6 +30,7 @@ class Loose(ThingKind):
     reached: Annotated[Outcome, OUTCOME] = STAYS
     delivered: Annotated[Outcome, OUTCOME] = MOVES
 
+    varying = ("density", "friction", "damping")
     is_solid = True
     is_loose = True
     can_be_delivered = True

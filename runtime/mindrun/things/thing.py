@@ -45,6 +45,7 @@ class ThingKind:
     at: tuple[Place, ...]
     count: int
 
+    varying: tuple[str, ...] = ()  # the arguments that can differ from run to run
     is_obstacle = False  # whether it is squares that stand in the way: no sensor, event or measure is about these
     is_solid = False  # whether it stands in the way, although nobody holds it
     is_loose = False  # whether it gives way when it is pushed

@@ -16,12 +16,14 @@ def act(tables, state, lanes, clock):
     for i in range(len(tables.actuators)):
         actuator, commands = tables.actuators[i], mind.commands[i]
         means(mind.command_sums[i], mind.influence_sums[i], actuator.neutral, commands, faults, lanes)
-        if actuator.delay > 0:
+        if actuator.is_late:
+            wait_each(commands, mind.late, actuator.ring, world.numbers[actuator.wait], world.tick, lanes)
+        elif actuator.delay > 0:
             wait(commands, mind.late[actuator.ring + clock % actuator.delay], lanes)
         if actuator.is_rough:
-            disturb(world.random, commands, actuator.noise, world.acting[i], lanes)
-        if actuator.slip > 0.0:
-            slide(world.random, actuator.slip, world.grip[i], lanes)
+            disturb(world, actuator, commands, world.acting[i], lanes)
+        if actuator.is_slipping:
+            slide(world.random, world.numbers[actuator.slip], world.grip[i], lanes)
         if actuator.kind == GRIPPER:
             acting = world.acting[i] if actuator.is_rough else commands
             grip(acting, world, tables.things, tables.world[0].front, actuator.reach, lanes)
@@ -58,17 +60,32 @@ def wait(commands, late, lanes):
 
 
 @compiled
-def disturb(random, commands, noise, acting, lanes):
-    """Each command with up to `noise` more or less, as it acts: the mind knows only what it has sent."""
+def wait_each(commands, late, ring, delays, tick, lanes):
+    """The same where each lane has a delay of its own, up to the length of the ring."""
     for lane in range(lanes):
-        acting[lane] = clamp(commands[lane] + noise * F(uniform(random, lane, -1.0, 1.0)))
+        delay = int(delays[lane])
+        if delay > 0:
+            slot = ring + tick[lane] % delay
+            commands[lane], late[slot, lane] = late[slot, lane], commands[lane]
+
+
+@compiled
+def disturb(world, actuator, commands, acting, lanes):
+    """Each command as it acts, the mind knows only what it has sent: with up to `noise` more or less; or stuck."""
+    noise, stuck = world.numbers[actuator.noise], world.numbers[max(actuator.fails, 0)]
+    for lane in range(lanes):
+        acting[lane] = commands[lane]
+        if actuator.is_noisy:
+            acting[lane] = clamp(commands[lane] + F(noise[lane]) * F(uniform(world.random, lane, -1.0, 1.0)))
+        if actuator.fails >= 0 and world.tick[lane] >= stuck[lane]:
+            acting[lane] = actuator.neutral
 
 
 @compiled
 def slide(random, slip, kept, lanes):
     """The share of its force that an actuator keeps in this tick."""
     for lane in range(lanes):
-        kept[lane] = 1.0 - slip * uniform(random, lane, 0.0, 1.0)
+        kept[lane] = 1.0 - slip[lane] * uniform(random, lane, 0.0, 1.0)
 
 
 @compiled

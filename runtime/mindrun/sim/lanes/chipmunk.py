@@ -62,15 +62,17 @@ def open_space(tables, world, contact, lane):
     call(library[SPACE_ITERATIONS], space, SOLVER_ITERATIONS)
     call(library[SPACE_HASH], space, constants.cell, HASH_COUNT)
     add_boxes(library, space, world.boxes[lane], constants, handles, len(tables.things), contact.floats[lane])
-    body = call(library[BODY_NEW], constants.mass, constants.moment)
+    mass, moment = world.numbers[constants.mass, lane], world.numbers[constants.moment, lane]
+    body = call(library[BODY_NEW], mass, moment)
     call(library[SPACE_ADD_BODY], space, body)
     for circle in range(ROBOT, FIRST_HELD + len(tables.things)):
         if handles[circle] != 0:
             call(library[SHAPE_BODY], handles[circle], body)
             call(library[SPACE_ADD_SHAPE], space, handles[circle])
+    call(library[SHAPE_FRICTION], handles[ROBOT], world.numbers[constants.friction, lane])
     handles[SPACE], handles[BODY] = space, body
     contact.tally[lane, FIXED_BODY] = call(library[SPACE_STATIC], space)
-    add_loose(tables, space, contact, lane)
+    add_loose(tables, world, space, contact, lane)
 
 
 @compiled

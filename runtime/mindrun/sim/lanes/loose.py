@@ -38,7 +38,8 @@ def slow_down(tables, world, lane):
     loose, dt, restless = world.loose, tables.world[0].dt, 0
     for i in range(len(tables.loose)):
         if world.still[i, lane] < SETTLED_TICKS:
-            row, slower, place = LOOSE_ROWS * i, tables.loose[i].slower, THING_ROWS * tables.loose[i].thing
+            row, place = LOOSE_ROWS * i, THING_ROWS * tables.loose[i].thing
+            slower = world.numbers[tables.loose[i].slower, lane]
             vx, vy = loose[row + PUSHED_X, lane] * slower, loose[row + PUSHED_Y, lane] * slower
             spin = loose[row + PUSHED_SPIN, lane] * slower
             x, y = world.things[place + X, lane], world.things[place + Y, lane]

@@ -40,7 +40,7 @@ FLOAT_X, FLOAT_Y, FLOAT_ANGLE, FLOAT_SPEED_X, FLOAT_SPEED_Y, FLOAT_SPIN = range(
 
 
 @compiled
-def add_loose(tables, space, contact, lane):
+def add_loose(tables, world, space, contact, lane):
     """The loose things into a new Space, after its robot; of which size each is, is said when it is put."""
     library, handles, corners = tables.library, contact.loose[lane], contact.floats[lane]
     for i in range(len(tables.loose)):
@@ -51,7 +51,7 @@ def add_loose(tables, space, contact, lane):
         else:
             put_corners(corners, 1.0)
             shape = call(library[POLY_NEW], body, 4, corners.ctypes.data, 0.0)
-        call(library[SHAPE_FRICTION], shape, tables.loose[i].friction)
+        call(library[SHAPE_FRICTION], shape, world.numbers[tables.loose[i].friction, lane])
         call(library[SPACE_ADD_SHAPE], space, shape)
         handles[LOOSE_HANDLES * i + LOOSE_BODY], handles[LOOSE_HANDLES * i + LOOSE_SHAPE] = body, shape
         contact.sizes[lane, i], contact.placed[lane, i] = 0.0, 0
@@ -88,7 +88,7 @@ def push_loose(tables, world, contact, lane):
         row, place = LOOSE_ROWS * i, THING_ROWS * tables.loose[i].thing
         size, is_gone = world.things[place + SIZE, lane], np.isnan(world.things[place + X, lane])
         if contact.sizes[lane, i] != size:
-            resize(tables, contact, i, size, lane)
+            resize(tables, world, contact, i, size, lane)
         floats[FLOAT_X] = GONE_UNITS + APART_UNITS * i if is_gone else world.things[place + X, lane]
         floats[FLOAT_Y] = GONE_UNITS if is_gone else world.things[place + Y, lane]
         floats[FLOAT_ANGLE] = world.loose[row + TURN, lane]
@@ -101,11 +101,11 @@ def push_loose(tables, world, contact, lane):
 
 
 @compiled
-def resize(tables, contact, i, size, lane):
+def resize(tables, world, contact, i, size, lane):
     """Loose thing i has another size, and with it another mass and moment of inertia."""
     library, handles, half = tables.library, contact.loose[lane], size / 2
     body, shape = handles[LOOSE_HANDLES * i + LOOSE_BODY], handles[LOOSE_HANDLES * i + LOOSE_SHAPE]
-    density = tables.loose[i].density
+    density = world.numbers[tables.loose[i].density, lane]
     if tables.loose[i].is_round:
         call(library[CIRCLE_RADIUS], shape, half)
         mass = density * np.pi * (half * half)

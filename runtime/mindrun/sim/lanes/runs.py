@@ -10,6 +10,7 @@ from mindrun.sim.codes import GOING_ON, LOST, VISIT
 from mindrun.sim.compiling import compiled, entry
 from mindrun.sim.lanes.chipmunk import close_space
 from mindrun.sim.lanes.judge import patch_of
+from mindrun.sim.lanes.parameters import set_numbers
 from mindrun.sim.lanes.placement import draw
 from mindrun.sim.lanes.step import is_lost
 from mindrun.sim.state import PLACE_ROWS
@@ -53,6 +54,7 @@ def begin_job(tables, state, jobs, lane):
     world.random[lane] = jobs.seeds[jobs.seed[job]]
     world.random_aside[lane] = world.random[lane] ^ MEASURED_ASIDE
     draw(tables, world, lane)
+    set_numbers(tables, world, lane)
     genome = jobs.genomes[jobs.genome[job]]
     for i in range(len(genome)):
         mind.genome[i, lane] = genome[i]
@@ -155,7 +157,7 @@ def move(state, source, target):
 @compiled
 def move_world(world, source, target):
     """The world of one lane becomes that of the other."""
-    for rows in (world.body, world.heading, world.things, world.trail, world.loose):
+    for rows in (world.body, world.heading, world.things, world.trail, world.loose, world.numbers):
         copy_lane(rows, source, target)
     for rows in (world.reached, world.delivered):
         copy_lane(rows, source, target)

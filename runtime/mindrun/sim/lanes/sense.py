@@ -98,24 +98,28 @@ def roughen(world, mind, sensor, k, lanes):
     for lane in range(lanes):
         if tick[lane] % sensor.every == 0:
             before = measured[lane] if tick[lane] > 0 else out[lane]
-            measured[lane] = measure(random, sensor, out[lane], before, lane)
+            measured[lane] = measure(random, world.numbers, sensor, out[lane], before, lane)
         out[lane] = measured[lane]
     first = sensor.ring + k * sensor.delay
     for lane in range(lanes if sensor.delay > 0 else 0):
-        slot = first + tick[lane] % sensor.delay
-        oldest = mind.rings[slot, lane] if tick[lane] >= sensor.delay else mind.rings[first, lane]
+        delay = int(world.numbers[sensor.wait, lane])
+        if delay == 0:
+            continue
+        slot = first + tick[lane] % delay
+        oldest = mind.rings[slot, lane] if tick[lane] >= delay else mind.rings[first, lane]
         seen = oldest if tick[lane] > 0 else out[lane]
         mind.rings[slot, lane] = out[lane]
         out[lane] = seen
 
 
 @compiled
-def measure(random, sensor, true, before, lane):
+def measure(random, numbers, sensor, true, before, lane):
     """What is measured of a true value."""
-    if sensor.lost > ZERO and uniform(random, lane, 0.0, 1.0) < sensor.lost:
+    lost, noise = F(numbers[sensor.lost, lane]), F(numbers[sensor.noise, lane])
+    if lost > ZERO and uniform(random, lane, 0.0, 1.0) < lost:
         return before if sensor.blank < ZERO else sensor.blank
-    if sensor.noise > ZERO:
-        return clamp(true + sensor.noise * F(uniform(random, lane, -1.0, 1.0)))
+    if noise > ZERO:
+        return clamp(true + noise * F(uniform(random, lane, -1.0, 1.0)))
     return true
 
 

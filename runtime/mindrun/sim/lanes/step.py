@@ -39,7 +39,7 @@ def step(tables, state, lanes):
         if world.restless[lane] > 0:
             slow_down(tables, world, lane)
     find_near(tables, world, state.sight, contact, lanes)
-    fly(world.body, world.push, contact.near, constants, lanes)
+    fly(world, contact.near, constants, lanes)
     touching = contact.touching
     for lane in range(lanes):
         touching[lane] <<= 1  # bit 0 this tick, bit 1 the tick before
@@ -69,12 +69,14 @@ def thrust(tables, world, commands, lanes):
         actuator = tables.actuators[i]
         if actuator.kind == PUSH:
             acting = world.acting[i] if actuator.is_rough else commands[i]
-            if actuator.slip > 0.0 or actuator.aside != 0.0:
-                drive_anywhere(acting, actuator, world.grip[i], push, lanes)
+            strength = world.numbers[actuator.thrust]
+            if actuator.is_slipping or actuator.aside != 0.0:
+                drive_anywhere(acting, actuator, strength, world.grip[i], push, lanes)
                 is_aside |= actuator.aside != 0.0
             else:
-                drive(acting, actuator, push[FORCE], push[TORQUE], lanes)
-    damp(world.body, world.heading, push, constants.linear, constants.angular, lanes)
+                drive(acting, actuator, strength, push[FORCE], push[TORQUE], lanes)
+    linear, angular = world.numbers[constants.linear], world.numbers[constants.angular]
+    damp(world.body, world.heading, push, linear, angular, lanes)
     if is_aside:
         push_aside(world.heading, push, lanes)
     if constants.axles > 0.0:
@@ -82,21 +84,21 @@ def thrust(tables, world, commands, lanes):
 
 
 @compiled
-def drive(commands, actuator, force, torque, lanes):
+def drive(commands, actuator, strength, force, torque, lanes):
     """(2v − 1)·thrust along the heading at a point of the body: a wheel's on its rim."""
-    strength, ahead, arm = actuator.thrust, actuator.ahead, actuator.arm
+    ahead, arm = actuator.ahead, actuator.arm
     for lane in range(lanes):
-        pushed = (2.0 * commands[lane] - 1.0) * strength
+        pushed = (2.0 * commands[lane] - 1.0) * strength[lane]
         force[lane] += ahead * pushed
         torque[lane] += arm * pushed
 
 
 @compiled
-def drive_anywhere(commands, actuator, kept, push, lanes):
+def drive_anywhere(commands, actuator, strength, kept, push, lanes):
     """(2v − 1)·thrust in any direction, less what slips."""
     for lane in range(lanes):
-        pushed = (2.0 * commands[lane] - 1.0) * actuator.thrust
-        pushed *= kept[lane] if actuator.slip > 0.0 else 1.0
+        pushed = (2.0 * commands[lane] - 1.0) * strength[lane]
+        pushed *= kept[lane] if actuator.is_slipping else 1.0
         push[FORCE, lane] += actuator.ahead * pushed
         push[FORCE_ASIDE, lane] += actuator.aside * pushed
         push[TORQUE, lane] += actuator.arm * pushed
@@ -116,8 +118,9 @@ def roll(tables, world, commands, lanes):
     v·tan δ / 2 to the left and a turn of v·tan δ / distance of the axles.
     """
     body, heading, constants = world.body, world.heading, tables.world[0]
-    inertia = constants.moment * constants.mass_inv
+    moment, mass_inv = world.numbers[constants.moment], world.numbers[constants.mass_inv]
     for lane in range(lanes):
+        inertia = moment[lane] * mass_inv[lane]
         sine, cosine = sine_cosine(steered(tables, world, commands, lane))
         aside = sine / cosine / 2.0
         turn = sine / cosine / constants.axles
@@ -139,7 +142,7 @@ def steered(tables, world, commands, lane):
         actuator = tables.actuators[i]
         if actuator.kind == STEERING:
             command = world.acting[i, lane] if actuator.is_rough else commands[i, lane]
-            angle = (1.0 - 2.0 * command) * actuator.turn
+            angle = (1.0 - 2.0 * command) * world.numbers[actuator.turn, lane]
     return angle
 
 
@@ -147,20 +150,21 @@ def steered(tables, world, commands, lane):
 def damp(body, heading, push, linear, angular, lanes):
     """v / (1 + dt·c), as JBox2D does; and the force turned into the world."""
     for lane in range(lanes):
-        body[SPEED_X, lane] = body[SPEED_X, lane] * linear
-        body[SPEED_Y, lane] = body[SPEED_Y, lane] * linear
-        body[SPIN, lane] = body[SPIN, lane] * angular
+        body[SPEED_X, lane] = body[SPEED_X, lane] * linear[lane]
+        body[SPEED_Y, lane] = body[SPEED_Y, lane] * linear[lane]
+        body[SPIN, lane] = body[SPIN, lane] * angular[lane]
         push[FORCE_X, lane] = push[FORCE, lane] * heading[COSINE, lane]
         push[FORCE_Y, lane] = push[FORCE, lane] * heading[SINE, lane]
 
 
 @compiled
-def fly(body, push, near, constants, lanes):
+def fly(world, near, constants, lanes):
     """Chipmunk's step of a body that touches nothing: move with the old velocity, then add force and torque.
 
     A lane that Chipmunk will step keeps its state.
     """
-    dt, mass_inv, moment_inv = constants.dt, constants.mass_inv, constants.moment_inv
+    body, push, dt = world.body, world.push, constants.dt
+    mass_inv, moment_inv = world.numbers[constants.mass_inv], world.numbers[constants.moment_inv]
     for lane in range(lanes):
         free = near[lane] == 0
         x, y, angle = body[X, lane], body[Y, lane], body[ANGLE, lane]
@@ -168,9 +172,9 @@ def fly(body, push, near, constants, lanes):
         body[X, lane] = x + speed_x * dt if free else x
         body[Y, lane] = y + speed_y * dt if free else y
         body[ANGLE, lane] = angle + spin * dt if free else angle
-        body[SPEED_X, lane] = speed_x + push[FORCE_X, lane] * mass_inv * dt if free else speed_x
-        body[SPEED_Y, lane] = speed_y + push[FORCE_Y, lane] * mass_inv * dt if free else speed_y
-        body[SPIN, lane] = spin + push[TORQUE, lane] * moment_inv * dt if free else spin
+        body[SPEED_X, lane] = speed_x + push[FORCE_X, lane] * mass_inv[lane] * dt if free else speed_x
+        body[SPEED_Y, lane] = speed_y + push[FORCE_Y, lane] * mass_inv[lane] * dt if free else speed_y
+        body[SPIN, lane] = spin + push[TORQUE, lane] * moment_inv[lane] * dt if free else spin
 
 
 @compiled
