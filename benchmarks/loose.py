@@ -3,7 +3,7 @@
     python benchmarks/loose.py [rounds]
 
 The robot drives about, or pushes one of them all the time; plain pymunk steps eleven bodies, asks five rays and
-computes the same rule. In the last world it turns on the spot, where it touches nothing. All in one thread, in turns.
+computes the same rule. In the last ones it turns on the spot, where it touches nothing. All in one thread, in turns.
 """
 
 import math
@@ -55,6 +55,7 @@ def wheels(beat: float, more: float, steering: float) -> tuple[str, str]:
 
 
 LOOSE = [f"crate_{i} is box size 2 density 0.5" for i in range(1, 11)]
+ZONE = ["home is zone size 6"]
 FIXED = ["crate_1 is item size 2", "rock is obstacle size 2 count 10"]
 
 
@@ -145,16 +146,17 @@ def main(rounds: int) -> None:
     """Medians over so many rounds of turns."""
     driving, pushing = (world(wheels(*rule), LOOSE) for rule in (DRIVING, PUSHING))
     loose, fixed = world(TURNING, LOOSE), world(TURNING, FIXED)
+    zoned, fixed_zoned = world(TURNING, LOOSE + ZONE), world(TURNING, FIXED + ZONE)
     driving.compile()
     rows = [
         (
             *(rate(driving), plain_rate(driving, DRIVING, seed), rate(pushing), plain_rate(pushing, PUSHING, seed)),
-            *(rate(loose), rate(fixed)),
+            *(rate(loose), rate(fixed), rate(zoned), rate(fixed_zoned)),
         )
         for seed in range(rounds)
     ]
     found = np.array(rows)
-    drive, plain, push, plainly, still, rocks = np.median(found, axis=0)
+    drive, plain, push, plainly, still, rocks, by_zone, rocks_by_zone = np.median(found, axis=0)
     ratios = np.median(found[:, ::2] / found[:, 1::2], axis=0)
     print(f"driving among ten boxes    {drive:12,.0f} agent-ticks/s/core")
     print(f"  plain pymunk loop        {plain:12,.0f}   {ratios[0]:.1f} times as fast in the lanes")
@@ -162,6 +164,8 @@ def main(rounds: int) -> None:
     print(f"  plain pymunk loop        {plainly:12,.0f}   {ratios[1]:.1f} times")
     print(f"ten loose, none touched    {still:12,.0f}")
     print(f"  ten fixed                {rocks:12,.0f}   loose: {ratios[2]:.2f} of that")
+    print(f"the same beside a zone     {by_zone:12,.0f}")
+    print(f"  ten fixed                {rocks_by_zone:12,.0f}   loose: {ratios[3]:.2f} of that")
 
 
 if __name__ == "__main__":

@@ -44,7 +44,7 @@ task World in arena size 24
   contains ball is ball size 2 OUTCOME
   contains chest is box size 2 density 0.1 friction 0.1 damping 0.5
   contains object is item size 1
-  contains marble is ball size 1 density 2 damping 0
+  contains marble is ball size 1 density 2 damping 0 count 2
   contains trunk is box size 4 to 3 by 0.25 density 1 OUTCOME
   contains home is zone size 7
   lasts TICKS ticks

@@ -13,6 +13,8 @@ from mindlang.compiler.model import Part
 from mindlang.compiler.resolve.quantities import convert
 from mindlang.compiler.syntax import Declaration, Starts
 
+MIDDLE: Place = (0.0, 0.0)  # where a robot starts in a plain scene that says nothing else
+
 
 def check_places(things: Sequence[Part[Any]], scene: SceneKind | None, findings: Findings) -> None:
     """Report what stands where an obstacle stands in every run."""
@@ -29,7 +31,17 @@ def start_of(
     for fact in declaration.facts:
         if isinstance(fact, Starts):
             start = Start(_start(fact, scene, things, findings), _facing(fact, findings))
+    is_in_middle = scene and not scene.is_bounded and not _says_place(declaration)
+    if is_in_middle and (thing := _solid_at(MIDDLE, things, scene)):
+        hint = f"Write another place for {thing.name}, or starts at and a place for the robot."
+        findings.error("inside-obstacle", thing.span, "The robot starts there: in the middle of a plain scene.", hint)
     return start
+
+
+def _says_place(declaration: Declaration) -> bool:
+    """Whether a line says where the robot starts; of a scene, whether that is left to its tasks."""
+    places = [fact.place for fact in declaration.facts if isinstance(fact, Starts)]
+    return places[-1] is not None if places else declaration.header.noun.text == "scene"
 
 
 def _facing(fact: Starts, findings: Findings) -> float | None:
@@ -46,12 +58,18 @@ def _start(fact: Starts, scene: SceneKind | None, things: Sequence[Part[Any]], f
     if scene and not scene.has_room((x, y), 0.0):
         hint = "Write a place that is in it; 0 0 is the middle."
         findings.error("outside-arena", fact.span, "That is not inside the arena.", hint)
-    for thing in things:
-        if thing.kind and any(box.holds((x, y)) for box in (*thing.kind.standing(scene), *_loose(thing.kind))):
-            hint, there = f"Write another place for the robot or {thing.name}.", Label(thing.span, "this one")
-            findings.error("inside-obstacle", fact.span, "Something solid stands there.", hint, there)
-            break
+    if thing := _solid_at((x, y), things, scene):
+        hint, there = f"Write another place for the robot or {thing.name}.", Label(thing.span, "this one")
+        findings.error("inside-obstacle", fact.span, "Something solid stands there.", hint, there)
     return x, y
+
+
+def _solid_at(place: Place, things: Sequence[Part[Any]], scene: SceneKind | None) -> Part[Any] | None:
+    """The first thing that fills a place with something solid when a run begins."""
+    for thing in things:
+        if thing.kind and any(box.holds(place) for box in (*thing.kind.standing(scene), *_loose(thing.kind))):
+            return thing
+    return None
 
 
 def _loose(kind: Any) -> Iterator[Rectangle]:

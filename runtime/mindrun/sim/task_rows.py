@@ -60,7 +60,8 @@ def thing_rows(graph: Graph, task: Task) -> Array:
     """Rows of THING, the items, zones and powers in the order of the source."""
     rows: list[Row] = []
     asked = {(event.outcome, event.thing) for event in task.events if event.outcome}
-    loose, walkers, takes_items = count(), count(), any(thing.kind.takes_items for thing in task.things)
+    loose, walkers, zones = count(), count(), [thing.kind for thing in task.things if thing.kind.takes_items]
+    zones_stay = all(outcome == STAYS for zone in zones for outcome in zone.outcomes.values())
     first = {name: found.start for name, found in rows_by_name(task).items()}
     for number, thing in enumerate(things_of(task)):
         kind, size, copy = thing.kind, thing.kind.size, number - first[thing.name]
@@ -74,13 +75,13 @@ def thing_rows(graph: Graph, task: Task) -> Array:
             "drawn": size.by is None and size.first != size.last, "is_fixed": bool(kind.places), "x": x, "y": y,
             "is_round": kind.is_round,
             "is_area": kind.is_area, "loose": next(loose) if kind.is_loose else -1,
-            "walker": next(walkers) if kind.walks else -1,
+            "settles": kind.is_loose and zones_stay, "walker": next(walkers) if kind.walks else -1,
         }  # fmt: skip
         for what in ("reached", "delivered"):
             outcome = kind.outcomes.get(what, STAYS)
             row[what] = OUTCOMES.index(outcome)
             row[f"is_{what}"] = outcome != STAYS or (what, thing.name) in asked
-        row["is_delivered"] = row["is_delivered"] and takes_items  # elsewhere nobody looks for zones
+        row["is_delivered"] = row["is_delivered"] and bool(zones)  # elsewhere nobody looks for zones
         rows.append(row)
     return records(rows, THING)
 

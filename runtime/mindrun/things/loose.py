@@ -6,10 +6,12 @@ from typing import Annotated
 
 from mindrun.bodies.body import DAMPING, DENSITY
 from mindrun.quantity import COORDINATE, COUNT, LENGTH, RATIO, Place, Quantity, Span
-from mindrun.things.thing import DEFAULT_DISTANCE, DEFAULT_SIZE, MOVES, OUTCOME, STAYS, Outcome, ThingKind
+from mindrun.scenes import SceneKind
+from mindrun.things.thing import DEFAULT_DISTANCE, DEFAULT_SIZE, MOVES, OUTCOME, STAYS, Mistake, Outcome, ThingKind
 
 SIZE = Quantity("a length in world units", {"": 1.0}, low=0.01, high=1000.0)
 DEFAULT_FRICTION = 0.5
+HALF_DIAGONAL = 0.7071  # of a square with side 1, and a little less
 
 
 @dataclass(frozen=True, slots=True)
@@ -34,6 +36,14 @@ class Loose(ThingKind):
     is_solid = True
     is_loose = True
     can_be_delivered = True
+
+    def mistake(self, scene: SceneKind | None) -> Mistake | None:
+        """It is not placed so near that the robot would be in it."""
+        extent = self.largest * (0.5 if self.is_round else HALF_DIAGONAL)
+        if self.away != DEFAULT_DISTANCE and max(self.away.first, self.away.last) < extent:
+            hint = f"Write away {self.largest:g} to {self.largest + 20:g}: it is {self.largest:g} large."
+            return Mistake("on-the-robot", "So near, it would stand on the robot.", hint)
+        return ThingKind.mistake(self, scene)
 
     @property
     def outcomes(self) -> Mapping[str, Outcome]:

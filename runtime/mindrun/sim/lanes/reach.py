@@ -7,6 +7,7 @@ from mindrun.arithmetic import THING_ROWS, X, Y
 from mindrun.sim.arithmetic import in_claw, inside
 from mindrun.sim.codes import MOVES, STAYS, VANISHES, ZONE
 from mindrun.sim.compiling import compiled
+from mindrun.sim.lanes.loose import SETTLED_TICKS
 from mindrun.sim.lanes.placement import succeed, vanish
 
 REACH_BEGUN = 1  # in this tick and not in the one before
@@ -31,6 +32,8 @@ def meet(tables, world, lanes):
                 begun += note(world.reached, i, lane, inside(things, i, body[X, lane], body[Y, lane], lane))
         if thing.is_delivered:
             for lane in range(lanes):
+                if thing.settles and world.still[thing.loose, lane] >= SETTLED_TICKS:
+                    continue  # neither it nor any zone has moved since it was looked at
                 carried = thing.loose >= 0 or world.delivered[i, lane] & 1 == 1 or world.held[lane] == i
                 begun += note(world.delivered, i, lane, carried and in_zone(tables, things, i, lane))
     return begun
