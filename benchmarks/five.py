@@ -41,18 +41,18 @@ task Go in arena size 100
   lasts TICKS ticks
   rewards REWARD
 """
-ALL = "eye light distance"
-CIRCLE, THERE = ("0.75", "0.55"), ("0.8 + 2 * (bearing - 0.5)", "0.8 - 2 * (bearing - 0.5)")
+ALL_SENSORS = "eye light distance"
+CIRCLE_COMMANDS, THERE_COMMANDS = ("0.75", "0.55"), ("0.8 + 2 * (bearing - 0.5)", "0.8 - 2 * (bearing - 0.5)")
 PROGRESS, REACH = "progress toward red per tick", "10 on reach of red"
 WORLDS = {
     "no sensor of them": ("beat", "", PROGRESS),
     "an eye": ("eye", "", PROGRESS),
     "a light": ("light", "", PROGRESS),
     "a distance": ("distance", "", PROGRESS),
-    "eye, light, distance": (ALL, "", PROGRESS),
-    "the three, reach is paid": (ALL, "", REACH),
-    "the three, reached moves": (ALL, "reached moves", REACH),
-    "the three, driving there": (f"{ALL} bearing", "reached moves", REACH),
+    "eye, light, distance": (ALL_SENSORS, "", PROGRESS),
+    "the three, reach is paid": (ALL_SENSORS, "", REACH),
+    "the three, reached moves": (ALL_SENSORS, "reached moves", REACH),
+    "the three, driving there": (f"{ALL_SENSORS} bearing", "reached moves", REACH),
     "no sensor, reach is paid": ("beat", "", REACH),
     "no sensor, reached moves": ("beat", "reached moves", REACH),
 }
@@ -61,7 +61,7 @@ WORLDS = {
 def world(sensors: str, outcome: str, reward: str, count: int) -> Rollout:
     """A world with so many items."""
     reads = "\n  reads ".join(sensors.split())
-    left, right = THERE if "bearing" in sensors else CIRCLE
+    left, right = THERE_COMMANDS if "bearing" in sensors else CIRCLE_COMMANDS
     text = MIND.replace("SENSORS", reads).replace("LEFT", left).replace("RIGHT", right)
     text = text.replace("THING", f"count {count} {outcome}").replace("REWARD", reward)
     graph: Graph | None = compile_source(Source("five.mind", text.replace("TICKS", str(RUN_TICKS)))).graph

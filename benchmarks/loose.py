@@ -20,8 +20,8 @@ from mindrun.sim.trace import Trace, trace
 from mindlang.compiler.compile import compile_source
 from mindlang.compiler.source import Source
 
-TICKS, LAYOUTS, PLAIN_TICKS, ROUNDS = 5_000, 256, 5_000, 5
-DT, HALF, RANGE, SIZE, DENSITY = 1 / 60, 25.0, 12.0, 2.0, 0.5
+RUN_TICKS, LAYOUT_COUNT, PLAIN_TICKS, ROUND_COUNT = 5_000, 256, 5_000, 5
+TICK_SECONDS, HALF_ARENA_UNITS, RANGE_UNITS, SIZE_UNITS, CRATE_DENSITY = 1 / 60, 25.0, 12.0, 2.0, 0.5
 ANGLES = np.radians([0, 30, -30, 90, -90])
 MIND = """
 tick 1/60 s
@@ -40,11 +40,14 @@ skill Push is rule
   drives right_wheel at RIGHT
 task World in arena size 50
 THINGS
-  lasts TICKS ticks
+  lasts RUN_TICKS ticks
   rewards progress toward crate_1 per tick
 """
 Rule = tuple[float, float, float]
-DRIVING, PUSHING = (1.3, 0.3, 1.0), (1.2, 0.0, 3.0)  # how much of the beat, more to the left, towards the crate
+DRIVING_WEIGHTS, PUSHING_WEIGHTS = (
+    (1.3, 0.3, 1.0),
+    (1.2, 0.0, 3.0),
+)  # how much of the beat, more to the left, towards the crate
 TURNING = "0.2", "0.8"
 
 
@@ -54,14 +57,14 @@ def wheels(beat: float, more: float, steering: float) -> tuple[str, str]:
     return f"{beat} * beat + {more} + {steered}", f"{beat} * beat - {steered}"
 
 
-LOOSE = [f"crate_{i} is box size 2 density 0.5" for i in range(1, 11)]
+LOOSE_THINGS = [f"crate_{i} is box size 2 density 0.5" for i in range(1, 11)]
 ZONE = ["home is zone size 6"]
-FIXED = ["crate_1 is item size 2", "rock is obstacle size 2 count 10"]
+FIXED_THINGS = ["crate_1 is item size 2", "rock is obstacle size 2 count 10"]
 
 
 def world(commands: tuple[str, str], things: list[str]) -> Rollout:
     """A world with these things, in which the wheels get these commands."""
-    text = MIND.replace("LEFT", commands[0]).replace("RIGHT", commands[1]).replace("TICKS", str(TICKS))
+    text = MIND.replace("LEFT", commands[0]).replace("RIGHT", commands[1]).replace("RUN_TICKS", str(RUN_TICKS))
     lines = "\n".join(f"  contains {thing}" for thing in things)
     graph: Graph | None = compile_source(Source("loose.mind", text.replace("THINGS", lines))).graph
     assert graph
@@ -71,7 +74,7 @@ def world(commands: tuple[str, str], things: list[str]) -> Rollout:
 def rate(rollout: Rollout) -> float:
     """Agent-ticks per second in one thread."""
     begun = perf_counter()
-    ticks = rollout.score(np.zeros((1, 0), np.float32), range(LAYOUTS)).ticks.sum()
+    ticks = rollout.score(np.zeros((1, 0), np.float32), range(LAYOUT_COUNT)).ticks.sum()
     return float(ticks) / (perf_counter() - begun)
 
 
@@ -96,10 +99,10 @@ class Plain:
         self.time, self.score, self.near = 0, 0.0, 0.0
 
     def _crate(self, x: float, y: float) -> pymunk.Body:
-        mass = DENSITY * SIZE**2
-        body = pymunk.Body(mass, pymunk.moment_for_box(mass, (SIZE, SIZE)))
+        mass = CRATE_DENSITY * SIZE_UNITS**2
+        body = pymunk.Body(mass, pymunk.moment_for_box(mass, (SIZE_UNITS, SIZE_UNITS)))
         body.position = x, y
-        shape = pymunk.Poly.create_box(body, (SIZE, SIZE))
+        shape = pymunk.Poly.create_box(body, (SIZE_UNITS, SIZE_UNITS))
         shape.friction = 0.5
         self.space.add(body, shape)
         return body
@@ -109,26 +112,26 @@ class Plain:
         (x, y), angle = self.body.position, self.body.angle
         eyes = []
         for turn in ANGLES + angle:
-            end = x + math.cos(turn) * (RANGE + 1), y + math.sin(turn) * (RANGE + 1)
+            end = x + math.cos(turn) * (RANGE_UNITS + 1), y + math.sin(turn) * (RANGE_UNITS + 1)
             hit = self.space.segment_query_first((x, y), end, 0.0, self.own)
-            eyes.append(max(0.0, (hit.alpha * (RANGE + 1) - 1) / RANGE) if hit else 1.0)
+            eyes.append(max(0.0, (hit.alpha * (RANGE_UNITS + 1) - 1) / RANGE_UNITS) if hit else 1.0)
         ahead, aside = self.body.world_to_local(self.crates[0].position)
         bearing, beat = (
             0.5 - math.atan2(aside, ahead) / (2 * math.pi),
-            0.5 + 0.5 * math.sin(2 * math.pi * self.time * DT / 7),
+            0.5 + 0.5 * math.sin(2 * math.pi * self.time * TICK_SECONDS / 7),
         )
         of_beat, more, steering = self.rule
         left = min(1.0, max(0.0, of_beat * beat + more + steering * (bearing - 0.5)))
         right = min(1.0, max(0.0, of_beat * beat - steering * (bearing - 0.5)))
-        self.body.velocity *= 1 / (1 + DT * 5)
-        self.body.angular_velocity *= 1 / (1 + DT * 20)
+        self.body.velocity *= 1 / (1 + TICK_SECONDS * 5)
+        self.body.angular_velocity *= 1 / (1 + TICK_SECONDS * 20)
         for crate in self.crates:
-            crate.velocity *= 1 / (1 + DT * 5)
-            crate.angular_velocity *= 1 / (1 + DT * 5)
+            crate.velocity *= 1 / (1 + TICK_SECONDS * 5)
+            crate.angular_velocity *= 1 / (1 + TICK_SECONDS * 5)
         self.body.apply_force_at_local_point(((2 * left - 1) * 80 + (2 * right - 1) * 80, 0))
         self.body.torque += (2 * right - 1) * 80 - (2 * left - 1) * 80
         before = self.body.position.get_distance(self.crates[0].position)
-        self.space.step(DT)
+        self.space.step(TICK_SECONDS)
         self.score += before - self.body.position.get_distance(self.crates[0].position)
         self.time += 1
 
@@ -144,13 +147,18 @@ def plain_rate(rollout: Rollout, rule: Rule, seed: int) -> float:
 
 def main(rounds: int) -> None:
     """Medians over so many rounds of turns."""
-    driving, pushing = (world(wheels(*rule), LOOSE) for rule in (DRIVING, PUSHING))
-    loose, fixed = world(TURNING, LOOSE), world(TURNING, FIXED)
-    zoned, fixed_zoned = world(TURNING, LOOSE + ZONE), world(TURNING, FIXED + ZONE)
+    driving, pushing = (world(wheels(*rule), LOOSE_THINGS) for rule in (DRIVING_WEIGHTS, PUSHING_WEIGHTS))
+    loose, fixed = world(TURNING, LOOSE_THINGS), world(TURNING, FIXED_THINGS)
+    zoned, fixed_zoned = world(TURNING, LOOSE_THINGS + ZONE), world(TURNING, FIXED_THINGS + ZONE)
     driving.compile()
     rows = [
         (
-            *(rate(driving), plain_rate(driving, DRIVING, seed), rate(pushing), plain_rate(pushing, PUSHING, seed)),
+            *(
+                rate(driving),
+                plain_rate(driving, DRIVING_WEIGHTS, seed),
+                rate(pushing),
+                plain_rate(pushing, PUSHING_WEIGHTS, seed),
+            ),
             *(rate(loose), rate(fixed), rate(zoned), rate(fixed_zoned)),
         )
         for seed in range(rounds)
@@ -169,4 +177,4 @@ def main(rounds: int) -> None:
 
 
 if __name__ == "__main__":
-    main(int(sys.argv[1]) if len(sys.argv) > 1 else ROUNDS)
+    main(int(sys.argv[1]) if len(sys.argv) > 1 else ROUND_COUNT)

@@ -31,10 +31,10 @@ def tree(mind: Mind) -> Tree:
     while waiting:
         above, name, edge = waiting.pop()
         if name in shown:
-            above.add(Text.assemble((name, "bold"), _said(edge), ("  (shown above)", "dim")))
+            above.add(Text.assemble((name, "bold"), _edge_text(edge), ("  (shown above)", "dim")))
             continue
         shown.add(name)
-        branch = above.add(Text.assemble((name, "bold"), _said(edge), (f"  {_what(skills[name])}", "cyan")))
+        branch = above.add(Text.assemble((name, "bold"), _edge_text(edge), (f"  {_what(skills[name])}", "cyan")))
         if comment := skills[name].declaration.comment:
             branch.add(Text(comment, "italic"))
         for line in _lines(skills[name]):
@@ -78,7 +78,7 @@ def _arrows(skill: Skill) -> Iterator[str]:
     for name in skill.reads:
         yield f"  {_id('input', name)} -> {here} [style=dotted]"
     for edge in skill.edges:
-        label = f" [label={_quoted(said.removeprefix(' at '))}]" if (said := _said(edge)) else ""
+        label = f" [label={_quoted(said.removeprefix(' at '))}]" if (said := _edge_text(edge)) else ""
         yield f"  {here} -> {_id('input' if edge.to == 'memory' else edge.to, edge.target)}{label}"
 
 
@@ -90,12 +90,12 @@ def _quoted(text: str) -> str:
     return f'"{text}"'
 
 
-def _said(edge: Edge | None) -> str:
+def _edge_text(edge: Edge | None) -> str:
     """What a line says after the name: its value, its condition, and below what it cuts."""
-    return said_after_name(edge.fact) if edge else ""
+    return text_after_name(edge.fact) if edge else ""
 
 
-def said_after_name(fact: Drives | Influences) -> str:
+def text_after_name(fact: Drives | Influences) -> str:
     """What a line says after the name of whom it is for, as written."""
     return fact.span.source.text[fact.name.span.end : fact.span.end]
 
@@ -105,4 +105,4 @@ def _lines(skill: Skill) -> Iterator[str]:
         yield f"reads {', '.join(skill.reads)}"
     for edge in skill.edges:
         if edge.to != "skill":
-            yield f"drives {edge.target}{_said(edge)}"
+            yield f"drives {edge.target}{_edge_text(edge)}"

@@ -6,7 +6,7 @@ from mindrun.errors import MindError
 from mindrun.registry import kinds
 
 from mindlang.compiler.comments import comment_of
-from mindlang.compiler.drawing import said_after_name
+from mindlang.compiler.drawing import text_after_name
 from mindlang.compiler.syntax import Contains, Declaration, Drives, Influences, Reads, Teaches
 from mindlang.lock import lock_sources
 from mindlang.lock.report import Row, made_by, rows
@@ -71,7 +71,7 @@ def _skill(view: MindView, name: str, declaration: Declaration) -> Iterator[str]
 
 def _edge(view: MindView, fact: Reads | Drives | Influences) -> str:
     width = _width(view, fact.name.text) if isinstance(fact, Reads) else 1
-    said = "" if isinstance(fact, Reads) else said_after_name(fact)
+    said = "" if isinstance(fact, Reads) else text_after_name(fact)
     return f"{fact.name.text} ({width})" if width > 1 else f"{fact.name.text}{said}"
 
 

@@ -19,6 +19,9 @@ LONG_FILES = {
     "mindlang/compiler/parse/build.py": "one method for each rule of the grammar",
     "mindlang/compiler/syntax.py": "one dataclass for each thing that a line can say",
     "mindlang/compiler/parse/mistakes.py": "one table, a row for each mistake; the first row that fits explains a line",
+    "mindlang/compiler/model.py": "one small dataclass for each part of a mind",
+    "runtime/mindrun/graph.py": "one small dataclass for each part of a compiled mind",
+    "tests/sim/plain_world.py": "a whole world the obvious way, to be read at one go",
     "benchmarks/gradients.py": "a learner of its own, for comparison alone",
     "tests/lock/test_worlds.py": "one mind with every kind, and what is noticed of each",
 }
@@ -99,6 +102,7 @@ SHORT_CONSTANTS = {  # that are numbers of one word, or vague elsewhere
     "runtime/mindrun/robot/drivers/mpu6050.py": "registers and bits, as the data sheet calls them",
     "runtime/mindrun/robot/drivers/pca9685.py": "registers and bits, as the data sheet calls them",
     "runtime/mindrun/robot/vl53l0x.py": "registers and bits, as the data sheet calls them",
+    "runtime/mindrun/stack_machine.py": "operations of a program, as it calls them",
     "runtime/mindrun/trigonometry.py": "the coefficients of Cody and Waite, in their order",
     "runtime/mindrun/arithmetic.py": "rows of a thing and lanes of a vector, which kinds name in every loop",
     "runtime/mindrun/sim/exact.py": "functions of one argument",

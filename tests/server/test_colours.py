@@ -25,7 +25,7 @@ TOKENS = {
     "UNIT": "keyword.other.unit",
     "TEXT": "string.quoted.double",
     **dict.fromkeys(("COMPUTED", "READING"), KIND),
-    **dict.fromkeys(("FROM", "TO"), KEY),
+    **dict.fromkeys(("FROM", "TO", "FACING"), KEY),
     **dict.fromkeys(("EXTREME", "AND", "OR", "TICK"), WORD),
     **dict.fromkeys(("SIGN", "MINUS", "SCALE", "COMPARE", "PLUS"), "keyword.operator"),
 }
@@ -78,7 +78,7 @@ def _tokens(tree: Tree[Token], event: str) -> Iterator[tuple[Token, str]]:
             yield child, _of_name(tree, child, names, event)
             names += 1
         else:
-            yield child, TOKENS[child.type]
+            yield child, WORD if tree.data == "facing" else TOKENS[child.type]
 
 
 def _of_name(tree: Tree[Token], token: Token, number: int, event: str) -> str:

@@ -13,7 +13,7 @@ from mindlang.compiler.model import Part
 from mindlang.compiler.resolve.quantities import convert
 from mindlang.compiler.syntax import Declaration, Starts
 
-MIDDLE: Place = (0.0, 0.0)  # where a robot starts in a plain scene that says nothing else
+PLAIN_START: Place = (0.0, 0.0)  # where a robot starts in a plain scene that says nothing else
 
 
 def check_places(things: Sequence[Part[Any]], scene: SceneKind | None, findings: Findings) -> None:
@@ -32,7 +32,7 @@ def start_of(
         if isinstance(fact, Starts):
             start = Start(_start(fact, scene, things, findings), _facing(fact, findings))
     is_in_middle = scene and not scene.is_bounded and not _says_place(declaration)
-    if is_in_middle and (thing := _solid_at(MIDDLE, things, scene)):
+    if is_in_middle and (thing := _solid_at(PLAIN_START, things, scene)):
         hint = f"Write another place for {thing.name}, or starts at and a place for the robot."
         findings.error("inside-obstacle", thing.span, "The robot starts there: in the middle of a plain scene.", hint)
     return start
