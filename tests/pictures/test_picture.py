@@ -78,6 +78,20 @@ def test_things_of_a_kind_are_told_apart(rules: Path) -> None:
         assert any(near(found, PAPER.ink) for found in below)
 
 
+def test_an_eye_that_sees_nothing_draws_no_ray_through_a_wall(rules: Path) -> None:
+    """Only what it looks for ends a ray: whether something hides that, a reading of 1 does not say."""
+    eye = "sensor camera is eye of ball at 0 deg range 30\n\nskill Chase"
+    wall = "  contains fence is wall from 3 -20 to 3 20\n  contains ball is item size 2 at 10 0\n"
+    task = f"  starts at 0 0 facing 0 deg\n  lasts 1 ticks\n{wall}"
+    told_of = RULES.replace("skill Chase", eye, 1).replace("reads feeler", "reads feeler\n  reads camera")
+    head, _, _ = told_of.partition("task Roam")
+    for ball_at, is_seen in ((10, False), (-10, False), (2, True)):
+        rules.write_text(f"{head}task Roam in arena size 40\n{task.replace('10 0', f'{ball_at} 0')}")
+        story, image = told(rules, "Roam")
+        assert bool(story.readings[0, 4] < 1) == is_seen
+        assert near(pixel(story, image, 5.0, 0.0), PAPER.floor)
+
+
 def test_many_things_of_one_name_have_it_once(rules: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """In the legend always, in the world where they are many."""
     said: list[str] = []
