@@ -153,6 +153,8 @@ def notice(tables, world, contact, judged, event, out, lanes):
     elif event.kind == EXHAUSTION:
         for lane in range(lanes):
             out[lane] = 1 if world.battery[lane] == 0.0 else 0
+    else:
+        out[:lanes] = 0  # a success comes later in the tick
     count = 0
     for lane in range(lanes):
         count += 1 if out[lane] > 0 else 0
