@@ -32,8 +32,7 @@ def taught(name: str, seed: int, runs: int, workers: int) -> dict[str, float]:
             copy(FOLDER / source, folder)
         mind = mindlang.load(Path(folder, name))
         mind.train("Follow", seed=seed, workers=workers, runs=Path(folder, "runs"))
-        scores = {task: mind.bench(task, runs=runs, workers=workers)["score_mean"] for task in TASKS}
-    return scores
+        return {task: mind.bench(task, runs=runs, workers=workers)["score_mean"] for task in TASKS}
 
 
 def mean(values: Sequence[float]) -> tuple[float, float]:

@@ -12,7 +12,12 @@ from mindlang.wiring.nodes import report_error
 from mindlang.wiring.values import first_line, is_empty, number
 
 # What a driver may measure in, and how people may write it.
-UNITS = {"m": {"m": 1.0, "cm": 0.01, "mm": 0.001}, "V": {"V": 1.0, "mV": 0.001}, "m/s²": {"m/s²": 1.0, "m/s2": 1.0}}
+UNITS = {
+    "": {"": 1.0, "%": 0.01},
+    "m": {"m": 1.0, "cm": 0.01, "mm": 0.001},
+    "V": {"V": 1.0, "mV": 0.001},
+    "m/s²": {"m/s²": 1.0, "m/s2": 1.0},
+}
 FULL_TURN_DEGREES = 360.0
 
 
