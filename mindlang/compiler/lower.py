@@ -108,8 +108,10 @@ def _task(task: model.Task, readings: Mapping[str, tuple[int, int]], actuators: 
 
 def _end(end: model.End, events: dict[Any, int], places: Places) -> graph.End:
     event = None if end.event is None else _index(end.event, events)
-    when, text = (None, "") if end.when is None else (_condition(end.when, places), end.when.span.text)
-    return graph.End(event, end.times, when, end.succeeds, spaced(f"ends {text}").removeprefix("ends when "))
+    if end.when is None:
+        return graph.End(event, end.times, None, end.succeeds)
+    text = spaced(f"ends {end.when.span.text}").removeprefix("ends when ")
+    return graph.End(event, end.times, _condition(end.when, places), end.succeeds, text)
 
 
 def _index(value: T, known: dict[T, int]) -> int:
