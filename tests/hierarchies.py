@@ -134,8 +134,15 @@ def _alike(draw: st.DrawFn, name: str, owner: Skill, width: int) -> Skill:
     count = len(owner.inputs)
     inputs = tuple(draw(st.lists(st.integers(0, width - 1), unique=True, min_size=count, max_size=count)))
     instead = dict(zip(owner.inputs, inputs, strict=True))
+
+    def other(program: Program) -> Program:
+        return tuple((word, instead[value] if word == "reading" else value) for word, value in program)
+
+    def other_gate(gate: Gate) -> Gate:
+        return Gate(other(gate.when), None if gate.otherwise is None else other(gate.otherwise))
+
     edges = tuple(
-        replace(edge, value=tuple((word, instead[value] if word == "reading" else value) for word, value in edge.value))
+        replace(edge, value=other(edge.value), gate=other_gate(edge.gate) if edge.gate else None)
         for edge in owner.edges
     )
     return Skill(name, owner.function, inputs, edges, like=owner.name)

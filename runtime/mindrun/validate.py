@@ -180,7 +180,8 @@ def _end_flaws(task: Task, width: int, actuators: int) -> Iterator[str]:
             is_condition(end.when) and _computes(end.when, range(width), len(task.measures), commands=actuators)
         ):
             yield "has an end that cannot be computed"
-        if end.event is not None and task.events[end.event].is_of_success:
+        event = next((event for index, event in enumerate(task.events) if index == end.event), None)
+        if event is not None and event.is_of_success:
             yield "ends on its own success"
 
 
