@@ -14,6 +14,7 @@ from mindrun.things import Item
 from mindlang.compiler.compile import load
 from mindlang.pictures.canvas import Canvas, Image, Viewport, blank
 from mindlang.pictures.caption import LEGEND_LINES, MIN_TEXT_PIXELS, fitted
+from mindlang.pictures.path import draw_former
 from mindlang.pictures.picture import BOTTOM_PIXELS, PICTURE_PIXELS, SIDE_PIXELS, TOP_PIXELS, picture, view_of
 from mindlang.pictures.recorded_run import RecordedRun, record_run
 from mindlang.pictures.scene import thing_colours
@@ -90,6 +91,34 @@ def test_an_eye_that_sees_nothing_draws_no_ray_through_a_wall(rules: Path) -> No
         story, image = told(rules, "Roam")
         assert bool(story.readings[0, 4] < 1) == is_seen
         assert near(pixel(story, image, 5.0, 0.0), PAPER.floor)
+
+
+def test_the_way_of_a_ball_that_was_pushed_is_drawn(rules: Path) -> None:
+    """From where it lay, which is drawn as well, to where it has rolled."""
+    head, _, _ = RULES.partition("task Roam")
+    push = "  starts at -5 0 facing 0 deg\n  contains ball is ball size 2 at 0 0\n  lasts 200 ticks\n"
+    straight = head.replace("at 3 * ball_bearing - 0.7", "at 1").replace("at 2.3 - 3 * ball_bearing", "at 1")
+    rules.write_text(straight.replace("influences Turn at 0.2", "influences Turn at 0").partition("task Chase")[0])
+    rules.write_text(f"{rules.read_text()}task Roam in arena size 40\n{push}")
+    story, _ = told(rules, "Roam")
+    [way] = story.stretches(0)
+    assert way[0, 0] == 0.0
+    assert way[-1, 0] > 2.0
+    drawn: list[np.ndarray] = []
+    discs: list[tuple[float, float]] = []
+
+    class Spy(Canvas):
+        """Lines and discs as they are asked for."""
+
+        def line(self, points: Any, *rest: Any, **how: Any) -> None:
+            drawn.append(np.array(points))
+
+        def disc(self, x: float, y: float, *rest: Any, **how: Any) -> None:
+            discs.append((x, y))
+
+    draw_former(Spy(blank(100, 100, PAPER.page), Viewport(0.0, 0.0, 1.0)), story, PAPER)
+    assert any(np.array_equal(each, way) for each in drawn)
+    assert set(discs) == {(0.0, 0.0)}
 
 
 def test_many_things_of_one_name_have_it_once(rules: Path, monkeypatch: pytest.MonkeyPatch) -> None:
