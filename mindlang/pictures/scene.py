@@ -51,12 +51,13 @@ def _grid(canvas: Canvas, theme: Theme, scene: SceneKind) -> None:
 
 
 def thing_colours(things: Sequence[Thing], theme: Theme) -> list[Colour]:
-    """A colour for each name: items, zones and power zones have their own, which begin again when they are used up."""
+    """A colour for each name: the one that it says (`red`, `red_bin`), else the next of its kind, round and round."""
     left = {name: cycle(colours) for name, colours in theme.things.items()}
     known: dict[str, Colour] = {}
     for thing in things:
         if thing.name not in known:
-            known[thing.name] = next(left[names()[type(thing.kind)]])
+            said = next((theme.named[word] for word in thing.name.split("_") if word in theme.named), None)
+            known[thing.name] = said or next(left[names()[type(thing.kind)]])
     return [known[thing.name] for thing in things]
 
 

@@ -37,6 +37,7 @@ class Theme:
     ink: Colour
     faint: Colour
     things: Mapping[str, tuple[Colour, ...]]  # by kind: one each, as long as they last
+    named: Mapping[str, Colour]  # of things that are called by their colour
     robot: Colour
     lamp: Colour
     ray: Colour
@@ -65,6 +66,16 @@ PAPER = Theme(
         "ball": colours("#e05a47", "#3f8fb5", "#d98a9b", "#5f9e6e"),
         "walker": colours("#b5473c", "#7d4fa3", "#2f7f86", "#8a8420"),
     },
+    named={
+        "red": colour("#d7352f"),
+        "orange": colour("#e8871e"),
+        "yellow": colour("#d9b400"),
+        "green": colour("#2f9e52"),
+        "blue": colour("#2a6fd0"),
+        "purple": colour("#8e5bd0"),
+        "pink": colour("#e0559b"),
+        "brown": colour("#8d5a2b"),
+    },
     robot=colour("#23272f"),
     lamp=colour("#ffb703"),
     ray=colour("#e2555f"),
@@ -91,6 +102,16 @@ NIGHT = Theme(
         "box": colours("#d9a066", "#b8937a", "#cdb85c", "#a497c2"),
         "ball": colours("#ff7d68", "#66b8e0", "#ffb0c0", "#86cf98"),
         "walker": colours("#f08a7c", "#c79bf0", "#6fcfd6", "#d6cf5a"),
+    },
+    named={
+        "red": colour("#ff5a52"),
+        "orange": colour("#ffa040"),
+        "yellow": colour("#f2e04a"),
+        "green": colour("#4cc97a"),
+        "blue": colour("#5a9cff"),
+        "purple": colour("#b48cff"),
+        "pink": colour("#ff7ac8"),
+        "brown": colour("#c98f5a"),
     },
     robot=colour("#f4f6fa"),
     lamp=colour("#ffb703"),

@@ -9,7 +9,7 @@ import cv2
 import numpy as np
 import pytest
 from mindrun.graph import Thing
-from mindrun.things import Item
+from mindrun.things import Item, Zone
 
 from mindlang.compiler.compile import load
 from mindlang.pictures.canvas import Canvas, Image, Viewport, blank
@@ -18,7 +18,7 @@ from mindlang.pictures.path import draw_former
 from mindlang.pictures.picture import BOTTOM_PIXELS, PICTURE_PIXELS, SIDE_PIXELS, TOP_PIXELS, picture, view_of
 from mindlang.pictures.recorded_run import RecordedRun, record_run
 from mindlang.pictures.scene import thing_colours
-from mindlang.pictures.theme import PAPER, mixed
+from mindlang.pictures.theme import NIGHT, PAPER, Theme, mixed
 from mindlang.run.layouts import NO_GENOME
 from mindlang.run.outcome import run_data
 from mindlang.run.setup import set_up
@@ -135,6 +135,14 @@ def test_many_things_of_one_name_have_it_once(rules: Path, monkeypatch: pytest.M
         rules.write_text(RULES.replace("  lasts 600 ticks\n", more))
         told(rules, "Roam")
         assert said.count("cube") == times
+
+
+@pytest.mark.parametrize("theme", [PAPER, NIGHT], ids=["paper", "night"])
+def test_a_thing_that_is_called_by_its_colour_has_it(theme: Theme) -> None:
+    names = {"red": Item(), "big_blue_bin": Zone(), "reddish": Item(), "blue": Item()}
+    red, bin_, reddish, blue = thing_colours([Thing(name, kind) for name, kind in names.items()], theme)
+    assert (red, blue, bin_) == (theme.named["red"], theme.named["blue"], theme.named["blue"])
+    assert reddish == theme.things["item"][0]
 
 
 def test_a_walker_stands_where_it_has_come_to_at_the_end_of_its_way(rules: Path) -> None:

@@ -90,6 +90,8 @@ def lean(t: Any, s: Any, sensor: Any, i: Any, p: Any) -> None:
     thing = THING_ROWS * t.loose[i].thing
     dx, dy = s.things[thing + X, p] - s.body[X, p], s.things[thing + Y, p] - s.body[Y, p]
     half = s.things[thing + SIZE, p] / 2
+    if np.isnan(dx):
+        return  # it has vanished
     if t.loose[i].is_round:
         far = np.sqrt(dx * dx + dy * dy)
         share = 1.0 - half / far if far > half else 0.0
