@@ -36,14 +36,23 @@ def parts(graph: Graph) -> Iterator[Any]:
         yield from (*task.events, *task.measures)
 
 
-def of_worlds() -> Iterable[Any]:
+def of_worlds() -> Iterator[Any]:
     """Kinds in worlds that are drawn, and more of those that have too many arguments for so few worlds."""
+    for graph in drawn_from(random_world()):
+        yield from parts(graph)
+    for some in (physical_kinds(), learner_kinds(), robot_kinds()):
+        for kinds_ in drawn_from(st.lists(some, min_size=24)):
+            yield from kinds_
+
+
+def drawn_from(strategy: st.SearchStrategy[Any]) -> list[Any]:
+    """Examples of a strategy."""
     found: list[Any] = []
 
     @settings(max_examples=DRAWN, database=None, suppress_health_check=list(HealthCheck))
-    @given(random_world(), st.lists(physical_kinds() | learner_kinds() | robot_kinds(), min_size=24))
-    def draw(graph: Graph, more: list[Any]) -> None:
-        found.extend((*parts(graph), *more))
+    @given(strategy)
+    def draw(example: Any) -> None:
+        found.append(example)
 
     draw()
     return found
