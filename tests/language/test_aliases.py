@@ -80,8 +80,9 @@ def test_under_a_name_everything_is_called_otherwise_and_is_the_same(texts: Text
     files = {main: over, main.with_name("used.mind"): texts.files[main]}
     after = compile_source(Source(main.name, over, main.parent), main, files).graph
     assert after
-    assert [skill.name for skill in after.skills] == [f"under.{skill.name}" for skill in before.skills]
-    assert [replace(skill, name="") for skill in after.skills] == [replace(skill, name="") for skill in before.skills]
+    assert after.skills == tuple(
+        replace(skill, name=f"under.{skill.name}", like=skill.like and f"under.{skill.like}") for skill in before.skills
+    )
 
 
 def test_two_files_with_one_name_stay_apart(tmp_path: Path) -> None:

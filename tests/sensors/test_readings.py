@@ -172,7 +172,8 @@ def robot(world: Graph, chosen: list[Any], drive: tuple[float, float]) -> Graph:
     starts = np.cumsum([0, *(kind.width for kind in chosen)]).tolist()
     sensors = tuple(Sensor(f"s{i}", kind, starts[i], kind.width) for i, kind in enumerate(chosen))
     top = rule("Top", *(always("actuator", i, v) for i, v in enumerate(drive)), reads=tuple(range(starts[-1])))
-    task = replace(world.tasks[0], ticks=60, rewards=(Reward("", (("number", 1.0),), None),), ends=())
+    task = replace(world.tasks[0], ticks=60, rewards=(Reward("", (("number", 1.0),), None),), ends=(), fails=())
+    task = replace(task, varies=tuple(each for each in task.varies if each.noun in ("body", "thing")))
     return replace(mind(top), sensors=sensors, tasks=(task,), body=world.body)
 
 
