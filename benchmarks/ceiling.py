@@ -108,7 +108,7 @@ def driven(runs: int, backwards: bool) -> tuple[Array, float, float]:
     names = [actuator.name for actuator in graph.actuators]
     wheels = [names.index(name) for name in ("left_wheel", "right_wheel", "claw")]
     state, task = worlds.state, next(task for task in graph.tasks if task.name == "Collect")
-    drivers = [Driver(state.world.boxes[p].reshape(-1, 3).copy(), backwards) for p in range(runs)]
+    drivers = [Driver(state.world.boxes[p].reshape(-1, 4)[:, :3].copy(), backwards) for p in range(runs)]
     speed = 0.0
     for tick in range(task.ticks):
         commands = [

@@ -24,7 +24,7 @@ class Robot:
         self.rng = np.random.default_rng(seed)
         self.space = pymunk.Space()
         self.space.iterations = 8
-        for x, y, half in layout.boxes:
+        for x, y, half, _ in layout.boxes:
             self._box(x - half, y - half, x + half, y + half)
         for walls in ((-51, -51, -50, 51), (50, -51, 51, 51), (-51, -51, 51, -50), (-51, 50, 51, 51)):
             self._box(*walls)

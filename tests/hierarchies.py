@@ -9,10 +9,36 @@ from mindrun.actuators import Gripper, Servo, Wheel
 from mindrun.bodies import Disc
 from mindrun.functions import Function, Mlp, Procedure, Rule
 from mindrun.functions.elman import Elman
-from mindrun.graph import Actuator, Edge, Graph, Memory, Program, Sensor, Skill
+from mindrun.graph import Actuator, Edge, Gate, Graph, Memory, Program, Sensor, Skill
 from mindrun.memory import Cell
-from mindrun.sensors import Battery, Bearing, Contact, Derivative, Held, Inertial, Inside, Physical, RangeFinder, Sine
+from mindrun.sensors import (
+    Average,
+    Battery,
+    Bearing,
+    Computed,
+    Contact,
+    Derivative,
+    Held,
+    Inertial,
+    Inside,
+    Latch,
+    Physical,
+    RangeFinder,
+    Reading,
+    SensorKind,
+    Sine,
+)
+from mindrun.sensors.bumper import Bumper
+from mindrun.sensors.clock import Clock
 from mindrun.sensors.compass import Compass
+from mindrun.sensors.distance import Distance
+from mindrun.sensors.eye import Eye
+from mindrun.sensors.floor import Floor
+from mindrun.sensors.light import Light
+from mindrun.sensors.odometer import Odometer
+from mindrun.sensors.position import Position
+from mindrun.sensors.speed import Speed
+from mindrun.sensors.turn_rate import TurnRate
 from mindrun.weights import genes
 from numpy.typing import NDArray
 
@@ -35,6 +61,26 @@ WORLDLY = [
     Inertial(2.0, dead_zone=0.05),
     Battery(),
     Battery(0.5, 0.01, 0.02),
+    Distance("object"),
+    Distance("home", range=9.0),
+    Light("coin"),
+    Light("plug", range=4.0),
+    Eye("object", at=EYES[:3]),
+    Eye("crate", at=EYES[:3]),
+    Eye("ball", at=(0.0, 0.2)),
+    Eye("home", at=(-0.5, 0.0, 2.0, 3.5), range=9.0),
+    TurnRate(),
+    TurnRate(2.0, dead_zone=0.05),
+    Speed(),
+    Speed(2.0, dead_zone=0.05),
+    Odometer("left"),
+    Odometer("right", range=3.0),
+    Position("x"),
+    Position("y", range=8.0),
+    Floor("den"),
+    Floor("coin", at=(0.0, 0.7, -3.0), ahead=1.5),
+    Bumper(),
+    Bumper(at=EYES[:6], width_=1.2),
 ]
 ROUGH = st.fixed_dictionaries(
     {},
@@ -61,8 +107,11 @@ class Case:
 
 
 @st.composite
-def random_graph(draw: st.DrawFn, fewest_hidden: int = 0) -> Graph:
-    """A hierarchy: shared skills, several parents, drive and influence at once, `at`, memories, virtual sensors."""
+def random_graph(draw: st.DrawFn, fewest_hidden: int = 0, alike: bool = True) -> Graph:
+    """A hierarchy: shared skills, several parents, drive and influence at once, `at`, memories, virtual sensors.
+
+    With `alike`, skills may be like others.
+    """
     sensors, memories = draw(_senses())
     width = sum(sensor.width for sensor in sensors) + len(memories)
     actuators = tuple(Actuator(f"a{i}", draw(st.sampled_from(ACTUATORS))) for i in range(draw(st.integers(1, 3))))
@@ -72,7 +121,31 @@ def random_graph(draw: st.DrawFn, fewest_hidden: int = 0) -> Graph:
         targets = [("skill", i) for i in range(number + 1, count)]
         targets += [("actuator", i) for i in range(len(actuators))] + [("memory", i) for i in range(len(memories))]
         skills.append(draw(_skills(f"S{number}", width, targets, fewest_hidden)))
+    for number in reversed(range(count - 1)):
+        owners = [each for each in skills[number + 1 :] if each.function.learns and not each.like]
+        if alike and owners and draw(st.integers(0, 4)) == 0:
+            skills[number] = draw(_alike(f"S{number}", draw(st.sampled_from(owners)), width))
     return Graph(1 / 60, Disc(), "S0", sensors, memories, actuators, tuple(skills), (), ())
+
+
+@st.composite
+def _alike(draw: st.DrawFn, name: str, owner: Skill, width: int) -> Skill:
+    """A skill that is like another, and reads something else."""
+    count = len(owner.inputs)
+    inputs = tuple(draw(st.lists(st.integers(0, width - 1), unique=True, min_size=count, max_size=count)))
+    instead = dict(zip(owner.inputs, inputs, strict=True))
+
+    def other(program: Program) -> Program:
+        return tuple((word, instead[value] if word == "reading" else value) for word, value in program)
+
+    def other_gate(gate: Gate) -> Gate:
+        return Gate(other(gate.when), None if gate.otherwise is None else other(gate.otherwise))
+
+    edges = tuple(
+        replace(edge, value=other(edge.value), gate=other_gate(edge.gate) if edge.gate else None)
+        for edge in owner.edges
+    )
+    return Skill(name, owner.function, inputs, edges, like=owner.name)
 
 
 def doubling(levels: int, last: tuple[Edge, ...], value: float = 1.0) -> tuple[Skill, ...]:
@@ -111,7 +184,8 @@ def random_case(draw: st.DrawFn, ticks: int = 6) -> Case:
     graph = draw(overflowing_graph() if draw(st.integers(0, 15)) == 0 else random_graph())
     rng = np.random.default_rng(draw(st.integers(0, 2**32 - 1)))
     # more often above zero than below: most skills then have influence
-    weights = {skill.name: draw(st.sampled_from(SCALES)) * rng.uniform(-0.7, 1, genes(skill)) for skill in graph.skills}
+    own = [skill for skill in graph.skills if not skill.like]
+    weights = {skill.name: draw(st.sampled_from(SCALES)) * rng.uniform(-0.7, 1, genes(skill)) for skill in own}
     readings = rng.random((ticks, graph.width), np.float32)
     for _ in range(draw(st.integers(0, 6))):
         place = draw(st.tuples(st.integers(0, ticks - 1), st.integers(0, max(graph.width - 1, 0))))
@@ -129,24 +203,44 @@ def physical_kinds(draw: st.DrawFn) -> Physical:
 @st.composite
 def _senses(draw: st.DrawFn) -> tuple[tuple[Sensor, ...], tuple[Memory, ...]]:
     """Sensors and memories; derivatives of anything, and of one another."""
-    virtual = st.sampled_from(["sine", "derivative"])
+    virtual = st.sampled_from(["sine", "clock", "derivative", "computed", "latch", "average", "reading"])
     kinds = draw(st.lists(physical_kinds() | physical_kinds() | virtual, min_size=2, max_size=7))
     cells = [Cell(draw(SHARES), draw(SHARES)) for _ in range(draw(st.integers(0, 2)))]
     widths = {f"m{i}": 1 for i in range(len(cells))}
     sensors: list[Sensor] = []
     start = 0
     for number, kind in enumerate(kinds):
-        width = len(kind.at) if isinstance(kind, RangeFinder) else 1
-        if kind == "sine" or (kind == "derivative" and not widths):
-            kind = Sine(draw(st.sampled_from([0.05, 0.3, 2.0])))
-        elif kind == "derivative":
-            of = draw(st.sampled_from(sorted(widths)))
-            width, kind = widths[of], Derivative(of, draw(st.sampled_from([0.5, 1.0, 30.0])), draw(_dead_zones))
+        width = getattr(kind, "width", 1)
+        if isinstance(kind, str):
+            width, kind = draw(_virtual(kind, widths))
         sensors.append(Sensor(f"s{number}", kind, start, width))
         widths[f"s{number}"] = width
         start += width
     places = draw(st.permutations(range(len(sensors))))  # a derivative may stand before its source
     return _placed([sensors[i] for i in places]), tuple(Memory(f"m{i}", c, start + i) for i, c in enumerate(cells))
+
+
+@st.composite
+def _virtual(draw: st.DrawFn, kind: str, widths: dict[str, int]) -> tuple[int, SensorKind]:
+    """A sensor that is computed, and how many readings it has; of a source, where there is one."""
+    if kind == "clock":
+        return 1, Clock(draw(st.sampled_from([0.05, 0.3, 2.0])))
+    if kind == "sine" or not widths:
+        return 1, Sine(draw(st.sampled_from([0.05, 0.3, 2.0])))
+    of = draw(st.sampled_from(sorted(widths)))
+    match kind:
+        case "derivative":
+            return widths[of], Derivative(of, draw(st.sampled_from([0.5, 1.0, 30.0])), draw(_dead_zones))
+        case "latch":
+            return widths[of], Latch(of, *sorted(draw(st.tuples(SHARES, SHARES))))
+        case "average":
+            return widths[of], Average(of, draw(st.integers(1, 5)))
+        case "reading":
+            of = draw(st.sampled_from([name for name, width in sorted(widths.items()) if width > 1] or [of]))
+            return 1, Reading(draw(st.integers(1, widths[of])), of)
+    single = [name for name, width in widths.items() if width == 1]
+    numbered = draw(programs(tuple(range(len(single)))))
+    return 1, Computed(tuple((word, single[int(x)] if word == "reading" else x) for word, x in numbered))
 
 
 _dead_zones = st.sampled_from([0.0, 0.0, 0.01, 0.4])
@@ -169,23 +263,48 @@ def _skills(draw: st.DrawFn, name: str, width: int, targets: list[tuple[str, int
     outputs = 0
     for to, target in chosen:
         if isinstance(function, Rule) or draw(st.integers(0, 3)) == 0:
-            edges.append(Edge(to, target, None, draw(_programs(inputs))))
+            edge = Edge(to, target, None, draw(programs(inputs)))
         else:
-            edges.append(Edge(to, target, outputs))
+            edge = Edge(to, target, outputs)
             outputs += 1
+        gate = draw(_gates(inputs)) if draw(st.integers(0, 3)) == 0 else None
+        cuts = draw(st.sampled_from([0.0, 0.05, 0.5])) if to == "skill" else 0.0
+        edges.append(replace(edge, gate=gate, cuts=cuts))
     called = Procedure(f"own.send{outputs}") if function is CALLED else function
     return Skill(name, called, inputs, tuple(edges), frozen=draw(st.booleans()))
 
 
-def _programs(inputs: tuple[int, ...]) -> st.SearchStrategy[Program]:
+@st.composite
+def _gates(draw: st.DrawFn, inputs: tuple[int, ...]) -> Gate:
+    """A gate over a skill's inputs; often its condition holds."""
+    return Gate(draw(conditions(programs(inputs))), draw(st.none() | programs(inputs)))
+
+
+@st.composite
+def conditions(draw: st.DrawFn, sides: st.SearchStrategy[Program]) -> Program:
+    """Comparisons joined with `and` and `or`."""
+    found: Program = ()
+    for number in range(draw(st.integers(1, 3))):
+        comparison = draw(st.sampled_from(["<", "<=", ">", ">="]))
+        found = (*found, *draw(sides), *draw(sides), (comparison, 0))
+        found = (*found, (draw(st.sampled_from(["and", "or"])), 0)) if number else found
+    return found
+
+
+def programs(inputs: tuple[int, ...]) -> st.SearchStrategy[Program]:
     """An expression over a skill's inputs, in postfix order."""
     number = st.sampled_from([0.0, 0.1, 0.25, 1.0, 2.0, 3.5]).map(lambda x: (("number", x),))
-    reading = st.sampled_from(inputs).map(lambda i: (("reading", i),)) if inputs else number
+    return combined(number | st.sampled_from(inputs).map(lambda i: (("reading", i),)) if inputs else number, 5)
+
+
+def combined(leaves: st.SearchStrategy[Program], most: int) -> st.SearchStrategy[Program]:
+    """Expressions of so many leaves."""
+    operators = st.sampled_from(["+", "-", "*", "/", "least", "greatest"])
     return st.recursive(
-        number | reading,
+        leaves,
         lambda part: st.one_of(
-            st.tuples(part, part, st.sampled_from("+-*/")).map(lambda p: (*p[0], *p[1], (p[2], 0))),
+            st.tuples(part, part, operators).map(lambda p: (*p[0], *p[1], (p[2], 0))),
             part.map(lambda p: (*p, ("negate", 0))),
         ),
-        max_leaves=5,
+        max_leaves=most,
     )

@@ -1,11 +1,13 @@
 """A mind computed the slow and obvious way, one float32 at a time: what the engine is held against."""
 
 import math
+import operator
 
 import numpy as np
 from mindrun.functions import Mlp, Procedure
 from mindrun.functions.elman import Elman
-from mindrun.sensors import Bearing, Derivative, Sine
+from mindrun.sensors import Average, Bearing, Computed, Derivative, Reading, Sine
+from mindrun.sensors.clock import Clock
 from mindrun.sensors.compass import Compass
 from mindrun.sigmoid import DENOMINATOR, LIMIT, NUMERATOR
 from mindrun.trigonometry import sine
@@ -13,6 +15,7 @@ from mindrun.trigonometry import sine
 from tests.hierarchies import PROCEDURES
 
 f = np.float32
+COMPARES = {"<": operator.lt, "<=": operator.le, ">": operator.gt, ">=": operator.ge}
 
 
 class Plain:
@@ -22,6 +25,7 @@ class Plain:
         self.graph, self.weights, self.master = graph, weights, master or graph.master
         self.t, self.before, self.faults = 0, None, 0
         self.cells = [f(memory.kind.start) for memory in graph.memories]
+        self.past = {}  # by virtual sensor and reading
         self.said, self.modules = {}, {}  # by skill: of an Elman network, and of a procedure
 
     def tick(self, readings):
@@ -44,20 +48,55 @@ class Plain:
         """Set the readings of memories and virtual sensors."""
         for memory, cell in zip(self.graph.memories, self.cells, strict=True):
             self.readings[memory.start] = cell
-        done = {s.name for s in self.graph.sensors if not isinstance(s.kind, Derivative)}
+        done = {s.name for s in self.graph.sensors if not (s.kind.sources or isinstance(s.kind, Computed))}
         done |= {memory.name for memory in self.graph.memories}
         waiting = [s for s in self.graph.sensors if s.name not in done]
         for sensor in self.graph.sensors:
             if isinstance(sensor.kind, Sine):
                 turns = self.t / (sensor.kind.period / self.graph.tick)
                 self.readings[sensor.start] = f(0.5 + 0.5 * sine(2 * math.pi * (turns - math.floor(turns))))
+            if isinstance(sensor.kind, Clock):
+                turns = self.t / (sensor.kind.period / self.graph.tick)
+                self.readings[sensor.start] = f(turns - math.floor(turns))
         while waiting:
-            sensor = next(s for s in waiting if s.kind.of in done)
+            sensor = next(s for s in waiting if done.issuperset(s.kind.sources))
             waiting.remove(sensor)
             done.add(sensor.name)
-            source = next(s for s in (*self.graph.sensors, *self.graph.memories) if s.name == sensor.kind.of)
             for i in range(sensor.width):
-                self.readings[sensor.start + i] = self.derivative(sensor.kind, source, i)
+                self.readings[sensor.start + i] = self.virtual(sensor, i)
+
+    def virtual(self, sensor, i):
+        """One reading of a sensor that is computed from others."""
+        kind, parts = sensor.kind, {part.name: part for part in (*self.graph.sensors, *self.graph.memories)}
+        if isinstance(kind, Computed):
+            program = [(word, parts[x].start if word == "reading" else x) for word, x in kind.at]
+            value = f(postfix(program, self.readings))
+            return clamp(value) if math.isfinite(value) else f(np.nan)
+        source = parts[kind.of]
+        match kind:
+            case Derivative():
+                return self.derivative(kind, source, i)
+            case Reading():
+                return self.readings[source.start + kind.reading - 1]
+        past = self.past.setdefault((sensor.name, i), [])
+        past.append(self.readings[source.start + i])
+        if isinstance(kind, Average):
+            return self.average(past, kind.over)
+        state = f(0)
+        for reading in past:
+            state = f(1) if reading < f(kind.below) else state
+            state = f(0) if reading > f(kind.above) else state
+        return state if math.isfinite(past[-1]) else f(np.nan)
+
+    @staticmethod
+    def average(past, over):
+        """The mean of the last readings, in the order of their places in a ring."""
+        newest = len(past) - 1
+        last = sorted(range(max(0, newest - over + 1), newest + 1), key=lambda tick: tick % over)
+        total = np.float64(0)
+        for tick in last:
+            total = total + np.float64(past[tick])
+        return f(total / len(last))
 
     def derivative(self, kind, source, i):
         """One reading of a derivative."""
@@ -86,14 +125,27 @@ class Plain:
                 continue
             outputs = self.outputs(skill, inputs)
             for edge in skill.edges:
-                value = outputs[edge.output] if edge.output is not None else f(postfix(edge.value, self.readings))
+                value = self.value(edge, outputs)
+                if value is None:
+                    continue
                 if not math.isfinite(value):
                     self.faults += 1
                 elif edge.to == "skill":
-                    self.influence[edge.target] += clamp(value) * own
+                    if not clamp(value) * own < f(edge.cuts):
+                        self.influence[edge.target] += clamp(value) * own
                 else:
                     self.com[edge.to][edge.target] += clamp(value) * own
                     self.total[edge.to][edge.target] += own
+
+    def value(self, edge, outputs):
+        """What an edge sends; None where its gate is closed."""
+        if edge.gate:
+            holds = postfix(edge.gate.when, self.readings)
+            if math.isnan(holds):
+                return f(np.nan)
+            if not holds:
+                return None if edge.gate.otherwise is None else f(postfix(edge.gate.otherwise, self.readings))
+        return outputs[edge.output] if edge.output is not None else f(postfix(edge.value, self.readings))
 
     def means(self, noun):
         """Equation 3 for the actuators or the memories; None where nothing drives, or the sums overflowed: a fault."""
@@ -115,13 +167,13 @@ class Plain:
                 return [f(0)] * skill.outputs
             case Mlp(hidden=hidden, width=width):
                 width = width or max(len(inputs), skill.outputs) + 2
-                weights, values = iter(self.weights[skill.name]), inputs
+                weights, values = iter(self.weights[skill.owner]), inputs
                 for _ in range(hidden):
                     values = [sigmoid(total) for total in layer(weights, values, width)]
                 return layer(weights, values, skill.outputs)
             case Elman(width=width):
                 width = width or max(len(inputs), skill.outputs) + 2
-                weights, before = iter(self.weights[skill.name]), self.said.get(skill.name, [f(0)] * width)
+                weights, before = iter(self.weights[skill.owner]), self.said.get(skill.name, [f(0)] * width)
                 said = self.said[skill.name] = [sigmoid(total) for total in layer(weights, inputs + before, width)]
                 return layer(weights, said, skill.outputs)
 
@@ -179,7 +231,16 @@ def postfix(program, readings):
             stack.append(-stack.pop())
         else:
             b, a = stack.pop(), stack.pop()
+            if word not in "+-*/" and (math.isnan(a) or math.isnan(b)):
+                stack.append(np.float64(np.nan))
+                continue
             match word:
+                case "least" | "and":
+                    stack.append(b if b < a else a)
+                case "greatest" | "or":
+                    stack.append(b if b > a else a)
+                case "<" | "<=" | ">" | ">=":
+                    stack.append(np.float64(COMPARES[word](a, b)))
                 case "+":
                     stack.append(a + b)
                 case "-":

@@ -21,7 +21,7 @@ import numpy as np
 
 ROOM = "mindrun.sim."
 VECTOR = f"{ROOM}vector"
-CHIPMUNK = f"{ROOM}lanes.chipmunk"  # calls into a library: as it is
+CHIPMUNK = f"{ROOM}lanes.chipmunk", f"{ROOM}lanes.loose_space"  # calls into a library: as it is
 VECTOR_LANES = 16
 F = np.float32
 
@@ -54,7 +54,7 @@ class Finder(importlib.abc.MetaPathFinder):
     """Finds what is compiled elsewhere: the lanes and their arithmetic; for vectors what stands for them below."""
 
     def find_spec(self, name: str, path: Sequence[str] | None, target: ModuleType | None = None) -> Any:
-        if name == CHIPMUNK or not name.startswith((f"{ROOM}lanes.", f"{ROOM}arithmetic", VECTOR)):
+        if name in CHIPMUNK or not name.startswith((f"{ROOM}lanes.", f"{ROOM}arithmetic", VECTOR)):
             return None
         spec = importlib.machinery.PathFinder.find_spec(name, path)
         if spec and spec.origin:
@@ -125,9 +125,10 @@ def _install() -> None:
     numba.njit = _plain
     sys.meta_path.insert(0, Finder())
     from mindrun.sim import procedures, python_procedures, rollout
-    from mindrun.sim.lanes import advance, chipmunk, runs, stages
+    from mindrun.sim.lanes import advance, chipmunk, loose_space, runs, stages
 
-    chipmunk.call, procedures.call_address = call, call_procedure
+    chipmunk.call = loose_space.call = call
+    procedures.call_address = call_procedure
     build, tables = rollout.build, rollout.Tables
 
     def build_rows(*given: Any) -> Any:

@@ -51,6 +51,8 @@ ROOMS = {
         (f"{R}sensors/*.py",),
         (
             "tests/sensors/test_compass.py",
+            "tests/sensors/test_nearest.py",
+            "tests/sensors/test_readings.py",
             *(f"tests/sim/test_rough_sensors.py::{name}" for name in QUICK_SENSORS),
             "tests/sim/test_tasks.py",
             "tests/sim/test_full_worlds.py",

@@ -6,12 +6,13 @@ from math import inf, isnan
 
 from mindrun.expression import fold
 
-from mindlang.compiler.model import Expression, Measured, Number, Reading, Term
+from mindlang.compiler.model import Command, Comparison, Expression, Measured, Number, Reading, Term, When
 from mindlang.compiler.syntax import Operator
 
 Interval = tuple[float, float]
 UNBOUNDED: Interval = (-inf, inf)
 UNIT_INTERVAL: Interval = (0.0, 1.0)
+COMPARISON_WORDS = {"<": "below", "<=": "at or below", ">": "above", ">=": "at or above"}
 
 
 def share(name: str) -> Interval:
@@ -30,10 +31,36 @@ def interval(of: Expression, reading: Callable[[str], Interval] = share, each: I
                 return reading(name)
             case Measured(measure):
                 return measure.interval
+            case Command():
+                return UNIT_INTERVAL
         return each
 
     words = ((term.symbol if isinstance(term, Operator) else "term", term) for term in of.terms)
     return fold(words, leaf, lambda value: (-value[1], -value[0]), _combined)
+
+
+def unmet(when: When, value: Callable[[Expression], Interval]) -> Comparison | None:
+    """The first comparison that never holds, where every alternative of a condition has one; else None."""
+    never = [next((each for each in all_ if not _can_hold(each, value)), None) for all_ in when.alternatives]
+    return None if None in never else never[0]
+
+
+def never_in_words(each: Comparison, reading: Callable[[str], Interval], of_each: Interval = UNIT_INTERVAL) -> str:
+    """Why a comparison never holds."""
+    left, right = (range_in_words(interval(side, reading, of_each)) for side in (each.left, each.right))
+    return f"{each.left.span.text} is {left}, never {COMPARISON_WORDS[each.compare]} {right.removeprefix('always ')}"
+
+
+def _can_hold(each: Comparison, value: Callable[[Expression], Interval]) -> bool:
+    left, right = value(each.left), value(each.right)
+    match each.compare:
+        case "<":
+            return left[0] < right[1]
+        case "<=":
+            return left[0] <= right[1]
+        case ">":
+            return left[1] > right[0]
+    return left[1] >= right[0]
 
 
 def is_constant(of: Expression) -> bool:
@@ -57,6 +84,10 @@ def _combined(symbol: str, left: Interval, right: Interval) -> Interval:
             return _around([left[0] + right[0]], [left[1] + right[1]])
         case "-":
             return _around([left[0] - right[1]], [left[1] - right[0]])
+        case "least":
+            return min(left[0], right[0]), min(left[1], right[1])
+        case "greatest":
+            return max(left[0], right[0]), max(left[1], right[1])
         case "*":
             values = [a * b if a and b else 0.0 for a, b in product(left, right)]
             return _around(values, values)

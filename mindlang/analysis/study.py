@@ -14,9 +14,9 @@ from mindlang.compiler.compile import Compiled
 from mindlang.compiler.diagnostic import Fix, Label
 from mindlang.compiler.hierarchy import in_order
 from mindlang.compiler.model import Mind, Skill, Task
+from mindlang.compiler.references import Mention, mentions
 from mindlang.compiler.source import Source, Span
-from mindlang.editing.references import Mention, mentions
-from mindlang.lock import Lock, read_locks
+from mindlang.lock import Lock, lock_sources, read_locks
 
 _WORD = re.compile(r"[A-Z]?[a-z]+|[A-Z]+(?![a-z])")
 
@@ -60,9 +60,14 @@ class Study:
         return self.below(self.masters)
 
     @cached_property
+    def acting(self) -> set[str]:
+        """The skills that a master reaches, and those whose weights act in them."""
+        return self.active | {self.skills[name].owner for name in self.active}
+
+    @cached_property
     def learning(self) -> set[str]:
         """The skills that lessons can teach: those with weights that are not frozen."""
-        return {skill.name for skill in self.mind.skills if skill.function.learns and not skill.frozen}
+        return {each.name for each in self.mind.skills if each.function.learns and not each.frozen and not each.like}
 
     @cached_property
     def can_hold(self) -> bool:
@@ -72,22 +77,31 @@ class Study:
         return any(claw.name in driven or claw.kind.acts_at_rest for claw in claws)
 
     @cached_property
-    def roots(self) -> dict[str, str]:
-        """What each sensor comes from in the end: itself, or what stands at the end of its derivatives."""
-        found: dict[str, str] = {}
-        for name in self.sensors:
-            path, end = [], name
-            while end not in found and end in self.sensors and self.sensors[end].source:
-                path.append(end)
-                end = self.sensors[end].source
-            found.update(dict.fromkeys([*path, end], found.get(end, end)))
+    def roots(self) -> dict[str, frozenset[str]]:
+        """What each sensor comes from in the end: itself, or what stands at the end of all that it is computed from."""
+        found: dict[str, frozenset[str]] = {}
+        waiting = [*self.sensors]
+        while waiting:
+            name = waiting[-1]
+            sources = self.sensors[name].sources if name in self.sensors else ()
+            missing = [source for source in sources if source not in found]
+            if missing:
+                waiting += missing
+            else:
+                found[name] = (
+                    frozenset[str]().union(*(found[source] for source in sources)) if sources else frozenset({name})
+                )
+                waiting.pop()
         return found
 
     @cached_property
     def senses(self) -> dict[str, str]:
-        """The thing that each sensor is about, those left out that are about none."""
-        things = {name: self.sensors[root].thing for name, root in self.roots.items() if root in self.sensors}
-        return {name: thing for name, thing in things.items() if thing}
+        """The thing that each sensor is about, those left out that are about none or several."""
+        things = {
+            name: {self.sensors[root].thing for root in roots if root in self.sensors} - {""}
+            for name, roots in self.roots.items()
+        }
+        return {name: next(iter(about)) for name, about in things.items() if len(about) == 1}
 
     @cached_property
     def mentions(self) -> tuple[Mention, ...]:
@@ -97,7 +111,7 @@ class Study:
     @cached_property
     def is_exhausted(self) -> bool:
         """Whether a task asks for exhaustion, which is of the battery without naming it."""
-        events = (event for task in self.mind.tasks for event in (*task.ends, *task.counts, *_paid(task)))
+        events = (event for task in self.mind.tasks for event in (*_ending(task), *task.counts, *_paid(task)))
         return any(event.is_of_battery for event in events)
 
     @cached_property
@@ -147,11 +161,15 @@ def _paid(task: Task) -> Iterator[EventKind]:
     return (reward.on for reward in task.rewards if reward.on)
 
 
+def _ending(task: Task) -> Iterator[EventKind]:
+    return (end.event for end in task.ends if end.event)
+
+
 def study(compiled: Compiled) -> Study:
     """The study of a mind that compiled; LockError where a lock is damaged."""
     assert compiled.mind is not None
     assert compiled.graph is not None
-    lock = read_locks(source.path for source in compiled.sources)
+    lock = read_locks(lock_sources(compiled.sources))
     return Study(compiled.mind, compiled.graph, lock)
 
 

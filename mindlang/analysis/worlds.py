@@ -6,19 +6,21 @@ from dataclasses import dataclass
 from mindrun.sensors import Physical
 from mindrun.things import STAYS
 
-from mindlang.analysis.intervals import UNIT_INTERVAL, Interval, interval
+from mindlang.analysis.intervals import UNIT_INTERVAL, Interval, interval, unmet
 from mindlang.analysis.study import Study
-from mindlang.compiler.model import Condition, Expression, Reward, Task
+from mindlang.compiler.model import Comparison, Expression, Reward, Task, When
 
 
 @dataclass(frozen=True, slots=True)
 class AnalysedWorld:
-    """The things in a world that sensors can be about, whether anything is solid, and whether the battery charges."""
+    """The things in a world that sensors can be about, what stands in the way, and whether the battery charges."""
 
     study: Study
     things: frozenset[str]
     is_solid: bool
+    has_fixed: bool  # what is solid and does not give way
     charges: bool
+    loose: frozenset[str]  # things that can be pushed
     fleeting: frozenset[str]  # items that are gone as soon as they are reached
 
     def constant(self, name: str) -> float | None:
@@ -30,7 +32,7 @@ class AnalysedWorld:
 
     def is_constant(self, reading: str) -> bool:
         """Whether what a reading comes from in the end always reads the same."""
-        return self.constant(self.study.roots.get(reading, reading)) is not None
+        return all(self.constant(root) is not None for root in self.study.roots.get(reading, {reading}))
 
     @property
     def can_hold(self) -> bool:
@@ -47,21 +49,21 @@ class AnalysedWorld:
         constant = self.constant(name)
         return UNIT_INTERVAL if constant is None else (constant, constant)
 
+    def range_of(self, of: Expression) -> Interval:
+        """The range of an expression in this world."""
+        return interval(of, self.reading)
+
     def value(self, of: Expression, reward: Reward) -> Interval:
         """The range of an expression of a reward."""
-        return interval(of, self.reading, self.reading(reward.each) if reward.each else UNIT_INTERVAL)
+        return interval(of, self.reading, self.each(reward))
 
-    def holds(self, when: Condition, reward: Reward) -> bool:
-        """Whether the condition of a reward can ever hold."""
-        left, right = self.value(when.left, reward), self.value(when.right, reward)
-        match when.compare:
-            case "<":
-                return left[0] < right[1]
-            case "<=":
-                return left[0] <= right[1]
-            case ">":
-                return left[1] > right[0]
-        return left[1] >= right[0]
+    def each(self, reward: Reward) -> Interval:
+        """The range of the readings that a reward goes through."""
+        return self.reading(reward.each) if reward.each else UNIT_INTERVAL
+
+    def unmet(self, when: When, reward: Reward) -> Comparison | None:
+        """The first comparison of the condition of a reward that never holds, where that is why it never does."""
+        return unmet(when, lambda side: self.value(side, reward))
 
     @property
     def drains(self) -> bool:
@@ -72,17 +74,25 @@ class AnalysedWorld:
 
 def world(study: Study, task: Task) -> AnalysedWorld:
     """The world of a task."""
-    is_solid = task.scene.is_bounded or any(thing.kind.is_solid for thing in task.things)
+    solid = [thing for thing in task.things if thing.kind.is_solid]
+    loose = frozenset(thing.name for thing in solid if thing.kind.is_loose)
+    is_solid, has_fixed = task.scene.is_bounded or bool(solid), task.scene.is_bounded or len(solid) > len(loose)
     items = (thing for thing in task.things if thing.kind.can_be_held)
     fleeting = {thing.name for thing in items if thing.kind.outcomes.get("reached", STAYS) != STAYS}
-    return AnalysedWorld(study, _named([task]), is_solid, _charges([task]), frozenset(fleeting))
+    return AnalysedWorld(study, _named([task]), is_solid, has_fixed, _charges([task]), loose, frozenset(fleeting))
 
 
 def any_world(study: Study) -> AnalysedWorld:
     """A world in which there is everything that any task has."""
     tasks = study.mind.tasks
     return AnalysedWorld(
-        study, _named(tasks), is_solid=True, charges=not tasks or _charges(tasks), fleeting=frozenset()
+        study,
+        _named(tasks),
+        is_solid=True,
+        has_fixed=True,
+        charges=not tasks or _charges(tasks),
+        loose=frozenset(),
+        fleeting=frozenset(),
     )
 
 

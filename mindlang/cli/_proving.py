@@ -10,7 +10,7 @@ from mindrun.errors import MindError
 from mindlang.cli._terminal import FINDINGS, MISUSE, console, fail, load_compiled, print_json, procedures_talk
 from mindlang.compiler.compile import Compiled
 from mindlang.compiler.diagnostic import did_you_mean
-from mindlang.lock import read_locks
+from mindlang.lock import lock_sources, read_locks
 from mindlang.lock.ready import make_ready
 from mindlang.proofs.data import as_data
 from mindlang.proofs.proof import prove
@@ -37,7 +37,7 @@ def perform(file: str, options: ProofOptions) -> None:
     compiled = _under(load_compiled(file), options.master)
     assert compiled.graph
     ready = make_ready(compiled.graph, compiled.sources)
-    lock = read_locks(source.path for source in compiled.sources)
+    lock = read_locks(lock_sources(compiled.sources))
     hashes = {skill: lock[skill].weights for skill in ready.policy.weights if skill in lock}
     run = _run(file, compiled, options) if options.run else None
     proof = prove(ready.policy.graph, ready.policy.weights, options.leak)

@@ -12,7 +12,6 @@ import click
 from mindlang.cli._options import NewFile
 
 if TYPE_CHECKING:
-    from mindrun.graph import Graph
     from mindrun.wiring import Wiring
 
     from mindlang.compiler.compile import Compiled
@@ -40,7 +39,8 @@ def command(file: str, output: Path, master: str | None, robot: Path | None, as_
     """Build a bundle of FILE, the one file that runs on a robot.
 
     It holds the hierarchy, the weights of every skill that can act, and the text of its procedures. With --robot also
-    what each sensor and actuator is wired to, checked here against FILE and not on the robot. Refuses skills that have
+    what each sensor and actuator is wired to, checked here against FILE and not on the robot; drivers of your own are
+    asked what they are, and travel along. Refuses skills that have
     not been taught, or whose weights belong to another declaration.
     """
     from mindrun.bundle import Bundle, write_bundle
@@ -57,7 +57,7 @@ def command(file: str, output: Path, master: str | None, robot: Path | None, as_
     if master is not None and master not in skills:
         fail(f"There is no skill {master}.", did_you_mean(master, skills), MISUSE)
     _refuse_procedures(compiled, master)
-    wiring = _wiring(robot, replace(compiled.graph, master=master or compiled.graph.master)) if robot else None
+    wiring = _wiring(robot, compiled, master) if robot else None
     try:
         ready = make_ready(compiled.graph, compiled.sources, master)
         _refuse_missing(ready, file)
@@ -99,13 +99,16 @@ def _refuse_procedures(compiled: Compiled, master: str | None) -> None:
         sys.exit(FINDINGS)
 
 
-def _wiring(path: Path, graph: Graph) -> Wiring:
+def _wiring(path: Path, compiled: Compiled, master: str | None) -> Wiring:
     """What the mind is wired to; its report goes to stderr, and one with errors ends the program."""
     from mindlang.cli._diagnostic_printer import print_report
     from mindlang.cli._terminal import FINDINGS, MISUSE, console
     from mindlang.wiring.wire import load_wiring
 
-    checked = load_wiring(path, graph)
+    assert compiled.mind is not None
+    assert compiled.graph is not None
+    graph = replace(compiled.graph, master=master or compiled.graph.master)
+    checked = load_wiring(path, graph, compiled.mind.unit_metres)
     print_report(checked.diagnostics, console(stderr=True))
     if checked.wiring is None:
         sys.exit(FINDINGS if checked.readable else MISUSE)
@@ -114,8 +117,13 @@ def _wiring(path: Path, graph: Graph) -> Wiring:
 
 def _built(output: Path, digest: str, ready: ReadyMind, wiring: Wiring | None) -> dict[str, object]:
     from mindrun.bundle import fingerprint
+    from mindrun.wiring import code_digests
 
-    robot = {"robot": {"name": wiring.robot, "wiring": fingerprint(wiring)}} if wiring else {}
+    robot: dict[str, object] = {}
+    if wiring:
+        robot["robot"] = {"name": wiring.robot, "wiring": fingerprint(wiring)}
+        if digests := code_digests(wiring):
+            robot["drivers"] = digests
     return {
         "bundle": str(output),
         "sha256": digest,

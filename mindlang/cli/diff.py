@@ -32,7 +32,7 @@ def command(old: str, new: str, as_json: bool) -> None:
     """
     from mindlang.cli._terminal import FINDINGS, OK, load_compiled, print_json
     from mindlang.compiler.comparison import differences
-    from mindlang.lock import lock_path
+    from mindlang.lock import lock_path, lock_sources
     from mindlang.lock.report import as_data, rows
 
     before, after = load_compiled(old), load_compiled(new)
@@ -41,7 +41,7 @@ def command(old: str, new: str, as_json: bool) -> None:
     assert after.graph is not None
     found = differences(before.mind, after.mind)
     has_lock = lock_path(after.sources[0].path).exists()
-    paths = [source.path for source in (after if has_lock else before).sources]
+    paths = lock_sources((after if has_lock else before).sources)
     standing = rows(after.graph, paths)
     if as_json:
         print_json(

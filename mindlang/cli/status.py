@@ -36,11 +36,12 @@ def command(file: str, skills: tuple[str, ...], accept: bool, as_json: bool) -> 
     Ends with 0 when every skill that is shown, of those below the master, can act, else with 1.
     """
     from mindlang.cli._terminal import FINDINGS, OK, console, load_compiled, print_json
+    from mindlang.lock import lock_sources
     from mindlang.lock.report import as_data, report, rows
 
     compiled = load_compiled(file)
     assert compiled.graph is not None
-    sources = [source.path for source in compiled.sources]
+    sources = lock_sources(compiled.sources)
     _refuse_unknown(compiled.graph, skills)
     if accept:
         _accept(compiled.graph, sources, skills)

@@ -17,13 +17,17 @@ from mindlang.compiler.syntax import (
     Declaration,
     Drives,
     Ends,
+    Fact,
+    Fails,
     Header,
     Influences,
     Lasts,
     Reads,
     Rewards,
     Stays,
+    Succeeds,
     Teaches,
+    Varies,
 )
 
 PLACES = {"span", "fact", "declaration", "curriculum"}  # fields of the model that say where a thing stands
@@ -69,8 +73,18 @@ def differences(old: Mind, new: Mind) -> list[Difference]:
 def _settings(old: Mind, new: Mind) -> Iterator[Difference]:
     if old.master != new.master:
         yield Difference("master", (f"master {old.master}",), (f"master {new.master}",))
+    for name, value in old.numbers.items():
+        if name in new.numbers and new.numbers[name] != value:
+            before, after = (_written(mind.names.numbers[name]) for mind in (old, new))
+            yield Difference(f"number {name}", (before,), (after,))
+    if old.unit_metres != new.unit_metres:
+        yield Difference("unit", *(_unit(mind.unit_metres) for mind in (old, new)))
     if old.tick != new.tick:
         yield Difference("tick", (f"tick {old.tick:.6g} s",), (f"tick {new.tick:.6g} s",))
+
+
+def _unit(metres: float | None) -> tuple[str, ...]:
+    return () if metres is None else (f"unit {100 * metres:.6g} cm",)
 
 
 def _difference(what: str, old: Sequence[_Line], new: Sequence[_Line], ordered: bool) -> Iterator[Difference]:
@@ -105,12 +119,9 @@ def _in_order(before: Sequence[int], after: Sequence[int]) -> set[int]:
 def _declared(mind: Mind) -> dict[str, dict[str, list[_Line]]]:
     """The lines of every declaration, by noun and name."""
     found: dict[str, dict[str, list[_Line]]] = {noun: {} for noun in NOUNS}
-    kinds = _kinds(mind)
-    for file in mind.files:
-        for declaration in file.declarations:
-            noun, name = declaration.header.noun.text, declaration.header.name.text
-            of = kinds[noun].get(name)
-            found[noun][name] = _lines(declaration, of)
+    for noun, kinds in _kinds(mind).items():  # a scene means what the tasks in it say
+        for name, declaration in mind.names.declarations(noun):
+            found[noun][name] = _lines(declaration, kinds.get(name))
     return found
 
 
@@ -131,19 +142,28 @@ def _lines(declaration: Declaration, of: Any) -> list[_Line]:
     kind, facts = _parts(declaration.header, of)
     found = [_Line(_written(declaration.header), _meaning(kind))]
     for forms, meanings in facts.items():
-        written = [fact for fact in declaration.facts if isinstance(fact, forms)]
+        written = [fact for fact in _facts(declaration, of) if isinstance(fact, forms)]
         found += [_Line(_written(fact), (forms, _meaning(each))) for fact, each in zip(written, meanings, strict=True)]
     return found
+
+
+def _facts(declaration: Declaration, of: Any) -> Sequence[Fact]:
+    """What holds of a declaration: of a task, what its scene says or the task that it is like, too."""
+    return of.facts if isinstance(of, Task) else declaration.facts
 
 
 def _parts(header: Header, of: Any) -> tuple[Any, dict[Forms, Sequence[Any]]]:
     """What a header has become, and what the facts of each form have, in their order."""
     match of:
+        case Skill(like=like) if like:
+            reads = [fact for fact in of.declaration.facts if isinstance(fact, Reads)]
+            return like, {(Reads,): [(fact.name.text, fact.stands_for and fact.stands_for.text) for fact in reads]}
         case Skill():
             return of.function, {(Reads,): of.reads, (Drives, Influences): of.edges, (Stays,): [True] * of.frozen}
         case Task(ticks=ticks, ends=ends, counts=counts):
-            plain: dict[Forms, Sequence[Any]] = {(Lasts,): [ticks], (Ends,): ends, (Counts,): counts}
-            return of.scene, plain | {(Contains,): of.things, (Rewards,): of.rewards}
+            plain: dict[Forms, Sequence[Any]] = {(Lasts,): [ticks], (Ends, Succeeds): ends, (Counts,): counts}
+            plain |= {(Contains,): of.things, (Varies,): of.varies, (Fails,): of.fails, (Rewards,): of.rewards}
+            return of.scene, plain
         case Part():
             return of.kind, {}
     phrase = header.phrase

@@ -1,6 +1,7 @@
 """Errors as data: what is wrong, where, and what to do about it."""
 
-from collections.abc import Iterable
+from collections.abc import Collection, Iterable, Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass, field
 from difflib import get_close_matches
 from itertools import chain
@@ -50,14 +51,25 @@ class Diagnostic:
 
 @dataclass(slots=True)
 class Findings:
-    """Where a stage of the compiler collects what it finds."""
+    """Where a stage of the compiler collects what it finds; `numbers` are the names of numbers that may be meant."""
 
     diagnostics: list[Diagnostic] = field(default_factory=list)
     comparisons: int = MAX_COMPARED_NAMES  # of names, which are left
+    numbers: Collection[str] = ()
 
     def error(self, code: str, span: Span, message: str, hint: str = "", *labels: Label) -> None:
         """Collect an error."""
         self.diagnostics.append(Diagnostic(code, message, span, hint, labels))
+
+    @contextmanager
+    def each_once(self) -> Iterator[None]:
+        """Of what is found within, keep what was not found before on the same words: several use the same lines."""
+        before = len(self.diagnostics)
+        yield
+        if len(self.diagnostics) > before:
+            known = {(each.code, each.span) for each in self.diagnostics[:before]}
+            found = self.diagnostics[before:]
+            self.diagnostics[before:] = [each for each in found if (each.code, each.span) not in known]
 
     def suggest(self, word: str, *known: Iterable[str]) -> str:
         """`did_you_mean` for the first diagnostics: comparing names takes time, and nobody reads more."""

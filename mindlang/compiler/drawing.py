@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 from mindrun.registry import arguments, names
 
 from mindlang.compiler.model import Edge, Mind, Skill
+from mindlang.compiler.syntax import Drives, Influences
 
 if TYPE_CHECKING:
     from rich.tree import Tree
@@ -30,15 +31,22 @@ def tree(mind: Mind) -> Tree:
     while waiting:
         above, name, edge = waiting.pop()
         if name in shown:
-            above.add(Text.assemble((name, "bold"), _at(edge), ("  (shown above)", "dim")))
+            above.add(Text.assemble((name, "bold"), _edge_text(edge), ("  (shown above)", "dim")))
             continue
         shown.add(name)
-        branch = above.add(Text.assemble((name, "bold"), _at(edge), (f"  {phrase(skills[name].function)}", "cyan")))
+        branch = above.add(Text.assemble((name, "bold"), _edge_text(edge), (f"  {_what(skills[name])}", "cyan")))
+        if comment := skills[name].declaration.comment:
+            branch.add(Text(comment, "italic"))
         for line in _lines(skills[name]):
             branch.add(Text(line))
         below = [(branch, edge.target, edge) for edge in skills[name].edges if edge.to == "skill"]
         waiting += reversed(below)
     return root
+
+
+def _what(skill: Skill) -> str:
+    """What a skill is: its function, or the skill that it is like."""
+    return f"like {skill.like}" if skill.like else phrase(skill.function)
 
 
 def phrase(kind: object) -> str:
@@ -57,6 +65,9 @@ def dot(mind: Mind) -> str:
     for skill in mind.skills:
         bold = " style=bold" if skill.name == mind.master else ""
         lines.append(f"  {_id('skill', skill.name)} [label={_quoted(skill.name)} shape=box{bold}]")
+        if skill.like:
+            owner = _id("skill", skill.like)
+            lines.append(f"  {owner} -> {_id('skill', skill.name)} [style=dashed label=like constraint=false dir=none]")
     for skill in mind.skills:
         lines += _arrows(skill)
     return "\n".join([*lines, "}"])
@@ -67,7 +78,7 @@ def _arrows(skill: Skill) -> Iterator[str]:
     for name in skill.reads:
         yield f"  {_id('input', name)} -> {here} [style=dotted]"
     for edge in skill.edges:
-        label = f" [label={_quoted(edge.at.span.text)}]" if edge.at else ""
+        label = f" [label={_quoted(said.removeprefix(' at '))}]" if (said := _edge_text(edge)) else ""
         yield f"  {here} -> {_id('input' if edge.to == 'memory' else edge.to, edge.target)}{label}"
 
 
@@ -79,8 +90,14 @@ def _quoted(text: str) -> str:
     return f'"{text}"'
 
 
-def _at(edge: Edge | None) -> str:
-    return f" at {edge.at.span.text}" if edge and edge.at else ""
+def _edge_text(edge: Edge | None) -> str:
+    """What a line says after the name: its value, its condition, and below what it cuts."""
+    return text_after_name(edge.fact) if edge else ""
+
+
+def text_after_name(fact: Drives | Influences) -> str:
+    """What a line says after the name of whom it is for, as written."""
+    return fact.span.source.text[fact.name.span.end : fact.span.end]
 
 
 def _lines(skill: Skill) -> Iterator[str]:
@@ -88,4 +105,4 @@ def _lines(skill: Skill) -> Iterator[str]:
         yield f"reads {', '.join(skill.reads)}"
     for edge in skill.edges:
         if edge.to != "skill":
-            yield f"drives {edge.target}{_at(edge)}"
+            yield f"drives {edge.target}{_edge_text(edge)}"

@@ -19,7 +19,7 @@ from mindlang.compiler.syntax import NOUNS, SETTINGS
 
 INDENT = "  "
 Stretch = tuple[int, int]
-FACT_OWNERS = ("skill", "task", "curriculum")  # nouns that own facts
+FACT_OWNERS = ("skill", "scene", "task", "curriculum")  # nouns that own facts
 
 
 @dataclass(frozen=True, slots=True)
@@ -114,7 +114,12 @@ def spaced(code: str) -> str:
     if plan is None:
         return code
     parts = pieces(code)
-    return "".join("".join(parts[first:end]) + after for first, end, after in plan)
+    return "".join(_tight("".join(parts[first:end])) + after for first, end, after in plan)
+
+
+def _tight(word: str) -> str:
+    """A word as it is; one of two, such as `least of`, with one space between."""
+    return word if word.startswith('"') else " ".join(word.split())
 
 
 Plan = tuple[tuple[int, int, str], ...]  # which pieces of a line are a word, and what stands after it

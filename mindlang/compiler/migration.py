@@ -8,7 +8,7 @@ from mindlang.compiler.diagnostic import Findings
 from mindlang.compiler.parse import parse
 from mindlang.compiler.source import Source
 from mindlang.compiler.splice import Splice, spliced
-from mindlang.compiler.syntax import Contains, Counts, Declaration, Ends, Name, Phrase, Rewards
+from mindlang.compiler.syntax import Contains, Counts, Declaration, Ends, Name, Phrase, Rewards, Succeeds
 
 PLACED = ("item", "zone", "power")  # the kinds that had places of their own
 
@@ -38,7 +38,12 @@ def _splices(source: Source, declaration: Declaration) -> Iterator[Splice]:
 def _events(declaration: Declaration) -> Iterator[Phrase]:
     for fact in declaration.facts:
         match fact:
-            case Ends(event) | Counts(event) | Rewards(on=Phrase() as event):
+            case (
+                Ends(_, Phrase() as event)
+                | Succeeds(_, Phrase() as event)
+                | Counts(event)
+                | Rewards(_, Phrase() as event)
+            ):
                 yield event
 
 

@@ -1,13 +1,14 @@
 """A mind: names resolved, units converted, every part with the place where it was written."""
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 from typing import Generic, TypeVar
 
 from mindrun.actuators import ActuatorKind
-from mindrun.bodies import Disc
+from mindrun.bodies import BodyKind
 from mindrun.events import EventKind
 from mindrun.functions import Function
-from mindrun.graph import Receiver
+from mindrun.graph import Failure, Receiver, Start, Variation
 from mindrun.learners import Learner
 from mindrun.measures import MeasureKind
 from mindrun.memory import Cell
@@ -17,7 +18,18 @@ from mindrun.things import ThingKind
 
 from mindlang.compiler.names import Names
 from mindlang.compiler.source import Span
-from mindlang.compiler.syntax import Declaration, Drives, File, Influences, Operator, Rewards, Teaches
+from mindlang.compiler.syntax import (
+    Declaration,
+    Drives,
+    Ends,
+    Fact,
+    File,
+    Influences,
+    Operator,
+    Rewards,
+    Succeeds,
+    Teaches,
+)  # fmt: skip
 
 K = TypeVar("K")
 
@@ -59,6 +71,14 @@ class EachReading:
 
 
 @dataclass(frozen=True, slots=True)
+class Command:
+    """The command of an actuator, as it acts."""
+
+    name: str
+    span: Span
+
+
+@dataclass(frozen=True, slots=True)
 class Measured:
     """The value of a measure."""
 
@@ -66,7 +86,7 @@ class Measured:
     span: Span
 
 
-Term = Number | Reading | EachReading | Measured | Operator
+Term = Number | Reading | EachReading | Command | Measured | Operator
 
 
 @dataclass(frozen=True, slots=True)
@@ -78,18 +98,65 @@ class Expression:
 
 
 @dataclass(frozen=True, slots=True)
+class Comparison:
+    """`left compare right`."""
+
+    left: Expression
+    compare: str
+    right: Expression
+
+
+@dataclass(frozen=True, slots=True)
+class When:
+    """A condition: one of the alternatives holds, each of which is comparisons that all hold."""
+
+    alternatives: tuple[tuple[Comparison, ...], ...]
+    span: Span
+
+    @property
+    def expressions(self) -> tuple[Expression, ...]:
+        """Both sides of every comparison."""
+        return tuple(side for all_ in self.alternatives for each in all_ for side in (each.left, each.right))
+
+
+@dataclass(frozen=True, slots=True)
+class Gate:
+    """When something is sent, and what is sent otherwise: nothing, where that is None."""
+
+    when: When
+    otherwise: Expression | None
+
+
+@dataclass(frozen=True, slots=True)
 class Edge:
-    """What a skill sends: an output of its function, or the value of `at`."""
+    """What a skill sends: an output of its function, or the value of `at`; an influence below `cuts` is none."""
 
     to: Receiver
     target: str
     at: Expression | None
     fact: Drives | Influences
+    gate: Gate | None = None
+    cuts: float = 0.0
+
+    @property
+    def values(self) -> tuple[Expression, ...]:
+        """What it says that it sends: after `at`, and after `otherwise`."""
+        otherwise = self.gate.otherwise if self.gate else None
+        return tuple(value for value in (self.at, otherwise) if value)
+
+    @property
+    def expressions(self) -> tuple[Expression, ...]:
+        """All that it computes beside the function."""
+        return (*self.values, *(self.gate.when.expressions if self.gate else ()))
 
 
 @dataclass(frozen=True, slots=True)
 class Skill:
-    """A skill; `reads` are names of sensors and memories; one that is `frozen` is not taught."""
+    """A skill; `reads` are names of sensors and memories; one that is `frozen` is not taught.
+
+    One that is `like` another has that one's function and weights; what it reads stands in that one's order, and its
+    edges are said there.
+    """
 
     name: str
     function: Function
@@ -97,20 +164,17 @@ class Skill:
     edges: tuple[Edge, ...]
     frozen: bool
     declaration: Declaration
+    like: str = ""
+
+    @property
+    def owner(self) -> str:
+        """The skill under whose name its weights stand: itself, or the one that it is like."""
+        return self.like or self.name
 
     @property
     def subskills(self) -> tuple[str, ...]:
         """The skills that it influences."""
         return tuple(edge.target for edge in self.edges if edge.to == "skill")
-
-
-@dataclass(frozen=True, slots=True)
-class Condition:
-    """`left compare right`."""
-
-    left: Expression
-    compare: str
-    right: Expression
 
 
 @dataclass(frozen=True, slots=True)
@@ -120,21 +184,44 @@ class Reward:
     amount: Expression
     on: EventKind | None
     each: str | None
-    when: Condition | None
+    when: When | None
     fact: Rewards
+
+    @property
+    def expressions(self) -> tuple[Expression, ...]:
+        """Its amount, and both sides of its comparisons."""
+        return (self.amount, *(self.when.expressions if self.when else ()))
+
+
+@dataclass(frozen=True, slots=True)
+class End:
+    """What ends a run, as a success or not: an event the `times`th time that it happens, or a condition."""
+
+    event: EventKind | None
+    times: int
+    when: When | None
+    succeeds: bool
+    fact: Ends | Succeeds
 
 
 @dataclass(frozen=True, slots=True)
 class Task:
-    """A task: its world, its end, its rewards and what its benchmark counts."""
+    """A task: its world, its end, its rewards and what its benchmark counts.
+
+    Its `facts` are those of its scene, too, or of the task that it is like; `declaration` has its own.
+    """
 
     name: str
     scene: SceneKind
     things: tuple[Part[ThingKind], ...]
+    start: Start
+    varies: tuple[Variation, ...]
+    fails: tuple[Failure, ...]
     ticks: int
-    ends: tuple[EventKind, ...]
+    ends: tuple[End, ...]
     rewards: tuple[Reward, ...]
     counts: tuple[EventKind, ...]
+    facts: tuple[Fact, ...]
     declaration: Declaration
 
 
@@ -151,16 +238,21 @@ class Lesson:
     with_subskills: bool
     learner: Learner
     number: int
+    starts_from: str
     fact: Teaches
 
 
 @dataclass(frozen=True, slots=True)
 class Mind:
-    """A whole mind, in the order of its sources. `tick` is in seconds; `names` are all declarations."""
+    """A whole mind, in the order of its sources. `tick` is in seconds; `names` are all declarations, as written.
+
+    `numbers` are what the names of numbers stand for, each with its unit; `unit_metres` is how long a unit of the world
+    is on a robot, None where that is not said.
+    """
 
     tick: float
     master: str
-    body: Part[Disc]
+    body: Part[BodyKind]
     sensors: tuple[Part[SensorKind], ...]
     memories: tuple[Part[Cell], ...]
     actuators: tuple[Part[ActuatorKind], ...]
@@ -169,3 +261,5 @@ class Mind:
     lessons: tuple[Lesson, ...]
     files: tuple[File, ...]
     names: Names
+    numbers: Mapping[str, tuple[float, str, str]] = field(default_factory=dict)
+    unit_metres: float | None = None

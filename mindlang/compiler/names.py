@@ -2,18 +2,24 @@
 
 import re
 import unicodedata
-from collections.abc import Iterable, Iterator, Sequence, Set
-from dataclasses import dataclass, replace
+from collections.abc import Iterable, Iterator, Mapping, Sequence, Set
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from itertools import chain, islice
 from typing import TypeVar
 
 from mindlang.compiler.diagnostic import Findings, Label, a, listed
 from mindlang.compiler.source import Span
-from mindlang.compiler.syntax import Contains, Declaration, Fact, File, Name
+from mindlang.compiler.syntax import Contains, Declaration, Fact, File, Name, Number
 
 # A memory is read like a sensor and driven like an actuator, so its name must be neither's.
-SHARED = {"sensor": ("memory",), "actuator": ("memory",), "memory": ("sensor", "actuator")}
+# In an expression, a number's name stands where a reading's may.
+SHARED = {
+    "sensor": ("memory", "number"),
+    "actuator": ("memory",),
+    "memory": ("sensor", "actuator", "number"),
+    "number": ("sensor", "memory"),
+}
 _WORD = re.compile(r"\w[\w.+-]*")
 NOUN_USES = {
     "sensor": "a skill reads sensors",
@@ -35,14 +41,23 @@ class Names:
 
     table: dict[str, dict[str, Declaration]]
     unread: Set[str] = frozenset()
+    numbers: dict[str, Number] = field(default_factory=dict)
 
     def of(self, *nouns: str) -> list[str]:
         """The names declared with one of these nouns."""
-        return [name for noun in nouns for name in self.table.get(noun, {})]
+        return [name for noun in nouns for name in self._of(noun)]
 
     def noun_of(self, name: str, nouns: Iterable[N]) -> N | None:
         """The first of the nouns with which the name is declared."""
-        return next((noun for noun in nouns if name in self.table.get(noun, {})), None)
+        return next((noun for noun in nouns if name in self._of(noun)), None)
+
+    def _of(self, noun: str) -> Mapping[str, Declaration | Number]:
+        return self.numbers if noun == "number" else self.table.get(noun, {})
+
+    def place_of(self, noun: str, name: str) -> Span:
+        """Where a name is declared."""
+        declared = self._of(noun)[name]
+        return declared.name.span if isinstance(declared, Number) else declared.header.name.span
 
     def declarations(self, noun: str) -> Iterator[tuple[str, Declaration]]:
         """The declarations of a noun with their names."""
@@ -59,7 +74,7 @@ class Names:
         if other:
             hint = f"There is {a(other)} of that name, but {NOUN_USES[other]}."
         else:
-            known = (self.table.get(noun, {}) for noun in nouns)
+            known = (self._of(noun) for noun in nouns)
             hint = self._thing(name.text, nouns) or findings.suggest(name.text, *known) or self._offer(nouns)
             hint += _foreign_letter(name.text)
         findings.error(f"unknown-{nouns[0]}", name.span, f"There is no {wanted} called {name.text}.", hint)
@@ -71,7 +86,7 @@ class Names:
         return ""
 
     def _offer(self, nouns: Sequence[str]) -> str:
-        known = [*islice(chain.from_iterable(self.table.get(noun, {}) for noun in nouns), 9)]
+        known = [*islice(chain.from_iterable(map(self._of, nouns)), 9)]
         if not known:
             return f"Declare it: {nouns[0]} NAME {'in' if nouns[0] == 'task' else 'is'} KIND."
         more = ", …" if len(known) > 8 else ""
@@ -122,16 +137,26 @@ def gather(files: Iterable[File], findings: Findings) -> Names:
     for declaration in (declaration for file in files for declaration in file.declarations):
         noun, name = declaration.header.noun.text, declaration.header.name
         other = names.noun_of(name.text, (noun, *SHARED.get(noun, ())))
-        if other and above and not declaration.header.phrase:
+        if other and above and not declaration.header.is_read:
             declaration = _with_facts(above, declaration.facts)  # `senses eyes` was meant as a fact, not as a sensor
             noun, name = above.header.noun.text, above.header.name
         elif other:
-            first = Label(names.table[other][name.text].header.name.span, "first declared here")
-            message = f"There is already {a(other)} called {name.text}."
-            findings.error("duplicate-name", name.span, message, "Give one of the two another name.", first)
+            _refuse_again(names, other, name, findings)
             continue
         names.table.setdefault(noun, {})[name.text] = above = declaration
+    for number in (setting for file in files for setting in file.settings if isinstance(setting, Number)):
+        if other := names.noun_of(number.name.text, ("number", *SHARED["number"])):
+            _refuse_again(names, other, number.name, findings)
+        else:
+            names.numbers[number.name.text] = number
+    findings.numbers = names.numbers.keys() | names.unread
     return names
+
+
+def _refuse_again(names: Names, noun: str, name: Name, findings: Findings) -> None:
+    first = Label(names.place_of(noun, name.text), "first declared here")
+    message = f"There is already {a(noun)} called {name.text}."
+    findings.error("duplicate-name", name.span, message, "Give one of the two another name.", first)
 
 
 def _with_facts(declaration: Declaration, facts: Sequence[Fact]) -> Declaration:

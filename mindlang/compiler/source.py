@@ -16,11 +16,15 @@ CACHED_SOURCES = 64  # whose line starts are remembered
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Source:
-    """The text of one file. `name` is what the user called it, `folder` where its relative paths begin."""
+    """The text of one file. `name` is what the user called it, `folder` where its relative paths begin.
+
+    `alias` is what stands before the names that it declares, for other files.
+    """
 
     name: str
     text: str = field(repr=False)
     folder: Path = Path()
+    alias: str = ""
 
     @property
     def path(self) -> Path:

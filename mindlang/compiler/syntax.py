@@ -2,14 +2,18 @@
 
 from dataclasses import dataclass
 
+from mindlang.compiler.comments import comment_of
 from mindlang.compiler.source import Source, Span
 
 # The words with which a line begins; the names of parts begin with a small letter, all others with a capital one.
 PARTS = ("sensor", "actuator", "memory")
-WHOLES = ("body", "skill", "curriculum")
+WHOLES = ("body", "skill", "curriculum", "scene")
 NOUNS = (*PARTS, *WHOLES, "task")
-VERBS = ("reads", "drives", "influences", "stays", "contains", "lasts", "ends", "rewards", "counts", "teaches")
-SETTINGS = ("use", "master", "tick")
+VERBS = (
+    "reads", "drives", "influences", "stays", "contains", "starts", "varies", "fails", "lasts", "ends", "succeeds",
+    "rewards", "counts", "teaches",
+)  # fmt: skip
+SETTINGS = ("use", "master", "tick", "mind", "unit", "number")
 
 
 @dataclass(frozen=True, slots=True)
@@ -22,11 +26,25 @@ class Name:
 
 @dataclass(frozen=True, slots=True)
 class Amount:
-    """A number with its unit, as written; `1/0` is not a number (nan)."""
+    """A number with its unit, as written; `1/0` is not a number (nan). `per` is the time that a rate is for.
+
+    Where a `name` stands for the number, `number` is its sign. When it is replaced by its number, `said` is where that
+    is written; when it is for a second, `tick_seconds` becomes how long a tick is.
+    """
 
     number: float
     unit: str
     span: Span
+    per: str = ""
+    name: str = ""
+    said: Span | None = None
+    tick_seconds: float = 0.0
+
+    @property
+    def constant(self) -> Name:
+        """Its name where that stands, without its sign; there it is shorter in a file that has an alias."""
+        written = self.span.text.lstrip("+- \t")
+        return Name(self.name, Span(self.span.source, self.span.end - len(written), self.span.end))
 
 
 @dataclass(frozen=True, slots=True)
@@ -47,7 +65,24 @@ class Range:
     span: Span
 
 
-Value = Numbers | Range | Name
+@dataclass(frozen=True, slots=True)
+class Points:
+    """`-20 10 to 5 10 to 5 0`: places one after the other, as written; a range has one number on each side."""
+
+    points: tuple[Numbers, ...]
+    by: Amount | None
+    span: Span
+
+
+@dataclass(frozen=True, slots=True)
+class Text:
+    """`"maze.txt"`: a path, without its quotes."""
+
+    text: str
+    span: Span
+
+
+Value = Numbers | Range | Points | Name | Text
 
 
 @dataclass(frozen=True, slots=True)
@@ -70,7 +105,7 @@ class Phrase:
 
 @dataclass(frozen=True, slots=True)
 class Operator:
-    """One of + - * / or, for the minus of a single value, negate."""
+    """One of + - * / least greatest or, for the minus of a single value, negate."""
 
     symbol: str
     span: Span
@@ -88,29 +123,80 @@ class Expression:
 
 
 @dataclass(frozen=True, slots=True)
+class Comparison:
+    """`LEFT < RIGHT`"""
+
+    left: Expression
+    compare: str
+    right: Expression
+    span: Span
+
+
+@dataclass(frozen=True, slots=True)
+class When:
+    """`when A < B and C > D or …`: one of the alternatives holds, each of which is comparisons that all hold."""
+
+    alternatives: tuple[tuple[Comparison, ...], ...]
+    span: Span
+
+    @property
+    def expressions(self) -> tuple[Expression, ...]:
+        """Both sides of every comparison."""
+        return tuple(side for all_ in self.alternatives for each in all_ for side in (each.left, each.right))
+
+
+@dataclass(frozen=True, slots=True)
+class Gate:
+    """`when CONDITION [otherwise EXPRESSION]`"""
+
+    when: When
+    otherwise: Expression | None
+    span: Span
+
+    @property
+    def expressions(self) -> tuple[Expression, ...]:
+        """Those of the condition, and what holds otherwise."""
+        return (*self.when.expressions, self.otherwise) if self.otherwise else self.when.expressions
+
+
+@dataclass(frozen=True, slots=True)
 class Reads:
-    """`reads NAME`"""
+    """`reads NAME [for NAME]`; the second is the input of the skill that this one is like."""
 
     name: Name
+    stands_for: Name | None
     span: Span
 
 
 @dataclass(frozen=True, slots=True)
 class Drives:
-    """`drives NAME [at EXPRESSION]`"""
+    """`drives NAME [at EXPRESSION] [when CONDITION …]`"""
 
     name: Name
     at: Expression | None
+    gate: Gate | None
     span: Span
+
+    @property
+    def expressions(self) -> tuple[Expression, ...]:
+        """All that it computes: its value, its condition and what it sends otherwise."""
+        return (*((self.at,) if self.at else ()), *(self.gate.expressions if self.gate else ()))
 
 
 @dataclass(frozen=True, slots=True)
 class Influences:
-    """`influences NAME [at EXPRESSION]`"""
+    """`influences NAME [at EXPRESSION] [when CONDITION …] [cuts below AMOUNT]`"""
 
     name: Name
     at: Expression | None
+    gate: Gate | None
+    cuts: Amount | None
     span: Span
+
+    @property
+    def expressions(self) -> tuple[Expression, ...]:
+        """All that it computes: its value, its condition and what it sends otherwise."""
+        return (*((self.at,) if self.at else ()), *(self.gate.expressions if self.gate else ()))
 
 
 @dataclass(frozen=True, slots=True)
@@ -131,6 +217,35 @@ class Contains:
 
 
 @dataclass(frozen=True, slots=True)
+class Starts:
+    """`starts [at X Y] [facing ANGLE]`"""
+
+    place: tuple[Amount, Amount] | None
+    facing: Amount | None
+    span: Span
+
+
+@dataclass(frozen=True, slots=True)
+class Varies:
+    """`varies ARGUMENT of NAME LOW to HIGH`"""
+
+    argument: Name
+    of: Name
+    low: Amount
+    high: Amount
+    span: Span
+
+
+@dataclass(frozen=True, slots=True)
+class Fails:
+    """`fails NAME RATE`"""
+
+    name: Name
+    rate: Amount
+    span: Span
+
+
+@dataclass(frozen=True, slots=True)
 class Lasts:
     """`lasts AMOUNT`"""
 
@@ -140,9 +255,21 @@ class Lasts:
 
 @dataclass(frozen=True, slots=True)
 class Ends:
-    """`ends on EVENT`"""
+    """`ends on [TIMES] EVENT` or `ends when CONDITION`"""
 
-    event: Phrase
+    times: Amount | None
+    event: Phrase | None
+    when: When | None
+    span: Span
+
+
+@dataclass(frozen=True, slots=True)
+class Succeeds:
+    """`succeeds on [TIMES] EVENT` or `succeeds when CONDITION`"""
+
+    times: Amount | None
+    event: Phrase | None
+    when: When | None
     span: Span
 
 
@@ -152,16 +279,6 @@ class Each:
 
     name: Name
     sensor: Name
-    span: Span
-
-
-@dataclass(frozen=True, slots=True)
-class When:
-    """`when LEFT < RIGHT`"""
-
-    left: Expression
-    compare: str
-    right: Expression
     span: Span
 
 
@@ -196,17 +313,32 @@ class Teaches:
     span: Span
 
 
-Fact = Reads | Drives | Influences | Stays | Contains | Lasts | Ends | Rewards | Counts | Teaches
+Fact = (
+    Reads | Drives | Influences | Stays | Contains | Starts | Varies | Fails | Lasts | Ends | Succeeds | Rewards
+    | Counts | Teaches
+)  # fmt: skip
 
 
 @dataclass(frozen=True, slots=True)
 class Header:
-    """`NOUN NAME is PHRASE`; the phrase is missing where the line is malformed."""
+    """`NOUN NAME is PHRASE`; the phrase is missing where the line is malformed, or is that of another declaration.
+
+    `like` is the skill, scene or task that this one is like, `inside` the scene of a task by its name, and `at` the
+    value of a sensor that is computed.
+    """
 
     noun: Name
     name: Name
     phrase: Phrase | None
     span: Span
+    like: Name | None = None
+    inside: Name | None = None
+    at: Expression | None = None
+
+    @property
+    def is_read(self) -> bool:
+        """Whether what it declares could be read."""
+        return bool(self.phrase or self.like or self.inside)
 
 
 @dataclass(frozen=True, slots=True)
@@ -217,13 +349,19 @@ class Declaration:
     facts: tuple[Fact, ...]
     whole: bool = True
 
+    @property
+    def comment(self) -> str:
+        """Its documentation: what the comments right above it say, and the one behind its first line."""
+        return comment_of(self.header.span)
+
 
 @dataclass(frozen=True, slots=True)
 class Use:
-    """`use "PATH"`"""
+    """`use "PATH" [as NAME]`; the span is that of the path."""
 
     path: str
     span: Span
+    alias: Name | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -242,7 +380,32 @@ class Tick:
     span: Span
 
 
-Setting = Use | Master | Tick
+@dataclass(frozen=True, slots=True)
+class Version:
+    """`mind NUMBER`: for which language the file was written"""
+
+    amount: Amount
+    span: Span
+
+
+@dataclass(frozen=True, slots=True)
+class Unit:
+    """`unit AMOUNT`: how long a unit of the world is on a robot"""
+
+    amount: Amount
+    span: Span
+
+
+@dataclass(frozen=True, slots=True)
+class Number:
+    """`number NAME is AMOUNT`"""
+
+    name: Name
+    amount: Amount
+    span: Span
+
+
+Setting = Use | Master | Tick | Version | Unit | Number
 Line = Setting | Header | Fact
 
 

@@ -1,13 +1,14 @@
 """The files of a mind: the main one and those that it uses, all of them inside the project."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from mindrun.errors import reason
 from mindrun.regular_files import read_regular
 
 from mindlang.compiler.diagnostic import Findings
+from mindlang.compiler.expand.aliases import under_alias
 from mindlang.compiler.parse import parse
 from mindlang.compiler.source import MAX_SOURCE_BYTES, Source, decode, within
 from mindlang.compiler.syntax import File, Use
@@ -48,7 +49,7 @@ def files(source: Source, path: Path, findings: Findings, texts: Mapping[Path, s
 
 
 def _add(path: Path, source: Source, project: _Project) -> None:
-    file = parse(source, project.findings)
+    file = under_alias(parse(source, project.findings))
     project.files[path] = file
     project.open.append(path)
     for use in file.settings:
@@ -59,6 +60,10 @@ def _add(path: Path, source: Source, project: _Project) -> None:
 
 def _follow(use: Use, project: _Project) -> None:
     target = _inside(use, project)
+    if "." in _alias(use):
+        hint = f"Write as {_alias(use).rpartition('.')[2]}."
+        project.refuse("dotted-alias", use, "A file is used under one word, without a dot.", hint)
+        return
     if target in project.open:
         loop = [*project.open[project.open.index(target) :], target]
         names = " → ".join(path.relative_to(project.root).as_posix() for path in loop)
@@ -67,8 +72,22 @@ def _follow(use: Use, project: _Project) -> None:
     elif len(project.open) > MAX_USE_DEPTH:
         hint = f"Files may use one another {MAX_USE_DEPTH} deep; use this one from nearer to the top."
         project.refuse("use-too-deep", use, "Files use one another too deep.", hint)
-    elif target and target not in project.files:
+    elif target and target in project.files:
+        _check_alias(project.files[target].source, use, project)
+    elif target:
         _read(target, use, project)
+
+
+def _check_alias(source: Source, use: Use, project: _Project) -> None:
+    """Report a file whose declarations would have two names."""
+    if source.alias != _alias(use):
+        known = f"as {source.alias}" if source.alias else "without as"
+        message = f"{use.path} is used {known} already, and has one name."
+        project.refuse("other-alias", use, message, f"Use it {known} here, too.")
+
+
+def _alias(use: Use) -> str:
+    return use.alias.text if use.alias else ""
 
 
 def _inside(use: Use, project: _Project) -> Path | None:
@@ -89,6 +108,7 @@ def _read(target: Path, use: Use, project: _Project) -> None:
     try:
         text = project.texts.get(target)
         source = read(target, name) if text is None else Source(name, within(text), target.parent)
+        source = replace(source, alias=_alias(use))
     except (OSError, RuntimeError) as error:  # a loop of links is a RuntimeError
         hint = "The path is relative to the file in which it stands."
         project.refuse("unreadable-use", use, f"{use.path} cannot be read: {reason(error)}.", hint)

@@ -11,6 +11,7 @@ from pathlib import Path
 import mindrun
 from mindrun.bundle import MAX_BUNDLE_BYTES, Bundle
 from mindrun.regular_files import read_whole
+from mindrun.wiring import code_digests
 
 from mindlang.deploying.unit import ARMED, SERVICE, unit
 
@@ -33,7 +34,10 @@ class Release:
 def make_release(path: Path, bundle: Bundle, folder: Path) -> Release:
     """Lay a release out in an empty folder. The same bundle and the same mindrun have the same fingerprint."""
     data = read_whole(path, MAX_BUNDLE_BYTES)
-    made_of = {"bundle": path.name, "sha256": sha256(data).hexdigest(), "master": bundle.graph.master}
+    made_of: dict[str, object] = {"bundle": path.name, "sha256": sha256(data).hexdigest()}
+    made_of |= {"master": bundle.graph.master}
+    if bundle.wiring and (digests := code_digests(bundle.wiring)):
+        made_of |= {"drivers": digests}
     files = {
         "mind.bundle": data,  # never by its own name: no text of a user becomes a path on the robot
         "release.json": json.dumps(made_of).encode(),  # in ASCII, on one line

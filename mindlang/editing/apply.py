@@ -44,20 +44,21 @@ class Edited:
     @property
     def sources(self) -> list[Path]:
         """The files of the mind afterwards, main one first."""
-        return [*self.project.paths, *self.change.created]
+        return [*self.project.taught, *self.change.created]
 
 
 def apply_edit(project: Project, change: MindChange, keep_weights: bool) -> Edited:
     """The edit made in memory; EditError where its result would not compile, nothing is written."""
+    _refuse_under_alias(change)
     texts = _texts(change)
     graph = _compiled(project, texts)
-    locks = locks_of([*project.paths, *change.created])
+    locks = locks_of([*project.taught, *change.created])
     beside = []
     for other in _concerned(project, change):
         main = other.main.source.path
         damage = ""
         try:
-            locks = locks_of(other.paths) | locks
+            locks = locks_of(other.taught) | locks
         except LockError as error:
             damage = str(error)
         beside.append(EditedNeighbour(other, load(main, texts), damage))
@@ -72,7 +73,18 @@ def _all(project: Project) -> tuple[Project, ...]:
 def _concerned(project: Project, change: MindChange) -> list[Project]:
     """The neighbours that an edit concerns: those to which a new name is none are left alone."""
     sharing = [set(map(id, project.sharing(rename.noun, rename.old))) for rename in change.renamed]
-    return [other for other in project.neighbours if all(id(other) in each for each in sharing)]
+    return [other for other in project.neighbours if not sharing or any(id(other) in each for each in sharing)]
+
+
+def _refuse_under_alias(change: MindChange) -> None:
+    """EditError where lines of a file change that has other names for what it declares than this mind."""
+    for splice in change.splices:
+        if alias := splice.source.alias:
+            name = splice.source.name
+            message = f"{name} is used as {alias}, and has other names for what it declares."
+            raise EditError(
+                message, f"Edit it by itself: mindc edit … {name}", Span(splice.source, splice.start, splice.end)
+            )
 
 
 def _texts(change: MindChange) -> dict[Path, str]:

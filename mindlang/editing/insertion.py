@@ -13,14 +13,18 @@ from mindlang.compiler.syntax import (
     Drives,
     Ends,
     Fact,
+    Fails,
     File,
     Influences,
     Lasts,
     Reads,
     Rewards,
+    Starts,
     Stays,
+    Succeeds,
     Teaches,
     Use,
+    Varies,
 )
 from mindlang.editing.lines import (
     SourceLine,
@@ -33,8 +37,10 @@ from mindlang.editing.lines import (
 )
 
 INDENT = "  "
-NOUNS = ("body", "actuator", "sensor", "memory", "skill", "task", "curriculum")  # in the order of a file
-FACTS: tuple[type[Fact], ...] = (Contains, Lasts, Ends, Reads, Drives, Influences, Stays, Rewards, Counts, Teaches)
+NOUNS = ("body", "actuator", "sensor", "memory", "skill", "scene", "task", "curriculum")  # in the order of a file
+FACTS: tuple[type[Fact], ...] = (
+    Contains, Starts, Varies, Fails, Lasts, Ends, Succeeds, Reads, Drives, Influences, Stays, Rewards, Counts, Teaches,
+)  # fmt: skip
 
 Extent = tuple[SourceLine, SourceLine]  # the first and the last line
 

@@ -8,6 +8,7 @@ from mindrun.graph import Graph
 from mindrun.weights import Weights
 
 from mindlang.editing.project import MindChange, Replaced
+from mindlang.editing.unshared import with_copy
 from mindlang.editing.widen import widen_locks
 from mindlang.editing.world_names import relabelled
 from mindlang.lock import Entry, Lock, lock_path, read_lock
@@ -49,6 +50,8 @@ def update_locks(locks: Locks, before: Graph, after: Graph, change: MindChange, 
     if change.replaced:
         own = {skill.name for skill in before.skills} - {change.replaced.new}
         kept = {path: _moved(lock, change.replaced, own) for path, lock in kept.items()}
+    if change.unshared:
+        kept = {path: with_copy(lock, change.unshared, after) for path, lock in kept.items()}
     return (
         UpdatedLocks(*widen_locks(locks, kept, names["skill"], before, after))
         if keep_weights
@@ -97,6 +100,7 @@ def _entry(entry: Entry, names: Names) -> Entry:
             curriculum=now_called(taught.curriculum, names, "curriculum"),
         ),
         subskills=tuple(sorted((skill(name), weights) for name, weights in entry.subskills)),
+        origin=entry.origin and (skill(entry.origin[0]), entry.origin[1]),
         worlds=tuple(relabelled(world, names) for world in entry.worlds),
     )
 

@@ -14,19 +14,15 @@ from mindlang.compiler.compile import Compiled
 from mindlang.compiler.diagnostic import Diagnostic, Label, a, did_you_mean, listed
 from mindlang.compiler.model import Mind
 from mindlang.compiler.names import SHARED, Names
+from mindlang.compiler.references import VALUE_NOUNS, Mention, mentions
 from mindlang.compiler.source import Span
 from mindlang.compiler.splice import Splice
 from mindlang.compiler.syntax import NOUNS, Declaration, Drives, Fact, File, Influences, Master, Reads
 from mindlang.editing.neighbours import neighbours
-from mindlang.editing.references import READABLE_NOUNS, Mention, mentions
+from mindlang.lock import lock_sources
 
 F = TypeVar("F", bound=Fact)
 MAX_SUGGESTED_NAMES = 8  # names in a message
-OWNERS = {
-    "skill": ("reads", "drives", "influences", "stays"),
-    "task": ("contains", "lasts", "ends", "rewards", "counts"),
-    "curriculum": ("teaches",),
-}
 
 
 class EditError(MindError):
@@ -55,12 +51,22 @@ class Replaced:
 
 
 @dataclass(frozen=True, slots=True)
+class Unshared:
+    """A skill that was like its `owner` and now stands for itself; what it reads `instead`, by the owner's inputs."""
+
+    skill: str
+    owner: str
+    instead: Mapping[str, str]
+
+
+@dataclass(frozen=True, slots=True)
 class MindChange:
     """What an edit does: `splices` of the sources, `created` files, and which names the weights have to follow."""
 
     splices: tuple[Splice, ...]
     renamed: tuple[Renamed, ...] = ()
     replaced: Replaced | None = None
+    unshared: Unshared | None = None
     created: Mapping[Path, str] = field(default_factory=dict)
 
 
@@ -95,12 +101,13 @@ class Project:
 
     def refuse_taken(self, noun: str, name: str) -> None:
         """EditError where a noun has the name already, or a measure that a reading would hide."""
-        if noun in READABLE_NOUNS and name in kinds("measure"):
-            message = f"{name} is a measure: rewards that say it would mean the reading then."
+        if noun in VALUE_NOUNS and name in kinds("measure"):
+            meant = "number" if noun == "number" else "reading"
+            message = f"{name} is a measure: rewards that say it would mean the {meant} then."
             raise EditError(message, "Choose another name.")
         for taken in (noun, *SHARED.get(noun, ())):
-            if other := self.names.table.get(taken, {}).get(name):
-                label = other.header.name.span
+            if self.names.noun_of(name, (taken,)):
+                label = self.names.place_of(taken, name)
                 raise EditError(f"There is already {a(taken)} called {name}.", "Choose another name.", label)
 
     def declared(self, name: str, noun: str, say: str = "--noun {}") -> Declaration:
@@ -148,6 +155,11 @@ class Project:
         """The files by their paths."""
         return {file.source.path: file for file in self.files}
 
+    @property
+    def taught(self) -> list[Path]:
+        """The files whose locks tell of the skills of this mind."""
+        return lock_sources(file.source for file in self.files)
+
     def mentions(self, noun: str, name: str) -> Iterator[Mention]:
         """Where a name stands, in all files."""
         return (m for m in mentions(self.files, self.names) if m.noun == noun and m.name.text == name)
@@ -170,8 +182,15 @@ class Project:
             seen |= set(other.paths)
 
     def parents(self, skill: str) -> list[Declaration]:
-        """The skills that influence a skill."""
-        return [parent.declaration for parent in self.mind.skills if skill in parent.subskills]
+        """The skills that say that they influence a skill."""
+        return [parent.declaration for parent in self.mind.skills if skill in parent.subskills and not parent.like]
+
+    def refuse_like(self, declaration: Declaration) -> None:
+        """EditError where a skill is like another, so that nothing but what it reads instead is said of it."""
+        if (header := declaration.header).like:
+            name, other = header.name.text, header.like.text
+            hint = f"Edit {other}, or first: mindc edit unshare {name}"
+            raise EditError(f"{name} is like {other}, and says nothing of its own.", hint, header.span)
 
     def places(self, skill: str) -> Iterator[Mention]:
         """Where a skill has its place in the hierarchy: where skills influence it, and where it is the master."""
@@ -196,12 +215,6 @@ def _project(compiled: Compiled) -> Project:
 def facts(declaration: Declaration, form: type[F]) -> list[F]:
     """The facts of one verb."""
     return [fact for fact in declaration.facts if isinstance(fact, form)]
-
-
-def owner(fact: str) -> str:
-    """The noun below which a fact of this verb stands; nothing where it begins with no verb."""
-    verb = fact.partition(" ")[0]
-    return next((noun for noun, verbs in OWNERS.items() if verb in verbs), "")
 
 
 def kind_of(declaration: Declaration) -> str:

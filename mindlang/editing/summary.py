@@ -28,7 +28,7 @@ def diff(edited: Edited) -> str:
 
 def summarise(edited: Edited) -> list[str]:
     """A sentence for each skill whose weights do not simply stay as they are, and for what happens to neighbours."""
-    before = _statuses(edited.project.graph, edited.locks, list(edited.project.paths))
+    before = _statuses(edited.project.graph, edited.locks, edited.project.taught)
     after = _statuses(edited.graph, edited.followed.locks, edited.sources)
     old_names = _old_names(edited, after)
     frozen = {skill.name for skill in edited.graph.skills if skill.frozen}
@@ -80,9 +80,9 @@ def _neighbour_sentences(edited: Edited) -> list[str]:
 
 def _stale_beside(edited: Edited, other: EditedNeighbour) -> Iterator[str]:
     assert other.after.graph
-    own = merged(edited.locks, edited.project.paths)
-    theirs = merged(edited.locks, other.before.paths)
-    before = _statuses(other.before.graph, edited.locks, list(other.before.paths))
+    own = merged(edited.locks, edited.project.taught)
+    theirs = merged(edited.locks, other.before.taught)
+    before = _statuses(other.before.graph, edited.locks, list(other.before.taught))
     after = _statuses(other.after.graph, edited.followed.locks, [source.path for source in other.after.sources])
     old_names = _old_names(edited, after)
     for skill, now in after.items():

@@ -11,13 +11,13 @@ from mindrun.graph import Graph, Skill
 from mindrun.policy import Policy
 from mindrun.sim.rollout import Rollout
 from mindrun.sim.trace import trace
-from mindrun.weights import Weights, genes, reachable, weights_of
+from mindrun.weights import Weights, genes, owner_of, reachable, weights_of
 from numpy.typing import NDArray
 
+from mindlang.compiler.references import READABLE_NOUNS
 from mindlang.editing.apply import Edited
 from mindlang.editing.lock_update import Names, merged, new_names, now_called
 from mindlang.editing.project import EditError
-from mindlang.editing.references import READABLE_NOUNS
 from mindlang.lock import Lock
 from mindlang.lock.arrange import arrange
 from mindlang.lock.blobs import blob, load_weights
@@ -51,8 +51,8 @@ class MindVersion:
                     return None
                 entry = state.entry
                 fresh = self.fresh.get(blob(entry.folder, entry.weights))
-                found[skill.name] = (
-                    load_weights(entry, skill) if fresh is None else weights_of(skill, {skill.name: fresh})
+                found[skill.owner] = (
+                    load_weights(entry, skill) if fresh is None else weights_of(skill, {skill.owner: fresh})
                 )
         return found
 
@@ -67,7 +67,7 @@ def verify_unchanged(edited: Edited, prepare: Callable[[Rollout], None] = Rollou
     What they read is recorded from a run in the simulator, as the mind was; `prepare` compiles it. EditError where one
     did something else. Runs the Python code of the mind's procedures.
     """
-    lock = merged(edited.locks, edited.project.paths)
+    lock = merged(edited.locks, edited.project.taught)
     folder = edited.project.main.source.folder
     before = MindVersion(arrange(edited.project.graph, lock), lock, {}, folder)
     now = merged(edited.followed.locks, edited.sources)
@@ -85,14 +85,17 @@ def verify_unchanged(edited: Edited, prepare: Callable[[Rollout], None] = Rollou
 
 def _is_untouched(before: MindVersion, after: MindVersion, skill: str, master: str, names: Names) -> bool:
     """Whether all that a skill reaches is declared as before, or has been widened to do as before; and can act."""
-    old, new = before.weights(skill), master in after.lock and after.weights(master)
+    old, new = before.weights(skill), owner_of(after.graph, master) in after.lock and after.weights(master)
     if not old or not new:
         return False
     skills = {found.name: found for found in after.graph.skills}
     for found in reachable(before.graph, skill):
         name = names["skill"].get(found.name, found.name)
-        widened = name in new and found.name in old and len(new[name]) != len(old[found.name])
-        if name not in skills or not (widened or _shape(before, found, names) == _shape(after, skills[name], {})):
+        if name not in skills:
+            return False
+        owner = skills[name].owner
+        widened = owner in new and found.owner in old and len(new[owner]) != len(old[found.owner])
+        if not (widened or _shape(before, found, names) == _shape(after, skills[name], {})):
             return False
     return True
 

@@ -33,7 +33,7 @@ def widen_locks(
         wide[path] = dict(lock)
         fitted = _fitted(locks[path], new_names, before)
         for name, state in status(after, lock).items():
-            if isinstance(state, Stale) and name in fitted:
+            if isinstance(state, Stale) and name in fitted and not skills[name].like:
                 entry = lock[name]
                 wide[path][name], made = widen(entry, fitted[name], after, skills[name]) or _refuse(name, state)
                 hashes[name, entry.weights] = wide[path][name].weights
@@ -61,7 +61,11 @@ def _refuse(skill: str, state: Stale) -> NoReturn:
 def _taught_with(lock: Lock, hashes: Mapping[tuple[str, str], str]) -> dict[str, Entry]:
     """Widened subskills do the same as before: a skill that was taught with them still is."""
     return {
-        name: replace(entry, subskills=tuple((sub, hashes.get((sub, old), old)) for sub, old in entry.subskills))
+        name: replace(
+            entry,
+            subskills=tuple((sub, hashes.get((sub, old), old)) for sub, old in entry.subskills),
+            origin=entry.origin and (entry.origin[0], hashes.get(entry.origin, entry.origin[1])),
+        )
         for name, entry in lock.items()
     }
 

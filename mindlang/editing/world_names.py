@@ -7,9 +7,11 @@ from typing import Any
 from mindrun.quantity import Reference
 from mindrun.registry import arguments, kinds
 
+from mindlang.compiler.references import READABLE_NOUNS
 from mindlang.lock.training_world import TrainingWorld
 
 NounNames = Mapping[str, Mapping[str, str]]  # what is called otherwise now, by noun
+ENDS = ("ends", "succeeds")
 OF_THINGS = {"of", "toward", "from"}  # words before the name of a thing, in a phrase
 _WORD = re.compile(r"[^\s()]+")
 
@@ -36,16 +38,27 @@ def _fact(subject: str, value: Any, name: Name) -> Any:
     match subject.partition(" ")[0]:
         case "sensor":
             nouns = _named_by(value["is"])
-            return {key: name(part, nouns[key]) if key in nouns else part for key, part in value.items()}
+            return {key: _renamed(part, nouns[key], name) if key in nouns else part for key, part in value.items()}
         case "skill":
             return {key: _skill_part(key, part, name) for key, part in value.items()}
         case "task":
-            return {**value, "ends": sorted(_phrase(event, name) for event in value["ends"])}
+            ends = {key: sorted(_phrase(event, name) for event in value[key]) for key in ENDS if key in value}
+            return {**value, **ends}
         case "rewards":
             return sorted([_phrase(part, name) for part in reward] for reward in value)
         case "lesson":
-            return {**value, "task": name(value["task"], "task"), "master": name(value["master"], "skill")}
+            renamed = {"task": name(value["task"], "task"), "master": name(value["master"], "skill")}
+            if "starts_from" in value:
+                renamed["starts_from"] = name(value["starts_from"], "skill")
+            return {**value, **renamed}
     return value
+
+
+def _renamed(part: Any, noun: str, name: Name) -> Any:
+    """The name that an argument says, or the readings in its expression."""
+    if noun == "expression":
+        return [[word, name(x, *READABLE_NOUNS) if isinstance(x, str) else x] for word, x in part]
+    return name(part, *(READABLE_NOUNS if noun == "sensor" else (noun,)))
 
 
 def _named_by(kind: str) -> dict[str, str]:
@@ -56,11 +69,18 @@ def _named_by(kind: str) -> dict[str, str]:
 
 
 def _skill_part(key: str, value: Any, name: Name) -> Any:
+    if key == "like":
+        return name(value, "skill")
     if key == "reads":
-        return [name(each, "sensor", "memory") for each in value]
+        return [_read(each, name) for each in value]
     if key not in ("sends", "answers"):
         return value
     return [_sent(each, name) for each in value]
+
+
+def _read(text: str, name: Name) -> str:
+    """What a skill reads, and in place of what where it is like another."""
+    return " for ".join(name(each, "sensor", "memory") for each in text.split(" for "))
 
 
 def _sent(text: str, name: Name) -> str:

@@ -10,7 +10,8 @@ from mindlang.compiler.source import Source, Span
 from mindlang.compiler.splice import Splice
 from mindlang.compiler.syntax import Declaration, Fact, File
 from mindlang.editing.insertion import FACTS, INDENT, NOUNS, below_siblings, commented, declare, text_of
-from mindlang.editing.project import EditError, MindChange, Project, owner
+from mindlang.editing.owners import owner
+from mindlang.editing.project import EditError, MindChange, Project
 
 
 def add(

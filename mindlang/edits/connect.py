@@ -27,6 +27,7 @@ def connect(
     Example: mindc edit connect Collect proximity collect.mind
     """
     declaration = project.find(skill, "skill")
+    project.refuse_like(declaration)
     refuse_lines(at)
     is_sent = drives or bool(at)
     noun = project.find(target, *(VERBS if is_sent else reversed(VERBS))).header.noun.text

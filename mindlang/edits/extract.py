@@ -25,6 +25,7 @@ def extract(
     Example: mindc edit extract Collect Fetch GoToObject+Avoid Grab collect.mind
     """
     declaration = project.find(parent, "skill")
+    project.refuse_like(declaration)
     refuse_misnamed("skill", new)
     refuse_lines(is_)
     project.refuse_taken("skill", new)

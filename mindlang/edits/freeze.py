@@ -13,6 +13,7 @@ def freeze(project: Project, skill: str) -> MindChange:
     Example: mindc edit freeze Avoid collect.mind
     """
     declaration = project.find(skill, "skill")
+    project.refuse_like(declaration)
     if frozen := facts(declaration, Stays):
         raise EditError(f"{skill} is frozen already.", "", frozen[0].span)
     return MindChange((below_siblings(declaration, Stays, ["stays frozen"]),))

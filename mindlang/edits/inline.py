@@ -26,6 +26,7 @@ def inline(project: Project, skill: str) -> MindChange:
     Example: mindc edit inline Fetch collect.mind
     """
     declaration = project.find(skill, "skill")
+    project.refuse_like(declaration)
     if not facts(declaration, Influences):
         message = f"{skill} is a base skill: there is nothing below it to take its place."
         raise EditError(message, "", declaration.header.span)
@@ -52,7 +53,7 @@ def _taken_over(parent: Declaration, child: Declaration) -> list[Splice]:
 
 
 def _needed(edges: list[Edge], parent: Declaration) -> list[str]:
-    """The readings after `at` that a parent does not read."""
+    """The readings in values and conditions that a parent does not read."""
     said = {fact.name.text for fact in facts(parent, Reads)}
-    terms = (term for edge in edges if edge.at for term in edge.at.terms)
+    terms = (term for edge in edges for expression in edge.expressions for term in expression.terms)
     return list(dict.fromkeys(t.kind.text for t in terms if isinstance(t, Phrase) and t.kind.text not in said))

@@ -5,7 +5,8 @@ from typing import Annotated
 from mindlang.compiler.diagnostic import did_you_mean
 from mindlang.compiler.syntax import NOUNS, Declaration
 from mindlang.editing.insertion import without_declarations, without_fact
-from mindlang.editing.project import EditError, MindChange, Project, owner
+from mindlang.editing.owners import owner
+from mindlang.editing.project import EditError, MindChange, Project
 
 
 def remove(

@@ -1,8 +1,10 @@
 """`mindc edit rename`."""
 
+from collections.abc import Iterator
 from typing import Annotated
 
 from mindlang.compiler.diagnostic import Label, a, listed
+from mindlang.compiler.references import VALUE_NOUNS, Mention, introductions
 from mindlang.compiler.syntax import NOUNS, Rewards
 from mindlang.editing.insertion import instead
 from mindlang.editing.naming import refuse_misnamed
@@ -15,7 +17,6 @@ from mindlang.editing.project import (
     refuse_no_noun,
     suggestion,
 )
-from mindlang.editing.references import Mention, introductions
 
 
 def rename(
@@ -31,18 +32,36 @@ def rename(
 
     Example: mindc edit rename Avoid Dodge --noun skill collect.mind
     """
-    of = _declared(project, old, noun).noun
+    declared = _declared(project, old, noun)
+    of = declared.noun
     refuse_misnamed(of, new)
     for each in (project, *project.sharing(of, old)):
         _refuse_taken(each, of, new)
     places = (mention.name.span for mention in project.everywhere(of, old))
-    return MindChange(tuple(instead(place, new) for place in places), (Renamed(of, old, new),))
+    aliases = dict(_aliases(project, declared))
+    others = (
+        instead(mention.name.span, f"{alias}.{new}")
+        for alias, other in aliases.items()
+        for mention in other.mentions(of, f"{alias}.{old}")
+        if not mention.name.span.source.alias
+    )
+    splices = (*(instead(place, new) for place in places), *others)
+    elsewhere = (Renamed(of, f"{alias}.{old}", f"{alias}.{new}") for alias in aliases)
+    return MindChange(splices, (Renamed(of, old, new), *elsewhere))
+
+
+def _aliases(project: Project, declared: Mention) -> Iterator[tuple[str, Project]]:
+    """The neighbours that use the file of a declaration under another name, by that name."""
+    path = declared.name.span.source.path
+    for other in project.neighbours if declared.noun != "thing" else ():
+        if path in other.paths and (alias := other.paths[path].source.alias):
+            yield alias, other
 
 
 def _declared(project: Project, name: str, noun: str) -> Mention:
     """Where a name is declared with a noun, or with the only one that has it."""
     if noun:
-        refuse_no_noun(noun, (*NOUNS, "thing"))
+        refuse_no_noun(noun, (*NOUNS, "thing", "number"))
     known = [mention for mention in introductions(project.files) if noun in ("", mention.noun)]
     found = {mention.noun: mention for mention in known if mention.name.text == name}
     if not found:
@@ -62,7 +81,7 @@ def _refuse_taken(project: Project, noun: str, name: str) -> None:
         _refuse_taken_thing(project, name)
     else:
         project.refuse_taken(noun, name)
-    if noun in ("sensor", "memory"):
+    if noun in VALUE_NOUNS:
         _refuse_captured(project, name)
 
 
@@ -74,7 +93,7 @@ def _refuse_taken_thing(project: Project, name: str) -> None:
 
 
 def _refuse_captured(project: Project, name: str) -> None:
-    """A reading with the name of a `for each` would be taken for that in the reward."""
+    """A reading or a number with the name of a `for each` would be taken for that in the reward."""
     tasks = (declaration for _, declaration in project.names.declarations("task"))
     for reward in (reward for task in tasks for reward in facts(task, Rewards)):
         if reward.each and reward.each.name.text == name:

@@ -11,6 +11,7 @@ def unfreeze(project: Project, skill: str) -> MindChange:
     Example: mindc edit unfreeze Avoid collect.mind
     """
     declaration = project.find(skill, "skill")
+    project.refuse_like(declaration)
     frozen = facts(declaration, Stays)
     if not frozen:
         raise EditError(f"{skill} is not frozen.", "", declaration.header.span)

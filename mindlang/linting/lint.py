@@ -6,8 +6,8 @@ from collections.abc import Collection, Iterator
 from mindlang.analysis.study import Finding, study
 from mindlang.compiler.compile import Compiled
 from mindlang.compiler.diagnostic import Diagnostic
+from mindlang.compiler.references import mentions
 from mindlang.editing.neighbours import neighbours
-from mindlang.editing.references import mentions
 from mindlang.rules import Rule, all_rules
 
 _NOQA = re.compile(r"#\s*noqa(?:\s*:\s*(?P<codes>[\w-]+(?:[ ,]+[\w-]+)*))?\s*$", re.IGNORECASE)

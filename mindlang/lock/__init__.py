@@ -16,9 +16,10 @@ from mindrun.atomic_write import write
 from mindrun.errors import MindError
 from mindrun.regular_files import read_regular
 
+from mindlang.compiler.source import Source
 from mindlang.lock.training_world import HEADING, TrainingWorld, world_of
 
-VERSIONS = ("# mind lock 1:", "# mind lock 2:", "# mind lock 3:")
+VERSIONS = ("# mind lock 1:", "# mind lock 2:", "# mind lock 3:", "# mind lock 4:")
 HEADER = (
     f"{VERSIONS[-1]} what has been taught. `mindc train` writes it; it belongs under version control, with weights/."
 )
@@ -33,6 +34,7 @@ _LINE = re.compile(
     r" seed (?P<seed>[0-9]{1,19}) score (?P<score>-?[0-9]{1,400}(?:\.[0-9]{1,400})?(?:e[+-]?[0-9]{1,3})?)"
     r"(?: lesson (?P<number>[0-9]{1,9}) of (?P<curriculum>\S+))?"
     r"(?: \| with (?P<subskills>\S+:[0-9a-f]{64}(?: \S+:[0-9a-f]{64})*))?"
+    r"(?: \| from (?P<origin>\S+:[0-9a-f]{64}))?"
     r"(?: \| (?P<how>taught|accepted) in (?P<worlds>[0-9a-f]{16}(?: [0-9a-f]{16})*))?"
 )
 _EVIDENCE_WORDS = {False: "taught", True: "accepted"}
@@ -74,6 +76,7 @@ class Taught:
 class Entry:
     """One line: a trained skill. `weights` and those of the `subskills` that it was taught with are SHA-256.
 
+    `origin` is the other skill with whose weights it began, and their SHA-256; there may be none.
     `worlds` are those of its lessons, the last one last; none where the lock does not know them. Where they are
     `accepted`, they are others than it was taught in, and a person has said that its weights will do in them.
     """
@@ -85,6 +88,7 @@ class Entry:
     subskills: tuple[tuple[str, str], ...] = ()
     worlds: tuple[TrainingWorld, ...] = ()
     accepted: bool = False
+    origin: tuple[str, str] | None = None
     folder: Path = field(default=Path(), compare=False)  # where the lock stands that it was read from
 
     def __str__(self) -> str:
@@ -102,6 +106,8 @@ class Entry:
         ]
         if self.subskills:
             parts.append("with " + " ".join(f"{skill}:{weights}" for skill, weights in self.subskills))
+        if self.origin:
+            parts.append("from " + ":".join(self.origin))
         if self.worlds:
             parts.append(f"{_EVIDENCE_WORDS[self.accepted]} in " + " ".join(world.name for world in self.worlds))
         return " | ".join(parts)
@@ -118,19 +124,31 @@ class Entry:
         where = found["task"], found["master"], found["jointly"] is not None
         lesson = int(found["number"] or 0), found["curriculum"] or ""
         taught = Taught(*where, generations, population, seed, float(found["score"]), *lesson)
-        pairs = (part.rpartition(":") for part in (found["subskills"] or "").split())
-        subskills = tuple((skill, weights) for skill, _, weights in pairs)
+        subskills, origin = _hashed(found["subskills"]), _hashed(found["origin"])
         taught_in = tuple(worlds[name] for name in names)
         accepted = found["how"] == _EVIDENCE_WORDS[True]
-        return cls(found["skill"], signature, found["weights"], taught, subskills, taught_in, accepted, folder)
+        weights = found["weights"]
+        begun = origin[0] if origin else None
+        return cls(found["skill"], signature, weights, taught, subskills, taught_in, accepted, begun, folder)
 
 
 Lock = Mapping[str, Entry]
 
 
+def _hashed(text: str | None) -> tuple[tuple[str, str], ...]:
+    """The skills and the SHA-256 of their weights that stand in a line as NAME:SHA."""
+    pairs = (part.rpartition(":") for part in (text or "").split())
+    return tuple((skill, weights) for skill, _, weights in pairs)
+
+
 def lock_path(source: Path) -> Path:
     """The lock of a `.mind` file."""
     return source.with_suffix(".lock")
+
+
+def lock_sources(sources: Iterable[Source]) -> list[Path]:
+    """The files of a mind whose locks count: the skills of one that is used under a name are others than it has."""
+    return [source.path for source in sources if not source.alias]
 
 
 def read_lock(path: Path) -> dict[str, Entry]:

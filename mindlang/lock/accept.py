@@ -5,7 +5,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from mindrun.graph import Graph, Lesson
-from mindrun.weights import genes, learners, reachable
+from mindrun.weights import learners, owner_of, owners, reachable
 
 from mindlang.lock import Entry, Lock, LockError, lock_path, read_lock, read_locks, write_lock
 from mindlang.lock.blobs import FOLDER, exclusive_folder
@@ -20,6 +20,7 @@ def accept(graph: Graph, sources: Sequence[Path], skills: Sequence[str]) -> None
     LockError where one has no weights that fit, or none of its lessons is there any more; then nothing is written.
     """
     lock = read_locks(sources)
+    skills = list(dict.fromkeys(owner_of(graph, skill) for skill in skills))
     states = status(graph, lock, sources[0].parent)
     for skill in skills:
         if not isinstance(states.get(skill), Trained):
@@ -50,9 +51,12 @@ def _accepted(graph: Graph, lock: Lock, folder: Path, entry: Entry) -> Entry:
             f"no lesson of the mind teaches {entry.skill} on {taught.task}, so its world cannot be accepted"
         )
     worlds: tuple[TrainingWorld, ...] = tuple(Worlds(graph, folder).of(lesson) for lesson in lessons)
-    below = (skill for skill in reachable(graph, entry.skill)[1:] if genes(skill) and skill.name in lock)
-    subskills = tuple(sorted((skill.name, lock[skill.name].weights) for skill in below))
-    return replace(entry, worlds=worlds, subskills=subskills, accepted=True)
+    below = (name for name in owners(reachable(graph, entry.skill)) if name != entry.skill and name in lock)
+    subskills = tuple(sorted((name, lock[name].weights) for name in below))
+    origin = entry.origin
+    if origin and (now := lock.get(owner_of(graph, origin[0]))):
+        origin = origin[0], now.weights
+    return replace(entry, worlds=worlds, subskills=subskills, origin=origin, accepted=True)
 
 
 def _lesson(graph: Graph, key: LessonKey, skill: str, last: Lesson | None) -> Lesson | None:

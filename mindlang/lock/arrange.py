@@ -15,7 +15,21 @@ def arrange(graph: Graph, lock: Lock) -> Graph:
     Skills stand parents first and otherwise by name; what a trained skill reads and sends stands as in its line.
     """
     graph = _by_name(graph)
-    return replace(graph, skills=tuple(_as_taught(graph, skill, lock) for skill in graph.skills))
+    known = {skill.name: skill for skill in graph.skills}
+    taught = {skill.name: _as_taught(graph, skill, lock) for skill in graph.skills if not skill.like}
+    taught |= {s.name: _as_owner(s, known[s.like], taught[s.like]) for s in graph.skills if s.like}
+    return replace(graph, skills=tuple(taught[name] for name in known))
+
+
+def _as_owner(skill: Skill, before: Skill, after: Skill) -> Skill:
+    """A skill that is like another in the order into which that one has been brought."""
+    inputs = dict(zip(before.inputs, skill.inputs, strict=True))
+    edges = {(edge.to, edge.target): own for edge, own in zip(before.edges, skill.edges, strict=True)}
+    return replace(
+        skill,
+        inputs=tuple(inputs[index] for index in after.inputs),
+        edges=tuple(replace(edges[edge.to, edge.target], output=edge.output) for edge in after.edges),
+    )
 
 
 def _as_taught(graph: Graph, skill: Skill, lock: Lock) -> Skill:

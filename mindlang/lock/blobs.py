@@ -12,7 +12,7 @@ from mindrun.errors import WeightsError
 from mindrun.graph import Graph, Skill
 from mindrun.npy import to_npy
 from mindrun.regular_files import read_whole
-from mindrun.weights import Weights, reachable, read_weights, weights_of
+from mindrun.weights import Weights, owners, reachable, read_weights, weights_of
 
 from mindlang.compiler.diagnostic import listed
 from mindlang.lock import Entry, Lock, LockError, Taught, read_lock, write_lock
@@ -22,6 +22,8 @@ from mindlang.lock.training_world import TrainingWorld
 FOLDER = "weights"
 MAX_WEIGHTS_BYTES = 1 << 27  # of the weights of a skill; a bundle cannot hold more than half of that
 EMPTY_LOCK: Lock = {}
+Origin = tuple[str, str]  # a skill, and the SHA-256 of its weights
+NO_ORIGINS: Mapping[str, Origin] = {}
 
 
 def load_weights(entry: Entry, skill: Skill) -> Weights:
@@ -34,7 +36,7 @@ def load_weights(entry: Entry, skill: Skill) -> Weights:
         data = read_whole(path, MAX_WEIGHTS_BYTES)
         if sha256(data).hexdigest() != entry.weights:
             raise LockError(f"{path}, the weights of {entry.skill}, is damaged: {remedy}")
-        return weights_of(skill, {skill.name: read_weights(data)})
+        return weights_of(skill, {skill.owner: read_weights(data)})
     except OSError as error:
         raise LockError(f"{path}, the weights of {entry.skill}, cannot be read: {error.strerror}; {remedy}") from error
     except WeightsError as error:
@@ -49,18 +51,22 @@ def record(
     others: Mapping[str, Weights],
     world: TrainingWorld | None = None,
     begun_with: Lock = EMPTY_LOCK,
+    origins: Mapping[str, Origin] = NO_ORIGINS,
 ) -> dict[str, Entry]:
     """Keep what a lesson taught: weights as files, the skills' lines in the lock at `path`; the other lines stay.
 
     `others` are the weights of the skills that they were taught with, `world` is the one in which that was, and
-    `begun_with` has the lines of the weights that the lesson began with. No file of weights is removed: that is for
+    `begun_with` has the lines of the weights that the lesson began with, `origins` the other skills whose weights those
+    were. No file of weights is removed: that is for
     `mindc gc`.
     """
     weights = {**others, **learnt}
     entries = {}
     for skill in learnt:
         entry = _entry(path, graph, skill, weights, taught)
-        entries[skill] = replace(entry, worlds=_worlds(begun_with.get(skill), world))
+        before = begun_with.get(skill)
+        origin = origins.get(skill, before.origin if before else None)
+        entries[skill] = replace(entry, worlds=_worlds(before, world), origin=origin)
     try:
         with exclusive_folder(path.parent / FOLDER):
             lock = read_lock(path)
@@ -83,7 +89,8 @@ def _worlds(before: Entry | None, world: TrainingWorld | None) -> tuple[Training
 
 def _entry(path: Path, graph: Graph, skill: str, weights: Mapping[str, Weights], taught: Taught) -> Entry:
     below = reachable(graph, skill)
-    subskills = tuple(sorted((sub.name, digest(weights[sub.name])) for sub in below[1:] if sub.name in weights))
+    beside = (name for name in owners(below) if name != skill and name in weights)
+    subskills = tuple(sorted((name, digest(weights[name])) for name in beside))
     own, kept = signature(graph, below[0]), digest(weights[skill])
     return Entry(skill, own, kept, taught, subskills, folder=path.parent)
 

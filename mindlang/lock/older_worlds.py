@@ -5,6 +5,7 @@ from typing import Any
 
 from mindrun.things import MOVES
 
+ONE_ANYWHERE = {"at": [], "count": 1}  # what every thing was before there was a word for it
 EVENTS = {"reached": "reach", "delivered": "delivery"}
 
 
@@ -23,4 +24,4 @@ def _with_outcomes(subject: str, fact: Any, named: set[str]) -> Any:
     if noun != "thing":
         return fact
     outcomes = {field: MOVES for field, event in EVENTS.items() if f"{event} of {name}" in named}
-    return outcomes | fact  # what it says itself counts
+    return ONE_ANYWHERE | outcomes | fact  # what it says itself counts

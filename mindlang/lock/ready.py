@@ -9,7 +9,7 @@ from mindrun.weights import reachable
 
 from mindlang.compiler.diagnostic import listed
 from mindlang.compiler.source import Source
-from mindlang.lock import read_locks
+from mindlang.lock import lock_sources, read_locks
 from mindlang.lock.arrange import arrange
 from mindlang.lock.status import UNKNOWN, Status, Trained, status, trained_weights
 
@@ -29,7 +29,7 @@ class ReadyMind:
 def make_ready(graph: Graph, sources: Iterable[Source], master: str | None = None) -> ReadyMind:
     """The graph of these sources with the weights of their locks; LockError where a lock or weights are damaged."""
     sources = tuple(sources)
-    lock = read_locks(source.path for source in sources)
+    lock = read_locks(lock_sources(sources))
     graph = replace(arrange(graph, lock), master=master or graph.master)
     needed = [skill.name for skill in reachable(graph, graph.master)]
     weights, refusals = trained_weights(graph, lock, frozenset(needed))

@@ -35,7 +35,7 @@ COLOURS = {
 class Row:
     """A skill, how it stands, and what is wrong with the file of its weights if anything is.
 
-    One that is not `needed` stands nowhere below the master.
+    One that is not `needed` stands nowhere below the master, one that is `like` another has that one's weights.
     """
 
     skill: str
@@ -43,6 +43,7 @@ class Row:
     is_frozen: bool
     is_needed: bool
     damage: str = ""
+    like: str = ""
 
     @property
     def is_fine(self) -> bool:
@@ -85,7 +86,7 @@ def rows(graph: Graph, sources: Sequence[Path]) -> list[Row]:
     states = status(graph, lock, sources[0].parent)
     needed = {skill.name for skill in reachable(graph, graph.master)}
     return [
-        Row(skill.name, state, skill.frozen, skill.name in needed, _damage(skill, state))
+        Row(skill.name, state, skill.frozen, skill.name in needed, _damage(skill, state), skill.like)
         for skill, state in ((skill, states[skill.name]) for skill in graph.skills)
     ]
 
@@ -108,15 +109,20 @@ def report(found: Sequence[Row]) -> Table:
     table = Table(box=None, pad_edge=False, padding=(0, 2, 0, 0), show_header=False)
     for row in found:
         word = f"{row.word}, frozen" if row.is_frozen else row.word
-        made = (
-            f"{row.status.entry.weights[:4]}…  {made_by(row.status.entry.taught)}"
-            if isinstance(row.status, Trained)
-            else ""
-        )
         table.add_row(
-            Text(row.skill), Text(word, COLOURS[row.word]), Text("\n".join(filter(None, (made, *row.remarks))))
+            Text(row.skill), Text(word, COLOURS[row.word]), Text("\n".join(filter(None, (_made(row), *row.remarks))))
         )
     return table
+
+
+def _made(row: Row) -> str:
+    """Which weights a skill has, and how they came about."""
+    if not isinstance(row.status, Trained):
+        return f"like {row.like}" * bool(row.like)
+    entry = row.status.entry
+    how = f"like {row.like}" if row.like else made_by(entry.taught)
+    begun = f", begun as {entry.origin[0]}" if entry.origin and not row.like else ""
+    return f"{entry.weights[:4]}…  {how}{begun}"
 
 
 def made_by(taught: Taught) -> str:
@@ -133,16 +139,21 @@ def as_data(row: Row) -> dict[str, Any]:
     """A row as plain data."""
     data: dict[str, Any] = {"skill": row.skill, "status": row.word, "frozen": row.is_frozen, "needed": row.is_needed}
     data["remarks"] = [*row.remarks]
-    if isinstance(row.status, Trained):
+    if row.like:
+        data["like"] = row.like
+    elif isinstance(row.status, Trained):
         entry = row.status.entry
         taught = {name: getattr(entry.taught, name) for name in Taught.__slots__}
         data |= {"weights": entry.weights, "taught": taught, "subskills": dict(entry.subskills)}
         data |= {"worlds": [world.name for world in entry.worlds], "accepted": entry.accepted}
+        if entry.origin:
+            data["origin"] = dict([entry.origin])
     return data
 
 
 def survival(found: Sequence[Row]) -> list[str]:
     """Which weights still fit, as sentences: those that do in one, each of the others in its own."""
+    found = [row for row in found if not row.like]  # what is said of the others' weights holds for theirs
     trained = [row.skill for row in found if isinstance(row.status, Trained) and not row.damage]
     lines = [f"weights of {listed(trained, 'and')} fit"] if trained else []
     lines += elsewhere_sentences({row.skill: row.status for row in found})

@@ -45,10 +45,10 @@ def reordered(entry: Entry, graph: Graph) -> tuple[str, ...]:
 
 
 def _is_reordered(old: Any, now: SensorKind | None) -> bool:
-    """Whether a range finder looks at the same angles, in another order."""
+    """Whether a sensor measures at the same angles, in another order."""
     if not isinstance(old, list) or now is None:
         return False
-    return tuple(old) != now.rays and sorted(old) == sorted(now.rays)
+    return tuple(old) != now.directions and sorted(old) == sorted(now.directions)
 
 
 def _reads(graph: Graph, skill: Skill) -> Iterator[tuple[str, int]]:

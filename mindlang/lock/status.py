@@ -6,7 +6,7 @@ from functools import cached_property
 from pathlib import Path
 
 from mindrun.graph import Graph, Lesson
-from mindrun.weights import Weights, below, genes, learners, reachable
+from mindrun.weights import Weights, below, genes, learners, owners, reachable
 
 from mindlang.lock import Entry, Lock
 from mindlang.lock.blobs import load_weights
@@ -62,12 +62,13 @@ Status = Trained | Stale | Untaught | NotLearning
 
 
 def status(graph: Graph, lock: Lock, folder: Path | None = None) -> dict[str, Status]:
-    """How each skill of a mind stands to its lock; reads no weights.
+    """How each skill of a mind stands to its lock, one that is like another as that one; reads no weights.
 
     Procedures count where they are found in `folder`.
     """
     standing = _Standing(graph, lock, folder)
-    return {skill.name: standing.of(index) for index, skill in enumerate(graph.skills)}
+    own = {skill.name: standing.of(index) for index, skill in enumerate(graph.skills) if not skill.like}
+    return {skill.name: own[skill.owner] for skill in graph.skills}
 
 
 @dataclass(frozen=True)
@@ -101,6 +102,9 @@ class _Standing:
             fewest: list[str] = min(told.values(), key=len) if told else self._world_changes(world, None)
             changed += fewest
             outdated |= {lesson for lesson, said in told.items() if said}
+        if other := self._other_origin(entry):
+            changed.append(other)
+            outdated |= self._lessons_from(entry)
         subskills = [*self._subskill_changes(index, entry)]
         if subskills:
             outdated |= {*in_question(alike, last)}
@@ -117,7 +121,7 @@ class _Standing:
 
     def _subskill_changes(self, index: int, entry: Entry) -> Iterator[str]:
         """What is different about the learnt skills below one, but for what a lesson changed that it took part in."""
-        subskills = {skill.name for skill in below(self.graph, index)[1:] if genes(skill)}
+        subskills = {*owners(below(self.graph, index))} - {entry.skill}
         for skill, weights in entry.subskills:
             now = self.lock.get(skill)
             if skill not in subskills:
@@ -129,18 +133,38 @@ class _Standing:
         known = {skill for skill, _ in entry.subskills}
         yield from (f"taught without {skill}" for skill in sorted(subskills - known))
 
+    def _other_origin(self, entry: Entry) -> str:
+        """What is different about another skill's weights that a skill began with, but for lessons of both."""
+        if entry.origin is None:
+            return ""
+        name, weights = entry.origin
+        now = self.lock.get(self._owners.get(name, name))
+        if now is None:
+            return f"began with {name} ({weights[:4]}…), which has no weights now"
+        if now.weights == weights or self._took_part(entry.skill, now):
+            return ""
+        return f"began with another {name} ({weights[:4]}…, now {now.weights[:4]}…)"
+
+    def _lessons_from(self, entry: Entry) -> set[Lesson]:
+        """The lessons in which a skill begins with the weights of another."""
+        return {each for each in self.graph.lessons if each.starts_from and each.skill == entry.skill}
+
     def _took_part(self, skill: str, taught: Entry) -> bool:
         """Whether a skill acted in the lesson that another was taught in."""
         master = taught.taught.master
         if master not in self._acting:
             acting = reachable(self.graph, master) if master in self._skills else ()
-            self._acting[master] = {each.name for each in acting}
+            self._acting[master] = {name for each in acting for name in (each.name, each.owner)}
         return master != taught.skill and skill in self._acting[master]
 
     @cached_property
     def _acting(self) -> dict[str, set[str]]:
         """The skills that a master reaches, by master, as far as they were asked for."""
         return {}
+
+    @cached_property
+    def _owners(self) -> dict[str, str]:
+        return {skill.name: skill.owner for skill in self.graph.skills}
 
     @cached_property
     def _worlds(self) -> Worlds:
@@ -165,13 +189,15 @@ class _Standing:
 def trained_weights(graph: Graph, lock: Lock, skills: Collection[str]) -> tuple[dict[str, Weights], list[str]]:
     """The weights of those of `skills` that learn, and a message for each that has none or stale ones.
 
-    The graph must be `arrange`d. LockError where a file of weights is damaged.
+    They stand under the names of the skills that own them. The graph must be `arrange`d. LockError where a file of
+    weights is damaged.
     """
     weights: dict[str, Weights] = {}
     refusals = []
     states = status(graph, lock)
+    wanted = {skill.owner for skill in graph.skills if skill.name in skills}
     for skill in graph.skills:
-        if skill.name not in skills:
+        if skill.name not in wanted:
             continue
         frozen = " (and is frozen: unfreeze it first)" * skill.frozen
         match states[skill.name]:

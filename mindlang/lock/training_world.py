@@ -100,7 +100,13 @@ def _is_valid_fact(subject: str, value: Any) -> bool:
         case ["skill", _]:
             return _is_skill(value)
         case ["task"]:
-            return isinstance(value, dict) and value.keys() == {"scene", "ticks", "ends"} and _is_task(value)
+            return isinstance(value, dict) and _is_task(value)
+        case ["start"]:
+            return (
+                isinstance(value, dict) and value.keys() == {"at", "facing"} and all(map(_is_argument, value.values()))
+            )
+        case ["varying"]:
+            return _are_strings(value)
         case ["rewards"]:
             return isinstance(value, list) and all(_are_strings(each) and len(each) == 2 for each in value)
         case ["lesson"]:
@@ -114,13 +120,19 @@ def _is_skill(value: Any) -> bool:
 
 
 def _is_task(value: dict[str, Any]) -> bool:
-    return _is_kind(value["scene"]) and _is_number(value["ticks"]) and _are_strings(value["ends"])
+    match value:
+        case {"scene": scene, "ticks": ticks, "ends": ends}:
+            successes = value.get("succeeds", [])
+            known = len(value) == 3 + ("succeeds" in value) and _are_strings(ends) and _are_strings(successes)
+            return known and _is_kind(scene) and _is_number(ticks)
+    return False
 
 
 def _is_lesson(value: dict[str, Any]) -> bool:
     match value:
         case {"task": str(), "master": str(), "with_subskills": bool(), "from_scratch": bool(), "learner": learner}:
-            return len(value) == 5 and _is_kind(learner)
+            origin = value.get("starts_from", "")
+            return len(value) == 5 + ("starts_from" in value) and isinstance(origin, str) and _is_kind(learner)
     return False
 
 
@@ -134,12 +146,29 @@ def _is_argument(value: Any) -> bool:
         case None | bool() | str():
             return True
         case list():
-            return all(map(_is_number, value))
+            return (
+                all(map(_is_number, value)) or _are_strings(value) or all(map(_is_place, value)) or _is_formula(value)
+            )
         case dict():
             by = value.get("by")
             is_span = value.keys() == {"first", "last", "by"} and (by is None or _is_number(by))
             return is_span and _is_number(value["first"]) and _is_number(value["last"])
     return _is_number(value)
+
+
+def _is_place(value: Any) -> bool:
+    return isinstance(value, list) and len(value) == 2 and all(map(_is_number, value))
+
+
+def _is_formula(value: list[Any]) -> bool:
+    """Whether it is an expression over readings, of words with a number or a name each."""
+    return all(
+        isinstance(step, list)
+        and len(step) == 2
+        and isinstance(step[0], str)
+        and (isinstance(step[1], str) or _is_number(step[1]))
+        for step in value
+    )
 
 
 def _is_number(value: Any) -> bool:

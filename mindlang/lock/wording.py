@@ -3,13 +3,13 @@
 from collections.abc import Callable
 from typing import Any
 
-from mindrun.expression import fold
+from mindrun.expression import TRUTHS, fold
 from mindrun.graph import Program
-from mindrun.quantity import Quantity, Reference
+from mindrun.quantity import EXPRESSION, Quantity, Reference
 from mindrun.registry import arguments, kinds
 
-PRECEDENCE = {"+": 1, "-": 1, "*": 2, "/": 2}
-ATOM_PRECEDENCE = 4
+PRECEDENCE = {"or": -2, "and": -1, **dict.fromkeys(TRUTHS[:4], 0), "+": 1, "-": 1, "*": 2, "/": 2}
+NEGATION_PRECEDENCE, EXTREME_PRECEDENCE, ATOM_PRECEDENCE = 3, 4, 5
 
 Leaf = Callable[[str, float], str]
 Part = tuple[str, int]  # of an expression: its text, and how tightly it binds
@@ -22,9 +22,12 @@ def infix(program: Program, leaf: Leaf) -> str:
         return number(operand) if word == "number" else leaf(word, operand), ATOM_PRECEDENCE
 
     def negated(value: Part) -> Part:
-        return f"-{_within(value, 3)}", 3
+        return f"-{_within(value, NEGATION_PRECEDENCE)}", NEGATION_PRECEDENCE
 
     def combined(operator: str, left: Part, right: Part) -> Part:
+        if operator not in PRECEDENCE:
+            sides = f"{_within(left, ATOM_PRECEDENCE)} {_within(right, ATOM_PRECEDENCE)}"
+            return f"{operator} of {sides}", EXTREME_PRECEDENCE
         here = PRECEDENCE[operator]
         return f"{_within(left, here)} {operator} {_within(right, here + 1)}", here
 
@@ -46,7 +49,12 @@ def argument(noun: str, kind: str, field: str, value: Any) -> str:
     """An argument of a kind, as plain data, in words: range 12, at 0 22.5 deg, size 3 to 1 by 0.1."""
     known = {each.field: each for each in arguments(kinds(noun)[kind])} if kind in kinds(noun) else {}
     meaning = known[field].type if field in known else None
-    words = " ".join(_converted(each, meaning) for each in (value if isinstance(value, list) else [value]))
+    if meaning == EXPRESSION:
+        return f"{field} {infix(tuple((word, x) for word, x in value), lambda _, name: str(name))}"
+    if isinstance(value, list) and value and isinstance(value[0], list):
+        words = " to ".join(" ".join(_converted(each, meaning) for each in place) for place in value)
+    else:
+        words = " ".join(_converted(each, meaning) for each in (value if isinstance(value, list) else [value]))
     unit = next(iter(meaning.units), "") if isinstance(meaning, Quantity) else ""
     return f"{field.removesuffix('_')} {words} {unit}".rstrip()
 

@@ -2,6 +2,7 @@
 
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
+from math import degrees
 from typing import Any
 
 from mindlang.lock.older_worlds import migrate_facts
@@ -45,10 +46,16 @@ def _kind_changes(noun: str, name: str, old: Mapping[str, Any], now: Mapping[str
         yield f"taught with {name} as {old['is']}, now {now['is']}"
         return
     for field in now:
-        if field != "is" and field in old and old[field] != now[field]:
+        if field != "is" and field in old and old[field] != now[field] and _are_lines(now[field]):
+            yield f"the text of {name} has changed"
+        elif field != "is" and field in old and old[field] != now[field]:
             before = argument(noun, now["is"], field, old[field])
             after = argument(noun, now["is"], field, now[field]).partition(" ")[2]
             yield f"taught with {name} {before}, now {after}"
+
+
+def _are_lines(value: Any) -> bool:
+    return isinstance(value, list) and any(isinstance(each, str) for each in value)
 
 
 def _skill_changes(name: str, old: Mapping[str, Any], now: Mapping[str, Any]) -> Iterator[str]:
@@ -96,8 +103,27 @@ def _reach(facts: Mapping[str, Any]) -> str:
 
 
 def _task_changes(old: Mapping[str, Any], now: Mapping[str, Any]) -> Iterator[str]:
-    told = [*_scene_changes(old.get("task"), now.get("task")), *_reward_changes(old["rewards"], now["rewards"])]
+    told = [
+        *_scene_changes(old.get("task"), now.get("task")),
+        *_variations(old.get("varying", []), now.get("varying", [])),
+        *_reward_changes(old["rewards"], now["rewards"]),
+    ]
     yield from (f"its task has changed: {change}" for change in told)
+    if old.get("start") != now.get("start"):
+        yield f"its task has changed: {_start(now.get('start'))}, before {_start(old.get('start'))}"
+
+
+def _variations(old: Sequence[str], now: Sequence[str]) -> Iterator[str]:
+    """What differs from run to run only in one of the worlds."""
+    yield from (f"no longer {each}" for each in sorted(set(old) - set(now)))
+    yield from (f"{each} is new" for each in sorted(set(now) - set(old)))
+
+
+def _start(start: Any) -> str:
+    """Where a robot starts, in words."""
+    at, facing = (start["at"], start["facing"]) if start else (None, None)
+    words = [f"at {number(at[0])} {number(at[1])}"] if isinstance(at, list) and len(at) == 2 else ["anywhere"]
+    return " ".join(["starts", *words, *([f"facing {degrees(facing):g} deg"] if isinstance(facing, float) else [])])
 
 
 def _scene_changes(old: Mapping[str, Any] | None, now: Mapping[str, Any] | None) -> Iterator[str]:
@@ -113,8 +139,14 @@ def _scene_changes(old: Mapping[str, Any] | None, now: Mapping[str, Any] | None)
                 yield f"in {kind} {before}, now {after.partition(' ')[2]}"
     if old["ticks"] != now["ticks"]:
         yield f"lasts {old['ticks']} ticks, now {now['ticks']}"
-    yield from (f"no longer ends on {event}" for event in sorted(set(old["ends"]) - set(now["ends"])))
-    yield from (f"ends on {event}" for event in sorted(set(now["ends"]) - set(old["ends"])))
+    for verb in ("ends", "succeeds"):
+        gone, new = (set(a.get(verb, ())) - set(b.get(verb, ())) for a, b in ((old, now), (now, old)))
+        yield from (f"no longer {verb} {_on(end)}" for end in sorted(gone))
+        yield from (f"{verb} {_on(end)}" for end in sorted(new))
+
+
+def _on(end: str) -> str:
+    return end if end.startswith("when ") else f"on {end}"
 
 
 def _reward_changes(old: Sequence[Sequence[str]], now: Sequence[Sequence[str]]) -> Iterator[str]:
@@ -133,7 +165,14 @@ def _reward_changes(old: Sequence[Sequence[str]], now: Sequence[Sequence[str]]) 
 
 
 def _lesson_changes(old: Mapping[str, Any], now: Mapping[str, Any]) -> Iterator[str]:
-    if old["from_scratch"] != now["from_scratch"]:
-        before, after = ("from scratch" if each["from_scratch"] else "from its weights" for each in (old, now))
+    before, after = _beginning(old), _beginning(now)
+    if before != after:
         yield f"taught {before}, now {after}"
     yield from _kind_changes("curriculum", "the learner", old["learner"], now["learner"])
+
+
+def _beginning(lesson: Mapping[str, Any]) -> str:
+    """With which weights a lesson begins."""
+    if lesson["from_scratch"]:
+        return "from scratch"
+    return f"from {lesson['starts_from']}" if "starts_from" in lesson else "from its weights"

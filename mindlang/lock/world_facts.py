@@ -16,7 +16,7 @@ from mindrun.codec import encode
 from mindrun.errors import ProcedureError
 from mindrun.expression import leaves
 from mindrun.functions.procedure import module_source
-from mindrun.graph import Graph, Lesson, Reward, Skill, Task
+from mindrun.graph import Edge, Graph, Lesson, Reward, Skill, Start, Task
 from mindrun.reachability import reached_from
 from mindrun.registry import names
 from mindrun.sensors import SensorKind
@@ -25,7 +25,7 @@ from mindrun.weights import genes, reachable
 from mindlang.compiler.drawing import phrase
 from mindlang.lock import Taught
 from mindlang.lock.training_world import LessonKey, TrainingWorld
-from mindlang.lock.wording import infix
+from mindlang.lock.wording import Leaf, infix, number
 
 
 def key_of(lesson: Lesson) -> LessonKey:
@@ -84,8 +84,13 @@ class Worlds:
         skills = reachable(self.graph, master)
         yield "tick", self.graph.tick
         yield "body", encode(self.graph.body)
-        ends = sorted(phrase(task.events[event]) for event in task.ends)
-        yield "task", {"scene": encode(task.scene), "ticks": task.ticks, "ends": ends}
+        ends, successes = (sorted(self._ends(task, succeeds)) for succeeds in (False, True))
+        said = {"scene": encode(task.scene), "ticks": task.ticks, "ends": ends}
+        yield "task", said | ({"succeeds": successes} if successes else {})
+        if task.start != Start():
+            yield "start", {"at": encode(task.start.at), "facing": task.start.facing}
+        if varying := sorted([*_varying(task)]):
+            yield "varying", varying
         yield "rewards", sorted([*self._reward(task, reward)] for reward in task.rewards)
         yield from ((f"thing {thing.name}", encode(thing.kind)) for thing in task.things)
         yield from ((f"skill {skill.name}", self._skill(skill)) for skill in skills)
@@ -94,7 +99,7 @@ class Worlds:
     def _parts(self, skills: Sequence[Skill], task: Task) -> Iterator[tuple[str, Any]]:
         """The sensors and memories that skills and rewards read, and the actuators that move."""
         read = {self._names[index] for skill in skills for index in skill.inputs}
-        read |= {self._names[index] for reward in task.rewards for index in _read(reward)}
+        read |= {self._names[index] for index in _read(task)}
         driven = {self.graph.named(edge.to, edge.target) for skill in skills for edge in skill.edges}
         if any(task.events[event].is_of_battery for event in _happening(task)):
             read |= {*[sensor.name for sensor in self.graph.sensors if sensor.kind.battery][:1]}
@@ -103,22 +108,21 @@ class Worlds:
             if sensor.name in sources:
                 yield f"sensor {sensor.name}", encode(sensor.kind)
         for memory in self.graph.memories:
-            if memory.name in read | driven:
+            if memory.name in sources | driven:
                 yield f"memory {memory.name}", encode(memory.kind)
         for actuator in self.graph.actuators:
             if actuator.name in driven or actuator.kind.acts_at_rest:
                 yield f"actuator {actuator.name}", encode(actuator.kind)
-        if any(thing.kind.can_be_held for thing in task.things):
+        if any(thing.kind.can_be_delivered for thing in task.things):
             yield "claw", self.graph.claw_reach
 
     def _with_sources(self, read: set[str]) -> set[str]:
-        """The sensors of these names, and those that they are derivatives of."""
+        """The sensors of these names, and all that those are computed from."""
 
-        def source(name: str) -> list[str]:
-            kind = self._sensors.get(name)
-            return [kind.source] if kind and kind.source else []
+        def sources(name: str) -> Sequence[str]:
+            return self._sensors[name].sources if name in self._sensors else ()
 
-        return reached_from(read, source)
+        return reached_from(read, sources)
 
     @cached_property
     def _sensors(self) -> Mapping[str, SensorKind]:
@@ -132,8 +136,10 @@ class Worlds:
 
     def _skill(self, skill: Skill) -> dict[str, Any]:
         """What a skill does beside what its weights say: all of it where it does not learn."""
-        fixed = [edge for edge in skill.edges if edge.output is None]
-        sends = [f"{self.graph.named(edge.to, edge.target)} at {infix(edge.value, self._leaf)}" for edge in fixed]
+        fixed = [edge for edge in skill.edges if edge.programs or edge.cuts]
+        sends = [self._sends(edge) for edge in fixed]
+        if skill.like:
+            return {"like": skill.like, "reads": self._read_instead(skill), "sends": sorted(sends)}
         if genes(skill):
             return {"sends": sorted(sends)}
         reads = list(dict.fromkeys(self._names[index] for index in skill.inputs))
@@ -143,6 +149,22 @@ class Worlds:
         function = {"is": f"procedure from {skill.function.calls}", "text": self._text(skill.function.calls)}
         return {**function, "reads": reads, "answers": answers, "sends": sorted(sends)}
 
+    def _sends(self, edge: Edge) -> str:
+        """What an edge sends beside its output, as it is written."""
+        words = [self.graph.named(edge.to, edge.target)]
+        words += [f"at {infix(edge.value, self._leaf)}"] if edge.output is None else []
+        if edge.gate:
+            words.append(f"when {infix(edge.gate.when, self._leaf)}")
+            words += [f"otherwise {infix(edge.gate.otherwise, self._leaf)}"] if edge.gate.otherwise is not None else []
+        return " ".join([*words, *([f"cuts below {number(edge.cuts)}"] if edge.cuts else [])])
+
+    def _read_instead(self, skill: Skill) -> list[str]:
+        """What a skill that is like another reads in place of what: the other's line in a lock has its order."""
+        owner = next(each for each in self.graph.skills if each.name == skill.like)
+        pairs = zip(skill.inputs, owner.inputs, strict=True)
+        names = dict.fromkeys((self._names[own], self._names[other]) for own, other in pairs)
+        return [f"{own} for {other}" for own, other in names if own != other]
+
     def _text(self, calls: str) -> str:
         """A hash of a procedure's module; empty where it does not count or cannot be read."""
         try:
@@ -151,20 +173,36 @@ class Worlds:
             text = ""
         return sha256(text.encode()).hexdigest() if text else ""
 
-    def _reward(self, task: Task, reward: Reward) -> Iterator[str]:
-        """A reward's amount, and what it is paid for."""
+    def _ends(self, task: Task, succeeds: bool) -> Iterator[str]:
+        """What ends a run, as a success or not."""
+        for end in task.ends:
+            if end.succeeds == succeeds:
+                times = f"{end.times} " if end.times > 1 else ""
+                event = "" if end.event is None else phrase(task.events[end.event])
+                yield f"{times}{event}" if event else f"when {infix(end.when or (), self._leaf_of(task))}"
+
+    def _leaf_of(self, task: Task) -> Leaf:
+        """How the expressions of a task say what they name."""
 
         def leaf(word: str, operand: float | int) -> str:
-            if word == "measure":
-                return phrase(task.measures[int(operand)])
+            match word:
+                case "measure":
+                    return phrase(task.measures[int(operand)])
+                case "command":
+                    return self.graph.actuators[int(operand)].name
             return "p" if word == "each" else self._leaf(word, operand)
 
+        return leaf
+
+    def _reward(self, task: Task, reward: Reward) -> Iterator[str]:
+        """A reward's amount, and what it is paid for."""
+        leaf = self._leaf_of(task)
         yield infix(reward.amount, leaf)
         words = ["per tick" if reward.on is None else f"on {phrase(task.events[reward.on])}"]
         if reward.each:
             words.append(f"for each p in {self._names[reward.each[0]]}")
-        if reward.when:
-            words += ["when", infix(reward.when.left, leaf), reward.when.compare, infix(reward.when.right, leaf)]
+        if reward.when is not None:
+            words += ["when", infix(reward.when, leaf)]
         yield " ".join(words)
 
     def _leaf(self, word: str, operand: float | int) -> str:
@@ -174,17 +212,24 @@ class Worlds:
 def _lesson(lesson: Lesson) -> dict[str, Any]:
     learner = encode(lesson.learner)
     where = {"task": lesson.task, "master": lesson.master, "with_subskills": lesson.with_subskills}
-    return {**where, "from_scratch": lesson.from_scratch, "learner": learner}
+    origin = {"starts_from": lesson.starts_from} if lesson.starts_from else {}
+    return {**where, "from_scratch": lesson.from_scratch, **origin, "learner": learner}
 
 
-def _read(reward: Reward) -> set[int]:
-    """The readings that a reward depends on."""
-    programs = [reward.amount, *((reward.when.left, reward.when.right) if reward.when else ())]
-    return {index for program in programs for index in leaves(program, "reading")} | (
-        {reward.each[0]} if reward.each else set()
-    )
+def _read(task: Task) -> set[int]:
+    """The readings that rewards and ends depend on."""
+    found = {index for program in task.programs for index in leaves(program, "reading")}
+    return found | {reward.each[0] for reward in task.rewards if reward.each}
+
+
+def _varying(task: Task) -> Iterator[str]:
+    """What differs from run to run; the body is called body."""
+    for each in task.varies:
+        yield f"varies {each.argument} of {each.of or each.noun} {number(each.low)} to {number(each.high)}"
+    yield from (f"fails {each.actuator} {number(each.rate)} per tick" for each in task.fails)
 
 
 def _happening(task: Task) -> set[int]:
     """The events that end a task or pay."""
-    return {*task.ends, *(reward.on for reward in task.rewards if reward.on is not None)}
+    ending = {end.event for end in task.ends if end.event is not None}
+    return ending | {reward.on for reward in task.rewards if reward.on is not None}

@@ -139,7 +139,13 @@ def text_width(text: str, size: float, bold: bool = False) -> float:
 
 def square(x: float, y: float, half: float) -> Sequence[tuple[float, float]]:
     """The corners of a square."""
-    return (x - half, y - half), (x + half, y - half), (x + half, y + half), (x - half, y + half)
+    return rectangle(x, y, half, half)
+
+
+def rectangle(x: float, y: float, half_x: float, half_y: float) -> Sequence[tuple[float, float]]:
+    """The corners of a rectangle around a place."""
+    left, right, low, high = x - half_x, x + half_x, y - half_y, y + half_y
+    return (left, low), (right, low), (right, high), (left, high)
 
 
 def pasted(page: Image, part: Image, x: int, y: int) -> None:

@@ -38,7 +38,7 @@ def _facts(run: RecordedRun, found: dict[str, Any]) -> list[tuple[str, str]]:
     facts = [("in charge", found["master"]), ("seed", str(found["seed"])), ("score", score(found["score"], 1))]
     facts += [(event, str(times)) for event, times in found["by_event"].items()]
     facts.append(("ticks", f"{found['ticks']:,} of {found['of_ticks']:,} ({seconds:.0f} s)"))
-    return [*facts, ("ended by", found["ended_by"] or "time")]
+    return [*facts, ("success" if found.get("succeeded") else "ended by", found["ended_by"] or "time")]
 
 
 def draw_legend(canvas: Canvas, run: RecordedRun, path: Path, theme: Theme, x: float, y: float, right: float) -> None:
@@ -83,15 +83,16 @@ def _entries(canvas: Canvas, run: RecordedRun, path: Path, theme: Theme) -> list
     def box(colour: Any) -> Any:
         return lambda x, y: canvas.polygon(square(x + 9, y, 6), colour, 0.75)
 
-    seconds = run.ticks * run.graph.tick
+    seconds, colours = run.ticks * run.graph.tick, thing_colours(run.contents, theme)
     entries: list[Any] = [
         (bar(colour), f"{name} {share:.0%}")
         for colour, (name, share) in zip(path.colours, path.shares.items(), strict=False)
         if share >= MIN_CONTROL_SHARE
     ] or [(ramp, f"path, 0 to {seconds:.0f} s")]
     entries.append((lambda x, y: canvas.disc(x + 9, y, 4.5, theme.ink, width=1.6), "start"))
-    for thing, colour in zip(run.contents, thing_colours(run.contents, theme), strict=True):
-        entries.append((_dot(canvas, colour) if thing.kind.is_round else box(colour), thing.name))
+    coloured = {thing.name: (thing, colour) for thing, colour in zip(run.contents, colours, strict=True)}
+    for name, (thing, colour) in coloured.items():
+        entries.append((_dot(canvas, colour) if thing.kind.is_round else box(colour), name))
     if len(run.boxes):
         entries.append((box(theme.rock_edge), "obstacle"))
     if hits := len(run.collisions):

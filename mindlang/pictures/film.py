@@ -6,13 +6,22 @@ from pathlib import Path as FilePath
 from typing import Any, ClassVar
 
 import cv2
+import numpy as np
 from mindrun.atomic_write import destination, write
 
 from mindlang.pictures.canvas import Canvas, Image, Viewport, blank, pasted, text_width
 from mindlang.pictures.hierarchy_panel import Panel
 from mindlang.pictures.path import Path, draw_cross
 from mindlang.pictures.recorded_run import RecordedRun
-from mindlang.pictures.scene import WALL_UNITS, draw_floor, draw_items, draw_names, draw_robot, draw_zones
+from mindlang.pictures.robot import draw_robot
+from mindlang.pictures.scene import (
+    WALL_UNITS,
+    draw_floor,
+    draw_items,
+    draw_names,
+    draw_zones,
+    half_sides,
+)
 from mindlang.pictures.theme import NIGHT
 
 FILM_WIDTH, FILM_HEIGHT = 1280, 720
@@ -103,7 +112,7 @@ class Film:
     def view(self, tick: int) -> Viewport:
         """What is seen of the world in a tick: the whole arena; of a plain scene what is around the robot."""
         scene = self.run.task.scene
-        half = scene.side / 2 + 2 * WALL_UNITS if scene.is_bounded else WINDOW_UNITS / 2
+        half = np.add(half_sides(scene), 2 * WALL_UNITS) if scene.is_bounded else WINDOW_UNITS / 2
         middle = self.run.body[tick, :2] * (not scene.is_bounded)
         return Viewport.around(middle - half, middle + half, FILM_HEIGHT, FILM_HEIGHT)
 

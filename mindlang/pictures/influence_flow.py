@@ -54,5 +54,7 @@ class Flow:
         for skill in self._hierarchy.skills:
             own = float(influence[skill.index])
             for sent, value in zip(skill.edges, values(skill, readings), strict=True):
-                command = min(1.0, max(0.0, float(value))) if isfinite(value) else 0.0
-                yield Flowing(command, own if sent.drives else command * own)
+                is_sent = value is not None and isfinite(value)
+                command = min(1.0, max(0.0, float(value or 0.0))) if is_sent else 0.0
+                passed = command * own
+                yield Flowing(command, own * is_sent if sent.drives else passed * (passed >= sent.cuts))

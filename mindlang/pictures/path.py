@@ -76,16 +76,22 @@ def draw_cross(canvas: Canvas, x: float, y: float, size: float, theme: Theme) ->
 
 
 def draw_former(canvas: Canvas, run: RecordedRun, theme: Theme) -> None:
-    """Faintly, where things were before, numbered in their order where there are not too many."""
+    """Faintly, where things were before, numbered where there are not too many.
+
+    Of what walks or was pushed also the way; what can be pushed was first where it appeared.
+    """
     for number, (thing, colour) in enumerate(zip(run.contents, thing_colours(run.contents, theme), strict=True)):
         former = run.former(number)
-        for order, (x, y, size) in enumerate(former, 1):
+        if thing.kind.walks or thing.kind.is_loose:
+            for stretch in run.stretches(number):
+                canvas.line(stretch, colour, 1.0, 0.5)
+        for order, (x, y, size) in enumerate(run.placements(number) if thing.kind.is_loose else former, 1):
             if thing.kind.is_round:
                 canvas.disc(x, y, size / 2, colour, 0.16)
                 canvas.disc(x, y, size / 2, colour, 0.45, width=1.0)
             else:
                 canvas.polygon(square(x, y, size / 2), colour, 0.08)
                 canvas.line(square(x, y, size / 2), colour, 1.0, 0.4, closed=True)
-            if len(former) <= MOST_NUMBERED:
+            if order <= len(former) <= MOST_NUMBERED:
                 below = 9 * canvas.pen / canvas.view.scale
                 canvas.text(x + size / 2 + below / 3, y - below, str(order), 9, theme.faint)

@@ -9,7 +9,15 @@ from mindlang.pictures.canvas import Canvas, Image, Viewport, blank, pasted
 from mindlang.pictures.caption import draw_legend, draw_scale, draw_title
 from mindlang.pictures.path import Path, draw_collisions, draw_former, draw_start
 from mindlang.pictures.recorded_run import RecordedRun
-from mindlang.pictures.scene import WALL_UNITS, draw_floor, draw_items, draw_names, draw_robot, draw_zones
+from mindlang.pictures.robot import draw_robot
+from mindlang.pictures.scene import (
+    WALL_UNITS,
+    draw_floor,
+    draw_items,
+    draw_names,
+    draw_zones,
+    half_sides,
+)
 from mindlang.pictures.theme import PAPER
 
 PICTURE_PIXELS = 1000
@@ -37,16 +45,16 @@ def picture(run: RecordedRun, found: dict[str, Any]) -> Image:
 def view_of(run: RecordedRun, width: int, height: int) -> Viewport:
     """The arena, or in a plain scene all that happened."""
     if run.task.scene.is_bounded:
-        half = run.task.scene.side / 2 + WALL_UNITS
-        return Viewport.around([-half, -half], [half, half], width, height)
+        half = np.add(half_sides(run.task.scene), WALL_UNITS)
+        return Viewport.around(-half, half, width, height)
     places = [run.body[:, :2], *(run.placements(i)[:, :2] for i in range(len(run.contents)))]
     seen = np.concatenate([*places, run.boxes[:, :2]])
     return Viewport.around(seen.min(axis=0) - PLAIN_MARGIN_UNITS, seen.max(axis=0) + PLAIN_MARGIN_UNITS, width, height)
 
 
 def png(image: Image) -> bytes:
-    """An image as the contents of a PNG file."""
-    done, data = cv2.imencode(".png", image)
+    """An image as the contents of a PNG file, which is kept and sent more often than written: as small as can be."""
+    done, data = cv2.imencode(".png", image, [cv2.IMWRITE_PNG_COMPRESSION, 9])
     assert done
     return bytes(data)
 

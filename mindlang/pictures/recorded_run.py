@@ -13,12 +13,13 @@ from numpy.typing import NDArray
 from mindlang.run.setup import RunSetup
 
 Floats = NDArray[np.float64]
-REAPPEARANCE_UNITS = 0.5  # nothing moves that far in a tick but what reappears elsewhere
+REAPPEARANCE_UNITS = 0.5  # nothing is moved that far in a tick but what reappears elsewhere
 
 
 @dataclass(frozen=True, slots=True)
 class RecordedRun:
-    """Row 0 of `body` [ticks + 1, 3], `things` [ticks + 1, things, 3] and `held` is the beginning.
+    """Row 0 of `body` [ticks + 1, 3], `things` [ticks + 1, things, 3], `turned` [ticks + 1, things] and
+    `held` is the beginning.
 
     `readings`, `influence`, `commands`, `lines`, `touching` and `counts` [ticks, counted events] have a row per tick.
     """
@@ -27,6 +28,7 @@ class RecordedRun:
     boxes: Floats
     body: Floats
     things: Floats
+    turned: Floats
     held: NDArray[np.int64]
     readings: NDArray[np.float32]
     influence: NDArray[np.float32]
@@ -61,11 +63,21 @@ class RecordedRun:
         return np.flatnonzero(self.touching & ~np.concatenate([[False], self.touching[:-1]])) + 1
 
     def placements(self, thing: int) -> Floats:
-        """Every place and size [n, 3] where a thing appeared; the claw that takes it up makes no new place."""
-        track = self.things[:, thing]
-        jumps = (np.linalg.norm(np.diff(track[:, :2], axis=0), axis=1) > REAPPEARANCE_UNITS) & (self.held[1:] != thing)
-        placed: Floats = track[np.concatenate([[True], jumps])]
+        """Every place and size [n, 3] where a thing appeared; neither a claw nor its own speed makes a new place."""
+        placed: Floats = self.things[np.concatenate([[0], self._jumps(thing)]), thing]
         return placed
+
+    def stretches(self, thing: int) -> list[Floats]:
+        """The places [n, 2] that a thing came through, apart where it was moved elsewhere, and until it vanished."""
+        track = self.things[:, thing, :2]
+        parts = np.split(track, self._jumps(thing))
+        return [part[np.isfinite(part[:, 0])] for part in parts if np.isfinite(part[:, 0]).sum() > 1]
+
+    def _jumps(self, thing: int) -> NDArray[np.int64]:
+        """The ticks after which it stood elsewhere than a claw or its own speed have brought it."""
+        far = REAPPEARANCE_UNITS + self.contents[thing].kind.speed * self.graph.tick
+        moved = np.linalg.norm(np.diff(self.things[:, thing, :2], axis=0), axis=1)
+        return np.flatnonzero((moved > far) & (self.held[1:] != thing)) + 1
 
     def former(self, thing: int) -> Floats:
         """The places and sizes [n, 3] that a thing had and has no more: it has moved since, or vanished."""
@@ -98,6 +110,7 @@ def record_run(setup: RunSetup, rollout: Rollout, seed: int) -> RecordedRun:
         run.boxes,
         np.array([run.begin, *(moment.body[:3] for moment in moments)]),
         np.array([run.things, *(moment.things for moment in moments)]),
+        np.array([run.turned, *(moment.turned for moment in moments)]),
         np.array([-1, *(moment.held for moment in moments)]),
         _as_read(setup.ready.policy.graph, np.array([moment.readings for moment in moments])),
         np.array([moment.influence for moment in moments]),

@@ -1,5 +1,6 @@
 """The world of a run: floor, walls, obstacles, things and their names, and the robot with its rays and its claw."""
 
+from collections import Counter
 from collections.abc import Iterable, Sequence
 from itertools import cycle
 from math import cos, sin
@@ -7,33 +8,42 @@ from math import cos, sin
 import numpy as np
 from mindrun.graph import Thing
 from mindrun.registry import names
+from mindrun.scenes import SceneKind
 from numpy.typing import NDArray
 
-from mindlang.pictures.canvas import Canvas, square, text_width
+from mindlang.pictures.canvas import Canvas, rectangle, square, text_width
 from mindlang.pictures.recorded_run import RecordedRun
 from mindlang.pictures.theme import Colour, Theme, mixed
 
 GRID_UNITS = 10.0
 WALL_UNITS = 0.8
+MAX_NAMED_COPIES = 6  # things of one name that each have it beside them
 NAME_PIXELS = 10.0  # the capitals of a thing's name
 
 
 def draw_floor(canvas: Canvas, run: RecordedRun, theme: Theme) -> None:
     """The floor with a line every ten units, the walls and the obstacles."""
-    half = run.task.scene.side / 2 if run.task.scene.is_bounded else 0.0
-    if half:
-        canvas.polygon(square(0, 0, half + WALL_UNITS), theme.wall)
-        canvas.polygon(square(0, 0, half), theme.floor)
-    _grid(canvas, theme, half)
-    for x, y, size in run.boxes:
-        canvas.polygon(square(x, y, size), theme.rock)
-        canvas.line(square(x, y, size), theme.rock_edge, 1.2, closed=True)
+    if run.task.scene.is_bounded:
+        x, y = half_sides(run.task.scene)
+        canvas.polygon(rectangle(0, 0, x + WALL_UNITS, y + WALL_UNITS), theme.wall)
+        canvas.polygon(rectangle(0, 0, x, y), theme.floor)
+    _grid(canvas, theme, run.task.scene)
+    for box in run.boxes:
+        canvas.line(rectangle(*box), theme.rock_edge, 2.4, closed=True)
+    for box in run.boxes:
+        canvas.polygon(rectangle(*box), theme.rock)
 
 
-def _grid(canvas: Canvas, theme: Theme, half: float) -> None:
-    view, (height, width) = canvas.view, canvas.image.shape[:2]
-    left, right = (-half, half) if half else (view.left, view.left + width / view.scale)
-    low, high = (-half, half) if half else (view.top - height / view.scale, view.top)
+def half_sides(scene: SceneKind) -> tuple[float, float]:
+    """How far its walls are from its middle, along x and y."""
+    width, depth = scene.sides
+    return width / 2, depth / 2
+
+
+def _grid(canvas: Canvas, theme: Theme, scene: SceneKind) -> None:
+    view, (height, width), (x, y) = canvas.view, canvas.image.shape[:2], half_sides(scene)
+    left, right = (-x, x) if scene.is_bounded else (view.left, view.left + width / view.scale)
+    low, high = (-y, y) if scene.is_bounded else (view.top - height / view.scale, view.top)
     for x in np.arange(np.floor(left / GRID_UNITS) * GRID_UNITS + GRID_UNITS, right - 1e-6, GRID_UNITS):
         canvas.line([(x, low), (x, high)], theme.grid)
     for y in np.arange(np.floor(low / GRID_UNITS) * GRID_UNITS + GRID_UNITS, high - 1e-6, GRID_UNITS):
@@ -41,9 +51,14 @@ def _grid(canvas: Canvas, theme: Theme, half: float) -> None:
 
 
 def thing_colours(things: Sequence[Thing], theme: Theme) -> list[Colour]:
-    """A colour for each thing: items, zones and power zones have their own, which begin again when they are used up."""
+    """A colour for each name: the one that it says (`red`, `red_bin`), else the next of its kind, round and round."""
     left = {name: cycle(colours) for name, colours in theme.things.items()}
-    return [next(left[names()[type(thing.kind)]]) for thing in things]
+    known: dict[str, Colour] = {}
+    for thing in things:
+        if thing.name not in known:
+            said = next((theme.named[word] for word in thing.name.split("_") if word in theme.named), None)
+            known[thing.name] = said or next(left[names()[type(thing.kind)]])
+    return [known[thing.name] for thing in things]
 
 
 def _each(run: RecordedRun, theme: Theme, tick: int) -> Iterable[tuple[Thing, Colour, NDArray[np.float64]]]:
@@ -61,23 +76,42 @@ def draw_zones(canvas: Canvas, run: RecordedRun, theme: Theme, tick: int) -> Non
 
 
 def draw_items(canvas: Canvas, run: RecordedRun, theme: Theme, tick: int) -> None:
-    """The items as they are after a tick."""
-    for thing, fill, (x, y, size) in _each(run, theme, tick):
-        if not thing.kind.is_area:
+    """The items, boxes and balls as they are after a tick."""
+    turned = run.turned[tick][np.isfinite(run.things[tick, :, 0])]
+    for (thing, fill, (x, y, size)), angle in zip(_each(run, theme, tick), turned, strict=True):
+        edge = mixed(fill, theme.ink, 0.45)
+        if thing.kind.is_round:
             canvas.disc(x, y, size / 2, fill)
-            canvas.disc(x, y, size / 2, mixed(fill, theme.ink, 0.45), width=1.2)
+            canvas.disc(x, y, size / 2, edge, width=1.2)
+        elif not thing.kind.is_area:
+            shape = _turned_square(x, y, size / 2, angle)
+            canvas.polygon(shape, fill)
+            canvas.line(shape, edge, 1.2, closed=True)
+
+
+def _turned_square(x: float, y: float, half: float, angle: float) -> NDArray[np.float64]:
+    """The corners [4, 2] of a square that has turned about its middle."""
+    turn = np.array([(cos(angle), sin(angle)), (-sin(angle), cos(angle))])
+    corners: NDArray[np.float64] = np.array(square(0.0, 0.0, half)) @ turn + np.array([x, y])
+    return corners
 
 
 def draw_names(canvas: Canvas, run: RecordedRun, theme: Theme, tick: int) -> None:
-    """The name of each thing in sight: below it, or above it where the robot or the lower edge is."""
+    """The name of each thing in sight: below it, or above it where the robot or the lower edge is.
+
+    Of many things of one name the first alone has it.
+    """
     pixel = 1 / canvas.view.scale
     (height, width), (left, top) = canvas.image.shape[:2], (canvas.view.left, canvas.view.top)
     right, low = left + width * pixel, top - height * pixel
-    robot, radius = run.body[tick, :2], run.graph.body.size / 2
+    robot, radius = run.body[tick, :2], run.graph.body.radius
     high, gap = NAME_PIXELS * canvas.pen * pixel, 4 * canvas.pen * pixel
+    many = Counter(thing.name for thing in run.contents)
+    named: set[str] = set()
     for thing, _, (x, y, size) in _each(run, theme, tick):
-        if not (left < x < right and low < y < top):
+        if not (left < x < right and low < y < top) or (thing.name in named and many[thing.name] > MAX_NAMED_COPIES):
             continue
+        named.add(thing.name)
         half = text_width(thing.name, NAME_PIXELS * canvas.pen) * pixel / 2
         middle = min(max(x, left + half), right - half)
         line = y - size / 2 - gap - high
@@ -85,43 +119,3 @@ def draw_names(canvas: Canvas, run: RecordedRun, theme: Theme, tick: int) -> Non
         if is_covered or line < low + gap:
             line = y + size / 2 + gap
         canvas.text(middle, line, thing.name, NAME_PIXELS, theme.ink, align="centre", halo=theme.floor)
-
-
-def draw_robot(canvas: Canvas, run: RecordedRun, theme: Theme, tick: int) -> None:
-    """The robot as it is after a tick: rays, claw, body, and a line that shows its heading."""
-    x, y, angle = run.body[tick]
-    radius = run.graph.body.size / 2
-    if tick:
-        _rays(canvas, run, theme, tick)
-        _claw(canvas, run, theme, tick)
-    canvas.disc(x, y, radius, theme.robot)
-    canvas.disc(x, y, radius, theme.floor, width=1.2)
-    tip = (x + 0.95 * radius * cos(angle), y + 0.95 * radius * sin(angle))
-    canvas.line([(x, y), tip], theme.floor, 2.0)
-
-
-def _rays(canvas: Canvas, run: RecordedRun, theme: Theme, tick: int) -> None:
-    x, y, angle = run.body[tick]
-    radius = run.graph.body.size / 2
-    for sensor in run.graph.sensors:
-        rows = slice(sensor.start, sensor.start + sensor.width)
-        if not sensor.kind.rays or not run.readings[:, rows].any():  # nobody reads it
-            continue
-        for at, reading in zip(sensor.kind.rays, run.readings[tick - 1, rows], strict=True):
-            way = np.array([cos(angle + at), sin(angle + at)])
-            end = (x, y) + way * (radius + float(reading) * sensor.kind.reach)
-            canvas.line([(x, y) + way * radius, end], theme.ray, 1.0, 0.3 + 0.4 * (reading < 1.0))
-            if reading < 1.0:
-                canvas.disc(end[0], end[1], 2.5 * canvas.pen / canvas.view.scale, theme.ray)
-
-
-def _claw(canvas: Canvas, run: RecordedRun, theme: Theme, tick: int) -> None:
-    x, y, angle = run.body[tick]
-    radius = run.graph.body.size / 2
-    for number, actuator in enumerate(run.graph.actuators):
-        if actuator.kind.can_hold:
-            apart = 0.35 if run.commands[tick - 1, number] > 0.5 else 0.75
-            for side in (-1.0, 1.0):
-                shape = np.array([(0.8, 0.5 * side), (1.4, apart * side), (1.9, apart * 0.8 * side)]) * radius
-                turned = shape @ np.array([(cos(angle), sin(angle)), (-sin(angle), cos(angle))])
-                canvas.line(turned + np.array([x, y]), theme.robot, 2.2)

@@ -37,7 +37,9 @@ class Theme:
     ink: Colour
     faint: Colour
     things: Mapping[str, tuple[Colour, ...]]  # by kind: one each, as long as they last
+    named: Mapping[str, Colour]  # of things that are called by their colour
     robot: Colour
+    lamp: Colour
     ray: Colour
     crash: Colour
     early: Colour  # a path by time, from
@@ -60,8 +62,22 @@ PAPER = Theme(
         "item": colours("#e8871e", "#d6409f", "#c9b200", "#8d5a2b"),
         "zone": colours("#3a9d5d", "#2a8fc7", "#93a80f", "#1fa596"),
         "power": colours("#8e5bd0", "#c45bb4", "#5468d4", "#a3557a"),
+        "box": colours("#b07a45", "#8c6d5a", "#a08a3c", "#7a6f8f"),
+        "ball": colours("#e05a47", "#3f8fb5", "#d98a9b", "#5f9e6e"),
+        "walker": colours("#b5473c", "#7d4fa3", "#2f7f86", "#8a8420"),
+    },
+    named={
+        "red": colour("#d7352f"),
+        "orange": colour("#e8871e"),
+        "yellow": colour("#d9b400"),
+        "green": colour("#2f9e52"),
+        "blue": colour("#2a6fd0"),
+        "purple": colour("#8e5bd0"),
+        "pink": colour("#e0559b"),
+        "brown": colour("#8d5a2b"),
     },
     robot=colour("#23272f"),
+    lamp=colour("#ffb703"),
     ray=colour("#e2555f"),
     crash=colour("#d62839"),
     early=colour("#a9d6f5"),
@@ -83,8 +99,22 @@ NIGHT = Theme(
         "item": colours("#ffa040", "#ff7ac8", "#f2e04a", "#c98f5a"),
         "zone": colours("#4cc97a", "#56b8f0", "#c3d84a", "#4fd6c8"),
         "power": colours("#b48cff", "#ea8fdc", "#8c9dff", "#d58aad"),
+        "box": colours("#d9a066", "#b8937a", "#cdb85c", "#a497c2"),
+        "ball": colours("#ff7d68", "#66b8e0", "#ffb0c0", "#86cf98"),
+        "walker": colours("#f08a7c", "#c79bf0", "#6fcfd6", "#d6cf5a"),
+    },
+    named={
+        "red": colour("#ff5a52"),
+        "orange": colour("#ffa040"),
+        "yellow": colour("#f2e04a"),
+        "green": colour("#4cc97a"),
+        "blue": colour("#5a9cff"),
+        "purple": colour("#b48cff"),
+        "pink": colour("#ff7ac8"),
+        "brown": colour("#c98f5a"),
     },
     robot=colour("#f4f6fa"),
+    lamp=colour("#ffb703"),
     ray=colour("#ff6b74"),
     crash=colour("#ff4d5e"),
     early=colour("#1f3a5c"),

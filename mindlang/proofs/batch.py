@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from mindrun.expression import OPERATORS, fold
 from mindrun.functions.mlp import perceive
-from mindrun.graph import Graph, Program, Skill
+from mindrun.graph import Gate, Graph, Program, Skill
 from mindrun.weights import Weights, reachable
 
 from mindlang.proofs.interval import Doubles, Singles, perceptron
@@ -32,11 +32,11 @@ def think(graph: Graph, weights: Mapping[str, Weights], readings: Singles) -> Th
     with np.errstate(all="ignore"):
         for skill in reachable(graph, graph.master):
             own = influence[:, places[skill.name]].copy()
-            for edge, value in zip(skill.edges, values(skill, weights.get(skill.name), readings).T, strict=True):
+            for edge, value in zip(skill.edges, values(skill, weights.get(skill.owner), readings).T, strict=True):
                 sound = np.isfinite(value)
                 share = np.where(sound, np.clip(value, 0, 1), 0) * own
                 if edge.to == "skill":
-                    influence[:, edge.target] += share
+                    influence[:, edge.target] += np.where(share < np.float32(edge.cuts), np.float32(0), share)
                 elif edge.to == "actuator":
                     sums[:, edge.target] += share
                     totals[:, edge.target] += np.where(sound, own, 0)
@@ -44,12 +44,21 @@ def think(graph: Graph, weights: Mapping[str, Weights], readings: Singles) -> Th
 
 
 def values(skill: Skill, weights: Weights | None, readings: Singles) -> Singles:
-    """What a skill sends [rows, edges] before the clamp."""
+    """What a skill sends [rows, edges] before the clamp; NaN where a gate is closed and nothing is sent."""
     outputs = _outputs(skill, weights, readings)
     found = np.empty((len(readings), len(skill.edges)), np.float32)
     with np.errstate(all="ignore"):
         for number, edge in enumerate(skill.edges):
             found[:, number] = _evaluate(edge.value, readings) if edge.output is None else outputs[:, edge.output]
+            if edge.gate:
+                found[:, number] = _gated(edge.gate, found[:, number], readings)
+    return found
+
+
+def _gated(gate: Gate, value: Singles, readings: Singles) -> Singles:
+    holds = _evaluate(gate.when, readings)
+    otherwise = np.float32(np.nan) if gate.otherwise is None else _evaluate(gate.otherwise, readings)
+    found: Singles = np.where(holds > 0, value, np.where(holds == 0, otherwise, np.float32(np.nan)))
     return found
 
 

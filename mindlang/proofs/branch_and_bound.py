@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 from mindrun.functions import Mlp
-from mindrun.graph import Edge, Skill
+from mindrun.graph import Edge, Gate, Program, Skill
 from mindrun.weights import Weights
 from numpy.typing import NDArray
 
@@ -74,11 +74,16 @@ def by_itself(skill: Skill) -> Skill:
     """The skill with its inputs renumbered from 0, so that boxes have only the readings that it reads."""
     place = {reading: number for number, reading in enumerate(skill.inputs)}
 
-    def moved(edge: Edge) -> Edge:
-        value = tuple((word, place[int(x)] if word == "reading" else x) for word, x in edge.value)
-        return replace(edge, value=value)
+    def moved(program: Program) -> Program:
+        return tuple((word, place[int(x)] if word == "reading" else x) for word, x in program)
 
-    return replace(skill, inputs=tuple(range(len(place))), edges=tuple(moved(edge) for edge in skill.edges))
+    def moved_edge(edge: Edge) -> Edge:
+        gate = edge.gate
+        if gate:
+            gate = Gate(moved(gate.when), None if gate.otherwise is None else moved(gate.otherwise))
+        return replace(edge, value=moved(edge.value), gate=gate)
+
+    return replace(skill, inputs=tuple(range(len(place))), edges=tuple(moved_edge(edge) for edge in skill.edges))
 
 
 def _seen(skill: Skill, weights: Weights | None) -> tuple[Singles, Singles]:
@@ -135,7 +140,7 @@ def sway_of(skill: Skill, weights: Weights | None) -> Singles:
     """Roughly how much each reading changes what is sent: used to choose which side of a box to cut."""
     sway = np.full(len(skill.inputs), 1e-6, np.float32)
     for edge in skill.edges:
-        for word, reading in edge.value:
+        for word, reading in (term for program in edge.programs for term in program):
             if word == "reading":
                 sway[int(reading)] += 1
     for matrix in perceptron(skill, weights)[:1]:

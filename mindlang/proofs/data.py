@@ -103,7 +103,7 @@ def _edge(edge: OfEdge, hashes: Hashes) -> dict[str, Any]:
     return {
         "skill": edge.skill,
         "target": edge.target,
-        "low": sends.low,
+        "low": sends.low if sends.sure else 0.0,
         "high": sends.high,
         "seen": sends.seen,
         "rests_on": rests_on(edge.weights, hashes),

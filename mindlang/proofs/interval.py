@@ -13,7 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 from mindrun.expression import OPERATORS, fold
 from mindrun.functions.mlp import matrices
-from mindrun.graph import Program, Skill
+from mindrun.graph import Gate, Program, Skill
 from mindrun.sigmoid import sigmoid
 from mindrun.weights import Weights, genes
 from numpy.typing import NDArray
@@ -51,6 +51,7 @@ def sent(skill: Skill, weights: Weights | None, boxes: Boxes) -> SentBounds:
     """What a skill can send over each of its edges; anything in 0..1 where its function is not known."""
     count, edges = len(boxes.low), len(skill.edges)
     low, high = np.full((2, count, edges), [[[-np.inf]], [[np.inf]]], np.float32)
+    sure = np.ones((count, edges), np.bool_)
     with np.errstate(all="ignore"):
         outputs = _outputs(skill, weights, boxes)
         for number, edge in enumerate(skill.edges):
@@ -58,7 +59,24 @@ def sent(skill: Skill, weights: Weights | None, boxes: Boxes) -> SentBounds:
                 low[:, number], high[:, number] = evaluate(edge.value, boxes)
             elif outputs is not None:
                 low[:, number], high[:, number] = outputs[0][:, edge.output], outputs[1][:, edge.output]
-    return SentBounds(np.clip(low, 0, 1), np.clip(high, 0, 1), np.isfinite(low) & np.isfinite(high))
+            if edge.gate:
+                low[:, number], high[:, number], sure[:, number] = _gated(
+                    edge.gate, low[:, number], high[:, number], boxes
+                )
+    return SentBounds(np.clip(low, 0, 1), np.clip(high, 0, 1), sure & np.isfinite(low) & np.isfinite(high))
+
+
+def _gated(gate: Gate, low: Singles, high: Singles, boxes: Boxes) -> tuple[Singles, Singles, NDArray[np.bool_]]:
+    """The bounds of what is sent through a gate, and where it is sure that something is."""
+    never, always = evaluate(gate.when, boxes)
+    is_known = np.isfinite(never) & np.isfinite(always)
+    can_open, can_close = always > 0, never <= 0
+    if gate.otherwise is None:
+        nothing = np.float32(0)
+        return np.where(can_open, low, nothing), np.where(can_open, high, nothing), is_known & ~can_close
+    least, most = evaluate(gate.otherwise, boxes)
+    least, most = np.where(can_open, np.minimum(low, least), least), np.where(can_open, np.maximum(high, most), most)
+    return np.where(can_close, least, low), np.where(can_close, most, high), is_known
 
 
 def perceptron(skill: Skill, weights: Weights | None) -> tuple[Singles, ...]:
@@ -113,10 +131,13 @@ def evaluate(program: Program, boxes: Boxes) -> tuple[Singles, Singles]:
 
 
 def _combined(operator: str, left: tuple[Doubles, Doubles], right: tuple[Doubles, Doubles]) -> tuple[Doubles, Doubles]:
-    """All four operators have their least and greatest value in corners, unless the divisor can be 0."""
+    """All operators have their least and greatest value in corners, unless the divisor can be 0.
+
+    What may be no number makes no number of all that is computed from it.
+    """
     corners = [OPERATORS[operator](a, b) for a in left for b in right]
     low, high = np.minimum.reduce(corners), np.maximum.reduce(corners)
-    wild = ~(np.isfinite(low) & np.isfinite(high))
+    wild = ~(np.isfinite(low) & np.isfinite(high) & np.isfinite(left[0]) & np.isfinite(right[0]))
     if operator == "/":
         wild |= np.sign(right[0]) != np.sign(right[1])
     return np.where(wild, -np.inf, low), np.where(wild, np.inf, high)

@@ -63,7 +63,7 @@ def _flow(
     """Influence in each box, from what every skill sends there, or what it sends anywhere, whichever says more."""
 
     def sends(name: str) -> SentBounds:
-        here, anywhere = sent(skills[name], weights.get(name), boxes), as_sent(found.edges[name])
+        here, anywhere = sent(skills[name], weights.get(skills[name].owner), boxes), as_sent(found.edges[name])
         low, high = np.maximum(here.low, anywhere.low), np.minimum(here.high, anywhere.high)
         return SentBounds(low, high, here.sure | anywhere.sure)
 
@@ -74,7 +74,7 @@ def _sway(graph: Graph, weights: Mapping[str, Weights], skills: Collection[Skill
     """How much each reading moves what all skills send, roughly."""
     sway = np.zeros(graph.width, np.float32)
     for skill in skills:
-        sway[list(skill.inputs)] += sway_of(by_itself(skill), weights.get(skill.name))
+        sway[list(skill.inputs)] += sway_of(by_itself(skill), weights.get(skill.owner))
     return sway
 
 

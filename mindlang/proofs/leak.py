@@ -7,13 +7,15 @@ to the actuator, the unwanted influence there, as a multiple of the wanted one, 
 
     U = Σ over the path's skills n, over other learnt lines n → m, of δ·W(m) / Π of v from n down,
 
-and U / (1 + U) of the command (Eq. 3) is not the driver's. U is found from the master down: of a skill's parents the
-worst counts, because more leaks above a skill are never better. So all paths are compared, and none is listed.
+and U / (1 + U) of the command (Eq. 3) is not the driver's. A line that `cuts below` c does not leak at a skill whose
+influence is at most I, if δ·I < c: what would arrive there is none. U is found from the master down: of a skill's
+parents the worst counts, because more leaks above a skill are never better. So all paths are compared, and none is
+listed.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -49,10 +51,25 @@ class Leak:
 def leaks(found: Ways, actuators: int, delta: float) -> list[Leak | None]:
     """For each actuator the worst case of a leak of `delta`; None where no path leads to it."""
     with np.errstate(all="ignore"):  # where the ways are too many for a number, they are infinitely many
+        found = _without_cut(found, delta)
         reach = _weighted(found, actuators)
         learnt = {skill: _learnt(found, reach, skill, None) for skill in found.skills}
         worst, above = _worst(found, reach, learnt, actuators, delta)
         return [_leak(found, reach, learnt, worst, above, actuator, delta) for actuator in range(actuators)]
+
+
+def _without_cut(found: Ways, delta: float) -> Ways:
+    """The ways without the leaks that lines cut: where δ times the greatest influence of the skill is too small."""
+    most = dict.fromkeys(found.skills, 0.0)
+    most[found.skills[0]] = 1.0
+    onward = list(found.onward)
+    for skill in found.skills:
+        for way in found.onward[skill]:
+            most[way.target] += most[skill] * way.most
+        onward[skill] = tuple(
+            replace(way, is_learnt=way.is_learnt and not delta * most[skill] < way.cuts) for way in found.onward[skill]
+        )
+    return replace(found, onward=tuple(onward))
 
 
 def _weighted(found: Ways, actuators: int) -> dict[int, Row]:

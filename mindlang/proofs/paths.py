@@ -28,11 +28,15 @@ class Paths:
 
 @dataclass(frozen=True, slots=True)
 class Way:
-    """An edge that can carry influence to another skill, by its index: how much at most, and whether it is learnt."""
+    """An edge that can carry influence to another skill, by its index: how much at most, and whether it is learnt.
+
+    What would arrive with less than `cuts` does not.
+    """
 
     target: int
     most: float
     is_learnt: bool
+    cuts: float = 0.0
 
 
 @dataclass(frozen=True, slots=True)
@@ -60,10 +64,11 @@ def ways(graph: Graph) -> Ways:
 
 def _way(skill: Skill, edge: Edge, whole: Boxes) -> Way:
     if edge.output is not None:
-        return Way(edge.target, 1.0, skill.function.learns)  # Python code is as exact as it is written
+        return Way(edge.target, 1.0, skill.function.learns, edge.cuts)  # Python code is as exact as it is written
     with np.errstate(all="ignore"):
-        most = evaluate(edge.value, whole)[1][0]
-    return Way(edge.target, float(np.clip(most, 0, 1)), False)
+        sent_values = [edge.value] + ([edge.gate.otherwise] if edge.gate and edge.gate.otherwise is not None else [])
+        most = max(evaluate(value, whole)[1][0] for value in sent_values)
+    return Way(edge.target, float(np.clip(most, 0, 1)), False, edge.cuts)
 
 
 def paths(found: Ways, actuators: int, listed: int) -> list[Paths]:

@@ -100,7 +100,7 @@ def prove(graph: Graph, weights: Mapping[str, Weights], delta: float) -> Proof:
     return Proof(
         graph,
         delta,
-        {skill.name: _why(skill) for skill in below if not is_known(skill, weights.get(skill.name))},
+        {skill.name: _why(skill) for skill in below if not is_known(skill, weights.get(skill.owner))},
         tuple(skill.name for skill in graph.skills if skill.name not in names),
         tuple(
             OfActuator(
@@ -126,7 +126,7 @@ def _edges(graph: Graph, below: Sequence[Skill], bounds: ProvedReach, rests: _Re
     for skill in below:
         for edge, sends in zip(skill.edges, bounds.edges[skill.name], strict=True):
             if edge.to == "skill":
-                weights = (skill.name,) if rests.says(skill, edge, sends) else ()
+                weights = (skill.owner,) if rests.says(skill, edge, sends) else ()
                 yield OfEdge(skill.name, graph.named("skill", edge.target), sends, weights)
 
 
@@ -147,15 +147,15 @@ class _Rests:
     def says(self, skill: Skill, edge: Edge, sends: EdgeRange) -> bool:
         """Whether an edge is learnt, and its weights narrow what it sends, or see to it that a command is a number."""
         narrows = sends.low > 0 or sends.high < 1 or (edge.to == "actuator" and sends.sure)
-        return edge.output is not None and skill.name in self._weights and narrows
+        return edge.output is not None and skill.owner in self._weights and narrows
 
     def of_actuator(self, actuator: int, is_joint: bool) -> tuple[str, ...]:
         """Of all ways to an actuator; a joint claim looks at all of them."""
         found, known, waiting = set(), set(), list(self._drivers.get(actuator, ()))
         while waiting:
             skill, edge, sends = waiting.pop()
-            if self.says(skill, edge, sends) or (is_joint and skill.name in self._weights):
-                found.add(skill.name)
+            if self.says(skill, edge, sends) or (is_joint and skill.owner in self._weights):
+                found.add(skill.owner)
             if skill.name not in known:
                 known.add(skill.name)
                 waiting += self._parents.get(self._place[skill.name], ())
@@ -168,7 +168,7 @@ class _Rests:
             for skill, edge, sends in self._parents.get(self._place[waiting.pop()], ()):
                 if sends.is_dead:
                     if self.says(skill, edge, sends):
-                        found.add(skill.name)
+                        found.add(skill.owner)
                 elif skill.name not in known:
                     known.add(skill.name)
                     waiting.append(skill.name)

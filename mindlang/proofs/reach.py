@@ -66,7 +66,7 @@ def reach(graph: Graph, weights: Mapping[str, Weights]) -> ProvedReach:
     """Bounds for any readings in 0..1; of skills without weights, and of procedures, only that they send 0..1."""
     skills = reachable(graph, graph.master)
     boxes = max(1, min(MAX_SKILL_BOXES, MAX_TOTAL_BOXES // len(skills)))
-    edges = {skill.name: ranges(skill, weights.get(skill.name), boxes) for skill in skills}
+    edges = {skill.name: ranges(skill, weights.get(skill.owner), boxes) for skill in skills}
     found = flow(graph, 1, {name: as_sent(sends) for name, sends in edges.items()}.__getitem__)
     drivers: list[list[EdgeRange]] = [[] for _ in graph.actuators]
     for place, skill in enumerate(graph.skills):
@@ -104,6 +104,8 @@ def flow(graph: Graph, boxes: int, sends: Callable[[str], SentBounds]) -> Influe
                     continue
                 least = low[:, place] * (1 if drives else found.low[:, number])
                 most = high[:, place] * (1 if drives else found.high[:, number])
+                least = np.where(least < np.float32(edge.cuts), np.float32(0), least)
+                most = np.where(most < np.float32(edge.cuts), np.float32(0), most)
                 arrives = found.sure[:, number] & np.isfinite(high[:, place])  # else maybe no number, and not sent
                 into_low, into_high = (total_low, total_high) if drives else (low, high)
                 into_low[:, edge.target] += np.where(arrives, least, np.float32(0))

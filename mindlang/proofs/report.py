@@ -132,7 +132,7 @@ def _lines(proof: Proof, hashes: Hashes) -> Iterator[Text]:
         rests = listed(rests_on(edge.weights, hashes), "and")
         if edge.range.is_dead:
             yield _line(f"{edge.skill} never influences {edge.target}", rests)
-        elif edge.range.low >= 1 and edge.weights:
+        elif edge.range.low >= 1 and edge.range.sure and edge.weights:
             yield _line(f"{edge.skill} always influences {edge.target} fully", rests)
     for name, weights in proof.dead.items():
         yield _line(f"{name} never has influence", listed(rests_on(weights, hashes), "and"))

@@ -31,7 +31,7 @@ class Tried:
 def try_out(graph: Graph, weights: Mapping[str, Weights]) -> list[Tried] | None:
     """What each actuator is sent for the readings that are tried; None where a skill below the master is not known."""
     skills = reachable(graph, graph.master)
-    if not all(is_known(skill, weights.get(skill.name)) for skill in skills):
+    if not all(is_known(skill, weights.get(skill.owner)) for skill in skills):
         return None
     rows = max(64, min(TRIED_READINGS, MAX_WEIGHT_READINGS // sum(genes(skill) + 100 for skill in skills)))
     readings = readings_to_try(graph.width, rows)

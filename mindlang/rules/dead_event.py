@@ -1,14 +1,16 @@
 """An event that ends a task or is counted in it, and can never happen.
 
 In a plain scene without obstacles there is nothing to collide with, without a claw that closes nothing is delivered,
-nor is what moves away as soon as it is reached, and a battery without drain never runs out. The task goes on to the end
-of its time, and the count stays 0.
+nor is what moves away as soon as it is reached, and a battery without drain never runs out; a condition may ask for
+more than any reading says. The task goes on to the end of its time, and the count stays 0.
 """
 
+from mindlang.analysis.intervals import never_in_words, unmet
 from mindlang.analysis.study import Finding, Found, Study
 from mindlang.analysis.worlds import world
 from mindlang.compiler.diagnostic import Fix
-from mindlang.compiler.syntax import Counts, Ends
+from mindlang.compiler.source import Span
+from mindlang.compiler.syntax import Counts, Ends, Succeeds
 from mindlang.editing.insertion import without_fact
 
 GOOD = (
@@ -18,17 +20,27 @@ GOOD = (
 BAD = (
     "task Course in plain\n  lasts 9 s\n  ends on collision\n",
     "task Course in plain\n  lasts 9 s\n  counts collision\n",
+    "task Course in plain\n  lasts 9 s\n  succeeds on 3 collision\n",
+    "task Course in plain\n  lasts 9 s\n  ends when left_wheel > 1\n",
 )
 
 
 def check(study: Study) -> Found:
-    """Events after `ends on` and `counts` that the world of their task prevents."""
+    """Events after `ends on`, `succeeds on` and `counts` that the world of their task prevents; conditions, too."""
     for task in study.mind.tasks:
-        ends = (fact for fact in task.declaration.facts if isinstance(fact, Ends))
-        counts = (fact for fact in task.declaration.facts if isinstance(fact, Counts))
-        facts: list[Ends | Counts] = [*ends, *counts]
         place = world(study, task)
-        for fact, event in zip(facts, [*task.ends, *task.counts], strict=True):
-            if why := event.prevented(place):
-                fix = Fix("Remove the line", (without_fact(fact),), is_safe=False)
-                yield Finding(fact.event.span, f"This never happens: {why[0]}.", why[1], fix=fix)
+        counts = (fact for fact in task.facts if isinstance(fact, Counts))
+        counted = ((fact, fact.event, event) for fact, event in zip(counts, task.counts, strict=True))
+        ending = ((end.fact, end.fact.event, end.event) for end in task.ends)
+        for fact, written, event in (*ending, *counted):
+            if written and event and (why := event.prevented(place)):
+                yield _finding(fact, written.span, f"{why[0]}.", why[1])
+        for end in task.ends:
+            if end.when and end.fact.when and (never := unmet(end.when, place.range_of)):
+                hint = "Compare with something that is reached, or take the line out."
+                yield _finding(end.fact, end.fact.when.span, f"{never_in_words(never, place.reading)}.", hint)
+
+
+def _finding(fact: Ends | Succeeds | Counts, span: Span, why: str, hint: str) -> Finding:
+    fix = Fix("Remove the line", (without_fact(fact),), is_safe=False)
+    return Finding(span, f"This never happens: {why}", hint, fix=fix)

@@ -4,11 +4,11 @@ Its condition cannot hold with readings between 0 and 1, its event cannot happen
 amount is always 0. Learning goes on without it and nobody notices.
 """
 
-from mindlang.analysis.intervals import range_in_words
+from mindlang.analysis.intervals import never_in_words
 from mindlang.analysis.study import Finding, Found, Study
 from mindlang.analysis.worlds import AnalysedWorld, world
 from mindlang.compiler.diagnostic import Fix
-from mindlang.compiler.model import Condition, Reward
+from mindlang.compiler.model import Reward
 from mindlang.compiler.source import Span
 from mindlang.editing.insertion import without_fact
 
@@ -32,7 +32,6 @@ task Carry in arena
   rewards 1 per tick when holding > 0.5
 """,
 )
-WORDS = {"<": "below", "<=": "at or below", ">": "above", ">=": "at or above"}
 
 
 def check(study: Study) -> Found:
@@ -50,14 +49,9 @@ def _why(place: AnalysedWorld, reward: Reward) -> tuple[Span, str, str] | None:
     fact = reward.fact
     if reward.on and fact.on and (why := reward.on.prevented(place)):
         return fact.on.span, *why
-    if reward.when and fact.when and not place.holds(reward.when, reward):
+    if reward.when and fact.when and (never := place.unmet(reward.when, reward)):
         hint = "Compare with something that is reached, or take the reward out."
-        return fact.when.span, _never(place, reward.when, reward), hint
+        return fact.when.span, never_in_words(never, place.reading, place.each(reward)), hint
     if place.value(reward.amount, reward) == (0, 0):
         return fact.amount.span, "its amount is always 0", "Give it another amount, or take it out."
     return None
-
-
-def _never(place: AnalysedWorld, when: Condition, reward: Reward) -> str:
-    left, right = (range_in_words(place.value(side, reward)) for side in (when.left, when.right))
-    return f"{when.left.span.text} is {left}, never {WORDS[when.compare]} {right.removeprefix('always ')}"

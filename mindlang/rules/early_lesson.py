@@ -1,10 +1,11 @@
 """A lesson that comes before those of skills that it needs.
 
 A lesson runs the whole hierarchy below its master, and a skill that has not been taught yet has no weights: training
-stops there. Teach subskills first; lessons are taught in the order in which they stand.
+stops there; and so does a lesson that begins `from` a skill without weights. Teach these first; lessons are taught in
+the order in which they stand.
 """
 
-from collections.abc import Sequence, Set
+from collections.abc import Sequence
 
 from mindlang.analysis.study import Finding, Found, Study
 from mindlang.compiler.diagnostic import Label
@@ -31,7 +32,16 @@ GOOD = (
     HIERARCHY + FIRST_LESSON + SECOND_LESSON,
     f"{HIERARCHY}  teaches Live on Course for 10 generations with subskills\n{FIRST_LESSON}",
 )
-BAD = (HIERARCHY + SECOND_LESSON + FIRST_LESSON,)
+BESIDE_GO = """
+skill Turn is mlp
+  reads eye
+  drives left_wheel
+"""
+LESSON_FROM_GO = "  teaches Turn on Course for 10 generations from Go\n"
+BAD = (
+    HIERARCHY + SECOND_LESSON + FIRST_LESSON,
+    HIERARCHY.replace("task Course", f"{BESIDE_GO}task Course") + LESSON_FROM_GO + FIRST_LESSON,
+)
 
 Latest = dict[str, tuple[int, str]]
 
@@ -48,7 +58,7 @@ def check(study: Study) -> Found:
     for curriculum, lessons in courses.items():
         if len(lessons) > 1:
             first = {skill: place for skill, place in firsts[curriculum].items() if taught_in[skill] == 1}
-            yield from _early(lessons, _latest(study, first), study.lock.keys())
+            yield from _early(study, lessons, first)
 
 
 def _firsts(study: Study, lessons: Sequence[Lesson]) -> dict[str, int]:
@@ -58,7 +68,7 @@ def _firsts(study: Study, lessons: Sequence[Lesson]) -> dict[str, int]:
     for place, lesson in enumerate(lessons):
         below = study.below([lesson.skill], seen) if lesson.with_subskills else {lesson.skill}
         seen |= below if lesson.with_subskills else set()
-        for skill in below & study.learning:
+        for skill in {study.skills[name].owner for name in below} & study.learning:
             found.setdefault(skill, place)
     return found
 
@@ -68,14 +78,18 @@ def _latest(study: Study, first: dict[str, int]) -> Latest:
     found: Latest = {}
     for skill in study.children_first:
         below = [found[name] for name in skill.subskills]
-        found[skill.name] = max([(first.get(skill.name, -1), skill.name), *below])
+        found[skill.name] = max([(first.get(skill.owner, -1), skill.owner), *below])
     return found
 
 
-def _early(lessons: Sequence[Lesson], latest: Latest, known: Set[str]) -> Found:
+def _early(study: Study, lessons: Sequence[Lesson], first: dict[str, int]) -> Found:
+    latest = _latest(study, first)
     for place, lesson in enumerate(lessons):
         needed, skill = latest[lesson.master]
-        if needed > place and skill not in known:
-            message = f"{lesson.skill} is taught before {skill}, which acts in this lesson and has no weights yet."
+        role = "acts in this lesson"
+        if lesson.starts_from and first.get(origin := study.skills[lesson.starts_from].owner, -1) > needed:
+            needed, skill, role = first[origin], origin, "it begins with"
+        if needed > place and skill not in study.lock:
+            message = f"{lesson.skill} is taught before {skill}, which {role} and has no weights yet."
             label = Label(lessons[needed].fact.span, f"{skill} is taught here")
             yield Finding(lesson.fact.span, message, f"Move this line below the lesson of {skill}.", (label,))

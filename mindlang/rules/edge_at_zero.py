@@ -30,9 +30,9 @@ BAD = (
 
 def check(study: Study) -> Found:
     """Influences whose value lies at 0 or below, where it is clamped to 0."""
-    for skill in study.mind.skills:
+    for skill in (each for each in study.mind.skills if not each.like):
         for edge in skill.edges:
-            if edge.to == "skill" and edge.at and interval(edge.at)[1] <= 0:
+            if edge.to == "skill" and edge.at and all(interval(value)[1] <= 0 for value in edge.values):
                 removal = Fix("Remove the line", (without_fact(edge.fact),), is_safe=False)
                 message = f"{skill.name} never has influence on {edge.target}: this is always 0."
                 hint = "Give it a value above 0, or take the line out."

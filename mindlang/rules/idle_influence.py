@@ -37,7 +37,7 @@ def check(study: Study) -> Found:
     """Learned influences below which no actuator or memory has a second driver."""
     only = _only_drivers(study)
     alone = _alone(study, only)
-    for skill in study.mind.skills:
+    for skill in (each for each in study.mind.skills if not each.like):
         if skill.name in study.active:
             for edge in skill.edges:
                 if edge.to == "skill" and edge.at is None and edge.target in alone:

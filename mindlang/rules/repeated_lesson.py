@@ -40,7 +40,7 @@ def check(study: Study) -> Found:
     for lesson in study.mind.lessons:
         said = (lesson.curriculum, lesson.skill, lesson.task, lesson.master, lesson.with_subskills, lesson.learner)
         earlier = first.setdefault(said, lesson)
-        if earlier is not lesson and (lesson.from_scratch or said == before):
+        if earlier is not lesson and (lesson.from_scratch or lesson.starts_from or said == before):
             yield _finding(lesson, earlier)
         before = said
 
@@ -48,6 +48,6 @@ def check(study: Study) -> Found:
 def _finding(lesson: Lesson, earlier: Lesson) -> Finding:
     message = f"This curriculum has taught {lesson.skill} on {lesson.task} already."
     hint = "Leave one of the two out, and give the other the generations of both."
-    if lesson.from_scratch:
-        hint = "Leave one of the two out: from scratch throws away what the first has taught."
+    if lesson.from_scratch or lesson.starts_from:
+        hint = "Leave one of the two out: this one throws away what the first has taught."
     return Finding(lesson.fact.span, message, hint, (Label(earlier.fact.span, "first taught here"),))

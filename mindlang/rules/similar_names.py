@@ -9,8 +9,8 @@ from collections.abc import Iterator
 
 from mindlang.analysis.study import Finding, Found, Study
 from mindlang.compiler.diagnostic import Label
+from mindlang.compiler.references import introductions
 from mindlang.compiler.syntax import Name
-from mindlang.editing.references import introductions
 
 ALIKE = str.maketrans("0O1I\u0430\u0435\u043e\u0440\u0441\u0445\u0443\u03bf", "oollaeopcxyo")
 GOOD = ("sensor eye_1 is range_finder at 0 deg\nsensor eye_2 is range_finder at 30 deg\n",)

@@ -29,7 +29,7 @@ BAD = (
 def check(study: Study) -> Found:
     """Skills that the lock knows with another signature."""
     for skill in study.graph.skills:
-        entry = study.lock.get(skill.name)
+        entry = None if skill.like else study.lock.get(skill.name)
         found = _differences(study.graph, skill, entry) if entry else ()
         if found:
             first = f"Unfreeze {skill.name} first: then " if skill.frozen else ""

@@ -44,7 +44,7 @@ skill Rest is rule
 def check(study: Study) -> Found:
     """Skills that are not active; one that nobody names can be taken out."""
     for skill in study.mind.skills:
-        if skill.name not in study.active:
+        if skill.name not in study.acting:
             is_named = skill.name in study.used.get("skill", set())
             removal = Fix(f"Remove {skill.name}", without_declarations([skill.declaration]), is_safe=False)
             hint = f"Write influences {skill.name} below a skill that acts, or take {skill.name} out."

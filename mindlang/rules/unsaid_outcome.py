@@ -8,6 +8,7 @@ such a file along.
 from mindlang.analysis.study import Finding, Found, Study
 from mindlang.compiler.diagnostic import Fix
 from mindlang.compiler.model import Task
+from mindlang.compiler.source import Span
 from mindlang.compiler.splice import Splice
 from mindlang.compiler.syntax import Contains
 
@@ -34,13 +35,17 @@ BAD = (GOOD[0].replace(" reached stays", ""),)
 
 def check(study: Study) -> Found:
     """Things that are reached for a reward or a count, and leave open what follows."""
+    told: set[Span] = set()
     for task in study.mind.tasks:
         reached = _reached(task)
-        for fact in task.declaration.facts:
+        for fact in task.facts:
             match fact:
-                case Contains(name, phrase) if name.text in reached and not any(
-                    argument.key.text == REACHED for argument in phrase.arguments
+                case Contains(name, phrase) if (
+                    name.text in reached
+                    and name.span not in told  # several tasks have it from one line
+                    and all(argument.key.text != REACHED for argument in phrase.arguments)
                 ):
+                    told.add(name.span)
                     end = phrase.span.end
                     fix = Fix("Say reached moves", (Splice(phrase.span.source, end, end, " reached moves"),), False)
                     hint = "Write reached stays, or reached moves to have it appear elsewhere as it once did."
@@ -50,4 +55,5 @@ def check(study: Study) -> Found:
 def _reached(task: Task) -> set[str]:
     """The things whose reach is rewarded or counted and does not end the run."""
     events = [*task.counts, *(reward.on for reward in task.rewards if reward.on)]
-    return {event.thing for event in events if event.outcome == REACHED and event not in task.ends}
+    ending = {end.event for end in task.ends if end.times == 1}
+    return {event.thing for event in events if event.outcome == REACHED and event not in ending}

@@ -37,7 +37,7 @@ BAD = (LEARNS,)
 def check(study: Study) -> Found:
     """Active skills that learn and are in no lesson; where there is no lesson at all this is said once."""
     taught = _taught(study)
-    names = (study.learning & study.active) - taught - study.lock.keys()
+    names = (study.learning & study.acting) - taught - study.lock.keys()
     untaught = [skill for skill in study.mind.skills if skill.name in names]
     if not study.mind.lessons:
         own = [skill for skill in untaught if skill.declaration.header.span.source is study.main]
@@ -51,7 +51,7 @@ def check(study: Study) -> Found:
 def _taught(study: Study) -> set[str]:
     lessons = study.mind.lessons
     jointly = study.below(lesson.skill for lesson in lessons if lesson.with_subskills)
-    return jointly | {lesson.skill for lesson in lessons}
+    return {study.skills[name].owner for name in jointly} | {lesson.skill for lesson in lessons}
 
 
 def _no_lessons(study: Study, untaught: Sequence[Skill]) -> Finding:

@@ -1,7 +1,7 @@
-"""A memory that is never read, or never driven.
+"""A memory that is never read, never driven, or that no command changes.
 
 What nobody reads is remembered in vain, and what nobody drives stays what it was at the start: 0, or what `start` says.
-One that starts above 0 and decays is a clock, and needs no driver.
+One that starts above 0 and decays is a clock, and needs no driver. With `decay 1` all of it is kept, and nothing added.
 """
 
 from collections.abc import Iterator
@@ -26,6 +26,15 @@ skill Go is rule
   reads youth
   drives left_wheel at youth
 """,
+    """
+memory tired is cell decay 0.99
+skill Go is rule
+  drives left_wheel at 1
+  drives tired at 1
+task Run in arena
+  lasts 9 s
+  ends when tired > 0.5
+""",
 )
 BAD = (
     """
@@ -39,6 +48,13 @@ memory mood is cell decay 0.9
 skill Go is rule
   reads mood
   drives left_wheel at mood
+""",
+    """
+memory mood is cell decay 1
+skill Go is rule
+  reads mood
+  drives left_wheel at mood
+  drives mood at 1
 """,
 )
 
@@ -56,6 +72,9 @@ def check(study: Study) -> Found:
         elif name not in driven and (cell.start == 0 or cell.decay == 1):
             hint = f"Add drives {name} to a skill, or take the memory out."
             yield Finding(part.span, f"Nobody drives {name}, so it is always {cell.start:g}.", hint)
+        elif cell.decay == 1:
+            hint = "Write decay 0 to take each command as it comes; drives … when … otherwise its own value holds it."
+            yield Finding(part.span, f"With decay 1 no command changes {name}, so it is always {cell.start:g}.", hint)
 
 
 def _read(study: Study) -> Iterator[str]:
@@ -63,12 +82,15 @@ def _read(study: Study) -> Iterator[str]:
     for skill in study.mind.skills:
         yield from skill.reads
     for kind in study.sensors.values():
-        yield from [kind.source] if kind.source else []
-    for reward in (reward for task in study.mind.tasks for reward in task.rewards):
-        yield from [reward.each] if reward.each else []
-        yield from _readings(reward.amount)
-        for side in (reward.when.left, reward.when.right) if reward.when else ():
-            yield from _readings(side)
+        yield from kind.sources
+    for task in study.mind.tasks:
+        for reward in task.rewards:
+            yield from [reward.each] if reward.each else []
+            for expression in reward.expressions:
+                yield from _readings(expression)
+        for condition in (end.when for end in task.ends if end.when):
+            for expression in condition.expressions:
+                yield from _readings(expression)
 
 
 def _readings(of: Expression) -> Iterator[str]:

@@ -1,7 +1,7 @@
 """A rule that reads what it does not use.
 
-Only the values after `at` say what a rule does. A reading in none of them changes nothing, except that the rule falls
-silent when that sensor fails.
+Only the values and the conditions of its lines say what a rule does. A reading in none of them changes nothing, except
+that the rule falls silent when that sensor fails.
 """
 
 from mindlang.analysis.study import Finding, Found, Study
@@ -20,7 +20,7 @@ def check(study: Study) -> Found:
     """Lines of rules that read what stands after none of their `at`."""
     for skill in study.mind.skills:
         if not skill.function.has_outputs:
-            values = [edge.at for edge in skill.edges if edge.at]
+            values = [value for edge in skill.edges for value in edge.expressions]
             used = {term.name for value in values for term in value.terms if isinstance(term, Reading)}
             for fact in skill.declaration.facts:
                 if isinstance(fact, Reads) and fact.name.text not in used:

@@ -8,6 +8,7 @@ from mindrun.things import ThingKind
 
 from mindlang.analysis.study import Finding, Found, Study
 from mindlang.compiler.diagnostic import Fix
+from mindlang.compiler.source import Source, Span
 from mindlang.compiler.syntax import Contains
 from mindlang.editing.insertion import without_fact
 
@@ -30,24 +31,42 @@ def check(study: Study) -> Found:
     """Things that no sensor names, nor anything in their task."""
     sensed, named = {*study.senses.values()}, _named(study)
     charges = any(kind.battery for kind in study.sensors.values())
+    used: set[Span] = set()
+    idle: dict[Span, Contains] = {}
     for task in study.mind.tasks:
-        delivers = any(thing.kind.can_be_held for thing in task.things)
-        facts = {fact.name.text: fact for fact in task.declaration.facts if isinstance(fact, Contains)}
+        delivers = any(thing.kind.can_be_delivered for thing in task.things)
+        about = {name for fact in task.facts for name in named.get(_place(fact.span), ())} | sensed
+        facts = {fact.name.text: fact for fact in task.facts if isinstance(fact, Contains)}
         for thing in task.things:
-            is_known = thing.name in sensed or (task.name, thing.name) in named
-            if not is_known and not _is_of_use(thing.kind, charges, delivers):
-                fix = Fix(f"Remove {thing.name}", (without_fact(facts[thing.name]),), is_safe=False)
-                hint = f"Reward or count something about {thing.name}, let a sensor tell of it, or take it out."
-                message = f"No sensor, reward or event is about {thing.name}."
-                yield Finding(thing.span, message, hint, fix=fix)
+            if thing.name in about or _is_of_use(thing.kind, charges, delivers):
+                used.add(thing.span)
+            else:
+                idle[thing.span] = facts[thing.name]
+    for span, fact in idle.items():
+        if span not in used:  # by another task that has it from the same line
+            yield _finding(fact)
 
 
-def _named(study: Study) -> set[tuple[str, str]]:
-    """The things that the rewards and events of a task are about, each with the task."""
-    facts = (fact for task in study.mind.tasks for fact in task.declaration.facts)
-    own = {id(fact.name) for fact in facts if isinstance(fact, Contains)}
-    about = (mention for mention in study.mentions if mention.noun == "thing" and id(mention.name) not in own)
-    return {(mention.by.header.name.text, mention.name.text) for mention in about if mention.by}
+def _finding(fact: Contains) -> Finding:
+    name = fact.name.text
+    fix = Fix(f"Remove {name}", (without_fact(fact),), is_safe=False)
+    hint = f"Reward or count something about {name}, let a sensor tell of it, or take it out."
+    return Finding(fact.name.span, f"No sensor, reward or event is about {name}.", hint, fix=fix)
+
+
+def _named(study: Study) -> dict[tuple[Source, int], list[str]]:
+    """The things that a line of a task is about, by the place of the line; not the one that it contains."""
+    facts = (fact for task in study.mind.tasks for fact in task.facts)
+    own = {fact.name.span for fact in facts if isinstance(fact, Contains)}
+    found: dict[tuple[Source, int], list[str]] = {}
+    for mention in study.mentions:
+        if mention.noun == "thing" and mention.name.span not in own:
+            found.setdefault(_place(mention.name.span), []).append(mention.name.text)
+    return found
+
+
+def _place(span: Span) -> tuple[Source, int]:
+    return span.source, span.line
 
 
 def _is_of_use(kind: ThingKind, charges: bool, delivers: bool) -> bool:

@@ -1,7 +1,7 @@
 """A part whose name says left, and which is on the right, or the other way round.
 
-A wheel is on the `side` that it says, and angles turn counterclockwise: a range finder at 40 deg looks to the left, one
-at -40 deg to the right. A robot with two such parts exchanged turns toward what it should avoid.
+A wheel is on the `side` that it says, and angles turn counterclockwise: a range finder at 40 deg looks to the left, a
+bumper at -40 deg is on the right. A robot with two such parts exchanged turns toward what it should avoid.
 """
 
 from collections.abc import Iterator
@@ -14,6 +14,7 @@ OPPOSITE_SIDES = {"left": "right", "right": "left"}
 GOOD = ("sensor left_eye is range_finder at 30 60 deg\n", "sensor left_eye is range_finder at 0 deg\n")
 BAD = (
     "sensor left_eye is range_finder at -40 deg\n",
+    "sensor left_bumper is bumper at -40 deg\n",
     """
 actuator left_wheel is wheel side right neutral 0.5
 actuator right_wheel is wheel side left neutral 0.5
@@ -22,7 +23,7 @@ actuator right_wheel is wheel side left neutral 0.5
 
 
 def check(study: Study) -> Found:
-    """Wheels and range finders named after the side on which they are not."""
+    """Wheels, and sensors that measure on a side, named after the side on which they are not."""
     for name, side, span in _sided(study):
         said = {*words(name)}
         if OPPOSITE_SIDES[side] in said and side not in said:
@@ -36,7 +37,7 @@ def _sided(study: Study) -> Iterator[tuple[str, str, Span]]:
         if side := actuator.kind.mounted:
             yield actuator.name, side, actuator.span
     for sensor in study.mind.sensors:
-        sides = {_side(angle) for angle in sensor.kind.rays}
+        sides = {_side(angle) for angle in sensor.kind.directions}
         if len(sides) == 1 and (only := sides.pop()):
             yield sensor.name, only, sensor.span
 

@@ -23,6 +23,14 @@ def events(task: Task) -> list[str]:
     return [phrase(event) for event in task.events]
 
 
+def ends(task: Task) -> list[str]:
+    """What ends a run of the task, as it is written."""
+    return [
+        end.text if end.event is None else f"{end.times} " * (end.times > 1) + phrase(task.events[end.event])
+        for end in task.ends
+    ]
+
+
 def run_data(task: Task, scores: Scores) -> dict[str, Any]:
     """The single run of `scores`; a sum that is not a finite number is None, `counts` is the sum of `by_event`."""
     by_line: dict[str, float] = {}
@@ -37,7 +45,8 @@ def run_data(task: Task, scores: Scores) -> dict[str, Any]:
         "by_event": {events(task)[event]: int(scores.by_event[0, 0, event]) for event in task.counts},
         "ticks": int(scores.ticks[0, 0]),
         "of_ticks": task.ticks,
-        "ended_by": [*events(task), FLIGHT, None][ended],
+        "ended_by": [*ends(task), FLIGHT, None][ended],
+        **({"succeeded": bool(_succeeded(task, scores)[0, 0])} if task.can_succeed else {}),
         "faults": int(scores.faults[0, 0]),
     }
 
@@ -49,13 +58,14 @@ def bench_data(task: Task, scores: Scores, seeds: Sequence[int], seconds: float)
     run knows neither.
     """
     totals, ticks = scores.total[0], int(scores.ticks.sum())
-    names = [*events(task), FLIGHT, TIME]  # by −2 and −1
+    names, happened = [*ends(task), FLIGHT, TIME], events(task)  # the last two by −2 and −1
     ended = np.bincount(scores.ended_by[0] % len(names), minlength=len(names))
     return {
         "runs": len(seeds),
         **_spread("count_", scores.counts[0]),
-        "counted": [names[event] for event in task.counts],
-        "by_event": {names[event]: _spread("", scores.by_event[0, :, event]) for event in task.counts},
+        "counted": [happened[event] for event in task.counts],
+        "by_event": {happened[event]: _spread("", scores.by_event[0, :, event]) for event in task.counts},
+        **({"success": _spread("", _succeeded(task, scores)[0].astype(float))} if task.can_succeed else {}),
         "runtime_mean": float(scores.ticks[0].mean() / task.ticks),
         "ended": {name: int(n) for name, n in zip(names, ended, strict=True) if n},
         **_spread("score_", totals),
@@ -66,6 +76,12 @@ def bench_data(task: Task, scores: Scores, seeds: Sequence[int], seconds: float)
         "seconds": round(seconds, 3),
         "ticks_per_second": round(ticks / max(seconds, 1e-9)),
     }
+
+
+def _succeeded(task: Task, scores: Scores) -> NDArray[np.bool_]:
+    """Which runs [genomes, seeds] have ended as a success."""
+    successes = [number for number, end in enumerate(task.ends) if end.succeeds]
+    return np.isin(scores.ended_by, successes)
 
 
 def _spread(of: str, values: NDArray[Any]) -> dict[str, float | None]:

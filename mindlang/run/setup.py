@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Never
 from mindrun.default_task import default_task
 from mindrun.errors import MindError
 from mindrun.graph import Graph, Task
-from mindrun.weights import genes, reachable
+from mindrun.weights import owners, reachable
 
 from mindlang.compiler.compile import Compiled
 from mindlang.compiler.diagnostic import did_you_mean, listed
@@ -93,4 +93,4 @@ def unknown(noun: str, name: str, known: Sequence[str]) -> Never:
 def untaught_skills(ready: ReadyMind) -> list[str]:
     """The skills without weights that fit, subskills first."""
     reached = reachable(ready.policy.graph, ready.policy.graph.master)
-    return [skill.name for skill in reversed(reached) if genes(skill) and skill.name not in ready.policy.weights]
+    return [name for name in reversed(owners(reached)) if name not in ready.policy.weights]

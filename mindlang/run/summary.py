@@ -13,6 +13,7 @@ from mindlang.run.outcome import TIME
 def run_summary(found: dict[str, Any]) -> RenderableType:
     """One run: how it ended, what it counted, and what each reward line paid."""
     ended = f"ended by {found['ended_by']}" if found["ended_by"] else "lasted its time"
+    ended += ", a success" * found.get("succeeded", False)
     facts = _facts(
         ("seed", str(found["seed"])),
         *_counted({event: f"{times} × " for event, times in found["by_event"].items()}),
@@ -35,6 +36,7 @@ def bench_summary(found: dict[str, Any]) -> RenderableType:
     facts = _facts(
         ("runs", f"{runs} from seed {found['seed']}{error}"),
         *_counted({event: f"{_mean(spread, '')}   " for event, spread in found["by_event"].items()}),
+        ("success", _share(found["success"]) if "success" in found else ""),
         ("score", _mean(found, "score_")),
         ("run time", f"{found['runtime_mean']:.1%} of the task's ticks"),
         ("ended by", ended),
@@ -53,6 +55,11 @@ def _title(found: dict[str, Any]) -> Text:
 def _mean(found: dict[str, Any], of: str) -> str:
     error = found[f"{of}standard_error"]
     return score(found[f"{of}mean"]) + (f" ± {error:.2f}" if error is not None else "")
+
+
+def _share(found: dict[str, Any]) -> str:
+    error = found["standard_error"]
+    return f"{found['mean']:.1%}" + (f" ± {error:.1%}" if error is not None else "") + " of the runs"
 
 
 def _counted(counts: dict[str, str]) -> list[tuple[str, str]]:

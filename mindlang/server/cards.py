@@ -1,13 +1,14 @@
 """What there is to know of something declared, as Markdown: what an editor shows when the mouse rests on its name."""
 
 from collections.abc import Iterator
-from itertools import takewhile
 
 from mindrun.errors import MindError
 from mindrun.registry import kinds
 
+from mindlang.compiler.comments import comment_of
+from mindlang.compiler.drawing import text_after_name
 from mindlang.compiler.syntax import Contains, Declaration, Drives, Influences, Reads, Teaches
-from mindlang.editing.lines import first_line
+from mindlang.lock import lock_sources
 from mindlang.lock.report import Row, made_by, rows
 from mindlang.lock.status import Trained
 from mindlang.server.describing import kind_card
@@ -18,15 +19,17 @@ def card(view: MindView, noun: str, name: str) -> str:
     """Everything about a name; nothing where another declaration has it already."""
     if noun == "thing":
         return _thing(view, name)
+    if noun == "number" and name in view.names.numbers:
+        return _number(view, name)
     declaration = view.names.table.get(noun, {}).get(name)
     if declaration is None:
         return ""
-    parts = [f"```mind\n{declaration.header.span.text.strip()}\n```", leading(declaration)]
+    parts = [f"```mind\n{declaration.header.span.text.strip()}\n```", declaration.comment]
     match noun:
         case "skill":
             parts += _skill(view, name, declaration)
-        case "task":
-            parts += _task(view, name, declaration)
+        case "task" | "scene":
+            parts += _world(view, noun, name)
         case "sensor" | "memory" | "actuator":
             parts += _part(view, noun, name)
     parts.append(_of_kind(noun, declaration))
@@ -68,8 +71,8 @@ def _skill(view: MindView, name: str, declaration: Declaration) -> Iterator[str]
 
 def _edge(view: MindView, fact: Reads | Drives | Influences) -> str:
     width = _width(view, fact.name.text) if isinstance(fact, Reads) else 1
-    at = f" at {fact.at.span.text}" if not isinstance(fact, Reads) and fact.at else ""
-    return f"{fact.name.text} ({width})" if width > 1 else f"{fact.name.text}{at}"
+    said = "" if isinstance(fact, Reads) else text_after_name(fact)
+    return f"{fact.name.text} ({width})" if width > 1 else f"{fact.name.text}{said}"
 
 
 def _width(view: MindView, sensor: str) -> int:
@@ -82,7 +85,8 @@ def _weights(view: MindView, skill: str) -> str:
     if view.compiled.graph is None:
         return ""
     try:
-        row = next((row for row in rows(view.compiled.graph, view.paths) if row.skill == skill), None)
+        found = rows(view.compiled.graph, lock_sources(view.compiled.sources))
+        row = next((row for row in found if row.skill == skill), None)
     except MindError as error:
         return f"Weights: {error}"
     return _row(row) if row else ""
@@ -92,13 +96,23 @@ def _row(row: Row) -> str:
     words = [row.word] + ["frozen"] * row.is_frozen
     made = []
     if isinstance(row.status, Trained):
-        made.append(f"{row.status.entry.weights[:8]}…, {made_by(row.status.entry.taught)}")
+        how = f"those of {row.like}" if row.like else made_by(row.status.entry.taught)
+        made.append(f"{row.status.entry.weights[:8]}…, {how}")
     return "\n".join([f"Weights: **{', '.join(words)}**", *(f"- {line}" for line in [*made, *row.remarks])])
 
 
-def _task(view: MindView, name: str, declaration: Declaration) -> Iterator[str]:
+def _world(view: MindView, noun: str, name: str) -> Iterator[str]:
+    """All that a task or scene says, that of its scene and of what it is like, too."""
+    declaration = view.whole.table[noun][name]
     yield "\n".join(f"- {fact.span.text.strip()}" for fact in declaration.facts)
-    yield "\n".join(f"- `{lesson}`" for lesson in _lessons(view, "task", name))
+    if noun == "task":
+        yield "\n".join(f"- `{lesson}`" for lesson in _lessons(view, "task", name))
+
+
+def _number(view: MindView, name: str) -> str:
+    """A number, and what its comment says."""
+    number = view.names.numbers[name]
+    return f"```mind\n{number.span.text.strip()}\n```\n\n{comment_of(number.span)}".strip()
 
 
 def _part(view: MindView, noun: str, name: str) -> Iterator[str]:
@@ -142,10 +156,11 @@ def _lessons(view: MindView, part: str, name: str) -> Iterator[str]:
 def _thing(view: MindView, name: str) -> str:
     """Where a thing is."""
     lines = []
-    for task, declaration in view.names.declarations("task"):
-        for fact in declaration.facts:
-            if isinstance(fact, Contains) and fact.name.text == name:
-                lines.append(f"- in {task}: `{fact.phrase.span.text}`")
+    for noun in ("scene", "task"):
+        for world, declaration in view.names.declarations(noun):
+            for fact in declaration.facts:
+                if isinstance(fact, Contains) and fact.name.text == name:
+                    lines.append(f"- in {world}: `{fact.phrase.span.text}`")
     return "\n".join([f"**{name}**, a thing", "", *lines])
 
 
@@ -153,11 +168,3 @@ def _of_kind(noun: str, declaration: Declaration) -> str:
     phrase = declaration.header.phrase
     cls = kinds(noun).get(phrase.kind.text) if phrase else None
     return f"---\n{kind_card(noun, phrase.kind.text, cls)}" if phrase and cls else ""
-
-
-def leading(declaration: Declaration) -> str:
-    """The comments right above a declaration as one paragraph, and the one at the end of its line."""
-    line = first_line(declaration.header.span)
-    above = [each.text for each in takewhile(lambda each: each.is_comment, line.above())]
-    behind = declaration.header.span.source.text[declaration.header.span.end : line.end]
-    return " ".join(text.strip().lstrip("# ") for text in [*reversed(above), behind]).strip()

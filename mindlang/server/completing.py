@@ -7,11 +7,12 @@ from itertools import islice
 from pathlib import Path
 
 from mindlang.compiler.syntax import NOUNS, SETTINGS
-from mindlang.editing.project import OWNERS
+from mindlang.editing.owners import OWNERS
 from mindlang.file_search import files_below
 from mindlang.server.facts import FACTS, CursorLine
-from mindlang.server.offers import Offer, arguments_of, functions, kinds_of, words
+from mindlang.server.offers import Offer, arguments_of, functions, kinds_of, names, words
 from mindlang.server.view import MindView, declaration_at
+from mindlang.server.words import WORDS
 
 MAX_OFFERED_FILES = 200  # that are offered
 
@@ -66,7 +67,15 @@ def _header(line: CursorLine, noun: str, rest: Sequence[str]) -> list[Offer]:
         case []:
             return []
         case [_]:
-            return words("in" if noun == "task" else "is")
+            return words("in", "is") if noun == "task" else words("is")
+        case [own, "is", "like"]:
+            return names(line.view, noun, but=[own])
+        case [_, "in"]:
+            return [*names(line.view, "scene"), *kinds_of(noun)]
+        case [_, "is"] if noun == "task":
+            return [Offer("like", "word", text=WORDS["is like"])]
+        case [_, "is"] if noun in ("skill", "scene"):
+            return [*kinds_of(noun), Offer("like", "word", text=WORDS["is like"])]
         case [_, "is" | "in"]:
             return kinds_of(noun)
         case [_, "is" | "in", "procedure", "from"] if noun == "skill":

@@ -9,6 +9,14 @@ from mindrun.registry import Argument, arguments
 
 from mindlang.compiler.diagnostic import a, listed
 
+SHAPE_WORDS = {
+    "list": ", several of them",
+    "span": ", or a range of them",
+    "extent": ", or two of them",
+    "place": ", along x and along y",
+    "places": ", along x and along y",
+}
+
 
 def kind_card(noun: str, name: str, cls: type[Any]) -> str:
     """A kind with its documentation and its arguments."""
@@ -38,7 +46,7 @@ def meaning(parameter: Argument) -> str:
             units = [unit for unit in quantity.units if unit and unit not in quantity.name]
             with_unit = f" in {listed(units)}" if units and "" not in quantity.units else ""
             also = f", also in {listed(units)}" if units and "" in quantity.units else ""
-            many = {"list": ", several of them", "span": ", or a range of them"}.get(parameter.shape, "")
+            many = SHAPE_WORDS.get(parameter.shape, "")
             return f"{quantity.name}{with_unit}{also}{many}{_bounds(quantity)}"
 
 
@@ -53,6 +61,8 @@ def written(parameter: Argument) -> str:
             text = _figure(first / factor)
             text += f" to {_figure(last / factor)}" if last != first else ""
             text += f" by {_figure(by / factor)}" if by else ""
+        case ():
+            return "none"
         case tuple():
             text = " ".join(_figure(each / factor) for each in value)
         case _:

@@ -6,10 +6,20 @@ from pathlib import Path
 
 from mindrun.registry import kinds
 
+from mindlang.compiler.references import DRIVABLE_NOUNS, READABLE_NOUNS
 from mindlang.compiler.syntax import Declaration, Drives, Influences, Reads
-from mindlang.editing.references import DRIVABLE_NOUNS, READABLE_NOUNS
 from mindlang.server import offers
-from mindlang.server.offers import NUMBER, Offer, arguments_of, kinds_of, names, units, words, written_arguments
+from mindlang.server.offers import (
+    NUMBER,
+    Offer,
+    arguments_of,
+    inputs_of,
+    kinds_of,
+    names,
+    units,
+    words,
+    written_arguments,
+)
 from mindlang.server.view import MindView, on_line
 
 UNFINISHED_WORDS = ("+", "-", "*", "/", "(", "<", ">", "<=", ">=", "when")
@@ -40,7 +50,15 @@ Answer = Callable[[CursorLine, Sequence[str]], list[Offer]]
 
 
 def _reads(line: CursorLine, rest: Sequence[str]) -> list[Offer]:
-    return [] if rest else names(line.view, *READABLE_NOUNS, but=line.names_after(Reads))
+    match rest:
+        case []:
+            return names(line.view, *READABLE_NOUNS, but=line.names_after(Reads))
+        case [_] if line.above and line.above.header.like:
+            return words("for")
+        case [_, "for"] if line.above and line.above.header.like:
+            inputs = inputs_of(line.view, line.above.header.like.text)
+            return [offer for offer in names(line.view, *READABLE_NOUNS) if offer.label in inputs]
+    return []
 
 
 def _drives(line: CursorLine, rest: Sequence[str]) -> list[Offer]:
@@ -112,7 +130,7 @@ def _lesson(line: CursorLine, rest: Sequence[str]) -> list[Offer]:
         case [_]:
             return units("generations")
         case [*_, "from"]:
-            return [Offer("scratch", "word")]
+            return [Offer("scratch", "word"), *names(line.view, "skill")]
         case [*_, "with"]:
             return [Offer("subskills", "word")]
         case [*_, "using"]:
@@ -178,7 +196,7 @@ def reward_offers(view: MindView, task: Declaration | None, rest: Sequence[str])
 def _term(view: MindView, task: Declaration | None, rest: Sequence[str]) -> list[Offer]:
     """A reading or a measure, or what the measure that was begun still needs."""
     if not rest or rest[-1] in UNFINISHED_WORDS:
-        return [*names(view, *READABLE_NOUNS), *kinds_of("measure")]
+        return [*names(view, *READABLE_NOUNS), *offers.numbers(view), *kinds_of("measure")]
     begun = _begun(rest)
     return arguments_of(view, "measure", begun[0], begun[1:], task) if begun else []
 

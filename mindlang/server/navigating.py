@@ -9,9 +9,9 @@ from pathlib import Path
 
 from mindlang.compiler.diagnostic import Findings
 from mindlang.compiler.parse import parse
+from mindlang.compiler.references import Mention, introductions
 from mindlang.compiler.source import Source, Span
 from mindlang.compiler.syntax import Argument, Contains, File, Name, Phrase, Use
-from mindlang.editing.references import Mention, introductions
 from mindlang.file_search import files_below, text_of, within_read_limits
 from mindlang.server.tree import path_to
 from mindlang.server.view import MindView
@@ -87,7 +87,7 @@ def symbols(file: File) -> list[Symbol]:
         things = (fact for fact in declaration.facts if isinstance(fact, Contains))
         inner = (Symbol("thing", f.name.text, f.phrase.kind.text, f.span, f.name.span) for f in things)
         whole = Span(file.source, header.span.start, end)
-        kind = header.phrase.kind.text if header.phrase else ""
+        kind = header.phrase.kind.text if header.phrase else f"like {header.like.text}" if header.like else ""
         found.append(Symbol(header.noun.text, header.name.text, kind, whole, header.name.span, tuple(inner)))
     return found
 

@@ -9,9 +9,10 @@ from typing import Any
 from mindrun.quantity import Quantity, Reference
 from mindrun.registry import Argument, arguments, kinds
 
+from mindlang.compiler.comments import comment_of
 from mindlang.compiler.names import things_of
 from mindlang.compiler.resolve.kinds import about
-from mindlang.compiler.syntax import Declaration
+from mindlang.compiler.syntax import Declaration, Reads
 from mindlang.file_search import files_beside, text_of
 from mindlang.server.describing import argument_line, kind_card, meaning
 from mindlang.server.view import MindView
@@ -41,11 +42,33 @@ def names(view: MindView, *nouns: str, but: Iterable[str] = ()) -> list[Offer]:
     """What is declared with one of these nouns, but for some."""
     left = set(but)
     return [
-        Offer(name, noun, declaration.header.span.text.strip())
+        Offer(name, noun, declaration.header.span.text.strip(), declaration.comment)
         for noun in nouns
         for name, declaration in view.names.declarations(noun)
         if name not in left
     ]
+
+
+def inputs_of(view: MindView, skill: str) -> set[str]:
+    """What a skill reads, by what it says or the skills say that it is like."""
+    found: set[str] = set()
+    replaced: set[str] = set()
+    seen: set[str] = set()
+    declared = dict(view.names.declarations("skill"))
+    while skill in declared and skill not in seen:
+        seen.add(skill)
+        reads = [fact for fact in declared[skill].facts if isinstance(fact, Reads)]
+        found |= {fact.name.text for fact in reads} - replaced
+        replaced |= {fact.stands_for.text for fact in reads if fact.stands_for}
+        like = declared[skill].header.like
+        skill = like.text if like else ""
+    return found
+
+
+def numbers(view: MindView) -> list[Offer]:
+    """The names of numbers."""
+    declared = view.names.numbers.items()
+    return [Offer(name, "number", number.span.text.strip(), comment_of(number.span)) for name, number in declared]
 
 
 def kinds_of(noun: str) -> list[Offer]:
@@ -56,7 +79,9 @@ def kinds_of(noun: str) -> list[Offer]:
 def things(view: MindView, task: Declaration | None, about: Iterable[str]) -> list[Offer]:
     """The things of a task, or of all, of which a kind can be."""
     fit = set(about)
-    tasks = [task] if task else [declaration for _, declaration in view.names.declarations("task")]
+    worlds = [each for noun in ("task", "scene") for _, each in view.whole.declarations(noun)]
+    own = [each for each in worlds if task and each.header.name is task.header.name]
+    tasks = own or ([task] if task else worlds)
     found: dict[str, set[str]] = {}
     for declaration in tasks:
         for name, kinds_ in things_of(declaration).items():
@@ -113,7 +138,7 @@ def arguments_of(view: MindView, noun: str, kind: str, rest: Iterable[str], task
     if state.awaits_name and state.current:
         return _named(view, noun, kind, state.current, task)
     if state.awaits_number:
-        return []
+        return numbers(view)
     return [*_after_number(state), *keys(state.left)]
 
 
@@ -145,7 +170,7 @@ def _named(view: MindView, noun: str, kind: str, parameter: Argument, task: Decl
     assert isinstance(parameter.type, Reference)
     match parameter.type:
         case Reference(noun="thing"):
-            return things(view, task, about(noun, kind))
+            return things(view, task, about(noun, kind, parameter.key))
         case Reference(noun="sensor"):
             return names(view, "sensor", "memory")
         case Reference(noun="Python function"):

@@ -15,7 +15,7 @@ from mindlang import transaction
 from mindlang.compiler.compile import Compiled, load
 from mindlang.editing.lock_update import Locks, locks_of, merged, update_locks
 from mindlang.editing.project import EditError, MindChange, Renamed, Replaced
-from mindlang.lock import Lock, lock_text
+from mindlang.lock import Lock, lock_sources, lock_text
 from mindlang.lock.arrange import arrange
 from mindlang.lock.blobs import FOLDER, exclusive_folder
 from mindlang.lock.status import Trained, status
@@ -77,7 +77,7 @@ def _is_renamed(mind: Compiled, change: MindChange) -> bool:
 
 def _fitting(minds: Sequence[Compiled], locks: Locks) -> int:
     """How many skills of the minds have weights that fit."""
-    return sum(_trained(mind.graph, merged(locks, (s.path for s in mind.sources))) for mind in minds if mind.graph)
+    return sum(_trained(mind.graph, merged(locks, lock_sources(mind.sources))) for mind in minds if mind.graph)
 
 
 def _trained(graph: Graph, lock: Lock) -> int:

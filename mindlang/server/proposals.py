@@ -54,6 +54,8 @@ def _of_skill(selection: Selection) -> Iterator[Proposal]:
         yield Proposal(f"Let {name} be taught again", "unfreeze", {"skill": name})
     else:
         yield Proposal(f"Freeze {name}", "freeze", {"skill": name})
+    if declaration.header.like:
+        yield Proposal(f"Give {name} weights of its own", "unshare", {"skill": name})
     new = fresh_title(selection.project, f"New{name}")
     put = {"skill": name, "new": new, **_function(declaration)}
     yield Proposal(f"Put a new skill over {name}", "encapsulate", put, new, "refactor.extract")
@@ -198,7 +200,7 @@ def replacements(project: Project, skill: str) -> list[str]:
 
 def lesson(project: Project, skill: str) -> dict[str, Any]:
     """The arguments with which `add` gives a skill that learns its first lesson; none where it has one, or cannot."""
-    learns = any(known.name == skill and genes(known) for known in project.graph.skills)
+    learns = any(known.name == skill and genes(known) and not known.like for known in project.graph.skills)
     taught = any(known.skill == skill for known in project.mind.lessons)
     curricula, tasks = project.names.of("curriculum"), project.names.of("task")
     if not learns or taught or not curricula or not tasks:
@@ -210,5 +212,6 @@ def lesson(project: Project, skill: str) -> dict[str, Any]:
 def _below(project: Project, skill: str) -> list[str]:
     """The skills that a skill could influence without a circle, and does not."""
     skills = {known.name: known for known in project.mind.skills}
-    not_below = {*skills[skill].subskills, *skills_above(skills.values(), [skill])}
+    alike = [name for name, known in skills.items() if known.like == skill]  # they would influence it, too
+    not_below = {*skills[skill].subskills, *skills_above(skills.values(), [skill, *alike])}
     return [name for name in skills if name not in not_below]

@@ -9,11 +9,12 @@ from mindrun.errors import MindError
 
 from mindlang.compiler.compile import Compiled, load
 from mindlang.compiler.diagnostic import Diagnostic, Findings
+from mindlang.compiler.expand import expand
 from mindlang.compiler.names import Names, gather
+from mindlang.compiler.references import Mention, mentions
 from mindlang.compiler.source import Span
 from mindlang.compiler.syntax import Declaration, Fact, File, Setting
 from mindlang.compiler.use import files
-from mindlang.editing.references import Mention, mentions
 
 Texts = Mapping[Path, str]
 
@@ -35,6 +36,11 @@ class MindView:
     def file(self, path: Path) -> File | None:
         """The file at a path, if it is one of these."""
         return next((file for file in self.files if file.source.path == path), None)
+
+    @cached_property
+    def whole(self) -> Names:
+        """What is declared, with all that scenes and tasks say which others are like."""
+        return expand(self.names, {}, 1.0, Findings())
 
     @cached_property
     def mentions(self) -> tuple[Mention, ...]:

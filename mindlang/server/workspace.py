@@ -7,6 +7,7 @@ from itertools import chain
 from pathlib import Path
 
 from mindlang.compiler.compile import Compiled, load
+from mindlang.compiler.resolve.maps import map_paths
 from mindlang.compiler.source import within
 from mindlang.file_search import files_beside, folders_above, text_of, within_read_limits
 from mindlang.server.view import MindView, view
@@ -44,7 +45,8 @@ class Workspace:
         known = self._views.get(main)
         if known is None or not self._is_now(*known):
             made = view(main, self.texts)
-            known = made, {path: _stamp(path) for path in made.paths if path not in self.texts}
+            maps = map_paths(made.files)
+            known = made, {path: _stamp(path) for path in [*made.paths, *maps] if path not in self.texts}
             self._views[main] = known
         return known[0]
 
@@ -88,7 +90,8 @@ class Workspace:
 
     def _is_now(self, known: MindView, stamps: dict[Path, Stamp]) -> bool:
         """Whether a view is of the files as they are."""
-        if not known.files:
+        apart = stamps.keys() - {*known.paths}
+        if not known.files or any(stamps[path] != _stamp(path) for path in apart):
             return False
         return all(
             file.source.text == self.texts[path] if path in self.texts else stamps.get(path, ()) == _stamp(path)

@@ -5,7 +5,7 @@ from dataclasses import dataclass, replace
 
 from mindrun.graph import Graph, Lesson
 from mindrun.train import NotFoundError, RunError
-from mindrun.weights import genes, learners, reachable
+from mindrun.weights import learners, owners, reachable
 
 from mindlang.compiler.diagnostic import did_you_mean, listed
 from mindlang.lock.status import Status, Trained
@@ -38,6 +38,7 @@ class TrainOptions:
             lesson,
             generations=max(1, round(self.scale * (self.generations or lesson.generations))),
             from_scratch=self.from_scratch or lesson.from_scratch,
+            starts_from="" if self.from_scratch else lesson.starts_from,
             learner=learner,
         )
 
@@ -63,7 +64,7 @@ def chosen_lessons(graph: Graph, curriculum: str | None, skills: Sequence[str]) 
 def subskills(graph: Graph, lesson: Lesson) -> tuple[str, ...]:
     """The skills whose weights a lesson needs: all that learn under its master, but the learners."""
     taught = learners(graph, lesson)
-    return tuple(skill.name for skill in reachable(graph, lesson.master) if genes(skill) and skill.name not in taught)
+    return tuple(name for name in owners(reachable(graph, lesson.master)) if name not in taught)
 
 
 def is_due(graph: Graph, lesson: Lesson, states: Mapping[str, Status]) -> bool:
@@ -98,6 +99,8 @@ def _teaching(graph: Graph, curricula: Sequence[str], skill: str) -> tuple[Lesso
     for curriculum in curricula:
         if found := tuple(lesson for lesson in _of(graph, curriculum) if lesson.skill == skill):
             return found
+    if owner := next((each.like for each in graph.skills if each.name == skill), ""):
+        raise NotFoundError(f"{skill} is like {owner}: it has no weights of its own to be taught", f"teach {owner}")
     taught = [lesson.skill for curriculum in curricula for lesson in _of(graph, curriculum)]
     raise NotFoundError(f"no lesson teaches {skill}", _suggestion(skill, taught))
 

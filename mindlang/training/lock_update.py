@@ -21,6 +21,7 @@ from mindlang.lock.status import Trained, trained_weights
 from mindlang.lock.world_facts import Worlds, key_of
 from mindlang.number_format import number
 from mindlang.training.lesson_choice import is_due
+from mindlang.training.origin import origin_of
 from mindlang.training.subject import Subject
 
 COMPARED_LAYOUTS = 50  # common to the weights that a lock has and to the new ones, and to nothing else
@@ -118,12 +119,15 @@ def _record(run: RunFolder, subject: Subject, state: LessonState, genome: Genome
     population, seed = lesson.learner.population, run.manifest.seed
     where = lesson.task, lesson.master, lesson.with_subskills
     taught = Taught(*where, state.kept_after, population, seed, score, lesson.number, lesson.curriculum)
-    begun_with = (
-        {} if lesson.from_scratch else {skill: subject.lock[skill] for skill in learners if skill in run.weights}
-    )
+    begun_with = {
+        skill: subject.lock[skill]
+        for skill in learners
+        if skill in run.weights and not lesson.from_scratch and not (lesson.starts_from and skill == lesson.skill)
+    }
     learnt = parts(subject.graph, learners, genome)
     world = Worlds(subject.graph, subject.folder).of(declared(subject, lesson))
-    return record(subject.keep_path(lesson), subject.graph, learnt, taught, run.weights, world, begun_with)
+    origins = {lesson.skill: origin} if (origin := origin_of(subject.graph, subject.lock, lesson)) else {}
+    return record(subject.keep_path(lesson), subject.graph, learnt, taught, run.weights, world, begun_with, origins)
 
 
 def declared(subject: Subject, lesson: Lesson) -> Lesson:

@@ -52,7 +52,8 @@ def opening(run: RunFolder) -> str:
     """What is about to be taught, in a sentence."""
     lesson = run.manifest.lesson
     known = set(run.manifest.learners) <= set(run.weights)
-    start = "from scratch" if lesson.from_scratch or not known else "from its weights"
+    origin = f"the weights of {lesson.starts_from}" if lesson.starts_from else "its weights"
+    start = "from scratch" if lesson.from_scratch or not known else f"from {origin}"
     where = f"on {lesson.task}" + (f" under {lesson.master}" if lesson.master != lesson.skill else "")
     who = f"{lesson.skill} with its subskills" if lesson.with_subskills else lesson.skill
     return f"{who} {where} {start}, seed {run.manifest.seed}, in {run.folder}"

@@ -14,17 +14,19 @@ from mindrun.weights import Weights, learners
 
 from mindlang.compiler.compile import Compiled
 from mindlang.compiler.diagnostic import listed
-from mindlang.lock import Lock, lock_path, read_lock, read_locks
+from mindlang.lock import Lock, lock_path, lock_sources, read_lock, read_locks
 from mindlang.lock.arrange import arrange
 from mindlang.lock.status import Status, status, trained_weights
 from mindlang.training.lesson_choice import subskills
+from mindlang.training.origin import origin_weights
 
 
 @dataclass(frozen=True, slots=True)
 class Subject:
     """A mind in the order of its weights; `sources` has the text of its files, by path from the folder of `source`.
 
-    `lock` has what its file's lock and those of the files that it uses say; `homes` where each curriculum stands.
+    `lock` has what its file's lock and those of the files that it uses say, which are `taught`; `homes` is where each
+    curriculum stands.
     """
 
     source: Path
@@ -32,6 +34,7 @@ class Subject:
     graph: Graph
     lock: Lock
     homes: Mapping[str, Path]
+    taught: Sequence[Path]
 
     @property
     def folder(self) -> Path:
@@ -50,7 +53,7 @@ class Subject:
         Where a lock that counts before it has a line of a learner it is that one, or nothing would come of the lesson.
         """
         home = self.homes.get(lesson.curriculum, self.source)
-        paths = [lock_path(self.source.parent / name) for name in self.sources]
+        paths = [lock_path(path) for path in self.taught]
         known = (path for path in paths if not read_lock(path).keys().isdisjoint(learners(self.graph, lesson)))
         return min([lock_path(home), *known], key=paths.index)
 
@@ -65,11 +68,13 @@ def open_subject(path: Path, compiled: Compiled) -> Subject:
     assert compiled.graph is not None
     assert compiled.mind is not None
     source = path.resolve()
-    lock = read_locks(file.path for file in compiled.sources)
+    lock = read_locks(lock_sources(compiled.sources))
     sources = {file.path.relative_to(source.parent).as_posix(): file.text for file in compiled.sources}
     graph = arrange(compiled.graph, lock)
-    homes = {lesson.curriculum: lesson.fact.span.source.path for lesson in compiled.mind.lessons}
-    return Subject(source, sources, graph, lock, homes)
+    taught = lock_sources(compiled.sources)
+    places = {lesson.curriculum: lesson.fact.span.source.path for lesson in compiled.mind.lessons}
+    homes = {curriculum: path for curriculum, path in places.items() if path in taught}
+    return Subject(source, sources, graph, lock, homes, taught)
 
 
 def begin_run(
@@ -81,6 +86,7 @@ def begin_run(
     where that is why.
     """
     weights = _needed(subject, lesson) | (_known(subject, lesson) if not lesson.from_scratch else {})
+    weights |= origin_weights(subject.graph, subject.lock, lesson, subject.shown)
     manifest = Manifest(
         lesson=lesson,
         learners=learners(subject.graph, lesson),

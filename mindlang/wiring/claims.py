@@ -3,17 +3,18 @@
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
-from mindrun.robot.driver_support import ADDRESS, BUS, CHANNEL, PIN
+from mindrun.robot.driver_support import ADDRESS, BUS, CHANNEL, CHIP, PIN
 
 from mindlang.compiler.diagnostic import Findings, Label
 from mindlang.compiler.source import Span
 from mindlang.wiring.driver import Wired
 from mindlang.wiring.nodes import Items, report_error
-from mindlang.wiring.options import DriverOption, driver_options
+from mindlang.wiring.options import DriverOption
 from mindlang.wiring.values import first_line
 
 OUTPUTS = ("channel", "motor", "port", "ports", "output", "input")  # which of the things on a board
 BUS_PINS = {0: (0, 1), 1: (2, 3)}  # of a Raspberry Pi
+SPI_PINS, CHIP_PINS = (9, 10, 11), {0: 8, 1: 7}  # of its SPI bus 0, and of its chip selects
 
 
 @dataclass(frozen=True, slots=True)
@@ -38,19 +39,21 @@ def check_claims(everything: Iterable[Wired], findings: Findings) -> None:
 
 
 def _claims(wired: Wired) -> Iterator[Claim]:
-    options = driver_options(type(wired.driver))
-    for option in options:
-        if option.type is PIN:
+    for option in wired.options:
+        if option.type == PIN:
             yield from (Claim(f"GPIO {number}", span) for number, span in _numbers(wired, option))
-    bus = next((getattr(wired.driver, option.field) for option in options if option.type is BUS), None)
-    used = [getattr(wired.driver, option.field) is not None for option in _outputs(wired)]
+        if option.type == CHIP:
+            pins = *SPI_PINS, CHIP_PINS[wired.values[option.field]]
+            yield from (Claim(f"GPIO {pin}", wired.span(option.key, "driver"), "SPI bus 0") for pin in pins)
+    bus = next((wired.values[option.field] for option in wired.options if option.type == BUS), None)
+    used = [wired.values[option.field] is not None for option in _outputs(wired)]
     if bus is None or (used and not any(used)):  # a camera without servos
         return
     here = wired.span("bus", "driver")
     yield from (Claim(f"GPIO {pin}", here, f"I2C bus {bus}") for pin in BUS_PINS.get(bus, ()))
-    for option in options:
-        if option.type is ADDRESS:
-            yield from _on_board(wired, f"I2C address 0x{getattr(wired.driver, option.field):02x} of bus {bus}", option)
+    for option in wired.options:
+        if option.type == ADDRESS:
+            yield from _on_board(wired, f"I2C address 0x{wired.values[option.field]:02x} of bus {bus}", option)
 
 
 def _on_board(wired: Wired, board: str, address: DriverOption) -> Iterator[Claim]:
@@ -65,20 +68,20 @@ def _on_board(wired: Wired, board: str, address: DriverOption) -> Iterator[Claim
 
 def _outputs(wired: Wired) -> list[DriverOption]:
     """The options that say which of the things on a board."""
-    return [option for option in driver_options(type(wired.driver)) if option.key in OUTPUTS or option.type is CHANNEL]
+    return [option for option in wired.options if option.key in OUTPUTS or option.type == CHANNEL]
 
 
 def _one_device(wired: Wired) -> object:
     """What sensors that read different things of one device have in common: all of its numbers, and its texts."""
     if wired.noun != "sensor":
         return None
-    options = [option for option in driver_options(type(wired.driver)) if option.shape not in ("word", "words")]
-    return type(wired.driver), tuple(getattr(wired.driver, option.field) for option in options)
+    options = [option for option in wired.options if option.shape not in ("word", "words")]
+    return wired.span("driver").text, tuple(wired.values[option.field] for option in options)
 
 
 def _numbers(wired: Wired, option: DriverOption) -> Iterator[tuple[int, Span]]:
     """The numbers under a key, and where each stands."""
-    found, entry = getattr(wired.driver, option.field), wired.entry(option.key)
+    found, entry = wired.values[option.field], wired.entry(option.key)
     numbers = found if isinstance(found, tuple) else (found,)
     if entry and isinstance(entry.value, Items):
         yield from ((number, node.span) for number, node in zip(numbers, entry.value.items, strict=True))

@@ -1,9 +1,10 @@
 """Whether a sensor reads forwards: what is near on the robot must be what was near in training."""
 
 from mindrun.graph import Sensor
+from mindrun.registry import names
 from mindrun.wiring import SensorWire
 
-from mindlang.compiler.diagnostic import Findings, Label
+from mindlang.compiler.diagnostic import Findings, Label, a
 from mindlang.wiring.driver import Wired
 from mindlang.wiring.nodes import report_warning
 
@@ -21,8 +22,8 @@ def check_direction(wired: Wired, wire: SensorWire, sensor: Sensor, findings: Fi
         return
     said = [Label(wired.span(end), f"the reading {ENDS.index(end)}") for end in ENDS if wired.entry(end)]
     first, *others = [*said, Label(wired.span("driver"), "")][: max(1, len(said))]
-    kind = "range finder" if sensor.kind.rays else "contact"
-    message = f"A {kind} reads {is_near} for what is near, and this one for what is far."
+    kind = a(names()[type(sensor.kind)])
+    message = f"{kind[0].upper()}{kind[1:]} reads {is_near} for what is near, and this one for what is far."
     at_0, at_1 = (f"{value:g} {wired.driver.unit}".strip() for value in ends[::-1])
     hint = f"{_meaning(wired, near)} Write from: {at_0} and to: {at_1}."
     report_warning(findings, "reads-backwards", first.span, message, hint, *others)

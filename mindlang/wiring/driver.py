@@ -1,5 +1,6 @@
 """The driver of a sensor or an actuator: found by name, with its options checked."""
 
+import re
 from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
@@ -11,21 +12,28 @@ from mindlang.compiler.diagnostic import Findings, errors, listed, nearest
 from mindlang.compiler.source import Span
 from mindlang.wiring.nodes import Scalar, Table, TableEntry, report_error, shortened
 from mindlang.wiring.options import DRIVER, DriverOption, driver_options, drivers, own_options
+from mindlang.wiring.own_driver import BrokenDriverError, DriverClass, own_class
 from mindlang.wiring.values import by_option, first_line, is_empty, missing_key, unknown_key
 
 ENDS = ("from", "to")  # are in the unit of the driver, so they are read when there is one
+OWN_NAME = re.compile(r"^[A-Za-z_][A-Za-z0-9_]*\.[A-Za-z_][A-Za-z0-9_]*$")  # FILE.CLASS, or PACKAGE.NAME
 COUNTERPARTS = {"sensor": "actuator", "actuator": "sensor"}
 
 
 @dataclass(frozen=True, slots=True)
 class Wired:
-    """A table of `robot.yaml` about one sensor or actuator: its driver, and its own options by field."""
+    """A table of `robot.yaml` about one sensor or actuator: its driver, and its own options by field.
+
+    `options` are the driver's, and `values` theirs by field, those too that are not said.
+    """
 
     name: Scalar
     table: Table
     noun: str
     driver: Any
     own: Mapping[str, Any]
+    options: tuple[DriverOption, ...]
+    values: Mapping[str, Any]
 
     def entry(self, key: str) -> TableEntry | None:
         """What is said under a key."""
@@ -46,7 +54,7 @@ def wired(noun: str, name: Scalar, table: Table, findings: Findings) -> Wired | 
     entry = next(entry for entry in table.entries if entry.key.text == DRIVER)
     assert isinstance(entry.value, Scalar)
     own = {option.key: option for option in own_options(noun)}
-    its = {option.key: option for option in driver_options(cls)}
+    its = {option.key: option for option in cls.options}
     _check_keys(f"The driver {entry.value.text}", entry.value, table, its, own, findings)
     others = [entry for entry in table.entries if entry.key.text not in {DRIVER, *its, *ENDS}]
     values, own_values = by_option(table.entries, its, findings), by_option(others, own, findings)
@@ -54,7 +62,10 @@ def wired(noun: str, name: Scalar, table: Table, findings: Findings) -> Wired | 
     if len(errors(findings.diagnostics)) > before or len(said) > len(values) + len(own_values) or not table.whole:
         return None
     driver = _made(cls, values, entry.value, findings)
-    return None if driver is None else Wired(name, table, noun, driver, own_values)
+    if driver is None:
+        return None
+    every = {option.field: values.get(option.field, option.default) for option in cls.options}
+    return Wired(name, table, noun, driver, own_values, cls.options, every)
 
 
 def _check_keys(
@@ -75,7 +86,7 @@ def _check_keys(
             missing_key(driver.span, what, option.key, _example(option), findings)
 
 
-def _class(noun: str, name: Scalar, table: Table, findings: Findings) -> type[Any] | None:
+def _class(noun: str, name: Scalar, table: Table, findings: Findings) -> DriverClass | None:
     known = drivers(noun)
     entry = next((entry for entry in table.entries if entry.key.text == DRIVER), None)
     if entry is None:
@@ -84,9 +95,11 @@ def _class(noun: str, name: Scalar, table: Table, findings: Findings) -> type[An
         return None
     match entry.value:
         case Scalar(text=driver) if driver in known:
-            return known[driver]
+            return DriverClass(driver_options(known[driver]), known[driver])
         case _ if is_empty(entry, findings):
             return None
+        case Scalar(text=driver) as scalar if OWN_NAME.fullmatch(driver):
+            return own_class(noun, scalar, findings)
         case Scalar(text=driver, span=span):
             message = f"There is no {noun} driver called {shortened(driver)}."
             hint = findings.suggest(driver, known) or f"Known are {listed(sorted(known), 'and')}."
@@ -115,10 +128,13 @@ def _example(option: DriverOption) -> str:
     return listed(option.type.words) if option.type.words else f"…, a {option.type.noun}"
 
 
-def _made(cls: type[Any], values: Mapping[str, Any], name: Scalar, findings: Findings) -> Any:
+def _made(cls: DriverClass, values: Mapping[str, Any], name: Scalar, findings: Findings) -> Any:
     """The driver, unless it says itself that its options do not go together."""
     try:
-        return cls(**values)
+        return cls.make(**values)
+    except BrokenDriverError as error:
+        report_error(findings, "broken-driver", name.span, f"{error}.", error.hint)
+        return None
     except (MindError, ValueError) as error:
         hint = getattr(error, "hint", "") or f"Look at the options of {name.text} in docs/drivers.md."
         report_error(findings, "impossible-driver", name.span, f"{name.text} cannot be wired so: {error}.", hint)

@@ -36,9 +36,9 @@ class DriverOption:
 
 @cache
 def drivers(noun: str) -> dict[str, type[Any]]:
-    """The drivers of "sensor" or "actuator" by name."""
+    """The drivers of "sensor" or "actuator" by name; those that users bring have another."""
     import_module("mindrun.robot.drivers")
-    return kinds(f"{noun} {DRIVER}")
+    return {name: cls for name, cls in kinds(f"{noun} {DRIVER}").items() if name.isidentifier()}
 
 
 @cache

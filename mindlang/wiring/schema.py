@@ -7,6 +7,7 @@ from typing import Any
 
 from mindrun.quantity import Quantity, Reference
 
+from mindlang.wiring.driver import OWN_NAME
 from mindlang.wiring.options import DRIVER, DriverOption, driver_options, drivers, own_options
 
 DRAFT = "https://json-schema.org/draft/2020-12/schema"
@@ -59,7 +60,9 @@ def _section(noun: str) -> dict[str, Any]:
         }
         for name in names
     ]
-    wire = {"type": "object", "required": [DRIVER], "properties": {DRIVER: {"enum": names}}, "allOf": choices}
+    own = {"type": "string", "pattern": OWN_NAME.pattern, "description": "FILE.CLASS beside this file, or PACKAGE.NAME"}
+    driver = {"anyOf": [{"enum": names}, own]}
+    wire = {"type": "object", "required": [DRIVER], "properties": {DRIVER: driver}, "allOf": choices}
     return {
         "type": ["object", "null"],
         "description": f"Each {noun} by its name in the mind.",

@@ -10,6 +10,7 @@ from mindrun.wiring import ActuatorWire, SensorWire, read_by
 from mindlang.compiler.diagnostic import Findings, a, listed, nearest
 from mindlang.wiring.driver import Wired, wired
 from mindlang.wiring.nodes import Scalar, Table, TableEntry, report_error, shortened
+from mindlang.wiring.scale import seeing_as_far
 from mindlang.wiring.sensor import sensor_wire
 from mindlang.wiring.values import is_empty, table
 
@@ -17,10 +18,16 @@ P = TypeVar("P", Sensor, Actuator)
 W = TypeVar("W", SensorWire, ActuatorWire)
 
 
-def sensors(entry: TableEntry | None, graph: Graph, findings: Findings) -> list[tuple[Wired, SensorWire | None]]:
+def sensors(
+    entry: TableEntry | None, graph: Graph, unit_metres: float | None, findings: Findings
+) -> list[tuple[Wired, SensorWire | None]]:
     """What is wired to sensors, in the order of the mind; without a wire where one is wrong."""
     needed = read_by(graph, graph.master)
-    return list(_section("sensor", entry, physical(graph), needed, graph, sensor_wire, findings))
+
+    def wire(wired: Wired, sensor: Sensor, findings: Findings) -> SensorWire | None:
+        return sensor_wire(seeing_as_far(wired, sensor, unit_metres), sensor, findings)
+
+    return list(_section("sensor", entry, physical(graph), needed, graph, wire, findings))
 
 
 def actuators(entry: TableEntry | None, graph: Graph, findings: Findings) -> list[tuple[Wired, ActuatorWire | None]]:

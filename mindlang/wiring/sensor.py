@@ -9,11 +9,15 @@ from mindlang.compiler.diagnostic import Findings, Label, errors
 from mindlang.wiring.direction import check_direction
 from mindlang.wiring.driver import Wired
 from mindlang.wiring.nodes import report_error
-from mindlang.wiring.options import driver_options
 from mindlang.wiring.values import first_line, is_empty, number
 
 # What a driver may measure in, and how people may write it.
-UNITS = {"m": {"m": 1.0, "cm": 0.01, "mm": 0.001}, "V": {"V": 1.0, "mV": 0.001}, "m/s²": {"m/s²": 1.0, "m/s2": 1.0}}
+UNITS = {
+    "": {"": 1.0, "%": 0.01},
+    "m": {"m": 1.0, "cm": 0.01, "mm": 0.001},
+    "V": {"V": 1.0, "mV": 0.001},
+    "m/s²": {"m/s²": 1.0, "m/s2": 1.0},
+}
 FULL_TURN_DEGREES = 360.0
 
 
@@ -54,7 +58,7 @@ def _end(wired: Wired, index: int, findings: Findings) -> float | None:
 def _check_readings(wired: Wired, sensor: Sensor, findings: Findings) -> None:
     """One value for each reading, and where there are pins, as many in each list."""
     count, name = wired.driver.readings, wired.name.text
-    lists = [option.key for option in driver_options(type(wired.driver)) if option.shape == "numbers"]
+    lists = [option.key for option in wired.options if option.shape == "numbers"]
     if count != sensor.width:
         message = f"The mind's {name} has {_count_readings(sensor.width)}, and this driver {count}."
         hint = (
@@ -64,9 +68,9 @@ def _check_readings(wired: Wired, sensor: Sensor, findings: Findings) -> None:
         )
         report_error(findings, "wrong-width", wired.span(*lists, "driver"), message, hint)
         return
-    for option in driver_options(type(wired.driver)):
-        entry, pins = wired.entry(option.key), getattr(wired.driver, option.field)
-        if option.type is PIN and entry and isinstance(pins, tuple) and len(pins) != count:
+    for option in wired.options:
+        entry, pins = wired.entry(option.key), wired.values[option.field]
+        if option.type == PIN and entry and isinstance(pins, tuple) and len(pins) != count:
             message = f"{option.key} has {len(pins)} pin{'s' * (len(pins) != 1)}, for {_count_readings(count)}."
             hint = f"List {count}, in the order of the readings."
             report_error(findings, "wrong-count", first_line(entry.value.span), message, hint)

@@ -33,15 +33,18 @@ class Checked:
     readable: bool = True
 
 
-def load_wiring(path: Path, graph: Graph) -> Checked:
-    """The wiring of a mind in the file at `path`; whatever is wrong is in the diagnostics."""
+def load_wiring(path: Path, graph: Graph, unit_metres: float | None = None) -> Checked:
+    """The wiring of a mind in the file at `path`; whatever is wrong is in the diagnostics.
+
+    `unit_metres` is how long a unit of the mind's world is on the robot, where the mind says so.
+    """
     try:
         if path.is_dir():
             raise ValueError("is a folder")
         data = read_regular(path, MAX_WIRING_BYTES + 1)
         if len(data) > MAX_WIRING_BYTES:
             raise ValueError(f"is larger than {MAX_WIRING_BYTES >> 10} kB")
-        return check_wiring(Source(str(path), decode(data), path.resolve().parent), graph)
+        return check_wiring(Source(str(path), decode(data), path.resolve().parent), graph, unit_metres)
     except (OSError, RuntimeError) as error:  # a loop of links is a RuntimeError
         return _unreadable(f"{path} cannot be read: {reason(error)}.", "Is the path right?")
     except ValueError as error:
@@ -52,16 +55,16 @@ def _unreadable(message: str, hint: str) -> Checked:
     return Checked(None, (Diagnostic("unreadable", message, None, hint),), readable=False)
 
 
-def check_wiring(source: Source, graph: Graph) -> Checked:
+def check_wiring(source: Source, graph: Graph, unit_metres: float | None = None) -> Checked:
     """The wiring that a text says, checked against a mind with its master."""
     findings = Findings()
     node = read(source, findings)
-    wiring = _wiring(node, graph, findings) if node else None
+    wiring = _wiring(node, graph, unit_metres, findings) if node else None
     found = sorted(findings.diagnostics, key=lambda diagnostic: diagnostic.span.start if diagnostic.span else -1)
     return Checked(None if errors(found) else wiring, tuple(found))
 
 
-def _wiring(node: Node, graph: Graph, findings: Findings) -> Wiring | None:
+def _wiring(node: Node, graph: Graph, unit_metres: float | None, findings: Findings) -> Wiring | None:
     top = table(node, "The file", "robot, sensors and actuators", findings)
     if top is None:
         return None
@@ -73,7 +76,8 @@ def _wiring(node: Node, graph: Graph, findings: Findings) -> Wiring | None:
     for word, example in KEYS.items():
         if word not in said and word not in meant and top.whole:
             missing_key(top.span, "The file", word, example, findings)
-    sensing, acting = sensors(said.get("sensors"), graph, findings), actuators(said.get("actuators"), graph, findings)
+    sensing = sensors(said.get("sensors"), graph, unit_metres, findings)
+    acting = actuators(said.get("actuators"), graph, findings)
     check_claims([wired for wired, _ in (*sensing, *acting)], findings)
     name = _name(said.get("robot"), findings)
     wires = tuple(wire for _, wire in sensing if wire)

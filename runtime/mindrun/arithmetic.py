@@ -14,8 +14,9 @@ F = np.float32
 X, Y, ANGLE, SPEED_X, SPEED_Y, SPIN = range(6)  # rows of a body; of all else that has a place the first two
 COSINE, SINE = range(2)  # rows of a heading
 THING_ROWS, SIZE, DISTANCE = 4, 2, 3  # of a thing: how many, its size, how far the robot was as the tick began
-BOX_COLUMNS, HALF_SIDE = 3, 2  # of a box: how many, and half its side
-ZERO, HALF, ONE = F(0), F(0.5), F(1)
+BOX_COLUMNS, HALF_X, HALF_Y = 4, 2, 3  # of a box: how many, and half of its sides along x and y
+TURN, PUSHED_X, PUSHED_Y, PUSHED_SPIN, LOOSE_ROWS = range(5)  # rows of a loose thing beside those, and how many
+ZERO, HALF, ONE, NAN = F(0), F(0.5), F(1), F(np.nan)
 MIN_DENOMINATOR = F(1e-7)
 A1, A3, A5, A7, A9, A11, A13 = (F(a) for a in NUMERATOR)
 B0, B2, B4, B6 = (F(b) for b in DENOMINATOR)
@@ -82,10 +83,10 @@ def bearing(x: Any, y: Any) -> Any:
     return HALF - angle * PER_TURN
 
 
-def in_claw(body: Any, heading: Any, things: Any, radius: Any, reach: Any, i: Any, p: Any) -> Any:
-    """Whether thing i is ahead of the claw and its rim within the claw's reach, in lane p."""
+def in_claw(body: Any, heading: Any, things: Any, front: Any, reach: Any, i: Any, p: Any) -> Any:
+    """Whether thing i is ahead of the claw, `front` ahead of the body's middle, and its rim within reach, in lane p."""
     dx, dy = things[THING_ROWS * i + X, p] - body[X, p], things[THING_ROWS * i + Y, p] - body[Y, p]
-    ahead = heading[COSINE, p] * dx + heading[SINE, p] * dy - radius
+    ahead = heading[COSINE, p] * dx + heading[SINE, p] * dy - front
     aside = heading[COSINE, p] * dy - heading[SINE, p] * dx
     far = reach + things[THING_ROWS * i + SIZE, p] / 2
     return ahead >= 0 and ahead * ahead + aside * aside <= far * far
@@ -95,6 +96,32 @@ def inside(things: Any, i: Any, x: Any, y: Any, p: Any) -> Any:
     """Whether a point is inside the square of thing i, in lane p."""
     half = things[THING_ROWS * i + SIZE, p] / 2
     return abs(things[THING_ROWS * i + X, p] - x) <= half and abs(things[THING_ROWS * i + Y, p] - y) <= half
+
+
+def nearest(s: Any, sensor: Any, n: Any) -> Any:
+    """The rows [THING_ROWS, lane] of the thing that a sensor speaks of: of several, in each lane the nearest one.
+
+    The first where two are as near; one that has vanished is nowhere, and NaN where all have. Sensors that follow one
+    another and are about the same things look for it once.
+    """
+    if sensor.things == 1:
+        return s.things[THING_ROWS * sensor.thing : THING_ROWS * (sensor.thing + 1)]
+    found, first = s.nearest, THING_ROWS * sensor.thing
+    if s.nearest_of[0] == sensor.thing:
+        return found
+    s.nearest_of[0] = sensor.thing
+    for p in range(n):  # lane by lane: in numbers, not in rows
+        x, y = s.things[first + X, p], s.things[first + Y, p]
+        size, far = s.things[first + SIZE, p], s.things[first + DISTANCE, p]
+        for i in range(sensor.thing + 1, sensor.thing + sensor.things):
+            one = THING_ROWS * i
+            closer = (s.things[one + DISTANCE, p] < far) | (far != far)
+            x = s.things[one + X, p] if closer else x
+            y = s.things[one + Y, p] if closer else y
+            size = s.things[one + SIZE, p] if closer else size
+            far = s.things[one + DISTANCE, p] if closer else far
+        found[X, p], found[Y, p], found[SIZE, p], found[DISTANCE, p] = x, y, size, far
+    return found
 
 
 LANES = 16  # side by side, as one value

@@ -12,7 +12,7 @@ from typing import Any
 
 from mindrun.archive import read_archive, write_archive
 from mindrun.atomic_write import write_out
-from mindrun.bundle_migration import migrate_graph, with_whole_lessons
+from mindrun.bundle_migration import migrate_graph, with_programs, with_whole_lessons
 from mindrun.codec import encode
 from mindrun.encoding import decode, decode_wiring
 from mindrun.errors import BundleError, WeightsError
@@ -24,10 +24,11 @@ from mindrun.strict_json import parsed
 from mindrun.weights import genes, read_weights
 from mindrun.wiring import Wiring
 
-# A mindrun that knows nothing of wirings refuses a bundle that has one, and one that knows nothing of what becomes of
-# things those of which the tasks say it.
-FORMAT, WIRED = "mind bundle 3", "mind bundle 4"
-OLDER_FORMATS = {"mind bundle 1": FORMAT, "mind bundle 2": WIRED}
+# A mindrun that knows nothing of wirings refuses a bundle that has one, one that knows nothing of what becomes of
+# things those of which the tasks say it, and one of before the open world those of today.
+FORMAT, WIRED = "mind bundle 5", "mind bundle 6"
+WITHOUT_OUTCOMES = {"mind bundle 1": FORMAT, "mind bundle 2": WIRED}
+OLDER_FORMATS = WITHOUT_OUTCOMES | {"mind bundle 3": FORMAT, "mind bundle 4": WIRED}
 MANIFEST, GRAPH, WIRING = "manifest.json", "graph.json", "wiring.json"
 WEIGHTS, MODULES = "weights/", "procedures/"
 MAX_BUNDLE_BYTES = 64 << 20  # nothing is compressed, so this also limits what is read
@@ -137,10 +138,13 @@ def _bundle(members: dict[str, bytes]) -> Bundle:
     if not isinstance(manifest, dict) or manifest.get("format") not in (FORMAT, WIRED, *OLDER_FORMATS):
         raise BundleError(_foreign(manifest))
     data = with_whole_lessons(_document(members, GRAPH))
-    if manifest["format"] in OLDER_FORMATS:
+    is_older = manifest["format"] in OLDER_FORMATS
+    if manifest["format"] in WITHOUT_OUTCOMES:
         data = migrate_graph(data)
+    if is_older:
+        data = with_programs(data)
         manifest = manifest | {"format": OLDER_FORMATS[manifest["format"]]}
-    graph = decode(data)
+    graph = decode(data, is_older)
     weights = {name: read_weights(content) for name, content in _below(members, WEIGHTS, ".npy")}
     procedures = {name.replace("/", "."): content.decode() for name, content in _below(members, MODULES, ".py")}
     wiring = decode_wiring(_document(members, WIRING), graph) if manifest["format"] == WIRED else None
@@ -153,7 +157,7 @@ def _bundle(members: dict[str, bytes]) -> Bundle:
 
 def _refuse_strangers(graph: Graph, skills: Iterable[str], modules: Iterable[str]) -> None:
     """BundleError where there are weights of nobody, or a module of no name."""
-    learning = {skill.name for skill in graph.skills if genes(skill)}
+    learning = {skill.name for skill in graph.skills if genes(skill) and not skill.like}
     for name in skills:
         if name not in learning:
             raise BundleError(f"this bundle has weights of {name!r:.60}, which is no skill of it that learns")

@@ -18,6 +18,24 @@ def migrate_graph(graph: Any) -> Any:
         return graph
 
 
+def with_programs(graph: Any) -> Any:
+    """The data of a graph from before conditions were programs: each was a comparison, and ends had none."""
+    try:
+        return graph | {"tasks": [_with_conditions(task) for task in graph["tasks"]]}
+    except (TypeError, LookupError):
+        return graph
+
+
+def _with_conditions(task: Any) -> Any:
+    ends = [{"event": event} for event in task["ends"]]  # the rest is as where nothing is said
+    return task | {"rewards": [_reward(reward) for reward in task["rewards"]], "ends": ends}
+
+
+def _reward(reward: Any) -> Any:
+    when = reward["when"]
+    return reward | {"when": [*when["left"], *when["right"], [when["compare"], 0]]} if when else reward
+
+
 def with_whole_lessons(graph: Any) -> Any:
     """The data of a graph whose lessons say all there is to say: what they do not is as where nothing is said.
 
@@ -30,10 +48,10 @@ def with_whole_lessons(graph: Any) -> Any:
 
 
 def _lesson(lesson: Any) -> Any:
-    """A lesson from before it had a number, and its learner some of their arguments."""
+    """A lesson from before it had a number or could start from a skill, and its learner some of their arguments."""
     learner = lesson["learner"]
     usual = {field.name: field.default for field in fields(kinds("curriculum")[learner["is"]])}
-    return {"number": 0} | lesson | {"learner": usual | learner}
+    return {"number": 0, "starts_from": ""} | lesson | {"learner": usual | learner}
 
 
 def _task(task: Any) -> Any:

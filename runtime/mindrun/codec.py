@@ -1,7 +1,7 @@
 """Dataclasses as plain data for JSON, and back: their annotations say what must stand there, and nothing else may."""
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, fields, is_dataclass
+from dataclasses import MISSING, dataclass, fields, is_dataclass
 from math import isfinite
 from types import NoneType, UnionType
 from typing import Annotated, Any, Literal, Union, get_args, get_origin, get_type_hints
@@ -41,14 +41,18 @@ def encode(value: object, extra: Callable[[object], Options] = lambda value: {})
     return data if name is None else {"is": name, **extra(value), **data}
 
 
-def decode(hint: Any, data: Any, where: str, prepare: Prepare = lambda noun, data: data) -> Any:
-    """The value of type `hint` of which `encode` made this data; CodecError says `where` there is none."""
-    return _Decoder(prepare).value(hint, data, where)
+def decode(hint: Any, data: Any, where: str, prepare: Prepare = lambda noun, data: data, is_older: bool = False) -> Any:
+    """The value of type `hint` of which `encode` made this data; CodecError says `where` there is none.
+
+    What data that `is_older` does not say is as where nothing is said: it is from before there was a word for it.
+    """
+    return _Decoder(prepare, is_older).value(hint, data, where)
 
 
 @dataclass(frozen=True, slots=True)
 class _Decoder:
     prepare: Prepare
+    is_older: bool
 
     def value(self, hint: Any, data: Any, where: str) -> Any:
         origin, parts = get_origin(hint), get_args(hint)
@@ -70,8 +74,10 @@ class _Decoder:
         hints = tuple(hint for hint in hints if hint is not NoneType)
         if isinstance(data, Mapping) and "is" in data:
             hints = tuple(hint for hint in hints if names().get(hint) == data["is"])
-        elif len(hints) > 1:  # a number in an expression
-            hints = tuple(hint for hint in hints if hint is type(data))
+        elif len(hints) > 1:  # a number in an expression, one number or two
+            plain = tuple if isinstance(data, list) else type(data)
+            fitting = tuple(hint for hint in hints if (get_origin(hint) or hint) is plain)
+            hints = fitting or tuple(hint for hint in hints if hint is float and plain is int)
         if len(hints) != 1:
             raise CodecError(f"{where} is of an unknown kind")
         return self.value(hints[0], data, where)
@@ -102,9 +108,15 @@ class _Decoder:
     def fields(self, cls: type[Any], data: Any, where: str) -> Any:
         hints, name = _hints(cls), names().get(cls)
         expected = hints.keys() | ({"is"} if name else set())
-        if not isinstance(data, Mapping) or data.keys() != expected or data.get("is") != name:
+        optional = {each.name for each in fields(cls) if each.default is not MISSING} if self.is_older else set()
+        if (
+            not isinstance(data, Mapping)
+            or not expected - optional <= data.keys() <= expected
+            or data.get("is") != name
+        ):
             raise CodecError(f"{where} is not a {cls.__name__}")
-        return cls(**{name: self.value(hint, data[name], f"{where}.{name}") for name, hint in hints.items()})
+        said = {name: hint for name, hint in hints.items() if name in data}
+        return cls(**{name: self.value(hint, data[name], f"{where}.{name}") for name, hint in said.items()})
 
 
 def _plain(hint: Any, data: Any, where: str) -> Any:

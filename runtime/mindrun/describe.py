@@ -7,7 +7,7 @@ from mindrun.bundle import Bundle, fingerprint
 from mindrun.codec import encode
 from mindrun.named_readings import physical
 from mindrun.registry import names
-from mindrun.wiring import Wiring
+from mindrun.wiring import Wiring, code_digests
 
 
 def describe(bundle: Bundle) -> str:
@@ -28,7 +28,12 @@ def contents(bundle: Bundle) -> dict[str, Any]:
         "memories": [{**_named(m.name, m.kind), "decay": m.kind.decay} for m in graph.memories],
         "actuators": [{**_named(a.name, a.kind), "neutral": a.kind.neutral} for a in graph.actuators],
         "skills": [
-            {**_named(s.name, s.function), "inputs": len(s.inputs), "weights": len(weights.get(s.name, ()))}
+            {
+                **_named(s.name, s.function),
+                "inputs": len(s.inputs),
+                "weights": len(weights.get(s.owner, ())),
+                **({"like": s.like} if s.like else {}),
+            }
             for s in graph.skills
         ],
         "procedures": sorted(bundle.procedures),
@@ -41,9 +46,14 @@ def _robot(wiring: Wiring) -> dict[str, Any]:
     return {
         "name": wiring.robot,
         "wiring": fingerprint(wiring),
+        **({"drivers": digests} if (digests := code_digests(wiring)) else {}),
         "sensors": [{**encode(wire), "unit": wire.driver.unit} for wire in wiring.sensors],
         "actuators": [encode(wire) for wire in wiring.actuators],
     }
+
+
+def _driver(wire: dict[str, Any]) -> str:
+    return str(wire["driver"].get("name", wire["driver"]["is"]))
 
 
 def _named(name: str, kind: object) -> dict[str, Any]:
@@ -61,25 +71,28 @@ def _lines(found: dict[str, Any]) -> Iterator[str]:
         yield f"actuator {part['name']} is {part['kind']}: neutral {part['neutral']:g}"
     for part in found["skills"]:
         weights = f", {_counted(part['weights'], 'weight')}" if part["weights"] else ""
-        yield f"skill {part['name']} is {part['kind']}: {_counted(part['inputs'], 'input')}{weights}"
+        shared = f", those of {part['like']}" if "like" in part else ""
+        yield f"skill {part['name']} is {part['kind']}: {_counted(part['inputs'], 'input')}{weights}{shared}"
     if "robot" in found:
         yield from _wires(found["robot"])
 
 
 def _wires(robot: dict[str, Any]) -> Iterator[str]:
     yield f"robot {robot['name']}, wiring {robot['wiring'][:12]}"
+    for name, digest in robot.get("drivers", {}).items():
+        yield f"driver {name} is the user's own, {digest[:12]}"
     for wire in robot["sensors"]:
         median = f", the median of {wire['median']}" if wire["median"] > 1 else ""
         values = f"{wire['low']:g} to {wire['high']:g} {wire['unit']}".rstrip()
         yield (
-            f"sensor {wire['sensor']} is wired to {wire['driver']['is']}: {values}, {wire['rate']:g} Hz{median}, "
+            f"sensor {wire['sensor']} is wired to {_driver(wire)}: {values}, {wire['rate']:g} Hz{median}, "
             f"{wire['on_fault']} when older than {wire['max_age']:g} s"
         )
     for wire in robot["actuators"]:
         slew = f", at most {wire['slew']:g} a second" if wire["slew"] else ""
         turned = ", reversed" if wire["reversed"] else ""
         limits = f"{wire['low']:g} to {wire['high']:g}"
-        yield f"actuator {wire['actuator']} is wired to {wire['driver']['is']}: {limits}{slew}{turned}"
+        yield f"actuator {wire['actuator']} is wired to {_driver(wire)}: {limits}{slew}{turned}"
 
 
 def _counted(count: int, noun: str) -> str:

@@ -8,11 +8,16 @@ from collections.abc import Sequence
 from typing import Protocol
 
 from mindrun.errors import MindError
-from mindrun.registry import base
+from mindrun.registry import base, names
 
 
 class DeviceError(MindError):
     """A device that cannot be opened, does not answer, or answers nonsense; `hint` may say what to install or wire."""
+
+
+def driver_name(driver: object) -> str:
+    """What robot.yaml calls a driver; those of a user say it themselves."""
+    return getattr(driver, "name", "") or names()[type(driver)]
 
 
 class SensorDevice(Protocol):

@@ -13,9 +13,12 @@ from mindrun.wiring import Wiring, flaws
 T = TypeVar("T")
 
 
-def decode(data: object) -> Graph:
-    """The graph that `encode` made this data of; BundleError where anything is missing, unknown or out of range."""
-    graph = decode_part(Graph, data, "graph")
+def decode(data: object, is_older: bool = False) -> Graph:
+    """The graph that `encode` made this data of; BundleError where anything is missing, unknown or out of range.
+
+    Data that `is_older` may lack what there was no word for.
+    """
+    graph = decode_part(Graph, data, "graph", is_older)
     found = graph_flaw(graph)
     if found:
         raise BundleError(f"this graph is damaged: {found}")
@@ -32,10 +35,10 @@ def decode_wiring(data: object, graph: Graph) -> Wiring:
     return wiring
 
 
-def decode_part(hint: type[T], data: object, where: str) -> T:
+def decode_part(hint: type[T], data: object, where: str, is_older: bool = False) -> T:
     """A part of a graph that `encode` made this data of; BundleError where it is not a `hint`."""
     try:
-        part: T = codec.decode(hint, data, where)
+        part: T = codec.decode(hint, data, where, is_older=is_older)
     except CodecError as error:
         raise BundleError(str(error) if error.unknown else f"this is damaged: {error}") from error
     return part

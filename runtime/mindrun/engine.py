@@ -44,7 +44,6 @@ class Engine:
             procedures = procedure_sources(graph, procedures, master)
         self.graph = graph
         self._hierarchy = hierarchy(policy, procedures or {}, master)
-        self._virtual = virtual_sensors(graph)
         self._neutral = np.array([actuator.kind.neutral for actuator in graph.actuators], np.float32)
         self._places = np.array([memory.start for memory in graph.memories], np.intp)
         self._decay = np.array([memory.kind.decay for memory in graph.memories], np.float32)
@@ -56,6 +55,7 @@ class Engine:
         for skill in self._hierarchy.skills:
             if isinstance(skill.compute, Stateful):
                 skill.compute.reset()
+        self._virtual = virtual_sensors(self.graph)
         self._tick = 0
         self._before: NDArray[np.float32] | None = None
         self._cells = np.array([memory.kind.start for memory in self.graph.memories], np.float32)

@@ -1,20 +1,23 @@
 """The compiled hierarchy as plain data: names as indices, units converted, skills in the order of influence."""
 
 from dataclasses import dataclass
-from typing import Literal
+from typing import Annotated, Literal
 
 from mindrun.actuators import ActuatorKind
 from mindrun.actuators.gripper import REACH_UNITS
-from mindrun.bodies import Disc
+from mindrun.bodies import BodyKind
 from mindrun.events import EventKind
 from mindrun.expression import Program as Program
 from mindrun.functions import Function
 from mindrun.learners import Learner
 from mindrun.measures import MeasureKind
 from mindrun.memory import Cell
+from mindrun.quantity import ANGLE, COORDINATE, Place
 from mindrun.scenes import SceneKind
 from mindrun.sensors import SensorKind
 from mindrun.things import ThingKind
+from mindrun.variation import Failure as Failure
+from mindrun.variation import Variation as Variation
 
 Receiver = Literal["skill", "actuator", "memory"]  # of what a skill sends
 
@@ -47,23 +50,45 @@ class Actuator:
 
 
 @dataclass(frozen=True, slots=True)
+class Gate:
+    """When an edge sends its value. Where `when` does not hold it sends `otherwise`, or nothing where that is None."""
+
+    when: Program
+    otherwise: Program | None = None
+
+    @property
+    def programs(self) -> tuple[Program, ...]:
+        """Both programs, or the one that there is."""
+        return (self.when,) if self.otherwise is None else (self.when, self.otherwise)
+
+
+@dataclass(frozen=True, slots=True)
 class Edge:
     """What a skill sends: to the skill, actuator or memory with index `target`.
 
-    The value is the function's output number `output`, or where that is None the `value` program, clamped to 0..1.
+    The value is the function's output number `output`, or where that is None the `value` program, clamped to 0..1;
+    `gate` says when. An influence that is smaller than `cuts` when it arrives is none.
     """
 
     to: Receiver
     target: int
     output: int | None
     value: Program = ()
+    gate: Gate | None = None
+    cuts: float = 0.0
+
+    @property
+    def programs(self) -> tuple[Program, ...]:
+        """All that is computed beside the function."""
+        return ((self.value,) if self.output is None else ()) + (self.gate.programs if self.gate else ())
 
 
 @dataclass(frozen=True, slots=True)
 class Skill:
     """A skill: `inputs` are indices into the readings, `edges` in the order of the source.
 
-    Among a function's outputs number i belongs to the i-th edge without `at`. One that is `frozen` is not taught.
+    Among a function's outputs number i belongs to the i-th edge without `at`. One that is `frozen` is not taught. One
+    that is `like` another has the same function, which sends the same, and shares its weights for ever.
     """
 
     name: str
@@ -71,6 +96,12 @@ class Skill:
     inputs: tuple[int, ...]
     edges: tuple[Edge, ...]
     frozen: bool = False
+    like: str = ""
+
+    @property
+    def owner(self) -> str:
+        """The skill under whose name its weights stand: itself, or the one that it is like."""
+        return self.like or self.name
 
     @property
     def outputs(self) -> int:
@@ -97,17 +128,8 @@ class Thing:
 
 
 @dataclass(frozen=True, slots=True)
-class Condition:
-    """`left compare right`, with compare one of < <= > >=."""
-
-    left: Program
-    compare: str
-    right: Program
-
-
-@dataclass(frozen=True, slots=True)
 class Reward:
-    """One reward line. `on` is an index into the task's events, or None for "per tick".
+    """One reward line. `on` is an index into the task's events, or None for "per tick"; `when` is a condition.
 
     With `each`, a sensor's (start, width), the amount is added once for each of those readings, which the programs
     read as ("each", 0).
@@ -117,12 +139,42 @@ class Reward:
     amount: Program
     on: int | None
     each: tuple[int, int] | None = None
-    when: Condition | None = None
+    when: Program | None = None
+
+    @property
+    def programs(self) -> tuple[Program, ...]:
+        """Its amount, and its condition if it has one."""
+        return (self.amount,) if self.when is None else (self.amount, self.when)
+
+
+@dataclass(frozen=True, slots=True)
+class End:
+    """What ends a run: an event, by its index, the `times`th time that it happens, or the condition `when`.
+
+    One that `succeeds` ends it as a success. `text` is the condition as it is written.
+    """
+
+    event: int | None
+    times: int = 1
+    when: Program | None = None
+    succeeds: bool = False
+    text: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Start:
+    """Where the robot is when a run begins, and which way it faces; None where that is drawn."""
+
+    at: Annotated[Place | None, COORDINATE] = None
+    facing: Annotated[float | None, ANGLE] = None
 
 
 @dataclass(frozen=True, slots=True)
 class Task:
-    """A task: its world, its end, its rewards. `ends` and `counts` are indices into `events`."""
+    """A task: its world, its ends, its rewards. `counts` are indices into `events`.
+
+    What of the world and the robot `varies` is drawn for each run, and so is when what `fails` does.
+    """
 
     name: str
     scene: SceneKind
@@ -130,9 +182,23 @@ class Task:
     ticks: int
     measures: tuple[MeasureKind, ...]
     events: tuple[EventKind, ...]
-    ends: tuple[int, ...]
+    ends: tuple[End, ...]
     rewards: tuple[Reward, ...]
     counts: tuple[int, ...]
+    start: Start = Start()
+    varies: tuple[Variation, ...] = ()
+    fails: tuple[Failure, ...] = ()
+
+    @property
+    def programs(self) -> tuple[Program, ...]:
+        """All that its rewards and its ends compute."""
+        ends = (end.when for end in self.ends if end.when is not None)
+        return (*(program for reward in self.rewards for program in reward.programs), *ends)
+
+    @property
+    def can_succeed(self) -> bool:
+        """Whether any of its ends is a success."""
+        return any(end.succeeds for end in self.ends)
 
 
 @dataclass(frozen=True, slots=True)
@@ -140,7 +206,8 @@ class Lesson:
     """Who learns (`skill`), on which task, driven by which master, for how long, and how (`learner`).
 
     With `with_subskills`, all that learn below the skill and are not frozen learn with it, as one genome. `number` is
-    its place in its curriculum, from 1; 0 in what was made before lessons had one.
+    its place in its curriculum, from 1; 0 in what was made before lessons had one. One that `starts_from` another skill
+    begins with a copy of its weights.
     """
 
     curriculum: str
@@ -152,6 +219,7 @@ class Lesson:
     with_subskills: bool
     learner: Learner
     number: int = 0
+    starts_from: str = ""
 
     @property
     def name(self) -> str:
@@ -165,7 +233,7 @@ class Graph:
     """A whole mind, compiled. `tick` is in seconds; `skills` stand in topological order, parents first."""
 
     tick: float
-    body: Disc
+    body: BodyKind
     master: str
     sensors: tuple[Sensor, ...]
     memories: tuple[Memory, ...]

@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 from typing import Annotated
 
-from mindrun.quantity import RATIO
+from mindrun.quantity import DECAY, RATIO
 from mindrun.registry import kind
 
 
@@ -12,5 +12,5 @@ from mindrun.registry import kind
 class Cell:
     """One number: decay·cell + (1 − decay)·command where a skill drives it, decay·cell where none has influence."""
 
-    decay: Annotated[float, RATIO]
+    decay: Annotated[float, DECAY]
     start: Annotated[float, RATIO] = 0.0

@@ -13,17 +13,18 @@ class Policy:
     """What an engine runs and a rollout simulates: a graph, and the weights of its skills.
 
     `weights` are float32 [genes] by skill, in the order in which `graph` says what the skill reads and sends. A skill
-    that a rollout teaches, or that no master reaches, may lack them. WeightsError where some are of no skill of the
-    graph, are not as many as it has, are not finite, or are those of a policy that has them in another order.
+    that a rollout teaches, or that no master reaches, may lack them; skills that are like one another have theirs under
+    the name of the one that owns them. WeightsError where some are of no skill of the graph that has its own, are not
+    as many as it has, are not finite, or are those of a policy that has them in another order.
     """
 
     graph: Graph
     weights: Mapping[str, Weights]
 
     def __post_init__(self) -> None:
-        skills = {skill.name: skill for skill in self.graph.skills}
+        skills = {skill.name: skill for skill in self.graph.skills if not skill.like}
         if strangers := sorted(self.weights.keys() - skills.keys()):
-            raise WeightsError(f"there are weights of {strangers[0]}, but there is no such skill")
+            raise WeightsError(f"there are weights of {strangers[0]}, but no such skill has its own")
         ordered = _Ordered((name, checked(skills[name], weights)) for name, weights in self.weights.items())
         readings = _readings(self.graph)
         ordered.orders = {name: _order(self.graph, readings, skills[name]) for name in ordered}

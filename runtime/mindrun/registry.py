@@ -6,7 +6,7 @@ from importlib import import_module
 from pkgutil import iter_modules
 from typing import Annotated, Any, Literal, TypeVar, get_args, get_origin, get_type_hints
 
-from mindrun.quantity import Quantity, Reference, Span
+from mindrun.quantity import Extent, Place, Quantity, Reference, Span
 
 T = TypeVar("T")
 
@@ -16,7 +16,8 @@ _bases: dict[type[Any], str] = {}
 _arguments: dict[Any, tuple["Argument", ...]] = {}  # of each kind that was asked for
 
 
-Shape = Literal["one", "list", "span", "name"]  # of an argument: a number, several, a `Span`, a word
+Shape = Literal["one", "list", "span", "name", "extent", "place", "places", "lines"]
+"""Of an argument: a number, several, a `Span`, a word, an `Extent`, a place, several, the lines of a text file."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -49,6 +50,11 @@ def kind(noun: str, name: str) -> Callable[[type[T]], type[T]]:
 def kinds(noun: str) -> dict[str, type[Any]]:
     """Every kind of a noun, by name."""
     return _kinds.get(noun, {})
+
+
+def share_kinds(noun: str, of: str) -> None:
+    """Say that a noun has the kinds of another: a scene is one of those that a task can be in."""
+    _kinds[noun] = _kinds[of]
 
 
 def base(noun: str) -> Callable[[type[T]], type[T]]:
@@ -97,10 +103,18 @@ def _type(hint: Any) -> tuple[Quantity | Reference, Shape]:
         raise TypeError(f"{hint} does not say what an argument means")
     plain, meaning = get_args(hint)[:2]
     match plain, meaning:
+        case _, Reference() if plain == tuple[str, ...]:
+            return meaning, "lines"
         case _, Reference():
             return meaning, "name"
         case _ if plain is Span:
             return meaning, "span"
+        case _ if plain == Extent:
+            return meaning, "extent"
+        case _ if plain == tuple[Place, ...]:
+            return meaning, "places"
+        case _ if plain == Place:
+            return meaning, "place"
         case _ if get_origin(plain) is tuple:
             return meaning, "list"
     return meaning, "one"

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from mindrun.expression import evaluate
 from mindrun.functions import Compute
-from mindrun.graph import Edge, Program
+from mindrun.graph import Edge, Gate, Program
 from mindrun.policy import Policy
 from mindrun.weights import reachable, weights_of
 
@@ -27,6 +27,8 @@ class Sent:
     to: int
     output: int | None
     value: Program
+    gate: Gate | None
+    cuts: np.float32
 
 
 @dataclass(frozen=True, slots=True)
@@ -81,7 +83,7 @@ def hierarchy(policy: Policy, sources: Mapping[str, str], master: str) -> Hierar
 
 def _sent(edge: Edge, actuators: int) -> Sent:
     place = edge.target + (actuators if edge.to == "memory" else 0)
-    return Sent(edge.to != "skill", place, edge.output, edge.value)
+    return Sent(edge.to != "skill", place, edge.output, edge.value, edge.gate, np.float32(edge.cuts))
 
 
 def think(mind: Hierarchy, readings: NDArray[np.float32]) -> Thought:
@@ -95,6 +97,8 @@ def think(mind: Hierarchy, readings: NDArray[np.float32]) -> Thought:
         if own == 0:
             continue
         for edge, value in zip(skill.edges, values(skill, readings), strict=True):
+            if value is None:
+                continue
             if not isfinite(value):
                 faults += 1
                 continue
@@ -102,21 +106,39 @@ def think(mind: Hierarchy, readings: NDArray[np.float32]) -> Thought:
             if edge.drives:
                 commands[edge.to] += value
                 influences[edge.to] += own
-            else:
+            elif not value < edge.cuts:
                 influence[edge.to] += value
     return _mean(influence, commands, influences, faults)
 
 
-def values(skill: Ready, readings: NDArray[np.float32]) -> list[np.float32]:
-    """What a skill sends over each edge, before the clamp; all NaN where one of its inputs is not finite."""
+def values(skill: Ready, readings: NDArray[np.float32]) -> list[np.float32 | None]:
+    """What a skill sends over each edge, before the clamp; all NaN where one of its inputs is not finite.
+
+    None where a gate is closed and nothing is sent.
+    """
     inputs = readings[skill.inputs]
     if not np.isfinite(inputs).all():
         return [np.float32(np.nan)] * len(skill.edges)
     outputs = skill.compute(inputs)
     return [
-        np.float32(evaluate(edge.value, readings)) if edge.output is None else outputs[edge.output]
+        gated(edge, edge.gate, outputs, readings) if edge.gate else value_of(edge, outputs, readings)
         for edge in skill.edges
     ]
+
+
+def value_of(edge: Sent, outputs: NDArray[np.float32], readings: NDArray[np.float32]) -> np.float32:
+    """The value of an edge, whatever its gate says."""
+    return np.float32(evaluate(edge.value, readings)) if edge.output is None else outputs[edge.output]
+
+
+def gated(edge: Sent, gate: Gate, outputs: NDArray[np.float32], readings: NDArray[np.float32]) -> np.float32 | None:
+    """What is sent where the condition holds or does not; NaN where it is not a number itself."""
+    holds = evaluate(gate.when, readings)
+    if holds > 0:
+        return value_of(edge, outputs, readings)
+    if holds == 0:
+        return None if gate.otherwise is None else np.float32(evaluate(gate.otherwise, readings))
+    return np.float32(np.nan)
 
 
 def _clamped(value: np.float32) -> np.float32:

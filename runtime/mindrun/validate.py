@@ -1,13 +1,15 @@
 """Whether a graph holds together: the promises that the types of `mindrun.graph` cannot make."""
 
 import re
-from collections.abc import Container, Iterator
+from collections.abc import Container, Iterator, Mapping, Sequence
 
-from mindrun.expression import OPERATORS, is_valid_program, leaves
+from mindrun.expression import OPERATORS, is_condition, is_valid_program, leaves
 from mindrun.graph import Graph, Lesson, Program, Skill, Task
 from mindrun.quantity import THING, UNSAID
 from mindrun.registry import arguments
 from mindrun.things.thing import MAX_OBSTACLES, MAX_THINGS
+from mindrun.variation import varied_quantity
+from mindrun.varied import varied_kind
 
 NAME = re.compile(r"[^\W\d_]\w*([+.]\w+)*")
 MIN_TICK_SECONDS, MAX_TICK_SECONDS = 1e-9, 1e9  # seconds of a tick
@@ -27,12 +29,15 @@ def _flaws(graph: Graph) -> Iterator[str]:
     width = graph.width
     for number, skill in enumerate(graph.skills):
         yield from (f"skill {skill.name} {what}" for what in _skill_flaws(graph, number, skill, width))
+    yield from _likeness_flaws(graph)
     for task in graph.tasks:
-        yield from (f"task {task.name} {what}" for what in _task_flaws(task, width))
+        flaws = (*_task_flaws(task, width, len(graph.actuators)), *_variation_flaws(graph, task))
+        yield from (f"task {task.name} {what}" for what in flaws)
     skills, tasks = {skill.name for skill in graph.skills}, {task.name for task in graph.tasks}
     for lesson in graph.lessons:
         yield from lesson_flaws(lesson)
-        if not ({lesson.skill, lesson.master} <= skills and lesson.task in tasks):
+        named = {lesson.skill, lesson.master, lesson.starts_from or lesson.skill}
+        if not (named <= skills and lesson.task in tasks):
             yield f"the lesson of {lesson.skill} names what is not there"
 
 
@@ -50,7 +55,8 @@ def _name_flaws(graph: Graph) -> Iterator[str]:
 
 def lesson_flaws(lesson: Lesson) -> Iterator[str]:
     """What is wrong with a lesson by itself."""
-    for name in (lesson.curriculum, lesson.skill, lesson.task, lesson.master):
+    named = (lesson.curriculum, lesson.skill, lesson.task, lesson.master, lesson.starts_from or lesson.skill)
+    for name in named:
         if not NAME.fullmatch(name):
             yield f"a lesson cannot name {name!r:.60}"
     if lesson.generations < 1:
@@ -65,6 +71,8 @@ def _sense_flaws(graph: Graph) -> Iterator[str]:
         width = widths.get(sensor.kind.source) if sensor.kind.width is None else sensor.kind.width
         if sensor.width != width or sensor.start != start or sensor.width < 1:
             yield f"sensor {sensor.name} has not the readings of its kind"
+        elif not set(sensor.kind.sources) <= widths.keys() or sensor.kind.flaw(widths):
+            yield f"sensor {sensor.name} cannot be computed"
         start += sensor.width
     ending = depths(graph)
     yield from (f"sensor {each.name} is the derivative of itself" for each in graph.sensors if each.name not in ending)
@@ -73,17 +81,26 @@ def _sense_flaws(graph: Graph) -> Iterator[str]:
 
 
 def depths(graph: Graph) -> dict[str, int]:
-    """How many derivatives stand between a sensor or memory and what is measured; without those that never end."""
-    sources = {sensor.name: sensor.kind.source for sensor in graph.sensors if sensor.kind.source}
-    derived: dict[str, list[str]] = {}
-    for name, source in sources.items():
-        derived.setdefault(source, []).append(name)
-    known = dict.fromkeys({*derived, *(sensor.name for sensor in graph.sensors)} - sources.keys(), 0)
+    """How many virtual sensors stand between a sensor or memory and what is measured; without those that never end."""
+    return depths_of({sensor.name: sensor.kind.sources for sensor in graph.sensors})
+
+
+def depths_of(sources: Mapping[str, Sequence[str]]) -> dict[str, int]:
+    """The same of sensors with all that they are computed from."""
+    above: dict[str, list[str]] = {}
+    for name, of in sources.items():
+        for source in of:
+            above.setdefault(source, []).append(name)
+    left = {name: len(of) for name, of in sources.items()}
+    known = dict.fromkeys((name for name in (*above, *sources) if not sources.get(name)), 0)
     waiting = list(known)
     while waiting:
-        name = waiting.pop()
-        known |= dict.fromkeys(derived.get(name, ()), known[name] + 1)
-        waiting += derived.get(name, ())
+        source = waiting.pop()
+        for name in above.get(source, ()):
+            left[name] -= 1
+            if left[name] == 0:
+                known[name] = 1 + max(known[each] for each in sources[name])
+                waiting.append(name)
     return known
 
 
@@ -102,11 +119,31 @@ def _skill_flaws(graph: Graph, number: int, skill: Skill, width: int) -> Iterato
     if outputs != list(range(len(outputs))) or (outputs and not skill.function.has_outputs):
         yield "has outputs that are not its function's"
     readings = set(skill.inputs)
-    if not all(_computes(edge.value, readings) for edge in skill.edges if edge.output is None):
+    if not all(_computes(program, readings) for edge in skill.edges for program in edge.programs):
         yield "has an expression that cannot be computed"
+    if not all(is_condition(edge.gate.when) for edge in skill.edges if edge.gate):
+        yield "has a condition that cannot be computed"
+    if not all(0 <= edge.cuts <= 1 and (edge.to == "skill" or edge.cuts == 0) for edge in skill.edges):
+        yield "cuts what cannot be cut"
 
 
-def _task_flaws(task: Task, width: int) -> Iterator[str]:
+def _likeness_flaws(graph: Graph) -> Iterator[str]:
+    """A skill that is like another has a function of its shape, and that other one owns its weights."""
+    owners = {skill.name: skill for skill in graph.skills if not skill.like}
+    for skill in (skill for skill in graph.skills if skill.like):
+        owner = owners.get(skill.like)
+        if owner is None or not owner.function.learns:
+            yield f"skill {skill.name} is like {skill.like!r:.60}, which owns no weights"
+        elif _shape(skill) != _shape(owner) or skill.frozen:
+            yield f"skill {skill.name} has not the shape of {owner.name}, which it is like"
+
+
+def _shape(skill: Skill) -> object:
+    """What weights have to fit, and where the outputs go."""
+    return skill.function, len(skill.inputs), [(edge.to, edge.target, edge.output) for edge in skill.edges]
+
+
+def _task_flaws(task: Task, width: int, actuators: int) -> Iterator[str]:
     """A task names its own things, measures and events, and readings that exist."""
     if task.ticks < 1:
         yield "does not last"
@@ -115,31 +152,61 @@ def _task_flaws(task: Task, width: int) -> Iterator[str]:
         yield "contains what has no name of its own"
     if any(thing.kind.size == UNSAID for thing in task.things):
         yield "contains what has no size"
-    if not set(_things_named(task)) <= {thing.name for thing in task.things if not thing.kind.is_obstacle}:
+    if not {*_things_named(task)} - {""} <= {thing.name for thing in task.things if not thing.kind.is_obstacle}:
         yield "names a thing that is not there"
     yield from _world_flaws(task)
     events, readings = range(len(task.events)), range(width)
-    named = [*task.ends, *task.counts, *(reward.on for reward in task.rewards if reward.on is not None)]
-    if not all(event in events for event in named):
+    rewarded = [reward.on for reward in task.rewards if reward.on is not None]
+    ending = [end.event for end in task.ends if end.event is not None]
+    if not all(event in events for event in (*ending, *task.counts, *rewarded)):
         yield "names an event that is not there"
+    yield from _end_flaws(task, width, actuators)
     for reward in task.rewards:
-        programs = [reward.amount, *((reward.when.left, reward.when.right) if reward.when else ())]
-        if not all(_computes(program, readings, len(task.measures), reward.each is not None) for program in programs):
+        known = readings, len(task.measures), reward.each is not None, actuators
+        if not all(_computes(program, *known) for program in reward.programs):
             yield "has a reward that cannot be computed"
-        if reward.when and reward.when.compare not in ("<", "<=", ">", ">="):
+        if reward.when is not None and not is_condition(reward.when):
             yield "has a condition that cannot be computed"
         if reward.each and not (reward.each[0] >= 0 and 0 < reward.each[1] <= width - reward.each[0]):
             yield "rewards readings that are not there"
 
 
+def _end_flaws(task: Task, width: int, actuators: int) -> Iterator[str]:
+    """An end is an event or a condition; a success comes of none that it makes itself."""
+    for end in task.ends:
+        if (end.event is None) == (end.when is None) or end.times < 1:
+            yield "has an end that never comes"
+        if end.when is not None and not (
+            is_condition(end.when) and _computes(end.when, range(width), len(task.measures), commands=actuators)
+        ):
+            yield "has an end that cannot be computed"
+        event = next((event for index, event in enumerate(task.events) if index == end.event), None)
+        if event is not None and event.is_of_success:
+            yield "ends on its own success"
+
+
 def _world_flaws(task: Task) -> Iterator[str]:
     """A world has no more than it can look at, and only one with walls has patches."""
-    if sum(not thing.kind.is_obstacle for thing in task.things) > MAX_THINGS:
+    if sum(thing.kind.copies for thing in task.things if not thing.kind.is_obstacle) > MAX_THINGS:
         yield f"contains more than {MAX_THINGS} things"
     if sum(thing.kind.obstacles(task.scene) for thing in task.things) > MAX_OBSTACLES:
         yield f"contains more than {MAX_OBSTACLES} obstacles"
     if not task.scene.is_bounded and any(event.needs_walls for event in task.events):
         yield "has patches without an arena"
+
+
+def _variation_flaws(graph: Graph, task: Task) -> Iterator[str]:
+    """What varies is an argument that can, within its bounds, and once; what fails is an actuator."""
+    for each in task.varies:
+        kind = varied_kind(graph, task, each)
+        quantity = varied_quantity(kind, each.argument) if kind else None
+        if quantity is None or not quantity.low <= each.low <= each.high <= quantity.high:
+            yield f"varies {each.argument!r:.60} of {each.of!r:.60}, which it cannot"
+    if len({(each.noun, each.of, each.argument) for each in task.varies}) < len(task.varies):
+        yield "varies something twice"
+    failing = [each.actuator for each in task.fails]
+    if len({*failing}) < len(failing) or not {*failing} <= {actuator.name for actuator in graph.actuators}:
+        yield "has failures of what is no actuator, or twice"
 
 
 def _things_named(task: Task) -> Iterator[str]:
@@ -148,13 +215,16 @@ def _things_named(task: Task) -> Iterator[str]:
         yield from (getattr(part, argument.field) for argument in arguments(type(part)) if argument.type == THING)
 
 
-def _computes(program: Program, readings: Container[int], measures: int = 0, each: bool = False) -> bool:
-    """Whether a program has a value, and uses only these readings, measures and, in a loop, the reading at hand."""
-    words = {*OPERATORS, "negate", "number", "reading", "measure"} | ({"each"} if each else set())
+def _computes(
+    program: Program, readings: Container[int], measures: int = 0, each: bool = False, commands: int = 0
+) -> bool:
+    """Whether a program has a value, and uses only these readings, measures, commands and, in a loop, the reading."""
+    words = {*OPERATORS, "negate", "number", "reading", "measure", "command"} | ({"each"} if each else set())
     return (
         is_valid_program(program)
         and {word for word, _ in program} <= words
         and all(isinstance(operand, int) for word, operand in program if word != "number")
         and all(index in readings for index in leaves(program, "reading"))
         and all(index in range(measures) for index in leaves(program, "measure"))
+        and all(index in range(commands) for index in leaves(program, "command"))
     )

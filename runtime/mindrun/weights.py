@@ -22,9 +22,9 @@ def weights_of(skill: Skill, weights: Mapping[str, Weights]) -> Weights:
     """A skill's weights, checked: as many as its function has, float32, finite; else WeightsError."""
     if genes(skill) == 0:
         return NO_WEIGHTS
-    if skill.name not in weights:
-        raise WeightsError(f"skill {skill.name} has no weights")
-    return checked(skill, weights[skill.name])
+    if skill.owner not in weights:
+        raise WeightsError(f"skill {skill.owner} has no weights")
+    return checked(skill, weights[skill.owner])
 
 
 def checked(skill: Skill, found: Weights) -> Weights:
@@ -52,10 +52,21 @@ def below(graph: Graph, index: int) -> tuple[Skill, ...]:
     return tuple(graph.skills[number] for number in sorted(reached_from([index], influenced)))
 
 
+def owners(skills: Iterable[Skill]) -> tuple[str, ...]:
+    """The names under which the weights of these skills stand, each once: skills that are like one another share."""
+    return tuple(dict.fromkeys(skill.owner for skill in skills if genes(skill)))
+
+
+def owner_of(graph: Graph, name: str) -> str:
+    """The skill under whose name the weights of the skill of this name stand."""
+    return next((skill.owner for skill in graph.skills if skill.name == name), name)
+
+
 def learners(graph: Graph, lesson: Lesson) -> tuple[str, ...]:
     """The skills that a lesson teaches, in the order of its genome; none where all of them are frozen."""
     taught = reachable(graph, lesson.skill) if lesson.with_subskills else reachable(graph, lesson.skill)[:1]
-    return tuple(skill.name for skill in taught if genes(skill) and not skill.frozen)
+    names = {*owners(taught)}
+    return tuple(skill.name for skill in graph.skills if skill.name in names and not skill.frozen)
 
 
 def parts(graph: Graph, names: Iterable[str], genome: Weights) -> dict[str, Weights]:

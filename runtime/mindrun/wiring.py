@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 from math import isfinite, nan
 from typing import Annotated, Literal, get_args
 
-from mindrun.driver import ActuatorDriver, SensorDriver
+from mindrun.driver import ActuatorDriver, SensorDriver, driver_name
 from mindrun.graph import Graph
 from mindrun.named_readings import physical
 from mindrun.quantity import NUMBER, RATIO, Quantity, Reference
@@ -89,6 +89,12 @@ def reading(wire: SensorWire, raw: float | None) -> float:
     return wire.rest if abs(share - wire.rest) < wire.dead_zone else share
 
 
+def code_digests(wiring: Wiring) -> dict[str, str]:
+    """The drivers that users bring, by name, with the SHA-256 of their code."""
+    drivers = [*(wire.driver for wire in wiring.sensors), *(wire.driver for wire in wiring.actuators)]
+    return {driver_name(driver): driver.digest for driver in drivers if hasattr(driver, "digest")}
+
+
 def still(wire: SensorWire) -> SensorWire:
     """A sensor without anything that it would move: a camera's neck."""
     return replace(wire, driver=getattr(wire.driver, "motionless", wire.driver))
@@ -99,7 +105,7 @@ def read_by(graph: Graph, master: str) -> Set[str]:
     sensors = {sensor.name: sensor for sensor in graph.sensors}
     inputs = {index for skill in reachable(graph, master) for index in skill.inputs}
     read = [s.name for s in graph.sensors if not inputs.isdisjoint(range(s.start, s.start + s.width))]
-    return reached_from(read, lambda name: {sensors[name].kind.source} & sensors.keys()) & physical(graph).keys()
+    return reached_from(read, lambda name: {*sensors[name].kind.sources} & sensors.keys()) & physical(graph).keys()
 
 
 def flaws(wiring: Wiring, graph: Graph) -> Iterator[str]:

@@ -69,7 +69,7 @@ def test_weights_never_meet_a_graph_in_another_order(collect: Path) -> None:
     other = mindlang.loads(swapped(collect / "collect.mind")).graph
     with pytest.raises(WeightsError, match=r"of GoToObject belong to a graph that reads and sends in another order"):
         Policy(other, policy.weights)
-    with pytest.raises(WeightsError, match="there are weights of Avoid, but there is no such skill"):
+    with pytest.raises(WeightsError, match="there are weights of Avoid, but no such skill has its own"):
         replace(policy, graph=replace(policy.graph, skills=()))
 
 

@@ -17,6 +17,7 @@ from mindlang.editing.project import Project, open_project
 FOLDER = Path("/nowhere/minds")
 MAIN, PARTS = FOLDER / "main.mind", FOLDER / "parts.mind"
 SKILLS = ("Go", "Avoid", "Go+Avoid", "Collect", "Fetch", "Grab", "Wait")
+LIKE = "GoHome"  # the skill that is like another, where there is one
 FUNCTIONS = (
     "mlp hidden 2",
     "mlp hidden 1 width 4",
@@ -26,16 +27,36 @@ FUNCTIONS = (
     "procedure from own.by",
     "procedure from own.to",
 )
-BODY = ["body Robot is disc size 2", "body Robot is disc density 2 size 1.5"]
-ACTUATORS = {
+CLAW = ["actuator claw is gripper neutral 0", "actuator claw is gripper neutral 10%"]
+MAST = [
+    "actuator mast is servo neutral 0.5",
+    "actuator mast is servo neutral 1/4",
+    "actuator mast is lamp neutral 0",
+    "actuator mast is lamp neutral 10%",
+]
+WHEELS = {
     "left_wheel": [
         "actuator left_wheel is wheel side left thrust 80 neutral 0.5",
         "actuator left_wheel is wheel side left neutral 0.4",
     ],
     "right_wheel": ["actuator right_wheel is wheel neutral 50% side right"],
-    "claw": ["actuator claw is gripper neutral 0", "actuator claw is gripper neutral 10%"],
-    "mast": ["actuator mast is servo neutral 0.5", "actuator mast is servo neutral 1/4"],
 }
+THRUSTERS = {
+    "left_wheel": ["actuator left_wheel is thruster at 0 1 facing 90 deg neutral 0.5"],
+    "right_wheel": ["actuator right_wheel is thruster neutral 50%", "actuator right_wheel is thruster neutral 0.4"],
+}
+STEERED = {
+    "left_wheel": ["actuator left_wheel is steering neutral 0.5", "actuator left_wheel is steering neutral 0.4"],
+    "right_wheel": ["actuator right_wheel is motor neutral 50%", "actuator right_wheel is motor neutral 0.6"],
+}
+ROBOTS = [  # a body, and what moves it
+    ("body Robot is disc size 2", WHEELS),
+    ("body Robot is disc density 2 size 1.5", WHEELS),
+    ("body Robot is box", WHEELS),
+    ("body Robot is holonomic", THRUSTERS),
+    ("body Robot is car", STEERED),
+]
+ACTUATORS = {**WHEELS, "claw": CLAW, "mast": MAST}
 SENSORS = {
     "eye": [
         "sensor eye is range_finder at 0 30 330 deg",
@@ -51,15 +72,44 @@ SENSORS = {
     "holding": ["sensor holding is held of ball", "sensor holding is held of coin"],
     "home": ["sensor home is inside of nest", "sensor home is inside of dock"],
     "moving": ["sensor moving is inertial"],
+    "way": ["sensor way is distance of ball", "sensor way is distance of nest range 9"],
+    "glow": ["sensor glow is light of ball", "sensor glow is light of dock range 4"],
+    "camera": ["sensor camera is eye of ball at -30 30 deg", "sensor camera is eye of nest at 0 40 deg range 9"],
+    "turning": ["sensor turning is turn_rate", "sensor turning is turn_rate range 90 deg dead_zone 1%"],
+    "pace": ["sensor pace is speed", "sensor pace is speed range 3 dead_zone 2%"],
+    "rolled": ["sensor rolled is odometer side left", "sensor rolled is odometer side right range 4"],
+    "place": ["sensor place is position along x", "sensor place is position along y range 20"],
+    "level": [
+        "sensor level is computed at 1 - charge",
+        "sensor level is computed at least of charge moving",
+    ],
+    "hungry": [
+        "sensor hungry is latch of charge below 20% above 80%",
+        "sensor hungry is latch of moving below 1/9 above 1",
+    ],
+    "calm": ["sensor calm is average of moving over 30 ticks", "sensor calm is average of holding over 2 ticks"],
+    "first": ["sensor first is reading 1 of eye", "sensor first is reading 2 of camera"],
+    "hour": ["sensor hour is clock period 4 s", "sensor hour is clock period 1 s"],
+    "line": ["sensor line is floor of nest", "sensor line is floor of ball at 0.5 -0.5 ahead 1"],
+    "bumps": ["sensor bumps is bumper at -45 45 deg", "sensor bumps is bumper at 0 180 deg width 90 deg"],
 }
-NARROW = SENSORS.keys() - {"eye"}  # readings of width 1
-SCENES = ["plain", "arena size 40", "arena"]
-ROCKS = ["rock is obstacle grid 10 size 2 to 3", "rock is obstacle count 3"]
+WIDE = {"eye", "camera", "line", "bumps"}
+NARROW = SENSORS.keys() - WIDE  # readings of width 1
+SCENES = ["plain", "arena size 40", "arena", "arena size 60 50"]
+ROCKS = [
+    "rock is obstacle grid 10 size 2 to 3",
+    "rock is obstacle count 3",
+    "rock is obstacle size 2 at 15 -15",
+    "fence is wall from -14 -18 to 3 -18 to 3 -19",
+    "fence is wall from 4 -16 to 4 -18",
+]
 THINGS = [
-    ["ball is item size 2 reached moves"],
-    ["coin is item"],
-    ["nest is zone size 8", "nest is zone"],
-    ["dock is power size 4", "dock is power"],
+    ["ball is item size 2 reached moves", "ball is item size 2 at 2.5 7.5"],
+    ["coin is item", "coin is item at 7.5 12.5"],
+    ["nest is zone size 8", "nest is zone at -12.5 7.5"],
+    ["dock is power size 4", "dock is power at -2.5 -7.5"],
+    ["crate is box size 2", "crate is box at 12.5 -2.5", "crate is ball", "crate is ball at -7.5 -12.5"],
+    ["cat is walker size 2", "cat is walker at 2.5 2.5", "cat is walker along 2.5 -2.5 to 7.5 -2.5"],
 ]
 REWARDS = [
     ["rewards 10 on reach of ball"],
@@ -70,8 +120,10 @@ REWARDS = [
     ["rewards 0.1 * advance toward ball per tick", "rewards 0.1 * advance toward dock per tick"],
     ["rewards -0.1 * retreat from ball per tick", "rewards -0.1 * retreat from nest per tick"],
     ["rewards -0.4 * change of thrust per tick", "rewards -0.4 * change of thrust beyond 20% over 4 ticks per tick"],
-    ["rewards 50 on delivery of ball", "rewards 50 on delivery of coin"],
+    ["rewards -0.01 * claw per tick when charge > 0.5 and moving < 0.9 or holding > 0.5"],
+    ["rewards 50 on delivery of ball", "rewards 50 on delivery of coin to nest"],
 ]
+GATES = [" when {} < 0.7", " when {} > 0.2 and 1 > 0.5 otherwise 0.3"]
 VISITS = ["rewards 1 on visit of patch", "rewards 1 on visit of patch size 8"]
 WORDS = ("note", "why?", "skill Go is rule", "  spaced  out", "é – “x”", "reads charge", "stays frozen", "#")
 
@@ -98,7 +150,8 @@ class Texts:
 
 def minds() -> st.SearchStrategy[Texts]:
     """Minds that compile."""
-    return st.randoms(use_true_random=False).map(a_mind)
+    # seeds, and not every choice by itself: the texts are longer than what Hypothesis takes apart
+    return st.integers(0, 2**32 - 1).map(lambda seed: a_mind(Random(seed)))
 
 
 def a_mind(rng: Random) -> Texts:
@@ -156,12 +209,21 @@ def _comment(style: _Style, numbers: "count[int]") -> str:
 def _declarations(rng: Random) -> list[list[str]]:
     skills = rng.sample(SKILLS, rng.randint(1, 6))
     functions = {skill: rng.choice([*FUNCTIONS, "rule", "rule"]) for skill in skills}
-    parts = [rng.choice(lines) for part in (ACTUATORS, SENSORS) for lines in part.values()] + [rng.choice(BODY)]
+    body, drives = rng.choice([*ROBOTS[:2], *ROBOTS])
+    choices = [*drives.values(), CLAW, MAST, *SENSORS.values()]
+    parts = [*(rng.choice(lines) for lines in choices), body]
     blocks = [[_more(rng, line.split()[0], line)] for line in parts]
     blocks += [_skill(rng, skill, functions[skill], skills[place + 1 :]) for place, skill in enumerate(skills)]
     tasks = rng.sample([*SKILLS[:3], "Roam"], rng.randint(1, 2))
-    blocks += [_task(rng, task) for task in tasks]
+    blocks += [block for task in tasks for block in _in_scene(rng, _task(rng, task))]
+    if rng.random() < 0.3:
+        blocks = [
+            ["number wide is 2"],
+            *([re.sub(r" size 2(?! \d)", " size wide", line) for line in each] for each in blocks),
+        ]
     learners = [skill for skill in skills if functions[skill].startswith(("mlp", "elman"))]
+    if learners and rng.random() < 0.4:
+        blocks.append(_like(rng, next(block for block in blocks if block[0].startswith(f"skill {learners[0]} "))))
     if learners:
         lessons = [
             f"teaches {skill} on {rng.choice(tasks)} for {rng.randint(1, 9)} generations"
@@ -178,7 +240,10 @@ def _declarations(rng: Random) -> list[list[str]]:
 def _more(rng: Random, noun: str, line: str) -> str:
     """A line that says what kind something is, with some of the arguments that it does not say."""
     kind, *words = re.split(" is | in ", line)[1].split()
-    often = 0.5 if noun == "curriculum" else 0.2
+    if noun == "content":
+        is_placed = "at" in words or "along" in words
+        words += ["away", "grid", "count"] * is_placed + ["at", "along"]  # a place has to be free
+    often = 0.5 if noun in ("curriculum", "body", "actuator") else 0.2
     for argument in arguments(kinds(noun)[kind]):
         if not argument.required and argument.key not in words and rng.random() < often:
             line += f" {argument.key} {_said(rng, argument)}"
@@ -191,8 +256,13 @@ def _said(rng: Random, argument: Argument) -> str:
         return rng.choice([word for word in argument.type.words if word != argument.default])
     if argument.shape == "span":
         return rng.choice(["3 to 6", "4", "5 to 3 by 0.5"])
+    if argument.shape == "extent":
+        return rng.choice(["60 40", "2 3", "7"])
+    if argument.shape == "place":
+        return rng.choice(["1.5 1", "2 -0.5"])
     unit, factor = rng.choice([*argument.type.units.items()])
-    value = (argument.default + (5 if argument.type.high > 1 else 0.01)) / factor
+    default = argument.default[0] if argument.shape == "list" else argument.default
+    value = min(default + (5 if argument.type.high > 1 else 0.01), argument.type.high) / factor
     return f"{value:g}{'' if unit == '%' else ' '}{unit}".rstrip()
 
 
@@ -207,8 +277,20 @@ def _skill(rng: Random, name: str, function: str, below: list[str]) -> list[str]
         f"{edge} at {_value(rng, reads)}" if function == "rule" or (i and rng.random() < 0.3) else edge
         for i, edge in enumerate(edges)
     ]
+    said = [edge + rng.choice(GATES).format(_value(rng, reads)) if rng.random() < 0.2 else edge for edge in said]
+    said = [f"{edge} cuts below 5%" if edge.startswith("inf") and rng.random() < 0.2 else edge for edge in said]
     frozen = ["stays frozen"] * (rng.random() < 0.2)
     return [f"skill {name} is {function}", *(f"reads {reading}" for reading in reads), *said, *frozen]
+
+
+def _like(rng: Random, owner: list[str]) -> list[str]:
+    """A skill with the weights of another, that reads something else than it, or the same."""
+    reads = [fact.split()[1] for fact in owner if fact.startswith("reads ")]
+    mine = [reading for reading in reads if reading in NARROW]
+    others = sorted(NARROW - {*reads})
+    instead = zip(rng.sample(others, len(mine)), mine, strict=True)
+    lines = [f"reads {other} for {reading}" for other, reading in instead if rng.random() < 0.7]
+    return [f"skill {LIKE} is like {owner[0].split()[1]}", *lines]
 
 
 def _value(rng: Random, reads: list[str]) -> str:
@@ -220,6 +302,20 @@ def _value(rng: Random, reads: list[str]) -> str:
     return rng.choice([reading, f"1 - {reading}", f"({number} + {reading}) * {rng.choice(narrow)}", f"{reading}/2"])
 
 
+def _in_scene(rng: Random, task: list[str]) -> list[list[str]]:
+    """A task as it is, or with its world in a scene of its own, of which it may say something itself."""
+    if rng.random() < 0.6:
+        return [task]
+    (header, phrase), facts = task[0].split(" in "), task[1:]
+    name = f"{header.split()[1].replace('+', '')}World"
+    things = [fact for fact in facts if fact.startswith("contains") and rng.random() < 0.7]
+    scene = [f"scene {name} is {phrase}", *things]
+    other = [f"scene {name}More is like {name}", *(thing for thing in things if rng.random() < 0.2)]
+    is_like = rng.random() < 0.3
+    mine = [f"{header} in {name}{'More' * is_like}", *(fact for fact in facts if fact not in things)]
+    return [mine, scene, *([other] if is_like else [])]
+
+
 def _task(rng: Random, name: str) -> list[str]:
     scene = rng.choice(SCENES)
     arena = scene != "plain"
@@ -228,8 +324,9 @@ def _task(rng: Random, name: str) -> list[str]:
     facts = [
         *(f"contains {_more(rng, 'content', thing)}" for thing in things),
         "lasts 600 ticks",
-        rng.choice(["ends on collision", "ends on exhaustion"]),
+        rng.choice(["ends on collision", "ends on exhaustion", "ends on 2 collision", "ends when charge < 5%"]),
         *rewards,
+        *(["succeeds on 3 reach of ball", "rewards 5 on success"] if rng.random() < 0.3 else []),
         "counts reach of ball",
     ]
     return [f"task {name} in {scene}", *facts]

@@ -74,7 +74,7 @@ def teach(path: Path, *skills: str, seed: int = 1, lock: Path | None = None) -> 
     tasks = {lesson.skill: lesson.task for lesson in reversed(graph.lessons)}
     worlds = {lesson.skill: Worlds(graph, path.parent).of(lesson) for lesson in reversed(graph.lessons)}
     for skill in reversed(graph.skills):
-        if genes(skill) and (skill.name in skills or not skills):
+        if genes(skill) and not skill.like and (skill.name in skills or not skills):
             weights[skill.name] = rng.uniform(-0.7, 1, genes(skill)).astype(np.float32)
             task = tasks.get(skill.name, "Roam")
             taught = Taught(task, skill.name, False, 3, 8, seed, 1.5)

@@ -191,7 +191,7 @@ BEFORE = {"inline": "extract", "unfreeze": "freeze"}  # what undoes an edit need
 def test_the_example_of_an_edit_works_on_the_shipped_files(
     name: str, mindc: Call, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    for path in (COLLECT, COLLECT.with_name("power.mind")):
+    for path in (COLLECT, COLLECT.with_name("power.mind"), COLLECT.with_name("like.mind")):
         shutil.copy(path, tmp_path)
     monkeypatch.chdir(tmp_path)
     for each in filter(None, (BEFORE.get(name), name)):

@@ -17,12 +17,13 @@ from mindlang.compiler.syntax import Influences
 from mindlang.editing.apply import apply_edit
 from mindlang.editing.project import EditError, Project
 from mindlang.edits import edit, names
-from tests.edits.sources import ACTUATORS, MAIN, PARTS, SENSORS, SKILLS, Texts, minds
+from tests.edits.sources import ACTUATORS, LIKE, MAIN, PARTS, SENSORS, SKILLS, Texts, minds
 
 OFTEN, SELDOM = 5000, 100  # cases of each test in the slow suite, and in the other
 FREE = ("New", "Go+New", "Roam", "Over")
 WORDS = (
     *SKILLS,
+    LIKE,
     *FREE,
     *ACTUATORS,
     *SENSORS,
@@ -99,6 +100,7 @@ def anything(draw: st.DrawFn) -> Asked:
         "replace": {"skill": skill, "new": skill},
         "split": {"to": st.sampled_from(["apart.mind", "parts.mind", "../x.mind", "x"]), "names": some},
         "unfreeze": {"skill": skill},
+        "unshare": {"skill": st.just(LIKE) | skill},
     }  # fmt: skip
     assert set(said) == set(names())
     name = draw(st.sampled_from(sorted(said)))

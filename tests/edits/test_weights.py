@@ -302,7 +302,7 @@ def test_weights_that_were_stale_before_are_not_widened(drive: Path) -> None:
     assert sentences[0] == "Go is stale already, and more so: reads charge is new"
 
 
-@given(random_graph(), st.data())
+@given(random_graph(alike=False), st.data())
 @settings(max_examples=60, suppress_health_check=[HealthCheck.too_slow])
 def test_widened_skills_do_the_same_to_the_bit(
     tmp_path_factory: pytest.TempPathFactory, graph: Graph, data: st.DataObject

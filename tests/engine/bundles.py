@@ -6,7 +6,7 @@ import numpy as np
 from mindrun.bundle import Bundle
 from mindrun.events import Delivery, Reach, Visit
 from mindrun.functions import Mlp, Procedure
-from mindrun.graph import Condition, Lesson, Reward, Task, Thing
+from mindrun.graph import End, Lesson, Reward, Task, Thing
 from mindrun.learners import Restarting
 from mindrun.measures import Change, Retreat
 from mindrun.policy import Policy
@@ -24,12 +24,10 @@ THINGS = (
     Thing("home", Zone(size=Span(4.0, 8.0))),
     Thing("rock", Obstacle(count=2)),
 )
-EACH = Reward(
-    "Σ", (("each", 0), ("measure", 1), ("*", 0)), None, (0, 1), Condition((("reading", 0),), "<", (("number", 0.5),))
-)
+EACH = Reward("Σ", (("each", 0), ("measure", 1), ("*", 0)), None, (0, 1), (("reading", 0), ("number", 0.5), ("<", 0)))
 TASK = Task(
     "Carry", Arena(40.0), THINGS, 100, (Retreat("ball"), Change("thrust", 0.5)),
-    (Delivery("ball"), Reach("home"), Visit("patch", 8.0)), (2,), (Reward("1", (("number", 1.0),), 0), EACH), (1,),
+    (Delivery("ball"), Reach("home"), Visit("patch", 8.0)), (End(2),), (Reward("1", (("number", 1.0),), 0), EACH), (1,),
 )  # fmt: skip
 LESSON = Lesson("All", "Go+On", "Carry", "Top", 5, False, True, Restarting())
 

@@ -254,9 +254,18 @@ def test_a_range_keeps_to_the_bounds_of_its_lengths(span: tuple[float, ...], fin
 def _some(argument: Any) -> Any:
     if isinstance(argument.type, Quantity):
         return _shaped(argument.shape, argument.type.low)
-    return argument.type.words[0] if argument.type.words else "a.b"
+    word = argument.type.words[0] if argument.type.words else "a.b"
+    return [word] if argument.shape == "lines" else word
 
 
 def _shaped(shape: str, value: float) -> Any:
     value = int(value) if isinstance(value, float) and value.is_integer() and shape == "one" else value
-    return {"one": value, "list": [value], "span": {"first": value, "last": value, "by": None}}[shape]
+    span = {"first": value, "last": value, "by": None}
+    return {
+        "one": value,
+        "extent": value,
+        "list": [value],
+        "place": [value, value],
+        "places": [[value, value]],
+        "span": span,
+    }[shape]

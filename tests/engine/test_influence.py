@@ -12,6 +12,7 @@ from mindrun.graph import Edge, Sensor
 from mindrun.memory import Cell
 from mindrun.policy import Policy
 from mindrun.sensors import Battery, Derivative, Sine
+from mindrun.sensors.sensor import Scene
 from mindrun.weights import genes
 
 from tests.hierarchies import doubling
@@ -165,7 +166,7 @@ def test_a_dead_zone_ends_where_it_says(change: float, seen: float) -> None:
 
 
 def test_a_wave_is_as_exact_after_a_year_as_in_the_first_second() -> None:
-    read = Sine(period=3.0).reader(1.0, slice(0, 0), turns=False)
+    read = Sine(period=3.0).reader(Scene(1.0, {}))
     first = [read(tick, np.zeros(1, np.float32), None) for tick in range(3)]
     for tick in (3 * 10**9, 3 * 10**12):
         assert [read(tick + k, np.zeros(1, np.float32), None) for k in range(3)] == pytest.approx(first, abs=1e-3)

@@ -36,7 +36,7 @@ task Neither in plain
   contains object is item
   contains home is zone
   lasts 9 ticks
-  rewards progress toward object per tick
+  rewards progress toward object per tick when forward <= 1/2
 """
 
 
@@ -47,10 +47,22 @@ def old(data: bytes, form: Any = "mind bundle 1") -> bytes:
 
 def _silence(members: dict[str, bytes]) -> None:
     graph = json.loads(members["graph.json"])
+    _without_programs(graph)
     for task in graph["tasks"]:
         for thing in task["things"]:
             thing["kind"] = {key: value for key, value in thing["kind"].items() if key not in ("reached", "delivered")}
     members["graph.json"] = json.dumps(graph).encode()
+
+
+def _without_programs(graph: Any) -> None:
+    """Conditions as they were written before they were programs: each was a comparison; edges had none."""
+    for reward in (reward for task in graph["tasks"] for reward in task["rewards"] if reward["when"]):
+        left, right, (compare, _) = reward["when"][:1], reward["when"][1:-1], reward["when"][-1]
+        reward["when"] = {"left": left, "compare": compare, "right": right}
+    for task in graph["tasks"]:
+        task["ends"] = [end["event"] for end in task["ends"]]
+    for edge in (edge for skill in graph["skills"] for edge in skill["edges"]):
+        del edge["gate"], edge["cuts"]
 
 
 def said(task: Task) -> dict[str, tuple[Any, ...]]:
@@ -72,10 +84,27 @@ def test_what_a_line_named_moves() -> None:
 def test_a_bundle_of_today_that_does_not_say_it_is_damaged() -> None:
     now = Bundle(Policy(compile_text(DRIFTER + TASKS), {}), {})
     with pytest.raises(BundleError, match="damaged"):
-        unpack(old(pack(now), "mind bundle 3"))
+        unpack(old(pack(now), "mind bundle 5"))
 
 
-@pytest.mark.parametrize("form", ["mind bundle 2", "mind bundle 5", "", None, 3, ["mind bundle 1"]])
+def test_what_had_no_word_is_as_where_nothing_is_said() -> None:
+    """A `mind bundle 3` said what becomes of things, and not all that a kind takes today."""
+    now = Bundle(Policy(compile_text(DRIFTER + TASKS), {}), {})
+
+    def forget(members: dict[str, bytes]) -> None:
+        graph = json.loads(members["graph.json"])
+        _without_programs(graph)
+        for task in graph["tasks"]:
+            for thing in task["things"]:
+                thing["kind"].pop("away")
+        members["graph.json"] = json.dumps(graph).encode()
+
+    assert unpack(resealed(pack(now), forget, {"format": "mind bundle 3"})) == now
+    with pytest.raises(BundleError, match="damaged"):
+        unpack(resealed(pack(now), forget, {}))
+
+
+@pytest.mark.parametrize("form", ["mind bundle 2", "mind bundle 7", "", None, 3, ["mind bundle 1"]])
 def test_other_formats_are_refused(form: Any) -> None:
     with pytest.raises(BundleError):
         unpack(old(pack(Bundle(Policy(compile_text(DRIFTER + TASKS), {}), {})), form))

@@ -5,10 +5,10 @@ from dataclasses import replace
 from math import inf, nextafter
 
 import pytest
-from mindrun.events import Delivery, Reach, Visit
+from mindrun.events import Delivery, Reach, Success, Visit
 from mindrun.expression import is_valid_program
 from mindrun.functions import Mlp
-from mindrun.graph import Condition, Edge, Graph, Lesson, Memory, Reward, Sensor, Task, Thing
+from mindrun.graph import Edge, End, Gate, Graph, Lesson, Memory, Reward, Sensor, Task, Thing
 from mindrun.learners import Genetic
 from mindrun.measures import Advance, Progress, Retreat
 from mindrun.memory import Cell
@@ -21,10 +21,11 @@ from mindrun.validate import depths, graph_flaw
 from tests.minds import always, mind, rule, skill
 
 ONE = (("number", 1.0),)
+HOLDS = (*ONE, *ONE, ("<=", 0))
 REWARD = Reward("", (("reading", 0), ("measure", 0), ("+", 0)), 0)
 BALL = Thing("ball", Item())
 ROCKS, CLOSE = Thing("rocks", Obstacle(grid=10.0)), Thing("close", Obstacle(grid=5e-324))
-TASK = Task("Go", Plain(), (BALL,), 10, (Progress("ball"),), (Reach("ball"),), (0,), (REWARD,), (0,))
+TASK = Task("Go", Plain(), (BALL,), 10, (Progress("ball"),), (Reach("ball"),), (End(0),), (REWARD,), (0,))
 
 
 def many(count: int, kind: ThingKind, name: str = "one") -> Iterator[Thing]:
@@ -121,6 +122,15 @@ FLAWED: list[tuple[Callable[[Graph], Graph], str]] = [
     (sends(Edge("actuator", 0, None, (("reading", 1),))), "skill Top has an expression that cannot be computed"),
     (sends(Edge("actuator", 0, None, (("measure", 0),))), "skill Top has an expression that cannot be computed"),
     (sends(Edge("actuator", 0, None, (("each", 0),))), "skill Top has an expression that cannot be computed"),
+    (sends(Edge("actuator", 0, None, (("command", 0),))), "skill Top has an expression that cannot be computed"),
+    (
+        sends(Edge("actuator", 0, None, ONE, Gate((("each", 0),)))),
+        "skill Top has an expression that cannot be computed",
+    ),
+    (sends(Edge("actuator", 0, None, ONE, Gate(HOLDS, ()))), "skill Top has an expression that cannot be computed"),
+    (sends(Edge("actuator", 0, None, ONE, Gate(ONE))), "skill Top has a condition that cannot be computed"),
+    (sends(Edge("actuator", 0, None, ONE, cuts=0.1)), "skill Top cuts what cannot be cut"),
+    (sends(Edge("skill", 1, None, ONE, cuts=1.5)), "skill Top cuts what cannot be cut"),
     (sends(Edge("actuator", 0, None, (("reading", 0.0),))), "skill Top has an expression that cannot be computed"),
     (with_task(name="Go there"), "there cannot be a part called 'Go there'"),
     (with_task(ticks=0), "task Go does not last"),
@@ -141,16 +151,24 @@ FLAWED: list[tuple[Callable[[Graph], Graph], str]] = [
     (with_task(things=(BALL, ROCKS), scene=Arena(520.0)), "task Go contains more than 2500 obstacles"),
     (with_task(things=(BALL, CLOSE), scene=Arena()), "task Go contains more than 2500 obstacles"),
     (with_task(events=(Visit("patch"),)), "task Go has patches without an arena"),
-    (with_task(ends=(1,)), "task Go names an event that is not there"),
+    (with_task(ends=(End(1),)), "task Go names an event that is not there"),
+    (with_task(ends=(End(None),)), "task Go has an end that never comes"),
+    (with_task(ends=(End(0, when=HOLDS),)), "task Go has an end that never comes"),
+    (with_task(ends=(End(0, 0),)), "task Go has an end that never comes"),
+    (with_task(ends=(End(None, when=ONE),)), "task Go has an end that cannot be computed"),
+    (with_task(ends=(End(None, when=(("reading", 6), *ONE, ("<", 0))),)), "task Go has an end that cannot be computed"),
+    (with_task(ends=(End(1),), events=(Reach("ball"), Success())), "task Go ends on its own success"),
     (with_task(counts=(1,)), "task Go names an event that is not there"),
     (with_reward(on=1), "task Go names an event that is not there"),
     (with_reward(on=-1), "task Go names an event that is not there"),
     (with_reward(amount=(("measure", 1),)), "task Go has a reward that cannot be computed"),
     (with_reward(amount=(("reading", 6),)), "task Go has a reward that cannot be computed"),
+    (with_reward(amount=(("command", 2),)), "task Go has a reward that cannot be computed"),
     (with_reward(amount=(("each", 0),)), "task Go has a reward that cannot be computed"),
-    (with_reward(when=Condition(ONE, "<", (("each", 0),))), "task Go has a reward that cannot be computed"),
-    (with_reward(when=Condition((("measure", 3),), "<", ONE)), "task Go has a reward that cannot be computed"),
-    (with_reward(when=Condition(ONE, "=", ONE)), "task Go has a condition that cannot be computed"),
+    (with_reward(when=(*ONE, ("each", 0), ("<", 0))), "task Go has a reward that cannot be computed"),
+    (with_reward(when=(("measure", 3), *ONE, ("<", 0))), "task Go has a reward that cannot be computed"),
+    (with_reward(when=()), "task Go has a reward that cannot be computed"),
+    (with_reward(when=(*ONE, *ONE, ("+", 0))), "task Go has a condition that cannot be computed"),
     (with_reward(each=(5, 2)), "task Go rewards readings that are not there"),
     (with_reward(each=(-1, 2)), "task Go rewards readings that are not there"),
     (with_reward(each=(0, 0)), "task Go rewards readings that are not there"),
@@ -181,12 +199,16 @@ FINE: list[Callable[[Graph], Graph]] = [
     with_task(things=(BALL, CLOSE)),  # which is nowhere without walls
     with_task(things=(Thing("ball", Item(size=Span(0.0, 0.0))),)),
     with_task(events=(Visit("patch"),), scene=Arena()),
+    with_task(ends=(End(0, 3, succeeds=True), End(None, when=HOLDS)), events=(Reach("ball"), Success())),
     with_lesson(generations=1, curriculum="Größe_2+Go.on"),
+    with_reward(amount=(("command", 1),)),
+    sends(Edge("actuator", 0, None, ONE, Gate(HOLDS))),
+    sends(Edge("skill", 1, None, ONE, Gate(HOLDS, ONE), 1.0)),
     with_reward(each=(0, 6), amount=(("each", 0),)),
-    with_reward(each=(5, 1), when=Condition((("each", 0),), ">=", ONE)),
-    with_reward(on=None, when=Condition(ONE, "<", ONE)),
-    with_reward(when=Condition(ONE, "<=", ONE)),
-    with_reward(when=Condition(ONE, ">", ONE)),
+    with_reward(each=(5, 1), when=(("each", 0), *ONE, (">=", 0))),
+    with_reward(on=None, when=(*ONE, *ONE, ("<", 0))),
+    with_reward(when=(*ONE, *ONE, ("<=", 0))),
+    with_reward(when=(*ONE, *ONE, (">", 0))),
     sends(
         always("skill", 1, 1.0), Edge("actuator", 1, None, (("reading", 0), ("negate", 0), ("number", 2.5), ("*", 0)))
     ),

@@ -5,7 +5,14 @@ from pathlib import Path
 
 from mindlang.explaining.explanation import Explanation
 
-WHOLE = {"empty-file", "no-tick", "no-master", "no-body"}  # whose examples are whole minds
+WHOLE = {
+    "empty-file",
+    "no-tick",
+    "no-master",
+    "no-body",
+    "foreign-drive",
+    "second-steering",
+}  # whose examples are whole minds
 SETTINGS = ("tick 1/60 s", "master {master}")
 DECLARATIONS = (
     "body Robot is disc",

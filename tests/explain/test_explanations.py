@@ -12,24 +12,31 @@ from tests.explain.examples import write
 from tests.project.sources import COMPILER, RUNTIME, modules, tree
 
 ALL = list(errors())
-EMITTERS = {"error", "refuse", "Diagnostic", "Mistake"}
+EMITTERS = {"error", "refuse", "Diagnostic", "Flaw", "Mistake"}
 # Codes that are made of words as they are emitted: how, and which these are.
 MADE = {
-    "f'unknown-{nouns[0]}'": {f"unknown-{noun}" for noun in ("sensor", "actuator", "skill", "task")},
-    "f'unknown-{type_.noun}'": {"unknown-side", "unknown-outcome"},
+    "f'unknown-{nouns[0]}'": {f"unknown-{noun}" for noun in ("sensor", "actuator", "skill", "task", "scene", "number")},
+    "f'unknown-{type_.noun}'": {"unknown-axis", "unknown-side", "unknown-outcome"},
+    "f'{word}-differs'": {"tick-differs", "unit-differs"},
     "said.replace(' ', '-')": {f"{key}-{word}" for key, (word, _) in SWITCHES.items()},
 }
 PASSED_ON = {"code", "mistake.code", "rule.code"}  # codes that are made elsewhere
 NEEDED = {"no-tick", "no-master", "no-body"}  # in a table of what every mind needs
 # What no small mind shows: files that are not there or too many, locks and edits.
 FILES = {"unreadable", "use-too-deep", "too-many-mistakes", "faulty-procedure"}
-WITHOUT_EXAMPLES = FILES | {"impossible-edit", "damaged-lock", "too-many-things", "too-many-readings"}
+MAPS = {
+    *("not-a-file", "unreadable-map", "ragged-map", "map-too-large", "map-without-floor"),
+    *("unknown-letter", "ambiguous-letter", "placed-twice"),
+}
+WITHOUT_EXAMPLES = FILES | MAPS | {"impossible-edit", "damaged-lock", "too-many-things", "too-many-readings"}
 
 
 def emitted() -> set[str]:
     """The codes of all diagnostics in the sources of the compiler."""
     found: set[str] = set()
-    for node in (node for path in modules(COMPILER, RUNTIME / "things") for node in ast.walk(tree(path))):
+    for node in (
+        node for path in modules(COMPILER, RUNTIME / "things", RUNTIME / "sensors") for node in ast.walk(tree(path))
+    ):
         if isinstance(node, ast.Call) and _name(node.func) in EMITTERS and node.args:
             match node.args[0]:
                 case ast.Constant(value=str(code)):

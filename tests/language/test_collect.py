@@ -4,7 +4,7 @@ from itertools import pairwise
 
 import pytest
 from mindrun.functions import Mlp, Rule
-from mindrun.graph import Edge, Graph, Reward, Skill
+from mindrun.graph import Edge, End, Graph, Reward, Skill
 from mindrun.learners import Genetic
 from mindrun.measures import Change, Forward
 from mindrun.quantity import Span
@@ -116,14 +116,14 @@ def test_the_task_avoid(graph: Graph) -> None:
     assert task.things[0].kind == Obstacle(size=Span(4, 8), grid=20, jitter=1)
     assert task.measures == (Forward(), Change("thrust", 0.2, 10))
     assert len(task.events) == 2
-    assert task.ends == (task.rewards[1].on,)
+    assert task.ends == (End(task.rewards[1].on),)
     assert task.counts == (task.rewards[0].on,)
     each = task.rewards[3]
     assert isinstance(each, Reward)
     assert each.each == (0, 10)
     assert each.text == "rewards -0.03 * (1 - 4 * p) per tick for each p in proximity when p < 1/4"
     assert each.when is not None
-    assert (each.when.left, each.when.compare, each.when.right) == ((("each", 0),), "<", (("number", 0.25),))
+    assert each.when == (("each", 0), ("number", 0.25), ("<", 0))
 
 
 def test_a_schedule_and_the_lessons(graph: Graph) -> None:

@@ -78,7 +78,7 @@ def test_a_file_knows_what_the_files_that_it_uses_have_learnt(tmp_path: Path) ->
     [
         (lambda text: "", "is damaged: it is not a whole lock"),
         (lambda text: text[:-1], "is damaged: it is not a whole lock"),
-        (lambda text: text.replace("lock 3", "lock 4"), "is damaged: it is not a whole lock"),
+        (lambda text: text.replace("lock 4", "lock 5"), "is damaged: it is not a whole lock"),
         (lambda text: text + "\n", "a.lock:3 is damaged: this is not what mindc wrote"),
         (lambda text: text.replace("abab", "abax"), "a.lock:2 is damaged: this is not what mindc wrote"),
         (lambda text: text + LINE + "\n", "a.lock:3 is damaged: Avoid has two lines"),

@@ -11,7 +11,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from mindrun.graph import Graph
-from mindrun.quantity import Quantity, Reference, Span
+from mindrun.quantity import EXPRESSION, Quantity, Reference, Span
 from mindrun.registry import arguments, kinds, names
 from mindrun.weights import genes, learners
 
@@ -34,6 +34,7 @@ actuator left_wheel is wheel side left neutral 0.5
 actuator right_wheel is wheel side right neutral 0.5
 actuator claw is gripper neutral 0
 actuator mast is servo neutral 0.5
+actuator light is lamp neutral 0
 sensor eye is range_finder at 0 30 330 deg range 12
 sensor ball_bearing is bearing of ball
 sensor ball_drift is derivative of ball_bearing
@@ -44,6 +45,20 @@ sensor moving is inertial
 sensor charge is battery
 sensor pulse is sine period 2 s
 sensor north is compass
+sensor way is distance of ball
+sensor glow is light of ball
+sensor camera is eye of ball at -30 30 deg
+sensor turning is turn_rate
+sensor pace is speed
+sensor rolled is odometer side left
+sensor place is position along x
+sensor hour is clock period 4 s
+sensor line is floor of bin at 0.5 -0.5 ahead 1
+sensor bumps is bumper at -45 45 deg
+sensor tilt is computed at 1/2 + north - pulse
+sensor hungry is latch of charge below 20% above 80%
+sensor calm is average of moving over 30 ticks
+sensor ahead is reading 1 of eye
 sensor fear is range_finder at 0 deg range 3
 memory mood is cell decay 0.9
 
@@ -56,6 +71,7 @@ skill Go is mlp hidden 1
   drives left_wheel
   drives right_wheel
   drives mast at 2 * moving
+  drives light at pulse
 
 skill Grab is rule
   reads near
@@ -63,6 +79,23 @@ skill Grab is rule
   reads home
   drives claw at near + holding - home
   drives mood at 1/2
+
+skill Watch is rule
+  reads way
+  reads glow
+  reads camera
+  reads turning
+  reads pace
+  reads rolled
+  reads place
+  reads hour
+  reads line
+  reads bumps
+  reads tilt
+  reads hungry
+  reads calm
+  reads ahead
+  drives mast at way * glow
 
 skill Turn is procedure from turn.by
   reads eye
@@ -78,6 +111,7 @@ skill Top is mlp
   influences Go
   influences Search
   influences Turn
+  influences Watch
   influences Grab at 1
 
 task Fetch in arena size 80
@@ -85,9 +119,19 @@ task Fetch in arena size 80
   contains bin is zone size 8
   contains rock is obstacle count 3 size 2
   contains dock is power size 4
+  contains crate is box size 2
+  contains marble is ball size 1
+  contains cat is walker size 2
+  contains fence is wall from 10 10 to -10 10
+  varies noise of left_wheel 0 to 10%
+  varies density of Robot 1 to 3
+  fails right_wheel 1% per tick
   lasts 600 ticks
   ends on collision
   ends on exhaustion
+  ends when charge < 5%
+  succeeds on 5 delivery of ball to bin
+  rewards 20 on success
   rewards 10 on reach of ball
   rewards 50 on delivery of ball
   rewards 1 on visit of patch size 5
@@ -154,12 +198,32 @@ def _entry(path: Path, graph: Graph, name: str, made: Taught) -> Any:
     return entry(path, graph, name, weights, made)
 
 
+# The robots of which a mind has one only.
+WHEELS = """\
+body Robot is disc
+actuator left_wheel is wheel side left neutral 0.5
+actuator right_wheel is wheel side right neutral 0.5
+"""
+OTHER_ROBOTS = (
+    WHEELS.replace("is disc", "is box"),
+    """\
+body Robot is car
+actuator left_wheel is steering neutral 0.5
+actuator right_wheel is motor neutral 0.5
+""",
+    """\
+body Robot is holonomic
+actuator left_wheel is thruster neutral 0.5 at 1 0
+actuator right_wheel is thruster neutral 0.5 facing 90 deg
+""",
+)
 GRAPH = compiled(MIND)
 LOCK = taught(GRAPH)
+GRAPHS = [GRAPH, *(compiled(MIND.replace(WHEELS, robot)) for robot in OTHER_ROBOTS)]
 
 
-def is_noticed(graph: Graph, skill: str = "Top") -> bool:
-    state = status(graph, LOCK)[skill]
+def is_noticed(graph: Graph, skill: str = "Top", lock: Lock = LOCK) -> bool:
+    state = status(graph, lock)[skill]
     return isinstance(state, Stale) or (isinstance(state, Trained) and bool(state.changes))
 
 
@@ -193,8 +257,14 @@ def _exchanged(part: Any, old: Any, new: Any) -> Any:
 def _another(value: Any, meaning: Quantity | Reference) -> Any:
     """Another value that an argument may have."""
     match value, meaning:
+        case tuple(), _ if meaning == EXPRESSION:
+            return (*value, ("negate", 0))
         case Span(first=first, last=last, by=by), _:
             return Span(first + 1.0, last + 1.0, by)
+        case (), _:
+            return ((1.0, 2.0),)
+        case (((x, y), *others), _):
+            return (x + 0.1, y), *others
         case tuple(), _:
             return tuple(each + 0.1 for each in value)
         case str(), Reference(words=words) if words:
@@ -209,32 +279,43 @@ def _another(value: Any, meaning: Quantity | Reference) -> Any:
     return moved
 
 
+def _parts_of_robots() -> Iterator[tuple[Graph, str, Any]]:
+    """All of one mind, and of the others what it has not."""
+    yield from ((GRAPH, noun, kind) for noun, kind in _parts(GRAPH))
+    known = {type(kind) for _, kind in _parts(GRAPH)}
+    for graph in GRAPHS[1:]:
+        yield from ((graph, noun, kind) for noun, kind in _parts(graph) if type(kind) not in known)
+
+
 ARGUMENTS = [
-    pytest.param(noun, kind, argument, id=f"{noun}-{names()[type(kind)]}-{argument.key}")
-    for noun, kind in _parts(GRAPH)
+    pytest.param(graph, noun, kind, argument, id=f"{noun}-{names()[type(kind)]}-{argument.key}")
+    for graph, noun, kind in _parts_of_robots()
     for argument in arguments(type(kind))
 ]
 
 
-@pytest.mark.parametrize(("noun", "kind", "argument"), ARGUMENTS)
-def test_every_argument_of_every_kind_is_noticed(noun: str, kind: Any, argument: Any) -> None:
+@pytest.mark.parametrize(("graph", "noun", "kind", "argument"), ARGUMENTS)
+def test_every_argument_of_every_kind_is_noticed(graph: Graph, noun: str, kind: Any, argument: Any) -> None:
     if (noun, names()[type(kind)], argument.field) in NEED_NOT_BE_NOTICED:
         return
     old = getattr(kind, argument.field)
     new = replace(kind, **{argument.field: _another(old, argument.type)})
-    changed = _exchanged(GRAPH, kind, new)
-    assert changed != GRAPH
-    taught = next((lesson.skill for lesson in GRAPH.lessons if lesson.learner is kind), "Top")
-    learner = next((skill.name for skill in GRAPH.skills if skill.function is kind and genes(skill)), taught)
-    assert is_noticed(changed, learner), f"{noun} {kind} with {argument.key} {new}"
+    changed = _exchanged(graph, kind, new)
+    assert changed != graph
+    taught_skill = next((lesson.skill for lesson in GRAPH.lessons if lesson.learner is kind), "Top")
+    learner = next((skill.name for skill in GRAPH.skills if skill.function is kind and genes(skill)), taught_skill)
+    assert is_noticed(changed, learner, LOCK if graph is GRAPH else taught(graph)), (
+        f"{noun} {kind} with {argument.key} {new}"
+    )
 
 
 def test_the_mind_of_these_tests_has_every_kind() -> None:
     """A kind that is new to the language has to stand here, or its changes might go unnoticed."""
     nouns = ("body", "actuator", "sensor", "memory", "skill", "task", "content", "event", "measure", "curriculum")
     everywhere = {(noun, cls) for noun in nouns for cls in kinds(noun).values()}
-    here = {(noun, type(kind)) for noun, kind in _parts(GRAPH)}
-    assert {names()[cls] for _, cls in everywhere - here} == {"plain", "restarting"}, "of which Other has one"
+    here = {(noun, type(kind)) for _, noun, kind in _parts_of_robots()}
+    elsewhere = {"plain", "restarting", "map"}  # of which Other has one, and tests/language/test_maps.py
+    assert {names()[cls] for _, cls in everywhere - here} == elsewhere
 
 
 TEXTS = [
@@ -248,6 +329,8 @@ TEXTS = [
     ("ball is item size 2", "ball is item size 2 reached moves", "taught with ball reached stays, now moves"),
     ("ball is item size 2", "ball is item size 2 delivered stays", "taught with ball delivered moves, now stays"),
     ("bin is zone size 8", "bin is zone size 8 reached vanishes", "taught with bin reached stays, now vanishes"),
+    ("crate is box size 2", "crate is box size 2 friction 0.2", "taught with crate friction 0.5, now 0.2"),
+    ("crate is box size 2", "crate is ball size 2", None),
     ("  contains dock is power size 4\n", "", "its task has changed: no longer contains dock"),
     ("rewards 10 on", "rewards 5 on", "its task has changed: rewards 10 on reach of ball, now 5"),
     (
@@ -260,6 +343,17 @@ TEXTS = [
     ("each p in fear", "each p in eye", None),
     ("lasts 600", "lasts 601", "its task has changed: lasts 600 ticks, now 601"),
     ("  ends on exhaustion\n", "", "its task has changed: no longer ends on exhaustion"),
+    ("succeeds on 5", "succeeds on 4", None),
+    (
+        "left_wheel 0 to 10%",
+        "left_wheel 0 to 20%",
+        "its task has changed: no longer varies noise of left_wheel 0 to 0.1; "
+        "its task has changed: varies noise of left_wheel 0 to 0.2 is new",
+    ),
+    ("  varies density of Robot 1 to 3\n", "", "its task has changed: no longer varies density of body 1 to 3"),
+    ("fails right_wheel 1% per tick", "fails right_wheel 2% per tick", None),
+    ("fails right_wheel 1% per tick", "fails claw 1% per tick", None),
+    ("at 1/2 + north", "at 1/4 + north", "taught with tilt at 0.5 + north - pulse, now 0.25 + north - pulse"),
     ("arena size 80", "arena size 81", "its task has changed: in arena size 80, now 81"),
     ("genetic population 8", "genetic population 9", "taught with the learner population 8, now 9"),
     ("School is genetic", "School is restarting", None),
@@ -296,6 +390,7 @@ def test_what_changed_is_a_sentence(old: str, new: str, told: str | None) -> Non
         ("  rewards 10 on reach of ball\n", "  rewards 10   on reach of ball\n"),
         ("  ends on collision\n  ends on exhaustion\n", "  ends on exhaustion\n  ends on collision\n"),
         ("near + holding - home", "(near + holding) - home"),
+        ("left_wheel 0 to 10%", "left_wheel 0% to 0.1"),
         ("task Elsewhere in plain", "task Elsewhere in arena size 9"),
         ("skill Top is mlp", "actuator flag is servo neutral 0.1\nskill Top is mlp"),
         ("skill Top is mlp", "actuator third is wheel side left neutral 0.5\nskill Top is mlp"),

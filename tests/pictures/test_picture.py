@@ -3,20 +3,22 @@
 import json
 from itertools import pairwise
 from pathlib import Path
+from typing import Any
 
 import cv2
 import numpy as np
 import pytest
 from mindrun.graph import Thing
-from mindrun.things import Item
+from mindrun.things import Item, Zone
 
 from mindlang.compiler.compile import load
 from mindlang.pictures.canvas import Canvas, Image, Viewport, blank
 from mindlang.pictures.caption import LEGEND_LINES, MIN_TEXT_PIXELS, fitted
+from mindlang.pictures.path import draw_former
 from mindlang.pictures.picture import BOTTOM_PIXELS, PICTURE_PIXELS, SIDE_PIXELS, TOP_PIXELS, picture, view_of
 from mindlang.pictures.recorded_run import RecordedRun, record_run
 from mindlang.pictures.scene import thing_colours
-from mindlang.pictures.theme import PAPER, mixed
+from mindlang.pictures.theme import NIGHT, PAPER, Theme, mixed
 from mindlang.run.layouts import NO_GENOME
 from mindlang.run.outcome import run_data
 from mindlang.run.setup import set_up
@@ -54,7 +56,7 @@ def test_the_robot_stands_where_the_run_ended(rules: Path) -> None:
 def test_obstacles_walls_and_the_start_are_there(rules: Path) -> None:
     story, image = told(rules, "Roam")
     assert len(story.boxes) == 9
-    shown = [near(pixel(story, image, x, y), PAPER.rock) for x, y, _ in story.boxes]
+    shown = [near(pixel(story, image, x, y), PAPER.rock) for x, y, *_ in story.boxes]
     assert sum(shown) >= 8  # the robot may stand against one
     assert near(pixel(story, image, 20.4, 7.0), PAPER.wall)
 
@@ -75,6 +77,88 @@ def test_things_of_a_kind_are_told_apart(rules: Path) -> None:
     for x, y, size in story.things[-1]:
         below = [pixel(story, image, x + aside / 10, y - size / 2 - 0.55) for aside in range(-10, 10)]
         assert any(near(found, PAPER.ink) for found in below)
+
+
+def test_an_eye_that_sees_nothing_draws_no_ray_through_a_wall(rules: Path) -> None:
+    """Only what it looks for ends a ray: whether something hides that, a reading of 1 does not say."""
+    eye = "sensor camera is eye of ball at 0 deg range 30\n\nskill Chase"
+    wall = "  contains fence is wall from 3 -20 to 3 20\n  contains ball is item size 2 at 10 0\n"
+    task = f"  starts at 0 0 facing 0 deg\n  lasts 1 ticks\n{wall}"
+    told_of = RULES.replace("skill Chase", eye, 1).replace("reads feeler", "reads feeler\n  reads camera")
+    head, _, _ = told_of.partition("task Roam")
+    for ball_at, is_seen in ((10, False), (-10, False), (2, True)):
+        rules.write_text(f"{head}task Roam in arena size 40\n{task.replace('10 0', f'{ball_at} 0')}")
+        story, image = told(rules, "Roam")
+        assert bool(story.readings[0, 4] < 1) == is_seen
+        assert near(pixel(story, image, 5.0, 0.0), PAPER.floor)
+
+
+def test_the_way_of_a_ball_that_was_pushed_is_drawn(rules: Path) -> None:
+    """From where it lay, which is drawn as well, to where it has rolled."""
+    head, _, _ = RULES.partition("task Roam")
+    push = "  starts at -5 0 facing 0 deg\n  contains ball is ball size 2 at 0 0\n  lasts 200 ticks\n"
+    straight = head.replace("at 3 * ball_bearing - 0.7", "at 1").replace("at 2.3 - 3 * ball_bearing", "at 1")
+    rules.write_text(straight.replace("influences Turn at 0.2", "influences Turn at 0").partition("task Chase")[0])
+    rules.write_text(f"{rules.read_text()}task Roam in arena size 40\n{push}")
+    story, _ = told(rules, "Roam")
+    [way] = story.stretches(0)
+    assert way[0, 0] == 0.0
+    assert way[-1, 0] > 2.0
+    drawn: list[np.ndarray] = []
+    discs: list[tuple[float, float]] = []
+
+    class Spy(Canvas):
+        """Lines and discs as they are asked for."""
+
+        def line(self, points: Any, *rest: Any, **how: Any) -> None:
+            drawn.append(np.array(points))
+
+        def disc(self, x: float, y: float, *rest: Any, **how: Any) -> None:
+            discs.append((x, y))
+
+    draw_former(Spy(blank(100, 100, PAPER.page), Viewport(0.0, 0.0, 1.0)), story, PAPER)
+    assert any(np.array_equal(each, way) for each in drawn)
+    assert set(discs) == {(0.0, 0.0)}
+
+
+def test_many_things_of_one_name_have_it_once(rules: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """In the legend always, in the world where they are many."""
+    said: list[str] = []
+
+    def text(canvas: Canvas, x: float, y: float, text: str, *rest: Any, **how: Any) -> None:
+        said.append(text)
+
+    monkeypatch.setattr(Canvas, "text", text)
+    for count, times in ((3, 1 + 3), (20, 1 + 1)):
+        said.clear()
+        more = f"  contains cube is item size 1 count {count}\n  lasts 1 ticks\n"
+        rules.write_text(RULES.replace("  lasts 600 ticks\n", more))
+        told(rules, "Roam")
+        assert said.count("cube") == times
+
+
+@pytest.mark.parametrize("theme", [PAPER, NIGHT], ids=["paper", "night"])
+def test_a_thing_that_is_called_by_its_colour_has_it(theme: Theme) -> None:
+    names = {"red": Item(), "big_blue_bin": Zone(), "reddish": Item(), "blue": Item()}
+    red, bin_, reddish, blue = thing_colours([Thing(name, kind) for name, kind in names.items()], theme)
+    assert (red, blue, bin_) == (theme.named["red"], theme.named["blue"], theme.named["blue"])
+    assert reddish == theme.things["item"][0]
+
+
+def test_a_walker_stands_where_it_has_come_to_at_the_end_of_its_way(rules: Path) -> None:
+    """However fast it is, its way is one line and no row of places where it has been before."""
+    more = "  contains cat is walker size 2 speed 120 along 15 15 to 15 -15\n  lasts 10 ticks\n"
+    rules.write_text(RULES.replace("  lasts 600 ticks\n", more))
+    story, image = told(rules, "Roam")
+    cat = [thing.name for thing in story.contents].index("cat")
+    assert story.things[-1, cat].tolist() == pytest.approx([15, 15 - 10 * 120 * story.graph.tick, 2])
+    assert len(story.former(cat)) == 0
+    (stretch,) = story.stretches(cat)
+    assert len(stretch) == 11
+    colour = PAPER.things["walker"][0]
+    assert near(pixel(story, image, *story.things[-1, cat, :2]), colour)
+    beside = [pixel(story, image, 15 + aside / 20, 13) for aside in range(-10, 11)]
+    assert any(near(found, mixed(PAPER.floor, colour, 0.5)) for found in beside)
 
 
 def test_more_things_than_colours_begin_again() -> None:

@@ -23,7 +23,7 @@ NOUNS = ("body", "actuator", "sensor", "memory", "skill", "task", "content", "cu
 KINDS = {cls for noun in NOUNS for cls in kinds(noun).values()}
 COMMON = {"actuator": ("neutral", "delay"), "content": ("size", "away")}  # the arguments that each kind of a noun has
 CODES = {
-    "actuator": {name for name, _ in ACTUATOR_CODES},
+    "actuator": ACTUATOR_CODES,
     "content": THING_CODES,
     "measure": MEASURE_CODES,
     "event": EVENT_CODES,
@@ -61,7 +61,7 @@ def test_every_kind_says_all_that_the_program_asks(noun: str, name: str) -> None
 
 @every(*COMMON)
 def test_every_kind_has_the_arguments_of_its_noun(noun: str, name: str) -> None:
-    missing = {*COMMON[noun]} - {field.name for field in fields(kinds(noun)[name])}
+    missing = {field for field in COMMON[noun] if not hasattr(kinds(noun)[name], field)}
     assert not missing, f"{name} does not take {missing}"
 
 
@@ -89,7 +89,7 @@ def test_every_kind_says_what_it_is_about(noun: str, name: str) -> None:
     cls = kinds(noun)[name]
     one = cls(**{argument.field: f"its {argument.key}" for argument in arguments(cls)})
     things = [f"its {argument.key}" for argument in arguments(cls) if argument.type == THING]
-    assert [one.thing] == (things or [""]), f"{name} does not say which thing it is about"
+    assert [one.thing] == (things[:1] or [""]), f"{name} does not say which thing it is about"
     about = [thing for thing, kind in kinds("content").items() if cls.is_about(kind)]
     assert about, f"{name} can be about no kind of thing"
 
@@ -98,7 +98,8 @@ def test_every_kind_says_what_it_is_about(noun: str, name: str) -> None:
 def test_every_thing_says_what_becomes_of_it(noun: str, name: str) -> None:
     cls = kinds(noun)[name]
     said = {field.name for field in fields(cls)} & OUTCOMES
-    assert {*cls().outcomes} == said, f"{name} takes {said or 'no outcome'} and has other outcomes"
+    one = cls(**{argument.field: () for argument in arguments(cls) if argument.required})
+    assert {*one.outcomes} == said, f"{name} takes {said or 'no outcome'} and has other outcomes"
 
 
 @every("content")

@@ -29,6 +29,7 @@ COMMANDS = {  # of the runtime, and why each may speak
     "tools/replay.py": "mindrun replay",
     "tools/report.py": "mindrun report",
 }
+PROGRAMS = {"wiring/driver_inspection.py": "a process that imports a driver of a user, whatever that does"}
 TIMED = {"api.py": "a lesson notes when it began, and counts its seconds"}
 
 
@@ -56,8 +57,8 @@ def outside(root: Path, allowed: set[str], words: set[str]) -> list[str]:
 
 
 def commands() -> set[str]:
-    """The files of `mindlang/cli/`."""
-    return {path.relative_to(COMPILER).as_posix() for path in modules(COMPILER / "cli")}
+    """The files of `mindlang/cli/`, and the programs of the compiler's own."""
+    return {path.relative_to(COMPILER).as_posix() for path in modules(COMPILER / "cli")} | PROGRAMS.keys()
 
 
 def test_only_the_command_line_prints_and_exits() -> None:

@@ -16,8 +16,12 @@ BENCHMARKS, EXAMPLES = ROOT / "benchmarks", ROOT / "examples"
 FILE_LINES, FUNCTION_LINES, TEST_FILE_LINES = 250, 40, 450
 MEDIAN_LINES = range(60, 91)
 LONG_FILES = {
+    "mindlang/compiler/parse/build.py": "one method for each rule of the grammar",
+    "mindlang/compiler/syntax.py": "one dataclass for each thing that a line can say",
     "mindlang/compiler/parse/mistakes.py": "one table, a row for each mistake; the first row that fits explains a line",
-    "mindlang/compiler/syntax.py": "one small class for each fact of the language",
+    "mindlang/compiler/model.py": "one small dataclass for each part of a mind",
+    "runtime/mindrun/graph.py": "one small dataclass for each part of a compiled mind",
+    "tests/sim/plain_world.py": "a whole world the obvious way, to be read at one go",
     "benchmarks/gradients.py": "a learner of its own, for comparison alone",
     "tests/lock/test_worlds.py": "one mind with every kind, and what is noticed of each",
 }
@@ -60,7 +64,13 @@ METAPHORS = {
 NAMED_METAPHORS = {
     "mindlang/compiler/parse/explain.py: _common_mistake": "a mistake that is common",
     "mindlang/wiring/driver_page.py: driver_page": "a page of the documentation",
+    "runtime/mindrun/sensors/eye.py: eye": "the language's sensor eye: one line of a camera",
+    "runtime/mindrun/sensors/eye.py: Eye": "the language's sensor eye: one line of a camera",
+    "runtime/mindrun/robot/drivers/ball_eye.py: ball_eye": "the language's sensor eye, from a camera",
+    "runtime/mindrun/robot/drivers/ball_eye.py: BallEye": "the language's sensor eye, from a camera",
+    "runtime/mindrun/robot/drivers/ball_eye.py: BallEyeDevice": "the language's sensor eye, from a camera",
     "runtime/mindrun/sim/lanes/sense.py: look": "the rays of the range finders",
+    "runtime/mindrun/sim/lanes/loose_sight.py: look_at_loose": "the rays of the range finders",
 }
 VAGUE = {
     *("MOST", "LEAST", "EVERY", "EACH", "ANY", "ALL", "MANY", "FEW", "FEWEST", "FEWER", "MORE", "LESS", "SOON", "LATE"),
@@ -89,7 +99,10 @@ SHORT_CONSTANTS = {  # that are numbers of one word, or vague elsewhere
     "runtime/mindrun/robot/stop_signals.py": "an exit code",
     "runtime/mindrun/robot/drivers/ads1115.py": "registers and bits, as the data sheet calls them",
     "runtime/mindrun/robot/drivers/grove_motor.py": "commands, as the data sheet calls them",
+    "runtime/mindrun/robot/drivers/mpu6050.py": "registers and bits, as the data sheet calls them",
     "runtime/mindrun/robot/drivers/pca9685.py": "registers and bits, as the data sheet calls them",
+    "runtime/mindrun/robot/vl53l0x.py": "registers and bits, as the data sheet calls them",
+    "runtime/mindrun/stack_machine.py": "operations of a program, as it calls them",
     "runtime/mindrun/trigonometry.py": "the coefficients of Cody and Waite, in their order",
     "runtime/mindrun/arithmetic.py": "rows of a thing and lanes of a vector, which kinds name in every loop",
     "runtime/mindrun/sim/exact.py": "functions of one argument",

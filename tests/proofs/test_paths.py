@@ -1,5 +1,6 @@
 """Paths and leaks, held against graphs in which every path can be listed, and against influence that really leaks."""
 
+from dataclasses import replace
 from itertools import product
 
 import numpy as np
@@ -30,12 +31,19 @@ def weight(path: list[tuple[int, Way | None]]) -> float:
     return float(np.prod([way.most for _, way in path if way]))
 
 
+def greatest(found: Ways, skill: int, begin: int | None = None) -> float:
+    """The most influence that a skill can have: over every path from the master to it."""
+    begin = found.skills[0] if begin is None else begin
+    onward = (way.most * greatest(found, skill, way.target) for way in found.onward[begin])
+    return float(begin == skill) + sum(onward)
+
+
 def leaked(found: Ways, path: list[tuple[int, Way | None]], actuator: int, delta: float) -> float:
     """The share of the command that leaks take on one path, as the definition has it."""
     total = 0.0
     for step, (here, meant) in enumerate(path):
         for way in found.onward[here]:
-            if way.is_learnt and way is not meant:
+            if way.is_learnt and way is not meant and not delta * greatest(found, here) < way.cuts:
                 below = sum(weight(other) for other in every_path(found, way.target, actuator))
                 total += delta * below * weight(path[:step])
     return total / (weight(path) + total)
@@ -70,8 +78,14 @@ def learnt_graph(draw: st.DrawFn) -> Graph:
     for number in range(count):
         below = draw(st.lists(st.sampled_from(range(number + 1, count)), unique=True)) if number + 1 < count else []
         drives = number + 1 == count or not below or draw(st.booleans())
-        skills.append(skill(f"S{number}", Mlp(), (0,), *(("skill", i) for i in below), *[("actuator", 0)] * drives))
+        sends = skill(f"S{number}", Mlp(), (0,), *(("skill", i) for i in below), *[("actuator", 0)] * drives)
+        skills.append(cutting(sends, draw(st.sampled_from([0.0, 0.0, 0.05, 0.5]))))
     return mind(*skills)
+
+
+def cutting(of: Skill, below: float) -> Skill:
+    """A skill each of whose influences is none below so much."""
+    return replace(of, edges=tuple(replace(edge, cuts=below * (edge.to == "skill")) for edge in of.edges))
 
 
 @given(learnt_graph(), DELTAS, st.randoms(use_true_random=False))
@@ -90,7 +104,8 @@ def test_no_leak_takes_more_than_the_worst_case(graph: Graph, delta: float, rand
                     value = 1.0 if way is on[place] else delta
                 else:
                     value = random.choice([0.0, 1.0, random.random()])  # type: ignore[attr-defined]
-                influence[way.target] += value * influence[place]
+                sent = value * influence[place]
+                influence[way.target] += 0.0 if sent < way.cuts else sent
         drivers = [place for place in found.skills if 0 in found.drives[place]]
         unwanted = sum(influence[place] for place in drivers if place not in on)
         assert unwanted / sum(influence[place] for place in drivers) <= worst.share + 1e-12
@@ -121,6 +136,23 @@ def test_the_fan_of_section_9() -> None:
     alone = found.onward[0][1]
     assert leaked(found, [(0, alone), (go, None)], 0, 0.01) == pytest.approx(0.09 / 1.09)
     assert f"{leak.share:.1%}" == "8.3%"
+
+
+@pytest.mark.parametrize(("below", "share"), [(0.0, 0.3 / 1.3), (0.005, 0.3 / 1.3), (0.05, 0.0)])
+def test_a_hierarchy_ten_deep_leaks_nothing_that_is_cut(below: float, share: float) -> None:
+    """Ten levels with three learnt lines beside the one that is meant, each sending 0.01: 30 leaks to one motor."""
+    levels, beside = 10, 3
+    others = [1 + levels + number for number in range(beside)]
+    down = (
+        skill(f"Level{level}", Mlp(), (0,), ("skill", level + 1), *(("skill", other) for other in others))
+        for level in range(levels)
+    )
+    drivers = (skill(f"Drive{number}", Mlp(), (0,), ("actuator", 0)) for number in range(1 + beside))
+    graph = mind(*(cutting(each, below) for each in down), *drivers)
+    leak = leaks(ways(graph), 1, 0.01)[0]
+    assert leak
+    assert leak.share == pytest.approx(share)
+    assert [level.skill for level in leak.levels][-1] == "Drive0" or share == 0
 
 
 def test_a_fixed_line_carries_what_it_says() -> None:

@@ -24,6 +24,9 @@ TOKENS = {
     "NUMBER": "constant.numeric",
     "UNIT": "keyword.other.unit",
     "TEXT": "string.quoted.double",
+    **dict.fromkeys(("COMPUTED", "READING"), KIND),
+    **dict.fromkeys(("FROM", "TO", "FACING"), KEY),
+    **dict.fromkeys(("EXTREME", "AND", "OR", "TICK"), WORD),
     **dict.fromkeys(("SIGN", "MINUS", "SCALE", "COMPARE", "PLUS"), "keyword.operator"),
 }
 NAMES = {  # by the rule in which they stand, and there by their place among the names
@@ -32,6 +35,10 @@ NAMES = {  # by the rule in which they stand, and there by their place among the
     "argument": [KEY],
     "setting": [KEY],
     "name": [VALUE],
+    "constant": [VALUE],
+    "quantity": [VALUE],
+    "number": [DECLARED],
+    "varies": [KEY],
     "stays": [VALUE],
     "contains": [DECLARED],
     "each": [DECLARED, PART],
@@ -62,7 +69,7 @@ def _words(code: str) -> Iterator[re.Match[str]]:
 def _tokens(tree: Tree[Token], event: str) -> Iterator[tuple[Token, str]]:
     """The tokens with their scopes; in an event even a bare name is a function."""
     names = 0
-    is_about_event = tree.data in ("ends", "counts", "rewards")
+    is_about_event = tree.data in ("ends", "succeeds", "counts", "rewards")
     for number, child in enumerate(tree.children):
         if isinstance(child, Tree):
             is_event = is_about_event and child.data == "call" and number >= (tree.data == "rewards")
@@ -71,7 +78,7 @@ def _tokens(tree: Tree[Token], event: str) -> Iterator[tuple[Token, str]]:
             yield child, _of_name(tree, child, names, event)
             names += 1
         else:
-            yield child, TOKENS[child.type]
+            yield child, WORD if tree.data == "facing" else TOKENS[child.type]
 
 
 def _of_name(tree: Tree[Token], token: Token, number: int, event: str) -> str:
@@ -98,7 +105,40 @@ memory on is cell decay 1/3
 lasts 100 s
 tick 1/60 s
 stays frozen
-counts collision"""
+counts collision
+use "a.mind" as a.b
+mind 1
+unit 8.5 cm
+number sight is -12 deg
+number other is -sight
+sensor target is computed at to_a * near_a + to_b * (1 - near_a)
+sensor ahead is reading 1 of proximity
+sensor eyes is range_finder at 0 -side 20 deg range sight dead_zone 1%
+sensor battery is battery drain 0.003 per s charge 1% per tick
+skill A is like walls.B
+task T in Rocks
+task T is like walls.R
+scene R is arena size 60 40
+reads a for b.c
+influences A at 1 when ahead < 20% and b > 3 or c.d < 1 otherwise 0 cuts below 5%
+influences A when a < -b
+influences A cuts below limit
+drives w at least of a b (1 - c) - greatest of 1 c
+starts at 0 -0 facing 90 deg
+starts facing -east
+varies thrust of left_wheel 60 to 90
+varies size of Robot low to 90%
+fails left_wheel 1% per s
+ends when battery < 5% and x > 2
+succeeds on 5 delivery of red to red_bin
+succeeds when battery > 1
+rewards 50 on success when a < 1 or b > 2
+contains wall is wall from -20 10 to 5 10 thickness 1
+contains m is map from "maze.txt" cell 4
+contains w is walker along 0 0 to 10 0 to 10 10 speed low
+contains i is item size low to high by step count n
+teaches A on B for few from C population 3
+lasts long"""
 
 
 def check(line: str) -> int:

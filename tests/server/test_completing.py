@@ -23,8 +23,11 @@ CASES = [  # where the line is put, the line with | for the cursor, what must be
     (BELOW_AVOID, "  influences |", "Fetch Live", "Avoid eyes"),
     (BELOW_AVOID, "  stays |", "frozen", "moving"),
     (BELOW_AVOID, "skill X |", "is", "in"),
-    (BELOW_AVOID, "task X |", "in", "is"),
+    (BELOW_AVOID, "task X |", "in is", "at"),
     (BELOW_AVOID, "skill X is |", "mlp elman rule procedure", "wheel"),
+    (BELOW_AVOID, "skill X is |", "like", "wheel"),
+    (BELOW_AVOID, "skill X is like |", "Avoid Fetch", "X eyes"),
+    (BELOW_AVOID, "  reads parcel_bearing |", "", "for"),
     (BELOW_AVOID, "skill X is mlp |", "hidden width", "mlp"),
     (BELOW_AVOID, "skill X is mlp hidden 2 |", "width", "hidden"),
     (BELOW_AVOID, "skill X is elman |", "width", "hidden"),
@@ -44,7 +47,7 @@ CASES = [  # where the line is put, the line with | for the cursor, what must be
     (BELOW_WORK, "  contains x is |", "item zone obstacle power", "mlp"),
     (BELOW_WORK, "  contains x is item size 3 |", "to away", "by"),
     (BELOW_WORK, "  contains x is item size 3 to 1 |", "by", "to"),
-    (BELOW_WORK, "  contains x is item |", "reached delivered size", "count"),
+    (BELOW_WORK, "  contains x is item |", "reached delivered size count at", "grid"),
     (BELOW_WORK, "  contains x is zone size 3 |", "reached away", "delivered"),
     (BELOW_WORK, "  contains x is item reached |", "stays moves vanishes", "size"),
     (BELOW_WORK, "  contains x is item reached stays |", "delivered", "reached"),
@@ -103,3 +106,23 @@ def test_a_title_with_a_plus_is_replaced_as_a_whole(tmp_path: Path):
     path = tmp_path / "a.mind"
     text = "skill Go+Avoid is rule\nskill X is rule\n  influences Go+Av"
     assert complete(Workspace({path: text}).view(path), path, text, len(text)).start == text.index("Go+Av", 20)
+
+
+def test_below_a_skill_that_is_like_another_stand_the_inputs_of_that_one() -> None:
+    above = "sensor a is battery\nsensor b is battery\nskill Go is mlp\n  reads a\nskill Back is like Go\n"
+    again = above + "  reads b for a\nskill Again is like Back\n"
+    for text, offered in (
+        (above + "  reads b ", "for"),
+        (above + "  reads b for ", "a"),
+        (again + "  reads a for ", "b"),
+    ):
+        path = Path("mind.mind").resolve()
+        found = complete(Workspace({path: text}).view(path), path, text, len(text))
+        assert [offer.label for offer in found.offers] == [offered]
+
+
+def test_a_lesson_may_begin_from_nothing_or_from_a_skill() -> None:
+    text = "skill Go is mlp\ncurriculum School is genetic\n  teaches Go on Roam for 10 generations from "
+    path = Path("mind.mind").resolve()
+    found = complete(Workspace({path: text}).view(path), path, text, len(text))
+    assert [offer.label for offer in found.offers] == ["scratch", "Go"]

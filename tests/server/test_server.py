@@ -105,7 +105,7 @@ def test_hover(drive) -> None:
     assert "3 readings" in hover(editor, path, "sensor eye", 8)
     assert "read by Avoid, Drive" in hover(editor, path, "sensor eye", 8)
     assert "Distance to" not in hover(editor, path, "reach of ball", 2)
-    assert "item comes into" in hover(editor, path, "reach of ball", 2)
+    assert "walker comes into" in hover(editor, path, "reach of ball", 2)
     assert "in Roam" in hover(editor, path, "contains ball", 10)
     assert "at least 4" in hover(editor, path, "population 8", 3)
     assert "An input" in hover(editor, path, "  reads eye", 4)
@@ -218,7 +218,7 @@ def test_a_used_file_that_is_not_saved_counts_and_alone_it_says_no_nonsense(shar
     editor.change(parts, PARTS.replace("neutral 0.5", "neutral 5"))
     assert codes(editor.settle(parts)) == ["out-of-range"] * 2
     editor.close(main)
-    assert labels(editor, parts, "body Robot is", 14) == ["disc"]
+    assert labels(editor, parts, "body Robot is", 14) == ["box", "car", "disc", "holonomic"]
     editor.close(parts)
     while editor.found[uri(parts)]["diagnostics"]:
         editor._until(lambda _: True)

@@ -1,21 +1,25 @@
 """A run followed tick by tick: what plain Python, the engine and pymunk say of it."""
 
 from collections import Counter
+from collections.abc import Mapping
 
 import numpy as np
 from mindrun.engine import Engine
+from mindrun.graph import Graph
 from mindrun.quantity import Span
 from mindrun.sensors import Physical
 from mindrun.sim.rollout import Rollout
 from mindrun.sim.trace import Moment, trace
 
 from tests.sim.plain_world import PlainWorld
+from tests.sim.varied import as_drawn, stuck
 
 
 def follow(rollout: Rollout, engine: Engine, seed: int) -> Counter[str]:
     """Hold a run against a plain world and the engine; how often each kind of event happened."""
-    graph, task = rollout.graph, rollout.task
     run = trace(rollout, seed)
+    graph, task = as_drawn(rollout.graph, rollout.task, run.drawn)
+    failing = stuck(rollout.task, run.drawn)
     plain = PlainWorld(graph, task, run, bool(rollout.tables.world[0]["battery"]))
     used = {int(row["start"]) for row in rollout.tables.sensors}
     counts = np.zeros(len(task.events), np.int64)
@@ -29,19 +33,21 @@ def follow(rollout: Rollout, engine: Engine, seed: int) -> Counter[str]:
         commands = plain.act(engine.tick(moment.readings))
         hold_mind(engine, used, moment)
         assert np.array_equal(commands, moment.commands)
-        assert plain.step() == tuple(moment.body)
+        hold_acting(graph, moment, failing)
+        plain.grip(moment.acting)
+        assert plain.step(moment.acting, moment.grip) == tuple(moment.body)
         happened = plain.happened()
-        assert happened == moment.events.astype(bool).tolist()
         assert plain.touched == moment.touching
         with np.errstate(all="ignore"):
             readings = moment.readings.copy()
             readings[cells] = known  # a reward reads what the skills have read
+            ended = plain.ends(happened, readings)
             plain.reward(happened, readings)
+        assert happened == moment.events.tolist()
         known = moment.readings[cells]
         assert np.array_equal(plain.lines, moment.lines, equal_nan=True)
         hold_things(plain, moment)
         counts += np.array(happened, np.int64)
-        ended = next((i for i, it in enumerate(happened) if it and i in task.ends), -1)
     assert moment.tick == task.ticks or ended >= 0
     jobs = run.jobs
     assert (jobs.ticks[0], jobs.ended[0], jobs.faults[0]) == (moment.tick, ended, engine.faults)
@@ -68,6 +74,21 @@ def hold_mind(engine: Engine, used: set[int], moment: Moment) -> None:
     assert engine.influence.tobytes() == moment.influence.tobytes()
 
 
+def hold_acting(graph: Graph, moment: Moment, failing: Mapping[str, int]) -> None:
+    """What is rough acts with its noise and slips as it says, and neutrally when it has failed.
+
+    All else does what it is told.
+    """
+    for i, actuator in enumerate(graph.actuators):
+        if moment.tick > failing.get(actuator.name, moment.tick):
+            assert moment.acting[i] == np.float32(actuator.kind.neutral)
+            continue
+        noise, slip = getattr(actuator.kind, "noise", 0.0), getattr(actuator.kind, "slip", 0.0)
+        assert abs(float(moment.acting[i]) - float(moment.commands[i])) <= noise * (1 + 1e-6)
+        assert 0.0 <= moment.acting[i] <= 1.0
+        assert 1.0 - slip <= moment.grip[i] <= 1.0
+
+
 def hold_things(plain: PlainWorld, moment: Moment) -> None:
     """What was reached or delivered moves or vanishes where it says so, and nothing else does."""
     for i, thing in enumerate(plain.things):
@@ -79,6 +100,8 @@ def hold_things(plain: PlainWorld, moment: Moment) -> None:
             hold_size(thing.kind.size, plain.places[i][2], moment.things[i][2])
     assert moment.held == (-1 if plain.held in plain.changed else plain.held)
     plain.places, plain.held = moment.things.copy(), moment.held
+    plain.body.loose.replace(plain.places, plain.changed)
+    plain.walkers.turn(moment.turned)
     assert plain.charge == moment.battery
 
 

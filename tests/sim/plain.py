@@ -17,7 +17,7 @@ class PlainRobot:
         self.space = pymunk.Space()
         self.space.iterations = 8
         self.space.use_spatial_hash(20.0, 20)
-        for x, y, h in boxes:
+        for x, y, h, *_ in boxes:
             self._box(x - h, y - h, x + h, y + h)
         if half is not None:
             a, b = half, half + 2

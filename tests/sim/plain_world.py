@@ -6,11 +6,16 @@ from collections import deque
 import numpy as np
 import pymunk
 from mindrun import actuators, events, measures, scenes, sensors, things
+from mindrun.bodies import Car, Disc, Holonomic
 from mindrun.sensors.compass import Compass
 from mindrun.trigonometry import cosine, sine
 
 from tests.plain import f, postfix
 from tests.sim.plain import CATCH
+from tests.sim.plain_bodies import front_of, radius_of, rim_of, side_of, sides_of
+from tests.sim.plain_loose import PlainLoose
+from tests.sim.plain_sensors import sensed
+from tests.sim.plain_walkers import PlainWalkers
 
 TRAIL = 20
 
@@ -20,87 +25,96 @@ class PlainWorld:
 
     def __init__(self, graph, task, run, battery):
         self.graph, self.task, self.runs_down = graph, task, battery
-        self.things = [thing for thing in task.things if not isinstance(thing.kind, things.Obstacle)]
+        apart = [thing for thing in task.things if not thing.kind.is_obstacle]
+        self.things = [thing for thing in apart for _ in range(thing.kind.copies)]
         self.places, self.boxes = run.things.copy(), run.boxes
-        self.half = task.scene.size / 2 if isinstance(task.scene, scenes.Arena) else math.inf
-        self.radius = graph.body.size / 2
+        size = task.scene.size if isinstance(task.scene, scenes.Arena) else math.inf
+        self.half = tuple(side / 2 for side in (size if isinstance(size, tuple) else (size, size)))
+        self.radius = radius_of(graph.body)
         self.x, self.y, self.angle = (float(v) for v in run.begin)
         self.held, self.t, self.touched = -1, 0, False
         self.reached, self.delivered, self.changed = set(), set(), set()
+        self.arrivals = {}
         self.cell = next((s.kind for s in graph.sensors if isinstance(s.kind, sensors.Battery)), sensors.Battery())
         self.charge = self.cell.start
         self.trail = deque([(self.x, self.y)] * TRAIL, TRAIL)
         self.commands = [a.kind.neutral for a in graph.actuators]
         self.late = [deque([f(a.kind.neutral)] * a.kind.delay) for a in graph.actuators]
         self.turns = {i: deque() for i, m in enumerate(task.measures) if isinstance(m, measures.Change)}
+        self.counts = [0] * len(task.events)
         self.visited = [{self.patch(event)} for event in task.events]
         self.lines = [np.float64(0)] * len(task.rewards)
         self.history = {}
         self.body = PlainBody(self)
+        self.walkers = PlainWalkers(self, run.turned)
 
     def patch(self, event):
         """Where the robot is on an event's board, if it has one."""
         if not isinstance(event, events.Visit):
             return None
-        columns = math.ceil(self.task.scene.size / event.size)
-        return tuple(min(columns - 1, max(0, int((v + self.half) / event.size))) for v in (self.x, self.y))
+        patches = [math.ceil(2 * half / event.size) for half in self.half]
+        places = zip((self.x, self.y), self.half, patches, strict=True)
+        return tuple(min(last - 1, max(0, int((v + half) / event.size))) for v, half, last in places)
 
     def true(self, sensor):
         """A physical sensor's readings as they are: a list of (least, most), and what is read where one is lost."""
         kind = sensor.kind
-        names = [thing.name for thing in self.things]
-        i = names.index(kind.of) if getattr(kind, "of", None) in names else -1
+        all_of = [i for i, thing in enumerate(self.things) if thing.name == getattr(kind, "of", None)]
         match kind:
             case sensors.RangeFinder():
                 return [self.ray(self.angle + at, kind) for at in kind.at], 1.0
             case sensors.Battery():
                 return [(float(f(self.charge)),) * 2], None
             case sensors.Bearing():
-                return [self.bearing(i, kind)], 0.5
+                return [self.bearing(self.nearest(all_of), kind)], 0.5
             case Compass():
                 return [pointed(math.sin(self.angle), math.cos(self.angle), kind.dead_zone)], 0.5
             case sensors.Contact():
-                value = i >= 0 and self.in_claw(i, self.reach())
+                value = any(self.in_claw(i, self.reach()) for i in all_of)
             case sensors.Held():
-                value = self.held == i and i >= 0
+                value = self.held in all_of
             case sensors.Inside():
-                value = i >= 0 and self.inside(i, self.x, self.y)
+                value = any(self.inside(i, self.x, self.y) for i in all_of)
             case sensors.Inertial():
                 moved = math.dist((self.x, self.y), self.trail[0]) / (TRAIL * self.graph.tick * kind.range)
                 return [zoned(min(1.0, moved), kind.dead_zone, 0.0)], 0.0
+            case _:
+                return sensed(self, kind, all_of)
         return [(float(value),) * 2], 0.0
 
-    def bearing(self, i, kind):
+    def nearest(self, all_of):
+        """The place of the nearest of these that have not vanished, if any."""
+        there = [self.places[i] for i in all_of if not math.isnan(self.places[i][0])]
+        return min(there, key=self.away, default=None)
+
+    def bearing(self, place, kind):
         """Least and most of a bearing; (0, 1) where it may be either side of the seam."""
-        if (
-            i < 0
-            or math.isnan(self.places[i][0])
-            or (kind.range and math.dist(self.places[i][:2], (self.x, self.y)) > kind.range)
-        ):
+        if place is None or (kind.range and self.away(place) > kind.range):
             return 0.5, 0.5
-        dx, dy = self.places[i][0] - self.x, self.places[i][1] - self.y
+        dx, dy = place[0] - self.x, place[1] - self.y
         c, s = math.cos(self.angle), math.sin(self.angle)
         return pointed(c * dx + s * dy, c * dy - s * dx, kind.dead_zone)
 
     def ray(self, angle, kind):
         """Least and most of what a range finder reads: what it grazes, or stands in by a hair, may be met or missed."""
         near, far = sorted(self.distance(angle, more) for more in (1e-3, -1e-3))
-        least, most = (min(1.0, max(0.0, (d - self.radius) / kind.range)) for d in (near, far))
+        rim = rim_of(self.graph.body, angle - self.angle)
+        least, most = (min(1.0, max(0.0, (d - rim) / kind.range)) for d in (near, far))
         return zoned(least, kind.dead_zone, 0.0)[0], zoned(most, kind.dead_zone, 0.0)[1]
 
-    def distance(self, angle, more):
+    def distance(self, angle, more, loose=None):
         """How far a ray goes among boxes that are `more` larger; one that the robot's centre is in is not seen."""
         c, s = math.cos(angle), math.sin(angle)
         found = math.inf
         for sign in (-1, 1):
-            for position, direction in ((self.x, c), (self.y, s)):
+            for position, half, direction in ((self.x, self.half[0], c), (self.y, self.half[1], s)):
                 if direction * sign > 1e-12:
-                    found = min(found, (sign * self.half - position) / direction)
-        for x, y, half in self.boxes:
+                    found = min(found, (sign * half - position) / direction)
+        for x, y, half_x, half_y in self.boxes:
             enter, leave = -math.inf, math.inf
             for low, high, direction in (
-                (x - half - more - self.x, x + half + more - self.x, c),
-                (y - half - more - self.y, y + half + more - self.y, s),
+                (x - half_x - more - self.x, x + half_x + more - self.x, c),
+                (y - half_y - more - self.y, y + half_y + more - self.y, s),
             ):
                 if abs(direction) > 1e-12:
                     one, other = low / direction, high / direction
@@ -109,7 +123,7 @@ class PlainWorld:
                     leave = -1.0
             if 0 <= enter <= leave:
                 found = min(found, enter)
-        return found
+        return min([found, *(self.body.loose.distances(self, angle, more) if loose is None else loose)])
 
     def reach(self):
         """How far the claw reaches."""
@@ -119,7 +133,7 @@ class PlainWorld:
         """Whether a thing is ahead of the claw's place on the rim, and near enough."""
         dx, dy = self.places[i][0] - self.x, self.places[i][1] - self.y
         c, s = cosine(self.angle), sine(self.angle)
-        ahead, aside = c * dx + s * dy - self.radius, c * dy - s * dx
+        ahead, aside = c * dx + s * dy - front_of(self.graph.body), c * dy - s * dx
         return ahead >= 0 and ahead**2 + aside**2 <= (reach + self.places[i][2] / 2) ** 2
 
     def away(self, place):
@@ -151,25 +165,31 @@ class PlainWorld:
         for command, late in zip(wanted, self.late, strict=True):
             late.append(command)
             now.append(late.popleft())
-        for actuator, command in zip(self.graph.actuators, now, strict=True):
+        self.last, self.commands = self.commands, [float(c) for c in now]
+        return now
+
+    def grip(self, acting):
+        """What the claw holds under the commands as they act."""
+        for actuator, command in zip(self.graph.actuators, acting, strict=True):
             if isinstance(actuator.kind, actuators.Gripper):
                 if command <= 0.5:
                     self.held = -1
                 elif self.held < 0:
                     items = [i for i, thing in enumerate(self.things) if isinstance(thing.kind, things.Item)]
                     self.held = next((i for i in items if self.in_claw(i, actuator.kind.reach)), -1)
-        self.last, self.commands = self.commands, [float(c) for c in now]
-        return now
 
-    def step(self):
-        """One tick of physics, the battery, and what is carried."""
+    def step(self, acting, kept):
+        """One tick of physics, the battery, and what is carried; each actuator has kept a share of its force."""
         self.was = self.x, self.y
         self.far = [self.away(place) for place in self.places]
         self.trail.append(self.was)
-        state = self.body.step(self.commands, cosine(self.angle), sine(self.angle), self.held, self.places)
+        state = self.body.step(acting, kept, cosine(self.angle), sine(self.angle), self.held, self.places)
         self.x, self.y, self.angle = state[:3]
+        for i, (body, _) in self.body.loose.there.items():
+            self.places[i][:2] = body.position
+        self.walkers.walk()
         if self.held >= 0:
-            hold = self.radius + self.body.largest[self.held] / 2
+            hold = front_of(self.graph.body) + self.body.largest[self.held] / 2
             self.places[self.held][:2] = self.x + cosine(self.angle) * hold, self.y + sine(self.angle) * hold
         powered = [i for i, thing in enumerate(self.things) if isinstance(thing.kind, things.Power)]
         if self.runs_down:
@@ -179,38 +199,47 @@ class PlainWorld:
         return state
 
     def happened(self):
-        """Whether each event of the task did."""
-        names = [thing.name for thing in self.things]
+        """How often each event of the task did."""
         reached, delivered = self.begin()
         began, self.touched = self.body.touches and not self.touched, self.body.touches
         found = []
         for event, visited in zip(self.task.events, self.visited, strict=True):
-            i = names.index(event.of) if getattr(event, "of", None) in names else -1
+            about = {i for i, thing in enumerate(self.things) if thing.name == getattr(event, "of", None)}
             match event:
                 case events.Reach():
-                    found.append(i in reached)
+                    found.append(len(about & reached))
+                case events.Delivery(to=""):
+                    found.append(len(about & delivered))
                 case events.Delivery():
-                    found.append(i in delivered)
+                    found.append(self.arrived(event, about))
                 case events.Visit():
-                    found.append(self.patch(event) not in visited)
+                    found.append(int(self.patch(event) not in visited))
                     visited.add(self.patch(event))
                 case events.Collision():
-                    found.append(began)
+                    found.append(int(began))
                 case events.Exhaustion():
-                    found.append(self.charge == 0)
+                    found.append(int(self.charge == 0))
+                case events.Success():
+                    found.append(0)  # `ends` knows
         return found
+
+    def arrived(self, event, items):
+        """How many items come into one of the zones of an event, and were not in one in the tick before."""
+        zones = [i for i, thing in enumerate(self.things) if thing.name == event.to]
+        now = {i for i in items & self.inside_now if any(self.inside(z, *self.places[i][:2]) for z in zones)}
+        before, self.arrivals[event] = self.arrivals.get(event, set()), now
+        return len(now - before)
 
     def begin(self):
         """What begins to be in reach, and what to be delivered; `changed` is what moves or vanishes by it."""
         kinds = [thing.kind for thing in self.things]
         zones = [i for i, kind in enumerate(kinds) if isinstance(kind, things.Zone)]
-        reached = {
-            i
-            for i, kind in enumerate(kinds)
-            if (self.in_claw(i, self.reach()) if isinstance(kind, things.Item) else self.inside(i, self.x, self.y))
-        }
-        carried = {self.held, *self.delivered} - {-1}
+        areas = {i for i, kind in enumerate(kinds) if isinstance(kind, things.Zone | things.Power)}
+        reached = {i for i in areas if self.inside(i, self.x, self.y)}
+        reached |= {i for i in range(len(kinds)) if i not in areas and self.in_claw(i, self.reach())}
+        carried = {self.held, *self.delivered, *self.body.loose.there} - {-1}
         delivered = {i for i in carried if any(self.inside(z, *self.places[i][:2]) for z in zones)}
+        self.inside_now = delivered
         new = reached - self.reached, delivered - self.delivered
         self.changed = {i for i in new[0] if kinds[i].reached != "stays"}
         self.changed |= {i for i in new[1] if kinds[i].delivered != "stays"}
@@ -220,8 +249,7 @@ class PlainWorld:
     def measured(self):
         """The task's measures."""
         names = [thing.name for thing in self.things]
-        closed = [far - self.away(place) for far, place in zip(self.far, self.places, strict=True)]
-        closed = [0.0 if math.isnan(way) else way for way in closed]  # of what has vanished
+        closed = {name: self.closed([i for i, its in enumerate(names) if its == name]) for name in names}
         found = []
         for i, measure in enumerate(self.task.measures):
             match measure:
@@ -229,53 +257,72 @@ class PlainWorld:
                     dx, dy = self.x - self.was[0], self.y - self.was[1]
                     found.append(float(dx * cosine(self.angle) + dy * sine(self.angle) > 1e-6))
                 case measures.Progress(toward=of):
-                    found.append(closed[names.index(of)])
+                    found.append(closed[of])
                 case measures.Advance(toward=of):
-                    found.append(max(0.0, closed[names.index(of)]))
+                    found.append(max(0.0, closed[of]))
                 case measures.Retreat(from_=of):
-                    found.append(max(0.0, -closed[names.index(of)]))
+                    found.append(max(0.0, -closed[of]))
                 case measures.Change(beyond=beyond, over=over):
                     found.append(self.thrust_changed(self.turns[i], beyond, over))
         return found
 
+    def closed(self, rows):
+        """How much nearer the nearest of some things is; 0 where all have vanished."""
+        there = [i for i in rows if not math.isnan(self.far[i])]
+        return min(self.far[i] for i in there) - min(self.away(self.places[i]) for i in there) if there else 0.0
+
     def thrust_changed(self, ticks, beyond, over):
-        """ΣΔ of both sides."""
+        """ΣΔ of both sides; what is in the middle counts to the left."""
         sides = dict.fromkeys(("left", "right"), 0.0)
         for actuator, now, before in zip(self.graph.actuators, self.commands, self.last, strict=True):
-            if isinstance(actuator.kind, actuators.Wheel):
-                sides[actuator.kind.side] += abs(now - float(f(before)))
+            match actuator.kind:
+                case actuators.Wheel(side=side):
+                    sides[side] += abs(now - float(f(before)))
+                case actuators.Thruster(at=(_, y)):
+                    sides["right" if y < 0 else "left"] += abs(now - float(f(before)))
+                case actuators.Motor():
+                    sides["left"] += abs(now - float(f(before)))
         ticks.append(sides)
         while len(ticks) > over:
             ticks.popleft()
         return sum(max(0.0, sum(tick[side] for tick in ticks) - beyond) for side in sides)
 
+    def ends(self, happened, readings):
+        """The number of the end that has come, −1 for none; where that is a success, its event has happened."""
+        self.found = self.measured()
+        self.counts = [count + it for count, it in zip(self.counts, happened, strict=True)]
+        for number, end in enumerate(self.task.ends):
+            if end.when is None:
+                met = happened[end.event] and self.counts[end.event] >= end.times
+            else:
+                met = self.value(end.when, readings, self.found, 0) > 0
+            if met:
+                for i, event in enumerate(self.task.events):
+                    happened[i] += int(end.succeeds and isinstance(event, events.Success))
+                return number
+        return -1
+
     def reward(self, happened, readings):
         """Add what each line pays."""
-        found = self.measured()
+        found = self.found
         for i, line in enumerate(self.task.rewards):
             if line.on is not None and not happened[line.on]:
                 continue
             rows = range(line.each[0], sum(line.each)) if line.each else [0]
             for row in rows:
                 value = self.value(line.amount, readings, found, row)
-                if line.when is None or COMPARES[line.when.compare](
-                    self.value(line.when.left, readings, found, row), self.value(line.when.right, readings, found, row)
-                ):
-                    self.lines[i] = self.lines[i] + value
+                if line.when is None or self.value(line.when, readings, found, row) > 0:
+                    self.lines[i] = self.lines[i] + value * (1 if line.on is None else happened[line.on])
         self.t += 1
 
     def value(self, program, readings, found, row):
         """A reward's program as one over readings alone."""
-        words = {"measure": lambda i: ("number", found[i]), "each": lambda i: ("reading", row)}
+        words = {
+            "measure": lambda i: ("number", found[i]),
+            "each": lambda i: ("reading", row),
+            "command": lambda i: ("number", self.commands[i]),
+        }
         return postfix([words.get(word, lambda i, word=word: (word, i))(i) for word, i in program], readings)
-
-
-COMPARES = {
-    "<": lambda a, b: a < b,
-    "<=": lambda a, b: a <= b,
-    ">": lambda a, b: a > b,
-    ">=": lambda a, b: a >= b,
-}
 
 
 def pointed(ahead, aside, dead_zone):
@@ -299,61 +346,113 @@ class PlainBody:
 
     def __init__(self, of):
         graph = of.graph
-        body, dt = graph.body, graph.tick
-        self.dt, self.radius, self.wheels = dt, of.radius, [a.kind for a in graph.actuators]
-        self.linear, self.angular = 1 / (1 + dt * body.linear_damping), 1 / (1 + dt * body.angular_damping)
+        kind, dt = graph.body, graph.tick
+        self.dt, self.kind, self.actuators = dt, kind, [a.kind for a in graph.actuators]
+        self.linear, self.angular = 1 / (1 + dt * kind.linear_damping), 1 / (1 + dt * kind.angular_damping)
         self.space = pymunk.Space()
         self.space.iterations = 8
         self.space.use_spatial_hash(20.0, 20)
-        for x, y, h in of.boxes:
-            self.box(x - h, y - h, x + h, y + h)
-        if of.half < math.inf:
-            a, b = of.half, of.half + 2
-            for sides in ((-b, -b, -a, b), (a, -b, b, b), (-b, -b, b, -a), (-b, a, b, b)):
+        for x, y, wide, high in of.boxes:
+            self.box(x - wide, y - high, x + wide, y + high)
+        if of.half[0] < math.inf:
+            (a, b), (c, d) = of.half, (half + 2 for half in of.half)
+            for sides in ((-c, -d, -a, d), (a, -d, c, d), (-c, -d, c, -b), (-c, b, c, d)):
                 self.box(*sides)
-        mass = body.density * math.pi * self.radius**2
-        self.body = pymunk.Body(mass, mass * self.radius**2 / 2)
+        self.body = self.solid()
         self.body.position, self.body.angle = (of.x, of.y), of.angle
-        self.circle(self.radius, 0.0)
         spans = [thing.kind.size for thing in of.things]
         self.largest = [max(span.first, span.last) for span in spans]
         self.items = {
-            i: self.circle(1.0, self.radius + self.largest[i] / 2)
+            i: self.add(pymunk.Circle(self.body, 1.0, (front_of(kind) + self.largest[i] / 2, 0.0)), CATCH)
             for i, thing in enumerate(of.things)
             if isinstance(thing.kind, things.Item)
         }
+        self.loose = PlainLoose(self.space, [thing.kind for thing in of.things], of.places, self.dt)
         self.touches = False
+
+    def solid(self):
+        """The body with its outline."""
+        kind = self.kind
+        if isinstance(kind, Disc | Holonomic):
+            radius = kind.size / 2
+            mass = kind.density * math.pi * radius**2
+            body = pymunk.Body(mass, mass * radius**2 / 2)
+            shape = pymunk.Circle(body, radius)
+        else:
+            long, wide = sides_of(kind)
+            mass = kind.density * long * wide
+            body = pymunk.Body(mass, pymunk.moment_for_box(mass, (long, wide)))
+            x, y = long / 2, wide / 2
+            shape = pymunk.Poly(body, [(-x, -y), (x, -y), (x, y), (-x, y)])
+        self.space.add(body)
+        self.add(shape, kind.friction)
+        return body
 
     def box(self, left, low, right, high):
         """Something solid."""
         shape = pymunk.Poly(self.space.static_body, [(left, low), (right, low), (right, high), (left, high)])
-        shape.friction = 1.0
-        self.space.add(shape)
+        self.add(shape, 1.0)
 
-    def circle(self, radius, ahead):
-        """A part of the robot."""
-        shape = pymunk.Circle(self.body, radius, (ahead, 0.0))
-        shape.friction = CATCH
-        self.space.add(*([] if self.body in self.space.bodies else [self.body]), shape)
+    def add(self, shape, friction):
+        """A shape of the world or of the robot."""
+        shape.friction = friction
+        self.space.add(shape)
         return shape
 
-    def step(self, commands, c, s, held, places):
+    def step(self, commands, kept, c, s, held, places):
         """x, y, angle and their velocities a tick later."""
         for i, item in self.items.items():
             item.sensor = i != held
             if i == held:
                 item.unsafe_set_radius(places[i][2] / 2)
-        body, force, torque = self.body, 0.0, 0.0
-        for kind, command in zip(self.wheels, commands, strict=True):
-            if isinstance(kind, actuators.Wheel):
-                push = (2.0 * command - 1.0) * kind.thrust
-                force += push
-                torque += (-self.radius if kind.side == "left" else self.radius) * push
+        body = self.body
+        ahead, aside, torque, turned = self.pushes(commands, kept)
         body.velocity = (body.velocity.x * self.linear, body.velocity.y * self.linear)
         body.angular_velocity *= self.angular
-        body.force, body.torque = (force * c, force * s), torque
+        if isinstance(self.kind, Car):
+            self.roll(turned, c, s)
+        body.force, body.torque = (ahead * c - aside * s, ahead * s + aside * c), torque
+        self.loose.damp()
         self.space.step(self.dt)
         contacts = []
-        body.each_arbiter(lambda arbiter: contacts.append(arbiter))
-        self.touches = bool(contacts)
+        body.each_arbiter(lambda arbiter: contacts.extend(arbiter.shapes))
+        self.touches = any(shape.body is self.space.static_body for shape in contacts)
         return (*body.position, body.angle, *body.velocity, body.angular_velocity)
+
+    def pushes(self, commands, kept):
+        """The force ahead and to the left, the torque, and how far to the left the wheels of a car are turned."""
+        ahead = aside = torque = turned = 0.0
+        for kind, command, share in zip(self.actuators, commands, kept, strict=True):
+            way = 1.0 - 2.0 * float(command)
+            match kind:
+                case actuators.Steering():
+                    turned = way * kind.range
+                case actuators.Wheel():
+                    half = side_of(self.kind)
+                    push = -way * kind.thrust * share
+                    ahead += push
+                    torque += (-half if kind.side == "left" else half) * push
+                case actuators.Motor():
+                    ahead += -way * kind.thrust * share
+                case actuators.Thruster(at=(x, y), facing=facing):
+                    push, forward, left = -way * kind.thrust * share, cosine(facing), sine(facing)
+                    ahead += forward * push
+                    aside += left * push
+                    torque += (x * left - y * forward) * push
+        return ahead, aside, torque, turned
+
+    def roll(self, turned, c, s):
+        """Nothing but what a bicycle's axles let through, of the same momentum along it."""
+        body, axles = self.body, self.kind.wheelbase * sides_of(self.kind)[0]
+        slope = sine(turned) / cosine(turned)
+        way = 1.0, slope / 2, slope / axles  # ahead, to the left, and turning
+        weight = 1.0, 1.0, body.moment * (1 / body.mass)
+        now = (
+            body.velocity.x * c + body.velocity.y * s,
+            body.velocity.y * c - body.velocity.x * s,
+            body.angular_velocity,
+        )
+        along = sum(a * b * w for a, b, w in zip(now, way, weight, strict=True))
+        along /= sum(a * a * w for a, w in zip(way, weight, strict=True))
+        body.velocity = along * c - along * way[1] * s, along * s + along * way[1] * c
+        body.angular_velocity = along * way[2]

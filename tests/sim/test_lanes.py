@@ -12,7 +12,7 @@ from mindrun.arithmetic import in_claw
 from mindrun.engine import Engine
 from mindrun.events import Reach, Visit
 from mindrun.functions import Mlp
-from mindrun.graph import Actuator, Edge, Reward, Sensor, Task, Thing
+from mindrun.graph import Actuator, Edge, End, Reward, Sensor, Task, Thing
 from mindrun.memory import Cell
 from mindrun.policy import Policy
 from mindrun.quantity import Span
@@ -124,7 +124,7 @@ def test_the_first_event_that_ends_a_run_is_the_one_that_is_told() -> None:
     """Two in one tick: the first in the order of the task."""
     things = (Thing("home", Zone(Span(9.0, 9.0), Span(0.0, 1.0))), Thing("plug", Power(Span(9.0, 9.0), Span(0.0, 1.0))))
     events = (Reach("plug"), Reach("home"))
-    for ends, first in (((0, 1), 0), ((1,), 1)):
+    for ends, first in (((End(0), End(1)), 0), ((End(1), End(0)), 0), ((End(1, 2), End(1)), 1)):
         graph = replace(mind(rule("Top")), tasks=(task(9, things=things, events=events, ends=ends, counts=(0, 1)),))
         scores = Rollout(Policy(graph, {}), "World", "Top").score(NOBODY, range(20))
         together = (scores.by_event == 1).all(axis=2) & (scores.ticks == 1)
@@ -147,7 +147,7 @@ def test_lanes_that_close_ranks_keep_what_waits() -> None:
     things = (Thing("object", Item(Span(3.0, 3.0), Span(3.0, 9.0))), Thing("rock", Obstacle(Span(1.0, 2.0), count=5)))
     events = (Visit("patch", 3.0), Reach("object"))
     rewards = (Reward("", (("number", 1.0),), 0), Reward("", (("reading", 0),), None))
-    world = task(300, scene=Arena(30.0), things=things, events=events, ends=(1,), rewards=rewards, counts=(0,))
+    world = task(300, scene=Arena(30.0), things=things, events=events, ends=(End(1),), rewards=rewards, counts=(0,))
     graph = replace(base, sensors=(bearing,), tasks=(world,))
     seeds = list(range(24))
     alone = Rollout(Policy(graph, {}), "World", "Top", lanes=1).score(NOBODY, seeds)
@@ -244,7 +244,7 @@ def test_everything_is_placed_clear_of_everything(scene: Plain | Arena) -> None:
         assert all(low <= d <= high for d, (low, high) in zip(far, spans, strict=True))
         rocks = np.hypot(run.boxes[:, 0] - x, run.boxes[:, 1] - y)
         assert ((rocks >= 5.0) & (rocks <= 25.0)).all()
-        squares = [(*box[:2], box[2], 2.0) for box in run.boxes] + [(*t[:2], t[2] / 2, 0.0) for t in run.things]
+        squares = [(*box[:3], 2.0) for box in run.boxes] + [(*t[:2], t[2] / 2, 0.0) for t in run.things]
         for i, (ax, ay, a, margin) in enumerate(squares):
             for bx, by, b, _ in squares[i + 1 :]:
                 assert max(abs(ax - bx), abs(ay - by)) >= a + b + margin

@@ -23,7 +23,7 @@ Weights = dict[str, np.ndarray]
 
 
 def weights_for(graph: Graph, scale: float, rng: np.random.Generator) -> Weights:
-    return {s.name: (scale * rng.uniform(-0.7, 1, genes(s))).astype(np.float32) for s in graph.skills}
+    return {s.name: (scale * rng.uniform(-0.7, 1, genes(s))).astype(np.float32) for s in graph.skills if not s.like}
 
 
 def followed(graph: Graph, weights: Weights, seed: int) -> Counter[str]:
@@ -45,7 +45,7 @@ def test_a_result_is_the_same_in_any_company(graph: Graph, scale: float, seed: i
     """Of its genome and its seed alone: whatever the lane, the batch, the worker and the order."""
     rng = np.random.default_rng(seed)
     weights = weights_for(graph, scale, rng)
-    learners = [skill.name for skill in graph.skills if genes(skill)][:2]
+    learners = [skill.name for skill in graph.skills if genes(skill) and not skill.like][:2]
 
     def rollout(**options: int) -> Rollout:
         return Rollout(Policy(graph, weights), "World", graph.master, learners, procedures=PROCEDURES, **options)

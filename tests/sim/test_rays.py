@@ -41,7 +41,7 @@ def test_rays_are_segment_queries(watcher: Graph) -> None:
     for seed in range(300):
         run = trace(rollout, seed)
         readings = next(run.moments).readings
-        expected = segment_queries(run.boxes, 30.0, run.begin, np.array(finder.at), finder.range)
+        expected = segment_queries(run.boxes[:, :3], 30.0, run.begin, np.array(finder.at), finder.range)
         assert readings == pytest.approx(expected, abs=1e-4)
         seen.extend(expected)
     assert 0.2 < np.mean(np.array(seen) < 1) < 0.95  # some meet something, some do not

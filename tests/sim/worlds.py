@@ -1,62 +1,144 @@
 """Hypothesis strategies for whole worlds: any hierarchy in any body, among anything, judged in any way."""
 
 from dataclasses import fields, replace
+from math import pi
 
 from hypothesis import strategies as st
-from mindrun.actuators import Gripper, Servo, Wheel
-from mindrun.bodies import Disc
-from mindrun.events import Collision, Delivery, EventKind, Exhaustion, Reach, Visit
-from mindrun.graph import Actuator, Condition, Graph, Lesson, Program, Reward, Task, Thing
+from mindrun.actuators import Gripper, Lamp, Motor, Servo, Steering, Thruster, Wheel
+from mindrun.bodies import Box, Car, Disc, Holonomic
+from mindrun.events import Collision, Delivery, EventKind, Exhaustion, Reach, Success, Visit
+from mindrun.graph import Actuator, End, Failure, Graph, Lesson, Program, Reward, Start, Task, Thing, Variation
 from mindrun.learners import Learner
 from mindrun.measures import Advance, Change, Forward, MeasureKind, Progress, Retreat
-from mindrun.quantity import Span
+from mindrun.quantity import UNSAID, Span
 from mindrun.registry import arguments, kinds
 from mindrun.scenes import Arena, Plain, SceneKind
-from mindrun.things import Item, Obstacle, Power, Zone
+from mindrun.things import Ball, Item, LooseBox, Map, Obstacle, Power, Walker, Wall, Zone
 from mindrun.weights import genes
 
-from tests.hierarchies import random_graph
+from tests.hierarchies import combined, conditions, random_graph
 
 SIZES = st.sampled_from([Span(1.0, 1.0), Span(2.0, 5.0), Span(4.0, 1.0, 0.75), Span(1.0, 3.0, 0.75)])
 WIDE = st.sampled_from([Span(8.0, 8.0), Span(4.0, 12.0), Span(14.0, 6.0, 2.0)])
 AWAY = st.sampled_from([Span(-1.0, -1.0), Span(0.0, 3.0), Span(0.0, 6.0), Span(2.0, 12.0)])
+PLACES = st.tuples(st.sampled_from([-6.0, 0.0, 4.5]), st.sampled_from([-4.0, 0.5, 3.0]))
+WAYS = [((-9.0, -5.0), (-2.0, -5.0)), ((6.0, 6.0), (6.0, -3.0), (9.5, -3.0)), ((3.0, 7.0), (-3.0, 7.0))]
+PATHS = [((-5.0, 0.0), (5.0, 2.0)), ((0.0, 0.0), (3.0, 0.0), (3.0, -6.0))]
+SPEEDS, TURNINGS = st.sampled_from([0.5, 3.0, 20.0]), st.sampled_from([0.0, 1.5, 10.0])
+MAZES = [("#..#", "....", "##.."), ("#.#", "...", "###", "..#")]
 NEUTRAL = st.sampled_from([0.0, 0.4, 0.5, 0.9, 1.0])
 OUTCOMES = st.sampled_from(["stays", "moves", "moves", "vanishes"])
+DENSITY, FRICTION, DAMPING = st.sampled_from([0.1, 0.5]), st.sampled_from([0.0, 0.5, 1.0]), st.sampled_from([0.0, 5.0])
 DELAY = st.sampled_from([0, 0, 1, 2, 5])
-WHEELS = st.builds(
-    Wheel, st.sampled_from(["left", "right"]), NEUTRAL, st.sampled_from([80.0, 80.0, 200.0, 3000.0, 15.0, -60.0]), DELAY
+THRUST = st.sampled_from([80.0, 80.0, 200.0, 3000.0, 15.0, -60.0])
+NOISE, SLIP = st.sampled_from([0.0, 0.0, 0.1]), st.sampled_from([0.0, 0.0, 0.3])
+WHEELS = st.builds(Wheel, st.sampled_from(["left", "right"]), NEUTRAL, THRUST, DELAY, NOISE, SLIP)
+MOTORS = st.builds(Motor, NEUTRAL, THRUST, DELAY, NOISE, SLIP)
+STEERINGS = st.builds(Steering, NEUTRAL, st.sampled_from([0.5, 1.2, 0.0]), DELAY, NOISE)
+THRUSTERS = st.builds(
+    Thruster,
+    NEUTRAL,
+    st.sampled_from([(0.0, 0.0), (0.0, -1.0), (-0.5, 1.0), (1.0, 0.0)]),
+    st.sampled_from([0.0, 1.0, -pi / 2, 4.0]),
+    THRUST,
+    DELAY,
+    NOISE,
+    SLIP,
 )
-CLAWS = st.builds(Gripper, st.sampled_from([0.0, 0.5, 0.9, 1.0]), st.sampled_from([1.5, 4.0]), DELAY)
-BODIES = st.builds(
-    Disc,
-    st.sampled_from([2.0, 2.0, 0.7, 3.0]),
+CLAWS = st.builds(Gripper, st.sampled_from([0.0, 0.5, 0.9, 1.0]), st.sampled_from([1.5, 4.0]), DELAY, NOISE)
+OTHERS = CLAWS | st.builds(Servo, NEUTRAL, DELAY) | st.builds(Lamp, NEUTRAL, DELAY)
+RANGES = {  # of what varies
+    "thrust": st.sampled_from([(60.0, 200.0), (-50.0, 15.0), (80.0, 80.0)]),
+    "delay": st.sampled_from([(0.0, 3.0), (2.0, 2.0), (1.0, 6.0)]),
+    "noise": st.sampled_from([(0.0, 0.1), (0.05, 0.3)]),
+    "slip": st.sampled_from([(0.0, 0.5), (0.2, 0.3)]),
+    "lost": st.sampled_from([(0.0, 0.5), (0.9, 1.0)]),
+    "range": st.just((0.2, 1.2)),
+    "density": st.sampled_from([(0.1, 3.0), (1.0, 1.5)]),
+    "friction": st.sampled_from([(0.0, 1.0), (0.3, 0.3)]),
+    "damping": st.just((0.0, 9.0)),
+    "linear_damping": st.just((0.0, 9.0)),
+    "angular_damping": st.just((1.0, 30.0)),
+}
+DIAMETERS = st.sampled_from([2.0, 2.0, 0.7, 3.0])
+RECTANGLES = st.sampled_from([2.0, (3.0, 2.0), (1.0, 2.5), (4.0, 1.0)])
+MATERIAL = (  # density, friction, damping
     st.sampled_from([2.0, 0.5]),
+    st.sampled_from([0.2, 0.2, 0.0, 1.5]),
     st.sampled_from([5.0, 0.0]),
     st.sampled_from([20.0, 1.0]),
 )
+DRIVES = {
+    st.builds(Disc, DIAMETERS, *MATERIAL): WHEELS | WHEELS | THRUSTERS,
+    st.builds(Box, RECTANGLES, *MATERIAL): WHEELS | WHEELS | THRUSTERS,
+    st.builds(Car, RECTANGLES, st.sampled_from([0.6, 0.3]), *MATERIAL): MOTORS | STEERINGS,
+    st.builds(Holonomic, DIAMETERS, *MATERIAL): THRUSTERS,
+}
+
+
+def robot_kinds() -> st.SearchStrategy[object]:
+    """Any body, or any actuator."""
+    return st.one_of(OTHERS, *DRIVES, *DRIVES.values())
+
+
+@st.composite
+def _robots(draw: st.DrawFn, graph: Graph) -> Graph:
+    """A graph with any body, and on it actuators that can move it; others now and then."""
+    bodies, drives = draw(st.sampled_from([*DRIVES.items(), *[*DRIVES.items()][:1] * 2]))
+    actuators = tuple(Actuator(a.name, draw(drives | drives | OTHERS)) for a in graph.actuators)
+    return replace(graph, body=draw(bodies), actuators=actuators)
 
 
 @st.composite
 def random_world(draw: st.DrawFn, most: int = 40) -> Graph:
     """A hierarchy with one task, World, in which what may happen happens often: all is large, and near."""
     graph = draw(random_graph())
-    actuators = tuple(
-        Actuator(a.name, draw(WHEELS | WHEELS | CLAWS | st.builds(Servo, NEUTRAL, DELAY))) for a in graph.actuators
-    )
-    graph = replace(graph, tick=draw(st.sampled_from([1 / 60, 1 / 30, 0.1])), body=draw(BODIES), actuators=actuators)
-    scene: SceneKind = draw(st.sampled_from([Plain(), Arena(20.0), Arena(33.0)]))
+    graph = replace(draw(_robots(graph)), tick=draw(st.sampled_from([1 / 60, 1 / 30, 0.1])))
+    scene: SceneKind = draw(st.sampled_from([Plain(), Arena(20.0), Arena(33.0), Arena((26.0, 15.0))]))
     things = draw(_things(scene))
     measures, events = draw(_measures(things)), draw(_events(scene, things))
     rewards = tuple(draw(_rewards(graph, len(measures), len(events))) for _ in range(draw(st.integers(1, 4))))
     some = st.lists(st.sampled_from(range(len(events))), unique=True, max_size=3) if events else st.just([])
     ticks = draw(st.integers(1, most))
-    task = Task("World", scene, things, ticks, measures, events, tuple(draw(some)), rewards, tuple(draw(some)))
+    ends = tuple(draw(st.lists(_ends(graph, measures, events), max_size=3)))
+    task = Task(
+        "World",
+        scene,
+        things,
+        ticks,
+        measures,
+        events,
+        ends,
+        rewards,
+        tuple(draw(some)),
+        draw(st.sampled_from([Start(), Start(), Start((2.0, -1.0)), Start(None, 1.0), Start((0.0, 0.5), -3.0)])),
+    )
+    task = replace(task, varies=draw(_variations(graph, task)), fails=draw(_failures(graph)))
     return replace(graph, tasks=(task,), lessons=tuple(draw(_lessons(graph))))
+
+
+@st.composite
+def _variations(draw: st.DrawFn, graph: Graph, task: Task) -> tuple[Variation, ...]:
+    """Up to four arguments of anything, each in a range; most often none."""
+    kinds = [("body", "", graph.body), *(("actuator", each.name, each.kind) for each in graph.actuators)]
+    kinds += [("sensor", each.name, each.kind) for each in graph.sensors]
+    kinds += [("thing", each.name, each.kind) for each in task.things]
+    known = [(noun, name, argument) for noun, name, kind in kinds for argument in kind.varying]
+    some = draw(st.lists(st.sampled_from(known), unique=True, max_size=4)) if draw(st.booleans()) else []
+    return tuple(Variation(*about, *draw(RANGES[about[2]])) for about in some)
+
+
+@st.composite
+def _failures(draw: st.DrawFn, graph: Graph) -> tuple[Failure, ...]:
+    """Actuators that fail soon; most often none."""
+    names = [actuator.name for actuator in graph.actuators]
+    some = draw(st.lists(st.sampled_from(names), unique=True, max_size=2)) if names and draw(st.booleans()) else []
+    return tuple(Failure(name, draw(st.sampled_from([0.02, 0.2, 1.0, 0.0]))) for name in some)
 
 
 def _lessons(graph: Graph) -> st.SearchStrategy[list[Lesson]]:
     """Lessons of skills that learn."""
-    names = [skill.name for skill in graph.skills if genes(skill)]
+    names = [skill.name for skill in graph.skills if genes(skill) and not skill.like]
     lesson = st.builds(
         Lesson, st.just("School"), st.sampled_from(names), st.just("World"), st.just(graph.master), st.integers(1, 9),
         st.booleans(), st.booleans(), learner_kinds(), st.integers(1, 9),
@@ -82,10 +164,22 @@ def _things(draw: st.DrawFn, scene: SceneKind) -> tuple[Thing, ...]:
         ("coin", Item, SIZES),
         ("plug", Power, WIDE),
         ("den", Zone, WIDE),
+        ("crate", LooseBox, SIZES),
+        ("ball", Ball, SIZES),
+        ("cat", Walker, SIZES),
     ):
         if draw(st.integers(0, 2)):
             outcomes = {field.name: draw(OUTCOMES) for field in fields(kind) if field.name in ("reached", "delivered")}
-            things.append(Thing(name, kind(size=draw(size), away=draw(AWAY), **outcomes)))
+            own = {"density": DENSITY, "friction": FRICTION, "damping": DAMPING} if kind.is_loose else {}
+            own = {"speed": SPEEDS, "turning": TURNINGS} if kind is Walker else own
+            drawn = {name: draw(of) for name, of in own.items()}
+            at = draw(st.none() | st.none() | PLACES)
+            at = (at,) if at else ()
+            count = 1 if at else draw(st.sampled_from([1, 1, 2, 3]))
+            placed = {"away": UNSAID if at else draw(AWAY), "at": at, "count": count}
+            if kind is Walker and draw(st.booleans()):
+                placed = {"along": draw(st.sampled_from(PATHS)), "count": draw(st.sampled_from([1, 2]))}
+            things.append(Thing(name, kind(size=draw(size), **placed, **outcomes, **drawn)))
     grid = isinstance(scene, Arena) and draw(st.booleans())
     sizes = draw(st.sampled_from([Span(1.0, 1.0), Span(1.0, 3.0)]))
     if grid:
@@ -94,12 +188,18 @@ def _things(draw: st.DrawFn, scene: SceneKind) -> tuple[Thing, ...]:
         )
     if draw(st.booleans()):
         things.append(Thing("stone", Obstacle(sizes, count=draw(st.integers(0, 5)), away=draw(AWAY))))
+    if draw(st.booleans()):
+        things.append(Thing("block", Obstacle(sizes, at=(draw(PLACES),), jitter=draw(st.sampled_from([0.0, 1.5])))))
+    if draw(st.integers(0, 3)) == 0:
+        things.append(Thing("maze", Map(draw(st.sampled_from(MAZES)), draw(st.sampled_from([2.0, 3.5])))))
+    if draw(st.booleans()):
+        things.append(Thing("fence", Wall(draw(st.sampled_from(WAYS)), draw(st.sampled_from([1.0, 0.5, 2.5])))))
     return tuple(draw(st.permutations(things)))
 
 
 @st.composite
 def _measures(draw: st.DrawFn, things: tuple[Thing, ...]) -> tuple[MeasureKind, ...]:
-    named = [thing.name for thing in things if not isinstance(thing.kind, Obstacle)]
+    named = [thing.name for thing in things if not thing.kind.is_obstacle]
     measures: list[MeasureKind] = [Forward(), Change("thrust", 0.2, 4), Change("thrust", 0.0, 1)]
     for name in named:
         measures += [Progress(name), Advance(name), Retreat(name)]
@@ -108,15 +208,27 @@ def _measures(draw: st.DrawFn, things: tuple[Thing, ...]) -> tuple[MeasureKind, 
 
 @st.composite
 def _events(draw: st.DrawFn, scene: SceneKind, things: tuple[Thing, ...]) -> tuple[EventKind, ...]:
-    events: list[EventKind] = [Collision(), Exhaustion()]
+    events: list[EventKind] = [Collision(), Exhaustion(), Success()]
     for thing in things:
-        if not isinstance(thing.kind, Obstacle):
+        if not thing.kind.is_obstacle:
             events.append(Reach(thing.name))
-        if isinstance(thing.kind, Item):
+        if isinstance(thing.kind, Item | LooseBox | Ball):
             events.append(Delivery(thing.name))
+            events += [Delivery(thing.name, zone.name) for zone in things if isinstance(zone.kind, Zone)]
     if isinstance(scene, Arena):
         events += [Visit("patch", 2.0), Visit("patch", 7.0)]
     return tuple(draw(st.lists(st.sampled_from(events), unique=True, max_size=5)))
+
+
+@st.composite
+def _ends(draw: st.DrawFn, graph: Graph, measures: tuple[MeasureKind, ...], events: tuple[EventKind, ...]) -> End:
+    """An event, the first time or later, or a condition; a success or not."""
+    happening = [number for number, event in enumerate(events) if not event.is_of_success]
+    succeeds = draw(st.booleans())
+    if happening and draw(st.booleans()):
+        return End(draw(st.sampled_from(happening)), draw(st.integers(1, 3)), None, succeeds)
+    programs = _programs(graph.width, len(measures), len(graph.actuators), in_loop=False)
+    return End(None, 1, draw(conditions(programs)), succeeds, "it is so")
 
 
 @st.composite
@@ -126,26 +238,18 @@ def _rewards(draw: st.DrawFn, graph: Graph, measures: int, events: int) -> Rewar
     if graph.sensors and draw(st.integers(0, 3)) == 0:
         sensor = draw(st.sampled_from(graph.sensors))
         each = sensor.start, sensor.width
-    programs = _programs(graph.width, measures, each is not None)
+    programs = _programs(graph.width, measures, len(graph.actuators), each is not None)
     on = draw(st.integers(0, events - 1)) if events and draw(st.booleans()) else None
-    when = None
-    if draw(st.booleans()):
-        when = Condition(draw(programs), draw(st.sampled_from(["<", "<=", ">", ">="])), draw(programs))
+    when = draw(conditions(programs)) if draw(st.booleans()) else None
     return Reward("", draw(programs), on, each, when)
 
 
-def _programs(readings: int, measures: int, in_loop: bool) -> st.SearchStrategy[Program]:
+def _programs(readings: int, measures: int, commands: int, in_loop: bool) -> st.SearchStrategy[Program]:
     leaves = [st.sampled_from([0.0, 0.5, 1.0, -2.0]).map(lambda x: (("number", x),))]
     leaves.append(st.integers(0, measures - 1).map(lambda i: (("measure", i),)))
+    leaves.append(st.integers(0, commands - 1).map(lambda i: (("command", i),)))
     if readings:
         leaves.append(st.integers(0, readings - 1).map(lambda i: (("reading", i),)))
     if in_loop:
         leaves.append(st.just((("each", 0),)))
-    return st.recursive(
-        st.one_of(leaves),
-        lambda part: st.one_of(
-            st.tuples(part, part, st.sampled_from("+-*/")).map(lambda p: (*p[0], *p[1], (p[2], 0))),
-            part.map(lambda p: (*p, ("negate", 0))),
-        ),
-        max_leaves=4,
-    )
+    return combined(st.one_of(leaves), 4)

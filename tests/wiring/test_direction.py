@@ -56,6 +56,9 @@ def checked(tmp_path: Path, kind: str, driver: str) -> Checked:
         (EYE, f"grove_ultrasonic, ports: 4, {NEARER}", f"{FAR} Write from: 0 m and to: 1 m."),
         (EYE, f"ball_tracker, measure: distance, {NEARER}", f"{FAR} Write from: 0 m and to: 1 m."),
         (CONTACT, SONAR, f"{FAR} Write from: 1 m and to: 0 m."),
+        ("eye of ball at 0 deg", f"ball_eye, angles: 0 deg, {NEARER}", f"{FAR} Write from: 0 m and to: 1 m."),
+        ("distance of ball", f"vl53l0x, {NEARER}", f"{FAR} Write from: 0 m and to: 1 m."),
+        ("bumper at 0 deg", "bumper, pins: 5, from: 1, to: 0", f"{TOUCHED} Write from: 0 and to: 1."),
         ("held of ball", "switch, pin: 5, from: 1, to: 0", f"{TOUCHED} Write from: 0 and to: 1."),
     ],
 )  # fmt: skip
@@ -65,6 +68,7 @@ def test_it_is_a_warning_that_says_what_to_write(tmp_path: Path, kind: str, driv
     (warning,) = found.diagnostics
     assert (warning.severity, warning.code, warning.hint) == ("warning", "reads-backwards", hint)
     assert plain(warning).startswith("robot.yaml:")
+    assert f" {kind.split()[0]} reads " in warning.message
 
 
 @pytest.mark.parametrize(
@@ -78,6 +82,13 @@ def test_it_is_a_warning_that_says_what_to_write(tmp_path: Path, kind: str, driv
         (CONTACT, "switch, pin: 5"),
         (CONTACT, f"{SONAR}, from: 10 cm, to: 0 cm"),
         ("battery", "ads1115"),
+        ("eye of ball at 0 deg", "ball_eye, angles: 0 deg"),
+        ("distance of ball", "vl53l0x"),
+        ("bumper at 0 deg", "bumper, pins: 5"),
+        ("light of ball", "mcp3008, inputs: 0, from: 0.9, to: 0.1"),
+        ("floor of ball", "line_sensor, pins: 5, inverted: true"),
+        ("odometer side left", "encoder, a: 5, b: 6, steps: 20"),
+        ("turn_rate", "mpu6050"),
     ],
 )
 def test_what_reads_forwards_or_may_is_no_matter(tmp_path: Path, kind: str, driver: str) -> None:

@@ -17,6 +17,8 @@ MAX_UNREADABLE_LINES = 1000  # unreadable lines, after which this is no mind
 
 BLANKS = " \t\r"  # at the end of a line, and of its code where a comment follows
 
+KNOWN = (*NOUNS, *VERBS, *SETTINGS)
+
 _CODE = re.compile(r'(?:"[^"]*"|[^#])*')
 _HEADER = re.compile(r"\s*(\w+)\s+(\w[\w.+]*)")
 
@@ -42,7 +44,7 @@ def parse(source: Source, findings: Findings) -> syntax.File:
             case syntax.Header():
                 above = _Block(line)
                 blocks.append(above)
-            case syntax.Use() | syntax.Master() | syntax.Tick():
+            case _ if isinstance(line, syntax.Setting):
                 above = None
                 settings.append(line)
             case _Unread():
@@ -107,8 +109,8 @@ def _saved(code: str, span: Span) -> syntax.Header | _Unread:
 
 @lru_cache(1024)
 def _meant(word: str) -> str | None:
-    """The word with which a line was meant to begin."""
-    return nearest(word, (*NOUNS, *VERBS, *SETTINGS))
+    """The word with which a line was meant to begin; too much is near to `scene`, such as a skill that seeks."""
+    return word if word == "scene" else nearest(word, [known for known in KNOWN if known != "scene"])
 
 
 def _depth(code: str) -> int:

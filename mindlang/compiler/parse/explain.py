@@ -21,7 +21,7 @@ MAX_EXPLAINED_CHARACTERS = 400  # a longer line is no common mistake, and patter
 _WORDS = {
     "$END": "the end of the line", "NAME": "a name in small letters", "TITLE": "a Capitalised name",
     "NUMBER": "a number", "UNIT": "a unit", "SIGN": "+ or -", "MINUS": "-", "SCALE": "* or /", "LPAR": "(",
-    "RPAR": ")", "COMPARE": "< <= > or >=", "TEXT": 'a path in "quotes"',
+    "RPAR": ")", "EXTREME": "least of or greatest of", "COMPARE": "< <= > or >=", "TEXT": 'a path in "quotes"',
 }  # fmt: skip
 
 # A line as it should be, for each word with which one begins.
@@ -35,27 +35,37 @@ LINES = {
     "task": "task Avoid in arena size 100",
     "reads": "reads eyes",
     "drives": "drives left_wheel",
-    "influences": "influences Avoid, or influences Avoid at 0.5",
+    "influences": "influences Avoid, or influences Avoid at 0.5 when ahead < 20%",
     "stays": "stays frozen",
+    "scene": "scene Rocks is arena size 100",
     "contains": "contains rock is obstacle count 10",
+    "starts": "starts at 0 0 facing 90 deg",
+    "varies": "varies thrust of left_wheel 60 to 90",
+    "fails": "fails left_wheel 1% per s",
     "lasts": "lasts 10000 ticks",
-    "ends": "ends on collision",
+    "ends": "ends on collision, or ends when battery < 5%",
+    "succeeds": "succeeds on 5 delivery of ball",
     "rewards": "rewards 10 on reach of ball, or rewards forward per tick",
     "counts": "counts collision",
     "teaches": "teaches Avoid on Avoid for 1000 generations",
     "use": 'use "parts.mind"',
     "master": "master Avoid",
     "tick": "tick 1/60 s",
+    "mind": "mind 1",
+    "unit": "unit 8.5 cm",
+    "number": "number sight is 12",
 }
+
+JOINTS = ("for", "to", "by", "below", "facing", "per")  # after which a number comes that is no argument's
 
 # What people write for a word of the language.
 FOREIGN_WORDS = {
     "skill": "behaviour behavior node network policy agent module function def class fn brain controller neuron layer",
     "actuator": "motor wheel output_device effector servo gripper joint",
     "sensor": "camera lidar range_finder input_device detector",
-    "memory": "state variable var let const",
+    "memory": "state variable var let",
     "body": "robot chassis vehicle",
-    "task": "environment env world scene level arena game episode",
+    "task": "environment env world level arena game episode",
     "curriculum": "lesson lessons school training learner trainer teacher optimizer optimiser",
     "reads": "uses senses sees input inputs perceives observes gets takes subscribes",
     "drives": "controls output outputs moves sets actuates commands writes publishes",
@@ -67,6 +77,7 @@ FOREIGN_WORDS = {
     "rewards": "reward scores score points gives fitness",
     "rewards with a negative number": "penalises penalizes penalty punishes costs cost loss",
     "counts": "measures metric metrics logs records",
+    "number": "const constant define",
     "teaches": "trains train learns learn optimises optimizes",
     "tick": "dt timestep time_step step framerate fps rate frequency hz",
     "master": "root main top start entry",
@@ -197,7 +208,7 @@ def _unexpected(error: "UnexpectedInput", code: str, line: Span) -> Diagnostic:
         word = re.compile(r"\w+|.").match(code, start)
         end = word.end() if word else start
     key = re.search(r"(?<=\s)([a-z]\w*)\s*$", code[:start])
-    if key and not code[start:end] and {"NAME", "NUMBER"} <= expected:
+    if key and key[1] not in JOINTS and not code[start:end] and {"NAME", "NUMBER"} <= expected:
         hint = f"Write its value after {key[1]}, or leave {key[1]} out."
         return Diagnostic("missing-value", f"After {key[1]} a value is missing.", _at(line, *key.span(1)), hint)
     if "NUMBER" in expected:

@@ -114,8 +114,10 @@ def _making(node: Any, places: dict[int, int]) -> Maker:
             return _spanning(places[start], places[end])
         case syntax.Name(_, span):
             return _naming(places[span.start], places[span.end])
-        case syntax.Amount(_, unit, span):
-            return _measuring(unit, places[span.start], places[span.end])
+        case syntax.Amount(sign, _, span, _, name) if name:
+            return _constant(sign, places[span.start], places[span.end])
+        case syntax.Amount(_, unit, span, per):
+            return _measuring(unit, per, places[span.start], places[span.end])
         case tuple():
             makers = [_making(part, places) for part in node]
             return lambda line: tuple([make(line) for make in makers])
@@ -138,11 +140,21 @@ def _naming(first: int, end: int) -> Maker:
     return name
 
 
-def _measuring(unit: str, first: int, end: int) -> Maker:
+def _constant(sign: float, first: int, end: int) -> Maker:
+    """The name of a number is the last piece of it, after its sign and blanks."""
+
+    def amount(line: _Line) -> syntax.Amount:
+        span = Span(line.source, line.at[first], line.at[end])
+        return syntax.Amount(sign, "", span, name=span.text.lstrip("+- \t"))
+
+    return amount
+
+
+def _measuring(unit: str, per: str, first: int, end: int) -> Maker:
     from mindlang.compiler.parse.build import number
 
     def amount(line: _Line) -> syntax.Amount:
         span = Span(line.source, line.at[first], line.at[end])
-        return syntax.Amount(number(span.text), unit, span)
+        return syntax.Amount(number(span.text), unit, span, per)
 
     return amount

@@ -1,86 +1,83 @@
 """Files → Mind: names found, kinds built, units converted, and everything that is wrong reported."""
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import replace
 from typing import TypeVar
 
-from mindrun.bodies import Disc
-from mindrun.quantity import TICK
+from mindrun.bodies import BodyKind
 
 from mindlang.compiler import model
 from mindlang.compiler.diagnostic import Findings, Label
+from mindlang.compiler.expand import expand, numbers
 from mindlang.compiler.hierarchy import check_cycles
 from mindlang.compiler.names import Names, gather
 from mindlang.compiler.resolve.curricula import lessons
-from mindlang.compiler.resolve.parts import measured_widths, parts
-from mindlang.compiler.resolve.quantities import convert
+from mindlang.compiler.resolve.drives import check_drives
+from mindlang.compiler.resolve.parts import parts, sensors
+from mindlang.compiler.resolve.settings import check_versions, master, settings, tick_seconds, unit_metres
 from mindlang.compiler.resolve.skills import skills
 from mindlang.compiler.resolve.tasks import RobotFacts, tasks
 from mindlang.compiler.source import Span
-from mindlang.compiler.syntax import File, Master, Setting, Tick
+from mindlang.compiler.syntax import File, Master, Tick
 
-S = TypeVar("S", bound=Setting)
+D = TypeVar("D", model.Skill, model.Task)
 
 
 def resolve(files: Sequence[File], findings: Findings) -> model.Mind | None:
     """The mind that the files declare, the main one first; None when anything in them is wrong."""
     all_read = not findings.diagnostics
-    names = gather(files, findings)
-    tick = _tick(files, findings)
-    sensors = measured_widths(parts("sensor", names, findings), findings)
-    width = dict.fromkeys(names.of("sensor", "memory"), 1) | {sensor.name: sensor.width for sensor in sensors}
+    written = gather(files, findings)
+    values = numbers(written, findings)
+    tick = tick_seconds(files, values, findings)
+    unit = unit_metres(files, values, findings)
+    check_versions(files, findings)
+    names = expand(written, values, tick, findings)
+    known_sensors = sensors(names, findings)
+    width = dict.fromkeys(names.of("sensor", "memory"), 1) | {sensor.name: sensor.width for sensor in known_sensors}
     memories, actuators = parts("memory", names, findings), parts("actuator", names, findings)
     known_skills = skills(names, width, findings)
     check_cycles(known_skills, findings)
-    has_battery = any(sensor.kind.battery for sensor in sensors)
-    known_tasks = tasks(RobotFacts(names, width, tick, has_battery), findings)
-    known_lessons = tuple(lessons(names, known_skills, findings))
     body = _body(names, findings)
-    master = _master(files[0], names, findings)
+    robot = RobotFacts(names, width, tick, files[0].source.folder, body, actuators, known_sensors)
+    known_tasks = tasks(robot, findings)
+    known_lessons = tuple(lessons(names, known_skills, width, findings))
+    if body:
+        check_drives(body, actuators, findings)
+    head = master(files[0], names, findings)
     if all_read:
         _check_complete(files, names, known_skills, findings)
     if findings.diagnostics or body is None:
         return None
     return model.Mind(
-        tick, master, body, sensors, memories, actuators, known_skills, known_tasks, known_lessons, tuple(files), names
+        tick,
+        head,
+        body,
+        known_sensors,
+        memories,
+        actuators,
+        tuple(_as_written(known_skills, "skill", written)),
+        tuple(_as_written(known_tasks, "task", written)),
+        known_lessons,
+        tuple(files),
+        written,
+        {name: (amount.number, amount.unit, amount.per) for name, amount in values.items()},
+        unit,
     )
 
 
-def _settings(file: File, form: type[S]) -> list[S]:
-    return [setting for setting in file.settings if isinstance(setting, form)]
+def _as_written(declared: Iterable[D], noun: str, names: Names) -> Iterator[D]:
+    """Skills or tasks with the declarations that stand in their files: edits change these."""
+    for each in declared:
+        written = names.table[noun][each.name]
+        yield each if each.declaration is written else replace(each, declaration=written)
 
 
-def _tick(files: Sequence[File], findings: Findings) -> float:
-    """The tick in seconds, on which all files agree."""
-    first: tuple[float, Span] | None = None
-    for setting in (setting for file in files for setting in _settings(file, Tick)):
-        seconds = convert(setting.amount, TICK, findings)
-        if seconds and first and seconds != first[0]:
-            label = Label(first[1], "first said here")
-            findings.error(
-                "tick-differs", setting.span, "The tick differs from the one said before.", "Use one tick.", label
-            )
-        if seconds and not first:
-            first = seconds, setting.span
-    return first[0] if first else 1.0
-
-
-def _body(names: Names, findings: Findings) -> model.Part[Disc] | None:
+def _body(names: Names, findings: Findings) -> model.Part[BodyKind] | None:
     declared = list(names.declarations("body"))
     for _, again in declared[1:]:
         first = Label(declared[0][1].header.span, "the first one")
         findings.error("second-body", again.header.span, "A mind has one body.", "Leave one of the two out.", first)
     return next(iter(parts("body", names, findings)), None)
-
-
-def _master(file: File, names: Names, findings: Findings) -> str:
-    """The master of the main file; those of used files do not count."""
-    settings = _settings(file, Master)
-    for again in settings[1:]:
-        first = Label(settings[0].span, "first said here")
-        findings.error("second-master", again.span, "A mind has one master.", "Leave one of the two lines out.", first)
-    for setting in settings[:1]:
-        names.find(setting.name, ("skill",), findings)
-    return settings[0].name.text if settings else ""
 
 
 def _check_complete(
@@ -90,8 +87,8 @@ def _check_complete(
     below = {name for skill in known_skills for name in skill.subskills}
     top = next((skill.name for skill in known_skills if skill.name not in below), "SKILL")
     needs = (
-        (any(_settings(file, Tick) for file in files), "no-tick", "how long a tick is", "tick 1/60 s"),
-        (bool(_settings(files[0], Master)), "no-master", "which skill is the master", f"master {top}"),
+        (any(settings(file, Tick) for file in files), "no-tick", "how long a tick is", "tick 1/60 s"),
+        (bool(settings(files[0], Master)), "no-master", "which skill is the master", f"master {top}"),
         (bool(names.of("body")), "no-body", "which body the robot has", "body Robot is disc size 2"),
     )
     start = Span(files[0].source, 0, 0)

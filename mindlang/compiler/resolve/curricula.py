@@ -12,19 +12,23 @@ from mindlang.compiler.diagnostic import Findings, listed
 from mindlang.compiler.hierarchy import skills_reached
 from mindlang.compiler.names import Names
 from mindlang.compiler.resolve.kinds import Scope, a_name, make, once, overrides
+from mindlang.compiler.resolve.origin import check_origin
 from mindlang.compiler.resolve.parts import refuse_facts
 from mindlang.compiler.resolve.quantities import convert
 from mindlang.compiler.syntax import Argument, Name, Phrase, Teaches
 
 # Words that a lesson says beside the arguments of its learner.
+FROM, SCRATCH = "from", "scratch"
 SWITCHES = {
-    "from": ("scratch", "A lesson starts from scratch or, without this, from the weights that the skill has."),
+    FROM: (SCRATCH, "A lesson starts from scratch, from another skill or, without this, from the skill's own weights."),
     "with": ("subskills", "A lesson teaches one skill or, with subskills, all that learn below it together with it."),
 }
 USING = "using"  # a kind of learner other than the curriculum's
 
 
-def lessons(names: Names, skills: tuple[model.Skill, ...], findings: Findings) -> Iterator[model.Lesson]:
+def lessons(
+    names: Names, skills: tuple[model.Skill, ...], widths: Mapping[str, int], findings: Findings
+) -> Iterator[model.Lesson]:
     """Every lesson of every curriculum that is well said, in order."""
     by_name = {skill.name: skill for skill in skills}
     for name, declaration in names.declarations("curriculum"):
@@ -32,7 +36,7 @@ def lessons(names: Names, skills: tuple[model.Skill, ...], findings: Findings) -
         phrase = declaration.header.phrase
         learner = make("curriculum", phrase, Scope(names, None), findings) if phrase else None
         taught = (fact for fact in declaration.facts if isinstance(fact, Teaches))
-        curriculum = _Curriculum(name, learner, names, by_name, findings)
+        curriculum = _Curriculum(name, learner, names, by_name, widths, findings)
         yield from filter(None, (curriculum.lesson(number, fact) for number, fact in enumerate(taught, 1)))
 
 
@@ -44,6 +48,7 @@ class _Curriculum:
     learner: Any
     names: Names
     skills: Mapping[str, model.Skill]
+    widths: Mapping[str, int]
     findings: Findings
 
     def lesson(self, number: int, fact: Teaches) -> model.Lesson | None:
@@ -56,11 +61,16 @@ class _Curriculum:
         switches = {argument.key.text for argument in fact.arguments if argument.key.text in SWITCHES}
         _check_switches(fact.arguments, self.findings)
         learner = self._learner(fact)
+        starts_from = _origin(fact)
+        if starts_from:
+            found.append(self._find(starts_from, "skill"))
         if found[0]:
             _check_learns(fact, self.skills, "with" in switches, self.findings)
         master = fact.master or fact.skill
         if None not in found:
             _check_reached(fact, master, self.skills, self.findings)
+            if starts_from:
+                check_origin(starts_from, self.skills[fact.skill.text], self.skills, self.widths, self.findings)
         if learner is None or generations is None or len(self.findings.diagnostics) > before:
             return None
         return model.Lesson(
@@ -69,10 +79,11 @@ class _Curriculum:
             task=fact.task.text,
             master=master.text,
             generations=int(generations),
-            from_scratch="from" in switches,
+            from_scratch=FROM in switches and not starts_from,
             with_subskills="with" in switches,
             learner=learner,
             number=number,
+            starts_from=starts_from.text if starts_from else "",
             fact=fact,
         )
 
@@ -94,16 +105,28 @@ class _Curriculum:
         return replace(learner, **overrides(type(learner), said_by, own, self.findings))
 
 
+def _origin(fact: Teaches) -> Name | None:
+    """The skill with a copy of whose weights a lesson begins."""
+    values = (argument.value for argument in fact.arguments if argument.key.text == FROM)
+    return next((value for value in values if isinstance(value, Name) and value.text[0].isupper()), None)
+
+
 def _check_switches(written: tuple[Argument, ...], findings: Findings) -> None:
     for argument in written:
         word, message = SWITCHES.get(argument.key.text, ("", ""))
+        if argument.key.text == FROM and isinstance(argument.value, Name) and argument.value.text[0].isupper():
+            continue
         if word and (not isinstance(argument.value, Name) or argument.value.text != word):
             said = f"{argument.key.text} {word}"
             findings.error(said.replace(" ", "-"), argument.span, message, f"Write {said}.")
 
 
 def _check_learns(fact: Teaches, skills: Mapping[str, model.Skill], with_subskills: bool, findings: Findings) -> None:
-    """Report a lesson in which nobody learns."""
+    """Report a lesson in which nobody learns, or a skill that has no weights of its own."""
+    if owner := skills[fact.skill.text].like:
+        message = f"{fact.skill.text} is like {owner}, so it has no weights of its own to be taught."
+        findings.error("taught-by-another", fact.skill.span, message, f"Teach {owner}: both learn from that.")
+        return
     taught = skills_reached(skills, fact.skill.text) if with_subskills else {fact.skill.text}
     functions = [skills[name].function for name in taught]
     if None in functions or any(function.learns for function in functions):
@@ -117,7 +140,8 @@ def _check_learns(fact: Teaches, skills: Mapping[str, model.Skill], with_subskil
 
 def _check_reached(fact: Teaches, master: Name, skills: Mapping[str, model.Skill], findings: Findings) -> None:
     """Report a learner that the master never influences: nothing that it does would show."""
-    if fact.skill.text not in skills_reached(skills, master.text):
+    reached = skills_reached(skills, master.text)
+    if fact.skill.text not in {each for name in reached for each in (name, skills[name].owner)}:
         hint = f"Let {master.text} or a skill below it influence {fact.skill.text}, or leave under out."
         message = f"{master.text} has no influence on {fact.skill.text}, which would learn nothing."
         findings.error("out-of-reach", master.span, message, hint)

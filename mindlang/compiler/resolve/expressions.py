@@ -21,7 +21,7 @@ class Visible:
     """What an expression can see: readings with their widths, the name of `for each`, in a task measures.
 
     `elsewhere` are the readings that exist but are no inputs of the skill, `unread` the words of lines that could not
-    be read.
+    be read, `commands` the actuators whose commands can be seen.
     """
 
     readings: Mapping[str, int]
@@ -29,6 +29,8 @@ class Visible:
     each: str | None = None
     elsewhere: Mapping[str, int] | None = None
     unread: Set[str] = frozenset()
+    commands: Set[str] = frozenset()
+    made_of: str = "numbers and the inputs of its skill"
 
 
 def resolve(expression: syntax.Expression, visible: Visible, findings: Findings) -> model.Expression:
@@ -41,6 +43,16 @@ def resolve(expression: syntax.Expression, visible: Visible, findings: Findings)
             findings.error("division-by-zero", right.span, "This divides by zero.", "Divide by something else.")
     terms = [_term(term, visible, findings) for term in expression.terms]
     return model.Expression(tuple(term for term in terms if term), expression.span)
+
+
+def condition(when: syntax.When, visible: Visible, findings: Findings) -> model.When:
+    """A condition with both sides of its comparisons resolved."""
+
+    def compared(each: syntax.Comparison) -> model.Comparison:
+        left, right = (resolve(side, visible, findings) for side in (each.left, each.right))
+        return model.Comparison(left, each.compare, right)
+
+    return model.When(tuple(tuple(map(compared, all_)) for all_ in when.alternatives), when.span)
 
 
 def _divides(term: syntax.Term) -> bool:
@@ -58,6 +70,8 @@ def _term(term: syntax.Term, visible: Visible, findings: Findings) -> model.Term
             return model.EachReading(term.span)
         case Phrase(arguments=()) if term.kind.text in visible.readings:
             return _reading(term, visible, findings)
+        case Phrase(arguments=()) if term.kind.text in visible.commands:
+            return model.Command(term.kind.text, term.span)
         case Phrase() if visible.measures and term.kind.text in kinds("measure"):
             measure = make("measure", term, visible.measures, findings)
             return model.Measured(measure, term.span) if measure else None
@@ -72,7 +86,7 @@ def _reading(term: Phrase, visible: Visible, findings: Findings) -> model.Readin
     if visible.measures:
         hint = f"Write p instead and add for each p in {name}."
     else:
-        hint = "Only a sensor with one reading can stand here; give the direction that you mean a sensor of its own."
+        hint = f"Only a sensor with one reading can stand here, as sensor ahead is reading 1 of {name}."
     findings.error("wide-reading", term.span, f"{name} has {width} readings; an expression takes one number.", hint)
     return None
 
@@ -92,12 +106,14 @@ def _unknown(term: Phrase, visible: Visible, findings: Findings) -> None:
     elif visible.measures:
         hint = findings.suggest(name, visible.readings, kinds("measure"))
         if name in kinds("event"):
-            hint = f"{name} is an event, which is rewarded when it happens: rewards 1 on {term.span.text}."
+            hint = (
+                f"{name} is an event, which stands after on: rewards 1 on {term.span.text}, ends on {term.span.text}."
+            )
         hint = hint or "A reward is made of sensors, memories and measures such as forward or progress toward X."
         findings.error("unknown-measure", term.kind.span, f"There is no reading or measure called {name}.", hint)
     else:
         hint = findings.suggest(name, visible.readings, visible.elsewhere or ())
         if name in kinds("measure"):
-            hint = f"{name} is a measure, which only rewards have; after at stand the inputs of the skill."
-        hint = hint or "An expression after at is made of numbers and the inputs of its skill."
+            hint = f"{name} is a measure, which only tasks have; here stand {visible.made_of}."
+        hint = hint or f"An expression after at is made of {visible.made_of}."
         findings.error("unknown-reading", term.kind.span, f"There is no reading called {name}.", hint)

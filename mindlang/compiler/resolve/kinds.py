@@ -2,6 +2,7 @@
 
 from collections.abc import Iterable, Mapping, Set
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any
 
 from mindrun.quantity import Quantity, Reference
@@ -12,6 +13,7 @@ from mindrun.things.about import AboutThing
 from mindlang.compiler.diagnostic import Findings, Label, a, did_you_mean, listed
 from mindlang.compiler.names import Names
 from mindlang.compiler.resolve import quantities
+from mindlang.compiler.resolve.maps import text_lines
 from mindlang.compiler.syntax import VERBS, Argument, Name, Phrase
 
 USER_NOUNS = {"content": "thing", "task": "scene"}  # nouns of the registry in the user's words
@@ -25,13 +27,15 @@ UNKNOWN_KIND_HINTS = {
 class Scope:
     """What the arguments of a phrase can name. `things` are None where no task says which there are.
 
-    A declaration is `whole` when all lines below it could be read: one that could not be may have had an argument.
+    Text files are in the folder `root`, where that is known, or below it. A declaration is `whole` when all lines below
+    it could be read: one that could not be may have had an argument.
     """
 
     names: Names
     things: Mapping[str, Set[str]] | None
     place: str = "any task"
     whole: bool = True
+    root: Path | None = None
 
 
 def make(noun: str, phrase: Phrase, scope: Scope, findings: Findings) -> Any:
@@ -127,12 +131,14 @@ def _missing(phrase: Phrase, key: str, findings: Findings) -> None:
 def _value(
     noun: str, phrase: Phrase, parameter: Parameter, argument: Argument, scope: Scope, findings: Findings
 ) -> Any:
+    if parameter.shape == "lines":
+        return text_lines(argument.value, scope.root, findings)
     if not isinstance(parameter.type, Reference):
         return _number(parameter, argument, findings)
     name = a_name(argument, f"Here stands the name of a {parameter.type.noun}.", findings)
     if name is None:
         return None
-    _check(noun, phrase, parameter.type, name, scope, findings)
+    _check(noun, phrase, parameter, name, scope, findings)
     return name.text
 
 
@@ -143,14 +149,22 @@ def _number(parameter: Parameter, argument: Argument, findings: Findings) -> Any
             return quantities.single_value(argument.value, parameter.type, findings)
         case "list":
             return quantities.value_list(argument.value, parameter.type, findings)
+        case "extent":
+            return quantities.extent(argument.value, parameter.type, findings)
+        case "place":
+            return quantities.place(argument.value, parameter.type, findings)
+        case "places":
+            return quantities.places(argument.value, parameter.type, findings)
         case _:
             return quantities.span(argument.value, parameter.type, findings)
 
 
-def _check(noun: str, phrase: Phrase, type_: Reference, name: Name, scope: Scope, findings: Findings) -> None:
+def _check(noun: str, phrase: Phrase, parameter: Parameter, name: Name, scope: Scope, findings: Findings) -> None:
+    type_, key = parameter.type, parameter.key
+    assert isinstance(type_, Reference)
     match type_.noun:
         case "thing":
-            _check_thing(name, about(noun, phrase.kind.text), phrase.kind.text, scope, findings)
+            _check_thing(name, about(noun, phrase.kind.text, key), phrase.kind.text, scope, findings)
         case "sensor":
             scope.names.find(name, ("sensor", "memory"), findings)
         case "Python function":
@@ -162,10 +176,10 @@ def _check(noun: str, phrase: Phrase, type_: Reference, name: Name, scope: Scope
             findings.error(f"unknown-{type_.noun}", name.span, f"There is no {type_.noun} called {name.text}.", hint)
 
 
-def about(noun: str, kind: str) -> Set[str]:
-    """The kinds of things that a kind can be about."""
+def about(noun: str, kind: str, argument: str = "of") -> Set[str]:
+    """The kinds of things that an argument of a kind can name."""
     cls = kinds(noun).get(kind, AboutThing)
-    return {name for name, thing in kinds("content").items() if cls.is_about(thing)}
+    return {name for name, thing in kinds("content").items() if cls.accepts(argument, thing)}
 
 
 def _check_thing(name: Name, about: Set[str], kind: str, scope: Scope, findings: Findings) -> None:

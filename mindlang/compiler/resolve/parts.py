@@ -1,13 +1,20 @@
 """Sensors, memories, actuators and the body; how many readings each sensor has."""
 
+from collections.abc import Iterable, Mapping
 from dataclasses import replace
 from typing import Any
 
+from mindrun.expression import Formula
+from mindrun.sensors import Computed
+from mindrun.validate import depths_of
+
 from mindlang.compiler.diagnostic import Findings, a, listed
-from mindlang.compiler.model import Part
+from mindlang.compiler.model import Expression, Number, Part, Reading, Term
 from mindlang.compiler.names import Names
+from mindlang.compiler.resolve.expressions import Visible, resolve
 from mindlang.compiler.resolve.kinds import Scope, make
-from mindlang.compiler.syntax import Declaration, Fact
+from mindlang.compiler.source import Span
+from mindlang.compiler.syntax import Declaration, Fact, Operator
 
 MOST_READINGS = 20_000
 ONE_LINE = "All that there is to say of it stands in its one line; set the fact below the skill or task it belongs to."
@@ -20,6 +27,8 @@ def parts(noun: str, names: Names, findings: Findings) -> tuple[Part[Any], ...]:
     for name, declaration in names.declarations(noun):
         refuse_facts(declaration, (), findings)
         header = declaration.header
+        if header.at:
+            continue  # `sensors` computes it when all others are known
         kind = header.phrase and make(noun, header.phrase, Scope(names, things, whole=declaration.whole), findings)
         if kind:
             found.append(Part(name, kind, header.name.span))
@@ -42,29 +51,83 @@ def refuse_facts(declaration: Declaration, allowed: tuple[type[Fact], ...], find
             findings.error("foreign-fact", fact.span, f"{verb} does not belong to {a(noun)}.", hint)
 
 
-def measured_widths(sensors: tuple[Part[Any], ...], findings: Findings) -> tuple[Part[Any], ...]:
-    """The sensors with their widths; derivatives of one another are reported."""
-    found = {sensor.name: sensor.kind.width or 1 for sensor in sensors}
-    derived = {sensor.name: sensor for sensor in sensors if sensor.kind.source}
-    done: set[str] = set()
-    for name in derived:
+def sensors(names: Names, findings: Findings) -> tuple[Part[Any], ...]:
+    """The sensors with their widths, as they are declared; those that are computed from themselves are reported."""
+    plain = {sensor.name: sensor for sensor in parts("sensor", names, findings)}
+    formulas = {name: header.at for name, each in names.declarations("sensor") if (header := each.header).at}
+    widths = _widths(plain, [*formulas, *names.of("memory")])
+    visible = Visible(widths, unread=names.unread, made_of="numbers, sensors and memories")
+    for name, at in formulas.items():
+        formula = _formula(resolve(at, visible, findings))
+        plain[name] = Part(name, Computed(formula), names.table["sensor"][name].header.name.span)
+    found = tuple(replace(plain[name], width=widths[name]) for name in names.of("sensor") if name in plain)
+    _refuse_loops({sensor.name: sensor for sensor in found}, findings)
+    _refuse_too_many(found, findings)
+    for sensor in found:
+        if sensor.name not in formulas and (flaw := sensor.kind.flaw(widths)):
+            span = _argument_span(names.table["sensor"][sensor.name], flaw.field)
+            findings.error(flaw.code, span, flaw.message, flaw.hint)
+    return found
+
+
+def _formula(expression: Expression) -> Formula:
+    """An expression as the kind has it: readings by their names."""
+
+    def instruction(term: Term) -> tuple[str, float | int | str]:
+        match term:
+            case Number():
+                return "number", term.value
+            case Reading():
+                return "reading", term.name
+            case Operator():
+                return term.symbol, 0
+        raise TypeError(f"{term} stands in a task alone")
+
+    return tuple(instruction(term) for term in expression.terms)
+
+
+def _argument_span(declaration: Declaration, field: str) -> Span:
+    phrase = declaration.header.phrase
+    found = (argument.value.span for argument in phrase.arguments if argument.key.text == field) if phrase else ()
+    return next(iter(found), declaration.header.span)
+
+
+def _widths(sensors: Mapping[str, Part[Any]], of_one: Iterable[str]) -> dict[str, int]:
+    """How many readings each sensor and memory has: one that does not say has as many as its source."""
+    widths = dict.fromkeys(of_one, 1) | {name: each.kind.width for name, each in sensors.items() if each.kind.width}
+    for name in sensors:
         chain, last = {name: None}, name
-        while last in derived and last not in done:
-            last = derived[last].kind.source
+        while last in sensors and last not in widths:
+            last = sensors[last].kind.source
             if last in chain:
-                _loop([*chain], last, derived, findings)
                 break
             chain[last] = None
-        found.update(dict.fromkeys(chain, found.get(last, 1)))
-        done.update(chain)
-    if (readings := sum(found.values())) > MOST_READINGS:
-        widest = max(sensors, key=lambda sensor: found[sensor.name])
-        message = f"With these {found[widest.name]} the mind has {readings} readings."
+        widths |= dict.fromkeys(chain, widths.get(last, 1))
+    return widths
+
+
+def _refuse_loops(sensors: Mapping[str, Part[Any]], findings: Findings) -> None:
+    """Report sensors that are computed from themselves, each circle once."""
+    ending = depths_of({name: each.kind.sources for name, each in sensors.items()})
+    done: set[str] = set()
+    for name in (name for name in sensors if name not in ending):
+        path: dict[str, None] = {}
+        while name not in done and name not in path:
+            path[name] = None
+            name = next(source for source in sensors[name].kind.sources if source not in ending)
+        if name in path:
+            _loop([*path], name, sensors, findings)
+        done.update(path)
+
+
+def _refuse_too_many(sensors: tuple[Part[Any], ...], findings: Findings) -> None:
+    if (readings := sum(sensor.width for sensor in sensors)) > MOST_READINGS:
+        widest = max(sensors, key=lambda sensor: sensor.width)
+        message = f"With these {widest.width} the mind has {readings} readings."
         findings.error("too-many-readings", widest.span, message, f"A mind takes {MOST_READINGS}: leave some out.")
-    return tuple(replace(sensor, width=found[sensor.name]) for sensor in sensors)
 
 
-def _loop(chain: list[str], again: str, derived: dict[str, Part[Any]], findings: Findings) -> None:
+def _loop(chain: list[str], again: str, derived: Mapping[str, Part[Any]], findings: Findings) -> None:
     path = [*chain[chain.index(again) :], again]
     message = f"A sensor is derived from itself: {' → '.join(path)}."
     findings.error("derivative-loop", derived[again].span, message, "Derive one of them from another sensor.")

@@ -2,15 +2,21 @@
 
 from math import ceil, floor, isfinite
 
-from mindrun.quantity import LEAST_STEP, Quantity, Span
+from mindrun.quantity import LEAST_STEP, Extent, Place, Quantity, Span
 
-from mindlang.compiler.diagnostic import Findings, listed
-from mindlang.compiler.syntax import Amount, Numbers, Range, Value
+from mindlang.compiler.diagnostic import Findings, Label, listed
+from mindlang.compiler.syntax import Amount, Name, Numbers, Points, Range, Value
 
 
 def convert(amount: Amount, quantity: Quantity, findings: Findings, unit: str = "") -> float | int | None:
     """The value of an amount, `unit` being that of its list, or None after reporting why it has none."""
     written = amount.unit or unit
+    if amount.name:
+        _unknown(amount, findings)
+        return None
+    if amount.per and not (quantity.rate and amount.per in ("s", "tick")):
+        _no_rate(amount, quantity, findings)
+        return None
     if not isfinite(amount.number):
         hint = "A fraction is not over 0, and a number has fewer than 300 digits."
         findings.error("not-a-number", amount.span, f"{amount.span.text[:40]} is not a number.", hint)
@@ -20,28 +26,55 @@ def convert(amount: Amount, quantity: Quantity, findings: Findings, unit: str = 
         return None
     # 7 / 100 is the number nearest to 7%; 7 * 0.01 is not.
     value = amount.number / 100 if written == "%" else amount.number * quantity.units[written]
+    if amount.per == "s":
+        value = quantity.in_tick(value, amount.tick_seconds)
     if quantity.whole and not value.is_integer():
         near = [bound for bound in (floor(value), ceil(value)) if quantity.low <= bound <= quantity.high]
         fit = listed(f"{bound} {amount.unit}".strip() for bound in near) if near else ""
         hint = f"Here stands {quantity.name}: write {fit}." if fit else _bounds(quantity, written)
-        findings.error("not-whole", amount.span, f"{amount.span.text} is not a whole number.", hint)
+        message = f"{amount.span.text} is not a whole number."
+        findings.error("not-whole", amount.span, message, hint, *_labels(amount))
         return None
     if not quantity.low <= value <= quantity.high:
         message = f"{amount.span.text[:40]} is too {'small' if value < quantity.low else 'large'}."
         percent = f" {amount.span.text} percent are {amount.span.text}%."
         is_percent = not written and "%" in quantity.units and quantity.high < value <= 100 * quantity.high
-        findings.error("out-of-range", amount.span, message, _bounds(quantity, written) + percent * is_percent)
+        hint = _bounds(quantity, written) + percent * (is_percent and not amount.per and not amount.said)
+        findings.error("out-of-range", amount.span, message, hint, *_labels(amount))
         return None
     return int(value) if quantity.whole else value
 
 
 def _wrong_unit(amount: Amount, quantity: Quantity, findings: Findings) -> None:
-    bare = amount.span.text.removesuffix(amount.unit).strip()
-    fit = [unit for unit, factor in quantity.units.items() if quantity.low <= amount.number * factor <= quantity.high]
+    bare = amount.span.text.partition("per ")[0].strip().removesuffix(amount.unit).strip()
+    scaled = {unit: amount.number * factor for unit, factor in quantity.units.items() if not amount.said}
+    fit = [unit for unit, value in scaled.items() if quantity.low <= value <= quantity.high]
     units = [f"{bare} {unit}".replace(" %", "%").strip() for unit in fit]
     message = f"The unit {amount.unit} does not fit here." if amount.unit else "This number needs a unit."
     hint = f"Here stands {quantity.name}: write {listed(units)}." if units else f"Here stands {quantity.name}."
-    findings.error("wrong-unit", amount.span, message, f"{hint}" if units else f"{hint} {_bounds(quantity)}")
+    hint = hint if units else f"{hint} {_bounds(quantity)}"
+    findings.error("wrong-unit", amount.span, message, hint, *_labels(amount))
+
+
+def _labels(amount: Amount) -> tuple[Label, ...]:
+    """Where the number is said that a name stands for."""
+    return (Label(amount.said, f"{amount.span.text.strip('+- ')} is said here"),) if amount.said else ()
+
+
+def _unknown(amount: Amount, findings: Findings) -> None:
+    """Report the name of a number that there is not; one that is declared wrongly has been reported there."""
+    if amount.name not in findings.numbers:
+        hint = findings.suggest(amount.name, findings.numbers) or f"Declare it: number {amount.name} is 12."
+        findings.error("unknown-number", amount.constant.span, f"There is no number called {amount.name}.", hint)
+
+
+def _no_rate(amount: Amount, quantity: Quantity, findings: Findings) -> None:
+    if quantity.rate:
+        hint = "Write per s or per tick."
+        findings.error("wrong-rate", amount.span, f"A rate is not per {amount.per}.", hint, *_labels(amount))
+        return
+    hint = f"Here stands {quantity.name}: leave per {amount.per} out."
+    findings.error("not-a-rate", amount.span, "This number is no rate.", hint, *_labels(amount))
 
 
 def _bounds(quantity: Quantity, unit: str = "") -> str:
@@ -65,10 +98,16 @@ def single_value(value: Value, quantity: Quantity, findings: Findings) -> float 
             hint = f"Here stands {quantity.name}, for example {_example(value)}."
             findings.error("one-number", value.span, "Only one number can stand here.", hint)
         case _:
-            findings.error(
-                "not-a-number", value.span, f"{value.text} is not a number.", f"Here stands {quantity.name}."
-            )
+            _not_a_number(value, quantity, findings)
     return None
+
+
+def _not_a_number(value: Value, quantity: Quantity, findings: Findings) -> None:
+    if isinstance(value, Name) and value.text in findings.numbers:
+        return  # one that is declared wrongly, which has been reported there
+    hint = findings.suggest(value.text, findings.numbers) if isinstance(value, Name) else ""
+    hint = hint or f"Here stands {quantity.name}."
+    findings.error("not-a-number", value.span, f"{value.span.text} is not a number.", hint)
 
 
 def _example(value: Numbers | Range) -> str:
@@ -89,9 +128,40 @@ def value_list(value: Value, quantity: Quantity, findings: Findings) -> tuple[fl
                 "no-range", value.span, "A list cannot be a range.", "Write each number, with spaces between."
             )
         case _:
-            findings.error(
-                "not-a-number", value.span, f"{value.text} is not a number.", f"Here stands {quantity.name}."
-            )
+            _not_a_number(value, quantity, findings)
+    return None
+
+
+def extent(value: Value, quantity: Quantity, findings: Findings) -> Extent | None:
+    """The value of an argument that takes one number, or a width and a depth."""
+    match value:
+        case Numbers(amounts=(_, _)):
+            return place(value, quantity, findings)
+        case Numbers(amounts=(_, _, third, *_)):
+            hint = "Write one number for a square, or two: the width and the depth."
+            findings.error("too-many-numbers", third.span, "Here stand one number or two.", hint)
+            return None
+    return single_value(value, quantity, findings)
+
+
+def places(value: Value, quantity: Quantity, findings: Findings) -> tuple[Place, ...] | None:
+    """The value of an argument that takes a place, or several with `to` between."""
+    written = value.points if isinstance(value, Points) and not value.by else (value,)
+    found = [place(each, quantity, findings) for each in written]
+    return None if None in found else tuple(each for each in found if each)
+
+
+def place(value: Value, quantity: Quantity, findings: Findings) -> Place | None:
+    """The value of two numbers."""
+    match value:
+        case Numbers(amounts=(_, _)):
+            both = value_list(value, quantity, findings)
+            return (both[0], both[1]) if both else None
+        case Numbers() | Range() | Points():
+            hint = "Write two numbers with a space between: along x, then along y from the middle."
+            findings.error("not-a-place", value.span, "A place is two numbers.", hint)
+        case _:
+            single_value(value, quantity, findings)
     return None
 
 

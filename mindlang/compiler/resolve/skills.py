@@ -5,22 +5,30 @@ from typing import Any
 
 from mindrun.functions import Function
 from mindrun.graph import Receiver
+from mindrun.quantity import RATIO
 
-from mindlang.compiler import model
+from mindlang.compiler import model, syntax
 from mindlang.compiler.diagnostic import Findings, Label
 from mindlang.compiler.names import Names
-from mindlang.compiler.resolve.expressions import Visible, resolve
+from mindlang.compiler.resolve.expressions import Visible, condition, resolve
 from mindlang.compiler.resolve.kinds import Scope, make
+from mindlang.compiler.resolve.likeness import alike
 from mindlang.compiler.resolve.parts import refuse_facts
+from mindlang.compiler.resolve.quantities import convert
 from mindlang.compiler.source import Span
 from mindlang.compiler.syntax import Declaration, Drives, Influences, Reads, Stays
 
 
 def skills(names: Names, widths: Mapping[str, int], findings: Findings) -> tuple[model.Skill, ...]:
     """Every skill, without the lines that are reported."""
-    return tuple(
-        _skill(name, declaration, names, widths, findings) for name, declaration in names.declarations("skill")
-    )
+    declared = dict(names.declarations("skill"))
+    own = {
+        name: _skill(name, declaration, names, widths, findings)
+        for name, declaration in declared.items()
+        if not declaration.header.like
+    }
+    known = own | alike(own, names, widths, findings)
+    return tuple(known[name] for name in declared)
 
 
 def _skill(
@@ -44,6 +52,9 @@ def _skill(
 def _reads(declaration: Declaration, names: Names, findings: Findings) -> tuple[str, ...]:
     found: dict[str, Span] = {}
     for fact in declaration.facts:
+        if isinstance(fact, Reads) and fact.stands_for:
+            message = f"{declaration.header.name.text} is like no other skill, so nothing stands for an input of it."
+            findings.error("for-without-like", fact.stands_for.span, message, f"Write reads {fact.name.text}.")
         if isinstance(fact, Reads) and names.find(fact.name, ("sensor", "memory"), findings):
             _once(found, fact.name.text, fact.span, "reads", findings)
     return tuple(found)
@@ -62,10 +73,17 @@ def _edges(declaration: Declaration, names: Names, visible: Visible, findings: F
             case _:
                 continue
         at = resolve(fact.at, visible, findings) if fact.at else None
+        gate = _gate(fact.gate, visible, findings) if fact.gate else None
+        cuts = convert(fact.cuts, RATIO, findings) if isinstance(fact, Influences) and fact.cuts else None
         verb = type(fact).__name__.lower()
         if to and _once(seen, fact.name.text, fact.span, verb, findings):
-            edges.append(model.Edge(to, fact.name.text, at, fact))
+            edges.append(model.Edge(to, fact.name.text, at, fact, gate, cuts or 0.0))
     return tuple(edges)
+
+
+def _gate(gate: syntax.Gate, visible: Visible, findings: Findings) -> model.Gate:
+    otherwise = resolve(gate.otherwise, visible, findings) if gate.otherwise else None
+    return model.Gate(condition(gate.when, visible, findings), otherwise)
 
 
 def _is_frozen(declaration: Declaration, findings: Findings) -> bool:

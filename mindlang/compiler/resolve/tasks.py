@@ -2,24 +2,50 @@
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
+from pathlib import Path
 from typing import Any, TypeVar
 
-from mindrun.quantity import SECONDS, TICKS
+from mindrun.quantity import SECONDS, TICKS, Quantity
 from mindrun.scenes import SceneKind
 from mindrun.things import ThingKind
 from mindrun.things.thing import MAX_OBSTACLES, MAX_THINGS
 
-from mindlang.compiler import model, syntax
+from mindlang.compiler import model
 from mindlang.compiler.diagnostic import Findings, Label
 from mindlang.compiler.names import Names, things_of
-from mindlang.compiler.resolve.expressions import Visible, resolve
+from mindlang.compiler.resolve.expressions import Visible, condition, resolve
 from mindlang.compiler.resolve.kinds import Scope, make
+from mindlang.compiler.resolve.maps import with_places
 from mindlang.compiler.resolve.parts import refuse_facts
+from mindlang.compiler.resolve.places import check_places, start_of
 from mindlang.compiler.resolve.quantities import convert
-from mindlang.compiler.syntax import Contains, Counts, Declaration, Ends, Fact, Lasts, Phrase, Rewards
+from mindlang.compiler.resolve.variations import Variable, failures, variations
+from mindlang.compiler.syntax import (
+    Contains,
+    Counts,
+    Declaration,
+    Ends,
+    Fact,
+    Fails,
+    Lasts,
+    Phrase,
+    Rewards,
+    Starts,
+    Succeeds,
+    Varies,
+)
 
 MAX_RUN_TICKS = 10_000_000  # of a run
+TIMES = Quantity("how many times", {"": 1.0}, low=1, high=MAX_RUN_TICKS, whole=True)
 LASTS = replace(TICKS, low=1.0, high=MAX_RUN_TICKS)
+
+TASK_FACTS: tuple[type[Fact], ...] = (Contains, Starts, Varies, Fails, Lasts, Ends, Succeeds, Rewards, Counts)
+SCENE_FACTS: tuple[type[Fact], ...] = (
+    Contains,
+    Starts,
+    Varies,
+    Fails,
+)  # what the world is, not what is to be done in it
 
 F = TypeVar("F", bound=Fact)
 
@@ -31,41 +57,78 @@ class RobotFacts:
     names: Names
     widths: Mapping[str, int]
     tick: float
-    has_battery: bool
+    root: Path
+    body: model.Part[Any] | None
+    actuators: tuple[model.Part[Any], ...]
+    sensors: tuple[model.Part[Any], ...]
+
+    @property
+    def has_battery(self) -> bool:
+        """Whether any sensor reads one."""
+        return any(sensor.kind.battery for sensor in self.sensors)
 
 
 @dataclass(frozen=True, slots=True)
 class _World:
-    scene: SceneKind | None
+    scene: Any  # a SceneKind; None where it is not well said
     things: tuple[model.Part[Any], ...]
     scope: Scope
     has_battery: bool
+    can_succeed: bool
 
     @property
     def kinds(self) -> list[ThingKind]:
         """The kinds of the things that are well said."""
         return [thing.kind for thing in self.things if thing.kind]
 
+    def variable(self, robot: RobotFacts) -> Variable:
+        """What can differ from run to run in it."""
+        parts = {"body": (robot.body,) if robot.body else (), "actuator": robot.actuators, "sensor": robot.sensors}
+        return Variable(robot.names, {**parts, "thing": self.things}, self.scope.place)
+
 
 def tasks(robot: RobotFacts, findings: Findings) -> tuple[model.Task, ...]:
-    """Every task, without the lines that are reported."""
-    return tuple(_task(name, declaration, robot, findings) for name, declaration in robot.names.declarations("task"))
+    """Every task, without the lines that are reported; one that several tasks have is reported once."""
+    for _, scene in robot.names.declarations("scene"):
+        with findings.each_once():
+            refuse_facts(scene, SCENE_FACTS, findings)
+            world = _world(scene, robot, findings)
+            start_of(scene, world.scene, world.things, findings)
+            variations(scene, world.variable(robot), findings)
+            failures(scene, world.variable(robot), findings)
+    found = []
+    for name, declaration in robot.names.declarations("task"):
+        with findings.each_once():
+            found.append(_task(name, declaration, robot, findings))
+    return tuple(found)
+
+
+def _world(declaration: Declaration, robot: RobotFacts, findings: Findings) -> _World:
+    """What a task or a scene says of the world."""
+    noun, name = declaration.header.noun.text, declaration.header.name.text
+    things = things_of(declaration) if declaration.whole else None
+    scope = Scope(robot.names, things, f"{noun} {name}", root=robot.root)
+    phrase = declaration.header.phrase
+    scene: Any = make("task", phrase, scope, findings) if phrase else None
+    succeeds = not declaration.whole or any(isinstance(fact, Succeeds) for fact in declaration.facts)
+    return _World(scene, _things(declaration, scene, scope, findings), scope, robot.has_battery, succeeds)
 
 
 def _task(name: str, declaration: Declaration, robot: RobotFacts, findings: Findings) -> model.Task:
-    refuse_facts(declaration, (Contains, Lasts, Ends, Rewards, Counts), findings)
-    scope = Scope(robot.names, things_of(declaration) if declaration.whole else None, f"task {name}")
-    phrase = declaration.header.phrase
-    scene: Any = make("task", phrase, scope, findings) if phrase else None
-    world = _World(scene, _things(declaration, scene, scope, findings), scope, robot.has_battery)
+    refuse_facts(declaration, TASK_FACTS, findings)
+    world = _world(declaration, robot, findings)
     return model.Task(
         name,
-        scene,
+        world.scene,
         world.things,
+        start_of(declaration, world.scene, world.things, findings),
+        variations(declaration, world.variable(robot), findings),
+        failures(declaration, world.variable(robot), findings),
         _ticks(declaration, robot.tick, findings),
-        tuple(_event(fact.event, world, findings) for fact in _facts(declaration, Ends)),
+        _ends(declaration, world, robot, findings),
         tuple(_reward(fact, world, robot, findings) for fact in _facts(declaration, Rewards)),
         tuple(_event(fact.event, world, findings) for fact in _facts(declaration, Counts)),
+        declaration.facts,
         declaration,
     )
 
@@ -82,19 +145,27 @@ def _things(declaration: Declaration, scene: Any, scope: Scope, findings: Findin
         kind = make("content", fact.phrase, scope, findings)
         if name in found:
             first = Label(found[name].span, "first said here")
-            message = f"The task already contains something called {name}."
+            message = f"The {declaration.header.noun.text} already contains something called {name}."
             findings.error("duplicate-thing", fact.name.span, message, "Give one of the two another name.", first)
         if kind:
             _check_obstacles(kind, scene, obstacles, fact.phrase, findings)
             obstacles += min(kind.obstacles(scene), MAX_OBSTACLES)  # as if there were few where there are too many
         found.setdefault(name, model.Part(name, kind, fact.name.span))
-    _check_things(tuple(found.values()), findings)
-    return tuple(found.values())
+    is_task = declaration.header.noun.text == "task"  # which has all that a scene lacks
+    things = with_places(tuple(found.values()), is_task, findings)
+    _check_things(things, findings)
+    check_places(things, scene, findings)
+    return things
 
 
 def _check_things(things: tuple[model.Part[Any], ...], findings: Findings) -> None:
     """A world looks at all of its things in every tick, and has so many."""
-    apart = [thing for thing in things if not (thing.kind and thing.kind.is_obstacle)]
+    apart = [
+        thing
+        for thing in things
+        if not (thing.kind and thing.kind.is_obstacle)
+        for _ in range(thing.kind.copies if thing.kind else 1)
+    ]
     if len(apart) > MAX_THINGS:
         hint = f"A world takes {MAX_THINGS} beside its obstacles: leave some out."
         findings.error("too-many-things", apart[MAX_THINGS].span, f"That is thing number {MAX_THINGS + 1}.", hint)
@@ -136,16 +207,32 @@ def _event(written: Phrase, world: _World, findings: Findings) -> Any:
     return event
 
 
+def _ends(declaration: Declaration, world: _World, robot: RobotFacts, findings: Findings) -> tuple[model.End, ...]:
+    """What ends a run, in the order of the source; of two that come in one tick the first one counts."""
+    ends = []
+    for fact in (fact for fact in declaration.facts if isinstance(fact, Ends | Succeeds)):
+        times = convert(fact.times, TIMES, findings) if fact.times else 1
+        event = _event(fact.event, world, findings) if fact.event else None
+        when = condition(fact.when, _visible(world, robot), findings) if fact.when else None
+        if fact.event and event and event.is_of_success:
+            hint = "Write what a success is: succeeds on 5 delivery of red."
+            findings.error("own-success", fact.event.span, "A success ends the run by itself.", hint)
+        ends.append(model.End(event, int(times or 1), when, isinstance(fact, Succeeds), fact))
+    return tuple(ends)
+
+
+def _visible(world: _World, robot: RobotFacts) -> Visible:
+    """What the expressions of a task can see."""
+    commands = frozenset(robot.names.of("actuator"))
+    return Visible(robot.widths, world.scope, unread=robot.names.unread, commands=commands)
+
+
 def _reward(fact: Rewards, world: _World, robot: RobotFacts, findings: Findings) -> model.Reward:
-    visible = Visible(robot.widths, world.scope, unread=robot.names.unread)
+    visible = _visible(world, robot)
     each = None
     if fact.each:
         visible = replace(visible, each=fact.each.name.text)
         each = fact.each.sensor.text if robot.names.find(fact.each.sensor, ("sensor", "memory"), findings) else None
     on = _event(fact.on, world, findings) if fact.on else None
-    when = _condition(fact.when, visible, findings) if fact.when else None
+    when = condition(fact.when, visible, findings) if fact.when else None
     return model.Reward(resolve(fact.amount, visible, findings), on, each, when, fact)
-
-
-def _condition(when: syntax.When, visible: Visible, findings: Findings) -> model.Condition:
-    return model.Condition(resolve(when.left, visible, findings), when.compare, resolve(when.right, visible, findings))

@@ -3,10 +3,16 @@
 from collections.abc import Mapping
 from typing import Literal
 
+from mindrun.bodies import BodyKind
+from mindrun.bodies.body import Drive
+from mindrun.quantity import Quantity
 from mindrun.registry import base
 
 Side = Literal["left", "right"]
 Row = Mapping[str, float]  # columns of the lanes' table of actuators
+
+THRUST = Quantity("a force", {"": 1.0}, low=-1e6, high=1e6)
+STOPPED_COMMAND = 0.5  # command, at which what drives does not push
 
 
 @base("actuator")
@@ -21,7 +27,14 @@ class ActuatorKind:
     neutral: float
     delay: int
 
-    moves_body = False  # whether it can move the robot
+    varying: tuple[str, ...] = ("delay",)  # the arguments that can differ from run to run
+    drive: Drive | None = None  # what it does to a body, where it can move one
+    is_light = False  # whether it shines with its command
+
+    @property
+    def moves_body(self) -> bool:
+        """Whether it can move the robot."""
+        return self.drive is not None
 
     @property
     def mounted(self) -> Side | None:
@@ -48,6 +61,6 @@ class ActuatorKind:
         """The command from which a gauge of it begins."""
         return self.neutral
 
-    def row(self) -> Row:
-        """What the lanes are told of it: its thrust and its reach."""
+    def row(self, body: BodyKind) -> Row:
+        """What the lanes are told of it on a body: its reach, its noise, how it pushes or steers."""
         return {}

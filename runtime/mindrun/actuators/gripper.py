@@ -4,6 +4,7 @@ from dataclasses import dataclass
 from typing import Annotated
 
 from mindrun.actuators.actuator import ActuatorKind, Row
+from mindrun.bodies import BodyKind
 from mindrun.quantity import LENGTH, RATIO, TICKS
 from mindrun.registry import kind
 
@@ -14,19 +15,24 @@ CLOSED_COMMAND = 0.5  # command, above which it closes
 @kind("actuator", "gripper")
 @dataclass(frozen=True, slots=True)
 class Gripper(ActuatorKind):
-    """A claw at the front of the body: closed above 0.5. It takes an item ahead of it whose rim is within `reach`."""
+    """A claw at the front of the body: closed above 0.5. It takes an item ahead of it whose rim is within `reach`.
+
+    A command acts `delay` ticks after the tick that computed it, with up to `noise` more or less.
+    """
 
     neutral: Annotated[float, RATIO]
     reach: Annotated[float, LENGTH] = REACH_UNITS
     delay: Annotated[int, TICKS] = 0
+    noise: Annotated[float, RATIO] = 0.0
 
+    varying = ("delay", "noise")
     zero = 0.0
 
     @property
     def acts_at_rest(self) -> bool:
-        """Whether it is closed."""
-        return self.neutral > CLOSED_COMMAND
+        """Whether it is closed, or may be."""
+        return self.neutral + self.noise > CLOSED_COMMAND
 
-    def row(self) -> Row:
+    def row(self, body: BodyKind) -> Row:
         """How far it reaches."""
-        return {"reach": self.reach}
+        return {"reach": self.reach, "noise": self.noise}

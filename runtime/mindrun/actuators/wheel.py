@@ -3,40 +3,39 @@
 from dataclasses import dataclass
 from typing import Annotated, get_args
 
-from mindrun.actuators.actuator import ActuatorKind, Row, Side
-from mindrun.quantity import RATIO, TICKS, Quantity, Reference
+from mindrun.actuators.actuator import THRUST, Side
+from mindrun.actuators.pushing import Pushing
+from mindrun.bodies import BodyKind
+from mindrun.bodies.body import Point
+from mindrun.quantity import RATIO, TICKS, Reference
 from mindrun.registry import kind
 
 SIDE = Reference("side", get_args(Side))
-THRUST = Quantity("a force", {"": 1.0}, low=-1e6, high=1e6)
-STOPPED_COMMAND = 0.5  # command
 
 
 @kind("actuator", "wheel")
 @dataclass(frozen=True, slots=True)
-class Wheel(ActuatorKind):
+class Wheel(Pushing):
     """A wheel on the body's rim: 0 full reverse, 0.5 stopped, 1 full forward; force (2v − 1)·thrust along the heading.
 
-    A command acts `delay` ticks after the tick that computed it.
+    A command acts `delay` ticks after the tick that computed it, with up to `noise` more or less; up to `slip` of the
+    force is lost, anew in every tick.
     """
 
     side: Annotated[Side, SIDE]
     neutral: Annotated[float, RATIO]
     thrust: Annotated[float, THRUST] = 80.0
     delay: Annotated[int, TICKS] = 0
+    noise: Annotated[float, RATIO] = 0.0
+    slip: Annotated[float, RATIO] = 0.0
 
-    moves_body = True
+    drive = "wheel"
 
     @property
     def mounted(self) -> Side:
         """Its side."""
         return self.side
 
-    @property
-    def acts_at_rest(self) -> bool:
-        """Whether it pushes."""
-        return self.neutral != STOPPED_COMMAND and self.thrust != 0.0
-
-    def row(self) -> Row:
-        """How strongly it pushes."""
-        return {"thrust": self.thrust}
+    def place(self, body: BodyKind) -> Point:
+        """Beside the middle."""
+        return 0.0, body.side if self.side == "left" else -body.side

@@ -36,13 +36,18 @@ class TaskWorld(Protocol):
         """Whether a sensor reads a battery."""
         ...
 
+    @property
+    def can_succeed(self) -> bool:
+        """Whether a line says when a run is a success."""
+        ...
+
 
 class World(Protocol):
     """What is known of a task's world from the whole mind, before anything runs in it."""
 
     @property
-    def is_solid(self) -> bool:
-        """Whether there is anything to collide with."""
+    def has_fixed(self) -> bool:
+        """Whether anything stands in the way that does not give way."""
         ...
 
     @property
@@ -53,6 +58,11 @@ class World(Protocol):
     @property
     def drains(self) -> bool:
         """Whether the battery can become empty."""
+        ...
+
+    @property
+    def loose(self) -> Set[str]:
+        """Things that can be pushed."""
         ...
 
     @property
@@ -69,6 +79,7 @@ class EventKind(AboutThing):
 
     outcome = ""  # the argument by which a thing says what becomes of it when the event happens
     needs_walls = False  # whether it can be computed in an arena alone
+    is_of_success = False  # whether an end of the task makes it happen
     is_of_battery = False  # whether it depends on the battery, of which it names no sensor
 
     def missing(self, task: TaskWorld) -> Hindrance | None:
@@ -80,5 +91,7 @@ class EventKind(AboutThing):
         return None
 
     def row(self, scene: SceneKind) -> Row:
-        """What the lanes are told of it beside the thing that it is about: the `columns` of patches, and their side."""
+        """What the lanes are told of it beside the thing that it is about: the `columns` and
+        `rows` of patches, and their side.
+        """
         return {}

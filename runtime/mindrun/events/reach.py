@@ -11,7 +11,10 @@ from mindrun.registry import kind
 @kind("event", "reach")
 @dataclass(frozen=True, slots=True)
 class Reach(EventKind):
-    """An item comes into the claw's reach, or the robot's centre into a zone or power: once until it has left again."""
+    """An item, box, ball or walker comes into the claw's reach, or the robot's centre into a zone or power.
+
+    Once until it has left again.
+    """
 
     of: Annotated[str, THING]
 

@@ -29,5 +29,6 @@ class Visit(EventKind):
         return Hindrance("A plain scene has no patches to visit.", "Patches are of an arena: write in arena size 100.")
 
     def row(self, scene: SceneKind) -> Row:
-        """How large the patches are, and how many stand side by side."""
-        return {"columns": ceil(scene.side / self.size), "patch": self.size}
+        """How large the patches are, and how many stand side by side and one above the other."""
+        width, depth = scene.sides
+        return {"columns": ceil(width / self.size), "rows": ceil(depth / self.size), "patch": self.size}

@@ -1,6 +1,6 @@
 """A recurrent network: what its hidden neurons said in the tick before is among their inputs (Elman, 1990)."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Annotated, Any
 
@@ -62,6 +62,13 @@ class Elman(Function):
         into[:small, :inputs], into[:small, more : more + small] = hidden[:, :inputs], hidden[:, inputs:]
         out[: before[1], :small] = last
         return np.concatenate([into.ravel(), out.ravel()])
+
+    def reordered(self, weights: Weights, inputs: Sequence[int], outputs: Sequence[int]) -> Weights:
+        """As a perceptron that has the hidden neurons among its inputs, which stay where they are."""
+        if not inputs or not outputs:
+            return weights
+        hidden = range(len(inputs), len(inputs) + self.state_length(len(inputs), len(outputs)))
+        return self._unrolled(len(inputs), len(outputs)).reordered(weights, [*inputs, *hidden], outputs)
 
     def ready(self, inputs: int, outputs: int, weights: Weights, sources: Mapping[str, str]) -> Compute:
         """Eq. 1 with these weights, from tick to tick."""

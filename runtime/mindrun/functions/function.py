@@ -1,6 +1,6 @@
 """What every kind of internal function says of itself (Eq. 1); the rest of the program asks, and knows no kind."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any, Protocol, Self, runtime_checkable
 
 import numpy as np
@@ -82,6 +82,10 @@ class Function:
     def widened(self, weights: Weights, before: tuple[int, int], now: Self, after: tuple[int, int]) -> Weights | None:
         """Weights with which `now`, of more inputs or outputs, does the same, 0 for what is new; None if it cannot."""
         return None
+
+    def reordered(self, weights: Weights, inputs: Sequence[int], outputs: Sequence[int]) -> Weights:
+        """Weights that do the same with its inputs and outputs in this order: the first is now number `inputs[0]`."""
+        return weights
 
     def ready(self, inputs: int, outputs: int, weights: Weights, sources: Mapping[str, str]) -> Compute:
         """Its float32 inputs to its float32 outputs, not yet clamped; `sources` are the texts of modules by name."""

@@ -1,6 +1,6 @@
 """The multi-layer perceptron of the paper (4.1): no biases, sigmoid hidden layers, a linear last layer in 0..1."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 from itertools import pairwise
@@ -99,6 +99,15 @@ class Mlp(Function):
         found = [np.zeros((out, into), np.float32) for into, out in large]
         for matrix, old in zip(found, matrices(weights, small), strict=True):
             matrix[: old.shape[0], : old.shape[1]] = old
+        return np.concatenate([matrix.ravel() for matrix in found])
+
+    def reordered(self, weights: Weights, inputs: Sequence[int], outputs: Sequence[int]) -> Weights:
+        """The columns of the first matrix and the rows of the last in this order."""
+        found = list(matrices(weights, self.layers(len(inputs), len(outputs))))
+        if not found:
+            return weights
+        found[0] = found[0][:, list(inputs)]
+        found[-1] = found[-1][list(outputs)]
         return np.concatenate([matrix.ravel() for matrix in found])
 
     def ready(self, inputs: int, outputs: int, weights: Weights, sources: Mapping[str, str]) -> Compute:

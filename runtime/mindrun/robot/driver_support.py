@@ -15,11 +15,14 @@ from mindrun.quantity import Quantity, Reference
 PIN = Quantity("a GPIO number", {"": 1.0}, low=0, high=27, whole=True)  # as Broadcom counts, not as the header does
 BUS = Quantity("the number of an I2C bus", {"": 1.0}, low=0, high=99, whole=True)
 ADDRESS = Quantity("an I2C address", {"": 1.0}, low=0x03, high=0x77, whole=True)
+CHIP = Quantity("a chip select of SPI bus 0", {"": 1.0}, low=0, high=1, whole=True)
 CHANNEL = Quantity("a channel", {"": 1.0}, low=0, high=15, whole=True)
 METRES = Quantity("a distance", {"m": 1.0, "cm": 0.01}, low=0.0)
 MICROSECONDS = Quantity("a pulse width", {"us": 1.0}, low=100.0, high=4000.0)
+PWM_HERTZ = Quantity("a rate of pulses", {"Hz": 1.0, "kHz": 1000.0}, low=10.0, high=10_000.0)
 DEGREES = Quantity("an angle", {"deg": 1.0}, low=-360.0, high=360.0)
 PATH = Reference("path")
+SWITCH = Reference("switch", ("true", "false"))
 
 INSTALL = "pip install 'mindrun[robot]'"
 INSTALL_PINS = "sudo apt install python3-lgpio, or in a virtual environment: pip install lgpio"
@@ -103,6 +106,11 @@ def open_bus(number: int) -> Bus:
 def on_bus(number: int, address: int) -> str:
     """The name of an I2C device that only one process may drive, `/dev/i2c-1 0x40`."""
     return f"/dev/i2c-{number} {address:#04x}"
+
+
+def on_pin(number: int) -> str:
+    """The name of a GPIO pin that only one process may drive, `GPIO 12`."""
+    return f"GPIO {number}"
 
 
 @dataclass(slots=True)

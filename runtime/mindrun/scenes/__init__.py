@@ -1,10 +1,11 @@
 """Kinds of scenes, one file each: the borders of a task's world, and where the robot starts."""
 
-from mindrun.registry import register_all
+from mindrun.registry import register_all, share_kinds
 from mindrun.scenes.arena import Arena
 from mindrun.scenes.plain import Plain
 from mindrun.scenes.scene import SceneKind
 
 register_all(__name__, __path__)
+share_kinds("scene", of="task")
 
 __all__ = ["Arena", "Plain", "SceneKind"]

@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 from typing import Annotated
 
-from mindrun.quantity import Quantity
+from mindrun.quantity import Extent, Quantity
 from mindrun.registry import kind
 from mindrun.scenes.scene import SceneKind
 
@@ -13,11 +13,11 @@ SIDE = Quantity("a length in world units", {"": 1.0}, low=0.01, high=1e5)
 @kind("task", "arena")
 @dataclass(frozen=True, slots=True)
 class Arena(SceneKind):
-    """A square world of side `size` with walls; the robot starts anywhere in it."""
+    """A square world of side `size` with walls, or one of that width and depth; the robot starts anywhere in it."""
 
-    size: Annotated[float, SIDE] = 100.0
+    size: Annotated[Extent, SIDE] = 100.0
 
     @property
-    def side(self) -> float:
-        """Its size."""
-        return self.size
+    def sides(self) -> tuple[float, float]:
+        """Its size, both ways where it is one number."""
+        return self.size if isinstance(self.size, tuple) else (self.size, self.size)

@@ -2,6 +2,7 @@
 
 from math import inf
 
+from mindrun.quantity import Place
 from mindrun.registry import base
 
 
@@ -12,14 +13,18 @@ class SceneKind:
     __slots__ = ()
 
     @property
-    def side(self) -> float:
-        """The length of each of its walls in world units; infinite where it has none. The origin is its middle."""
-        return inf
+    def sides(self) -> tuple[float, float]:
+        """Its lengths along x and y in world units; infinite where it has no walls. The origin is its middle."""
+        return inf, inf
 
     @property
     def is_bounded(self) -> bool:
         """Whether walls stand around it."""
-        return self.side < inf
+        return self.sides[0] < inf
+
+    def has_room(self, place: Place, extent: float) -> bool:
+        """Whether something of that half size, at a place, is inside its walls."""
+        return all(abs(where) + extent <= side / 2 for where, side in zip(place, self.sides, strict=True))
 
     def distances(self, least: float) -> tuple[float, float]:
         """How near to the robot and how far from it a thing is placed that does not say so.

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 from typing import Annotated, Any
 
 from mindrun.arithmetic import F
-from mindrun.quantity import RATIO
+from mindrun.quantity import RATE, RATIO
 from mindrun.registry import kind
 from mindrun.sensors.sensor import BatteryModel, Physical, World
 
@@ -15,8 +15,8 @@ class Battery(Physical):
     """Charge of the battery: `start`s there, loses `drain` every tick, gains `charge` every tick inside a `power`."""
 
     start: Annotated[float, RATIO] = 0.4
-    drain: Annotated[float, RATIO] = 0.00005
-    charge: Annotated[float, RATIO] = 0.005
+    drain: Annotated[float, RATE] = 0.00005
+    charge: Annotated[float, RATE] = 0.005
 
     keeps_lost = True
     remedy = "Give it a drain above 0"

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 from math import inf
 from typing import Annotated, Any
 
-from mindrun.arithmetic import COSINE, DISTANCE, HALF, SINE, THING_ROWS, F, X, Y, bearing
+from mindrun.arithmetic import COSINE, DISTANCE, HALF, SINE, F, X, Y, bearing, nearest
 from mindrun.quantity import LENGTH, RATIO, THING
 from mindrun.registry import kind
 from mindrun.sensors.sensor import Physical, Row, Scene, World
@@ -15,8 +15,8 @@ from mindrun.sensors.sensor import Physical, Row, Scene, World
 class Bearing(Physical):
     """Direction of a thing: 0.5 straight ahead, less on the left, more on the right, the seam behind; 0.5 without it.
 
-    0.5 − atan2(y, x)/2π in the body's frame. Within `dead_zone` of straight ahead it reads 0.5; with a `range`,
-    a thing farther away than that reads 0.5 too.
+    0.5 − atan2(y, x)/2π in the body's frame, of several the nearest's. Within `dead_zone` of straight ahead it reads
+    0.5; with a `range`, a thing farther away than that reads 0.5 too.
     """
 
     of: Annotated[str, THING]
@@ -43,11 +43,8 @@ class Bearing(Physical):
             for p in range(n):
                 out[p] = HALF
             return
-        x, y, away = (
-            s.things[THING_ROWS * sensor.thing + X],
-            s.things[THING_ROWS * sensor.thing + Y],
-            s.things[THING_ROWS * sensor.thing + DISTANCE],
-        )
+        thing = nearest(s, sensor, n)
+        x, y, away = thing[X], thing[Y], thing[DISTANCE]
         for p in range(n):
             dx, dy = F(x[p] - s.body[X, p]), F(y[p] - s.body[Y, p])
             cosine, sine = F(s.heading[COSINE, p]), F(s.heading[SINE, p])

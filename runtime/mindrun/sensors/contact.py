@@ -13,7 +13,7 @@ from mindrun.things import ThingKind
 @kind("sensor", "contact")
 @dataclass(frozen=True, slots=True)
 class Contact(Physical):
-    """1 while the thing is in the claw's reach, else 0."""
+    """1 while the thing, or one of its name, is in the claw's reach, else 0."""
 
     of: Annotated[str, THING]
 
@@ -21,8 +21,8 @@ class Contact(Physical):
 
     @staticmethod
     def is_about(kind: type[ThingKind]) -> bool:
-        """What a claw can take."""
-        return kind.can_be_held
+        """What a claw can take, push or catch."""
+        return kind.can_be_held or kind.is_loose or kind.walks
 
     def constant(self, world: World) -> float | None:
         """0 without the thing."""
@@ -33,7 +33,7 @@ class Contact(Physical):
         """1 where the claw could take the thing."""
         world = t.world[0]
         for p in range(n):
-            there = sensor.thing >= 0 and in_claw(
-                s.body, s.heading, s.things, world.radius, world.claw, sensor.thing, p
-            )
+            there = False
+            for i in range(sensor.thing, sensor.thing + sensor.things):
+                there = there or in_claw(s.body, s.heading, s.things, world.front, world.claw, i, p)
             s.readings[sensor.start, p] = ONE if there else ZERO

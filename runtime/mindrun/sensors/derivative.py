@@ -5,7 +5,7 @@ from typing import Annotated, Any
 
 import numpy as np
 
-from mindrun.arithmetic import HALF, F, clamp
+from mindrun.arithmetic import HALF, NAN, F, clamp, finite
 from mindrun.quantity import POSITIVE, RATIO, SENSOR
 from mindrun.registry import kind
 from mindrun.sensors.sensor import Reader, Readings, Row, Scene, SensorKind, World
@@ -22,7 +22,7 @@ class Derivative(SensorKind):
     range: Annotated[float, POSITIVE] = 1.0
     dead_zone: Annotated[float, RATIO] = 0.0
 
-    remembers = True
+    remembered = 1
 
     @property
     def remedy(self) -> str:  # type: ignore[override]
@@ -45,9 +45,10 @@ class Derivative(SensorKind):
         """0.5 where the sensor never changes, and where every change is in the dead zone."""
         return 0.5 if self.dead_zone > 0.5 or world.is_constant(self.of) else None
 
-    def reader(self, tick: float, source: slice, turns: bool) -> Reader:
+    def reader(self, scene: Scene) -> Reader:
         """0.5 in the first tick, NaN where a reading of the source is not finite now or was not."""
-        gain, dead_zone = np.float32(0.5 / (tick * self.range)), np.float32(self.dead_zone)
+        gain, dead_zone = np.float32(0.5 / (scene.tick * self.range)), np.float32(self.dead_zone)
+        source, turns = scene.places[self.of], self.of in scene.circular
 
         def read(number: int, now: Readings, before: Readings | None) -> Readings | np.float32:
             if before is None:
@@ -79,6 +80,7 @@ class Derivative(SensorKind):
                 d = d - over if sensor.turns else d
                 v = clamp(HALF + d * sensor.gain)
                 v = HALF if abs(v - HALF) < sensor.dead_zone else v
+                v = v if finite(d) else NAN  # of what is no number
                 out[p] = v if s.tick[p] > 0 else HALF
             for p in range(n):
                 before[p] = now[p]

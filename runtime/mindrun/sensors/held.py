@@ -13,7 +13,7 @@ from mindrun.things import ThingKind
 @kind("sensor", "held")
 @dataclass(frozen=True, slots=True)
 class Held(Physical):
-    """1 while the claw holds the thing, else 0."""
+    """1 while the claw holds the thing, or one of its name, else 0."""
 
     of: Annotated[str, THING]
 
@@ -33,4 +33,5 @@ class Held(Physical):
     def lane(t: Any, s: Any, n: int, clock: int, sensor: Any) -> None:
         """1 where the claw holds the thing."""
         for p in range(n):
-            s.readings[sensor.start, p] = ONE if sensor.thing >= 0 and s.held[p] == sensor.thing else ZERO
+            k = s.held[p] - sensor.thing
+            s.readings[sensor.start, p] = ONE if k >= 0 and k < sensor.things else ZERO

@@ -13,7 +13,7 @@ from mindrun.things import ThingKind
 @kind("sensor", "inside")
 @dataclass(frozen=True, slots=True)
 class Inside(Physical):
-    """1 while the robot's centre is inside the thing, else 0."""
+    """1 while the robot's centre is inside the thing, or one of its name, else 0."""
 
     of: Annotated[str, THING]
 
@@ -30,5 +30,7 @@ class Inside(Physical):
     def lane(t: Any, s: Any, n: int, clock: int, sensor: Any) -> None:
         """1 where the robot's centre is in the square of the thing."""
         for p in range(n):
-            there = sensor.thing >= 0 and inside(s.things, sensor.thing, s.body[X, p], s.body[Y, p], p)
+            there = False
+            for i in range(sensor.thing, sensor.thing + sensor.things):
+                there = there or inside(s.things, i, s.body[X, p], s.body[Y, p], p)
             s.readings[sensor.start, p] = ONE if there else ZERO

@@ -1,4 +1,4 @@
-"""How far the nearest obstacle is, in some directions."""
+"""How far it is to what stands in the way, in some directions."""
 
 from dataclasses import dataclass
 from typing import Annotated, Any
@@ -12,7 +12,7 @@ from mindrun.sensors.sensor import Physical, Row, Scene, World
 @kind("sensor", "range_finder")
 @dataclass(frozen=True, slots=True)
 class RangeFinder(Physical):
-    """Distance from the body's rim to the nearest obstacle, one reading per angle: 0 touching, 1 clear within `range`.
+    """Distance from the body's rim to what is solid, one reading per angle: 0 touching, 1 clear within `range`.
 
     Angles turn counterclockwise from straight ahead. A reading below `dead_zone` is 0.
     """
@@ -51,9 +51,10 @@ class RangeFinder(Physical):
     @staticmethod
     def lane(t: Any, s: Any, n: int, clock: int, sensor: Any) -> None:
         """The distance along each ray, from the body's rim."""
-        radius, scale = F(t.world[0].radius), ONE / F(sensor.range)
+        scale = ONE / F(sensor.range)
         for ray in range(sensor.width):
             out, far = s.readings[sensor.start + ray], s.sight[4 + sensor.ray + ray]
+            rim = t.rims[sensor.ray + ray]
             for p in range(n):
-                v = clamp((far[p] - radius) * scale)
+                v = clamp((far[p] - rim) * scale)
                 out[p] = ZERO if v < sensor.dead_zone else v

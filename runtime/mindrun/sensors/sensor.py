@@ -7,6 +7,7 @@ from typing import Annotated, Any, NamedTuple, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
+from mindrun.expression import Formula
 from mindrun.quantity import RATIO, TICKS
 from mindrun.registry import base
 from mindrun.things.about import AboutThing
@@ -14,6 +15,15 @@ from mindrun.things.about import AboutThing
 Readings = NDArray[np.float32]
 Reader = Callable[[int, Readings, Readings | None], Readings | np.float32]
 Row = Mapping[str, float]  # columns of the lanes' table of sensors
+
+
+class Flaw(NamedTuple):
+    """What is wrong with a sensor: a code, the field of the argument, a sentence, and what to do."""
+
+    code: str
+    field: str
+    message: str
+    hint: str
 
 
 class BatteryModel(NamedTuple):
@@ -24,18 +34,21 @@ class BatteryModel(NamedTuple):
     charge: float
 
 
-class Scene(Protocol):
-    """What the row of a sensor in the lanes can depend on beside its own arguments."""
+@dataclass(frozen=True, slots=True)
+class Scene:
+    """What a sensor can depend on beside its own arguments.
 
-    @property
-    def tick(self) -> float:
-        """The length of a tick in seconds."""
-        ...
+    The length of a `tick` in seconds, where the readings of each sensor and memory stand, and which are `circular`.
+    """
+
+    tick: float
+    places: Mapping[str, slice]
+    circular: Set[str] = frozenset()
 
     @property
     def starts(self) -> Mapping[str, int]:
         """Where the readings of each sensor and memory begin."""
-        ...
+        return {name: place.start for name, place in self.places.items()}
 
 
 class World(Protocol):
@@ -48,7 +61,7 @@ class World(Protocol):
 
     @property
     def is_solid(self) -> bool:
-        """Whether there is anything to collide with."""
+        """Whether anything stands in the way, fixed or loose."""
         ...
 
     @property
@@ -77,11 +90,13 @@ class SensorKind(AboutThing):
 
     __slots__ = ()
 
+    varying: tuple[str, ...] = ()  # the arguments that can differ from run to run
     circular = False  # whether the readings 0 and 1 are neighbours
     scaled = False  # whether its values mean something by themselves, so that they need no calibration
     near: int | None = None  # the reading of what is near
     keeps_lost = False  # whether a reading that fails is the one before, and not `blank`
-    remembers = False  # whether the lanes keep its readings of the tick before
+    pierces = False  # whether its rays go on through what is loose
+    remembered = 0  # how many numbers the lanes keep of each of its readings
     blank, rest = 0.0, 0.0  # what it reads where there is nothing to measure, and in its dead zone
     remedy = "Give it a dead_zone below 0.5"  # for one that is constant
 
@@ -96,6 +111,20 @@ class SensorKind(AboutThing):
         return ""
 
     @property
+    def sources(self) -> tuple[str, ...]:
+        """All sensors and memories from which it is computed."""
+        return (self.source,) if self.source else ()
+
+    @property
+    def formula(self) -> Formula:
+        """What it computes, where that is said in an expression."""
+        return ()
+
+    def flaw(self, widths: Mapping[str, int]) -> Flaw | None:
+        """What is wrong with it beside other sensors and memories, of which it is told how many readings they have."""
+        return None
+
+    @property
     def battery(self) -> BatteryModel | None:
         """How the battery that it reads drains and charges."""
         return None
@@ -106,12 +135,22 @@ class SensorKind(AboutThing):
         return ()
 
     @property
+    def directions(self) -> tuple[float, ...]:
+        """Where around the robot it measures, one angle for each reading: where it looks, if nothing else is said."""
+        return self.rays
+
+    @property
+    def numbers(self) -> tuple[float, ...]:
+        """What its lane function reads beside its row: `t.numbers`, from `sensor.number` on."""
+        return ()
+
+    @property
     def reach(self) -> float:
         """How far it looks, in world units."""
         return 0.0
 
     def row(self, scene: Scene) -> Row:
-        """What its lane function is told: range, dead_zone, gain, period or source, those that it reads."""
+        """What its lane function is told: range, dead_zone, gain, period, source or part, those that it reads."""
         return {}
 
     @staticmethod
@@ -126,10 +165,10 @@ class SensorKind(AboutThing):
         """What it always reads in a world; None where that varies, or nobody knows."""
         return None
 
-    def reader(self, tick: float, source: slice, turns: bool) -> Reader | None:
+    def reader(self, scene: Scene) -> Reader | None:
         """How the engine computes it, from the number of the tick and the readings now and before; None where measured.
 
-        `tick` is in seconds, `source` says where the readings of its source stand, and `turns` that they are circular.
+        A reader may remember: it is asked in every tick, from the first on, and made anew for another run.
         """
         return None
 
@@ -147,3 +186,5 @@ class Physical(SensorKind):
     lost: Annotated[float, RATIO] = 0.0
     every: Annotated[int, TICKS] = 1
     delay: Annotated[int, TICKS] = 0
+
+    varying = ("noise", "lost", "delay")

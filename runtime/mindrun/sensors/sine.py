@@ -27,9 +27,9 @@ class Sine(SensorKind):
         halves = 2 * world.tick / self.period
         return 0.5 if halves > 0.5 and isclose(halves, round(halves)) else None
 
-    def reader(self, tick: float, source: slice, turns: bool) -> Reader:
+    def reader(self, scene: Scene) -> Reader:
         """0.5 + 0.5 sin(2πt/period), t in seconds since the first tick."""
-        period = self.period / tick
+        period = self.period / scene.tick
 
         def read(number: int, now: Readings, before: Readings | None) -> np.float32:
             turned = number / period

@@ -6,11 +6,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from mindrun.arithmetic import BOX_COLUMNS, HALF_SIDE, THING_ROWS, X, Y
+from mindrun.arithmetic import BOX_COLUMNS, HALF_X, HALF_Y, LOOSE_ROWS, THING_ROWS, X, Y
 from mindrun.sensors.inertial import TRAIL_TICKS
 from mindrun.sim import chipmunk_internals as chipmunk
-from mindrun.sim.codes import AWAY
-from mindrun.sim.state import FIRST_RAY, PLACE_ROWS, SIDES, Contact, Judge, Mind, Run, Sight, State, World
+from mindrun.sim.codes import AWAY, PUSH_ROWS
+from mindrun.sim.state import FIRST_RAY, FRAME_ROWS, PLACE_ROWS, SIDES, Contact, Judge, Mind, Run, Sight, State, World
 from mindrun.sim.tables import Sizes, Tables
 from mindrun.sim.vector import VECTOR_LANES
 
@@ -26,7 +26,7 @@ def empty_state(tables: Tables, sizes: Sizes, lanes: int) -> State:
         _mind(tables, sizes, room),
         _contact(tables, sizes, room),
         _judge(tables, sizes, room),
-        Run(job=room.each(), ended=room.each(), faults=room.each(), failed=np.full(2, -1, np.int64)),
+        Run(job=room.each(), ended=room.each(), met=room.each(), faults=room.each(), failed=np.full(2, -1, np.int64)),
     )
 
 
@@ -56,6 +56,11 @@ def _world(tables: Tables, sizes: Sizes, room: _Room) -> World:
         heading=room.rows(2),
         boxes=room.columns(BOX_COLUMNS * sizes.boxes),
         things=room.rows(THING_ROWS * things),
+        loose=room.rows(LOOSE_ROWS * len(tables.loose)),
+        still=room.rows(len(tables.loose), np.int64),
+        restless=room.each(),
+        direction=room.rows(len(tables.walkers)),
+        goal=room.rows(len(tables.walkers), np.int64),
         held=room.each(),
         reached=room.rows(things, np.uint8),
         delivered=room.rows(things, np.uint8),
@@ -63,8 +68,11 @@ def _world(tables: Tables, sizes: Sizes, room: _Room) -> World:
         random=room.each(np.uint64),
         random_aside=room.each(np.uint64),
         tick=room.each(),
+        numbers=room.rows(len(tables.parameters)),
         trail=room.rows(PLACE_ROWS * TRAIL_TICKS),
-        push=room.rows(4),
+        push=room.rows(PUSH_ROWS),
+        acting=room.rows(len(tables.actuators), np.float32),
+        grip=room.rows(len(tables.actuators)),
         begun_at=room.rows(PLACE_ROWS),
     )
 
@@ -72,13 +80,16 @@ def _world(tables: Tables, sizes: Sizes, room: _Room) -> World:
 def _sight(tables: Tables, sizes: Sizes, room: _Room) -> Sight:
     nearby = room.rows(BOX_COLUMNS * max(1, sizes.boxes))
     nearby[X::BOX_COLUMNS] = nearby[Y::BOX_COLUMNS] = AWAY
-    nearby[HALF_SIDE::BOX_COLUMNS] = 0.0
+    nearby[HALF_X::BOX_COLUMNS] = nearby[HALF_Y::BOX_COLUMNS] = 0.0
     return Sight(
         nearby=nearby,
         nearby_count=room.each(),
         nearby_most=np.zeros(1, np.int64),
         anchor=room.rows(PLACE_ROWS),
         sides=room.rows(SIDES * sizes.boxes, np.float32),
+        nearest=room.rows(THING_ROWS),
+        nearest_of=np.zeros(1, np.int64),
+        frame=room.rows(FRAME_ROWS, np.float32),
         sight=room.rows(FIRST_RAY + len(tables.ray_row), np.float32),
     )
 
@@ -104,6 +115,9 @@ def _mind(tables: Tables, sizes: Sizes, room: _Room) -> Mind:
         hidden=room.rows(2 * sizes.width, np.float32),
         stack=room.rows(sizes.depth),
         values=room.each(np.float32),
+        opened=room.each(np.float32),
+        other=room.each(np.float32),
+        gated=room.each(np.float32),
         sent=room.each(np.float32),
     )
 
@@ -114,10 +128,13 @@ def _contact(tables: Tables, sizes: Sizes, room: _Room) -> Contact:
         near=room.each(),
         touching=room.each(),
         handles=room.columns(chipmunk.FIRST_HELD + shapes, np.uint64),
+        loose=room.columns(chipmunk.LOOSE_HANDLES * len(tables.loose), np.uint64),
+        sizes=room.columns(len(tables.loose)),
+        placed=room.columns(len(tables.loose), np.uint8),
         gap=room.each(np.float64),
         floats=room.columns(chipmunk.BODY_FLOATS),
         batch=room.columns(chipmunk.BATCH_WORDS, np.int64),
-        touches=room.each(),
+        tally=room.columns(chipmunk.TALLY_WORDS, np.int64),
     )
 
 
@@ -128,11 +145,11 @@ def _judge(tables: Tables, sizes: Sizes, room: _Room) -> Judge:
         left_changes=room.rows(sizes.changes),
         right_changes=room.rows(sizes.changes),
         visited=room.columns(max(1, sizes.patches), np.uint8),
+        arrived=room.rows(sizes.arrivals, np.uint8),
         lines=room.rows(len(tables.rewards)),
         counts=room.rows(events, np.int64),
         measures=room.rows(len(tables.measures)),
         events=room.rows(events),
         happened=np.zeros(max(1, events), np.int64),
         paid=room.each(np.float64),
-        limit=room.each(np.float64),
     )

@@ -13,13 +13,15 @@ from numba import types
 from numba.extending import intrinsic
 from pymunk import _chipmunk
 
+from mindrun.bodies import BodyKind
+from mindrun.bodies.body import FRICTION_COEFFICIENT
 from mindrun.errors import MindError
 from mindrun.sim.compiling import callback
 from mindrun.sim.versions import remedy
 
 ffi, lib = _chipmunk.ffi, _chipmunk.lib
 
-FRICTION_COEFFICIENT = 0.2  # Box2D's default; elasticity is 0 in both engines
+UNMOVED_TRANSFORM = (1.0, 0.0, 0.0, 1.0, 0.0, 0.0)  # leaves a shape where it is
 PERSISTENCE_TICKS = 3  # for which Chipmunk remembers a contact that is no more
 LAYOUT: Mapping[str, tuple[int, Mapping[str, int]]] = {  # the size of a structure and where its fields stand, in bytes
     "pmFloatArray": (16, {"num": 0, "max": 4, "arr": 8}),
@@ -33,16 +35,19 @@ FUNCTIONS = (
     "cpSpaceAddBody", "cpSpaceAddShape", "cpSpaceRemoveBody", "cpSpaceRemoveShape", "cpSpaceStep", "cpBodyNew",
     "cpBodyFree", "cpPolyShapeNewRaw", "cpShapeFree", "cpShapeSetBody", "cpShapeSetFriction", "cpShapeSetSensor",
     "cpCircleShapeSetRadius", "pmSpaceBodyGetIteratorFuncBatched", "pmSpaceBodySetIteratorFuncBatched",
-    "cpBodyEachArbiter",
+    "cpBodyEachArbiter", "cpArbiterGetBodies", "cpCircleShapeNew", "cpPolyShapeSetVertsRaw", "cpBodySetMass",
+    "cpBodySetMoment",
 )  # fmt: skip
 (
     SPACE_NEW, SPACE_FREE, SPACE_ITERATIONS, SPACE_HASH, SPACE_STATIC, SPACE_ADD_BODY, SPACE_ADD_SHAPE,
     SPACE_REMOVE_BODY, SPACE_REMOVE_SHAPE, SPACE_STEP, BODY_NEW, BODY_FREE, POLY_NEW, SHAPE_FREE, SHAPE_BODY,
-    SHAPE_FRICTION, SHAPE_SENSOR, CIRCLE_RADIUS, BODY_GET, BODY_SET, EACH_ARBITER, COUNT,
+    SHAPE_FRICTION, SHAPE_SENSOR, CIRCLE_RADIUS, BODY_GET, BODY_SET, EACH_ARBITER,
+    ARBITER_BODIES, CIRCLE_NEW, POLY_CORNERS, BODY_MASS, BODY_MOMENT, COUNT,
 ) = range(len(FUNCTIONS) + 1)  # fmt: skip
 
 # Columns of `handles`; after the shapes that can be held come the boxes, then the walls.
 SPACE, BODY, ROBOT, FIRST_HELD = range(4)
+LOOSE_BODY, LOOSE_SHAPE, LOOSE_HANDLES = range(3)  # of each loose thing, and how many
 WALL_COUNT = 4
 BODY_FLOATS = 16  # of a lane: a body has nine, in the order of its fields; with so many pymunk's arrays never grow
 MOTION_FIELDS = ("POSITION", "ANGLE", "VELOCITY", "ANGULAR_VELOCITY")  # six floats, as the rows of a body
@@ -52,6 +57,9 @@ FLOAT_FORCE_X, FLOAT_FORCE_Y, FLOAT_TORQUE = 6, 7, 8  # where they stand behind 
 # Words of a lane's `batch`: a pmFloatArray, then a pmBatchedData over it for what is got and one for what is set.
 ARRAY_NUMBERS, ARRAY_FLOATS, GET_BATCH, SET_BATCH, BATCH_WORDS = 0, 1, 2, 5, 8
 EMPTY_ARRAY = BODY_FLOATS << 32  # num = 0 in the lower half of an array's first word, max in the upper
+# Words of a lane's `tally`: contacts with what never moves, the function that says which bodies an arbiter is of, where
+# it puts them, the addresses of these two places, and the body that never moves.
+TALLIED, BODIES_OF, FIRST_BODY, SECOND_BODY, FIRST_PLACE, SECOND_PLACE, FIXED_BODY, TALLY_WORDS = range(8)
 
 
 def refuse_another() -> None:
@@ -73,15 +81,10 @@ def _layout(structure: str) -> tuple[int, Mapping[str, int]] | None:
 
 
 def library() -> Any:
-    """The addresses of FUNCTIONS and, last, of a function that counts a body's contacts: uint64."""
+    """The addresses of FUNCTIONS and, last, of a function that counts what a body has run into: uint64."""
     refuse_another()
     addresses = [int(ffi.cast("uintptr_t", ffi.addressof(lib, name))) for name in FUNCTIONS]
     return np.array([*addresses, _count.address], np.uint64)
-
-
-@callback(types.void(types.voidptr, types.voidptr, types.CPointer(types.int64)))
-def _count(_body: Any, _arbiter: Any, count: Any) -> None:
-    count[0] += 1
 
 
 @intrinsic
@@ -99,17 +102,25 @@ def call(typingctx, address, *arguments):
     return signature, generate
 
 
-def prepare(handles: Any, floats: Any, batch: Any, radius: float, holds: list[float | None]) -> list[Any]:
-    """Give every lane its robot's circle and one for each thing that can be held; keep the result alive.
+@callback(types.void(types.uint64, types.uint64, types.CPointer(types.int64)))
+def _count(_body: Any, arbiter: Any, tally: Any) -> None:
+    call(tally[BODIES_OF], arbiter, tally[FIRST_PLACE], tally[SECOND_PLACE])
+    if tally[FIRST_BODY] == tally[FIXED_BODY] or tally[SECOND_BODY] == tally[FIXED_BODY]:
+        tally[TALLIED] += 1
 
-    `handles` [lane, …]: the circles go to column ROBOT and on; `batch` gets pymunk's structures over `floats`.
+
+def prepare(handles: Any, floats: Any, batch: Any, tally: Any, body: BodyKind, holds: list[float | None]) -> list[Any]:
+    """Give every lane its robot's shape and a circle for each thing that can be held; keep the result alive.
+
+    `handles` [lane, …]: the shapes go to column ROBOT and on; `batch` gets pymunk's structures over `floats`, and
+    `tally` [lane, TALLY_WORDS] what it takes to count.
     """
     kept, motion = [], _fields(MOTION_FIELDS)
     for lane in range(len(handles)):
         for number, hold in enumerate([0.0, *holds]):
             if hold is not None:
-                shape = lib.cpCircleShapeNew(ffi.NULL, radius if number == 0 else 1.0, (hold, 0.0))
-                lib.cpShapeSetFriction(shape, FRICTION_COEFFICIENT)
+                shape = lib.cpCircleShapeNew(ffi.NULL, 1.0, (hold, 0.0)) if number else _outline(body)
+                lib.cpShapeSetFriction(shape, FRICTION_COEFFICIENT if number else body.friction)
                 lib.cpShapeSetSensor(shape, number > 0)
                 kept.append(ffi.gc(shape, lib.cpShapeFree))
                 handles[lane, ROBOT + number] = int(ffi.cast("uintptr_t", shape))
@@ -117,7 +128,17 @@ def prepare(handles: Any, floats: Any, batch: Any, radius: float, holds: list[fl
         batch[lane, ARRAY_NUMBERS], batch[lane, ARRAY_FLOATS] = EMPTY_ARRAY, floats[lane].ctypes.data
         batch[lane, GET_BATCH : GET_BATCH + 3] = 0, here, motion
         batch[lane, SET_BATCH : SET_BATCH + 3] = 0, here, motion | _fields(PUSH_FIELDS)
+        tally[lane, BODIES_OF] = int(ffi.cast("uintptr_t", ffi.addressof(lib, "cpArbiterGetBodies")))
+        tally[lane, FIRST_PLACE] = tally[lane, FIRST_BODY:].ctypes.data
+        tally[lane, SECOND_PLACE] = tally[lane, SECOND_BODY:].ctypes.data
     return kept
+
+
+def _outline(body: BodyKind) -> Any:
+    """The shape of a body that is in no Space yet."""
+    if not body.outline:
+        return lib.cpCircleShapeNew(ffi.NULL, body.radius, (0.0, 0.0))
+    return lib.cpPolyShapeNew(ffi.NULL, len(body.outline), body.outline, UNMOVED_TRANSFORM, 0.0)
 
 
 def _fields(names: tuple[str, ...]) -> int:

@@ -8,32 +8,31 @@ import mindrun.functions
 import mindrun.sensors  # noqa: F401  # which registers them
 from mindrun.registry import kinds
 
-WHEEL_LEFT, WHEEL_RIGHT, GRIPPER, SERVO = range(4)
-ITEM, ZONE, POWER = range(3)
+PUSH, STEERING, GRIPPER, IDLE = range(4)
+ITEM, ZONE, POWER, BOX, BALL, WALKER = range(6)
 STAYS, MOVES, VANISHES = range(3)
 PROGRESS, ADVANCE, RETREAT, FORWARD, CHANGE = range(5)
-REACH, DELIVERY, VISIT, COLLISION, EXHAUSTION = range(5)
-NUMBER, READING, EACH, MEASURE, ADD, SUBTRACT, MULTIPLY, DIVIDE, NEGATE = range(9)
-LESS, LESS_EQUAL, GREATER, GREATER_EQUAL = range(4)
+REACH, DELIVERY, VISIT, COLLISION, EXHAUSTION, SUCCESS = range(6)
+CONSTANT, DRAWN, DRAWN_WHOLE, FAILING, TIMES, OVER, INVERSE, DAMPING = range(8)  # how a number of a run comes about
 
 GOING_ON, LOST = -1, -2  # of a run that no event has ended: on its way or out of time, or beyond FAR
 AWAY = 1e30  # units: where a box is that is none
 FAR = 1e9  # units from the origin, and radians: nothing is there, and a little further Chipmunk never comes back
 
-FORCE, TORQUE, FORCE_X, FORCE_Y = range(4)  # rows of what pushes a body
+FORCE, TORQUE, FORCE_X, FORCE_Y, FORCE_ASIDE, PUSH_ROWS = range(6)  # rows of what pushes a body, and how many
 
-OPERATIONS = {name: code for code, name in enumerate(("number", "reading", "each", "measure", *"+-*/", "negate"))}
-ACTUATOR_CODES = {  # of each kind, by the side that it is on
-    ("wheel", "left"): WHEEL_LEFT, ("wheel", "right"): WHEEL_RIGHT, ("gripper", None): GRIPPER, ("servo", None): SERVO,
+ACTUATOR_CODES = {
+    "wheel": PUSH, "motor": PUSH, "thruster": PUSH, "steering": STEERING, "gripper": GRIPPER,
+    "servo": IDLE, "lamp": IDLE,
 }  # fmt: skip
-THING_CODES = {"item": ITEM, "zone": ZONE, "power": POWER}
+THING_CODES = {"item": ITEM, "zone": ZONE, "power": POWER, "box": BOX, "ball": BALL, "walker": WALKER}
 MEASURE_CODES = {
     "progress": PROGRESS, "advance": ADVANCE, "retreat": RETREAT, "forward": FORWARD, "change": CHANGE,
 }  # fmt: skip
 EVENT_CODES = {
     "reach": REACH, "delivery": DELIVERY, "visit": VISIT, "collision": COLLISION, "exhaustion": EXHAUSTION,
+    "success": SUCCESS,
 }  # fmt: skip
-COMPARES = {"<": LESS, "<=": LESS_EQUAL, ">": GREATER, ">=": GREATER_EQUAL}
 
 
 def sensor_codes() -> dict[str, int]:
@@ -46,35 +45,56 @@ def function_codes() -> dict[str, int]:
     return {name: code for code, name in enumerate(sorted(kinds("skill")))}
 
 
+# Where a column says what differs between runs, it is a row of `world.numbers`: that of every PARAMETER.
 def _row(**columns: str) -> np.dtype[Any]:
     return np.dtype(list(columns.items()), align=True)
 
 
 SENSOR = _row(
-    kind="i8", start="i8", width="i8", thing="i8", source="i8", ray="i8", before="i8", turns="i8",
+    kind="i8", start="i8", width="i8", thing="i8", things="i8", source="i8", ray="i8", number="i8", part="i8",
+    before="i8", turns="i8", code="i8", length="i8", over="i8", low="f4", high="f4",
     range="f8", dead_zone="f4", gain="f4", period="f8",
-    is_rough="i8", is_aside="i8", noise="f4", lost="f4", blank="f4", every="i8", delay="i8", held="i8", ring="i8",
+    is_rough="i8", is_aside="i8", noise="i8", lost="i8", blank="f4", every="i8", delay="i8", wait="i8", held="i8",
+    ring="i8",
 )  # fmt: skip
 SKILL = _row(
     kind="i8", index="i8", input="i8", inputs="i8", outputs="i8", hidden="i8", width="i8", weights="i8", own="i8",
     edge="i8", edges="i8", address="u8", state="i8",
 )  # fmt: skip
-EDGE = _row(to_skill="i8", target="i8", output="i8", code="i8", length="i8")
+EDGE = _row(
+    to_skill="i8", target="i8", output="i8", code="i8", length="i8",
+    when="i8", whens="i8", other="i8", others="i8", cuts="f4",
+)  # fmt: skip
 CODE = _row(op="i8", arg="i8", value="f8")
-ACTUATOR = _row(kind="i8", thrust="f8", neutral="f4", reach="f8", delay="i8", ring="i8")
+ACTUATOR = _row(
+    kind="i8", ahead="f8", aside="f8", arm="f8", is_right="i8", neutral="f4", reach="f8", delay="i8", ring="i8",
+    is_noisy="i8", is_slipping="i8", is_rough="i8", is_late="i8",
+    thrust="i8", turn="i8", noise="i8", slip="i8", wait="i8", fails="i8",
+)  # fmt: skip
+PARAMETER = _row(form="i8", of="i8", low="f8", high="f8")
 MEMORY = _row(row="i8", decay="f4", rest="f4", start="f4")
 THING = _row(
-    kind="i8", first="f8", last="f8", by="f8", low="f8", high="f8", hold="f8", drawn="i8",
-    reached="i8", delivered="i8", is_reached="i8", is_delivered="i8",
+    kind="i8", first="f8", last="f8", by="f8", low="f8", high="f8", hold="f8", drawn="i8", is_round="i8",
+    is_fixed="i8", x="f8", y="f8", reached="i8", delivered="i8", is_reached="i8", is_delivered="i8", is_area="i8",
+    loose="i8", settles="i8", walker="i8",
 )  # fmt: skip
-OBSTACLE = _row(first="f8", last="f8", grid="f8", jitter="f8", lines="i8", count="i8", low="f8", high="f8")
-MEASURES = _row(kind="i8", thing="i8", beyond="f8", over="i8", ring="i8")
-EVENT = _row(kind="i8", thing="i8", columns="i8", patch="f8", board="i8", ends="i8")
-REWARD = _row(
-    code="i8", length="i8", on="i8", each="i8", eachs="i8", compare="i8", left="i8", lefts="i8", right="i8", rights="i8"
-)
+LOOSE = _row(thing="i8", is_round="i8", density="i8", friction="i8", slower="i8")
+WALKING = _row(thing="i8", step="f8", turn="f8", first="i8", places="i8", begins="i8")
+OBSTACLE = _row(
+    first="f8", last="f8", grid="f8", jitter="f8", columns="i8", rows="i8", x="f8", y="f8",
+    count="i8", low="f8", high="f8",
+)  # fmt: skip
+MEASURES = _row(kind="i8", thing="i8", things="i8", beyond="f8", over="i8", ring="i8")
+EVENT = _row(
+    kind="i8", thing="i8", things="i8", to="i8", tos="i8", arrival="i8",
+    columns="i8", rows="i8", patch="f8", board="i8",
+)  # fmt: skip
+END = _row(event="i8", times="i8", when="i8", whens="i8", succeeds="i8")
+REWARD = _row(code="i8", length="i8", on="i8", each="i8", eachs="i8", when="i8", whens="i8")
 WORLD = _row(
-    dt="f8", linear="f8", angular="f8", mass="f8", moment="f8", mass_inv="f8", moment_inv="f8", radius="f8",
-    half="f8", ticks="i8", start="f8", drain="f8", charge="f8", rays="i8", near="f8", master="i8",
-    claw="f8", battery="i8", cell="f8",
+    dt="f8", linear="i8", angular="i8", friction="i8", mass="i8", moment="i8", mass_inv="i8", moment_inv="i8",
+    radius="f8", front="f8", side="f8", is_round="i8", axles="f8", half_x="f8", half_y="f8",
+    is_placed="i8", start_x="f8", start_y="f8", is_faced="i8", facing="f8",
+    ticks="i8", start="f8", drain="f8", charge="f8", rays="i8",
+    near="f8", master="i8", claw="f8", battery="i8", cell="f8",
 )  # fmt: skip

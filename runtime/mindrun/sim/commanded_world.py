@@ -93,11 +93,15 @@ class World:
 
     @property
     def ended(self) -> str | None:
-        """The event that has ended the run, or "time"; None while it goes on."""
+        """What has ended the run: an event or a condition, or "time"; None while it goes on."""
         if self._jobs.lanes[0] > 0:
             return None
-        event = int(self._state.run.ended[0])
-        return _written(self._rollout.task.events[event]) if event >= 0 else TIME
+        number, task = int(self._state.run.ended[0]), self._rollout.task
+        if number < 0:
+            return TIME
+        end = task.ends[number]
+        said = end.text if end.event is None else _written(task.events[end.event])
+        return f"success: {said}" if end.succeeds else said
 
     def _begun(self, seeds: Sequence[int]) -> Jobs:
         jobs = self._rollout.jobs(np.zeros((len(seeds), 0), np.float32), np.array(seeds, np.uint64))
@@ -107,8 +111,8 @@ class World:
 
 def _written(event: EventKind) -> str:
     """An event as a mind writes it, without its numbers: "reach of ball"."""
-    of = getattr(event, "of", "")
-    return f"{names()[type(event)]} of {of}" if of else names()[type(event)]
+    words = [f" {word} {getattr(event, word)}" for word in ("of", "to") if getattr(event, word, "")]
+    return names()[type(event)] + "".join(words)
 
 
 def _check(noun: str, name: str, known: Sequence[str]) -> None:

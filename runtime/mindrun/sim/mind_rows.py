@@ -10,12 +10,14 @@ from numpy.typing import NDArray
 from mindrun.graph import Edge, Graph, Skill
 from mindrun.registry import names
 from mindrun.sim.codes import ACTUATOR, ACTUATOR_CODES, EDGE, MEMORY, SKILL, function_codes
+from mindrun.sim.parameter_rows import SAME_IN_EVERY_RUN, Parameters
 from mindrun.sim.programs import Programs
 from mindrun.sim.records import Row, records
 from mindrun.weights import genes, weights_of
 
 Array = NDArray[Any]
 Floats = NDArray[np.float32]
+VARYING_COLUMNS = {"thrust": "thrust", "noise": "noise", "slip": "slip", "turn": "range"}  # arguments that may vary
 
 
 @dataclass(frozen=True, slots=True)
@@ -59,30 +61,33 @@ def skill_rows(
 ) -> Skills:
     """What the tables say of the skills that a master reaches.
 
-    A learner's weights begin at a place in the genome, the others' at one in what is shared.
+    A learner's weights begin at a place in the genome, the others' at one in what is shared. Skills that are like one
+    another have one place.
     """
-    lengths = {skill.name: genes(skill) for skill in reached}
+    lengths = {skill.owner: genes(skill) for skill in reached}
     starts = dict(zip(learners, np.cumsum([0, *(lengths.get(name, 0) for name in learners)]), strict=False))
     numbers = function_codes()
     rows: list[Row] = []
     edges: list[Row] = []
     inputs: list[int] = []
     shared = np.zeros(0, np.float32)
+    places: dict[str, int] = {}
     state = 0
     for skill in reached:
         function, count, outputs = skill.function, len(skill.inputs), skill.outputs
-        own = skill.name in starts
+        own = skill.owner in starts
+        if not own and skill.owner not in places:
+            places[skill.owner] = len(shared)
+            shared = np.concatenate([shared, weights_of(skill, weights)])
         rows.append({
             "kind": numbers[names()[type(function)]], "index": graph.skills.index(skill),
             "input": len(inputs), "inputs": count, "outputs": outputs,
-            "weights": int(starts[skill.name]) if own else len(shared), "own": own,
+            "weights": int(starts[skill.owner]) if own else places[skill.owner], "own": own,
             "edge": len(edges), "edges": len(skill.edges), "address": addresses.get(skill.name, 0), "state": state,
             **function.row(count, outputs),
         })  # fmt: skip
         inputs.extend(skill.inputs)
         edges.extend(_edge(graph, edge, codes) for edge in skill.edges)
-        if genes(skill) and not own:
-            shared = np.concatenate([shared, weights_of(skill, weights)])
         state += function.state_length(count, outputs)
     all_inputs = np.array(inputs, np.int64)
     return Skills(rows=records(rows, SKILL), edges=records(edges, EDGE), inputs=all_inputs, weights=shared, state=state)
@@ -90,21 +95,37 @@ def skill_rows(
 
 def _edge(graph: Graph, edge: Edge, codes: Programs) -> Row:
     first, length = codes.add(edge.value)
+    when, whens = codes.add(edge.gate.when if edge.gate else ())
+    other, others = codes.add((edge.gate and edge.gate.otherwise) or ())
     sinks_before = len(graph.actuators) if edge.to == "memory" else 0
     return {
         "to_skill": edge.to == "skill", "target": edge.target + sinks_before,
         "output": -1 if edge.output is None else edge.output, "code": first, "length": length,
+        "when": when, "whens": whens, "other": other, "others": others, "cuts": edge.cuts,
     }  # fmt: skip
 
 
-def actuator_rows(graph: Graph) -> tuple[Array, int]:
+def actuator_rows(graph: Graph, parameters: Parameters) -> tuple[Array, int]:
     """Rows of ACTUATOR, and how many commands wait at any time."""
     rows: list[Row] = []
     ring = 0
     for actuator in graph.actuators:
-        kind = actuator.kind
-        code = ACTUATOR_CODES[names()[type(kind)], kind.mounted]
-        rows.append({"kind": code, "neutral": kind.neutral, "delay": kind.delay, "ring": ring, **kind.row()})
+        kind, fails = parameters.greatest("actuator", actuator.name, actuator.kind), parameters.failing(actuator.name)
+        own = kind.row(graph.body)
+        is_noisy = own.get("noise", 0.0) > 0.0
+        row = {
+            "kind": ACTUATOR_CODES[names()[type(kind)]], "neutral": kind.neutral, "delay": kind.delay, "ring": ring,
+            "is_noisy": is_noisy, "is_slipping": own.get("slip", 0.0) > 0.0,
+            "is_rough": is_noisy or fails != SAME_IN_EVERY_RUN, "fails": fails,
+            "is_late": parameters.varies("actuator", actuator.name, "delay"),
+        }  # fmt: skip
+        values = {column: getattr(actuator.kind, key) for column, key in VARYING_COLUMNS.items() if column in own}
+        varying = {
+            column: parameters.row("actuator", actuator.name, VARYING_COLUMNS[column], value)
+            for column, value in values.items()
+        }
+        wait = parameters.row("actuator", actuator.name, "delay", actuator.kind.delay)
+        rows.append({**own, **row, **varying, "wait": wait})
         ring += kind.delay
     return records(rows, ACTUATOR), ring
 

@@ -3,7 +3,7 @@
 from dataclasses import dataclass, field
 
 from mindrun.graph import Program
-from mindrun.sim.codes import MEASURE, NEGATE, NUMBER, OPERATIONS
+from mindrun.stack_machine import COMMAND, NEGATE, NUMBER, OPERATIONS
 
 
 @dataclass(slots=True)
@@ -18,7 +18,7 @@ class Programs:
         first, depth = len(self.rows), 0
         for name, value in program:
             op = OPERATIONS[name]
-            depth += 1 if op <= MEASURE else 0 if op == NEGATE else -1
+            depth += 1 if op <= COMMAND else 0 if op == NEGATE else -1
             self.depth = max(self.depth, depth)
             number = float(value) if op == NUMBER else 0.0
             self.rows.append((op, 0 if op == NUMBER else int(value), number))

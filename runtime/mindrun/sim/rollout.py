@@ -33,8 +33,8 @@ class Scores:
 
     `total` is −∞ where a reward was not a number; `by_line` [genomes, seeds, lines] sums each reward line; `counts` are
     all events that the task counts together, `by_event` [genomes, seeds, events] each event of the task; `ended_by` is
-    an index into these, −1 where the run lasted its time, −2 where the robot was beyond all places (FAR); `faults`
-    counts values that were not sent, and such a flight.
+    an index into the task's ends, −1 where the run lasted its time, −2 where the robot was beyond all places (FAR);
+    `faults` counts values that were not sent, and such a flight.
     """
 
     total: NDArray[np.float64]
@@ -124,9 +124,8 @@ class Rollout:
         """Room for so many lanes."""
         state = empty_state(self.tables, self.sizes, lanes)
         holds = [float(thing["hold"]) if thing["kind"] == ITEM else None for thing in self.tables.things]
-        radius = float(self.tables.world[0]["radius"])
         contact = state.contact
-        kept = chipmunk.prepare(contact.handles, contact.floats, contact.batch, radius, holds)
+        kept = chipmunk.prepare(contact.handles, contact.floats, contact.batch, contact.tally, self.graph.body, holds)
         return Tile(state, Memories(self.procedures), kept)
 
     def _run(self, jobs: Jobs, share: NDArray[np.int64], stop: Event, ran: Callable[[float], None]) -> Jobs:

@@ -1,18 +1,22 @@
 """The rows of the sensors that somebody reads, and their rays."""
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from mindrun.expression import leaves, placed
 from mindrun.graph import Graph, Sensor, Skill, Task
 from mindrun.registry import names
 from mindrun.sensors import Physical
 from mindrun.sim.codes import SENSOR, sensor_codes
+from mindrun.sim.parameter_rows import Parameters
+from mindrun.sim.programs import Programs
 from mindrun.sim.records import Row, records
-from mindrun.sim.task_rows import things_of
+from mindrun.sim.task_rows import NOWHERE, rows_by_name
+from mindrun.virtual_sensors import scene_of
 
 Array = NDArray[Any]
 
@@ -36,11 +40,9 @@ def used_sensors(graph: Graph, reached: Sequence[Skill], task: Task) -> Used:
 
 
 def _rewarded(task: Task) -> set[int]:
-    """The readings that rewards depend on."""
-    rows: set[int] = set()
+    """The readings that rewards and ends depend on."""
+    rows = {index for program in task.programs for index in leaves(program, "reading")}
     for reward in task.rewards:
-        programs = [reward.amount] + ([reward.when.left, reward.when.right] if reward.when else [])
-        rows |= {int(value) for program in programs for name, value in program if name == "reading"}
         rows |= set(range(reward.each[0], sum(reward.each))) if reward.each else set()
     return rows
 
@@ -51,81 +53,110 @@ def _measured(graph: Graph, rows: set[int]) -> list[Sensor]:
     ordered: dict[str, Sensor] = {}
     for sensor in graph.sensors:
         if rows.intersection(range(sensor.start, sensor.start + sensor.width)):
-            chain = [sensor]
-            while chain[-1].kind.source in by_name:
-                chain.append(by_name[chain[-1].kind.source])
-            for link in reversed(chain):
-                ordered.setdefault(link.name, link)
+            waiting = [sensor]
+            while waiting:
+                last = waiting[-1]
+                missing = [name for name in last.kind.sources if name in by_name and name not in ordered]
+                if missing:
+                    waiting.append(by_name[missing[0]])
+                else:
+                    ordered.setdefault(last.name, waiting.pop())
     return list(ordered.values())
 
 
 @dataclass(frozen=True, slots=True)
-class Scene:
-    """What the row of a sensor can depend on beside its own arguments."""
-
-    tick: float
-    starts: Mapping[str, int]
-
-
-@dataclass(frozen=True, slots=True)
 class Sensed:
-    """Rows of SENSOR, the directions [2, rays] of all rays and the reading that each writes, and how many readings.
+    """Rows of SENSOR, the directions [2, rays] of all rays, where they leave the body, the readings they write.
 
-    Those are: derived ones, rough ones, and what waits in their rings.
+    Then the numbers of kinds, and how many readings are derived, rough, and wait in their rings.
     """
 
     rows: Array
     rays: Array
+    rims: Array
     ray_row: Array
+    pierces: Array
+    numbers: Array
     derived: int
     rough: int
     rings: int
 
 
-def sensor_rows(graph: Graph, used: Used, task: Task) -> Sensed:
+def sensor_rows(graph: Graph, used: Used, task: Task, programs: Programs, parameters: Parameters) -> Sensed:
     """What the table of sensors says of those that are used.
 
     What is measured aside draws its noise from a generator of its own: a reward changes nothing in the world.
     """
-    things = {thing.name: i for i, thing in enumerate(things_of(task))}
-    starts = {m.name: m.start for m in graph.memories} | {s.name: s.start for s in graph.sensors}
-    circular = {s.name for s in graph.sensors if s.kind.circular}
-    codes, scene = sensor_codes(), Scene(graph.tick, starts)
+    things = rows_by_name(task)
+    scene, room = scene_of(graph), _Room()
     rows: list[Row] = []
-    angles: list[float] = []
-    ray_row: list[int] = []
-    before = held = ring = 0
     for is_aside, sensor in [(False, s) for s in used.skills] + [(True, s) for s in used.aside]:
         kind = sensor.kind
+        about = things.get(kind.thing, NOWHERE)
         row: dict[str, float] = {
-            "kind": codes[names()[type(kind)]], "start": sensor.start, "width": sensor.width,
-            "thing": things.get(kind.thing, -1), "turns": kind.source in circular,
-            "ray": len(angles), "before": before, "held": held, "ring": ring, "is_aside": is_aside, "every": 1,
+            "kind": sensor_codes()[names()[type(kind)]], "start": sensor.start, "width": sensor.width,
+            "thing": about.start, "things": len(about), "turns": kind.source in scene.circular,
+            "is_aside": is_aside, "every": 1,
         }  # fmt: skip
-        if isinstance(kind, Physical):
-            row |= _roughness(kind)
-            held += sensor.width
-            ring += sensor.width * kind.delay
-        rows.append({**row, **kind.row(scene)})
-        angles.extend(kind.rays)
-        ray_row.extend(range(sensor.start, sensor.start + len(kind.rays)))
-        before += sensor.width if kind.remembers else 0
-    turn = np.array(angles, np.float64)
+        row["code"], row["length"] = programs.add(placed(kind.formula, scene.starts))
+        rows.append({**row, **room.take(sensor, parameters), **_roughness(sensor, parameters), **kind.row(scene)})
+    turn = np.array(room.rays, np.float64)
     return Sensed(
         rows=records(rows, SENSOR),
         rays=np.array([np.cos(turn), np.sin(turn)], np.float32),
-        ray_row=np.array(ray_row, np.int64),
-        derived=before,
-        rough=held,
-        rings=ring,
+        rims=np.array([graph.body.rim(angle) for angle in room.rays], np.float32),
+        ray_row=np.array(room.ray_row, np.int64),
+        pierces=np.array(room.pierces, np.bool_),
+        numbers=np.array(room.numbers, np.float64),
+        derived=room.before,
+        rough=room.held,
+        rings=room.ring,
     )
 
 
-def _roughness(kind: Physical) -> Row:
+@dataclass(slots=True)
+class _Room:
+    """What the sensors before have taken of what all share."""
+
+    rays: list[float] = field(default_factory=list)
+    ray_row: list[int] = field(default_factory=list)
+    pierces: list[bool] = field(default_factory=list)
+    numbers: list[float] = field(default_factory=list)
+    before: int = 0
+    held: int = 0
+    ring: int = 0
+
+    def take(self, sensor: Sensor, parameters: Parameters) -> Row:
+        """Where what a sensor needs begins."""
+        kind = sensor.kind
+        row = {
+            "ray": len(self.rays), "number": len(self.numbers), "before": self.before, "held": self.held,
+            "ring": self.ring,
+        }  # fmt: skip
+        self.rays.extend(kind.rays)
+        self.ray_row.extend(range(sensor.start, sensor.start + len(kind.rays)))
+        self.pierces.extend(kind.pierces for _ in kind.rays)
+        self.numbers.extend(kind.numbers)
+        self.before += sensor.width * kind.remembered
+        if isinstance(kind, Physical):
+            self.held += sensor.width
+            self.ring += sensor.width * parameters.greatest("sensor", sensor.name, kind).delay
+        return row
+
+
+def _roughness(sensor: Sensor, parameters: Parameters) -> Row:
     """What is not perfect about it; `blank` is what is read where one is lost, −1 for the same as before."""
+    kind, name = sensor.kind, sensor.name
+    if not isinstance(kind, Physical):
+        return {}
+    varying = {
+        "noise": parameters.row("sensor", name, "noise", kind.noise),
+        "lost": parameters.row("sensor", name, "lost", kind.lost),
+        "wait": parameters.row("sensor", name, "delay", kind.delay),
+    }
+    kind = parameters.greatest("sensor", name, kind)
     is_rough = kind.noise > 0 or kind.lost > 0 or kind.every > 1 or kind.delay > 0
     blank = -1.0 if kind.keeps_lost else kind.blank
     return {
-        "is_rough": is_rough, "noise": kind.noise, "lost": kind.lost, "blank": blank,
-        "every": max(1, kind.every), "delay": kind.delay,
+        "is_rough": is_rough, "blank": blank, "every": max(1, kind.every), "delay": kind.delay, **varying,
     }  # fmt: skip

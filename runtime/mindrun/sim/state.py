@@ -12,6 +12,7 @@ Array = NDArray[Any]
 PLACE_ROWS = 2  # x and y
 SIGHT_COSINE, SIGHT_SINE, SIGHT_X, SIGHT_Y, FIRST_RAY = range(5)  # rows of `sight`
 LEFT, RIGHT, LOW, HIGH, SIDES = range(5)  # rows of a box in `sides`, and how many
+LOOSE_COSINE, LOOSE_SINE, LOOSE_X, LOOSE_Y, LOOSE_HALF, FRAME_ROWS = range(6)  # of the frame of a loose thing
 FAILED_SKILL, FAILED_COLUMN = range(2)  # of `failed`
 
 
@@ -20,8 +21,13 @@ class World(NamedTuple):
 
     body: Array  # [6] float64: x, y, angle, their velocities
     heading: Array  # [2] float64: cosine and sine of the angle
-    boxes: Array  # [lane, BOX_COLUMNS·boxes] float64: x, y, half side of each
+    boxes: Array  # [lane, BOX_COLUMNS·boxes] float64: x, y, half of both sides of each
     things: Array  # [THING_ROWS·things] float64: x, y, size, distance to the robot when the tick began
+    loose: Array  # [LOOSE_ROWS·loose] float64: how far each loose thing has turned, its velocity and spin
+    still: Array  # [loose] int64: for how many ticks each has not moved, up to SETTLED_TICKS
+    restless: Array  # int64: how many have not settled
+    direction: Array  # [walkers] float64: in which each wanders
+    goal: Array  # [walkers] int64: the place of its way that each goes to
     held: Array  # int64: the thing that the claw holds, or −1
     reached: Array  # [things] uint8: bit 0 while it is in reach, bit 1 if it was in the tick before
     delivered: Array  # [things] uint8: the same of items that were carried into a zone and have not left
@@ -29,9 +35,12 @@ class World(NamedTuple):
     random: Array  # uint64: the generator
     random_aside: Array  # uint64: the generator of what no skill reads
     tick: Array  # int64: how many the run has lasted
+    numbers: Array  # [parameters] float64: what may differ from run to run
     trail: Array  # [PLACE_ROWS·TRAIL_TICKS] float64: where the robot was in the last ticks
     # for this tick
-    push: Array  # [4] float64: force along the heading, torque, and the force's x and y
+    push: Array  # [PUSH_ROWS] float64: force along the heading, torque, the force's x and y, force to the left
+    acting: Array  # [actuators] float32: the commands of what is rough, with its noise
+    grip: Array  # [actuators] float64: the share of its force that each keeps that slips
     begun_at: Array  # [PLACE_ROWS] float64: where the robot was when the tick began
 
 
@@ -44,6 +53,9 @@ class Sight(NamedTuple):
     anchor: Array  # [PLACE_ROWS] float64: where they were chosen
     # for this tick
     sides: Array  # [SIDES·boxes] float32: those of the boxes nearby, relative to the robot
+    nearest: Array  # [THING_ROWS] float64: of several things of one name
+    nearest_of: Array  # [1] int64: the first row of these, −1 before any sensor has asked
+    frame: Array  # [FRAME_ROWS] float32: of the thing that is looked at: how it is turned, where it is, its size
     sight: Array  # [FIRST_RAY + rays] float32: heading and place, then how far each ray goes
 
 
@@ -51,7 +63,7 @@ class Mind(NamedTuple):
     """What is read, remembered and sent."""
 
     readings: Array  # [readings] float32
-    before: Array  # [derivatives] float32: what they read in the tick before
+    before: Array  # [what virtual sensors remember] float32: of a derivative what its source read before
     measured: Array  # [rough readings] float32: what was measured last
     rings: Array  # [rough readings · delay] float32: what was measured and is not seen yet
     genome: Array  # [weights] float32, of the learner
@@ -68,6 +80,9 @@ class Mind(NamedTuple):
     hidden: Array  # [2·width] float32
     stack: Array  # [depth] float64, of expressions
     values: Array  # float32: of an edge with `at`
+    opened: Array  # float32: of an edge with `when`, 1 where that holds
+    other: Array  # float32: what it sends otherwise
+    gated: Array  # float32: which of the two it sends
     sent: Array  # float32: the values of an edge, −1 where nothing is sent
 
 
@@ -77,11 +92,14 @@ class Contact(NamedTuple):
     near: Array  # int64: ticks for which it still steps this lane
     touching: Array  # int64: bit 0 while something touches, bit 1 if something did in the tick before
     handles: Array  # [lane, …] uint64: space, body, robot's shape, held shapes, boxes' shapes, walls' shapes
+    loose: Array  # [lane, LOOSE_HANDLES·loose] uint64: body and shape of each loose thing
+    sizes: Array  # [lane, loose] float64: of which size these are
+    placed: Array  # [lane, loose] uint8: 1 where a body stands still just where its settled thing does
     # for this tick
     gap: Array  # float64: to what is nearest after it
     floats: Array  # [lane, …] float64: a body's state on its way to Chipmunk and back
     batch: Array  # [lane, …] int64: pymunk's structures that point at `floats`
-    touches: Array  # int64: contacts of the last step
+    tally: Array  # [lane, TALLY_WORDS] int64: contacts of the last step, and what it takes to count them
 
 
 class Judge(NamedTuple):
@@ -91,21 +109,22 @@ class Judge(NamedTuple):
     left_changes: Array  # [changes] float64: how much the left wheel's command changed
     right_changes: Array
     visited: Array  # [lane, patches] uint8
+    arrived: Array  # [items by event] uint8: as `delivered`, of zones of one name
     lines: Array  # [rewards] float64: the sum of each reward line
     counts: Array  # [events] int64: how often each happened in this run
     # for this tick
     measures: Array  # [measures] float64
-    events: Array  # [events] float64: 1 where it happened
+    events: Array  # [events] float64: how often it happened
     happened: Array  # [events] int64: in how many lanes
-    paid: Array  # float64: whether a reward line pays
-    limit: Array  # float64: the right side of its condition
+    paid: Array  # float64: whether a reward line pays, or an end has come; before that, room for a measure
 
 
 class Run(NamedTuple):
     """How the run of each lane stands."""
 
     job: Array  # int64: which it is, −1 for none
-    ended: Array  # int64: the event that ended it, or GOING_ON, or LOST
+    ended: Array  # int64: what ended it, by its place among the task's ends, or GOING_ON, or LOST
+    met: Array  # int64: the end that came first, or GOING_ON; where nothing interrupts, the run goes on
     faults: Array  # int64: values that were not sent
     failed: Array  # [2] int64: the skill whose procedure failed, −1 where none did, and the column of `gathered`
 
@@ -133,7 +152,16 @@ class Senses(NamedTuple):
     battery: Array
     tick: Array
     trail: Array
+    loose: Array
+    nearest: Array
+    nearest_of: Array
+    frame: Array
     sight: Array
+    boxes: Array
+    nearby: Array
+    nearby_count: Array
+    stack: Array
+    active: Array
 
 
 class Jobs(NamedTuple):

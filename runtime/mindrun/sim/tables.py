@@ -10,24 +10,30 @@ from numpy.typing import NDArray
 from mindrun.graph import Graph, Task
 from mindrun.sim.codes import (
     CODE,
+    END,
     EVENT,
     MEASURES,
     OBSTACLE,
     REWARD,
     THING,
 )  # fmt: skip
+from mindrun.sim.loose_rows import loose_rows
 from mindrun.sim.mind_rows import actuator_rows, memory_rows, skill_rows
+from mindrun.sim.parameter_rows import Parameters
 from mindrun.sim.programs import Programs
 from mindrun.sim.sensor_rows import sensor_rows, used_sensors
 from mindrun.sim.task_rows import (
     box_count,
+    end_row,
     event_rows,
     measure_rows,
     obstacle_rows,
     reward_row,
     thing_rows,
+    wall_rows,
     world_row,
 )  # fmt: skip
+from mindrun.sim.walker_rows import walker_rows, way_rows
 from mindrun.weights import genes, reachable
 
 Array = NDArray[Any]
@@ -40,7 +46,10 @@ class Tables(NamedTuple):
     world: Array
     sensors: Array
     rays: Array  # [2, rays] float32: cosine and sine of each ray's angle
+    rims: Array  # [rays] float32: how far from the robot's middle each ray leaves it
     ray_row: Array  # the row of readings that each ray writes
+    pierces: Array  # whether each ray goes on through what is loose
+    numbers: Array  # float64, of the sensors whose kinds say `numbers`
     skills: Array
     inputs: Array  # rows of readings, skill after skill
     edges: Array
@@ -48,10 +57,16 @@ class Tables(NamedTuple):
     weights: Array  # float32, of the skills that do not learn
     actuators: Array
     memories: Array
+    parameters: Array
     things: Array
+    loose: Array
+    walkers: Array
+    ways: Array  # [places, 2] float64: those that walkers go along, way after way
     obstacles: Array
+    walls: Array  # [walls, BOX_COLUMNS]: the boxes that stand in the same places in every run
     measures: Array
     events: Array
+    ends: Array
     rewards: Array
     library: Array  # addresses of Chipmunk's functions
 
@@ -72,6 +87,7 @@ class Sizes:
     delays: int
     changes: int
     patches: int
+    arrivals: int
     boxes: int
     depth: int
 
@@ -86,33 +102,35 @@ def build(
     library: Array,
 ) -> tuple[Tables, Sizes]:
     """The tables of a task under a master; `addresses` are those of the compiled procedures, by skill."""
-    codes = Programs()
+    codes, parameters = Programs(), Parameters(graph, task)
     reached = reachable(graph, master)
     skills = skill_rows(graph, reached, weights, learners, addresses, codes)
     rewards = [reward_row(reward, codes) for reward in task.rewards]
+    ends = [end_row(end, codes) for end in task.ends]
     used = used_sensors(graph, reached, task)
-    sensed = sensor_rows(graph, used, task)
-    driven, delays = actuator_rows(graph)
+    sensed = sensor_rows(graph, used, task, codes, parameters)
+    driven, delays = actuator_rows(graph, parameters)
     measured, changes = measure_rows(task)
-    noticed, patches = event_rows(task)
-    index = [skill.name for skill in graph.skills].index(master)
+    noticed, patches, arrivals = event_rows(task)
     tables = Tables(
-        world=world_row(graph, task, len(sensed.ray_row), [*used.skills, *used.aside], index),
-        sensors=sensed.rows, rays=sensed.rays, ray_row=sensed.ray_row,
+        world=world_row(graph, task, parameters, len(sensed.ray_row), [*used.skills, *used.aside], master),
+        sensors=sensed.rows, rays=sensed.rays, rims=sensed.rims, ray_row=sensed.ray_row,
+        pierces=sensed.pierces, numbers=sensed.numbers,
         skills=skills.rows, inputs=skills.inputs, edges=skills.edges, weights=skills.weights,
-        codes=np.array(codes.rows, CODE),
-        actuators=driven, memories=memory_rows(graph),
-        things=np.array(thing_rows(graph, task), THING), obstacles=np.array(obstacle_rows(task), OBSTACLE),
-        measures=np.array(measured, MEASURES), events=np.array(noticed, EVENT), rewards=np.array(rewards, REWARD),
-        library=library,
+        codes=np.array(codes.rows, CODE), actuators=driven, memories=memory_rows(graph),
+        things=np.array(thing_rows(graph, task), THING), loose=loose_rows(task, graph.tick, parameters),
+        walkers=walker_rows(task, graph.tick), ways=way_rows(task),
+        obstacles=np.array(obstacle_rows(task), OBSTACLE), walls=wall_rows(task),
+        measures=np.array(measured, MEASURES), events=np.array(noticed, EVENT),
+        ends=np.array(ends, END), rewards=np.array(rewards, REWARD),
+        library=library, parameters=parameters.table(),  # last: all others add to them
     )  # fmt: skip
-    sizes = Sizes(
+    return tables, Sizes(
         readings=max(1, graph.width), before=sensed.derived, rough=sensed.rough, rings=sensed.rings,
         skills=len(graph.skills), inputs=skills.most_inputs, width=skills.most_outputs, recurrent=skills.state,
         genome=genome_length(graph, learners), depth=codes.depth, delays=delays,
-        changes=changes, patches=patches, boxes=box_count(task),
+        changes=changes, patches=patches, arrivals=arrivals, boxes=box_count(task),
     )  # fmt: skip
-    return tables, sizes
 
 
 def genome_length(graph: Graph, learners: Sequence[str]) -> int:

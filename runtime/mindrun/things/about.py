@@ -19,3 +19,8 @@ class AboutThing:
     def is_about(kind: type[ThingKind]) -> bool:
         """Whether it can be about things of a kind."""
         return not kind.is_obstacle
+
+    @classmethod
+    def accepts(cls, argument: str, kind: type[ThingKind]) -> bool:
+        """Whether an argument of it can name things of a kind."""
+        return cls.is_about(kind)

@@ -4,7 +4,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Annotated
 
-from mindrun.quantity import LENGTH, Span
+from mindrun.quantity import COORDINATE, COUNT, LENGTH, Place, Span
 from mindrun.registry import kind
 from mindrun.things.thing import DEFAULT_DISTANCE, DEFAULT_SIZE, MOVES, OUTCOME, STAYS, Outcome, ThingKind
 
@@ -12,7 +12,7 @@ from mindrun.things.thing import DEFAULT_DISTANCE, DEFAULT_SIZE, MOVES, OUTCOME,
 @kind("content", "item")
 @dataclass(frozen=True, slots=True)
 class Item(ThingKind):
-    """A disc of diameter `size` that the claw can take. `away` is its distance from the robot when it is placed.
+    """A disc of diameter `size` that the claw can take, or `count` of them, `away` from the robot or `at` a place.
 
     When it is `reached` or `delivered` it stays as it is (in the claw, where that holds it), moves elsewhere with the
     next size of its schedule, or vanishes for the rest of the run.
@@ -20,10 +20,13 @@ class Item(ThingKind):
 
     size: Annotated[Span, LENGTH] = DEFAULT_SIZE
     away: Annotated[Span, LENGTH] = DEFAULT_DISTANCE
+    at: Annotated[tuple[Place, ...], COORDINATE] = ()
+    count: Annotated[int, COUNT] = 1
     reached: Annotated[Outcome, OUTCOME] = STAYS
     delivered: Annotated[Outcome, OUTCOME] = MOVES
 
     can_be_held = True
+    can_be_delivered = True
     is_round = True
 
     @property

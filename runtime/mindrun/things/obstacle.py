@@ -1,21 +1,25 @@
 """What stands in the way."""
 
+from collections.abc import Iterable
 from dataclasses import dataclass
+from itertools import product
 from typing import Annotated
 
-from mindrun.quantity import LENGTH, Quantity, Span
+from mindrun.quantity import COORDINATE, LENGTH, Place, Quantity, Span
 from mindrun.registry import kind
 from mindrun.scenes import SceneKind
+from mindrun.things.rectangle import Rectangle
 from mindrun.things.thing import DEFAULT_DISTANCE, DEFAULT_SIZE, MAX_OBSTACLES, Mistake, Row, ThingKind
 
 COUNT = Quantity("a whole number", {"": 1.0}, low=0, high=1000, whole=True)
+MIDDLE_UNITS: tuple[Place, ...] = ((0.0, 0.0),)  # of a grid
 MAX_GRID_LINES = 1e9  # lines of a grid, far more than can be
 
 
 @kind("content", "obstacle")
 @dataclass(frozen=True, slots=True)
 class Obstacle(ThingKind):
-    """Solid squares of side `size`: `count` of them anywhere, or one at each point of a `grid` of that spacing.
+    """Solid squares of side `size`: `count` of them anywhere, one `at` a place, or one at each point of a `grid`.
 
     Each stands up to `jitter` off its point, both ways along both axes.
     """
@@ -25,34 +29,53 @@ class Obstacle(ThingKind):
     jitter: Annotated[float, LENGTH] = 0.0
     count: Annotated[int, COUNT] = 0
     away: Annotated[Span, LENGTH] = DEFAULT_DISTANCE
+    at: Annotated[tuple[Place, ...], COORDINATE] = ()
 
     is_obstacle = True
     is_solid = True
     least_distance = 0.0
 
-    def grid_lines(self, scene: SceneKind | None) -> int:
-        """How many lines of its grid cross a scene, none on its walls; there is no grid without walls."""
+    def grid_lines(self, scene: SceneKind | None) -> tuple[int, int]:
+        """How many columns and rows its grid has in a scene, none on its walls; there is no grid without walls."""
         if scene and scene.is_bounded and self.grid:
-            return max(0, round(min(scene.side / self.grid, MAX_GRID_LINES)) - 1)
-        return 0
+            columns, rows = (max(0, round(min(side / self.grid, MAX_GRID_LINES)) - 1) for side in scene.sides)
+            return columns, rows
+        return 0, 0
 
     def obstacles(self, scene: SceneKind | None) -> int:
-        """One at each point of its grid, or its count."""
-        return self.grid_lines(scene) ** 2 if self.grid else self.count
+        """One at each point of its grid, one at its place, or its count."""
+        columns, rows = self.grid_lines(scene)
+        return columns * rows if self.grid else self.count or len(self.at)
 
-    def row(self, scene: SceneKind) -> Row:
-        """A grid or a count."""
-        lines, count = self.grid_lines(scene), 0 if self.grid else self.count
-        return {"grid": self.grid, "jitter": self.jitter, "lines": lines, "count": count}
+    def standing(self, scene: SceneKind | None) -> Iterable[Rectangle]:
+        """What the smallest of them covers wherever jitter moves it."""
+        half = min(self.size.first, self.size.last) / 2 - self.jitter
+        columns, rows = self.grid_lines(scene) if self.grid else (1, 1)
+        if half <= 0 or not (self.grid or self.at) or columns * rows > MAX_OBSTACLES:
+            return
+        for (x, y), column, row in product(self.at or MIDDLE_UNITS, range(columns), range(rows)):
+            yield Rectangle(
+                x + (column - (columns - 1) / 2) * self.grid, y + (row - (rows - 1) / 2) * self.grid, half, half
+            )
+
+    def rows(self, scene: SceneKind) -> Iterable[Row]:
+        """A grid, which has a single point where it stands at a place, or a count."""
+        columns, rows = (1, 1) if self.at else self.grid_lines(scene)
+        count = 0 if self.grid or self.at else self.count
+        grid = {"grid": self.grid, "jitter": self.jitter, "columns": columns, "rows": rows, "count": count}
+        return [{**grid, "x": x, "y": y} for x, y in self.at or MIDDLE_UNITS]
 
     def mistake(self, scene: SceneKind | None) -> Mistake | None:
-        """A grid needs the borders of an arena and must not be too close; without one it needs a count."""
+        """A grid needs the borders of an arena and must not be too close; without one it needs a count or a place."""
+        if self.at and (self.grid or self.count):
+            hint = "Write at and its place, or a count, or a grid."
+            return Mistake("place-for-many", "Several things cannot stand at one place.", hint)
         if self.grid and scene and not scene.is_bounded:
             hint = "Write in arena size 100, or count 10 instead of the grid."
             return Mistake("endless-grid", "In a plain scene a grid of obstacles would never end.", hint)
         if (made := self.obstacles(scene)) > MAX_OBSTACLES:
             hint = f"A world takes {MAX_OBSTACLES}: space it out."
             return Mistake("too-many-obstacles", f"That is a grid of {made} obstacles.", hint)
-        if not self.grid and not self.count:
-            return Mistake("no-obstacles", "That makes no obstacle.", "Add grid 20, or count 10.")
-        return None
+        if not self.grid and not self.count and not self.at:
+            return Mistake("no-obstacles", "That makes no obstacle.", "Add grid 20, or count 10, or at 30 -20.")
+        return ThingKind.mistake(self, scene)

@@ -4,7 +4,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Annotated
 
-from mindrun.quantity import LENGTH, Span
+from mindrun.quantity import COORDINATE, COUNT, LENGTH, Place, Span
 from mindrun.registry import kind
 from mindrun.things.thing import DEFAULT_DISTANCE, DEFAULT_SIZE, OUTCOME, STAYS, Outcome, ThingKind
 
@@ -12,10 +12,15 @@ from mindrun.things.thing import DEFAULT_DISTANCE, DEFAULT_SIZE, OUTCOME, STAYS,
 @kind("content", "power")
 @dataclass(frozen=True, slots=True)
 class Power(ThingKind):
-    """A square of side `size` on the floor in which the battery charges. `reached` is as for a zone."""
+    """A square of side `size` on the floor, or `count` of them, in which the battery charges.
+
+    `reached` is as for a zone.
+    """
 
     size: Annotated[Span, LENGTH] = DEFAULT_SIZE
     away: Annotated[Span, LENGTH] = DEFAULT_DISTANCE
+    at: Annotated[tuple[Place, ...], COORDINATE] = ()
+    count: Annotated[int, COUNT] = 1
     reached: Annotated[Outcome, OUTCOME] = STAYS
 
     is_area = True

@@ -1,11 +1,12 @@
 """What every kind of thing says of itself: the rest of the program asks, and knows no kind by name."""
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from typing import Literal, NamedTuple, get_args
 
-from mindrun.quantity import UNSAID, Reference, Span
+from mindrun.quantity import UNSAID, Place, Reference, Span
 from mindrun.registry import base
 from mindrun.scenes import SceneKind
+from mindrun.things.rectangle import Rectangle
 
 DEFAULT_SIZE = Span(1.0, 1.0)
 DEFAULT_DISTANCE = UNSAID  # as far away as its scene says
@@ -34,22 +35,39 @@ class Mistake(NamedTuple):
 class ThingKind:
     """A thing with a place, which touches nothing; a kind says what is different about it.
 
-    Every kind has the arguments `size` and `away`, the distance from the robot at which it is placed.
+    Every kind has the arguments `size`, and `away`, the distance from the robot at which it is placed, or `at`, where.
     """
 
     __slots__ = ()
 
     size: Span
     away: Span
+    at: tuple[Place, ...]
+    count: int
 
+    varying: tuple[str, ...] = ()  # the arguments that can differ from run to run
     is_obstacle = False  # whether it is squares that stand in the way: no sensor, event or measure is about these
-    is_solid = False  # whether the robot can collide with it, although nobody holds it
+    is_solid = False  # whether it stands in the way, although nobody holds it
+    is_loose = False  # whether it gives way when it is pushed
+    walks = False  # whether it moves by itself
+    speed = 0.0  # at which it does, in units per second
     can_be_held = False  # whether a claw can take it
+    can_be_delivered = False  # whether it counts as delivered when it comes into a zone
     is_area = False  # whether it lies on the floor, so that a robot or an item can be inside
     takes_items = False  # whether items are delivered into it
     charges = False  # whether the battery charges in it
     is_round = False  # its outline: a disc, not a square
     least_distance = 10.0  # from the robot, in world units, where walls keep it near
+
+    @property
+    def places(self) -> tuple[Place, ...]:
+        """Every place that it names; its copies stand at the first of them when a run begins."""
+        return self.at
+
+    @property
+    def copies(self) -> int:
+        """How many things of its name there are: each has a row of its own, one after the other."""
+        return len(self.at) or self.count
 
     @property
     def largest(self) -> float:
@@ -71,10 +89,37 @@ class ThingKind:
         """How many squares it puts in the way; `scene` is None where that is not known."""
         return 0
 
-    def row(self, scene: SceneKind) -> Row:
-        """What the lanes are told of an obstacle: the spacing and `lines` of its `grid`, its `jitter` and `count`."""
+    def standing(self, scene: SceneKind | None) -> Iterable[Rectangle]:
+        """What it fills with something solid in every run; `scene` is None where that is not known."""
+        return self.walls
+
+    @property
+    def walls(self) -> tuple[Rectangle, ...]:
+        """What it fills with something solid that is known before any run."""
+        return ()
+
+    @property
+    def letters(self) -> Mapping[str, tuple[Place, ...]]:
+        """The places of things that it draws, by their letters."""
         return {}
+
+    def rows(self, scene: SceneKind) -> Iterable[Row]:
+        """What the lanes are told of its obstacles: the spacing of their `grid` and how many `columns` and `rows` it
+        has around `x` and `y`, their `jitter` and `count`.
+        """
+        return ()
 
     def mistake(self, scene: SceneKind | None) -> Mistake | None:
         """Why it cannot be in a scene; `scene` is None where that is not known."""
-        return None
+        if not self.at:
+            return None
+        if self.away != DEFAULT_DISTANCE:
+            hint = "Leave away out: what stands at a place is as far away as that is."
+            return Mistake("place-and-distance", "It says where it is, and how far away.", hint)
+        if self.count > 1 and self.count != len(self.at):
+            hint = "Leave the count out, or the place."
+            return Mistake("place-for-many", "Several things cannot stand at one place.", hint)
+        if scene is None or all(scene.has_room(place, self.largest / 2) for place in self.at):
+            return None
+        hint = "Write a place that is in it with all of the thing; 0 0 is the middle."
+        return Mistake("outside-arena", "That is not inside the arena.", hint)

@@ -4,7 +4,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Annotated
 
-from mindrun.quantity import LENGTH, Span
+from mindrun.quantity import COORDINATE, COUNT, LENGTH, Place, Span
 from mindrun.registry import kind
 from mindrun.things.thing import DEFAULT_DISTANCE, DEFAULT_SIZE, OUTCOME, STAYS, Outcome, ThingKind
 
@@ -12,7 +12,7 @@ from mindrun.things.thing import DEFAULT_DISTANCE, DEFAULT_SIZE, OUTCOME, STAYS,
 @kind("content", "zone")
 @dataclass(frozen=True, slots=True)
 class Zone(ThingKind):
-    """A square of side `size` on the floor; items are delivered into it.
+    """A square of side `size` on the floor, or `count` of them; items are delivered into it.
 
     When it is `reached` it stays where it is, moves elsewhere with the next size of its schedule, or vanishes for the
     rest of the run.
@@ -20,6 +20,8 @@ class Zone(ThingKind):
 
     size: Annotated[Span, LENGTH] = DEFAULT_SIZE
     away: Annotated[Span, LENGTH] = DEFAULT_DISTANCE
+    at: Annotated[tuple[Place, ...], COORDINATE] = ()
+    count: Annotated[int, COUNT] = 1
     reached: Annotated[Outcome, OUTCOME] = STAYS
 
     is_area = True

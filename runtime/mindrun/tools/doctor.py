@@ -18,7 +18,7 @@ from threading import Thread
 
 import mindrun.robot.drivers  # noqa: F401  every driver is known once this is imported
 from mindrun.bundle import read_bundle
-from mindrun.registry import names
+from mindrun.driver import driver_name
 from mindrun.robot.sampling import Sample, Sampler
 from mindrun.wiring import SensorWire, Wiring, still
 
@@ -85,7 +85,7 @@ def wired(wiring: Wiring) -> Iterator[CheckResult]:
     """Every sensor, read once; every actuator, by the name of its driver."""
     for wire in wiring.sensors:
         sample = answered(wire)
-        kind = names()[type(wire.driver)]
+        kind = driver_name(wire.driver)
         if sample is None:
             yield CheckResult(wire.sensor, WRONG, f"{kind} has not answered within {SENSOR_SECONDS:g} s")
         else:
@@ -93,7 +93,7 @@ def wired(wiring: Wiring) -> Iterator[CheckResult]:
             words = sample.fault or f"{kind} reads {values} {wire.driver.unit}".rstrip()
             yield CheckResult(wire.sensor, WRONG if sample.fault else FINE, words)
     for end in wiring.actuators:
-        yield CheckResult(end.actuator, FINE, f"{names()[type(end.driver)]}, left alone")
+        yield CheckResult(end.actuator, FINE, f"{driver_name(end.driver)}, left alone")
 
 
 def answered(wire: SensorWire) -> Sample | None:

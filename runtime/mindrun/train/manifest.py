@@ -21,7 +21,7 @@ from mindrun.train import RunError
 from mindrun.validate import lesson_flaws
 from mindrun.weights import Weights, reachable
 
-MANIFEST_VERSION = 2
+MANIFEST_VERSION = 3
 MAX_SEED = 2**63 - 1  # seed
 
 

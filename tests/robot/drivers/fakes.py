@@ -161,6 +161,82 @@ class FakeLsm9ds1(Registers):
         return b"".join(round(value).to_bytes(2, "little", signed=True) for value in shaken)
 
 
+class FakeMpu6050(Registers):
+    """It sleeps after power on (register 0x6B); awake, with its interrupt on, it has a new vector every 10 ms."""
+
+    def __init__(self, turning: float) -> None:
+        super().__init__()
+        self.turning = turning  # degrees a second
+        self.taken = 0.0
+        self.power_on()
+
+    def power_on(self) -> None:
+        self.values = {0x6B: 0x40}
+
+    def read(self, count: int) -> bytes:
+        if self.pointer == 0x75:
+            return bytes([0x68])
+        if self.pointer == 0x3A:
+            runs = not self.get(0x6B) & 0x40 and self.get(0x38) & 1
+            return bytes([bool(runs and monotonic() - self.taken > 0.009)])
+        assert (self.pointer, count) == (0x47, 2)
+        self.taken = monotonic()
+        counts_per_degree = 131 / (1 << (self.get(0x1B) >> 3 & 3))
+        return round(self.turning * counts_per_degree).to_bytes(2, "big", signed=True)
+
+
+class FakeVl53l0x(Registers):
+    """A measurement takes 10 ms, and only the byte of its own at 0x91 of the page behind lets it go on measuring."""
+
+    OWN = 0x3C
+
+    def __init__(self, metres: float | None) -> None:
+        super().__init__()
+        self.metres, self.status = metres, 0x40
+        self.power_on()
+
+    def power_on(self) -> None:
+        self.values = {0x84: 0x10, 0x01: 0xFF}
+        self.in_reset, self.calibrated, self.runs = False, set[int](), False
+        self.done_at: float | None = None
+
+    def set(self, register: int, value: int) -> None:
+        behind = self.get(0xFF) == 1
+        if register == 0xBF:
+            self.power_on()
+            self.in_reset = not value
+        elif register == 0x00 and not behind and value & 0x03:
+            assert self.get(0x0A) == 0x04
+            self.done_at = monotonic() + 0.01
+            if value & 0x02:
+                assert self.calibrated == {(0x01, 0x41), (0x02, 0x01)}
+                assert (self.get(0x01), self.get(0x89)) == (0xE8, 0x01)
+                self.runs = self.get(0x91) == self.OWN
+            else:
+                self.calibrated.add((self.get(0x01), value))
+        elif register == 0x0B:
+            self.done_at = monotonic() + 0.01 if self.runs else None
+        elif register != 0x00:
+            super().set(register, value)
+
+    def get(self, register: int) -> int:
+        if register == 0x91 and register not in self.values:
+            return self.OWN if self.values.get(0xFF) == 1 else 0
+        return super().get(register)
+
+    def read(self, count: int) -> bytes:
+        match self.pointer:
+            case 0xC0:
+                return bytes([0 if self.in_reset else 0xEE])
+            case 0x13:
+                return bytes([4 * (self.done_at is not None and monotonic() >= self.done_at)])
+            case 0x14:
+                status = 0x58 if self.metres is not None else self.status
+                millimetres = 8190 if self.metres is None else round(self.metres * 1000)
+                return bytes([status, *bytes(9)]) + millimetres.to_bytes(2, "big")
+        return super().read(count)
+
+
 @dataclass
 class FakeBus:
     """A bus. Transfers fail with the probability `failing`, take `hang` seconds, or are answered with `garbage`."""

@@ -10,7 +10,7 @@ from mindrun.robot.drivers.ultrasonic import Ultrasonic, firing_order
 
 from tests.robot.drivers.echoes import ring
 from tests.robot.drivers.fakes import FakeBus, FakeGrovePi
-from tests.robot.drivers.worlds import mock_pins
+from tests.robot.drivers.pins import mock_pins
 
 TEN = Ultrasonic(trigger=(2, 3, 4, 5, 6, 7, 8, 9, 10, 11), echo=(12, 13, 14, 15, 16, 17, 18, 19, 20, 21))
 

@@ -53,9 +53,13 @@ class BallTrackerDevice:
 
     def read(self) -> tuple[float | None]:
         """It, in the newest frame that was not read before; None where there is no ball in that."""
+        return (self.measured(self.sighting()),)
+
+    def sighting(self) -> BallSighting:
+        """What is in the newest frame that was not read before."""
         sighting = self.tracking.after(self.number, MAX_FRAME_AGE_SECONDS)
         self.number = sighting.number
-        return (self.measured(sighting),)
+        return sighting
 
     def measured(self, sighting: BallSighting) -> float | None:
         """The measure, in degrees or metres."""

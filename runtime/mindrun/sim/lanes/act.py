@@ -4,6 +4,7 @@ from mindrun.arithmetic import COSINE, SINE, THING_ROWS, X, Y
 from mindrun.sim.arithmetic import HALF, ONE, ZERO, F, clamp, finite, in_claw
 from mindrun.sim.codes import GRIPPER, ITEM
 from mindrun.sim.compiling import compiled
+from mindrun.sim.lanes.placement import uniform
 
 UNDRIVEN = F(-1)
 
@@ -11,14 +12,21 @@ UNDRIVEN = F(-1)
 @compiled
 def act(tables, state, lanes, clock):
     """Commands as they act in this tick, and what the claw holds."""
-    mind, faults = state.mind, state.run.faults
+    mind, world, faults = state.mind, state.world, state.run.faults
     for i in range(len(tables.actuators)):
         actuator, commands = tables.actuators[i], mind.commands[i]
         means(mind.command_sums[i], mind.influence_sums[i], actuator.neutral, commands, faults, lanes)
-        if actuator.delay > 0:
+        if actuator.is_late:
+            wait_each(commands, mind.late, actuator.ring, world.numbers[actuator.wait], world.tick, lanes)
+        elif actuator.delay > 0:
             wait(commands, mind.late[actuator.ring + clock % actuator.delay], lanes)
+        if actuator.is_rough:
+            disturb(world, actuator, commands, world.acting[i], lanes)
+        if actuator.is_slipping:
+            slide(world.random, world.numbers[actuator.slip], world.grip[i], lanes)
         if actuator.kind == GRIPPER:
-            grip(commands, state.world, tables.things, tables.world[0].radius, actuator.reach, lanes)
+            acting = world.acting[i] if actuator.is_rough else commands
+            grip(acting, world, tables.things, tables.world[0].front, actuator.reach, lanes)
 
 
 @compiled
@@ -52,6 +60,35 @@ def wait(commands, late, lanes):
 
 
 @compiled
+def wait_each(commands, late, ring, delays, tick, lanes):
+    """The same where each lane has a delay of its own, up to the length of the ring."""
+    for lane in range(lanes):
+        delay = int(delays[lane])
+        if delay > 0:
+            slot = ring + tick[lane] % delay
+            commands[lane], late[slot, lane] = late[slot, lane], commands[lane]
+
+
+@compiled
+def disturb(world, actuator, commands, acting, lanes):
+    """Each command as it acts, the mind knows only what it has sent: with up to `noise` more or less; or stuck."""
+    noise, stuck = world.numbers[actuator.noise], world.numbers[max(actuator.fails, 0)]
+    for lane in range(lanes):
+        acting[lane] = commands[lane]
+        if actuator.is_noisy:
+            acting[lane] = clamp(commands[lane] + F(noise[lane]) * F(uniform(world.random, lane, -1.0, 1.0)))
+        if actuator.fails >= 0 and world.tick[lane] >= stuck[lane]:
+            acting[lane] = actuator.neutral
+
+
+@compiled
+def slide(random, slip, kept, lanes):
+    """The share of its force that an actuator keeps in this tick."""
+    for lane in range(lanes):
+        kept[lane] = 1.0 - slip[lane] * uniform(random, lane, 0.0, 1.0)
+
+
+@compiled
 def remember(cell, command, decay, rest, lanes):
     """decay·cell + (1 − decay)·command where a skill drives the cell, else decay·cell."""
     for lane in range(lanes):
@@ -60,7 +97,7 @@ def remember(cell, command, decay, rest, lanes):
 
 
 @compiled
-def grip(commands, world, kinds, radius, reach, lanes):
+def grip(commands, world, kinds, front, reach, lanes):
     """Close above 0.5 on the first item in reach; open and the item stays where it is."""
     held, body, heading, things = world.held, world.body, world.heading, world.things
     for lane in range(lanes):
@@ -69,7 +106,7 @@ def grip(commands, world, kinds, radius, reach, lanes):
         if commands[lane] > HALF and held[lane] < 0:
             for i in range(len(kinds)):
                 is_free = kinds[i].kind == ITEM and held[lane] < 0
-                if is_free and in_claw(body, heading, things, radius, reach, i, lane):
+                if is_free and in_claw(body, heading, things, front, reach, i, lane):
                     held[lane] = i
 
 

@@ -5,9 +5,10 @@ from mindrun.sim.codes import GOING_ON
 from mindrun.sim.compiling import compiled, entry
 from mindrun.sim.lanes.act import act, recall
 from mindrun.sim.lanes.judge import judge
+from mindrun.sim.lanes.places import within
 from mindrun.sim.lanes.runs import end
 from mindrun.sim.lanes.sense import sense
-from mindrun.sim.lanes.step import step, within
+from mindrun.sim.lanes.step import step
 from mindrun.sim.lanes.think import begin, think
 from mindrun.sim.state import FAILED_SKILL
 

@@ -4,7 +4,7 @@ The robot's body with its shapes, and the boxes and walls of one lane, live in a
 something could touch for the first time. `chipmunk_internals` has what is known of the library.
 """
 
-from mindrun.arithmetic import BOX_COLUMNS, HALF_SIDE, SIZE, THING_ROWS, X, Y
+from mindrun.arithmetic import BOX_COLUMNS, HALF_X, HALF_Y, SIZE, THING_ROWS, X, Y
 from mindrun.sim.chipmunk_internals import (
     ARRAY_NUMBERS,
     BODY,
@@ -17,6 +17,7 @@ from mindrun.sim.chipmunk_internals import (
     EACH_ARBITER,
     EMPTY_ARRAY,
     FIRST_HELD,
+    FIXED_BODY,
     FLOAT_FORCE_X,
     FLOAT_FORCE_Y,
     FLOAT_TORQUE,
@@ -40,10 +41,12 @@ from mindrun.sim.chipmunk_internals import (
     SPACE_REMOVE_SHAPE,
     SPACE_STATIC,
     SPACE_STEP,
+    TALLIED,
     call,
 )
 from mindrun.sim.codes import FORCE_X, FORCE_Y, TORQUE
 from mindrun.sim.compiling import compiled
+from mindrun.sim.lanes.loose_space import add_loose, push_loose, remove_loose, take_loose
 from mindrun.sim.lanes.placement import ENDLESS_UNITS
 
 SOLVER_ITERATIONS = 8
@@ -58,32 +61,37 @@ def open_space(tables, world, contact, lane):
     space = call(library[SPACE_NEW])
     call(library[SPACE_ITERATIONS], space, SOLVER_ITERATIONS)
     call(library[SPACE_HASH], space, constants.cell, HASH_COUNT)
-    add_boxes(library, space, world.boxes[lane], constants.half, handles, len(tables.things), contact.floats[lane])
-    body = call(library[BODY_NEW], constants.mass, constants.moment)
+    add_boxes(library, space, world.boxes[lane], constants, handles, len(tables.things), contact.floats[lane])
+    mass, moment = world.numbers[constants.mass, lane], world.numbers[constants.moment, lane]
+    body = call(library[BODY_NEW], mass, moment)
     call(library[SPACE_ADD_BODY], space, body)
     for circle in range(ROBOT, FIRST_HELD + len(tables.things)):
         if handles[circle] != 0:
             call(library[SHAPE_BODY], handles[circle], body)
             call(library[SPACE_ADD_SHAPE], space, handles[circle])
+    call(library[SHAPE_FRICTION], handles[ROBOT], world.numbers[constants.friction, lane])
     handles[SPACE], handles[BODY] = space, body
+    contact.tally[lane, FIXED_BODY] = call(library[SPACE_STATIC], space)
+    add_loose(tables, world, space, contact, lane)
 
 
 @compiled
-def add_boxes(library, space, boxes, half, handles, things, corners):
+def add_boxes(library, space, boxes, constants, handles, things, corners):
     """The obstacles of a lane, and the walls of an arena; their shapes into `handles`, after those of the things."""
     static = call(library[SPACE_STATIC], space)
     count, shape = len(boxes) // BOX_COLUMNS, FIRST_HELD + things
     for b in range(count):
         box = BOX_COLUMNS * b
-        x, y, side = boxes[box + X], boxes[box + Y], boxes[box + HALF_SIDE]
-        handles[shape + b] = add_box(library, space, static, corners, x - side, y - side, x + side, y + side)
+        x, y, wide, high = boxes[box + X], boxes[box + Y], boxes[box + HALF_X], boxes[box + HALF_Y]
+        handles[shape + b] = add_box(library, space, static, corners, x - wide, y - high, x + wide, y + high)
     shape += count
-    if half < ENDLESS_UNITS:
-        outer = half + 2 * HALF_WALL_UNITS
-        handles[shape] = add_box(library, space, static, corners, -outer, -outer, -half, outer)
-        handles[shape + 1] = add_box(library, space, static, corners, half, -outer, outer, outer)
-        handles[shape + 2] = add_box(library, space, static, corners, -outer, -outer, outer, -half)
-        handles[shape + 3] = add_box(library, space, static, corners, -outer, half, outer, outer)
+    x, y = constants.half_x, constants.half_y
+    if x < ENDLESS_UNITS:
+        far_x, far_y = x + 2 * HALF_WALL_UNITS, y + 2 * HALF_WALL_UNITS
+        handles[shape] = add_box(library, space, static, corners, -far_x, -far_y, -x, far_y)
+        handles[shape + 1] = add_box(library, space, static, corners, x, -far_y, far_x, far_y)
+        handles[shape + 2] = add_box(library, space, static, corners, -far_x, -far_y, far_x, -y)
+        handles[shape + 3] = add_box(library, space, static, corners, -far_x, y, far_x, far_y)
 
 
 @compiled
@@ -98,8 +106,9 @@ def add_box(library, space, static, corners, left, low, right, high):
 
 
 @compiled
-def close_space(library, handles, things):
+def close_space(tables, contact, lane):
     """Free a lane's Space; its circles, the robot's and those of the things, stay for the next."""
+    library, handles, things = tables.library, contact.handles[lane], len(tables.things)
     space, body = handles[SPACE], handles[BODY]
     if space == 0:
         return
@@ -111,6 +120,7 @@ def close_space(library, handles, things):
             else:
                 call(library[SHAPE_FREE], handles[shape])
                 handles[shape] = 0
+    remove_loose(tables, space, contact, lane)
     call(library[SPACE_REMOVE_BODY], space, body)
     call(library[BODY_FREE], body)
     call(library[SPACE_FREE], space)
@@ -133,17 +143,20 @@ def push_body(tables, world, contact, lane):
             call(library[SHAPE_SENSOR], circle, 0 if is_held else 1)
             if is_held:
                 call(library[CIRCLE_RADIUS], circle, world.things[THING_ROWS * i + SIZE, lane] / 2)
+    push_loose(tables, world, contact, lane)
 
 
 @compiled
 def step_space(tables, world, contact, lane):
-    """Step a lane's Space, take its body's state back, and count the contacts."""
+    """Step a lane's Space, take the state of its bodies back, and count what its robot runs into."""
     library, batch, handles = tables.library, contact.batch[lane], contact.handles[lane]
     call(library[SPACE_STEP], handles[SPACE], tables.world[0].dt)
     batch[ARRAY_NUMBERS] = EMPTY_ARRAY
     call(library[BODY_GET], handles[BODY], batch[GET_BATCH:].ctypes.data)
     for i in range(MOTION_FLOATS):
         world.body[i, lane] = contact.floats[lane, i]
-    contact.touches[lane] = 0
-    call(library[EACH_ARBITER], handles[BODY], library[COUNT], contact.touches[lane:].ctypes.data)
-    return contact.touches[lane]
+    take_loose(tables, world, contact, lane)
+    tally = contact.tally[lane]
+    tally[TALLIED] = 0
+    call(library[EACH_ARBITER], handles[BODY], library[COUNT], tally.ctypes.data)
+    return tally[TALLIED]

@@ -12,19 +12,17 @@ from mindrun.sim.codes import (
     DELIVERY,
     EXHAUSTION,
     FORWARD,
-    GREATER,
-    LESS,
-    LESS_EQUAL,
+    GOING_ON,
     POWER,
+    PUSH,
     REACH,
     RETREAT,
+    SUCCESS,
     VISIT,
-    WHEEL_LEFT,
-    WHEEL_RIGHT,
 )
 from mindrun.sim.compiling import compiled
 from mindrun.sim.lanes.evaluate import evaluate
-from mindrun.sim.lanes.reach import REACH_BEGUN, become, meet
+from mindrun.sim.lanes.reach import arrivals, become, begun_of, meet
 from mindrun.sim.state import PLACE_ROWS
 
 
@@ -38,12 +36,14 @@ def judge(tables, state, lanes, clock, interrupt):
     begun = meet(tables, world, lanes)
     for i in range(len(tables.events)):
         out = judged.events[i]
-        judged.happened[i] = notice(tables, world, state.contact, judged.visited, tables.events[i], out, lanes)
-    for i in range(len(tables.rewards)):
-        reward(tables, state.mind, judged, tables.rewards[i], judged.lines[i], lanes)
+        judged.happened[i] = notice(tables, world, state.contact, judged, tables.events[i], out, lanes)
     for i in range(len(tables.events)):
         if judged.happened[i] > 0:
-            settle(tables.events[i], i, judged, state.run.ended, lanes, interrupt)
+            tally(judged.events[i], judged.counts[i], lanes)
+    for i in range(len(tables.ends)):
+        meet_end(tables, state, tables.ends[i], i, lanes, interrupt)
+    for i in range(len(tables.rewards)):
+        reward(tables, state.mind, judged, tables.rewards[i], judged.lines[i], lanes)
     if begun > 0:
         become(tables, world, lanes)
     oldest = PLACE_ROWS * (clock % TRAIL_TICKS)
@@ -62,19 +62,31 @@ def take_measures(tables, world, commands, judged, lanes, clock):
         elif measure.kind == FORWARD:
             forward(out, world.body, world.heading, world.begun_at, lanes)
         else:
-            progress(out, world.body, world.things, measure.thing, measure.kind, lanes)
+            progress(out, judged.paid, world.body, world.things, measure, lanes)
 
 
 @compiled
-def progress(out, body, things, i, kind, lanes):
-    """The distance to thing i that this tick closed, or its positive or negative part; 0 where it has vanished."""
-    thing = THING_ROWS * i
+def progress(out, now, body, things, measure, lanes):
+    """The distance to the nearest of the things that this tick closed, or its positive or negative part.
+
+    0 where all have vanished. `now` is room for the square of what is left of the distance.
+    """
+    before = out
     for lane in range(lanes):
-        dx, dy = things[thing + X, lane] - body[X, lane], things[thing + Y, lane] - body[Y, lane]
-        closed = things[thing + DISTANCE, lane] - np.sqrt(dx * dx + dy * dy)
-        if kind == ADVANCE:
+        before[lane], now[lane] = np.nan, np.nan
+    for i in range(measure.thing, measure.thing + measure.things):
+        thing = THING_ROWS * i
+        for lane in range(lanes):
+            dx, dy = things[thing + X, lane] - body[X, lane], things[thing + Y, lane] - body[Y, lane]
+            away, here = things[thing + DISTANCE, lane], dx * dx + dy * dy
+            least, less = before[lane], now[lane]
+            before[lane] = away if (away < least) | (least != least) else least
+            now[lane] = here if (here < less) | (less != less) else less
+    for lane in range(lanes):
+        closed = before[lane] - np.sqrt(now[lane])
+        if measure.kind == ADVANCE:
             closed = closed if closed > 0.0 else 0.0
-        elif kind == RETREAT:
+        elif measure.kind == RETREAT:
             closed = -closed if closed < 0.0 else 0.0
         out[lane] = 0.0 if np.isnan(closed) else closed
 
@@ -97,9 +109,9 @@ def change(tables, commands, judged, measure, out, lanes, clock):
         judged.right_changes[now, lane] = 0.0
         out[lane] = 0.0
     for i in range(len(tables.actuators)):
-        kind = tables.actuators[i].kind
-        if kind in (WHEEL_LEFT, WHEEL_RIGHT):
-            changes = judged.left_changes[now] if kind == WHEEL_LEFT else judged.right_changes[now]
+        actuator = tables.actuators[i]
+        if actuator.kind == PUSH:
+            changes = judged.right_changes[now] if actuator.is_right else judged.left_changes[now]
             for lane in range(lanes):
                 changes[lane] += abs(np.float64(commands[i, lane]) - np.float64(judged.last_commands[i, lane]))
     for changes in (judged.left_changes, judged.right_changes):
@@ -124,35 +136,46 @@ def drain(tables, world, lanes):
 
 
 @compiled
-def notice(tables, world, contact, visited, event, out, lanes):
-    """Whether the event happened in this tick, per lane; returns in how many."""
-    kind, i = event.kind, event.thing
+def notice(tables, world, contact, judged, event, out, lanes):
+    """How often the event happened in this tick, per lane; returns in how many."""
+    if event.kind == REACH:
+        begun_of(out, world.reached, event, lanes)
+    elif event.kind == DELIVERY and event.tos == 0:
+        begun_of(out, world.delivered, event, lanes)
+    elif event.kind == DELIVERY:
+        for lane in range(lanes):
+            out[lane] = arrivals(world, judged.arrived, event, lane)
+    elif event.kind == VISIT:
+        visit(out, tables.world[0], world.body, judged.visited, event, lanes)
+    elif event.kind == COLLISION:
+        for lane in range(lanes):
+            out[lane] = 1 if contact.touching[lane] == 1 else 0
+    elif event.kind == EXHAUSTION:
+        for lane in range(lanes):
+            out[lane] = 1 if world.battery[lane] == 0.0 else 0
+    else:
+        out[:lanes] = 0  # a success comes later in the tick
     count = 0
     for lane in range(lanes):
-        happened = False
-        if kind == REACH:
-            happened = world.reached[i, lane] == REACH_BEGUN
-        elif kind == DELIVERY:
-            happened = world.delivered[i, lane] == REACH_BEGUN
-        elif kind == VISIT:
-            patch = event.board + patch_of(world.body, tables.world[0].half, event.patch, event.columns, lane)
-            happened = visited[lane, patch] == 0
-            visited[lane, patch] = 1
-        elif kind == COLLISION:
-            happened = contact.touching[lane] == 1
-        elif kind == EXHAUSTION:
-            happened = world.battery[lane] == 0.0
-        out[lane] = 1.0 if happened else 0.0
-        count += 1 if happened else 0
+        count += 1 if out[lane] > 0 else 0
     return count
 
 
 @compiled
-def patch_of(body, half, patch, columns, lane):
+def visit(out, constants, body, visited, event, lanes):
+    """1 where the robot's centre is in a patch for the first time."""
+    for lane in range(lanes):
+        patch = event.board + patch_of(body, constants, event, lane)
+        out[lane] = 1 - visited[lane, patch]
+        visited[lane, patch] = 1
+
+
+@compiled
+def patch_of(body, constants, event, lane):
     """The number of the patch that the robot's centre is in."""
-    x = min(columns - 1, max(0, int((body[X, lane] + half) / patch)))
-    y = min(columns - 1, max(0, int((body[Y, lane] + half) / patch)))
-    return y * columns + x
+    x = min(event.columns - 1, max(0, int((body[X, lane] + constants.half_x) / event.patch)))
+    y = min(event.rows - 1, max(0, int((body[Y, lane] + constants.half_y) / event.patch)))
+    return y * event.columns + x
 
 
 @compiled
@@ -165,45 +188,62 @@ def reward(tables, mind, judged, line, total, lanes):
         each = line.each + k
         for lane in range(lanes):
             paid[lane] = judged.events[line.on, lane] if line.on >= 0 else 1.0
-        if line.compare >= 0:
-            run(tables, mind, judged.measures, line.right, line.rights, each, lanes)
+        if line.whens > 0:
+            value(tables, mind, judged.measures, line.when, line.whens, each, lanes)
             for lane in range(lanes):
-                judged.limit[lane] = mind.stack[0, lane]
-            run(tables, mind, judged.measures, line.left, line.lefts, each, lanes)
-            only_when(paid, mind.stack[0], judged.limit, line.compare, lanes)
-        run(tables, mind, judged.measures, line.code, line.length, each, lanes)
+                paid[lane] = paid[lane] if mind.stack[0, lane] > 0.0 else 0.0
+        value(tables, mind, judged.measures, line.code, line.length, each, lanes)
         for lane in range(lanes):
-            total[lane] += amount[lane] if paid[lane] > 0.0 else 0.0
+            total[lane] += amount[lane] * paid[lane] if paid[lane] > 0.0 else 0.0
 
 
 @compiled
-def run(tables, mind, measures, first, length, each, lanes):
+def value(tables, mind, measures, first, length, each, lanes):
     """Evaluate a program into stack[0], in every lane."""
-    evaluate(tables.codes[first : first + length], mind.readings, measures, each, mind.stack, mind.active, lanes, True)
+    codes = tables.codes[first : first + length]
+    evaluate(codes, mind.readings, measures, mind.commands, each, mind.stack, mind.active, lanes, True)
 
 
 @compiled
-def only_when(paid, left, right, compare, lanes):
-    """Nothing is paid where left compare right does not hold."""
-    if compare == LESS:
-        for lane in range(lanes):
-            paid[lane] = paid[lane] if left[lane] < right[lane] else 0.0
-    elif compare == LESS_EQUAL:
-        for lane in range(lanes):
-            paid[lane] = paid[lane] if left[lane] <= right[lane] else 0.0
-    elif compare == GREATER:
-        for lane in range(lanes):
-            paid[lane] = paid[lane] if left[lane] > right[lane] else 0.0
-    else:
-        for lane in range(lanes):
-            paid[lane] = paid[lane] if left[lane] >= right[lane] else 0.0
-
-
-@compiled
-def settle(event, i, judged, ended, lanes, interrupt):
-    """Count event number i, and end the runs that it ends."""
+def tally(happened, counts, lanes):
+    """Count an event."""
     for lane in range(lanes):
-        if judged.events[i, lane] > 0.0:
-            judged.counts[i, lane] += 1
-            if event.ends and interrupt and ended[lane] < 0:
-                ended[lane] = i
+        counts[lane] += int(happened[lane])
+
+
+@compiled
+def meet_end(tables, state, end, i, lanes, interrupt):
+    """End the runs to which end number i has come before any other."""
+    judged, run = state.judge, state.run
+    if end.event >= 0:
+        if judged.happened[end.event] == 0:
+            return
+        for lane in range(lanes):
+            is_last = judged.counts[end.event, lane] >= end.times
+            judged.paid[lane] = 1.0 if is_last and judged.events[end.event, lane] > 0.0 else 0.0
+    else:
+        value(tables, state.mind, judged.measures, end.when, end.whens, 0, lanes)
+        for lane in range(lanes):
+            judged.paid[lane] = 1.0 if state.mind.stack[0, lane] > 0.0 else 0.0
+    met = 0
+    for lane in range(lanes):
+        if judged.paid[lane] > 0.0 and run.met[lane] == GOING_ON:
+            run.met[lane] = i
+            run.ended[lane] = i if interrupt else GOING_ON
+            met += 1
+        else:
+            judged.paid[lane] = 0.0
+    if met > 0 and end.succeeds:
+        succeed(tables, judged, lanes)
+
+
+@compiled
+def succeed(tables, judged, lanes):
+    """The event of a success happens where a run has succeeded in this tick."""
+    for i in range(len(tables.events)):
+        if tables.events[i].kind == SUCCESS:
+            for lane in range(lanes):
+                if judged.paid[lane] > 0.0:
+                    judged.events[i, lane] = 1.0
+                    judged.counts[i, lane] += 1
+                    judged.happened[i] += 1

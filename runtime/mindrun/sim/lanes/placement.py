@@ -6,10 +6,11 @@ the same world. Everything is placed clear of everything else, with room for the
 
 import numpy as np
 
-from mindrun.arithmetic import ANGLE, BOX_COLUMNS, HALF_SIDE, SIZE, THING_ROWS, X, Y
+from mindrun.arithmetic import ANGLE, BOX_COLUMNS, HALF_X, HALF_Y, SIZE, THING_ROWS, X, Y
 from mindrun.sim.arithmetic import sine_cosine
 from mindrun.sim.codes import FAR
 from mindrun.sim.compiling import compiled
+from mindrun.sim.lanes.loose import stand
 
 GOLDEN, MIX_1, MIX_2 = np.uint64(0x9E3779B97F4A7C15), np.uint64(0xBF58476D1CE4E5B9), np.uint64(0x94D049BB133111EB)
 S30, S27, S31, S11 = np.uint64(30), np.uint64(27), np.uint64(31), np.uint64(11)
@@ -31,12 +32,15 @@ def uniform(random, lane, low, high):
 
 @compiled
 def draw(tables, world, lane):
-    """A fresh world in a lane: grids of obstacles, the robot, loose obstacles, then the things in their order."""
+    """A fresh world in a lane: obstacles with a place, the robot, other obstacles, things with a place, other things.
+
+    Of each the first in the source come first.
+    """
     clear_away(world, lane)
-    box = 0
+    box = draw_walls(world, tables.walls, lane)
     for i in range(len(tables.obstacles)):
         box = draw_grid(world, tables.obstacles[i], box, lane)
-    start(world, tables.world[0].half, tables.world[0].radius, lane)
+    start(tables, world, lane)
     for i in range(len(tables.obstacles)):
         obstacle = tables.obstacles[i]
         for _ in range(obstacle.count):
@@ -45,10 +49,21 @@ def draw(tables, world, lane):
             put_box(world.boxes, box, x, y, size / 2, lane)
             box += 1
     for i in range(len(tables.things)):
-        thing = tables.things[i]
-        size = uniform(world.random, lane, thing.first, thing.last) if thing.drawn else thing.first
-        world.things[THING_ROWS * i + SIZE, lane] = size
-        put(tables, world, i, lane)
+        if tables.things[i].is_fixed:
+            draw_size(tables, world, i, lane)
+            put_at(tables, world, i, tables.things[i].x, tables.things[i].y, lane)
+    for i in range(len(tables.things)):
+        if not tables.things[i].is_fixed:
+            draw_size(tables, world, i, lane)
+            put(tables, world, i, lane)
+
+
+@compiled
+def draw_size(tables, world, i, lane):
+    """The size that thing i begins with."""
+    thing = tables.things[i]
+    size = uniform(world.random, lane, thing.first, thing.last) if thing.drawn else thing.first
+    world.things[THING_ROWS * i + SIZE, lane] = size
 
 
 @compiled
@@ -60,20 +75,31 @@ def clear_away(world, lane):
 
 
 @compiled
+def draw_walls(world, walls, lane):
+    """What stands in the same places in every run; the number of the next box."""
+    for b in range(walls.shape[0]):
+        for i in range(BOX_COLUMNS):
+            world.boxes[lane, BOX_COLUMNS * b + i] = walls[b, i]
+    return walls.shape[0]
+
+
+@compiled
 def put_box(boxes, b, x, y, half, lane):
-    """Box number b stands at a place."""
+    """A square, box number b, stands at a place."""
     box = BOX_COLUMNS * b
-    boxes[lane, box + X], boxes[lane, box + Y], boxes[lane, box + HALF_SIDE] = x, y, half
+    boxes[lane, box + X], boxes[lane, box + Y] = x, y
+    boxes[lane, box + HALF_X], boxes[lane, box + HALF_Y] = half, half
 
 
 @compiled
 def draw_grid(world, obstacle, box, lane):
     """One obstacle at each crossing of the grid, a little off it; the number of the next box."""
-    random, jitter, middle = world.random, obstacle.jitter, (obstacle.lines - 1) / 2
-    for row in range(obstacle.lines):
-        for column in range(obstacle.lines):
-            x = (column - middle) * obstacle.grid + uniform(random, lane, -jitter, jitter)
-            y = (row - middle) * obstacle.grid + uniform(random, lane, -jitter, jitter)
+    random, jitter = world.random, obstacle.jitter
+    middle_x, middle_y = (obstacle.columns - 1) / 2, (obstacle.rows - 1) / 2
+    for row in range(obstacle.rows):
+        for column in range(obstacle.columns):
+            x = obstacle.x + (column - middle_x) * obstacle.grid + uniform(random, lane, -jitter, jitter)
+            y = obstacle.y + (row - middle_y) * obstacle.grid + uniform(random, lane, -jitter, jitter)
             size = uniform(random, lane, obstacle.first, obstacle.last)
             put_box(world.boxes, box, x, y, size / 2, lane)
             box += 1
@@ -81,17 +107,21 @@ def draw_grid(world, obstacle, box, lane):
 
 
 @compiled
-def start(world, half, radius, lane):
-    """The robot at rest: in the origin of a plain scene, anywhere clear in an arena; facing anywhere."""
-    body, random, room = world.body, world.random, half - 3 * radius
+def start(tables, world, lane):
+    """The robot at rest: where its task says, or in the origin of a plain scene, or anywhere clear in an arena."""
+    body, random, constants, radius = world.body, world.random, tables.world[0], tables.world[0].radius
+    room_x, room_y = constants.half_x - 3 * radius, constants.half_y - 3 * radius
     body[:, lane] = 0.0
-    if half < ENDLESS_UNITS:
+    if constants.is_placed:
+        body[X, lane], body[Y, lane] = constants.start_x, constants.start_y
+    elif constants.half_x < ENDLESS_UNITS:
         for _ in range(MAX_TRIES):
-            body[X, lane] = uniform(random, lane, -room, room)
-            body[Y, lane] = uniform(random, lane, -room, room)
-            if clear(world.boxes, body[X, lane], body[Y, lane], 3 * radius, lane):
+            body[X, lane] = uniform(random, lane, -room_x, room_x)
+            body[Y, lane] = uniform(random, lane, -room_y, room_y)
+            is_clear = clear(world.boxes, body[X, lane], body[Y, lane], 3 * radius, lane)
+            if is_clear and clear_of_loose(tables, body[X, lane], body[Y, lane], 3 * radius):
                 break
-    body[ANGLE, lane] = uniform(random, lane, 0.0, 2 * np.pi)
+    body[ANGLE, lane] = constants.facing if constants.is_faced else uniform(random, lane, 0.0, 2 * np.pi)
 
 
 @compiled
@@ -99,8 +129,19 @@ def clear(boxes, x, y, margin, lane):
     """Whether no obstacle comes within `margin` of a point, along the axes."""
     for b in range(boxes.shape[1] // BOX_COLUMNS):
         box = BOX_COLUMNS * b
-        gap = boxes[lane, box + HALF_SIDE] + margin
-        if abs(boxes[lane, box + X] - x) < gap and abs(boxes[lane, box + Y] - y) < gap:
+        wide, high = boxes[lane, box + HALF_X] + margin, boxes[lane, box + HALF_Y] + margin
+        if abs(boxes[lane, box + X] - x) < wide and abs(boxes[lane, box + Y] - y) < high:
+            return False
+    return True
+
+
+@compiled
+def clear_of_loose(tables, x, y, margin):
+    """Whether no box or ball with a place of its own comes within `margin` of a point, along the axes."""
+    for i in range(len(tables.loose)):
+        thing = tables.things[tables.loose[i].thing]
+        gap = max(thing.first, thing.last) / 2 + margin
+        if thing.is_fixed and abs(thing.x - x) < gap and abs(thing.y - y) < gap:
             return False
     return True
 
@@ -111,12 +152,13 @@ def find(tables, world, low, high, extent, but, lane):
 
     The last one tried where no try succeeds.
     """
-    half, margin, body = tables.world[0].half, extent + 2 * tables.world[0].radius, world.body
+    constants, margin, body = tables.world[0], extent + 2 * tables.world[0].radius, world.body
     x, y = 0.0, 0.0
     for _ in range(MAX_TRIES):
-        if half < ENDLESS_UNITS:
-            room = max(half - extent - 2 * tables.world[0].radius, 0.0)
-            x, y = uniform(world.random, lane, -room, room), uniform(world.random, lane, -room, room)
+        if constants.half_x < ENDLESS_UNITS:
+            room_x = max(constants.half_x - extent - 2 * constants.radius, 0.0)
+            room_y = max(constants.half_y - extent - 2 * constants.radius, 0.0)
+            x, y = uniform(world.random, lane, -room_x, room_x), uniform(world.random, lane, -room_y, room_y)
         else:
             sine, cosine = sine_cosine(uniform(world.random, lane, 0.0, 2 * np.pi))
             far = uniform(world.random, lane, low, high)
@@ -145,7 +187,17 @@ def put(tables, world, i, lane):
     """Thing i somewhere else."""
     thing, rows = tables.things[i], THING_ROWS * i
     x, y = find(tables, world, thing.low, thing.high, world.things[rows + SIZE, lane] / 2, i, lane)
-    world.things[rows + X, lane], world.things[rows + Y, lane] = x, y
+    put_at(tables, world, i, x, y, lane)
+
+
+@compiled
+def put_at(tables, world, i, x, y, lane):
+    """Thing i at a place."""
+    world.things[THING_ROWS * i + X, lane], world.things[THING_ROWS * i + Y, lane] = x, y
+    if tables.things[i].loose >= 0:
+        stand(world, tables.things[i].loose, lane)
+    if tables.things[i].walker >= 0:
+        world.direction[tables.things[i].walker, lane] = uniform(world.random, lane, 0.0, 2 * np.pi)
 
 
 @compiled
@@ -165,10 +217,10 @@ def succeed(tables, world, i, lane):
 
 
 @compiled
-def vanish(world, i, lane):
+def vanish(tables, world, i, lane):
     """Thing i is nowhere for the rest of the run: a place that is no number is in nobody's reach or way."""
     forget(world, i, lane)
-    world.things[THING_ROWS * i + X, lane], world.things[THING_ROWS * i + Y, lane] = np.nan, np.nan
+    put_at(tables, world, i, np.nan, np.nan, lane)
 
 
 @compiled

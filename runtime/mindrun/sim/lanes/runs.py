@@ -5,10 +5,12 @@ import numpy as np
 from mindrun.arithmetic import ANGLE, COSINE, SINE, X, Y
 from mindrun.sensors.inertial import TRAIL_TICKS
 from mindrun.sim.arithmetic import sine_cosine
+from mindrun.sim.chipmunk_internals import FIXED_BODY
 from mindrun.sim.codes import GOING_ON, LOST, VISIT
 from mindrun.sim.compiling import compiled, entry
 from mindrun.sim.lanes.chipmunk import close_space
 from mindrun.sim.lanes.judge import patch_of
+from mindrun.sim.lanes.parameters import set_numbers
 from mindrun.sim.lanes.placement import draw
 from mindrun.sim.lanes.step import is_lost
 from mindrun.sim.state import PLACE_ROWS
@@ -52,6 +54,7 @@ def begin_job(tables, state, jobs, lane):
     world.random[lane] = jobs.seeds[jobs.seed[job]]
     world.random_aside[lane] = world.random[lane] ^ MEASURED_ASIDE
     draw(tables, world, lane)
+    set_numbers(tables, world, lane)
     genome = jobs.genomes[jobs.genome[job]]
     for i in range(len(genome)):
         mind.genome[i, lane] = genome[i]
@@ -67,7 +70,7 @@ def reset(tables, state, lane):
     reset_judge(tables, state.world, state.judge, lane)
     state.sight.anchor[:, lane] = np.nan
     state.contact.near[lane], state.contact.touching[lane] = 0, 0
-    state.run.ended[lane], state.run.faults[lane] = GOING_ON, 0
+    state.run.ended[lane], state.run.met[lane], state.run.faults[lane] = GOING_ON, GOING_ON, 0
 
 
 @compiled
@@ -77,6 +80,8 @@ def reset_world(tables, world, lane):
     world.battery[lane] = tables.world[0].start
     world.heading[SINE, lane], world.heading[COSINE, lane] = sine_cosine(world.body[ANGLE, lane])
     world.reached[:, lane], world.delivered[:, lane] = 0, 0
+    for i in range(len(tables.walkers)):
+        world.goal[i, lane] = tables.walkers[i].begins
     for i in range(TRAIL_TICKS):
         place = PLACE_ROWS * i
         world.trail[place + X, lane], world.trail[place + Y, lane] = world.body[X, lane], world.body[Y, lane]
@@ -103,10 +108,11 @@ def reset_judge(tables, world, judge, lane):
     for i in range(len(tables.actuators)):
         judge.last_commands[i, lane] = tables.actuators[i].neutral
     judge.visited[lane] = 0
+    judge.arrived[:, lane] = 0
     for i in range(len(tables.events)):
         event = tables.events[i]
         if event.kind == VISIT:
-            patch = patch_of(world.body, tables.world[0].half, event.patch, event.columns, lane)
+            patch = patch_of(world.body, tables.world[0], event, lane)
             judge.visited[lane, event.board + patch] = 1
 
 
@@ -120,7 +126,7 @@ def finish(tables, state, jobs, lane):
     for i in range(len(tables.events)):
         jobs.counts[job, i] = judge.counts[i, lane]
     jobs.ticks[job], jobs.ended[job], jobs.faults[job] = state.world.tick[lane], run.ended[lane], run.faults[lane]
-    close_space(tables.library, state.contact.handles[lane], len(tables.things))
+    close_space(tables, state.contact, lane)
     run.job[lane] = -1
 
 
@@ -136,22 +142,30 @@ def move(state, source, target):
     for rows in (sight.nearby, sight.anchor, judge.left_changes, judge.right_changes, judge.lines):
         copy_lane(rows, source, target)
     copy_lane(judge.counts, source, target)
+    copy_lane(judge.arrived, source, target)
     copy_row(judge.visited, source, target)
-    for numbers in (sight.nearby_count, contact.near, contact.touching, run.job, run.ended, run.faults):
+    for numbers in (sight.nearby_count, contact.near, contact.touching, run.job, run.ended, run.met, run.faults):
         numbers[target] = numbers[source]
-    handles = contact.handles
-    for i in range(handles.shape[1]):
-        handles[source, i], handles[target, i] = handles[target, i], handles[source, i]
+    for handles in (contact.handles, contact.loose):
+        for i in range(handles.shape[1]):
+            handles[source, i], handles[target, i] = handles[target, i], handles[source, i]
+    copy_row(contact.sizes, source, target)
+    copy_row(contact.placed, source, target)
+    contact.tally[target, FIXED_BODY] = contact.tally[source, FIXED_BODY]
 
 
 @compiled
 def move_world(world, source, target):
     """The world of one lane becomes that of the other."""
-    for rows in (world.body, world.heading, world.things, world.trail):
+    for rows in (world.body, world.heading, world.things, world.trail, world.loose, world.numbers):
         copy_lane(rows, source, target)
     for rows in (world.reached, world.delivered):
         copy_lane(rows, source, target)
+    copy_lane(world.still, source, target)
+    copy_lane(world.direction, source, target)
+    copy_lane(world.goal, source, target)
     copy_row(world.boxes, source, target)
+    world.restless[target] = world.restless[source]
     world.held[target], world.tick[target], world.battery[target] = (
         world.held[source],
         world.tick[source],

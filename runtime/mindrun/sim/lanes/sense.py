@@ -5,11 +5,12 @@ from typing import Any
 
 import numpy as np
 
-from mindrun.arithmetic import BOX_COLUMNS, COSINE, DISTANCE, HALF_SIDE, MAX_FLOAT32, SINE, THING_ROWS, X, Y
+from mindrun.arithmetic import BOX_COLUMNS, COSINE, DISTANCE, HALF_X, HALF_Y, MAX_FLOAT32, SINE, THING_ROWS, X, Y
 from mindrun.registry import kinds
 from mindrun.sim.arithmetic import ONE, ZERO, F, clamp, compiled_lane
 from mindrun.sim.codes import AWAY, sensor_codes
 from mindrun.sim.compiling import compiled
+from mindrun.sim.lanes.loose_sight import look_at_loose
 from mindrun.sim.lanes.placement import uniform
 from mindrun.sim.state import (
     FIRST_RAY,
@@ -58,6 +59,8 @@ def sense(tables, state, lanes, clock):
     choose(world, sight, tables.world[0].near + CULLING_SLACK_UNITS, lanes)
     if tables.world[0].rays > 0:
         look(tables, world, sight, lanes)
+        look_at_loose(tables, world, sight, lanes)
+    sight.nearest_of[0] = -1
     senses = Senses(
         readings=mind.readings,
         before=mind.before,
@@ -68,7 +71,16 @@ def sense(tables, state, lanes, clock):
         battery=world.battery,
         tick=world.tick,
         trail=world.trail,
+        loose=world.loose,
+        nearest=sight.nearest,
+        nearest_of=sight.nearest_of,
+        frame=sight.frame,
         sight=sight.sight,
+        boxes=world.boxes,
+        nearby=sight.nearby,
+        nearby_count=sight.nearby_count,
+        stack=mind.stack,
+        active=mind.active,
     )
     for i in range(len(tables.sensors)):
         sensor = tables.sensors[i]
@@ -86,24 +98,28 @@ def roughen(world, mind, sensor, k, lanes):
     for lane in range(lanes):
         if tick[lane] % sensor.every == 0:
             before = measured[lane] if tick[lane] > 0 else out[lane]
-            measured[lane] = measure(random, sensor, out[lane], before, lane)
+            measured[lane] = measure(random, world.numbers, sensor, out[lane], before, lane)
         out[lane] = measured[lane]
     first = sensor.ring + k * sensor.delay
     for lane in range(lanes if sensor.delay > 0 else 0):
-        slot = first + tick[lane] % sensor.delay
-        oldest = mind.rings[slot, lane] if tick[lane] >= sensor.delay else mind.rings[first, lane]
+        delay = int(world.numbers[sensor.wait, lane])
+        if delay == 0:
+            continue
+        slot = first + tick[lane] % delay
+        oldest = mind.rings[slot, lane] if tick[lane] >= delay else mind.rings[first, lane]
         seen = oldest if tick[lane] > 0 else out[lane]
         mind.rings[slot, lane] = out[lane]
         out[lane] = seen
 
 
 @compiled
-def measure(random, sensor, true, before, lane):
+def measure(random, numbers, sensor, true, before, lane):
     """What is measured of a true value."""
-    if sensor.lost > ZERO and uniform(random, lane, 0.0, 1.0) < sensor.lost:
+    lost, noise = F(numbers[sensor.lost, lane]), F(numbers[sensor.noise, lane])
+    if lost > ZERO and uniform(random, lane, 0.0, 1.0) < lost:
         return before if sensor.blank < ZERO else sensor.blank
-    if sensor.noise > ZERO:
-        return clamp(true + sensor.noise * F(uniform(random, lane, -1.0, 1.0)))
+    if noise > ZERO:
+        return clamp(true + noise * F(uniform(random, lane, -1.0, 1.0)))
     return true
 
 
@@ -120,7 +136,8 @@ def measure_distances(body, things, count, lanes):
 @compiled
 def look(tables, world, sight, lanes):
     """The distance from each robot's centre along each ray, into `sight` after heading and place."""
-    rows, count, half = sight.sight, sight.nearby_most[0], F(tables.world[0].half)
+    rows, count, constants = sight.sight, sight.nearby_most[0], tables.world[0]
+    half_x, half_y = F(constants.half_x), F(constants.half_y)
     for k in range(count):
         box = sight.nearby[BOX_COLUMNS * k : BOX_COLUMNS * (k + 1)]
         place(world.body, box, sight.sides[SIDES * k : SIDES * (k + 1)], lanes)
@@ -130,18 +147,18 @@ def look(tables, world, sight, lanes):
     for lane in range(0, lanes, VECTOR_LANES):
         for ray in range(len(tables.ray_row)):
             cosine, sine = tables.rays[COSINE, ray], tables.rays[SINE, ray]
-            store(rows, FIRST_RAY + ray, lane, along(rows, cosine, sine, half, sight.sides, count, lane))
+            store(rows, FIRST_RAY + ray, lane, along(rows, cosine, sine, half_x, half_y, sight.sides, count, lane))
 
 
 @compiled
-def along(sight, cosine, sine, half, sides, count, lane):
+def along(sight, cosine, sine, half_x, half_y, sides, count, lane):
     """The distance to what a ray meets first in sixteen lanes: a wall, or one of the boxes (the slab method)."""
     c, s = load(sight, SIGHT_COSINE, lane), load(sight, SIGHT_SINE, lane)
     ix = splat(ONE) / (c * splat(cosine) - s * splat(sine))
     iy = splat(ONE) / (s * splat(cosine) + c * splat(sine))
     x, y = load(sight, SIGHT_X, lane), load(sight, SIGHT_Y, lane)
-    to_x = HIGHEST((splat(half) - x) * ix, (splat(-half) - x) * ix)
-    to_y = HIGHEST((splat(half) - y) * iy, (splat(-half) - y) * iy)
+    to_x = HIGHEST((splat(half_x) - x) * ix, (splat(-half_x) - x) * ix)
+    to_y = HIGHEST((splat(half_y) - y) * iy, (splat(-half_y) - y) * iy)
     nearest = LOWEST(to_x, to_y)
     for k in range(count):
         box = SIDES * k
@@ -178,14 +195,15 @@ def choose_in(boxes, sight, reach, lane):
     found = 0
     for b in range(boxes.shape[1] // BOX_COLUMNS):
         box = BOX_COLUMNS * b
-        margin = boxes[lane, box + HALF_SIDE] + reach
-        if abs(boxes[lane, box + X] - x) < margin and abs(boxes[lane, box + Y] - y) < margin:
+        wide, high = boxes[lane, box + HALF_X] + reach, boxes[lane, box + HALF_Y] + reach
+        if abs(boxes[lane, box + X] - x) < wide and abs(boxes[lane, box + Y] - y) < high:
             for i in range(BOX_COLUMNS):
                 nearby[BOX_COLUMNS * found + i, lane] = boxes[lane, box + i]
             found += 1
     for k in range(found, sight.nearby_count[lane]):
         box = BOX_COLUMNS * k
-        nearby[box + X, lane], nearby[box + Y, lane], nearby[box + HALF_SIDE, lane] = AWAY, AWAY, 0.0
+        nearby[box + X, lane], nearby[box + Y, lane] = AWAY, AWAY
+        nearby[box + HALF_X, lane], nearby[box + HALF_Y, lane] = 0.0, 0.0
     sight.nearby_count[lane] = found
 
 
@@ -194,6 +212,6 @@ def place(body, box, sides, lanes):
     """The sides of a box of each lane relative to the robot; no ray meets one that is AWAY before a wall."""
     for lane in range(lanes):
         dx, dy = F(box[X, lane] - body[X, lane]), F(box[Y, lane] - body[Y, lane])
-        half = F(box[HALF_SIDE, lane])
-        sides[LEFT, lane], sides[RIGHT, lane] = dx - half, dx + half
-        sides[LOW, lane], sides[HIGH, lane] = dy - half, dy + half
+        half_x, half_y = F(box[HALF_X, lane]), F(box[HALF_Y, lane])
+        sides[LEFT, lane], sides[RIGHT, lane] = dx - half_x, dx + half_x
+        sides[LOW, lane], sides[HIGH, lane] = dy - half_y, dy + half_y

@@ -4,7 +4,8 @@ from mindrun.arithmetic import (
     ANGLE,
     BOX_COLUMNS,
     COSINE,
-    HALF_SIDE,
+    HALF_X,
+    HALF_Y,
     SINE,
     SIZE,
     SPEED_X,
@@ -16,11 +17,14 @@ from mindrun.arithmetic import (
 )
 from mindrun.sim.arithmetic import sine_cosine
 from mindrun.sim.chipmunk_internals import PERSISTENCE_TICKS, SPACE
-from mindrun.sim.codes import FAR, FORCE, FORCE_X, FORCE_Y, TORQUE, WHEEL_LEFT, WHEEL_RIGHT
+from mindrun.sim.codes import FORCE, FORCE_ASIDE, FORCE_X, FORCE_Y, PUSH, STEERING, TORQUE
 from mindrun.sim.compiling import compiled
 from mindrun.sim.lanes.act import carry
 from mindrun.sim.lanes.chipmunk import open_space, push_body, step_space
+from mindrun.sim.lanes.loose import approach_loose, could_touch, slide, slow_down
+from mindrun.sim.lanes.places import within
 from mindrun.sim.lanes.sense import CULLING_SLACK_UNITS
+from mindrun.sim.lanes.walk import walk
 
 CONTACT_MARGIN_UNITS = 0.01  # beyond the rounding of any distance here
 CONTACT_TICKS = PERSISTENCE_TICKS + 2  # for which Chipmunk goes on with a lane in which something could have touched
@@ -28,11 +32,14 @@ CONTACT_TICKS = PERSISTENCE_TICKS + 2  # for which Chipmunk goes on with a lane 
 
 @compiled
 def step(tables, state, lanes):
-    """Damp, push with the wheels, move; then the headings and the held items follow."""
+    """Damp, push, move; then the headings and the held items follow, and what walks by itself takes its step."""
     world, contact, constants = state.world, state.contact, tables.world[0]
     thrust(tables, world, state.mind.commands, lanes)
+    for lane in range(lanes):
+        if world.restless[lane] > 0:
+            slow_down(tables, world, lane)
     find_near(tables, world, state.sight, contact, lanes)
-    fly(world.body, world.push, contact.near, constants, lanes)
+    fly(world, contact.near, constants, lanes)
     touching = contact.touching
     for lane in range(lanes):
         touching[lane] <<= 1  # bit 0 this tick, bit 1 the tick before
@@ -43,53 +50,121 @@ def step(tables, state, lanes):
             push_body(tables, world, contact, lane)
             if step_space(tables, world, contact, lane) > 0:
                 touching[lane] |= 1
+        elif world.restless[lane] > 0:
+            slide(tables, world, lane)
     for lane in range(lanes):
         world.heading[SINE, lane], world.heading[COSINE, lane] = sine_cosine(world.body[ANGLE, lane])
     carry(world, tables.things, lanes)
+    walk(tables, world, lanes)
 
 
 @compiled
 def thrust(tables, world, commands, lanes):
-    """Damped velocities into the body; force and torque into `push`."""
-    push, radius = world.push, tables.world[0].radius
+    """Damped velocities into the body, those of a car as its axles let it move; force and torque into `push`."""
+    push, constants, is_aside = world.push, tables.world[0], False
     push[FORCE, :lanes] = 0.0
     push[TORQUE, :lanes] = 0.0
+    push[FORCE_ASIDE, :lanes] = 0.0
     for i in range(len(tables.actuators)):
         actuator = tables.actuators[i]
-        if actuator.kind == WHEEL_LEFT:
-            wheel(commands[i], actuator.thrust, push[FORCE], push[TORQUE], -radius, lanes)
-        elif actuator.kind == WHEEL_RIGHT:
-            wheel(commands[i], actuator.thrust, push[FORCE], push[TORQUE], radius, lanes)
-    damp(world.body, world.heading, push, tables.world[0].linear, tables.world[0].angular, lanes)
+        if actuator.kind == PUSH:
+            acting = world.acting[i] if actuator.is_rough else commands[i]
+            strength = world.numbers[actuator.thrust]
+            if actuator.is_slipping or actuator.aside != 0.0:
+                drive_anywhere(acting, actuator, strength, world.grip[i], push, lanes)
+                is_aside |= actuator.aside != 0.0
+            else:
+                drive(acting, actuator, strength, push[FORCE], push[TORQUE], lanes)
+    linear, angular = world.numbers[constants.linear], world.numbers[constants.angular]
+    damp(world.body, world.heading, push, linear, angular, lanes)
+    if is_aside:
+        push_aside(world.heading, push, lanes)
+    if constants.axles > 0.0:
+        roll(tables, world, commands, lanes)
 
 
 @compiled
-def wheel(commands, strength, force, torque, arm, lanes):
-    """(2v − 1)·thrust on the left (arm < 0) or right rim."""
+def drive(commands, actuator, strength, force, torque, lanes):
+    """(2v − 1)·thrust along the heading at a point of the body: a wheel's on its rim."""
+    ahead, arm = actuator.ahead, actuator.arm
     for lane in range(lanes):
-        on_rim = (2.0 * commands[lane] - 1.0) * strength
-        force[lane] += on_rim
-        torque[lane] += arm * on_rim
+        pushed = (2.0 * commands[lane] - 1.0) * strength[lane]
+        force[lane] += ahead * pushed
+        torque[lane] += arm * pushed
+
+
+@compiled
+def drive_anywhere(commands, actuator, strength, kept, push, lanes):
+    """(2v − 1)·thrust in any direction, less what slips."""
+    for lane in range(lanes):
+        pushed = (2.0 * commands[lane] - 1.0) * strength[lane]
+        pushed *= kept[lane] if actuator.is_slipping else 1.0
+        push[FORCE, lane] += actuator.ahead * pushed
+        push[FORCE_ASIDE, lane] += actuator.aside * pushed
+        push[TORQUE, lane] += actuator.arm * pushed
+
+
+@compiled
+def push_aside(heading, push, lanes):
+    """The force to the left of the heading turned into the world."""
+    for lane in range(lanes):
+        push[FORCE_X, lane] -= push[FORCE_ASIDE, lane] * heading[SINE, lane]
+        push[FORCE_Y, lane] += push[FORCE_ASIDE, lane] * heading[COSINE, lane]
+
+
+@compiled
+def roll(tables, world, commands, lanes):
+    """Leave a car's velocity the motion that its axles let through, of which kinetic energy is nearest: v ahead,
+    v·tan δ / 2 to the left and a turn of v·tan δ / distance of the axles.
+    """
+    body, heading, constants = world.body, world.heading, tables.world[0]
+    moment, mass_inv = world.numbers[constants.moment], world.numbers[constants.mass_inv]
+    for lane in range(lanes):
+        inertia = moment[lane] * mass_inv[lane]
+        sine, cosine = sine_cosine(steered(tables, world, commands, lane))
+        aside = sine / cosine / 2.0
+        turn = sine / cosine / constants.axles
+        c, s = heading[COSINE, lane], heading[SINE, lane]
+        ahead = body[SPEED_X, lane] * c + body[SPEED_Y, lane] * s
+        left = body[SPEED_Y, lane] * c - body[SPEED_X, lane] * s
+        speed = ahead + left * aside + body[SPIN, lane] * turn * inertia
+        speed /= 1.0 + aside * aside + turn * turn * inertia
+        body[SPEED_X, lane] = speed * c - speed * aside * s
+        body[SPEED_Y, lane] = speed * s + speed * aside * c
+        body[SPIN, lane] = speed * turn
+
+
+@compiled
+def steered(tables, world, commands, lane):
+    """How far to the left a car's wheels are turned."""
+    angle = 0.0
+    for i in range(len(tables.actuators)):
+        actuator = tables.actuators[i]
+        if actuator.kind == STEERING:
+            command = world.acting[i, lane] if actuator.is_rough else commands[i, lane]
+            angle = (1.0 - 2.0 * command) * world.numbers[actuator.turn, lane]
+    return angle
 
 
 @compiled
 def damp(body, heading, push, linear, angular, lanes):
     """v / (1 + dt·c), as JBox2D does; and the force turned into the world."""
     for lane in range(lanes):
-        body[SPEED_X, lane] = body[SPEED_X, lane] * linear
-        body[SPEED_Y, lane] = body[SPEED_Y, lane] * linear
-        body[SPIN, lane] = body[SPIN, lane] * angular
+        body[SPEED_X, lane] = body[SPEED_X, lane] * linear[lane]
+        body[SPEED_Y, lane] = body[SPEED_Y, lane] * linear[lane]
+        body[SPIN, lane] = body[SPIN, lane] * angular[lane]
         push[FORCE_X, lane] = push[FORCE, lane] * heading[COSINE, lane]
         push[FORCE_Y, lane] = push[FORCE, lane] * heading[SINE, lane]
 
 
 @compiled
-def fly(body, push, near, constants, lanes):
+def fly(world, near, constants, lanes):
     """Chipmunk's step of a body that touches nothing: move with the old velocity, then add force and torque.
 
     A lane that Chipmunk will step keeps its state.
     """
-    dt, mass_inv, moment_inv = constants.dt, constants.mass_inv, constants.moment_inv
+    body, push, dt = world.body, world.push, constants.dt
+    mass_inv, moment_inv = world.numbers[constants.mass_inv], world.numbers[constants.moment_inv]
     for lane in range(lanes):
         free = near[lane] == 0
         x, y, angle = body[X, lane], body[Y, lane], body[ANGLE, lane]
@@ -97,9 +172,9 @@ def fly(body, push, near, constants, lanes):
         body[X, lane] = x + speed_x * dt if free else x
         body[Y, lane] = y + speed_y * dt if free else y
         body[ANGLE, lane] = angle + spin * dt if free else angle
-        body[SPEED_X, lane] = speed_x + push[FORCE_X, lane] * mass_inv * dt if free else speed_x
-        body[SPEED_Y, lane] = speed_y + push[FORCE_Y, lane] * mass_inv * dt if free else speed_y
-        body[SPIN, lane] = spin + push[TORQUE, lane] * moment_inv * dt if free else spin
+        body[SPEED_X, lane] = speed_x + push[FORCE_X, lane] * mass_inv[lane] * dt if free else speed_x
+        body[SPEED_Y, lane] = speed_y + push[FORCE_Y, lane] * mass_inv[lane] * dt if free else speed_y
+        body[SPIN, lane] = spin + push[TORQUE, lane] * moment_inv[lane] * dt if free else spin
 
 
 @compiled
@@ -109,7 +184,8 @@ def find_near(tables, world, sight, contact, lanes):
     A robot that would leave all places flies there alone.
     """
     body, near, gap, dt = world.body, contact.near, contact.gap, tables.world[0].dt
-    clearance(body, tables.world[0].half, dt, gap, lanes)
+    clearance(body, tables.world[0].half_x, tables.world[0].half_y, dt, gap, lanes)
+    approach_loose(tables, world, gap, lanes)
     for k in range(sight.nearby_most[0]):
         approach(sight.nearby[BOX_COLUMNS * k : BOX_COLUMNS * (k + 1)], body, dt, gap, lanes)
     for lane in range(lanes):
@@ -118,6 +194,8 @@ def find_near(tables, world, sight, contact, lanes):
         away = (x - sight.anchor[X, lane]) ** 2 + (y - sight.anchor[Y, lane]) ** 2
         leap = away > CULLING_SLACK_UNITS * CULLING_SLACK_UNITS  # away from the boxes it knows
         if leap or gap[lane] < reach_of(tables, world, lane):
+            near[lane] = CONTACT_TICKS
+        if world.restless[lane] > 0 and could_touch(tables, world, lane):
             near[lane] = CONTACT_TICKS
         if not within(x, y, body[ANGLE, lane] + body[SPIN, lane] * dt):
             near[lane] = 0
@@ -133,30 +211,25 @@ def reach_of(tables, world, lane):
 
 
 @compiled
-def within(x, y, angle):
-    """Whether Chipmunk can say anything of such a place; not where it is no number."""
-    return (abs(x) <= FAR) & (abs(y) <= FAR) & (abs(angle) <= FAR)
-
-
-@compiled
 def is_lost(body, lane):
     """Whether a lane's robot is where no world is."""
     return not within(body[X, lane], body[Y, lane], body[ANGLE, lane])
 
 
 @compiled
-def clearance(body, half, dt, gap, lanes):
+def clearance(body, half_x, half_y, dt, gap, lanes):
     """The distance between the robot's next centre and the walls."""
     for lane in range(lanes):
-        x, y = abs(body[X, lane] + body[SPEED_X, lane] * dt), abs(body[Y, lane] + body[SPEED_Y, lane] * dt)
-        gap[lane] = half - (x if x > y else y)
+        x = half_x - abs(body[X, lane] + body[SPEED_X, lane] * dt)
+        y = half_y - abs(body[Y, lane] + body[SPEED_Y, lane] * dt)
+        gap[lane] = x if x < y else y
 
 
 @compiled
 def approach(box, body, dt, gap, lanes):
     """`gap` lowered to the distance along the axes between the robot's next centre and a box of each lane."""
     for lane in range(lanes):
-        x = abs(body[X, lane] + body[SPEED_X, lane] * dt - box[X, lane]) - box[HALF_SIDE, lane]
-        y = abs(body[Y, lane] + body[SPEED_Y, lane] * dt - box[Y, lane]) - box[HALF_SIDE, lane]
+        x = abs(body[X, lane] + body[SPEED_X, lane] * dt - box[X, lane]) - box[HALF_X, lane]
+        y = abs(body[Y, lane] + body[SPEED_Y, lane] * dt - box[Y, lane]) - box[HALF_Y, lane]
         far = x if x > y else y
         gap[lane] = far if far < gap[lane] else gap[lane]

@@ -3,6 +3,7 @@
 from collections.abc import Callable, Sequence
 from typing import Any
 
+from mindrun.arithmetic import NAN
 from mindrun.registry import kinds
 from mindrun.sim.arithmetic import ONE, ZERO, F, clamp, compiled_lane, finite
 from mindrun.sim.codes import function_codes
@@ -117,15 +118,57 @@ def send(tables, state, row, out, count, lanes):
         else:
             values = mind.values
             codes = tables.codes[edge.code : edge.code + edge.length]
-            evaluate(codes, mind.readings, state.judge.measures, 0, mind.stack, mind.active, count, everywhere)
-            for k in range(count):
-                values[k] = F(mind.stack[0, k])
+            value(codes, mind, state.judge.measures, values, count, everywhere)
+        if edge.whens > 0:
+            gate(tables, mind, state.judge.measures, edge, values, count, everywhere)
+            values = mind.gated
         check(values, mind.sound, mind.sent, mind.active, state.run.faults, influence, count)
+        if edge.whens > 0 and edge.others == 0:
+            close(mind.opened, mind.sound, mind.sent, count)
+        if edge.cuts > ZERO:
+            cut(mind.sent, influence, mind.active, edge.cuts, count)
         if edge.to_skill:
             spread(mind.sent, influence, mind.influence[edge.target], mind.active, count, everywhere)
         else:
             spread(mind.sent, influence, mind.command_sums[edge.target], mind.active, count, everywhere)
             weigh(mind.sent, influence, mind.influence_sums[edge.target], mind.active, count, everywhere)
+
+
+@compiled
+def value(codes, mind, measures, out, count, everywhere):
+    """The values of a program over the readings, as they are sent."""
+    evaluate(codes, mind.readings, measures, mind.commands, 0, mind.stack, mind.active, count, everywhere)
+    for k in range(count):
+        out[k] = F(mind.stack[0, k])
+
+
+@compiled
+def gate(tables, mind, measures, edge, values, count, everywhere):
+    """The values of an edge where its condition holds, of `otherwise` where not, and NaN where that is not known."""
+    value(tables.codes[edge.when : edge.when + edge.whens], mind, measures, mind.opened, count, everywhere)
+    other = mind.other
+    for k in range(count):
+        other[k] = ZERO
+    if edge.others > 0:
+        value(tables.codes[edge.other : edge.other + edge.others], mind, measures, other, count, everywhere)
+    for k in range(count):
+        is_open, is_closed = mind.opened[k] > ZERO, mind.opened[k] == ZERO
+        mind.gated[k] = values[k] if is_open else other[k] if is_closed else NAN
+
+
+@compiled
+def close(opened, sound, sent, count):
+    """Nothing is sent where a condition does not hold, and that is no fault."""
+    for k in range(count):
+        sent[k] = NOT_SENT if opened[k] == ZERO and sound[k] == ZERO else sent[k]
+
+
+@compiled
+def cut(sent, influence, active, least, count):
+    """Nothing is sent where the influence that arrives would be smaller than the least."""
+    for k in range(count):
+        if sent[k] >= ZERO:
+            sent[k] = NOT_SENT if sent[k] * influence[active[k]] < least else sent[k]
 
 
 @compiled

@@ -1,0 +1,56 @@
+"""`mindc edit unshare`."""
+
+from collections.abc import Iterator, Mapping
+
+from mindlang.compiler.model import Skill
+from mindlang.compiler.references import names_in
+from mindlang.compiler.splice import Splice
+from mindlang.compiler.syntax import Fact, Reads
+from mindlang.editing.insertion import indentation, instead, instead_of_line, without_fact
+from mindlang.editing.lines import first_line, insert_below
+from mindlang.editing.project import EditError, MindChange, Project, Unshared
+
+
+def unshare(project: Project, skill: str) -> MindChange:
+    """Let a skill that is like another have weights of its own.
+
+    It says for itself then what the other one says, and begins with a copy of the weights that they shared.
+
+    Example: mindc edit unshare GoToDropZone like.mind
+    """
+    declaration = project.find(skill, "skill")
+    skills = {known.name: known for known in project.mind.skills}
+    own = skills[skill]
+    if not own.like:
+        raise EditError(f"{skill} is like no other skill: its weights are its own.", "", declaration.header.span)
+    owner = skills[own.like]
+    phrase = owner.declaration.header.phrase
+    assert phrase
+    instead_of = dict(zip(owner.reads, own.reads, strict=True))
+    indent = indentation(declaration)
+    lines = [f"{indent}{_restated(project, owner, fact, instead_of)}" for fact in owner.declaration.facts]
+    header = instead(declaration.header.span, f"skill {skill} is {phrase.span.text}")
+    return MindChange((header, *_below(own, lines)), unshared=Unshared(skill, own.like, instead_of))
+
+
+def _below(skill: Skill, lines: list[str]) -> Iterator[Splice]:
+    """The lines in the place of what a skill says."""
+    declaration = skill.declaration
+    if not declaration.facts:
+        yield insert_below(first_line(declaration.header.span), lines)
+        return
+    first, *others = declaration.facts
+    yield instead_of_line(first, lines)
+    yield from map(without_fact, others)
+
+
+def _restated(project: Project, owner: Skill, fact: Fact, instead_of: Mapping[str, str]) -> str:
+    """A fact of the owner with what is read instead."""
+    text, start = fact.span.text, fact.span.start
+    names = [mention.name for mention in names_in(fact, project.names, owner.declaration)]
+    by_place = {name.span.start: name for name in names if isinstance(fact, Reads) or name.text in instead_of}
+    for place in sorted(by_place, reverse=True):
+        name = by_place[place]
+        first, last = name.span.start - start, name.span.end - start
+        text = text[:first] + instead_of.get(name.text, name.text) + text[last:]
+    return text

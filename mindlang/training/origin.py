@@ -1,0 +1,59 @@
+"""The weights of another skill with a copy of which a lesson begins."""
+
+from pathlib import Path
+
+from mindrun.graph import Graph, Lesson, Skill
+from mindrun.train import RunError
+from mindrun.weights import Weights, learners, owner_of
+
+from mindlang.compiler.counterparts import counterparts
+from mindlang.lock import Lock
+from mindlang.lock.blobs import Origin
+from mindlang.lock.signature import signature
+from mindlang.lock.status import trained_weights
+
+
+def origin_weights(graph: Graph, lock: Lock, lesson: Lesson, shown: Path) -> dict[str, Weights]:
+    """The weights with which its skill begins; none where the lesson starts from no other. The graph is `arrange`d.
+
+    RunError where the other skill has none that fit, and how to teach it in the file that is `shown`.
+    """
+    skills = {skill.name: skill for skill in graph.skills}
+    if not lesson.starts_from or lesson.skill not in learners(graph, lesson):
+        return {}
+    origin = skills[lesson.starts_from]
+    weights, refusals = trained_weights(graph, lock, [origin.name])
+    if refusals:
+        message = f"{lesson.skill} cannot begin with the weights of {origin.name}: {refusals[0]}"
+        raise RunError(message, f"first: mindc train {shown} {origin.owner}")
+    return {lesson.skill: _brought(graph, skills[lesson.skill], origin, weights[origin.owner])}
+
+
+def origin_of(graph: Graph, lock: Lock, lesson: Lesson) -> Origin | None:
+    """The skill that a lesson starts from, and the SHA-256 of its weights."""
+    owner = owner_of(graph, lesson.starts_from)
+    return (lesson.starts_from, lock[owner].weights) if owner in lock else None
+
+
+def _brought(graph: Graph, learner: Skill, origin: Skill, weights: Weights) -> Weights:
+    """Weights of one skill in the order in which another reads and sends what stands for the same."""
+    own, its = signature(graph, learner), signature(graph, origin)
+    inputs, outputs = _places(own.reads, its.reads), _places(own.sends, its.sends)
+    return origin.function.reordered(weights, inputs, outputs)
+
+
+def _places(of: tuple[str, ...], among: tuple[str, ...]) -> list[int]:
+    """For each reading or output of these names its place among those of the other names."""
+    starts: dict[str, int] = {}
+    at = 0
+    for name in among:
+        starts[name] = at
+        at += _width(name)
+    found = counterparts(of, among)
+    if found is None:
+        raise RunError("these weights do not fit", "run mindc check")
+    return [starts[found[name]] + number for name in of for number in range(_width(name))]
+
+
+def _width(name: str) -> int:
+    return int(name.partition(":")[2] or 1)

@@ -1,0 +1,85 @@
+"""An eye: how near the ball is that a camera sees, in some directions."""
+
+from dataclasses import dataclass
+from math import cos, radians, sin, sqrt
+from typing import Annotated
+
+from mindrun.quantity import COUNT, RATIO
+from mindrun.registry import kind
+from mindrun.robot.ball_detection import distance
+from mindrun.robot.driver_support import DEGREES, METRES, PATH
+from mindrun.robot.drivers.ball_tracker import HUE, TOLERANCE, VIEW, BallTracker, BallTrackerDevice
+
+
+@dataclass(frozen=True, slots=True)
+class BallEyeDevice:
+    """A camera's ball, as seen along rays."""
+
+    driver: "BallEye"
+    tracker: BallTrackerDevice
+
+    def read(self) -> tuple[float | None, ...]:
+        """Metres to the ball along each ray in a frame that was not read before; None where the ray misses it."""
+        seen, driver = self.tracker.sighting(), self.driver
+        if seen.ball is None:
+            return (None,) * driver.readings
+        metres = distance(seen.ball.diameter, driver.size, seen.width, driver.view)
+        rays = (along_ray(radians(angle - seen.ball.bearing), metres, driver.size / 2) for angle in driver.angles)
+        return tuple(found if found is not None and found <= driver.range else None for found in rays)
+
+    def close(self) -> None:
+        """Let go."""
+        self.tracker.close()
+
+
+def along_ray(angle: float, metres: float, radius: float) -> float | None:
+    """How far a ball's rim is along a ray at an angle to its middle, which is so many metres away; None beside it."""
+    aside, ahead = metres * sin(angle), metres * cos(angle)
+    if abs(aside) > radius or ahead < 0:
+        return None
+    return max(0.0, ahead - sqrt(radius * radius - aside * aside))
+
+
+@kind("sensor driver", "ball_eye")
+@dataclass(frozen=True, slots=True)
+class BallEye:
+    """A camera that looks for a ball as `ball_tracker` does, for an `eye`: metres to it along each of some `angles`.
+
+    They are those of the sensor, to the left positive; a ray that misses the ball of diameter `size`, or finds it
+    farther away than `range`, reads none. Rays that the camera does not see, outside of half its `view` to either side,
+    never find anything. Sensors can share the camera with others where all else is written the same.
+    """
+
+    angles: Annotated[tuple[float, ...], DEGREES]
+    range: Annotated[float, METRES] = 3.0
+    camera: Annotated[str, PATH] = "/dev/video0"
+    width: Annotated[int, COUNT] = 320
+    height: Annotated[int, COUNT] = 240
+    view: Annotated[float, VIEW] = 60.0
+    size: Annotated[float, METRES] = 0.1
+    hue: Annotated[float, HUE] = 120.0
+    tolerance: Annotated[float, TOLERANCE] = 25.0
+    colour: Annotated[float, RATIO] = 0.4
+    brightness: Annotated[float, RATIO] = 0.5
+
+    unit = "m"
+
+    @property
+    def readings(self) -> int:
+        """One of each ray."""
+        return len(self.angles)
+
+    @property
+    def usual(self) -> tuple[float, float]:
+        """Touching, and as far as it looks."""
+        return 0.0, self.range
+
+    @property
+    def possible(self) -> tuple[float, float]:
+        """What is not nonsense."""
+        return self.usual
+
+    def open(self) -> BallEyeDevice:
+        """The camera, which gives frames."""
+        said = {name: getattr(self, name) for name in self.__dataclass_fields__ if name not in ("angles", "range")}
+        return BallEyeDevice(self, BallTracker(**said).open())

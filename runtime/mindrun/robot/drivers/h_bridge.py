@@ -1,0 +1,79 @@
+"""A motor on an H-bridge (L298N, TB6612, DRV8833): two pins for the direction, and pulses for the speed."""
+
+from dataclasses import dataclass
+from typing import Annotated, Any
+
+from mindrun.driver import DeviceError
+from mindrun.registry import kind
+from mindrun.robot.driver_support import PIN, PWM_HERTZ, library, on_pin, pins, share
+
+
+@dataclass(frozen=True, slots=True)
+class HBridgeDevice:
+    """One motor; without `enable` the speed is in the pulses of the direction's pin."""
+
+    forward: Any
+    backward: Any
+    enable: Any = None
+
+    def write(self, value: float) -> None:
+        """Command a speed: 0 full reverse, 0.5 stopped, 1 full forward."""
+        speed = 2 * share(value) - 1
+        on, off = (self.forward, self.backward) if speed > 0 else (self.backward, self.forward)
+        with pins("the H-bridge cannot be driven"):
+            if self.enable is None:
+                off.value = 0
+                on.value = abs(speed)
+                return
+            if off.value or not speed:  # never the other way round at the speed that was meant this way
+                self.enable.value = 0
+            off.value = 0
+            on.value = speed != 0
+            self.enable.value = abs(speed)
+
+    def close(self) -> None:
+        """Stop the motor, and let go."""
+        for pin in (self.enable, self.forward, self.backward):
+            if pin is not None:
+                pin.close()
+
+
+@kind("actuator driver", "h_bridge")
+@dataclass(frozen=True, slots=True)
+class HBridge:
+    """A motor on half of an H-bridge: a `wheel`, a `thruster`, whatever turns both ways.
+
+    `forward` and `backward` are the GPIO numbers of its inputs: IN1 and IN2 of an L298N, AIN1 and AIN2 of a TB6612 or
+    DRV8833. `enable` is that of ENA, PWMA: the speed is in its pulses. A DRV8833 has none, there the pulses are those
+    of the direction. STBY and SLEEP belong to 3.3 V. 0 is full reverse, 0.5 stopped, 1 full forward; a wheel that turns
+    the wrong way is `reversed`. Pins go low when the process ends; a resistor of 10 kΩ from each to ground holds them
+    there while the Raspberry Pi starts.
+    """
+
+    forward: Annotated[int, PIN]
+    backward: Annotated[int, PIN]
+    enable: Annotated[int | None, PIN] = None
+    frequency: Annotated[float, PWM_HERTZ] = 1000.0
+
+    @property
+    def device(self) -> str:
+        """What only one process may drive."""
+        return on_pin(self.forward)
+
+    def open(self) -> HBridgeDevice:
+        """The motor, stopped."""
+        gpiozero, made = library("gpiozero"), dict[str, Any]()
+        speeds = ("enable",) if self.enable is not None else ("forward", "backward")
+        try:
+            for name in ("enable", "forward", "backward"):
+                number = getattr(self, name)
+                with pins(f"the H-bridge's {name} pin, GPIO {number}, cannot be opened"):
+                    if name in speeds:
+                        made[name] = gpiozero.PWMOutputDevice(number, frequency=self.frequency)
+                    elif number is not None:
+                        made[name] = gpiozero.OutputDevice(number)
+        except DeviceError:
+            for pin in made.values():
+                pin.close()
+            raise
+        return HBridgeDevice(**made)

@@ -1,0 +1,35 @@
+"""Reflectance sensors that say whether the floor below them is dark."""
+
+from dataclasses import dataclass
+from typing import Annotated
+
+from mindrun.registry import kind
+from mindrun.robot.digital_inputs import DigitalInputsDevice, open_inputs
+from mindrun.robot.driver_support import PIN, SWITCH
+
+
+@kind("sensor driver", "line_sensor")
+@dataclass(frozen=True, slots=True)
+class LineSensor:
+    """Digital line sensors (TCRT5000, QRE1113 with a comparator), for a sensor `floor`: 1 above a dark floor, else 0.
+
+    `pins` lists their GPIO numbers in the order of the sensor's points. Most pins are at 3.3 V above a dark
+    floor and at 0 V above a bright one; a sensor whose pins are the other way round is `inverted`, and so is one that
+    follows a bright line on a dark floor. Those with a 5 V supply put out 5 V: bring it to 3.3 V with two resistors.
+    """
+
+    pins: Annotated[tuple[int, ...], PIN]
+    inverted: Annotated[bool, SWITCH] = False
+
+    unit = ""
+    usual = (0.0, 1.0)
+    possible = (0.0, 1.0)
+
+    @property
+    def readings(self) -> int:
+        """One of each sensor."""
+        return len(self.pins)
+
+    def open(self) -> DigitalInputsDevice:
+        """All sensors; they drive their pins both ways, so nothing pulls at these."""
+        return open_inputs("the line sensor", self.pins, pull_up=None, active_state=not self.inverted)

@@ -1,0 +1,64 @@
+"""Analogue sensors on an MCP3008 (Microchip, 8 inputs of 10 bits on SPI; data sheet DS21295)."""
+
+from dataclasses import dataclass
+from typing import Annotated, Any
+
+from mindrun.driver import DeviceError
+from mindrun.quantity import Quantity
+from mindrun.registry import kind
+from mindrun.robot.driver_support import CHIP, library, pins
+
+INPUT = Quantity("an input", {"": 1.0}, low=0, high=7, whole=True)
+
+
+@dataclass(frozen=True, slots=True)
+class AnalogueDevice:
+    """Some inputs of the converter."""
+
+    inputs: tuple[Any, ...]
+
+    def read(self) -> tuple[float, ...]:
+        """The voltage of each, as a share of the reference."""
+        with pins("the analogue converter cannot be read"):
+            return tuple(float(each.value) for each in self.inputs)
+
+    def close(self) -> None:
+        """Let go of all of them."""
+        for each in self.inputs:
+            each.close()
+
+
+@kind("sensor driver", "mcp3008")
+@dataclass(frozen=True, slots=True)
+class Mcp3008:
+    """Analogue sensors (of `light`, of the `floor`) on an MCP3008: voltages as shares of its reference, 3.3 V.
+
+    `inputs` lists them in the order of the sensor's readings. A light sensor is an LDR from 3.3 V to the input and
+    10 kΩ from there to ground: the brighter, the more. What it reads in the dark and in the light are `from` and `to`:
+    `mindrun calibrate` says them. It hangs on SPI bus 0, GPIO 9 to 11, chip select `chip` is GPIO 8 or 7; turn SPI on
+    with `sudo raspi-config nonint do_spi 0`. Nothing can tell that an input is not connected: it reads anything.
+    """
+
+    inputs: Annotated[tuple[int, ...], INPUT]
+    chip: Annotated[int, CHIP] = 0
+
+    unit = ""
+    usual = (0.0, 1.0)
+    possible = (0.0, 1.0)
+
+    @property
+    def readings(self) -> int:
+        """One of each input."""
+        return len(self.inputs)
+
+    def open(self) -> AnalogueDevice:
+        """All inputs."""
+        gpiozero, opened = library("gpiozero"), list[Any]()
+        try:
+            for number in self.inputs:
+                with pins(f"input {number} of the analogue converter cannot be opened"):
+                    opened.append(gpiozero.MCP3008(channel=number, port=0, device=self.chip))
+        except DeviceError:
+            AnalogueDevice(tuple(opened)).close()
+            raise
+        return AnalogueDevice(tuple(opened))

@@ -1,0 +1,69 @@
+"""An expression over other readings."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from math import isfinite
+from typing import Annotated, Any
+
+import numpy as np
+
+from mindrun.arithmetic import NAN, F, clamp, finite
+from mindrun.expression import Formula, evaluate, is_valid_program, named, placed
+from mindrun.quantity import EXPRESSION
+from mindrun.registry import kind
+from mindrun.sensors.sensor import Flaw, Reader, Readings, Scene, SensorKind, World
+from mindrun.stack_machine import evaluate as run_program
+
+
+@kind("sensor", "computed")
+@dataclass(frozen=True, slots=True)
+class Computed(SensorKind):
+    """The value of an expression over sensors and memories of one reading, clamped to 0..1. 0/0 is no reading."""
+
+    at: Annotated[Formula, EXPRESSION]
+
+    remedy = "Let it depend on a reading, or write the number where it is read"
+
+    @property
+    def sources(self) -> tuple[str, ...]:
+        """All that it names."""
+        return named(self.at)
+
+    @property
+    def formula(self) -> Formula:
+        """Its expression."""
+        return self.at
+
+    def flaw(self, widths: Mapping[str, int]) -> Flaw | None:
+        """An expression takes one number of each reading that it names."""
+        starts = dict.fromkeys(self.sources, 0)
+        if not (is_valid_program(placed(self.at, starts)) and all(widths.get(name) == 1 for name in self.sources)):
+            return Flaw("wide-reading", "at", "It has an expression that cannot be computed.", "Read single readings.")
+        return None
+
+    def constant(self, world: World) -> float | None:
+        """Its value where it names nothing."""
+        if self.sources:
+            return None
+        with np.errstate(all="ignore"):
+            value = float(self.reader(Scene(world.tick, {}))(0, np.zeros(0, np.float32), None))
+        return value if isfinite(value) else None
+
+    def reader(self, scene: Scene) -> Reader:
+        """Its value as a float32, clamped; NaN where that is not finite."""
+        program = placed(self.at, scene.starts)
+
+        def read(number: int, now: Readings, before: Readings | None) -> np.float32:
+            value = np.float32(evaluate(program, now))
+            return clamp(value) if isfinite(value) else NAN
+
+        return read
+
+    @staticmethod
+    def lane(t: Any, s: Any, n: int, clock: int, sensor: Any) -> None:
+        """The program over all lanes."""
+        codes, out = t.codes[sensor.code : sensor.code + sensor.length], s.readings[sensor.start]
+        run_program(codes, s.readings, s.stack, s.readings, 0, s.stack, s.active, n, True)
+        for p in range(n):
+            v = F(s.stack[0, p])
+            out[p] = clamp(v) if finite(v) else NAN

@@ -1,0 +1,37 @@
+"""Where the robot is along an axis of its world."""
+
+from dataclasses import dataclass
+from typing import Annotated, Any, Literal, get_args
+
+from mindrun.arithmetic import HALF, F, X, Y, clamp
+from mindrun.quantity import POSITIVE, Reference
+from mindrun.registry import kind
+from mindrun.sensors.sensor import Physical, Row, Scene
+
+Axis = Literal["x", "y"]
+
+
+@kind("sensor", "position")
+@dataclass(frozen=True, slots=True)
+class Position(Physical):
+    """Place of the robot's middle along an axis, as beacons tell it: 0.5 the origin, 1 from `range` units on.
+
+    0.5 + 0.5 · x / range, or y, and 0 from −range on; the origin is the middle of an arena, y points north.
+    """
+
+    along: Annotated[Axis, Reference("axis", get_args(Axis))]
+    range: Annotated[float, POSITIVE] = 50.0
+
+    scaled = True
+    blank = 0.5
+
+    def row(self, scene: Scene) -> Row:
+        """What a unit adds, and the axis as a row of the body."""
+        return {"gain": 0.5 / self.range, "part": X if self.along == "x" else Y}
+
+    @staticmethod
+    def lane(t: Any, s: Any, n: int, clock: int, sensor: Any) -> None:
+        """0.5 + place · gain."""
+        out, place = s.readings[sensor.start], s.body[sensor.part]
+        for p in range(n):
+            out[p] = clamp(HALF + F(place[p] * sensor.gain))

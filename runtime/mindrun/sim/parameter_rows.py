@@ -1,0 +1,77 @@
+"""Numbers of a world that may differ from run to run: what draws them, and what is computed of those that are drawn.
+
+Each is a row of `world.numbers` [row, lane], the same in every lane where nothing varies.
+"""
+
+from collections.abc import Callable, Mapping
+from dataclasses import replace
+from typing import Any, TypeVar
+
+from numpy.typing import NDArray
+
+from mindrun.graph import Graph, Task
+from mindrun.sim.codes import CONSTANT, DAMPING, DRAWN, DRAWN_WHOLE, FAILING, INVERSE, OVER, PARAMETER, TIMES
+from mindrun.sim.records import Row, records
+from mindrun.variation import Variation, Varying, varied_quantity
+from mindrun.varied import varied_kind
+
+K = TypeVar("K")
+
+SAME_IN_EVERY_RUN = -1  # in place of a row
+Step = tuple[int, float]  # one of STEPS, and the number that it takes beside the one before
+
+# As `lanes/parameters.py` computes them.
+STEPS: Mapping[int, Callable[[float, float], float]] = {
+    TIMES: lambda x, by: x * by,
+    OVER: lambda x, by: x / by,
+    INVERSE: lambda x, by: by / x,
+    DAMPING: lambda x, by: 1.0 / (1.0 + by * x),
+}
+
+
+class Parameters:
+    """The rows of a task, first of all those that are drawn: what varies and what fails, in the order of the source."""
+
+    def __init__(self, graph: Graph, task: Task) -> None:
+        self._rows: list[Row] = []
+        self._drawn: dict[tuple[str, str, str], tuple[int, Variation]] = {}
+        for each in task.varies:
+            kind = varied_kind(graph, task, each)
+            quantity = varied_quantity(kind, each.argument)
+            form = DRAWN_WHOLE if quantity and quantity.whole else DRAWN
+            row = self._add({"form": form, "low": each.low, "high": each.high})
+            self._drawn[each.noun, each.of, each.argument] = row, each
+        self._failing = {each.actuator: self._add({"form": FAILING, "low": 1.0 - each.rate}) for each in task.fails}
+
+    def row(self, noun: Varying, of: str, argument: str, value: float, *steps: Step) -> int:
+        """The row of an argument that is `value` where it does not vary, or of what steps make of it."""
+        if not self.varies(noun, of, argument):
+            for form, by in steps:
+                value = STEPS[form](value, by)
+            return self._add({"form": CONSTANT, "low": value})
+        row, _ = self._drawn[noun, of, argument]
+        for form, by in steps:
+            row = self._add({"form": form, "of": row, "low": by})
+        return row
+
+    def varies(self, noun: Varying, of: str, argument: str) -> bool:
+        """Whether an argument does."""
+        return (noun, of, argument) in self._drawn
+
+    def failing(self, actuator: str) -> int:
+        """The row of the tick from which an actuator is stuck; SAME_IN_EVERY_RUN where it never is."""
+        return self._failing.get(actuator, SAME_IN_EVERY_RUN)
+
+    def greatest(self, noun: Varying, of: str, kind: K) -> K:
+        """A kind with the greatest values of its arguments that vary."""
+        own = {each.argument: each.high for _, each in self._drawn.values() if (each.noun, each.of) == (noun, of)}
+        whole: Any = kind
+        return replace(whole, **{key: type(getattr(kind, key))(value) for key, value in own.items()}) if own else kind
+
+    def table(self) -> NDArray[Any]:
+        """Rows of PARAMETER."""
+        return records(self._rows, PARAMETER)
+
+    def _add(self, row: Row) -> int:
+        self._rows.append(row)
+        return len(self._rows) - 1

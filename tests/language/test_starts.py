@@ -1,0 +1,73 @@
+"""Where a task or a scene says that the robot starts."""
+
+from math import pi
+from pathlib import Path
+
+import pytest
+from mindrun.graph import Graph, Start
+from mindrun.policy import Policy
+from mindrun.sim.rollout import Rollout
+from mindrun.sim.trace import trace
+
+from mindlang.compiler.compile import compile_source
+from mindlang.compiler.source import Source
+from mindlang.lock.world_changes import changes
+from mindlang.lock.world_facts import Worlds
+
+MIND = """\
+tick 1/60 s
+master Go
+body Robot is disc size 1
+actuator left is wheel side left neutral 0.5
+sensor north is compass
+skill Go is mlp
+  reads north
+  drives left
+scene Yard is arena size 40 30
+  starts at 5 -5 facing 90 deg
+task Home in Yard
+  lasts 60 ticks
+  rewards forward per tick
+task Away in arena size 40
+START  lasts 60 ticks
+  rewards forward per tick
+curriculum School is genetic
+  teaches Go on Away for 3 generations
+"""
+
+
+def compiled(line: str) -> Graph:
+    graph = compile_source(Source("a.mind", MIND.replace("START", f"  {line}\n" if line else ""), Path())).graph
+    assert graph
+    return graph
+
+
+@pytest.mark.parametrize(
+    ("line", "start"),
+    [
+        ("", Start()),
+        ("starts at 1 2", Start((1.0, 2.0))),
+        ("starts facing -90 deg", Start(None, -pi / 2)),
+        ("starts at 0 0 facing 180 deg", Start((0.0, 0.0), pi)),
+    ],
+)
+def test_a_run_begins_where_its_task_says(line: str, start: Start) -> None:
+    graph = compiled(line)
+    assert [task.start for task in graph.tasks] == [Start((5.0, -5.0), pi / 2), start]
+    rollout = Rollout(Policy(graph, {}), "Away", "Go", ["Go"])
+    begins = [trace(rollout, seed).begin.tolist() for seed in range(3)]
+    assert len({(x, y) for x, y, _ in begins}) == (1 if start.at else 3)
+    assert len({angle for *_, angle in begins}) == (3 if start.facing is None else 1)
+    assert not start.at or begins[0][:2] == [*start.at]
+
+
+def test_another_start_is_another_world() -> None:
+    def world(line: str):  # type: ignore[no-untyped-def]
+        graph = compiled(line)
+        return Worlds(graph, None).of(graph.lessons[0])
+
+    assert changes(world("starts at 1 2"), world("starts at 1 2")) == []
+    assert changes(world("starts at 1 2"), world("starts at 1 3 facing 90 deg")) == [
+        "its task has changed: starts at 1 3 facing 90 deg, before starts at 1 2"
+    ]
+    assert changes(world("starts at 1 2"), world("")) == ["its task has changed: starts anywhere, before starts at 1 2"]

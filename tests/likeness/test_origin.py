@@ -1,0 +1,100 @@
+"""Lessons that begin with a copy of another skill's weights: brought into the order of the skill that is taught."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from mindrun.functions import Mlp
+from mindrun.functions.elman import Elman
+from mindrun.functions.function import Function
+from mindrun.train import RunError
+
+from mindlang.compiler.counterparts import counterparts
+from mindlang.lock import read_lock
+from mindlang.lock.arrange import arrange
+from mindlang.training.lesson_choice import TrainOptions, chosen_lessons
+from mindlang.training.origin import origin_weights
+from tests.likeness.test_lock import teach
+from tests.likeness.test_meaning import ALIKE, GO, SCHOOL, TOP, compiled, graph, named
+
+FAR = "\nskill Far is mlp\n  reads far\n  reads eyes\n  drives right_wheel\n  drives left_wheel at far / 2\n"
+FILE = Path("far.mind")
+LESSONS = "  teaches Go on Roam for 10 generations\n  teaches Far on Roam for 10 generations from Go\n"
+
+
+def test_what_stands_for_what() -> None:
+    assert counterparts(("a", "b"), ("b", "a")) == {"a": "a", "b": "b"}
+    assert counterparts(("a", "c:3"), ("c:3", "b")) == {"a": "b", "c:3": "c:3"}
+    assert counterparts(("a", "c:3"), ("d:3", "b")) == {"a": "b", "c:3": "d:3"}
+    assert counterparts(("a", "c"), ("d", "b")) is None
+    assert counterparts(("a", "c:3"), ("a", "c:4")) is None
+    assert counterparts(("a",), ("a", "b")) is None
+
+
+@given(
+    st.sampled_from([Mlp(0), Mlp(1), Mlp(2), Mlp(3, 7), Elman(), Elman(5)]),
+    st.permutations(range(4)),
+    st.permutations(range(3)),
+    st.integers(0, 2**32 - 1),
+)
+@settings(max_examples=60)
+def test_reordered_weights_do_the_same(function: Function, inputs: list[int], outputs: list[int], seed: int) -> None:
+    """But for rounding: the sums are taken in another order."""
+    rng = np.random.default_rng(seed)
+    weights = rng.uniform(-2, 2, function.genome_length(4, 3)).astype(np.float32)
+    moved = function.reordered(weights, inputs, outputs)
+    one, other = function.ready(4, 3, weights, {}), function.ready(4, 3, moved, {})
+    for values in rng.random((3, 4), np.float32):
+        assert np.allclose(one(values)[outputs], other(values[inputs]), rtol=1e-4, atol=1e-4)
+
+
+def test_weights_are_copied_into_the_order_of_the_learner(tmp_path: Path) -> None:
+    lock = tmp_path / "mind.lock"
+    other = FAR.replace("drives right_wheel\n  drives left_wheel at far / 2", "drives left_wheel\n  drives right_wheel")
+    own = "\nskill Go is mlp\n  reads eyes\n  reads near\n  drives left_wheel\n  drives right_wheel\n"
+    mind = arrange(graph(own, other, ALIKE, TOP, SCHOOL, LESSONS), {})
+    weights = teach(lock, mind, "Go")
+    copy = origin_weights(mind, read_lock(lock), mind.lessons[1], FILE)
+    assert list(copy) == ["Far"]
+    go, far = (named(mind, name) for name in ("Go", "Far"))
+    one, two = go.function.ready(3, 2, weights, {}), far.function.ready(3, 2, copy["Far"], {})
+    eyes, near = np.float32([0.2, 0.9]), np.float32([0.4])
+    assert np.allclose(one(np.concatenate([eyes, near])), two(np.concatenate([near, eyes])), atol=1e-6)
+
+
+def test_a_lesson_waits_for_the_weights_that_it_begins_with(tmp_path: Path) -> None:
+    mind = arrange(graph(GO, FAR, ALIKE, TOP, SCHOOL, LESSONS), {})
+    with pytest.raises(RunError, match="Far cannot begin with the weights of Go: Go has not been taught") as refused:
+        origin_weights(mind, {}, mind.lessons[1], FILE)
+    assert refused.value.hint == "first: mindc train far.mind Go"
+    assert origin_weights(mind, {}, mind.lessons[0], FILE) == {}
+
+
+def test_from_scratch_on_the_command_line_begins_with_nothing() -> None:
+    mind = graph(GO, FAR, ALIKE, TOP, SCHOOL, LESSONS)
+    lesson = TrainOptions(from_scratch=True).applied(mind.lessons[1])
+    assert (lesson.from_scratch, lesson.starts_from) == (True, "")
+    assert TrainOptions().applied(mind.lessons[1]) == mind.lessons[1]
+
+
+def test_who_is_alike_is_not_taught_by_itself() -> None:
+    mind = graph(GO, FAR, ALIKE, TOP, SCHOOL, LESSONS)
+    with pytest.raises(RunError, match="Back is like Go: it has no weights of its own to be taught"):
+        chosen_lessons(mind, None, ["Back"])
+
+
+@pytest.mark.parametrize(
+    ("far", "why"),
+    [
+        (FAR.replace("mlp", "elman"), "their functions differ"),
+        (FAR.replace("mlp", "mlp hidden 1"), "their functions differ"),
+        (FAR.replace("reads far", "reads far\n  reads charge"), "which stands for which cannot be told"),
+        (FAR.replace("left_wheel at far / 2", "left_wheel"), "which stands for which cannot be told"),
+    ],
+)
+def test_weights_of_another_shape_are_refused(far: str, why: str) -> None:
+    found = compiled(GO, far, ALIKE, TOP, SCHOOL, LESSONS)
+    assert [each.code for each in found.diagnostics] == ["other-shape"]
+    assert why in found.diagnostics[0].message

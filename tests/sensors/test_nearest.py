@@ -1,0 +1,85 @@
+"""Several things of one name: a sensor speaks of the nearest, or of any of them; what has vanished is not there."""
+
+from dataclasses import dataclass
+from types import SimpleNamespace
+
+import numpy as np
+from hypothesis import given
+from hypothesis import strategies as st
+from mindrun.arithmetic import DISTANCE, THING_ROWS, nearest
+from mindrun.graph import Task, Thing
+from mindrun.scenes import Arena
+from mindrun.sensors import Bearing, Contact, Held, Inside
+from mindrun.sim.task_rows import rows_by_name, things_of
+from mindrun.things import Item, Obstacle, ThingKind, Zone
+
+AWAY = st.sampled_from([0.0, 1.0, 1.0, 2.0, 3.0, np.nan])
+
+
+@dataclass(frozen=True)
+class Several(Item):
+    """Three items of one name."""
+
+    copies = 3  # type: ignore[assignment]
+
+
+def state(distances: list[float], things: int, first: int = 0, count: int | None = None) -> tuple[SimpleNamespace, ...]:
+    """A lane with things that far away, each with its number as its place; and a sensor of `count` from `first` on."""
+    rows = np.repeat(np.arange(things, dtype=float), THING_ROWS)[:, None].copy()
+    rows[DISTANCE::THING_ROWS, 0] = distances
+    lanes = SimpleNamespace(
+        things=rows, nearest=np.zeros((THING_ROWS, 1)), nearest_of=np.array([-1]),
+        readings=np.zeros((1, 1), np.float32), held=np.array([-1]),
+        body=np.zeros((6, 1)), heading=np.array([[1.0], [0.0]]),
+    )  # fmt: skip
+    return lanes, SimpleNamespace(thing=first, things=things - first if count is None else count, start=0)
+
+
+@given(st.lists(AWAY, min_size=1, max_size=6), st.data())
+def test_the_nearest_is_the_first_of_the_least_distances(distances: list[float], data: st.DataObject) -> None:
+    first = data.draw(st.integers(0, len(distances) - 1))
+    lanes, sensor = state(distances, len(distances), first)
+    found = nearest(lanes, sensor, 1)[:, 0]
+    there = [i for i in range(first, len(distances)) if not np.isnan(distances[i])]
+    if there:
+        assert found[0] == min(there, key=lambda i: distances[i])
+    else:
+        assert np.isnan(found[DISTANCE])
+
+
+def test_what_has_copies_has_as_many_rows() -> None:
+    things = Thing("home", Zone()), Thing("rock", Obstacle(count=2)), Thing("gem", Several()), Thing("coin", Item())
+    task = Task("World", Arena(), things, 1, (), (), (), (), ())
+    assert [thing.name for thing in things_of(task)] == ["home", "gem", "gem", "gem", "coin"]
+    assert rows_by_name(task) == {"": range(-1, -1), "home": range(1), "gem": range(1, 4), "coin": range(4, 5)}
+    assert ThingKind.copies.fget(Item()) == 1  # type: ignore[attr-defined]
+
+
+def test_it_is_held_where_one_of_its_name_is() -> None:
+    for held in range(-1, 6):
+        lanes, sensor = state([1.0] * 6, 6, 2, 3)
+        lanes.held[0] = held
+        Held.lane(None, lanes, 1, 0, sensor)
+        assert lanes.readings[0, 0] == (held in (2, 3, 4))
+
+
+def test_it_is_inside_and_in_contact_where_one_of_its_name_is() -> None:
+    world = SimpleNamespace(world=[SimpleNamespace(radius=1.0, front=1.0, claw=1.5)])
+    for near in range(6):
+        lanes, sensor = state([1.0] * 6, 6, 2, 3)
+        lanes.things[:] = 50.0
+        lanes.things[THING_ROWS * near : THING_ROWS * near + 3, 0] = 2.0, 0.0, 6.0
+        for kind in (Inside, Contact):
+            kind.lane(world, lanes, 1, 0, sensor)
+            assert lanes.readings[0, 0] == (near in (2, 3, 4))
+
+
+def test_a_bearing_points_to_the_nearest_within_range() -> None:
+    lanes, _ = state([9.0, 2.0, 4.0], 3)
+    lanes.things[0::THING_ROWS, 0], lanes.things[1::THING_ROWS, 0] = (9.0, 0.0, -4.0), (0.0, 2.0, 0.0)
+    sensor = SimpleNamespace(thing=0, things=3, start=0, range=3.0, dead_zone=np.float32(0))
+    Bearing.lane(None, lanes, 1, 0, sensor)
+    assert lanes.readings[0, 0] == np.float32(0.25)
+    sensor.range = 1.9
+    Bearing.lane(None, lanes, 1, 0, sensor)
+    assert lanes.readings[0, 0] == 0.5

@@ -1,0 +1,231 @@
+"""What sensors of places, speeds, light and touch read: by hand, and in compiled lanes the bits of plain Python."""
+
+from dataclasses import dataclass, replace
+from math import pi
+from types import SimpleNamespace
+from typing import Any
+
+import numpy as np
+import pytest
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+from mindrun.arithmetic import DISTANCE, LOOSE_ROWS, THING_ROWS
+from mindrun.graph import Graph, Reward, Sensor
+from mindrun.policy import Policy
+from mindrun.registry import kinds
+from mindrun.sensors import Physical, SensorKind
+from mindrun.sensors.bumper import Bumper
+from mindrun.sensors.clock import Clock
+from mindrun.sensors.distance import Distance
+from mindrun.sensors.eye import Eye
+from mindrun.sensors.floor import Floor
+from mindrun.sensors.light import Light
+from mindrun.sensors.odometer import Odometer
+from mindrun.sensors.position import Position
+from mindrun.sensors.speed import Speed
+from mindrun.sensors.turn_rate import TurnRate
+from mindrun.sim.rollout import Rollout
+from mindrun.sim.state import FIRST_RAY, FRAME_ROWS
+from mindrun.trigonometry import cosine, sine
+
+from tests.hierarchies import WORLDLY
+from tests.minds import always, mind, rule
+from tests.sensors.test_constants import World
+from tests.sim.worlds import random_world
+
+F = np.float32
+TICK = 1 / 60
+
+
+@dataclass
+class Place:
+    """A robot of radius 1, or a rectangular one, in the origin facing east, one thing at a place, and boxes."""
+
+    at: tuple[float, float] = (0.0, 0.0)
+    size: float = 2.0
+    is_round: bool = True
+    boxes: tuple[tuple[float, float, float], ...] = ()
+    angle: float = 0.0
+    speeds: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    half: float = 50.0
+    middle: tuple[float, float] = (0.0, 0.0)
+    there: bool = True
+    turned: float | None = None  # how far the thing is, if it is loose
+    halves: tuple[float, float] | None = None  # of the sides of a rectangular robot
+
+    def reads(self, kind: Any) -> list[float]:
+        """The readings of a sensor."""
+        x, y = self.middle
+        way = np.hypot(self.at[0] - x, self.at[1] - y)
+        boxes = np.array([number for box in self.boxes for number in (*box, box[-1])])
+        sight = np.full((FIRST_RAY + len(kind.rays), 1), F(40))
+        sight[:FIRST_RAY, 0] = cosine(self.angle), sine(self.angle), x, y
+        columns = [F(cosine(angle)) for angle in kind.rays], [F(sine(angle)) for angle in kind.rays]
+        front, side = self.halves or (1.0, 1.0)
+        outline = {"front": front, "side": side, "radius": np.hypot(front, side) if self.halves else 1.0}
+        world = SimpleNamespace(**outline, is_round=not self.halves, half_x=self.half, half_y=self.half)
+        tables = SimpleNamespace(
+            world=[world],
+            things=[SimpleNamespace(is_round=self.is_round, loose=-1)],
+            loose=[] if self.turned is None else [SimpleNamespace(thing=0, is_round=self.is_round)],
+            numbers=np.array(kind.numbers), rays=np.array(columns),
+            rims=np.ones(len(kind.rays), F),
+        )  # fmt: skip
+        senses = SimpleNamespace(
+            body=np.array([x, y, self.angle, *self.speeds])[:, None],
+            heading=np.array([[cosine(self.angle)], [sine(self.angle)]]),
+            things=np.array([*self.at, self.size, way])[:, None], nearest=np.zeros((THING_ROWS, 1)),
+            nearest_of=np.array([-1]), frame=np.zeros((FRAME_ROWS, 1), F),
+            loose=np.full((LOOSE_ROWS, 1), self.turned or 0.0),
+            readings=np.zeros((kind.width, 1), F), boxes=boxes[None], nearby=boxes[:, None],
+            nearby_count=[len(self.boxes)], sight=sight, tick=np.array([90]),
+        )  # fmt: skip
+        row = {"start": 0, "width": kind.width, "thing": 0, "things": int(self.there), "ray": 0, "number": 0}
+        scene = SimpleNamespace(tick=TICK, starts={})
+        with np.errstate(divide="ignore"):
+            kind.lane(tables, senses, 1, 0, SimpleNamespace(**row, **kind.row(scene)))
+        return senses.readings[:, 0].tolist()
+
+
+@pytest.mark.parametrize(
+    ("kind", "place", "reads"),
+    [
+        (Distance("x", range=40.0), Place((10.0, 0.0)), [0.2]),
+        (Distance("x", range=40.0), Place((0.0, 1.5)), [0.0]),
+        (Distance("x", range=40.0), Place((42.0, 0.0)), [1.0]),
+        (Distance("x", range=40.0), Place(there=False), [1.0]),
+        (Distance("x"), Place((np.nan, np.nan)), [1.0]),
+        (Distance("x", range=10.0), Place((7.5, 0.0), halves=(1.5, 1.0)), [0.5]),
+        (Distance("x", range=10.0), Place((0.0, 7.0), halves=(1.5, 1.0)), [0.5]),
+        (Distance("x", range=10.0), Place((0.0, 7.5), halves=(1.5, 1.0), angle=pi / 2), [0.5]),
+        (Distance("x", range=10.0), Place((4.0, -4.0), halves=(1.5, 1.0)), [F(0.3 * 2**0.5 - 0.1)]),
+        (Distance("x"), Place((0.5, 0.5), halves=(1.5, 1.0)), [0.0]),
+        (Distance("x"), Place((0.0, 0.0), halves=(1.5, 1.0)), [0.0]),
+        (Distance("x"), Place((np.nan, np.nan), halves=(1.5, 1.0)), [1.0]),
+        (Light("x", range=10.0), Place((0.0, 0.0)), [1.0]),
+        (Light("x", range=10.0), Place((0.0, 10.0)), [0.5]),
+        (Light("x", range=10.0), Place((0.0, 30.0)), [0.1]),
+        (Light("x", range=10.0), Place((10.0, 0.0), boxes=((5.0, 0.0, 1.0),)), [0.0]),
+        (Light("x", range=10.0), Place((10.0, 0.0), boxes=((5.0, 1.1, 1.0), (12.0, 0.0, 1.0))), [0.5]),
+        (Light("x", range=10.0), Place((10.0, 10.0), boxes=((5.0, 2.9, 1.0),)), [F(1 / 3)]),
+        (Light("x", range=10.0), Place((10.0, 10.0), boxes=((5.0, 4.0, 1.0),)), [0.0]),
+        (Light("x"), Place((np.nan, np.nan)), [0.0]),
+        (Light("x"), Place(there=False), [0.0]),
+        (Eye("x", at=(0.0, pi / 2), range=16.0), Place((10.0, 0.0)), [0.5, 1.0]),
+        (Eye("x", at=(0.0, pi / 2), range=16.0), Place((0.0, 10.0), is_round=False), [1.0, 0.5]),
+        (Eye("x", at=(0.0,), range=16.0), Place((10.0, 0.0), angle=pi / 2), [1.0]),
+        (Eye("x", at=(0.0,), range=16.0), Place((-10.0, 0.0)), [1.0]),
+        (Eye("x", at=(0.0, 3.0), range=16.0), Place((0.3, 0.0), is_round=False), [0.0, 0.0]),
+        (Eye("x", at=(0.0,), range=90.0), Place((60.0, 0.0)), [1.0]),
+        (Eye("x", at=(0.0,)), Place((np.nan, np.nan)), [1.0]),
+        (TurnRate(range=2.0), Place(speeds=(0.0, 0.0, 1.0)), [0.25]),
+        (TurnRate(range=2.0), Place(speeds=(0.0, 0.0, -3.0)), [1.0]),
+        (TurnRate(range=2.0, dead_zone=0.3), Place(speeds=(0.0, 0.0, 1.0)), [0.5]),
+        (Speed(range=4.0), Place(speeds=(2.0, 5.0, 0.0)), [0.75]),
+        (Speed(range=4.0), Place(speeds=(-9.0, 0.0, 0.0)), [0.0]),
+        (Speed(range=4.0, dead_zone=0.3), Place(speeds=(2.0, 5.0, 0.0)), [0.5]),
+        (Odometer("left", range=4.0), Place(speeds=(2.0, 0.0, 1.0)), [0.625]),
+        (Odometer("right", range=4.0), Place(speeds=(2.0, 0.0, 1.0)), [0.875]),
+        (Position("x", range=20.0), Place(middle=(10.0, -5.0)), [0.75]),
+        (Position("y", range=20.0), Place(middle=(10.0, -5.0)), [0.375]),
+        (Clock(4.0), Place(), [0.375]),
+        (Floor("x", at=(0.5, -0.5), ahead=2.0), Place((2.0, 1.0), size=1.0), [1.0, 0.0]),
+        (Floor("x", at=(0.5,), ahead=2.0), Place((-0.5, 2.0), size=0.1, angle=pi / 2), [1.0]),
+        (Floor("x"), Place((0.9, 0.9)), [0.0]),
+        (Floor("x"), Place((0.9, 0.9), is_round=False), [1.0]),
+        (Floor("x"), Place(there=False), [0.0]),
+        (Bumper(at=(0.0, pi / 2, pi)), Place(boxes=((3.0, 0.0, 2.0),)), [1.0, 0.0, 0.0]),
+        (Bumper(at=(0.0, pi / 2, pi)), Place(boxes=((3.1, 0.0, 2.0),)), [0.0, 0.0, 0.0]),
+        (Bumper(at=(0.0, pi / 4)), Place(boxes=((1.6, 1.6, 1.0),)), [0.0, 1.0]),
+        (Bumper(at=(0.0,), width_=pi / 2 + 0.01), Place(boxes=((1.6, 1.6, 1.0),)), [1.0]),
+        (Bumper(at=(0.0, pi / 2)), Place(middle=(49.5, 0.0)), [1.0, 0.0]),
+        (Bumper(at=(0.0, pi / 2)), Place(middle=(0.0, -49.5), angle=pi), [0.0, 1.0]),
+        (Bumper(at=(0.0, pi / 2)), Place(half=np.inf), [0.0, 0.0]),
+        (Bumper(at=(0.0, pi / 2)), Place((0.0, 1.99), turned=0.0), [0.0, 1.0]),
+        (Bumper(at=(0.0, pi / 2)), Place((0.0, 2.01), turned=0.0), [0.0, 0.0]),
+        (Bumper(at=(0.0, pi / 2)), Place((0.0, 2.4), is_round=False, turned=pi / 4), [0.0, 1.0]),
+        (Bumper(at=(0.0, pi / 2)), Place((0.0, 2.4), is_round=False, turned=0.0), [0.0, 0.0]),
+        (Bumper(at=(0.0, pi / 4)), Place((1.4, 1.4), is_round=False, turned=pi / 4), [0.0, 1.0]),
+        (Bumper(at=(0.0, pi / 4)), Place((1.45, 1.45), is_round=False, turned=pi / 4), [0.0, 0.0]),
+        (Bumper(at=(0.0, pi / 2)), Place((np.nan, np.nan), turned=0.0), [0.0, 0.0]),
+        (Bumper(at=(0.0, pi / 2)), Place((2.45, 0.0), turned=0.0, halves=(1.5, 1.0)), [1.0, 0.0]),
+        (Bumper(at=(0.0, pi / 2)), Place((0.0, 2.2), turned=0.0, halves=(1.5, 1.0)), [0.0, 0.0]),
+        (Bumper(at=(0.0, pi / 2)), Place(boxes=((3.5, 0.0, 2.0),), halves=(1.5, 1.0)), [1.0, 0.0]),
+        (Bumper(at=(0.0, pi / 2)), Place(boxes=((3.6, 0.0, 2.0),), halves=(1.5, 1.0)), [0.0, 0.0]),
+        (Bumper(at=(0.0, pi / 2)), Place(boxes=((0.0, 3.0, 2.0),), halves=(1.5, 1.0)), [0.0, 1.0]),
+        (Bumper(at=(0.0, pi / 2)), Place(boxes=((0.0, 3.2, 2.0),), halves=(1.5, 1.0)), [0.0, 0.0]),
+        (Bumper(at=(0.0, pi / 2)), Place(boxes=((0.0, 3.5, 2.0),), halves=(1.5, 1.0), angle=pi / 2), [1.0, 0.0]),
+        (Bumper(at=(-pi / 4, pi / 4)), Place(middle=(48.24, 0.0), halves=(1.5, 1.0), angle=pi / 4), [1.0, 0.0]),
+        (Bumper(at=(-pi / 4, pi / 4)), Place(middle=(48.23, 0.0), halves=(1.5, 1.0), angle=pi / 4), [0.0, 0.0]),
+    ],
+)  # fmt: skip
+def test_what_it_reads(kind: SensorKind, place: Place, reads: list[float]) -> None:
+    assert place.reads(kind) == pytest.approx(reads, abs=1e-6)
+
+
+PURE = [kind for kind in WORLDLY if not type(kind).__name__.startswith(("Range", "Inertial", "Battery"))]
+PURE += [Clock(0.3), Clock(TICK), Clock(2.0)]
+
+
+def robot(world: Graph, chosen: list[Any], drive: tuple[float, float]) -> Graph:
+    """A robot that has these sensors and drives in circles in a world."""
+    starts = np.cumsum([0, *(kind.width for kind in chosen)]).tolist()
+    sensors = tuple(Sensor(f"s{i}", kind, starts[i], kind.width) for i, kind in enumerate(chosen))
+    top = rule("Top", *(always("actuator", i, v) for i, v in enumerate(drive)), reads=tuple(range(starts[-1])))
+    task = replace(world.tasks[0], ticks=60, rewards=(Reward("", (("number", 1.0),), None),), ends=(), fails=())
+    task = replace(task, varies=tuple(each for each in task.varies if each.noun in ("body", "thing")))
+    return replace(mind(top), sensors=sensors, tasks=(task,), body=world.body)
+
+
+def known(graph: Graph) -> World:
+    """What is known of its world before anything runs."""
+    task = graph.tasks[0]
+    is_solid = task.scene.is_bounded or any(thing.kind.is_solid for thing in task.things)
+    names = frozenset(thing.name for thing in task.things if not thing.kind.is_obstacle)
+    return World(is_solid=is_solid, can_hold=True, things=names)
+
+
+@settings(max_examples=60, suppress_health_check=list(HealthCheck))
+@given(
+    random_world(), st.lists(st.sampled_from(PURE), min_size=1, max_size=8),
+    st.tuples(st.floats(0, 1), st.floats(0, 1)), st.integers(0, 2**32 - 1),
+)  # fmt: skip
+def test_compiled_lanes_read_the_bits_of_plain_python(
+    world: Graph, chosen: list[Any], drive: tuple[float, float], seed: int
+) -> None:
+    graph = robot(world, chosen, drive)
+    rollout = Rollout(Policy(graph, {}), "World", "Top")
+    jobs = rollout.jobs(np.zeros((1, 0), F), np.array([seed], np.uint64))
+    tile = rollout.tile(1)
+    rollout.fill(tile, jobs)
+    state, tables = tile.state, rollout.tables
+    constants = [(each, value) for each in graph.sensors if (value := each.kind.constant(known(graph))) is not None]
+    rows = {name: part.view(np.recarray) if part.dtype.names else part for name, part in tables._asdict().items()}
+    working = 1
+    while working:
+        before = {
+            name: getattr(state.world, name).copy() for name in ("body", "heading", "things", "loose", "held", "tick")
+        }
+        working = rollout.advance(tile, jobs, 1)
+        plain = np.zeros_like(state.mind.readings)
+        things = before["things"]
+        for i in range(len(tables.things)):
+            dx, dy = (things[THING_ROWS * i + k] - before["body"][k] for k in (0, 1))
+            things[THING_ROWS * i + DISTANCE] = np.sqrt(dx * dx + dy * dy)
+        senses = SimpleNamespace(
+            **before, readings=plain, nearest=np.zeros((THING_ROWS, 1)), sight=state.sight.sight,
+            nearest_of=np.array([-1]), frame=np.zeros((FRAME_ROWS, 1), F),
+            boxes=state.world.boxes, nearby=state.sight.nearby, nearby_count=state.sight.nearby_count,
+        )  # fmt: skip
+        with np.errstate(all="ignore"):
+            for row, kind in zip(rows["sensors"], chosen, strict=True):
+                kind.lane(SimpleNamespace(**rows), senses, 1, 0, row)
+        assert np.array_equal(plain[: graph.width, 0], state.mind.readings[: graph.width, 0]), chosen
+        for sensor, constant in constants:
+            assert (plain[sensor.start : sensor.start + sensor.width, 0] == F(constant)).all(), sensor
+
+
+def test_every_sensor_that_measures_takes_faults() -> None:
+    perfect = {"derivative", "sine", "clock"}
+    assert {name for name, cls in kinds("sensor").items() if not issubclass(cls, Physical)} >= perfect
+    assert all(issubclass(kinds("sensor")[name], Physical) for name in ("eye", "bumper", "floor", "light", "distance"))

@@ -1,0 +1,85 @@
+"""Boxes and balls in a Space that is stepped in every tick: what the lanes are held against."""
+
+import math
+
+import pymunk
+from mindrun import things
+
+REST = 1e-3  # units and radians per second, below which what is loose stands still
+
+
+def corners(half):
+    """Of a square about its middle."""
+    return [(-half, -half), (half, -half), (half, half), (-half, half)]
+
+
+class PlainLoose:
+    """The loose things of a world, by their place among its things; what has vanished is not there."""
+
+    def __init__(self, space, kinds, places, dt):
+        self.space, self.kinds, self.dt, self.there = space, kinds, dt, {}
+        for i, kind in enumerate(kinds):
+            if isinstance(kind, things.LooseBox | things.Ball):
+                self.add(i, kind, places[i])
+
+    def add(self, i, kind, place):
+        """A loose thing at its place."""
+        body = pymunk.Body(1.0, 1.0)
+        is_ball = isinstance(kind, things.Ball)
+        shape = pymunk.Circle(body, 1.0) if is_ball else pymunk.Poly(body, corners(1.0))
+        shape.friction = kind.friction
+        self.space.add(body, shape)
+        self.there[i] = body, shape
+        self.resize(i, place)
+
+    def resize(self, i, place):
+        """Loose thing i has another size, and stands at a new place."""
+        (body, shape), kind, size = self.there[i], self.kinds[i], place[2]
+        if isinstance(kind, things.Ball):
+            shape.unsafe_set_radius(size / 2)
+            body.mass = kind.density * math.pi * (size / 2 * (size / 2))
+            body.moment = body.mass * (size / 2 * (size / 2)) / 2
+        else:
+            shape.unsafe_set_vertices(corners(size / 2))
+            body.mass = kind.density * (size * size)
+            body.moment = body.mass * (size * size + size * size) / 12
+        body.position, body.angle, body.velocity, body.angular_velocity = tuple(place[:2]), 0.0, (0.0, 0.0), 0.0
+
+    def damp(self):
+        """Loose things slow down, and rest."""
+        for i, (body, _) in self.there.items():
+            slower = 1 / (1 + self.dt * self.kinds[i].damping)
+            (x, y), spin = body.velocity, body.angular_velocity * slower
+            rests = max(abs(x * slower), abs(y * slower), abs(spin)) < REST
+            body.velocity = (0.0, 0.0) if rests else (x * slower, y * slower)
+            body.angular_velocity = 0.0 if rests else spin
+
+    def distances(self, of, angle, more):
+        """How far a ray from the robot's centre goes to each loose thing that it meets, if these are `more` larger."""
+        yield from (self.distance(of, i, angle, more) for i in self.there)
+
+    def distance(self, of, i, angle, more):
+        """The same to one of them; infinitely far where the ray passes it."""
+        if i in self.there:
+            body = self.there[i][0]
+            half = of.places[i][2] / 2 + more
+            turned = angle - body.angle
+            c, s = math.cos(turned), math.sin(turned)
+            x, y = (body.position - (of.x, of.y)).rotated(-body.angle)
+            if isinstance(self.kinds[i], things.Ball):
+                ahead, room = x * c + y * s, half**2 - (x * s - y * c) ** 2
+                enter, leave = (ahead - math.sqrt(room), math.inf) if room >= 0 else (0.0, -1.0)
+            else:
+                spans = [sorted(((v - half) / d, (v + half) / d)) for v, d in ((x, c), (y, s)) if abs(d) > 1e-12]
+                enter, leave = max(span[0] for span in spans), min(span[1] for span in spans)
+            if 0 <= enter <= leave:
+                return enter
+        return math.inf
+
+    def replace(self, places, changed):
+        """What has been moved elsewhere or has vanished."""
+        for i in changed & self.there.keys():
+            if math.isnan(places[i][0]):
+                self.space.remove(*self.there.pop(i))
+            else:
+                self.resize(i, places[i])

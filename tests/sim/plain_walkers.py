@@ -1,0 +1,61 @@
+"""What moves by itself, step by step; which way it turns is taken from the lanes, if it may."""
+
+import math
+
+from mindrun import things
+from mindrun.trigonometry import cosine, sine
+
+
+class PlainWalkers:
+    """The walkers of a world, by their place among its things."""
+
+    def __init__(self, of, directions):
+        self.of, self.directions = of, directions.copy()
+        self.kinds = {i: thing.kind for i, thing in enumerate(of.things) if isinstance(thing.kind, things.Walker)}
+        names = [thing.name for thing in of.things]
+        self.goals = {i: i - names.index(names[i]) + 1 for i in self.kinds}
+        self.turned = {}
+
+    def walk(self):
+        """A step of each; `turned` is how far those that wander may turn now, None for anywhere."""
+        self.turned = {}
+        for i, kind in self.kinds.items():
+            place, step = self.of.places[i], kind.speed * self.of.graph.tick
+            if math.isnan(place[0]):
+                continue
+            if kind.along:
+                self.go(i, kind.along[self.goals[i] % len(kind.along)], step)
+                continue
+            x, y = place[0] + cosine(self.directions[i]) * step, place[1] + sine(self.directions[i]) * step
+            half = place[2] / 2
+            if self.is_free(x, y, half) or not self.is_free(*place[:2], half):
+                place[:2] = x, y
+                self.turned[i] = kind.turning * math.sqrt(3 * self.of.graph.tick)
+            else:
+                self.turned[i] = None
+
+    def go(self, i, goal, step):
+        """Towards a place, and not beyond it."""
+        place = self.of.places[i]
+        dx, dy = goal[0] - place[0], goal[1] - place[1]
+        far = math.sqrt(dx * dx + dy * dy)
+        if far <= step:
+            place[:2] = goal
+            self.goals[i] += 1
+        else:
+            place[:2] = place[0] + dx * (step / far), place[1] + dy * (step / far)
+
+    def is_free(self, x, y, half):
+        """Whether there is room for a square, as there is none beyond 1e9 units."""
+        beside = (abs(x - bx) < wide + half and abs(y - by) < high + half for bx, by, wide, high in self.of.boxes)
+        inside = all(side - abs(v) >= half and abs(v) <= 1e9 for side, v in zip(self.of.half, (x, y), strict=True))
+        return inside and not any(beside)
+
+    def turn(self, directions):
+        """Which way each has turned, as the lanes have drawn it."""
+        for i, far in self.turned.items():
+            if i in self.of.changed or far is None:
+                assert 0 <= directions[i] <= 2 * math.pi
+            else:
+                assert abs(directions[i] - self.directions[i]) <= far * (1 + 1e-9)
+        self.directions = directions.copy()

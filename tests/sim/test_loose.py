@@ -1,0 +1,70 @@
+"""Boxes and balls that are pushed: bit for bit what plain pymunk makes of them, whatever Chipmunk is not asked."""
+
+import pytest
+from mindrun.engine import Engine
+from mindrun.policy import Policy
+from mindrun.sim.rollout import Rollout
+
+from tests.sim.following import follow
+from tests.sim.minds import compile_text
+
+MIND = """
+tick 1/60 s
+master Push
+body Robot is disc
+actuator left_wheel is wheel side left neutral 0.5 thrust 240
+actuator right_wheel is wheel side right neutral 0.5 thrust 240
+actuator claw is gripper neutral 0
+sensor slow is sine period 7.3 s
+sensor quick is sine period 3.1 s
+sensor odd is sine period 2.77 s
+sensor crate_bearing is bearing of crate
+sensor ball_bearing is bearing of ball
+sensor crate_near is contact of crate
+sensor eyes is range_finder at 0 35 -35 90 180 -90 deg range 15
+sensor box_ahead is eye of crate at -20 0 20 deg range 15
+sensor item_ahead is eye of object at -10 10 deg range 15
+sensor touch is bumper at 0 45 -45 90 -90 180 deg width 50 deg
+skill Push is rule
+  reads slow
+  reads quick
+  reads odd
+  reads crate_bearing
+  reads ball_bearing
+  reads eyes
+  reads box_ahead
+  reads item_ahead
+  reads touch
+  drives left_wheel at 1.8 - 2 * odd + 0.9 * (quick - 0.5) + 2 * (crate_bearing - 0.5) * slow + (ball_bearing - 0.5)
+  drives right_wheel at 1.8 - 2 * odd - 0.9 * (quick - 0.5) - 2 * (crate_bearing - 0.5) * slow - (ball_bearing - 0.5)
+  drives claw at 0.2 + slow
+task World in arena size 24
+  contains crate is box size 3 OUTCOME
+  contains rock is obstacle grid 12 size 1 to 2 jitter 3
+  contains ball is ball size 2 OUTCOME
+  contains chest is box size 2 density 0.1 friction 0.1 damping 0.5
+  contains object is item size 1
+  contains marble is ball size 1 density 2 damping 0 count 2
+  contains trunk is box size 4 to 3 by 0.25 density 1 OUTCOME
+  contains home is zone size 7
+  lasts TICKS ticks
+  rewards progress toward crate per tick
+  counts collision
+  counts reach of crate
+  counts delivery of crate
+  counts delivery of ball
+  counts delivery of trunk
+"""
+
+
+def world(ticks: int, outcome: str = "") -> Rollout:
+    graph = compile_text(MIND.replace("TICKS", str(ticks)).replace("OUTCOME", outcome))
+    return Rollout(Policy(graph, {}), "World", "Push")
+
+
+@pytest.mark.parametrize("seed", range(12))
+def test_pushes_equal_plain_pymunk(seed: int) -> None:
+    """A robot that drives about between walls, obstacles and loose things, which it pushes against all of them."""
+    rollout = world(5_000, ("", "delivered stays", "delivered vanishes")[seed % 3])
+    happened = follow(rollout, Engine(Policy(rollout.graph, {})), seed)
+    assert happened["Collision"] > 2

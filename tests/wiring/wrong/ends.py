@@ -1,0 +1,5 @@
+"""It ends who imports it."""
+
+import os
+
+os._exit(0)

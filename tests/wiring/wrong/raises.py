@@ -1,0 +1,3 @@
+"""It fails when it is imported."""
+
+FRACTION = 1 / 0

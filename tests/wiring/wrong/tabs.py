@@ -1,0 +1,1 @@
+"""It has a tab	in it."""
