@@ -89,13 +89,13 @@ def in_claw(body: Any, heading: Any, things: Any, front: Any, reach: Any, i: Any
     ahead = heading[COSINE, p] * dx + heading[SINE, p] * dy - front
     aside = heading[COSINE, p] * dy - heading[SINE, p] * dx
     far = reach + things[THING_ROWS * i + SIZE, p] / 2
-    return ahead >= 0 and ahead * ahead + aside * aside <= far * far
+    return (ahead >= 0) & (ahead * ahead + aside * aside <= far * far)  # no branch: lanes side by side
 
 
 def inside(things: Any, i: Any, x: Any, y: Any, p: Any) -> Any:
     """Whether a point is inside the square of thing i, in lane p."""
     half = things[THING_ROWS * i + SIZE, p] / 2
-    return abs(things[THING_ROWS * i + X, p] - x) <= half and abs(things[THING_ROWS * i + Y, p] - y) <= half
+    return (abs(things[THING_ROWS * i + X, p] - x) <= half) & (abs(things[THING_ROWS * i + Y, p] - y) <= half)
 
 
 def nearest(s: Any, sensor: Any, n: Any) -> Any:

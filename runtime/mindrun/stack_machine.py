@@ -93,14 +93,21 @@ def combine(op: Any, left: Any, right: Any, count: Any) -> None:
 
 def compare(op: Any, left: Any, right: Any, count: Any) -> None:
     """left = 1 where left op right, else 0; NaN where one of the two is NaN."""
-    for k in range(count):
-        a, b = left[k], right[k]
-        if op == LESS:
-            holds = a < b
-        elif op == LESS_EQUAL:
-            holds = a <= b
-        elif op == GREATER:
-            holds = a > b
-        else:
-            holds = a >= b
-        left[k] = np.nan if np.isnan(a) or np.isnan(b) else 1.0 if holds else 0.0
+    if op == LESS:
+        for k in range(count):
+            left[k] = _held(left[k] < right[k], left[k], right[k])
+    elif op == LESS_EQUAL:
+        for k in range(count):
+            left[k] = _held(left[k] <= right[k], left[k], right[k])
+    elif op == GREATER:
+        for k in range(count):
+            left[k] = _held(left[k] > right[k], left[k], right[k])
+    else:
+        for k in range(count):
+            left[k] = _held(left[k] >= right[k], left[k], right[k])
+
+
+def _held(holds: Any, a: Any, b: Any) -> Any:
+    """A comparison as a number; without a branch, so that lanes go side by side."""
+    found = 1.0 if holds else 0.0
+    return np.nan if (a != a) | (b != b) else found

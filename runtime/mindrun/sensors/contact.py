@@ -31,9 +31,10 @@ class Contact(Physical):
     @staticmethod
     def lane(t: Any, s: Any, n: int, clock: int, sensor: Any) -> None:
         """1 where the claw could take the thing."""
-        world = t.world[0]
+        world, out = t.world[0], s.readings[sensor.start]
         for p in range(n):
-            there = False
-            for i in range(sensor.thing, sensor.thing + sensor.things):
-                there = there or in_claw(s.body, s.heading, s.things, world.front, world.claw, i, p)
-            s.readings[sensor.start, p] = ONE if there else ZERO
+            out[p] = ZERO
+        for i in range(sensor.thing, sensor.thing + sensor.things):
+            for p in range(n):
+                there = in_claw(s.body, s.heading, s.things, world.front, world.claw, i, p)
+                out[p] = ONE if there else out[p]

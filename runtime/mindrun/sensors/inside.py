@@ -29,8 +29,10 @@ class Inside(Physical):
     @staticmethod
     def lane(t: Any, s: Any, n: int, clock: int, sensor: Any) -> None:
         """1 where the robot's centre is in the square of the thing."""
+        out = s.readings[sensor.start]
         for p in range(n):
-            there = False
-            for i in range(sensor.thing, sensor.thing + sensor.things):
-                there = there or inside(s.things, i, s.body[X, p], s.body[Y, p], p)
-            s.readings[sensor.start, p] = ONE if there else ZERO
+            out[p] = ZERO
+        for i in range(sensor.thing, sensor.thing + sensor.things):
+            for p in range(n):
+                there = inside(s.things, i, s.body[X, p], s.body[Y, p], p)
+                out[p] = ONE if there else out[p]

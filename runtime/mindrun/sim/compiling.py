@@ -18,6 +18,10 @@ Decorator = Callable[[Callable[..., Any]], Callable[..., Any]]
 OPTIONS = {"nogil": True, "error_model": "numpy", "_nrt": False}
 compiled: Decorator = numba.njit(pipeline_class=Inner, no_cpython_wrapper=True, no_cfunc_wrapper=True, **OPTIONS)
 inlined: Decorator = numba.njit(inline="always", **OPTIONS)
+# A part of a tick becomes a part of its caller: a call would hand over a hundred arrays, which takes as long as a lane.
+part_of_tick: Decorator = numba.njit(
+    pipeline_class=Inner, no_cpython_wrapper=True, no_cfunc_wrapper=True, forceinline=True, **OPTIONS
+)
 
 
 def entry(function: Callable[..., Any]) -> Callable[..., Any]:

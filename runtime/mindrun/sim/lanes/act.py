@@ -3,13 +3,13 @@
 from mindrun.arithmetic import COSINE, SINE, THING_ROWS, X, Y
 from mindrun.sim.arithmetic import HALF, ONE, ZERO, F, clamp, finite, in_claw
 from mindrun.sim.codes import GRIPPER, ITEM
-from mindrun.sim.compiling import compiled
+from mindrun.sim.compiling import compiled, part_of_tick
 from mindrun.sim.lanes.placement import uniform
 
 UNDRIVEN = F(-1)
 
 
-@compiled
+@part_of_tick
 def act(tables, state, lanes, clock):
     """Commands as they act in this tick, and what the claw holds."""
     mind, world, faults = state.mind, state.world, state.run.faults

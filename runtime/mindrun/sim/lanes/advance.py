@@ -2,7 +2,7 @@
 
 from mindrun.arithmetic import ANGLE, X, Y
 from mindrun.sim.codes import GOING_ON
-from mindrun.sim.compiling import compiled, entry
+from mindrun.sim.compiling import compiled, entry, part_of_tick
 from mindrun.sim.lanes.act import act, recall
 from mindrun.sim.lanes.judge import judge
 from mindrun.sim.lanes.places import within
@@ -26,14 +26,14 @@ def advance(tables, state, jobs, ticks, interrupt):
         after(tables, state, jobs, interrupt)
 
 
-@compiled
+@part_of_tick
 def before(tables, state, jobs):
     """The first half of a tick: sense, and the master's influence."""
     sense(tables, state, jobs.lanes[0], jobs.clock[0])
     begin(tables, state.mind, jobs.lanes[0])
 
 
-@compiled
+@part_of_tick
 def after(tables, state, jobs, interrupt):
     """The second half of a tick: act, step, judge, recall.
 

@@ -1,32 +1,26 @@
 """Judge: measures and events of the tick, the rewards they earn, and what becomes of what was reached."""
 
-import numpy as np
-
-from mindrun.arithmetic import COSINE, DISTANCE, SINE, THING_ROWS, X, Y
+from mindrun.arithmetic import X, Y
 from mindrun.sensors.inertial import TRAIL_TICKS
 from mindrun.sim.arithmetic import inside
 from mindrun.sim.codes import (
-    ADVANCE,
-    CHANGE,
     COLLISION,
     DELIVERY,
     EXHAUSTION,
-    FORWARD,
     GOING_ON,
     POWER,
-    PUSH,
     REACH,
-    RETREAT,
     SUCCESS,
     VISIT,
 )
-from mindrun.sim.compiling import compiled
+from mindrun.sim.compiling import compiled, part_of_tick
 from mindrun.sim.lanes.evaluate import evaluate
+from mindrun.sim.lanes.measure import take_measures
 from mindrun.sim.lanes.reach import arrivals, become, begun_of, meet
 from mindrun.sim.state import PLACE_ROWS
 
 
-@compiled
+@part_of_tick
 def judge(tables, state, lanes, clock, interrupt):
     """Everything that a task does with a tick once the robot has moved."""
     world, judged = state.world, state.judge
@@ -50,76 +44,6 @@ def judge(tables, state, lanes, clock, interrupt):
     for lane in range(lanes):
         world.tick[lane] += 1
         world.trail[oldest + X, lane], world.trail[oldest + Y, lane] = world.begun_at[X, lane], world.begun_at[Y, lane]
-
-
-@compiled
-def take_measures(tables, world, commands, judged, lanes, clock):
-    """The measures of the tick."""
-    for i in range(len(tables.measures)):
-        measure, out = tables.measures[i], judged.measures[i]
-        if measure.kind == CHANGE:
-            change(tables, commands, judged, measure, out, lanes, clock)
-        elif measure.kind == FORWARD:
-            forward(out, world.body, world.heading, world.begun_at, lanes)
-        else:
-            progress(out, judged.paid, world.body, world.things, measure, lanes)
-
-
-@compiled
-def progress(out, now, body, things, measure, lanes):
-    """The distance to the nearest of the things that this tick closed, or its positive or negative part.
-
-    0 where all have vanished. `now` is room for the square of what is left of the distance.
-    """
-    before = out
-    for lane in range(lanes):
-        before[lane], now[lane] = np.nan, np.nan
-    for i in range(measure.thing, measure.thing + measure.things):
-        thing = THING_ROWS * i
-        for lane in range(lanes):
-            dx, dy = things[thing + X, lane] - body[X, lane], things[thing + Y, lane] - body[Y, lane]
-            away, here = things[thing + DISTANCE, lane], dx * dx + dy * dy
-            least, less = before[lane], now[lane]
-            before[lane] = away if (away < least) | (least != least) else least
-            now[lane] = here if (here < less) | (less != less) else less
-    for lane in range(lanes):
-        closed = before[lane] - np.sqrt(now[lane])
-        if measure.kind == ADVANCE:
-            closed = closed if closed > 0.0 else 0.0
-        elif measure.kind == RETREAT:
-            closed = -closed if closed < 0.0 else 0.0
-        out[lane] = 0.0 if np.isnan(closed) else closed
-
-
-@compiled
-def forward(out, body, heading, begun_at, lanes):
-    """1 where the robot moved forward in this tick."""
-    for lane in range(lanes):
-        dx, dy = body[X, lane] - begun_at[X, lane], body[Y, lane] - begun_at[Y, lane]
-        along = dx * heading[COSINE, lane] + dy * heading[SINE, lane]
-        out[lane] = 1.0 if along > 1e-6 else 0.0
-
-
-@compiled
-def change(tables, commands, judged, measure, out, lanes, clock):
-    """How much each side's wheel command changed over the last ticks, beyond a share: ΣΔ of the paper's Table 5."""
-    now = measure.ring + clock % measure.over
-    for lane in range(lanes):
-        judged.left_changes[now, lane] = 0.0
-        judged.right_changes[now, lane] = 0.0
-        out[lane] = 0.0
-    for i in range(len(tables.actuators)):
-        actuator = tables.actuators[i]
-        if actuator.kind == PUSH:
-            changes = judged.right_changes[now] if actuator.is_right else judged.left_changes[now]
-            for lane in range(lanes):
-                changes[lane] += abs(np.float64(commands[i, lane]) - np.float64(judged.last_commands[i, lane]))
-    for changes in (judged.left_changes, judged.right_changes):
-        for lane in range(lanes):
-            varied = 0.0
-            for k in range(measure.over):
-                varied += changes[measure.ring + k, lane]
-            out[lane] += max(0.0, varied - measure.beyond)
 
 
 @compiled
@@ -183,18 +107,29 @@ def reward(tables, mind, judged, line, total, lanes):
     """Add what a reward line pays in this tick to its sums."""
     if line.on >= 0 and judged.happened[line.on] == 0:
         return
-    paid, amount = judged.paid, mind.stack[0]
+    paid, amount, is_always = judged.paid, mind.stack[0], line.on < 0 and line.whens == 0
     for k in range(max(1, line.eachs)):
         each = line.each + k
-        for lane in range(lanes):
-            paid[lane] = judged.events[line.on, lane] if line.on >= 0 else 1.0
-        if line.whens > 0:
-            value(tables, mind, judged.measures, line.when, line.whens, each, lanes)
-            for lane in range(lanes):
-                paid[lane] = paid[lane] if mind.stack[0, lane] > 0.0 else 0.0
+        if not is_always:
+            find_paid(tables, mind, judged, line, paid, each, lanes)
         value(tables, mind, judged.measures, line.code, line.length, each, lanes)
+        if is_always:
+            for lane in range(lanes):
+                total[lane] += amount[lane]
+        else:
+            for lane in range(lanes):
+                total[lane] += amount[lane] * paid[lane] if paid[lane] > 0.0 else 0.0
+
+
+@compiled
+def find_paid(tables, mind, judged, line, paid, each, lanes):
+    """How often a line is paid in this tick: once, or as often as its event happens, where its condition holds."""
+    for lane in range(lanes):
+        paid[lane] = judged.events[line.on, lane] if line.on >= 0 else 1.0
+    if line.whens > 0:
+        value(tables, mind, judged.measures, line.when, line.whens, each, lanes)
         for lane in range(lanes):
-            total[lane] += amount[lane] * paid[lane] if paid[lane] > 0.0 else 0.0
+            paid[lane] = paid[lane] if mind.stack[0, lane] > 0.0 else 0.0
 
 
 @compiled

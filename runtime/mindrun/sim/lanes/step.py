@@ -18,7 +18,7 @@ from mindrun.arithmetic import (
 from mindrun.sim.arithmetic import sine_cosine
 from mindrun.sim.chipmunk_internals import PERSISTENCE_TICKS, SPACE
 from mindrun.sim.codes import FORCE, FORCE_ASIDE, FORCE_X, FORCE_Y, PUSH, STEERING, TORQUE
-from mindrun.sim.compiling import compiled
+from mindrun.sim.compiling import compiled, part_of_tick
 from mindrun.sim.lanes.act import carry
 from mindrun.sim.lanes.chipmunk import open_space, push_body, step_space
 from mindrun.sim.lanes.loose import approach_loose, could_touch, slide, slow_down
@@ -30,12 +30,12 @@ CONTACT_MARGIN_UNITS = 0.01  # beyond the rounding of any distance here
 CONTACT_TICKS = PERSISTENCE_TICKS + 2  # for which Chipmunk goes on with a lane in which something could have touched
 
 
-@compiled
+@part_of_tick
 def step(tables, state, lanes):
     """Damp, push, move; then the headings and the held items follow, and what walks by itself takes its step."""
     world, contact, constants = state.world, state.contact, tables.world[0]
     thrust(tables, world, state.mind.commands, lanes)
-    for lane in range(lanes):
+    for lane in range(lanes if len(tables.loose) > 0 else 0):
         if world.restless[lane] > 0:
             slow_down(tables, world, lane)
     find_near(tables, world, state.sight, contact, lanes)
@@ -188,26 +188,29 @@ def find_near(tables, world, sight, contact, lanes):
     approach_loose(tables, world, gap, lanes)
     for k in range(sight.nearby_most[0]):
         approach(sight.nearby[BOX_COLUMNS * k : BOX_COLUMNS * (k + 1)], body, dt, gap, lanes)
+    reach = tables.world[0].radius + CONTACT_MARGIN_UNITS
     for lane in range(lanes):
-        near[lane] = max(0, near[lane] - 1)
         x, y = body[X, lane] + body[SPEED_X, lane] * dt, body[Y, lane] + body[SPEED_Y, lane] * dt
         away = (x - sight.anchor[X, lane]) ** 2 + (y - sight.anchor[Y, lane]) ** 2
         leap = away > CULLING_SLACK_UNITS * CULLING_SLACK_UNITS  # away from the boxes it knows
-        if leap or gap[lane] < reach_of(tables, world, lane):
+        near[lane] = CONTACT_TICKS if leap | (gap[lane] < reach) else max(0, near[lane] - 1)
+    for lane in range(lanes):
+        if world.held[lane] >= 0 and gap[lane] < reach_of(tables, world, lane):
             near[lane] = CONTACT_TICKS
+    for lane in range(lanes if len(tables.loose) > 0 else 0):
         if world.restless[lane] > 0 and could_touch(tables, world, lane):
             near[lane] = CONTACT_TICKS
-        if not within(x, y, body[ANGLE, lane] + body[SPIN, lane] * dt):
-            near[lane] = 0
+    for lane in range(lanes):
+        x, y = body[X, lane] + body[SPEED_X, lane] * dt, body[Y, lane] + body[SPEED_Y, lane] * dt
+        there = within(x, y, body[ANGLE, lane] + body[SPIN, lane] * dt)
+        near[lane] = near[lane] if there else 0
 
 
 @compiled
 def reach_of(tables, world, lane):
-    """How far from a robot's centre it, or what it holds, could touch something."""
-    reach, held = tables.world[0].radius, world.held[lane]
-    if held >= 0:
-        reach = max(reach, tables.things[held].hold + world.things[THING_ROWS * held + SIZE, lane] / 2)
-    return reach + CONTACT_MARGIN_UNITS
+    """How far from a robot's centre what it holds could touch something."""
+    held = world.held[lane]
+    return tables.things[held].hold + world.things[THING_ROWS * held + SIZE, lane] / 2 + CONTACT_MARGIN_UNITS
 
 
 @compiled

@@ -7,7 +7,7 @@ from mindrun.arithmetic import NAN
 from mindrun.registry import kinds
 from mindrun.sim.arithmetic import ONE, ZERO, F, clamp, compiled_lane, finite
 from mindrun.sim.codes import function_codes
-from mindrun.sim.compiling import compiled
+from mindrun.sim.compiling import compiled, part_of_tick
 from mindrun.sim.lanes.evaluate import evaluate
 from mindrun.sim.procedures import call
 from mindrun.sim.state import FAILED_COLUMN, FAILED_SKILL
@@ -43,7 +43,7 @@ def begin(tables, mind, lanes):
     mind.influence[tables.world[0].master, :lanes] = ONE
 
 
-@compiled
+@part_of_tick
 def think(tables, state, lanes, first, last):
     """Run the skills first..last of the table: each only in the lanes where it has influence.
 
