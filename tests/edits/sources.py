@@ -241,21 +241,23 @@ def _more(rng: Random, noun: str, line: str) -> str:
     """A line that says what kind something is, with some of the arguments that it does not say."""
     kind, *words = re.split(" is | in ", line)[1].split()
     if noun == "content":
-        is_placed = "at" in words or "along" in words
+        is_placed = not {"at", "along", "grid"}.isdisjoint(words)
         words += ["away", "grid", "count"] * is_placed + ["at", "along"]  # a place has to be free
     often = 0.5 if noun in ("curriculum", "body", "actuator") else 0.2
     for argument in arguments(kinds(noun)[kind]):
         if not argument.required and argument.key not in words and rng.random() < often:
-            line += f" {argument.key} {_said(rng, argument)}"
+            is_drawn = argument.key == "away" or kind == "obstacle"  # of which nothing has a schedule
+            words += ["away"] * (argument.key == "grid")
+            line += f" {argument.key} {_said(rng, argument, is_drawn)}"
     return line
 
 
-def _said(rng: Random, argument: Argument) -> str:
+def _said(rng: Random, argument: Argument, is_drawn: bool) -> str:
     """A value of an argument that is not its default, as it is written."""
     if isinstance(argument.type, Reference):
         return rng.choice([word for word in argument.type.words if word != argument.default])
     if argument.shape == "span":
-        return rng.choice(["3 to 6", "4", "5 to 3 by 0.5"])
+        return rng.choice(["3 to 6", "4", "5 to 6" if is_drawn else "5 to 3 by 0.5"])
     if argument.shape == "extent":
         return rng.choice(["60 40", "2 3", "7"])
     if argument.shape == "place":

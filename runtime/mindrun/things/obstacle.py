@@ -70,6 +70,13 @@ class Obstacle(ThingKind):
         if self.at and (self.grid or self.count):
             hint = "Write at and its place, or a count, or a grid."
             return Mistake("place-for-many", "Several things cannot stand at one place.", hint)
+        if self.size.by is not None:
+            small, large = sorted((self.size.first, self.size.last))
+            hint = f"Write size {small:g} to {large:g}: a size between the two is drawn for each."
+            return Mistake("fixed-schedule", "An obstacle never moves, so its size has no schedule.", hint)
+        if self.grid and self.away != DEFAULT_DISTANCE:
+            hint = "Leave away out: what stands in a grid is as far away as that is."
+            return Mistake("place-and-distance", "It says where it is, and how far away.", hint)
         if self.grid and scene and not scene.is_bounded:
             hint = "Write in arena size 100, or count 10 instead of the grid."
             return Mistake("endless-grid", "In a plain scene a grid of obstacles would never end.", hint)

@@ -1,6 +1,7 @@
 """What every kind of thing says of itself: the rest of the program asks, and knows no kind by name."""
 
 from collections.abc import Iterable, Mapping
+from math import hypot
 from typing import Literal, NamedTuple, get_args
 
 from mindrun.quantity import UNSAID, Place, Reference, Span
@@ -112,7 +113,7 @@ class ThingKind:
     def mistake(self, scene: SceneKind | None) -> Mistake | None:
         """Why it cannot be in a scene; `scene` is None where that is not known."""
         if not self.at:
-            return None
+            return self._distance_mistake(scene)
         if self.away != DEFAULT_DISTANCE:
             hint = "Leave away out: what stands at a place is as far away as that is."
             return Mistake("place-and-distance", "It says where it is, and how far away.", hint)
@@ -123,3 +124,16 @@ class ThingKind:
             return None
         hint = "Write a place that is in it with all of the thing; 0 0 is the middle."
         return Mistake("outside-arena", "That is not inside the arena.", hint)
+
+    def _distance_mistake(self, scene: SceneKind | None) -> Mistake | None:
+        """A distance is drawn anew each time, and is one that two places of the scene can have."""
+        if self.away == DEFAULT_DISTANCE:
+            return None
+        if self.away.by is not None:
+            near, far = sorted((self.away.first, self.away.last))
+            hint = f"Write away {near:g} to {far:g}: a distance between the two is drawn each time."
+            return Mistake("distance-schedule", "A distance has no schedule.", hint)
+        if scene is None or self.away.first < hypot(*scene.sides):
+            return None
+        hint = f"Its corners are {hypot(*scene.sides):g} apart: write a smaller distance, or a larger arena."
+        return Mistake("too-far-away", "Nothing in this arena is so far from the robot.", hint)
