@@ -6,13 +6,12 @@ from math import inf, isnan
 
 from mindrun.expression import fold
 
-from mindlang.compiler.model import Command, Comparison, Expression, Measured, Number, Reading, Term, When
+from mindlang.compiler.model import Command, Expression, Measured, Number, Reading, Term
 from mindlang.compiler.syntax import Operator
 
 Interval = tuple[float, float]
 UNBOUNDED: Interval = (-inf, inf)
 UNIT_INTERVAL: Interval = (0.0, 1.0)
-COMPARISON_WORDS = {"<": "below", "<=": "at or below", ">": "above", ">=": "at or above"}
 
 
 def share(name: str) -> Interval:
@@ -37,30 +36,6 @@ def interval(of: Expression, reading: Callable[[str], Interval] = share, each: I
 
     words = ((term.symbol if isinstance(term, Operator) else "term", term) for term in of.terms)
     return fold(words, leaf, lambda value: (-value[1], -value[0]), _combined)
-
-
-def unmet(when: When, value: Callable[[Expression], Interval]) -> Comparison | None:
-    """The first comparison that never holds, where every alternative of a condition has one; else None."""
-    never = [next((each for each in all_ if not _can_hold(each, value)), None) for all_ in when.alternatives]
-    return None if None in never else never[0]
-
-
-def never_in_words(each: Comparison, reading: Callable[[str], Interval], of_each: Interval = UNIT_INTERVAL) -> str:
-    """Why a comparison never holds."""
-    left, right = (range_in_words(interval(side, reading, of_each)) for side in (each.left, each.right))
-    return f"{each.left.span.text} is {left}, never {COMPARISON_WORDS[each.compare]} {right.removeprefix('always ')}"
-
-
-def _can_hold(each: Comparison, value: Callable[[Expression], Interval]) -> bool:
-    left, right = value(each.left), value(each.right)
-    match each.compare:
-        case "<":
-            return left[0] < right[1]
-        case "<=":
-            return left[0] <= right[1]
-        case ">":
-            return left[1] > right[0]
-    return left[1] >= right[0]
 
 
 def is_constant(of: Expression) -> bool:

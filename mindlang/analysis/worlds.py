@@ -6,9 +6,9 @@ from dataclasses import dataclass
 from mindrun.sensors import Physical
 from mindrun.things import STAYS
 
-from mindlang.analysis.intervals import UNIT_INTERVAL, Interval, interval, unmet
+from mindlang.analysis.intervals import UNIT_INTERVAL, Interval, interval
 from mindlang.analysis.study import Study
-from mindlang.compiler.model import Comparison, Expression, Reward, Task, When
+from mindlang.compiler.model import Expression, Reward, Task
 
 
 @dataclass(frozen=True, slots=True)
@@ -60,10 +60,6 @@ class AnalysedWorld:
     def each(self, reward: Reward) -> Interval:
         """The range of the readings that a reward goes through."""
         return self.reading(reward.each) if reward.each else UNIT_INTERVAL
-
-    def unmet(self, when: When, reward: Reward) -> Comparison | None:
-        """The first comparison of the condition of a reward that never holds, where that is why it never does."""
-        return unmet(when, lambda side: self.value(side, reward))
 
     @property
     def drains(self) -> bool:

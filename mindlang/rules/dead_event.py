@@ -5,7 +5,7 @@ nor is what moves away as soon as it is reached, and a battery without drain nev
 more than any reading says. The task goes on to the end of its time, and the count stays 0.
 """
 
-from mindlang.analysis.intervals import never_in_words, unmet
+from mindlang.analysis.conditions import why_never
 from mindlang.analysis.study import Finding, Found, Study
 from mindlang.analysis.worlds import world
 from mindlang.compiler.diagnostic import Fix
@@ -22,6 +22,7 @@ BAD = (
     "task Course in plain\n  lasts 9 s\n  counts collision\n",
     "task Course in plain\n  lasts 9 s\n  succeeds on 3 collision\n",
     "task Course in plain\n  lasts 9 s\n  ends when left_wheel > 1\n",
+    "task Course in plain\n  lasts 9 s\n  succeeds when left_wheel > 0.9 and left_wheel < 0.8\n",
 )
 
 
@@ -36,9 +37,9 @@ def check(study: Study) -> Found:
             if written and event and (why := event.prevented(place)):
                 yield _finding(fact, written.span, f"{why[0]}.", why[1])
         for end in task.ends:
-            if end.when and end.fact.when and (never := unmet(end.when, place.range_of)):
+            if end.when and end.fact.when and (why_not := why_never(end.when, place.range_of)):
                 hint = "Compare with something that is reached, or take the line out."
-                yield _finding(end.fact, end.fact.when.span, f"{never_in_words(never, place.reading)}.", hint)
+                yield _finding(end.fact, end.fact.when.span, f"{why_not}.", hint)
 
 
 def _finding(fact: Ends | Succeeds | Counts, span: Span, why: str, hint: str) -> Finding:

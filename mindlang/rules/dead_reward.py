@@ -4,7 +4,7 @@ Its condition cannot hold with readings between 0 and 1, its event cannot happen
 amount is always 0. Learning goes on without it and nobody notices.
 """
 
-from mindlang.analysis.intervals import never_in_words
+from mindlang.analysis.conditions import why_never
 from mindlang.analysis.study import Finding, Found, Study
 from mindlang.analysis.worlds import AnalysedWorld, world
 from mindlang.compiler.diagnostic import Fix
@@ -49,9 +49,9 @@ def _why(place: AnalysedWorld, reward: Reward) -> tuple[Span, str, str] | None:
     fact = reward.fact
     if reward.on and fact.on and (why := reward.on.prevented(place)):
         return fact.on.span, *why
-    if reward.when and fact.when and (never := place.unmet(reward.when, reward)):
+    if reward.when and fact.when and (never := why_never(reward.when, lambda side: place.value(side, reward))):
         hint = "Compare with something that is reached, or take the reward out."
-        return fact.when.span, never_in_words(never, place.reading, place.each(reward)), hint
+        return fact.when.span, never, hint
     if place.value(reward.amount, reward) == (0, 0):
         return fact.amount.span, "its amount is always 0", "Give it another amount, or take it out."
     return None
