@@ -24,9 +24,11 @@ from mindlang.compiler.syntax import (
     Lasts,
     Reads,
     Rewards,
+    Starts,
     Stays,
     Succeeds,
     Teaches,
+    Text,
     Varies,
 )
 
@@ -61,7 +63,7 @@ def differences(old: Mind, new: Mind) -> list[Difference]:
 
     Nothing for comments, spaces, other spellings and the order of lines, but for the lessons of a curriculum.
     """
-    found = [*_settings(old, new)]
+    found = [*_settings(old, new), *_maps(old, new)]
     before, after = _declared(old), _declared(new)
     for noun in NOUNS:
         for name in dict.fromkeys((*before[noun], *after[noun])):
@@ -81,6 +83,25 @@ def _settings(old: Mind, new: Mind) -> Iterator[Difference]:
         yield Difference("unit", *(_unit(mind.unit_metres) for mind in (old, new)))
     if old.tick != new.tick:
         yield Difference("tick", (f"tick {old.tick:.6g} s",), (f"tick {new.tick:.6g} s",))
+
+
+def _maps(old: Mind, new: Mind) -> Iterator[Difference]:
+    """Lines of maps that are drawn otherwise in a file of the same name."""
+    before, after = _drawn(old), _drawn(new)
+    for name in before.keys() & after.keys():
+        yield from _difference(f"map {name}", before[name], after[name], ordered=True)
+
+
+def _drawn(mind: Mind) -> dict[str, list[_Line]]:
+    """The lines of each map by the name of its file."""
+    found = {}
+    for task in mind.tasks:
+        contains = (fact for fact in task.facts if isinstance(fact, Contains))
+        for fact, thing in zip(contains, task.things, strict=True):
+            for value in (argument.value for argument in fact.phrase.arguments):
+                if isinstance(value, Text):
+                    found[value.text] = [_Line(line, line) for line in thing.kind.drawing]
+    return found
 
 
 def _unit(metres: float | None) -> tuple[str, ...]:
@@ -121,7 +142,7 @@ def _declared(mind: Mind) -> dict[str, dict[str, list[_Line]]]:
     found: dict[str, dict[str, list[_Line]]] = {noun: {} for noun in NOUNS}
     for noun, kinds in _kinds(mind).items():  # a scene means what the tasks in it say
         for name, declaration in mind.names.declarations(noun):
-            found[noun][name] = _lines(declaration, kinds.get(name))
+            found[noun][name] = _lines(declaration, kinds.get(name), mind)
     return found
 
 
@@ -137,10 +158,10 @@ def _kinds(mind: Mind) -> dict[str, dict[str, Any]]:
     return {"curriculum": lessons} | {noun: {part.name: part for part in of} for noun, of in parts.items()}
 
 
-def _lines(declaration: Declaration, of: Any) -> list[_Line]:
+def _lines(declaration: Declaration, of: Any, mind: Mind) -> list[_Line]:
     """The header and the facts of a declaration, each with what has become of it."""
     kind, facts = _parts(declaration.header, of)
-    found = [_Line(_written(declaration.header), _meaning(kind))]
+    found = [_Line(_header(declaration.header, mind.names), _meaning(kind))]
     for forms, meanings in facts.items():
         written = [fact for fact in _facts(declaration, of) if isinstance(fact, forms)]
         found += [_Line(_written(fact), (forms, _meaning(each))) for fact, each in zip(written, meanings, strict=True)]
@@ -161,13 +182,24 @@ def _parts(header: Header, of: Any) -> tuple[Any, dict[Forms, Sequence[Any]]]:
         case Skill():
             return of.function, {(Reads,): of.reads, (Drives, Influences): of.edges, (Stays,): [True] * of.frozen}
         case Task(ticks=ticks, ends=ends, counts=counts):
+            starts = [of.start] * any(isinstance(fact, Starts) for fact in of.facts)
             plain: dict[Forms, Sequence[Any]] = {(Lasts,): [ticks], (Ends, Succeeds): ends, (Counts,): counts}
-            plain |= {(Contains,): of.things, (Varies,): of.varies, (Fails,): of.fails, (Rewards,): of.rewards}
+            plain |= {(Contains,): of.things, (Starts,): starts, (Varies,): of.varies, (Fails,): of.fails}
+            plain |= {(Rewards,): of.rewards}
             return of.scene, plain
         case Part():
             return of.kind, {}
     phrase = header.phrase
     return phrase and make("curriculum", phrase, Scope(Names({}), None), Findings()), {(Teaches,): of or []}
+
+
+def _header(header: Header, names: Names) -> str:
+    """A header as it is written; of a task in a scene by its name, with what that scene is."""
+    said = header
+    while header.noun.text == "task" and not said.phrase:
+        noun, other = ("scene", said.inside) if said.inside else (said.noun.text, said.like)
+        said = names.table[noun][other.text if other else ""].header
+    return _written(header) if said is header else f"task {header.name.text} in {_written(said.phrase)}"
 
 
 def _written(node: Any) -> str:

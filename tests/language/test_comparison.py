@@ -1,11 +1,15 @@
 """What two minds differ in: nothing for another spelling, one line for one changed number."""
 
+from pathlib import Path
+
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from mindlang.compiler.comparison import Difference, differences
+from mindlang.compiler.compile import compile_source
 from mindlang.compiler.model import Mind
+from mindlang.compiler.source import Source
 from mindlang.compiler.syntax import NOUNS, SETTINGS
 from tests.calling import RULES
 from tests.edits.sources import Texts, minds
@@ -118,6 +122,81 @@ def test_where_a_declaration_stands_is_no_difference() -> None:
     text = COLLECT.read_text(encoding="utf-8")
     paragraphs = text.split("\n\n")
     assert differences(mind(text), mind("\n\n".join([*paragraphs[:2], *reversed(paragraphs[2:])]))) == []
+
+
+OPEN_WORLD = """tick 1/60 s
+master Go
+unit 8.5 cm
+number sight is 12
+body Robot is disc
+actuator left is wheel side left neutral 0.5
+sensor eye is range_finder at 0 deg range sight
+sensor battery is battery drain 0.003 per s
+skill Seek is mlp
+  reads eye
+  drives left when eye > 0.5 otherwise 0.2
+skill Go is rule
+  reads eye
+  influences Seek at eye cuts below 5%
+scene Flat is arena size 50
+  starts at 0 0 facing 90 deg
+  varies thrust of left 60 to 90
+  fails left 1% per s
+task Run in Flat
+  lasts 1000 ticks
+  ends when battery < 5%
+  succeeds when eye < 0.1
+"""
+
+
+@pytest.mark.parametrize(
+    ("what", "gone", "new"),
+    [
+        ("unit", "unit 8.5 cm", "unit 9 cm"),
+        ("unit", "unit 8.5 cm", ""),
+        ("number sight", "number sight is 12", "number sight is 13"),
+        ("sensor battery", "sensor battery is battery drain 0.003 per s", "sensor battery is battery drain 0.003"),
+        ("skill Seek", "drives left when eye > 0.5 otherwise 0.2", "drives left when eye >= 0.5 otherwise 0.2"),
+        ("skill Seek", "drives left when eye > 0.5 otherwise 0.2", "drives left when eye > 0.5 otherwise 0.3"),
+        ("skill Seek", "drives left when eye > 0.5 otherwise 0.2", "drives left when eye > 0.5"),
+        ("skill Seek", "drives left when eye > 0.5 otherwise 0.2", "drives left"),
+        ("skill Go", "influences Seek at eye cuts below 5%", "influences Seek at eye cuts below 6%"),
+        ("skill Go", "influences Seek at eye cuts below 5%", "influences Seek at eye"),
+        ("task Run", "starts at 0 0 facing 90 deg", "starts at 0 1 facing 90 deg"),
+        ("task Run", "starts at 0 0 facing 90 deg", "starts facing 90 deg"),
+        ("task Run", "starts at 0 0 facing 90 deg", ""),
+        ("task Run", "varies thrust of left 60 to 90", "varies thrust of left 60 to 80"),
+        ("task Run", "varies thrust of left 60 to 90", ""),
+        ("task Run", "fails left 1% per s", "fails left 2% per s"),
+        ("task Run", "fails left 1% per s", ""),
+        ("task Run", "ends when battery < 5%", "ends when battery < 6%"),
+        ("task Run", "ends when battery < 5%", ""),
+        ("task Run", "succeeds when eye < 0.1", "ends when eye < 0.1"),
+    ],
+)
+def test_words_of_the_open_world_are_differences(what: str, gone: str, new: str) -> None:
+    found = differences(mind(OPEN_WORLD), mind(OPEN_WORLD.replace(gone, new)))
+    assert found == [Difference(what, (gone,), (new,) if new else ())]
+    assert differences(mind(OPEN_WORLD.replace(gone, new)), mind(OPEN_WORLD)) == [
+        Difference(what, found[0].new, (gone,))
+    ]
+
+
+def test_another_scene_is_a_difference_of_its_tasks() -> None:
+    larger = OPEN_WORLD.replace("scene Flat is arena size 50", "scene Flat is arena size 60")
+    headers = ("task Run in arena size 50",), ("task Run in arena size 60",)
+    assert differences(mind(OPEN_WORLD), mind(larger)) == [Difference("task Run", *headers)]
+
+
+def test_a_map_drawn_otherwise_is_a_difference(tmp_path: Path) -> None:
+    text = TEXT.replace("  contains rock is", '  contains maze is map from "maze.txt"\n  contains rock is')
+    minds_ = []
+    for drawing in ("#..#\n....\n#..#\n", "#..#\n.#..\n#..#\n"):
+        (tmp_path / "maze.txt").write_text(drawing)
+        minds_.append(compile_source(Source("a.mind", text, tmp_path)).mind)
+    assert minds_[0]
+    assert minds_[1]
+    assert differences(*minds_) == [Difference("map maze.txt", ("....",), (".#..",))]
 
 
 @given(minds(), st.randoms(use_true_random=False))

@@ -27,10 +27,15 @@ def start_of(
     declaration: Declaration, scene: SceneKind | None, things: Sequence[Part[Any]], findings: Findings
 ) -> Start:
     """Where the robot starts, as the last line of a task or scene that says so has it."""
-    start = Start()
-    for fact in declaration.facts:
-        if isinstance(fact, Starts):
-            start = Start(_start(fact, scene, things, findings), _facing(fact, findings))
+    start, said = Start(), [fact for fact in declaration.facts if isinstance(fact, Starts)]
+    for fact in said:
+        start = Start(_start(fact, scene, things, findings), _facing(fact, findings))
+    for again in said[1:]:
+        first = Label(said[0].span, "first said here")
+        message = f"The {declaration.header.noun.text} already says where the robot starts."
+        findings.error(
+            "repeated-fact", again.span, message, "Write both on one line: starts at 0 0 facing 90 deg.", first
+        )
     is_in_middle = scene and not scene.is_bounded and not _says_place(declaration)
     if is_in_middle and (thing := _solid_at(PLAIN_START, things, scene)):
         hint = f"Write another place for {thing.name}, or starts at and a place for the robot."

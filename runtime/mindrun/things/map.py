@@ -52,6 +52,11 @@ class Map(ThingKind):
         return tuple(found)
 
     @property
+    def drawing(self) -> Lines:
+        """That of its file."""
+        return self.from_
+
+    @property
     def letters(self) -> Mapping[str, tuple[Place, ...]]:
         """Where each letter stands, line by line."""
         found: dict[str, tuple[Place, ...]] = {}

@@ -100,6 +100,11 @@ class ThingKind:
         return ()
 
     @property
+    def drawing(self) -> tuple[str, ...]:
+        """The lines of the text that it is drawn in."""
+        return ()
+
+    @property
     def letters(self) -> Mapping[str, tuple[Place, ...]]:
         """The places of things that it draws, by their letters."""
         return {}
