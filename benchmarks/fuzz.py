@@ -2,23 +2,25 @@
 
 Every case ends in a graph or in messages, within 2 seconds and 1 GiB; formatted, it means the same; and what an editor
 asks about it is answered. A run that was ended goes on where its log ends. What is found stands in the log.
+`--of examples/maze/maze.mind …` makes mutants of these files alone, `--within 1` says how many seconds each may take.
 """
 
 import argparse
 import resource
+import shutil
 import signal
 import sys
 import time
 import traceback
 from collections import Counter
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from random import Random
 from tempfile import TemporaryDirectory
 
 from mindrun.printable import visible
 
-from benchmarks.sources import source
+from benchmarks.sources import mutant_of, source
 from mindlang.cli._diagnostic_printer import as_data, plain
 from mindlang.compiler.comparison import differences
 from mindlang.compiler.compile import Compiled, compile_source
@@ -54,14 +56,21 @@ class UnsoundError(Exception):
 
 
 class Place:
-    """The folder in which the cases stand, with the files that some of them use."""
+    """The folder in which the cases stand, with the files that some of them use, and what stands beside the `minds`."""
 
-    def __init__(self, folder: Path) -> None:
+    def __init__(self, folder: Path, minds: Sequence[Path]) -> None:
         self.folder = folder.resolve()
         self.main = self.folder / "case.mind"
+        self.minds = [mind.read_text(encoding="utf-8") for mind in minds]
+        for beside in (path for mind in minds for path in mind.parent.iterdir() if path.suffix in (".mind", ".txt")):
+            shutil.copy(beside, self.folder)
         self.texts = {self.folder / name: text for name, text in PARTS.items()}
         for path, text in self.texts.items():
             path.write_text(text, encoding="utf-8")
+
+    def source(self, case: int) -> str:
+        """The text of a case: a mutant of one of the minds, where there are any."""
+        return mutant_of(self.minds, case) if self.minds else source(case)
 
     def compiled(self, text: str) -> Compiled:
         """A text compiled as the folder's main file."""
@@ -141,39 +150,41 @@ def _answers(place: Place, found: Compiled, text: str, random: Random) -> None:
 SHARES: dict[Part, int] = {_format: 6, _lint: 3, _status: 12, _prove: 40, _answers: 40}  # one in so many cases
 
 
-def ran(place: Place, case: int) -> tuple[str, str]:
-    """What became of a case in a word, and what there is to say of it."""
+def ran(place: Place, case: int, within: float) -> tuple[str, str, float]:
+    """What became of a case in a word, what there is to say of it, and how long it took in seconds of the processor."""
     begin = time.process_time()
     signal.setitimer(signal.ITIMER_PROF, CASE_SECONDS)
     try:
-        became = check(place, case, source(case))
+        became = check(place, case, place.source(case))
     except Exception as error:
         last = traceback.extract_tb(error.__traceback__)[-1]
         where = f"{Path(last.filename).name}:{last.lineno}"
-        return type(error).__name__, f"{where} {error}"[:300]
+        return type(error).__name__, f"{where} {error}"[:300], time.process_time() - begin
     finally:
         signal.setitimer(signal.ITIMER_PROF, 0)
     taken = time.process_time() - begin
-    if taken > CPU_SECONDS:
-        return "Slow", f"{taken:.1f} s"
+    if taken > within:
+        return "Slow", f"{taken:.1f} s", taken
     if (memory := resource.getrusage(resource.RUSAGE_SELF).ru_maxrss) > MAX_MEMORY_KIB:
-        return "Large", f"{memory >> 10} MiB"
-    return became, ""
+        return "Large", f"{memory >> 10} MiB", taken
+    return became, "", taken
 
 
-def run(cases: range, tell: Callable[[str], None]) -> Counter[str]:
+def run(cases: range, minds: Sequence[Path], within: float, tell: Callable[[str], None]) -> Counter[str]:
     """The cases one by one; what became of how many of them."""
     signal.signal(signal.SIGPROF, _ended)
     total: Counter[str] = Counter()
+    slowest = 0.0
     with TemporaryDirectory() as folder:
-        place = Place(Path(folder))
+        place = Place(Path(folder), minds)
         for case in cases:
-            became, why = ran(place, case)
+            became, why, taken = ran(place, case, within)
             total[became] += 1
+            slowest = max(slowest, taken)
             if why:
                 tell(f"found {case} {became} {why!r}")
             if (case + 1 - cases.start) % BLOCK_CASES == 0 or case + 1 == cases.stop:
-                tell(f"done {case + 1} {time.process_time():.0f} s {dict(total)}")
+                tell(f"done {case + 1} {time.process_time():.0f} s, slowest {slowest:.2f} s, {dict(total)}")
     return total
 
 
@@ -192,12 +203,14 @@ def main() -> None:
     parser = argparse.ArgumentParser(allow_abbrev=False, description=__doc__)
     parser.add_argument("--from", dest="start", type=int, default=0, help="the first case")
     parser.add_argument("--count", type=int, default=10_000)
+    parser.add_argument("--of", type=Path, nargs="+", default=(), help="make mutants of these files alone")
+    parser.add_argument("--within", type=float, default=CPU_SECONDS, help="seconds of the processor for a case")
     parser.add_argument("--log", type=Path, help="what is written on, and where a run goes on that was ended")
     options = parser.parse_args()
     begin = (options.log and ended_at(options.log)) or options.start
     cases = range(begin, options.start + options.count)
     with options.log.open("a", buffering=1, encoding="utf-8") if options.log else sys.stdout as log:
-        total = run(cases, lambda line: print(line, file=log))
+        total = run(cases, options.of, options.within, lambda line: print(line, file=log))
     sys.exit(1 if total.keys() - {"right", "wrong"} else 0)
 
 

@@ -5,7 +5,7 @@ by the grammar out of the registered kinds. Most are small, so that a million ta
 """
 
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from functools import cache
 from pathlib import Path
 from random import Random
@@ -85,6 +85,15 @@ def source(case: int) -> str:
     random = Random(case)
     make = random.choices((mutated, mixed, written, garbage), (50, 20, 25, 5))[0]
     return make(random)
+
+
+def mutant_of(texts: Sequence[str], case: int) -> str:
+    """The text of a case of whole minds: one of the `texts` with one to four mutations."""
+    random = Random(case)
+    text = random.choice(texts)
+    for _ in range(random.choice((1, 1, 1, 1, 2, 4))):
+        text = random.choice(MUTATIONS)(text, random) or " "
+    return text
 
 
 @cache
