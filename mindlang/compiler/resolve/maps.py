@@ -1,6 +1,6 @@
 """Maps drawn in text files: read, and the things that their letters place."""
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -8,12 +8,15 @@ from typing import Any
 from mindrun.errors import reason
 from mindrun.quantity import Place
 from mindrun.regular_files import read_regular
+from mindrun.scenes import SceneKind
 from mindrun.things.map import FLOOR
 
 from mindlang.compiler.diagnostic import Findings, listed
 from mindlang.compiler.model import Part
 from mindlang.compiler.source import MAX_SOURCE_BYTES, decode
 from mindlang.compiler.syntax import Contains, File, Text, Value
+
+MAX_SHOWN_LETTERS = 3  # of those that nothing begins with
 
 Parts = Sequence[Part[Any]]
 
@@ -54,42 +57,57 @@ def map_paths(files: Iterable[File]) -> list[Path]:
     return [path for value in values if isinstance(value, Text) and (path := path_of(value))]
 
 
-def with_places(things: Parts, are_all: bool, findings: Findings) -> tuple[Part[Any], ...]:
+def with_places(
+    things: Parts, scene: SceneKind | None, are_all: bool, findings: Findings
+) -> tuple[Part[Any], ...]:
     """The things of a task, those at a place of which a map has their letter; `are_all` where no others follow."""
     placed: dict[str, tuple[Place, ...]] = {}
     for drawn in things:
-        if drawn.kind and drawn.kind.letters and not drawn.kind.mistake(None):
-            for letter, places in drawn.kind.letters.items():
-                if name := _named(letter, drawn, things, are_all, findings):
-                    placed[name] = placed.get(name, ()) + places
-    return tuple(_placed(thing, placed, findings) for thing in things)
+        if drawn.kind and not drawn.kind.mistake(None):
+            for name, places in _named(drawn, things, are_all, findings):
+                placed[name] = placed.get(name, ()) + places
+    return tuple(_placed(thing, placed.get(thing.name), scene, findings) for thing in things)
 
 
-def _named(letter: str, drawn: Part[Any], things: Parts, are_all: bool, findings: Findings) -> str | None:
-    """The thing that a letter stands for, None after reporting that there is none."""
-    fit = [thing.name for thing in things if thing.name.startswith(letter) and thing is not drawn]
-    if letter in fit or len(fit) == 1:
-        return letter if letter in fit else fit[0]
-    if fit:
-        hint = f"Call one of them {letter}, or let their names begin with different letters."
-        message = f"The letter {letter} of this map can be {listed(fit)}."
-        findings.error("ambiguous-letter", drawn.span, message, hint)
-        return None
-    if not are_all:
-        return None
-    add = f"Add contains {letter} is item to the task, or write" if letter.isalpha() and letter.islower() else "Write"
-    message = f"The map has {letter!r}, which no thing of the task begins with."
+def _named(
+    drawn: Part[Any], things: Parts, are_all: bool, findings: Findings
+) -> Iterator[tuple[str, tuple[Place, ...]]]:
+    """The things that the letters of a map stand for, and their places; other letters are reported."""
+    unknown = []
+    for letter, places in drawn.kind.letters.items():
+        fit = [thing.name for thing in things if thing.name.startswith(letter) and thing is not drawn]
+        if letter in fit or len(fit) == 1:
+            yield letter if letter in fit else fit[0], places
+        elif fit:
+            hint = f"Call one of them {letter}, or let their names begin with different letters."
+            message = f"The letter {letter} of this map can be {listed(fit)}."
+            findings.error("ambiguous-letter", drawn.span, message, hint)
+        else:
+            unknown.append(letter)
+    if unknown and are_all:
+        _refuse(unknown, drawn, findings)
+
+
+def _refuse(letters: Sequence[str], drawn: Part[Any], findings: Findings) -> None:
+    """Report the letters of a map that stand for nothing."""
+    shown = [repr(letter) for letter in letters[:MAX_SHOWN_LETTERS]]
+    more = [f"{len(letters) - len(shown)} more"] if len(letters) > len(shown) else []
+    names = [letter for letter in letters if letter.isalpha() and letter.islower()]
+    add = f"Add contains {names[0]} is item to the task, or write" if names else "Write"
+    message = f"The map has {listed(shown + more, 'and')}, which no thing of the task begins with."
     findings.error("unknown-letter", drawn.span, message, f"{add} {FLOOR} for floor.")
-    return None
 
 
-def _placed(thing: Part[Any], placed: Mapping[str, tuple[Place, ...]], findings: Findings) -> Part[Any]:
-    places = placed.get(thing.name, ())
-    if not thing.kind or not places:
+def _placed(
+    thing: Part[Any], places: tuple[Place, ...] | None, scene: SceneKind | None, findings: Findings
+) -> Part[Any]:
+    """A thing at the places that a map has for it, None where it has none."""
+    if not thing.kind or not places or thing.kind.mistake(None):
         return thing
-    if thing.kind.places or thing.kind.count not in (0, 1, len(places)):
-        hint = "Leave its place and its count out: the map says both."
+    kind = thing.kind.at_places(places)
+    if kind is None:
         message = f"A map places {thing.name}, and its own line says otherwise."
-        findings.error("placed-twice", thing.span, message, hint)
-        return thing
-    return replace(thing, kind=replace(thing.kind, at=places))
+        findings.error("placed-twice", thing.span, message, thing.kind.unplaceable)
+    elif found := kind.mistake(scene):
+        findings.error(found.code, thing.span, found.message, found.hint)
+    return replace(thing, kind=kind or thing.kind)

@@ -152,7 +152,7 @@ def _things(declaration: Declaration, scene: Any, scope: Scope, findings: Findin
             obstacles += min(kind.obstacles(scene), MAX_OBSTACLES)  # as if there were few where there are too many
         found.setdefault(name, model.Part(name, kind, fact.name.span))
     is_task = declaration.header.noun.text == "task"  # which has all that a scene lacks
-    things = with_places(tuple(found.values()), is_task, findings)
+    things = with_places(tuple(found.values()), scene, is_task, findings)
     _check_things(things, findings)
     check_places(things, scene, findings)
     return things

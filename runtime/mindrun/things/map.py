@@ -36,6 +36,7 @@ class Map(ThingKind):
     away = DEFAULT_DISTANCE
     at = ()
     count = 1
+    unplaceable = "Draw walls with #, and write another letter for what stands there."
 
     def obstacles(self, scene: SceneKind | None) -> int:
         """As many rectangles as its walls make."""
@@ -59,17 +60,20 @@ class Map(ThingKind):
     @property
     def letters(self) -> Mapping[str, tuple[Place, ...]]:
         """Where each letter stands, line by line."""
-        found: dict[str, tuple[Place, ...]] = {}
+        found: dict[str, list[Place]] = {}
         for row, line in enumerate(self.from_):
             for column, letter in enumerate(line):
                 if letter not in (WALL, FLOOR):
-                    found[letter] = (*found.get(letter, ()), self._place(column, row))
-        return found
+                    found.setdefault(letter, []).append(self._place(column, row))
+        return {letter: tuple(places) for letter, places in found.items()}
 
     def _place(self, column: int, row: int) -> Place:
         """The middle of a square; the first line is the farthest along y."""
         columns, rows = max(map(len, self.from_)), len(self.from_)
         return self.cell * (column - (columns - 1) / 2), self.cell * ((rows - 1) / 2 - row)
+
+    def at_places(self, places: tuple[Place, ...]) -> None:
+        """No map moves it."""
 
     def mistake(self, scene: SceneKind | None) -> Mistake | None:
         """Its lines are of one length, have floor, are not too many and fit into the arena."""

@@ -1,7 +1,7 @@
 """What stands in the way."""
 
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import product
 from typing import Annotated
 
@@ -31,6 +31,7 @@ class Obstacle(ThingKind):
     away: Annotated[Span, LENGTH] = DEFAULT_DISTANCE
     at: Annotated[tuple[Place, ...], COORDINATE] = ()
 
+    unplaceable = "Write a count of as many as the map draws, and neither a place nor a grid."
     is_obstacle = True
     is_solid = True
     least_distance = 0.0
@@ -57,6 +58,10 @@ class Obstacle(ThingKind):
             yield Rectangle(
                 x + (column - (columns - 1) / 2) * self.grid, y + (row - (rows - 1) / 2) * self.grid, half, half
             )
+
+    def at_places(self, places: tuple[Place, ...]) -> "Obstacle | None":
+        """As many as its count says: an obstacle without one, a grid or a place is none."""
+        return None if self.at or self.grid or self.count != len(places) else replace(self, at=places, count=0)
 
     def rows(self, scene: SceneKind) -> Iterable[Row]:
         """A grid, which has a single point where it stands at a place, or a count."""

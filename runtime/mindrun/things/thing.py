@@ -1,6 +1,7 @@
 """What every kind of thing says of itself: the rest of the program asks, and knows no kind by name."""
 
 from collections.abc import Iterable, Mapping
+from dataclasses import replace
 from math import hypot
 from typing import Literal, NamedTuple, get_args
 
@@ -58,6 +59,7 @@ class ThingKind:
     takes_items = False  # whether items are delivered into it
     charges = False  # whether the battery charges in it
     is_round = False  # its outline: a disc, not a square
+    unplaceable = "Leave its place and its count out: the map says both."  # what to do where a map cannot place it
     least_distance = 10.0  # from the robot, in world units, where walls keep it near
 
     @property
@@ -108,6 +110,10 @@ class ThingKind:
     def letters(self) -> Mapping[str, tuple[Place, ...]]:
         """The places of things that it draws, by their letters."""
         return {}
+
+    def at_places(self, places: tuple[Place, ...]) -> "ThingKind | None":
+        """Itself where a map draws it; None where its own line says otherwise."""
+        return None if self.places or self.count not in (1, len(places)) else replace(self, at=places)  # type: ignore[type-var]
 
     def rows(self, scene: SceneKind) -> Iterable[Row]:
         """What the lanes are told of its obstacles: the spacing of their `grid` and how many `columns` and `rows` it

@@ -28,6 +28,7 @@ class Wall(ThingKind):
     away = DEFAULT_DISTANCE
     at = ()
     count = 1
+    unplaceable = "Draw walls with #, and write another letter for what stands there."
 
     def obstacles(self, scene: SceneKind | None) -> int:
         """One for each stretch."""
@@ -48,6 +49,9 @@ class Wall(ThingKind):
             else:
                 low, high = (y - before, to_y + behind) if y < to_y else (to_y - behind, y + before)
                 yield Rectangle(x, (low + high) / 2, half, (high - low) / 2)
+
+    def at_places(self, places: tuple[Place, ...]) -> None:
+        """No map moves it."""
 
     def mistake(self, scene: SceneKind | None) -> Mistake | None:
         """Each stretch goes somewhere along one axis, inside the arena."""
