@@ -74,6 +74,9 @@ def _follow(use: Use, project: _Project) -> None:
         project.refuse("use-too-deep", use, "Files use one another too deep.", hint)
     elif target and target in project.files:
         _check_alias(project.files[target].source, use, project)
+    elif other := _other_of_alias(use, project):
+        hint = f"Use {use.path} as another word."
+        project.refuse("taken-alias", use, f"{other} is used as {_alias(use)} already.", hint)
     elif target:
         _read(target, use, project)
 
@@ -84,6 +87,12 @@ def _check_alias(source: Source, use: Use, project: _Project) -> None:
         known = f"as {source.alias}" if source.alias else "without as"
         message = f"{use.path} is used {known} already, and has one name."
         project.refuse("other-alias", use, message, f"Use it {known} here, too.")
+
+
+def _other_of_alias(use: Use, project: _Project) -> str:
+    """The file that has this alias already."""
+    named = (file.source for file in project.files.values() if _alias(use) and file.source.alias == _alias(use))
+    return next((source.name for source in named), "")
 
 
 def _alias(use: Use) -> str:

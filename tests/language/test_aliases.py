@@ -98,6 +98,12 @@ def test_one_file_has_one_name(tmp_path: Path) -> None:
     assert [found.code for found in twice.diagnostics] == ["other-alias"]
 
 
+def test_one_name_has_one_file(tmp_path: Path) -> None:
+    both = MAIN.replace('use "', 'use "other.mind" as walls\nuse "', 1)
+    twice = laid_out(tmp_path, main=both, walls=WALLS, other="number far is 12\n")
+    assert [found.code for found in twice.diagnostics] == ["taken-alias"]
+
+
 def test_a_mistake_in_it_stands_on_its_line(tmp_path: Path) -> None:
     wrong = laid_out(tmp_path, main=MAIN, walls=WALLS.replace("reads elsewhere", "reads proximty"))
     assert [(found.code, found.span and (found.span.source.name, found.span.line)) for found in wrong.diagnostics] == [

@@ -178,6 +178,16 @@ def test_a_number_of_any_size_stands_anywhere(size: str) -> None:
         sane(compile_source(Source("fuzz.mind", text[: number.start()] + size + text[number.end() :])))
 
 
+@pytest.mark.parametrize("example", ["tour/tour", "sort/sort", "soccer/soccer", "line/line", "light/light"])
+@pytest.mark.parametrize("said", ["number broken is nothing", "number broken is 1/0"])
+def test_a_number_that_is_declared_wrongly_stands_anywhere(example: str, said: str) -> None:
+    path = TOUR.parents[1] / f"{example}.mind"
+    text = path.read_text(encoding="utf-8")
+    for number in NUMBER.finditer(text):
+        broken = f"{text[: number.start()]}broken{text[number.end() :]}\n{said}\n"
+        sane(compile_source(Source("fuzz.mind", broken, path.parent)))
+
+
 ODD = ' \t .+-*/%()<>=_09azAZ"é٣ǅ,'
 WORDS = "s deg 10s 5_ a.b sensor.x s.x 1.5.2 1/2/3 2e3 Go+ +Go on at to"
 

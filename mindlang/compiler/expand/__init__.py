@@ -8,7 +8,7 @@ from dataclasses import replace
 
 from mindlang.compiler.diagnostic import Findings
 from mindlang.compiler.expand.amounts import in_place, written_out
-from mindlang.compiler.expand.likeness import scenes, tasks
+from mindlang.compiler.expand.likeness import refuse_unlike, scenes, tasks
 from mindlang.compiler.expand.numbers import numbers
 from mindlang.compiler.names import Names
 from mindlang.compiler.syntax import Amount
@@ -26,6 +26,7 @@ def expand(names: Names, values: Mapping[str, Amount], tick_seconds: float, find
         for noun, declarations in names.table.items()
     }
     written = replace(names, table=plain)
+    refuse_unlike(written, findings)
     known = scenes(written, findings)
     whole = {"scene": known, "task": tasks(written, known, findings)}
     return replace(names, table=plain | {noun: each for noun, each in whole.items() if each})

@@ -11,6 +11,18 @@ from mindlang.compiler.syntax import Declaration
 Declarations = dict[str, Declaration]
 
 
+UNLIKE_NOUNS = ("body", "curriculum")  # whose declarations are like nothing
+
+
+def refuse_unlike(names: Names, findings: Findings) -> None:
+    """Report what is like another, and cannot be."""
+    for noun in UNLIKE_NOUNS:
+        for _, declaration in names.declarations(noun):
+            if like := declaration.header.like:
+                hint = "Say what it is itself; skills, scenes and tasks can be like others."
+                findings.error("cannot-be-like", like.span, f"{a(noun).capitalize()} is like no other.", hint)
+
+
 def scenes(names: Names, findings: Findings) -> Declarations:
     """Every scene with what those that it is like say before it."""
     return _followed("scene", names, lambda scene: scene, findings)

@@ -55,7 +55,9 @@ def make(noun: str, phrase: Phrase, scope: Scope, findings: Findings) -> Any:
     if scope.whole and all(argument.key.text in parameters for argument in phrase.arguments):
         for key in missing:
             _missing(phrase, key, findings)
-    return cls(**values) if not missing and len(findings.diagnostics) == before else None
+    # a number that is declared wrongly is reported there, and has no value
+    has_all = not missing and all(value is not None for value in values.values())
+    return cls(**values) if has_all and len(findings.diagnostics) == before else None
 
 
 def _known_kinds(noun: str, name: str, scope: Scope) -> str:

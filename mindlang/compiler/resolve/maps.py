@@ -57,9 +57,7 @@ def map_paths(files: Iterable[File]) -> list[Path]:
     return [path for value in values if isinstance(value, Text) and (path := path_of(value))]
 
 
-def with_places(
-    things: Parts, scene: SceneKind | None, are_all: bool, findings: Findings
-) -> tuple[Part[Any], ...]:
+def with_places(things: Parts, scene: SceneKind | None, are_all: bool, findings: Findings) -> tuple[Part[Any], ...]:
     """The things of a task, those at a place of which a map has their letter; `are_all` where no others follow."""
     placed: dict[str, tuple[Place, ...]] = {}
     for drawn in things:

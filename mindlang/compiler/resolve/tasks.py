@@ -214,7 +214,7 @@ def _ends(declaration: Declaration, world: _World, robot: RobotFacts, findings: 
         times = convert(fact.times, TIMES, findings) if fact.times else 1
         event = _event(fact.event, world, findings) if fact.event else None
         when = condition(fact.when, _visible(world, robot), findings) if fact.when else None
-        if fact.event and event and event.is_of_success:
+        if fact.event and event and event.is_of_success and world.can_succeed:
             hint = "Write what a success is: succeeds on 5 delivery of red."
             findings.error("own-success", fact.event.span, "A success ends the run by itself.", hint)
         ends.append(model.End(event, int(times or 1), when, isinstance(fact, Succeeds), fact))
