@@ -58,7 +58,7 @@ class UnsoundError(Exception):
 class Place:
     """The folder in which the cases stand, with the files that some of them use, and what stands beside the `minds`."""
 
-    def __init__(self, folder: Path, minds: Sequence[Path]) -> None:
+    def __init__(self, folder: Path, minds: Sequence[Path] = ()) -> None:
         self.folder = folder.resolve()
         self.main = self.folder / "case.mind"
         self.minds = [mind.read_text(encoding="utf-8") for mind in minds]

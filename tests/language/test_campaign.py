@@ -7,12 +7,24 @@ import pytest
 from benchmarks.fuzz import Place, check, ended_at
 from benchmarks.sources import source
 
+EXAMPLES = Path(__file__).parents[2] / "examples"
+
 
 @pytest.mark.parametrize("block", range(4))
 def test_any_source(tmp_path: Path, block: int) -> None:
     place = Place(tmp_path)
     for case in range(block * 10_000, block * 10_000 + 100):
         check(place, case, source(case))
+
+
+OPEN_WORLD = [EXAMPLES / name / f"{name}.mind" for name in ("sort", "soccer", "patrol", "maze", "line", "light")]
+
+
+@pytest.mark.parametrize("block", range(2))
+def test_any_mutant_of_an_open_world(tmp_path: Path, block: int) -> None:
+    place = Place(tmp_path, OPEN_WORLD)
+    for case in range(block * 10_000, block * 10_000 + 300):
+        check(place, case, place.source(case))
 
 
 def test_a_case_is_always_the_same() -> None:
