@@ -65,9 +65,9 @@ def own_class(noun: str, name: Scalar, findings: Findings) -> DriverClass | None
 def _report_absent(name: Scalar, code: DriverCode, classes: Sequence[str], findings: Findings) -> None:
     file, _, cls = name.text.partition(".")
     known = [f"{file}.{each}" for each in classes]
-    hint = findings.suggest(name.text, known) or f"Write driver: {listed(known)}."
-    if not known:
-        hint = f"Write it there: a frozen dataclass {cls} with a method open."
+    hint = f"Write it there: a frozen dataclass {cls} with a method open."
+    if known:
+        hint = findings.suggest(name.text, known) or f"Write driver: {listed(known)}."
     report_error(findings, "unknown-driver", name.span, f"{code.origin} has no class {cls}.", hint)
 
 

@@ -222,6 +222,7 @@ def test_a_file_that_hangs_is_told_on_its_line(
         ("def broken(:\n", "bad.py cannot be imported: line 1: SyntaxError: invalid syntax"),
         ("import nowhere_at_all\n", "line 1: ModuleNotFoundError: No module named 'nowhere_at_all'"),
         ("\n\nraise SystemExit(0)\n", "line 3: SystemExit: 0"),
+        ("", "bad.py has no class Feelers"),
         ("def Feelers(): pass\n", "bad.Feelers is no frozen dataclass"),
         ("x = '" + "a" * 40_000 + "'\n", "bad.py is larger than 32 kB"),
     ],
