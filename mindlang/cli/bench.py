@@ -17,7 +17,7 @@ Examples:
 
 @click.command(epilog=EXAMPLES)
 @click.argument("file")
-@click.option("--task", metavar="TASK", help="Default: that on which the master, or a skill below it, is taught.")
+@click.option("--task", metavar="TASK", help="Default: that on which the master is taught, or of its name.")
 @click.option(
     "--runs",
     type=WholeOption(1, 10_000_000),

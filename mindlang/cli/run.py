@@ -20,7 +20,7 @@ Examples:
 
 @click.command(epilog=EXAMPLES)
 @click.argument("file")
-@click.option("--task", metavar="TASK", help="Default: that on which the master, or a skill below it, is taught.")
+@click.option("--task", metavar="TASK", help="Default: that on which the master is taught, or of its name.")
 @click.option(
     "--seed", type=WholeOption(0, 2**64 - 1), help="The same seed gives the same run. Default: drawn, and printed."
 )

@@ -94,7 +94,8 @@ def _entries(canvas: Canvas, run: RecordedRun, path: Path, theme: Theme) -> list
     for name, (thing, colour) in coloured.items():
         entries.append((_dot(canvas, colour) if thing.kind.is_round else box(colour), name))
     if len(run.boxes):
-        entries.append((box(theme.rock_edge), "obstacle"))
+        solid = dict.fromkeys(thing.name for thing in run.task.things if thing.kind.is_obstacle)
+        entries.append((box(theme.rock_edge), ", ".join(solid)))
     if hits := len(run.collisions):
         entries.append((lambda x, y: draw_cross(canvas, x + 9, y, 5, theme), f"collision ({hits})"))
     return entries

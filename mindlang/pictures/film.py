@@ -10,7 +10,9 @@ import numpy as np
 from mindrun.atomic_write import destination, write
 
 from mindlang.pictures.canvas import Canvas, Image, Viewport, blank, pasted, text_width
+from mindlang.pictures.film_page import FilmPage
 from mindlang.pictures.hierarchy_panel import Panel
+from mindlang.pictures.names import draw_names
 from mindlang.pictures.path import Path, draw_cross
 from mindlang.pictures.recorded_run import RecordedRun
 from mindlang.pictures.robot import draw_robot
@@ -18,13 +20,11 @@ from mindlang.pictures.scene import (
     WALL_UNITS,
     draw_floor,
     draw_items,
-    draw_names,
     draw_zones,
     half_sides,
 )
 from mindlang.pictures.theme import NIGHT
 
-FILM_WIDTH, FILM_HEIGHT = 1280, 720
 FILM_SECONDS = 60.0  # that a whole run lasts, sped up
 WINDOW_UNITS = 84.0  # of a plain scene that are seen around the robot
 TRAIL_SECONDS = 8.0  # of the film for which the path stays
@@ -64,14 +64,12 @@ class Film:
         """Encode the film into `path`, which is only replaced when it is whole; `wrote` is told of each frame."""
         place = destination(path)
         spare = place.with_name(f".{place.stem}.part{place.suffix}")
-        writer = cv2.VideoWriter(str(spare), cv2.VideoWriter.fourcc(*"mp4v"), self.FPS, (FILM_WIDTH, FILM_HEIGHT))
+        size = self.page.width, self.page.height
+        writer = cv2.VideoWriter(str(spare), cv2.VideoWriter.fourcc(*"mp4v"), self.FPS, size)
         try:
             if not writer.isOpened():
                 raise FilmError(f"{path} cannot be written: OpenCV cannot encode a video there")
-            panel, trail = (
-                Panel(self.run, NIGHT, FILM_HEIGHT + 8, 86, FILM_WIDTH - FILM_HEIGHT - 16, FILM_HEIGHT - 96),
-                self._trail(),
-            )
+            panel, trail = Panel(self.run, NIGHT, self.page.panel), Path.of(self.run, NIGHT)
             for number in range(self.frames):
                 writer.write(self.frame(panel, trail, min(self.run.ticks, 1 + round(number * self.step))))
                 wrote()
@@ -85,19 +83,16 @@ class Film:
 
     def frame(self, panel: Panel, trail: Path, tick: int) -> Image:
         """The film's image of a tick."""
-        page = blank(FILM_WIDTH, FILM_HEIGHT, NIGHT.page)
+        page = blank(self.page.width, self.page.height, NIGHT.page)
         pasted(page, self._world(trail, tick), 0, 0)
         canvas = Canvas(page, Viewport(0.0, 0.0, 1.0), down=True)
         self._title(canvas, tick)
         panel.draw(canvas, tick)
         return page
 
-    def _trail(self) -> Path:
-        return Path.of(self.run, NIGHT)
-
     def _world(self, trail: Path, tick: int) -> Image:
         run, past = self.run, round(TRAIL_SECONDS * self.FPS * self.step)
-        canvas = Canvas(blank(FILM_HEIGHT, FILM_HEIGHT, self._ground), self.view(tick))
+        canvas = Canvas(blank(*self.page.world, self._ground), self.view(tick))
         draw_floor(canvas, run, NIGHT)
         draw_zones(canvas, run, NIGHT, tick)
         trail.draw(canvas, max(0, tick - past), tick, 2.0)
@@ -109,20 +104,33 @@ class Film:
             draw_cross(canvas, x, y, 9 / canvas.view.scale, NIGHT)
         return canvas.image
 
-    def view(self, tick: int) -> Viewport:
-        """What is seen of the world in a tick: the whole arena; of a plain scene what is around the robot."""
+    @property
+    def page(self) -> FilmPage:
+        """How its images are divided."""
+        wide, deep = self._half_sides
+        return FilmPage.of(wide / deep)
+
+    @property
+    def _half_sides(self) -> tuple[float, float]:
+        """Half of what is seen of the world along x and y: the arena; of a plain scene what is around the robot."""
         scene = self.run.task.scene
-        half = np.add(half_sides(scene), 2 * WALL_UNITS) if scene.is_bounded else WINDOW_UNITS / 2
-        middle = self.run.body[tick, :2] * (not scene.is_bounded)
-        return Viewport.around(middle - half, middle + half, FILM_HEIGHT, FILM_HEIGHT)
+        x, y = half_sides(scene) if scene.is_bounded else (WINDOW_UNITS / 2, WINDOW_UNITS / 2)
+        margin = 2 * WALL_UNITS * scene.is_bounded
+        return x + margin, y + margin
+
+    def view(self, tick: int) -> Viewport:
+        """What is seen of the world in a tick."""
+        half = np.array(self._half_sides)
+        middle = self.run.body[tick, :2] * (not self.run.task.scene.is_bounded)
+        return Viewport.around(middle - half, middle + half, *self.page.world)
 
     @property
     def _ground(self) -> tuple[int, int, int]:
         return NIGHT.page if self.run.task.scene.is_bounded else NIGHT.floor
 
     def _title(self, canvas: Canvas, tick: int) -> None:
-        run, left, y = self.run, FILM_HEIGHT + 24.0, 66.0
-        canvas.text(left, 38, run.task.name, 17, NIGHT.ink, bold=True)
+        run, left, y = self.run, self.page.left + 24.0, self.page.top + 66.0
+        canvas.text(left, y - 28, run.task.name, 17, NIGHT.ink, bold=True)
         said: list[str] = [
             f"{tick * run.graph.tick:.1f} s",
             f"speed {self.speed:g}",
@@ -131,8 +139,8 @@ class Film:
             f"seed {self.found['seed']}",
         ]
         for text in said:
-            if left + text_width(text, 11) > FILM_WIDTH - 12:
-                left, y = FILM_HEIGHT + 24.0, y + 22
+            if left + text_width(text, 11) > self.page.width - 12:
+                left, y = self.page.left + 24.0, y + 22
             left += canvas.text(left, y, text, 11, NIGHT.faint) + 22
 
 

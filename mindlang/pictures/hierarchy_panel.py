@@ -20,10 +20,10 @@ RIM_PIXELS, CORE_PIXELS = 7.0, 2.0
 class Panel:
     """Draws the hierarchy of a run into a rectangle of a canvas."""
 
-    def __init__(self, run: RecordedRun, theme: Theme, left: float, top: float, width: float, height: float) -> None:
+    def __init__(self, run: RecordedRun, theme: Theme, room: Place) -> None:
         self._run, self._theme = run, theme
         self._flow = Flow(run)
-        self._layout = Layout.of(self._flow.links, self._flow.skills, Place(left, top, width, height))
+        self._layout = Layout.of(self._flow.links, self._flow.skills, room)
         boxes = self._layout.boxes.items()
         self._size = min(fitting(self._widest(sink), place) for sink, place in boxes)
 

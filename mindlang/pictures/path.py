@@ -76,7 +76,7 @@ def draw_cross(canvas: Canvas, x: float, y: float, size: float, theme: Theme) ->
 
 
 def draw_former(canvas: Canvas, run: RecordedRun, theme: Theme) -> None:
-    """Faintly, where things were before, numbered where there are not too many.
+    """Faintly, where things were before, numbered where they were several, and not too many.
 
     Of what walks or was pushed also the way; what can be pushed was first where it appeared.
     """
@@ -92,6 +92,6 @@ def draw_former(canvas: Canvas, run: RecordedRun, theme: Theme) -> None:
             else:
                 canvas.polygon(square(x, y, size / 2), colour, 0.08)
                 canvas.line(square(x, y, size / 2), colour, 1.0, 0.4, closed=True)
-            if order <= len(former) <= MOST_NUMBERED:
+            if order <= len(former) and 1 < len(former) <= MOST_NUMBERED:
                 below = 9 * canvas.pen / canvas.view.scale
                 canvas.text(x + size / 2 + below / 3, y - below, str(order), 9, theme.faint)

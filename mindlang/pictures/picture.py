@@ -7,6 +7,7 @@ import numpy as np
 
 from mindlang.pictures.canvas import Canvas, Image, Viewport, blank, pasted
 from mindlang.pictures.caption import draw_legend, draw_scale, draw_title
+from mindlang.pictures.names import draw_names
 from mindlang.pictures.path import Path, draw_collisions, draw_former, draw_start
 from mindlang.pictures.recorded_run import RecordedRun
 from mindlang.pictures.robot import draw_robot
@@ -14,7 +15,6 @@ from mindlang.pictures.scene import (
     WALL_UNITS,
     draw_floor,
     draw_items,
-    draw_names,
     draw_zones,
     half_sides,
 )
@@ -28,18 +28,25 @@ PLAIN_MARGIN_UNITS = 6.0  # around a plain scene
 
 def picture(run: RecordedRun, found: dict[str, Any]) -> Image:
     """The picture of a run with the outcome `found`."""
-    page = blank(SCALE_FACTOR * PICTURE_PIXELS, SCALE_FACTOR * PICTURE_PIXELS, PAPER.page)
+    height = page_height(run)
+    page = blank(SCALE_FACTOR * PICTURE_PIXELS, SCALE_FACTOR * height, PAPER.page)
     wide = SCALE_FACTOR * (PICTURE_PIXELS - 2 * SIDE_PIXELS)
-    high = SCALE_FACTOR * (PICTURE_PIXELS - TOP_PIXELS - BOTTOM_PIXELS)
+    high = SCALE_FACTOR * (height - TOP_PIXELS - BOTTOM_PIXELS)
     view = view_of(run, wide, high)
     pasted(page, _world(run, view, wide, high), SCALE_FACTOR * SIDE_PIXELS, SCALE_FACTOR * TOP_PIXELS)
     canvas = Canvas(page, Viewport(0.0, 0.0, SCALE_FACTOR), pen=SCALE_FACTOR, down=True)
     draw_title(canvas, run, found, PAPER, SIDE_PIXELS, 34, PICTURE_PIXELS - SIDE_PIXELS)
-    draw_legend(
-        canvas, run, Path.of(run, PAPER), PAPER, SIDE_PIXELS, PICTURE_PIXELS - 46, PICTURE_PIXELS - SIDE_PIXELS - 170
-    )
-    draw_scale(canvas, SCALE_FACTOR / view.scale, PAPER, PICTURE_PIXELS - SIDE_PIXELS, PICTURE_PIXELS - 44)
-    return cv2.resize(page, (PICTURE_PIXELS, PICTURE_PIXELS), interpolation=cv2.INTER_AREA).astype(np.uint8)
+    draw_legend(canvas, run, Path.of(run, PAPER), PAPER, SIDE_PIXELS, height - 46, PICTURE_PIXELS - SIDE_PIXELS - 170)
+    draw_scale(canvas, SCALE_FACTOR / view.scale, PAPER, PICTURE_PIXELS - SIDE_PIXELS, height - 44)
+    return cv2.resize(page, (PICTURE_PIXELS, height), interpolation=cv2.INTER_AREA).astype(np.uint8)
+
+
+def page_height(run: RecordedRun) -> int:
+    """How many pixels high the picture is: square, or lower where the arena is long."""
+    if not run.task.scene.is_bounded:
+        return PICTURE_PIXELS
+    x, y = np.add(half_sides(run.task.scene), WALL_UNITS)
+    return min(PICTURE_PIXELS, TOP_PIXELS + BOTTOM_PIXELS + round((PICTURE_PIXELS - 2 * SIDE_PIXELS) * y / x))
 
 
 def view_of(run: RecordedRun, width: int, height: int) -> Viewport:

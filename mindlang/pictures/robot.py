@@ -1,35 +1,39 @@
-"""The robot of a run: its body, its rays, its claw, its lamps, and where its thrusters push."""
-
-from math import cos, sin
+"""The robot of a run: its body, its claw, its lamps, the wheels of a car, and where its thrusters push."""
 
 import numpy as np
 from mindrun.bodies import BodyKind
-from numpy.typing import ArrayLike, NDArray
 
-from mindlang.pictures.canvas import Canvas
+from mindlang.pictures.canvas import Canvas, rectangle
+from mindlang.pictures.pose import Floats, placed
 from mindlang.pictures.recorded_run import RecordedRun
+from mindlang.pictures.sensing import draw_rays, draw_spots, draw_touches
 from mindlang.pictures.theme import Theme
 
-Floats = NDArray[np.float64]
+LIT_COMMAND = 0.5  # of a lamp: above it, it throws a beam
+BEAM_UNITS, BEAM_SLOPE = 5.0, 0.4  # how many of its sides a beam is long, and how fast it widens
+WHEEL_SHARES = 0.16, 0.07  # half of a car's wheel, long and wide: shares of the car's length
 
 
 def draw_robot(canvas: Canvas, run: RecordedRun, theme: Theme, tick: int) -> None:
-    """The robot as it is after a tick: rays, claw, body, and a line that shows its heading."""
+    """The robot as it is after a tick: what it senses, claw, body, and a line that shows its heading."""
     x, y, angle = run.body[tick]
     body = run.graph.body
     if tick:
-        _rays(canvas, run, theme, tick)
+        draw_rays(canvas, run, theme, tick)
         _claw(canvas, run, theme, tick)
+        _jets(canvas, run, theme, tick)
     _outline(canvas, body, run.body[tick], theme)
-    tip = (x + 0.95 * body.front * cos(angle), y + 0.95 * body.front * sin(angle))
+    _wheels(canvas, run, theme, tick)
+    tip = (x + 0.95 * body.front * np.cos(angle), y + 0.95 * body.front * np.sin(angle))
     canvas.line([(x, y), tip], theme.floor, 2.0)
-    if tick:
-        _lamps(canvas, run, theme, tick)
+    _lamps(canvas, run, theme, tick)
+    draw_touches(canvas, run, theme, tick)
+    draw_spots(canvas, run, theme, tick)
 
 
 def _outline(canvas: Canvas, body: BodyKind, pose: Floats, theme: Theme) -> None:
     if body.outline:
-        corners = _placed(body.outline, pose)
+        corners = placed(body.outline, pose)
         canvas.polygon(corners, theme.robot)
         canvas.line(corners, theme.floor, 1.2, closed=True)
     else:
@@ -37,43 +41,55 @@ def _outline(canvas: Canvas, body: BodyKind, pose: Floats, theme: Theme) -> None
         canvas.disc(pose[0], pose[1], body.radius, theme.floor, width=1.2)
 
 
-def _placed(points: ArrayLike, pose: Floats) -> Floats:
-    """Points [n, 2] of the robot in the world."""
-    x, y, angle = pose
-    turned = np.asarray(points, float) @ np.array([(cos(angle), sin(angle)), (-sin(angle), cos(angle))])
-    placed: Floats = turned + np.array([x, y])
-    return placed
+def _wheels(canvas: Canvas, run: RecordedRun, theme: Theme, tick: int) -> None:
+    """The four wheels of a car, the front ones turned."""
+    body = run.graph.body
+    long, wide = (share * 2 * body.front for share in WHEEL_SHARES)
+    for ahead, turn in ((-0.5, 0.0), (0.5, steering_angle(run, tick))):
+        for side in (body.side, -body.side) if body.axle_distance else ():
+            wheel = placed(rectangle(0, 0, long, wide), np.array([ahead * body.axle_distance, side, turn]))
+            shape = placed(wheel, run.body[tick])
+            canvas.polygon(shape, theme.robot)
+            canvas.line(shape, theme.floor, 1.0, closed=True)
+
+
+def steering_angle(run: RecordedRun, tick: int) -> float:
+    """How far a car's front wheels are turned after a tick, counterclockwise: the command that acts is `delay` old."""
+    for number, actuator in enumerate(run.graph.actuators):
+        if actuator.kind.drive == "steering":
+            sent = tick - 1 - actuator.kind.delay
+            command = float(run.commands[sent, number]) if sent >= 0 else actuator.kind.neutral
+            return (1 - 2 * command) * actuator.kind.row(run.graph.body)["turn"]
+    return 0.0
+
+
+def _jets(canvas: Canvas, run: RecordedRun, theme: Theme, tick: int) -> None:
+    """What each thruster throws, away from where it pushes, as long as its force is strong."""
+    body, pose = run.graph.body, run.body[tick]
+    for number, actuator in enumerate(run.graph.actuators):
+        if (push := actuator.kind.push(body)) is not None:
+            at, way = (np.array(each) for each in push)
+            force = 2 * float(run.commands[tick - 1, number]) - 1
+            canvas.line(placed([at, at - way * force * body.side], pose), theme.lamp, 4.0)
 
 
 def _lamps(canvas: Canvas, run: RecordedRun, theme: Theme, tick: int) -> None:
-    """A glow for each lamp, the first in the middle, as bright as its command."""
+    """The lamps side by side in front, each as bright as its command; one that is lit throws a beam."""
     lamps = [number for number, actuator in enumerate(run.graph.actuators) if actuator.kind.is_light]
-    radius = run.graph.body.side / (2 + len(lamps))
+    body, pose = run.graph.body, run.body[tick]
+    size = 0.7 * body.side / (2 + len(lamps))
     for place, number in enumerate(lamps):
-        (x, y), bright = (
-            _placed([(-2.0 * radius * place, 0.0)], run.body[tick])[0],
-            float(run.commands[tick - 1, number]),
-        )
-        canvas.disc(x, y, 0.7 * radius, theme.floor)
-        canvas.disc(x, y, 0.7 * radius, theme.lamp, bright)
-        canvas.disc(x, y, 1.6 * radius, theme.lamp, 0.4 * bright)
-
-
-def _rays(canvas: Canvas, run: RecordedRun, theme: Theme, tick: int) -> None:
-    x, y, angle = run.body[tick]
-    for sensor in run.graph.sensors:
-        rows = slice(sensor.start, sensor.start + sensor.width)
-        if not sensor.kind.rays or not run.readings[:, rows].any():  # nobody reads it
-            continue
-        for at, reading in zip(sensor.kind.rays, run.readings[tick - 1, rows], strict=True):
-            if sensor.kind.pierces and reading == 1.0:  # how far an eye saw is not known: something may be in the way
-                continue
-            way = np.array([cos(angle + at), sin(angle + at)])
-            rim = run.graph.body.rim(at)
-            end = (x, y) + way * (rim + float(reading) * sensor.kind.reach)
-            canvas.line([(x, y) + way * rim, end], theme.ray, 1.0, 0.3 + 0.4 * (reading < 1.0))
-            if reading < 1.0:
-                canvas.disc(end[0], end[1], 2.5 * canvas.pen / canvas.view.scale, theme.ray)
+        kind = run.graph.actuators[number].kind
+        bright = float(run.commands[tick - 1, number]) if tick else kind.neutral
+        ahead, aside = 0.6 * body.front, ((len(lamps) - 1) / 2 - place) * 2.4 * size
+        if bright > LIT_COMMAND:
+            far, wide = BEAM_UNITS * body.side, BEAM_SLOPE * BEAM_UNITS * body.side
+            ends = [(ahead + far, aside - wide), (ahead + far, aside + wide)]
+            canvas.polygon(placed([(ahead, aside), *ends], pose), theme.lamp, 0.35 * bright)
+        [(x, y)] = placed([(ahead, aside)], pose)
+        canvas.disc(x, y, size, theme.floor)
+        canvas.disc(x, y, size, theme.lamp, bright)
+        canvas.disc(x, y, 1.9 * size, theme.lamp, 0.4 * bright)
 
 
 def _claw(canvas: Canvas, run: RecordedRun, theme: Theme, tick: int) -> None:
@@ -83,4 +99,4 @@ def _claw(canvas: Canvas, run: RecordedRun, theme: Theme, tick: int) -> None:
             apart = 0.35 if run.commands[tick - 1, number] > 0.5 else 0.75
             for side in (-1.0, 1.0):
                 shape = np.array([(-0.2, 0.5 * side), (0.4, apart * side), (0.9, apart * 0.8 * side)]) * body.side
-                canvas.line(_placed(shape + np.array([body.front, 0.0]), run.body[tick]), theme.robot, 2.2)
+                canvas.line(placed(shape + np.array([body.front, 0.0]), run.body[tick]), theme.robot, 2.2)

@@ -4,7 +4,7 @@ from collections.abc import Mapping
 from typing import Literal
 
 from mindrun.bodies import BodyKind
-from mindrun.bodies.body import Drive
+from mindrun.bodies.body import Drive, Point
 from mindrun.quantity import Quantity
 from mindrun.registry import base
 
@@ -60,6 +60,10 @@ class ActuatorKind:
     def zero(self) -> float:
         """The command from which a gauge of it begins."""
         return self.neutral
+
+    def push(self, body: BodyKind) -> tuple[Point, Point] | None:
+        """Where on a body it pushes and to where, a vector of length 1; None where no single point is pushed."""
+        return None
 
     def row(self, body: BodyKind) -> Row:
         """What the lanes are told of it on a body: its reach, its noise, how it pushes or steers."""

@@ -41,3 +41,7 @@ class Thruster(Pushing):
     def direction(self) -> Point:
         """Its angle."""
         return cosine(self.facing), sine(self.facing)
+
+    def push(self, body: BodyKind) -> tuple[Point, Point]:
+        """There and thither."""
+        return self.at, self.direction

@@ -56,6 +56,11 @@ class Bumper(Physical):
         return self.at
 
     @property
+    def sector(self) -> float:
+        """The width of each switch."""
+        return self.width_
+
+    @property
     def numbers(self) -> tuple[float, ...]:
         """The cosine of half the width, then cosine and sine of each angle."""
         return cosine(self.width_ / 2), *(f(angle) for angle in self.at for f in (cosine, sine))

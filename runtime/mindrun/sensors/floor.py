@@ -37,6 +37,11 @@ class Floor(Physical):
         return len(self.at)
 
     @property
+    def spots(self) -> tuple[tuple[float, float], ...]:
+        """Its places on the bar."""
+        return tuple((self.ahead, left) for left in self.at)
+
+    @property
     def numbers(self) -> tuple[float, ...]:
         """How far ahead they are, then how far to the left each is."""
         return self.ahead, *self.at

@@ -140,6 +140,16 @@ class SensorKind(AboutThing):
         return self.rays
 
     @property
+    def spots(self) -> tuple[tuple[float, float], ...]:
+        """The points of the floor that it looks at, one for each reading: x ahead of the body's middle, y to its left."""
+        return ()
+
+    @property
+    def sector(self) -> float:
+        """How wide a part of the rim feels a touch around each of its directions, an angle; 0 where none does."""
+        return 0.0
+
+    @property
     def numbers(self) -> tuple[float, ...]:
         """What its lane function reads beside its row: `t.numbers`, from `sensor.number` on."""
         return ()
