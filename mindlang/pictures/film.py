@@ -10,7 +10,7 @@ import numpy as np
 from mindrun.atomic_write import destination, write
 
 from mindlang.pictures.canvas import Canvas, Image, Viewport, blank, pasted, text_width
-from mindlang.pictures.film_page import FilmPage
+from mindlang.pictures.film_layout import FilmLayout
 from mindlang.pictures.hierarchy_panel import Panel
 from mindlang.pictures.names import draw_names
 from mindlang.pictures.path import Path, draw_cross
@@ -64,12 +64,12 @@ class Film:
         """Encode the film into `path`, which is only replaced when it is whole; `wrote` is told of each frame."""
         place = destination(path)
         spare = place.with_name(f".{place.stem}.part{place.suffix}")
-        size = self.page.width, self.page.height
+        size = self.layout.width, self.layout.height
         writer = cv2.VideoWriter(str(spare), cv2.VideoWriter.fourcc(*"mp4v"), self.FPS, size)
         try:
             if not writer.isOpened():
                 raise FilmError(f"{path} cannot be written: OpenCV cannot encode a video there")
-            panel, trail = Panel(self.run, NIGHT, self.page.panel), Path.of(self.run, NIGHT)
+            panel, trail = Panel(self.run, NIGHT, self.layout.panel), Path.of(self.run, NIGHT)
             for number in range(self.frames):
                 writer.write(self.frame(panel, trail, min(self.run.ticks, 1 + round(number * self.step))))
                 wrote()
@@ -83,7 +83,7 @@ class Film:
 
     def frame(self, panel: Panel, trail: Path, tick: int) -> Image:
         """The film's image of a tick."""
-        page = blank(self.page.width, self.page.height, NIGHT.page)
+        page = blank(self.layout.width, self.layout.height, NIGHT.page)
         pasted(page, self._world(trail, tick), 0, 0)
         canvas = Canvas(page, Viewport(0.0, 0.0, 1.0), down=True)
         self._title(canvas, tick)
@@ -92,7 +92,7 @@ class Film:
 
     def _world(self, trail: Path, tick: int) -> Image:
         run, past = self.run, round(TRAIL_SECONDS * self.FPS * self.step)
-        canvas = Canvas(blank(*self.page.world, self._ground), self.view(tick))
+        canvas = Canvas(blank(*self.layout.world, self._ground), self.view(tick))
         draw_floor(canvas, run, NIGHT)
         draw_zones(canvas, run, NIGHT, tick)
         trail.draw(canvas, max(0, tick - past), tick, 2.0)
@@ -105,10 +105,10 @@ class Film:
         return canvas.image
 
     @property
-    def page(self) -> FilmPage:
+    def layout(self) -> FilmLayout:
         """How its images are divided."""
         wide, deep = self._half_sides
-        return FilmPage.of(wide / deep)
+        return FilmLayout.of(wide / deep)
 
     @property
     def _half_sides(self) -> tuple[float, float]:
@@ -122,14 +122,14 @@ class Film:
         """What is seen of the world in a tick."""
         half = np.array(self._half_sides)
         middle = self.run.body[tick, :2] * (not self.run.task.scene.is_bounded)
-        return Viewport.around(middle - half, middle + half, *self.page.world)
+        return Viewport.around(middle - half, middle + half, *self.layout.world)
 
     @property
     def _ground(self) -> tuple[int, int, int]:
         return NIGHT.page if self.run.task.scene.is_bounded else NIGHT.floor
 
     def _title(self, canvas: Canvas, tick: int) -> None:
-        run, left, y = self.run, self.page.left + 24.0, self.page.top + 66.0
+        run, left, y = self.run, self.layout.left + 24.0, self.layout.top + 66.0
         canvas.text(left, y - 28, run.task.name, 17, NIGHT.ink, bold=True)
         said: list[str] = [
             f"{tick * run.graph.tick:.1f} s",
@@ -139,8 +139,8 @@ class Film:
             f"seed {self.found['seed']}",
         ]
         for text in said:
-            if left + text_width(text, 11) > self.page.width - 12:
-                left, y = self.page.left + 24.0, y + 22
+            if left + text_width(text, 11) > self.layout.width - 12:
+                left, y = self.layout.left + 24.0, y + 22
             left += canvas.text(left, y, text, 11, NIGHT.faint) + 22
 
 

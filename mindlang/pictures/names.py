@@ -4,6 +4,8 @@ from collections import Counter
 from collections.abc import Iterable, Iterator
 from typing import NamedTuple
 
+import numpy as np
+
 from mindlang.pictures.canvas import Canvas, text_width
 from mindlang.pictures.recorded_run import RecordedRun
 from mindlang.pictures.scene import each_thing
@@ -36,7 +38,7 @@ class Label(NamedTuple):
 
 
 def draw_names(canvas: Canvas, run: RecordedRun, theme: Theme, tick: int) -> None:
-    """The name of each thing in sight: below it, or where neither the robot nor another name is.
+    """The name of each thing in sight: below it, or where neither the robot nor a thing nor another name is.
 
     Of many things of one name the first alone has it.
     """
@@ -45,10 +47,12 @@ def draw_names(canvas: Canvas, run: RecordedRun, theme: Theme, tick: int) -> Non
     sight = Label(left, top - height * pixel, width * pixel, height * pixel)
     high, gap = NAME_PIXELS * canvas.pen * pixel, GAP_PIXELS * canvas.pen * pixel
     (x, y, _), radius = run.body[tick], run.graph.body.radius
-    taken = [Label(x - radius, y - radius, 2 * radius, 2 * radius)]
+    each = list(each_thing(run, theme, tick))
+    squares = [np.array((x, y, 2 * radius)), *(place for thing, _, place in each if not thing.kind.is_area)]
+    taken = [Label(x - side / 2, y - side / 2, side, side) for x, y, side in squares]
     many = Counter(thing.name for thing in run.contents)
     named: set[str] = set()
-    for thing, _, (x, y, size) in each_thing(run, theme, tick):
+    for thing, _, (x, y, size) in each:
         is_in_sight = Label(x, y, 0.0, 0.0).is_within(sight)
         if not is_in_sight or (thing.name in named and many[thing.name] > MAX_NAMED_COPIES):
             continue
@@ -57,7 +61,7 @@ def draw_names(canvas: Canvas, run: RecordedRun, theme: Theme, tick: int) -> Non
         middle = min(max(x, left + wide / 2), left + width * pixel - wide / 2)
         places = _places(Label(middle - wide / 2, y - size / 2 - gap - high, wide, high), x, y, size, gap)
         label = free(places, taken, sight)
-        taken.append(label)
+        taken.append(label._replace(low=label.low - gap / 2, height=high + gap))
         canvas.text(label.left, label.low, thing.name, NAME_PIXELS, theme.ink, halo=theme.floor)
 
 

@@ -28,7 +28,7 @@ PLAIN_MARGIN_UNITS = 6.0  # around a plain scene
 
 def picture(run: RecordedRun, found: dict[str, Any]) -> Image:
     """The picture of a run with the outcome `found`."""
-    height = page_height(run)
+    height = height_of(run)
     page = blank(SCALE_FACTOR * PICTURE_PIXELS, SCALE_FACTOR * height, PAPER.page)
     wide = SCALE_FACTOR * (PICTURE_PIXELS - 2 * SIDE_PIXELS)
     high = SCALE_FACTOR * (height - TOP_PIXELS - BOTTOM_PIXELS)
@@ -41,12 +41,12 @@ def picture(run: RecordedRun, found: dict[str, Any]) -> Image:
     return cv2.resize(page, (PICTURE_PIXELS, height), interpolation=cv2.INTER_AREA).astype(np.uint8)
 
 
-def page_height(run: RecordedRun) -> int:
+def height_of(run: RecordedRun) -> int:
     """How many pixels high the picture is: square, or lower where the arena is long."""
     if not run.task.scene.is_bounded:
         return PICTURE_PIXELS
     x, y = np.add(half_sides(run.task.scene), WALL_UNITS)
-    return min(PICTURE_PIXELS, TOP_PIXELS + BOTTOM_PIXELS + round((PICTURE_PIXELS - 2 * SIDE_PIXELS) * y / x))
+    return min(PICTURE_PIXELS, TOP_PIXELS + BOTTOM_PIXELS + round((PICTURE_PIXELS - 2 * SIDE_PIXELS) * float(y / x)))
 
 
 def view_of(run: RecordedRun, width: int, height: int) -> Viewport:

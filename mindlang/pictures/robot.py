@@ -54,11 +54,10 @@ def _wheels(canvas: Canvas, run: RecordedRun, theme: Theme, tick: int) -> None:
 
 
 def steering_angle(run: RecordedRun, tick: int) -> float:
-    """How far a car's front wheels are turned after a tick, counterclockwise: the command that acts is `delay` old."""
+    """How far a car's front wheels are turned after a tick, counterclockwise."""
     for number, actuator in enumerate(run.graph.actuators):
         if actuator.kind.drive == "steering":
-            sent = tick - 1 - actuator.kind.delay
-            command = float(run.commands[sent, number]) if sent >= 0 else actuator.kind.neutral
+            command = float(run.commands[tick - 1, number]) if tick else actuator.kind.neutral
             return (1 - 2 * command) * actuator.kind.row(run.graph.body)["turn"]
     return 0.0
 

@@ -5,16 +5,16 @@ from mindrun.weights import reachable
 
 
 def default_task(graph: Graph) -> tuple[Task, str]:
-    """The task on which the master is taught, else one of its name, else one on which a skill below it is taught.
+    """The task on which the master is taught, else one of its name on which no skill is, but others are elsewhere.
 
-    Else, and where nothing is taught at all, the first. And, where a lesson could have said another, a sentence why it
-    is this one. The mind has a task.
+    Else one on which a skill below it is taught, else the first. And, where a lesson could have said another, a
+    sentence why it is this one. The mind has a task.
     """
     tasks = {task.name: task for task in graph.tasks}
     taught = {lesson.master: lesson.task for lesson in reversed(graph.lessons)}  # the first lesson under each
     if graph.master in taught:
         return tasks[taught[graph.master]], ""
-    if graph.lessons and graph.master in tasks:
+    if graph.lessons and graph.master in tasks.keys() - taught.values():
         return tasks[graph.master], _why(graph, f"{graph.master}, which has its name")
     for skill in reachable(graph, graph.master):
         if skill.name in taught:

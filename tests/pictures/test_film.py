@@ -8,13 +8,15 @@ import pytest
 
 from mindlang.compiler.compile import load
 from mindlang.pictures.canvas import text_width
-from mindlang.pictures.film import FILM_HEIGHT, FILM_WIDTH
+from mindlang.pictures.film_layout import FILM_HEIGHT, FILM_WIDTH, FilmLayout
 from mindlang.pictures.hierarchy_panel import MAX_TEXT_PIXELS, fitting
 from mindlang.pictures.influence_flow import Flow, Link
 from mindlang.pictures.layout import Layout, Place
 from mindlang.pictures.recorded_run import record_run
+from mindlang.pictures.scene import WALL_UNITS
+from mindlang.pictures.theme import NIGHT
 from mindlang.run.setup import set_up
-from tests.calling import Call
+from tests.calling import RULES, Call
 
 
 def test_a_film_has_its_frames(mindc: Call, rules: Path) -> None:
@@ -30,6 +32,38 @@ def test_a_film_has_its_frames(mindc: Call, rules: Path) -> None:
     assert frames[0].shape == (FILM_HEIGHT, FILM_WIDTH, 3)
     assert np.abs(frames[0].astype(int) - frames[-1]).max() > 50
     assert sorted(file.suffix for file in rules.parent.iterdir()) == [".mind", ".mp4"]
+
+
+@pytest.mark.parametrize(
+    ("ratio", "world", "size"),
+    [
+        (1.0, (720, 720), (1280, 720)),
+        (4 / 3, (720, 540), (1280, 540)),
+        (3.0, (1280, 426), (1280, 752)),
+        (1 / 3, (240, 720), (1280, 720)),
+        (0.01, (240, 720), (1280, 720)),
+        (100.0, (1280, 12), (1280, 338)),
+    ],
+)
+def test_the_world_of_a_film_has_the_proportions_of_its_arena(
+    ratio: float, world: tuple[int, int], size: tuple[int, int]
+) -> None:
+    layout = FilmLayout.of(ratio)
+    assert (layout.world, (layout.width, layout.height)) == (world, size)
+    panel = layout.panel
+    assert layout.left <= panel.x <= panel.x + panel.width <= layout.width
+    assert layout.top <= panel.y <= panel.y + panel.height <= layout.height
+    assert panel.x >= world[0] or panel.y >= world[1]
+
+
+def test_a_film_of_a_long_arena_has_no_blank_beside_its_world(mindc: Call, rules: Path) -> None:
+    rules.write_text(RULES.replace("arena size 40", "arena size 60 20").replace("grid 10 ", "count 2 "))
+    path = rules.with_name("run.mp4")
+    assert mindc("run", rules, "--task", "Roam", "--seed", 3, "--video", path, "--speed", 20).code == 0
+    _, frame = cv2.VideoCapture(str(path)).read()
+    wide, high = FilmLayout.of((60 + 4 * WALL_UNITS) / (20 + 4 * WALL_UNITS)).world
+    for row, column in ((high // 2, 20), (high // 2, wide - 20), (20, wide // 2), (high - 20, wide // 2)):
+        assert np.abs(frame[row, column].astype(int) - NIGHT.wall).max() < 40
 
 
 def test_a_speed_is_a_number(mindc: Call, rules: Path) -> None:

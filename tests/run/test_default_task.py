@@ -43,6 +43,7 @@ WHY = "no lesson is under {}, so the task is {}; --task names another"
     [
         ("Roam", ["Turn on Chase", "Roam on Roam", "Roam on Chase"], "Roam", ""),
         ("Over", ["Turn on Chase", "Roam on Roam"], "Roam", WHY.format("Over", "Roam, on which Roam is taught")),
+        ("Roam", ["Over on Chase", "Turn on Roam"], "Roam", WHY.format("Roam", "Roam, on which Turn is taught")),
         ("Roam", ["Over on Chase", "Turn on Chase"], "Roam", WHY.format("Roam", "Roam, which has its name")),
         ("Turn", ["Roam on Roam"], "Chase", WHY.format("Turn", "Chase, the first")),
         ("Roam", [], "Chase", ""),
@@ -64,6 +65,6 @@ def test_it_is_said_before_the_run(mindc: Call, rules: Path) -> None:
     mindc("run", rules, "--seed", 3)  # so that the simulator is compiled
     rules.write_text(RULES + IDLE)
     said = mindc("run", rules, "--seed", 3)
-    assert (said.code, said.err) == (0, f"note: {WHY.format('Roam', 'Roam, which has its name')}\n")
+    assert (said.code, said.err) == (0, f"note: {WHY.format('Roam', 'Chase, the first')}\n")
     assert mindc("run", rules, "--seed", 3, "--task", "Chase").err == ""
     assert mindc("run", rules, "--seed", 3, "--quiet").err == ""

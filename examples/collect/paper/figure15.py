@@ -9,7 +9,8 @@ import numpy as np
 from measure import compiled
 
 from mindlang.pictures.canvas import Image, Viewport
-from mindlang.pictures.film import FILM_HEIGHT, FILM_WIDTH, Film
+from mindlang.pictures.film import Film
+from mindlang.pictures.film_layout import FILM_HEIGHT
 from mindlang.pictures.hierarchy_panel import Panel
 from mindlang.pictures.path import Path as Trail
 from mindlang.pictures.recorded_run import RecordedRun, record_run
@@ -78,7 +79,7 @@ def passages(recorded: RecordedRun) -> Iterator[tuple[int, int]]:
 
 def strip(film: Film, ticks: list[int]) -> Image:
     """The frames of some ticks one below the other."""
-    panel = Panel(film.run, NIGHT, FILM_HEIGHT + 8, 86, FILM_WIDTH - FILM_HEIGHT - 16, FILM_HEIGHT - 96)
+    panel = Panel(film.run, NIGHT, film.layout.panel)
     trail = Trail.of(film.run, NIGHT)
     frames = [film.frame(panel, trail, tick) for tick in ticks]
     return np.concatenate(

@@ -141,7 +141,7 @@ class SensorKind(AboutThing):
 
     @property
     def spots(self) -> tuple[tuple[float, float], ...]:
-        """The points of the floor that it looks at, one for each reading: x ahead of the body's middle, y to its left."""
+        """The points of the floor that it looks at, one for each reading: x ahead of the body, y to its left."""
         return ()
 
     @property

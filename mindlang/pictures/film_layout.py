@@ -12,7 +12,7 @@ LOW_PANEL_PIXELS = 240  # the height of a hierarchy below its world
 
 
 @dataclass(frozen=True, slots=True)
-class FilmPage:
+class FilmLayout:
     """The size of a film's images, that of the world in their upper left corner, and where all else begins."""
 
     width: int
@@ -22,7 +22,7 @@ class FilmPage:
     top: int
 
     @classmethod
-    def of(cls, ratio: float) -> "FilmPage":
+    def of(cls, ratio: float) -> "FilmLayout":
         """The page for a world so many times as wide as deep. Video needs even numbers."""
         if ratio > LONG_RATIO:
             high = _even(FILM_WIDTH / ratio)
