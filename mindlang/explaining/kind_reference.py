@@ -15,7 +15,7 @@ ABOUT = """\
 # Kinds
 
 What stands behind `is` in a `.mind` ([language.md](language.md)), what its readings or commands mean, and what it
-takes. Made from the kinds themselves: UPDATE=1 pytest tests/explain/test_kind_page.py
+takes. Made from the kinds themselves: UPDATE=1 pytest tests/explain/test_kind_reference.py
 """
 
 

@@ -5,7 +5,7 @@ import os
 import pytest
 from mindrun.registry import arguments, kinds
 
-from mindlang.explaining.kind_page import NOUNS, all_kinds
+from mindlang.explaining.kind_reference import NOUNS, all_kinds
 from tests.project.sources import ROOT
 
 PUBLISHED = ROOT / "docs" / "kinds.md"
