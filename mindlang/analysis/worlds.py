@@ -94,8 +94,8 @@ def any_world(study: Study) -> AnalysedWorld:
 
 def _named(tasks: Iterable[Task]) -> frozenset[str]:
     """The things that sensors can be about."""
-    things = (thing for task in tasks for thing in task.things)
-    return frozenset(thing.name for thing in things if not thing.kind.is_obstacle)
+    things = ((thing, task.scene) for task in tasks for thing in task.things)
+    return frozenset(thing.name for thing, scene in things if not thing.kind.is_obstacle or thing.kind.obstacles(scene))
 
 
 def _charges(tasks: Iterable[Task]) -> bool:

@@ -20,7 +20,7 @@ def draw_rays(canvas: Canvas, run: RecordedRun, theme: Theme, tick: int) -> None
         if not sensor.kind.rays or not run.readings[:, rows].any():  # nobody reads it
             continue
         for at, reading in zip(sensor.kind.rays, run.readings[tick - 1, rows], strict=True):
-            if sensor.kind.pierces and reading == 1.0:  # how far an eye saw is not known: something may be in the way
+            if sensor.kind.thing and reading == 1.0:  # how far an eye saw is not known: something may be in the way
                 continue
             way = np.array([np.cos(angle + at), np.sin(angle + at)])
             rim = run.graph.body.rim(at)

@@ -124,6 +124,31 @@ def nearest(s: Any, sensor: Any, n: Any) -> Any:
     return found
 
 
+def find_nearest_point(s: Any, sensor: Any, n: Any) -> None:
+    """The same of a sensor's boxes, into `s.nearest`: the point of any of them that is nearest to the robot's middle.
+
+    It has no size. The first where two are as near; the middle itself where that is in a box.
+    """
+    found, asked = s.nearest, -2 - sensor.box
+    if s.nearest_of[0] == asked:
+        return
+    s.nearest_of[0] = asked
+    for p in range(n):
+        x, y, least, to_x, to_y = s.body[X, p], s.body[Y, p], np.inf, np.nan, np.nan
+        for b in range(sensor.box, sensor.box + sensor.boxes):
+            box = BOX_COLUMNS * b
+            low, high = s.boxes[p, box + X] - s.boxes[p, box + HALF_X], s.boxes[p, box + X] + s.boxes[p, box + HALF_X]
+            near_x = low if x < low else (high if x > high else x)
+            low, high = s.boxes[p, box + Y] - s.boxes[p, box + HALF_Y], s.boxes[p, box + Y] + s.boxes[p, box + HALF_Y]
+            near_y = low if y < low else (high if y > high else y)
+            dx, dy = near_x - x, near_y - y
+            square = dx * dx + dy * dy
+            closer = square < least
+            to_x, to_y = near_x if closer else to_x, near_y if closer else to_y
+            least = square if closer else least
+        found[X, p], found[Y, p], found[SIZE, p], found[DISTANCE, p] = to_x, to_y, 0.0, np.sqrt(least)
+
+
 LANES = 16  # side by side, as one value
 
 

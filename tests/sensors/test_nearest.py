@@ -1,17 +1,23 @@
 """Several things of one name: a sensor speaks of the nearest, or of any of them; what has vanished is not there."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from types import SimpleNamespace
 
 import numpy as np
 from hypothesis import given
 from hypothesis import strategies as st
-from mindrun.arithmetic import DISTANCE, THING_ROWS, nearest
-from mindrun.graph import Task, Thing
+from mindrun.arithmetic import DISTANCE, HALF_X, THING_ROWS, nearest
+from mindrun.graph import Reward, Task, Thing
+from mindrun.policy import Policy
+from mindrun.quantity import Span
 from mindrun.scenes import Arena
 from mindrun.sensors import Bearing, Contact, Held, Inside
-from mindrun.sim.task_rows import rows_by_name, things_of
-from mindrun.things import Item, Obstacle, ThingKind, Zone
+from mindrun.sim.rollout import Rollout
+from mindrun.sim.task_rows import boxes_by_name, rows_by_name, things_of
+from mindrun.sim.trace import trace
+from mindrun.things import Item, Map, Obstacle, ThingKind, Wall, Zone
+
+from tests.minds import always, mind, rule
 
 AWAY = st.sampled_from([0.0, 1.0, 1.0, 2.0, 3.0, np.nan])
 
@@ -32,7 +38,7 @@ def state(distances: list[float], things: int, first: int = 0, count: int | None
         readings=np.zeros((1, 1), np.float32), held=np.array([-1]),
         body=np.zeros((6, 1)), heading=np.array([[1.0], [0.0]]),
     )  # fmt: skip
-    return lanes, SimpleNamespace(thing=first, things=things - first if count is None else count, start=0)
+    return lanes, SimpleNamespace(thing=first, things=things - first if count is None else count, boxes=0, start=0)
 
 
 @given(st.lists(AWAY, min_size=1, max_size=6), st.data())
@@ -53,6 +59,23 @@ def test_what_has_copies_has_as_many_rows() -> None:
     assert [thing.name for thing in things_of(task)] == ["home", "gem", "gem", "gem", "coin"]
     assert rows_by_name(task) == {"": range(-1, -1), "home": range(1), "gem": range(1, 4), "coin": range(4, 5)}
     assert ThingKind.copies.fget(Item()) == 1  # type: ignore[attr-defined]
+
+
+def test_what_is_solid_has_the_boxes_that_are_drawn_for_it() -> None:
+    """Each name is told by the size of its boxes, wherever it stands among the others."""
+    things = (
+        Thing("stone", Obstacle(Span(3.0, 3.0), count=2)), Thing("rock", Obstacle(Span(1.0, 1.0), grid=15.0)),
+        Thing("gem", Item()), Thing("fence", Wall(((-9.0, 5.0), (9.0, 5.0), (9.0, 9.0)), 0.5)),
+        Thing("block", Obstacle(Span(2.0, 2.0), at=((0.0, -9.0), (7.0, -9.0)))), Thing("none", Obstacle(grid=90.0)),
+        Thing("maze", Map(("#.", "..", ".#"), 1.25)),
+    )  # fmt: skip
+    graph = replace(mind(rule("Top", always("actuator", 0, 0.9))), tasks=(world := Task(
+        "World", Arena(40.0), things, 9, (), (), (), (Reward("", (("number", 1.0),), None),), ()),))  # fmt: skip
+    boxes = trace(Rollout(Policy(graph, {}), "World", "Top"), 3).boxes
+    found = boxes_by_name(world)
+    thin = {name: {2 * min(box[HALF_X:]) for box in boxes[rows.start : rows.stop]} for name, rows in found.items()}
+    assert thin == {"stone": {3.0}, "rock": {1.0}, "fence": {0.5}, "block": {2.0}, "none": set(), "maze": {1.25}}
+    assert sum(map(len, found.values())) == len(boxes) == 2 + 4 + 2 + 2 + 2
 
 
 def test_it_is_held_where_one_of_its_name_is() -> None:
@@ -77,7 +100,7 @@ def test_it_is_inside_and_in_contact_where_one_of_its_name_is() -> None:
 def test_a_bearing_points_to_the_nearest_within_range() -> None:
     lanes, _ = state([9.0, 2.0, 4.0], 3)
     lanes.things[0::THING_ROWS, 0], lanes.things[1::THING_ROWS, 0] = (9.0, 0.0, -4.0), (0.0, 2.0, 0.0)
-    sensor = SimpleNamespace(thing=0, things=3, start=0, range=3.0, dead_zone=np.float32(0))
+    sensor = SimpleNamespace(thing=0, things=3, boxes=0, start=0, range=3.0, dead_zone=np.float32(0))
     Bearing.lane(None, lanes, 1, 0, sensor)
     assert lanes.readings[0, 0] == np.float32(0.25)
     sensor.range = 1.9

@@ -13,7 +13,7 @@ from mindrun.arithmetic import DISTANCE, LOOSE_ROWS, THING_ROWS
 from mindrun.graph import Graph, Reward, Sensor
 from mindrun.policy import Policy
 from mindrun.registry import kinds
-from mindrun.sensors import Physical, SensorKind
+from mindrun.sensors import Bearing, Physical, SensorKind
 from mindrun.sensors.bumper import Bumper
 from mindrun.sensors.clock import Clock
 from mindrun.sensors.distance import Distance
@@ -52,6 +52,9 @@ class Place:
     there: bool = True
     turned: float | None = None  # how far the thing is, if it is loose
     halves: tuple[float, float] | None = None  # of the sides of a rectangular robot
+    of_boxes: bool = False  # whether the sensor is about the boxes
+    ball: tuple[float, float, float] | None = None  # place and size of another thing that is loose
+    crate: tuple[float, float, float, float] | None = None  # the same, and how far it is turned
 
     def reads(self, kind: Any) -> list[float]:
         """The readings of a sensor."""
@@ -64,23 +67,31 @@ class Place:
         front, side = self.halves or (1.0, 1.0)
         outline = {"front": front, "side": side, "radius": np.hypot(front, side) if self.halves else 1.0}
         world = SimpleNamespace(**outline, is_round=not self.halves, half_x=self.half, half_y=self.half)
+        there = self.turned is not None, self.ball is not None, self.crate is not None
+        round_ = self.is_round, True, False
+        loose = [SimpleNamespace(thing=i, is_round=round_[i]) for i in range(3) if there[i]]
+        angles = self.turned or 0.0, 0.0, (self.crate or (0.0,))[-1]
+        turns = [angle for angle, is_there in zip(angles, there, strict=True) if is_there]
         tables = SimpleNamespace(
             world=[world],
             things=[SimpleNamespace(is_round=self.is_round, loose=-1)],
-            loose=[] if self.turned is None else [SimpleNamespace(thing=0, is_round=self.is_round)],
+            loose=loose,
             numbers=np.array(kind.numbers), rays=np.array(columns),
             rims=np.ones(len(kind.rays), F),
         )  # fmt: skip
+        others = *(self.ball or (0.0, 0.0, 0.0)), 0.0, *(self.crate or (0.0, 0.0, 0.0))[:3], 0.0
         senses = SimpleNamespace(
             body=np.array([x, y, self.angle, *self.speeds])[:, None],
             heading=np.array([[cosine(self.angle)], [sine(self.angle)]]),
-            things=np.array([*self.at, self.size, way])[:, None], nearest=np.zeros((THING_ROWS, 1)),
+            things=np.array([*self.at, self.size, way, *others])[:, None], nearest=np.zeros((THING_ROWS, 1)),
             nearest_of=np.array([-1]), frame=np.zeros((FRAME_ROWS, 1), F),
-            loose=np.full((LOOSE_ROWS, 1), self.turned or 0.0),
+            loose=np.repeat([*turns, 0.0], LOOSE_ROWS)[:, None],
             readings=np.zeros((kind.width, 1), F), boxes=boxes[None], nearby=boxes[:, None],
             nearby_count=[len(self.boxes)], sight=sight, tick=np.array([90]),
         )  # fmt: skip
-        row = {"start": 0, "width": kind.width, "thing": 0, "things": int(self.there), "ray": 0, "number": 0}
+        things, seen = int(self.there and not self.of_boxes), len(self.boxes) if self.of_boxes else 0
+        row = {"start": 0, "width": kind.width, "thing": 0, "things": things, "box": 0, "boxes": seen}
+        row |= {"ray": 0, "number": 0}
         scene = SimpleNamespace(tick=TICK, starts={})
         with np.errstate(divide="ignore"):
             kind.lane(tables, senses, 1, 0, SimpleNamespace(**row, **kind.row(scene)))
@@ -110,6 +121,30 @@ class Place:
         (Light("x", range=10.0), Place((10.0, 10.0), boxes=((5.0, 2.9, 1.0),)), [F(1 / 3)]),
         (Light("x", range=10.0), Place((10.0, 10.0), boxes=((5.0, 4.0, 1.0),)), [0.0]),
         (Light("x"), Place((np.nan, np.nan)), [0.0]),
+        (Light("x", range=10.0), Place((10.0, 0.0), ball=(5.0, 1.1, 2.4)), [0.0]),
+        (Light("x", range=10.0), Place((10.0, 0.0), ball=(5.0, 1.3, 2.4)), [0.5]),
+        (Light("x", range=10.0), Place((10.0, 0.0), ball=(11.3, 0.0, 2.4)), [0.5]),
+        (Light("x", range=10.0), Place((10.0, 0.0), ball=(11.1, 0.0, 2.4)), [0.0]),
+        (Light("x", range=10.0), Place((10.0, 0.0), ball=(-1.3, 0.0, 2.4)), [0.5]),
+        (Light("x", range=10.0), Place((10.0, 0.0), ball=(-1.1, 0.0, 2.4)), [0.0]),
+        (Light("x", range=10.0), Place((10.0, 0.0), ball=(np.nan, np.nan, 2.4)), [0.5]),
+        (Light("x", range=10.0), Place((10.0, 0.0), turned=0.0), [0.5]),
+        (Light("x", range=10.0), Place((10.0, 0.0), crate=(5.0, 1.3, 2.0, 0.0)), [0.5]),
+        (Light("x", range=10.0), Place((10.0, 0.0), crate=(5.0, 1.3, 2.0, pi / 4)), [0.0]),
+        (Light("x", range=10.0), Place((10.0, 10.0), crate=(5.0, 3.1, 2.0, 0.0)), [0.0]),
+        (Light("x", range=10.0), Place((10.0, 10.0), crate=(5.0, 3.1, 2.0, -pi / 4)), [F(1 / 3)]),
+        (Light("x", range=10.0), Place((10.0, 0.0), crate=(np.nan, np.nan, 2.0, 0.0)), [0.5]),
+        (Distance("x", range=10.0), Place(boxes=((7.0, 0.0, 1.0), (0.0, -4.0, 1.0)), of_boxes=True), [0.2]),
+        (Distance("x", range=10.0), Place(boxes=((5.0, 6.0, 2.0),), of_boxes=True), [0.4]),
+        (Distance("x", range=10.0), Place(boxes=((0.5, 0.0, 1.0),), of_boxes=True), [0.0]),
+        (Distance("x", range=10.0), Place(boxes=((7.5, 0.0, 1.0),), of_boxes=True, halves=(1.5, 1.0)), [0.5]),
+        (Bearing("x"), Place(boxes=((7.0, 0.0, 1.0), (0.0, -4.0, 1.0)), of_boxes=True), [0.75]),
+        (Bearing("x"), Place(boxes=((9.0, 9.0, 2.0),), of_boxes=True, angle=pi / 2), [0.625]),
+        (Bearing("x", range=2.9), Place(boxes=((0.0, -4.0, 1.0),), of_boxes=True), [0.5]),
+        (Bearing("x"), Place(boxes=((0.5, 0.0, 1.0),), of_boxes=True), [0.5]),
+        (Eye("x", at=(0.0, pi / 2), range=10.0), Place(boxes=((7.0, 0.5, 1.0),), of_boxes=True), [0.5, 1.0]),
+        (Eye("x", at=(0.0,), range=90.0), Place(boxes=((60.0, 0.0, 1.0),), of_boxes=True), [1.0]),
+        (Eye("x", at=(0.0,)), Place(boxes=((0.5, 0.0, 1.0),), of_boxes=True), [0.0]),
         (Light("x"), Place(there=False), [0.0]),
         (Eye("x", at=(0.0, pi / 2), range=16.0), Place((10.0, 0.0)), [0.5, 1.0]),
         (Eye("x", at=(0.0, pi / 2), range=16.0), Place((0.0, 10.0), is_round=False), [1.0, 0.5]),
@@ -181,7 +216,9 @@ def known(graph: Graph) -> World:
     """What is known of its world before anything runs."""
     task = graph.tasks[0]
     is_solid = task.scene.is_bounded or any(thing.kind.is_solid for thing in task.things)
-    names = frozenset(thing.name for thing in task.things if not thing.kind.is_obstacle)
+    names = frozenset(
+        thing.name for thing in task.things if not thing.kind.is_obstacle or thing.kind.obstacles(task.scene)
+    )
     return World(is_solid=is_solid, can_hold=True, things=names)
 
 

@@ -59,22 +59,24 @@ class PlainLoose:
         yield from (self.distance(of, i, angle, more) for i in self.there)
 
     def distance(self, of, i, angle, more):
-        """The same to one of them; infinitely far where the ray passes it."""
-        if i in self.there:
-            body = self.there[i][0]
-            half = of.places[i][2] / 2 + more
-            turned = angle - body.angle
-            c, s = math.cos(turned), math.sin(turned)
-            x, y = (body.position - (of.x, of.y)).rotated(-body.angle)
-            if isinstance(self.kinds[i], things.Ball):
-                ahead, room = x * c + y * s, half**2 - (x * s - y * c) ** 2
-                enter, leave = (ahead - math.sqrt(room), math.inf) if room >= 0 else (0.0, -1.0)
-            else:
-                spans = [sorted(((v - half) / d, (v + half) / d)) for v, d in ((x, c), (y, s)) if abs(d) > 1e-12]
-                enter, leave = max(span[0] for span in spans), min(span[1] for span in spans)
-            if 0 <= enter <= leave:
-                return enter
-        return math.inf
+        """The same to one of them; infinitely far where the ray passes it, or begins in it."""
+        span = self.span(of, i, angle, more) if i in self.there else None
+        return span[0] if span and span[0] >= 0 else math.inf
+
+    def span(self, of, i, angle, more):
+        """Where the line from the robot's centre in a direction enters one of them and where it leaves it, if so."""
+        body = self.there[i][0]
+        half = of.places[i][2] / 2 + more
+        turned = angle - body.angle
+        c, s = math.cos(turned), math.sin(turned)
+        x, y = (body.position - (of.x, of.y)).rotated(-body.angle)
+        if isinstance(self.kinds[i], things.Ball):
+            ahead, room = x * c + y * s, half**2 - (x * s - y * c) ** 2
+            return (ahead - math.sqrt(room), ahead + math.sqrt(room)) if room >= 0 else None
+        spans = [sorted(((v - half) / d, (v + half) / d)) for v, d in ((x, c), (y, s)) if abs(d) > 1e-12]
+        spans += [(math.inf, math.inf) for v, d in ((x, c), (y, s)) if abs(d) <= 1e-12 and abs(v) > half]
+        enter, leave = max(span[0] for span in spans), min(span[1] for span in spans)
+        return (enter, leave) if enter <= leave < math.inf else None
 
     def replace(self, places, changed):
         """What has been moved elsewhere or has vanished."""

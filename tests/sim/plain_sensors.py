@@ -2,6 +2,7 @@
 
 import math
 
+import numpy as np
 from mindrun.sensors.bumper import Bumper
 from mindrun.sensors.distance import Distance
 from mindrun.sensors.eye import Eye
@@ -17,17 +18,17 @@ from tests.sim.plain_bodies import rim_of, side_of
 HAIR = 1e-6  # by which something may be met or missed
 
 
-def sensed(world, kind, all_of):
-    """The readings of a sensor about these things, and what is read where one is lost."""
+def sensed(world, kind, all_of, boxes):
+    """The readings of a sensor about these things or boxes, and what is read where one is lost."""
     body = world.body.body
     ahead = body.velocity.x * math.cos(world.angle) + body.velocity.y * math.sin(world.angle)
     match kind:
         case Distance():
-            return [distance(world, kind, world.nearest(all_of))], 1.0
+            return [distance(world, kind, world.nearest(all_of, boxes))], 1.0
         case Light():
-            return [light(world, kind, world.nearest(all_of))], 0.0
+            return [light(world, kind, world.nearest(all_of), all_of)], 0.0
         case Eye():
-            return [eye(world, kind, all_of, world.angle + at) for at in kind.at], 1.0
+            return [eye(world, kind, all_of, boxes, world.angle + at) for at in kind.at], 1.0
         case TurnRate():
             return [signed(-body.angular_velocity / kind.range, kind.dead_zone)], 0.5
         case Speed():
@@ -64,26 +65,29 @@ def distance(world, kind, place):
     return (min(1.0, max(0.0, value)),) * 2
 
 
-def light(world, kind, place):
-    """The square law, where no box cuts the line; both where it is grazed."""
+def light(world, kind, place, all_of):
+    """The square law, where nothing solid cuts the line; both where it is grazed."""
     if place is None:
         return 0.0, 0.0
     away = math.hypot(place[0] - world.x, place[1] - world.y)
     angle = math.atan2(place[1] - world.y, place[0] - world.x)
-    shaded = [is_cut(world, angle, away + more, more) for more in (HAIR, -HAIR)]
+    shaded = [is_cut(world, angle, away + more, more, all_of) for more in (HAIR, -HAIR)]
     value = 1 / (1 + (away / kind.range) ** 2)
     return 0.0 if shaded[0] else value, 0.0 if shaded[1] else value
 
 
-def is_cut(world, angle, away, more):
-    """Whether a box that is `more` larger lies on the way so far from the robot, or the robot in it."""
-    spans = (crossed(world, (x, y, 2 * wide, 2 * high), angle, more, False) for x, y, wide, high in world.boxes)
+def is_cut(world, angle, away, more, but):
+    """Whether what is solid and `more` larger lies on the way so far from the robot, or the robot in it."""
+    spans = [crossed(world, (x, y, 2 * wide, 2 * high), angle, more, False) for x, y, wide, high in world.boxes]
+    spans += [world.body.loose.span(world, i, angle, more) for i in world.body.loose.there if i not in but]
     return any(span and span[0] <= away and span[1] >= 0 for span in spans)
 
 
-def eye(world, kind, all_of, angle):
-    """What a ray meets first of the things, if nothing solid is before it."""
+def eye(world, kind, all_of, boxes, angle):
+    """What a ray meets first of the things or boxes, if nothing solid is before it."""
     found = []
+    others = [box for box in world.boxes if not any(np.array_equal(box, own) for own in boxes)]
+    loose = [i for i in world.body.loose.there if i not in all_of]
     for more in (1e-3, -1e-3):
         near = math.inf
         for i in all_of:
@@ -91,7 +95,13 @@ def eye(world, kind, all_of, angle):
             span = crossed(world, world.places[i], angle, more, kind_of.is_round or kind_of.is_loose)
             if span and span[1] >= 0:
                 near = min(near, max(0.0, span[0]))
-        for solid in (world.distance(angle, 1e-3, ()), world.distance(angle, -1e-3, ())):
+        for x, y, wide, high in boxes:
+            span = crossed(world, (x, y, 2 * wide, 2 * high), angle, more, False)
+            if span and span[1] >= 0:
+                near = min(near, max(0.0, span[0]))
+        for grown in (1e-3, -1e-3):
+            hiding = [world.body.loose.distance(world, i, angle, grown) for i in loose]
+            solid = world.distance(angle, grown, hiding, others)
             share = (near - rim_of(world.graph.body, angle - world.angle)) / kind.range
             found.append(min(1.0, max(0.0, share)) if near <= solid else 1.0)
     return min(found), max(found)

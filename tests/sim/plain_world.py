@@ -60,13 +60,14 @@ class PlainWorld:
         """A physical sensor's readings as they are: a list of (least, most), and what is read where one is lost."""
         kind = sensor.kind
         all_of = [i for i, thing in enumerate(self.things) if thing.name == getattr(kind, "of", None)]
+        boxes = self.boxes_of(getattr(kind, "of", None))
         match kind:
             case sensors.RangeFinder():
                 return [self.ray(self.angle + at, kind) for at in kind.at], 1.0
             case sensors.Battery():
                 return [(float(f(self.charge)),) * 2], None
             case sensors.Bearing():
-                return [self.bearing(self.nearest(all_of), kind)], 0.5
+                return [self.bearing(self.nearest(all_of, boxes), kind)], 0.5
             case Compass():
                 return [pointed(math.sin(self.angle), math.cos(self.angle), kind.dead_zone)], 0.5
             case sensors.Contact():
@@ -79,12 +80,27 @@ class PlainWorld:
                 moved = math.dist((self.x, self.y), self.trail[0]) / (TRAIL * self.graph.tick * kind.range)
                 return [zoned(min(1.0, moved), kind.dead_zone, 0.0)], 0.0
             case _:
-                return sensed(self, kind, all_of)
+                return sensed(self, kind, all_of, boxes)
         return [(float(value),) * 2], 0.0
 
-    def nearest(self, all_of):
-        """The place of the nearest of these that have not vanished, if any."""
+    def boxes_of(self, name):
+        """The boxes of obstacles of a name: what always stands there comes first, what is anywhere last."""
+        solid = [thing for thing in self.task.things if thing.kind.is_obstacle]
+        fixed = [thing for thing in solid if not isinstance(thing.kind, things.Obstacle)]
+        anywhere = [thing for thing in solid if thing not in fixed and not thing.kind.at and not thing.kind.grid]
+        placed = [thing for thing in solid if thing not in fixed and thing not in anywhere]
+        owners = [
+            thing.name for thing in fixed + placed + anywhere for _ in range(thing.kind.obstacles(self.task.scene))
+        ]
+        return [box for box, owner in zip(self.boxes, owners, strict=True) if owner == name]
+
+    def nearest(self, all_of, boxes=()):
+        """The place of the nearest of these that have not vanished, or the nearest point of boxes, if any."""
         there = [self.places[i] for i in all_of if not math.isnan(self.places[i][0])]
+        there += [
+            (min(max(self.x, x - wide), x + wide), min(max(self.y, y - high), y + high), 0.0)
+            for x, y, wide, high in boxes
+        ]
         return min(there, key=self.away, default=None)
 
     def bearing(self, place, kind):
@@ -102,7 +118,7 @@ class PlainWorld:
         least, most = (min(1.0, max(0.0, (d - rim) / kind.range)) for d in (near, far))
         return zoned(least, kind.dead_zone, 0.0)[0], zoned(most, kind.dead_zone, 0.0)[1]
 
-    def distance(self, angle, more, loose=None):
+    def distance(self, angle, more, loose=None, boxes=None):
         """How far a ray goes among boxes that are `more` larger; one that the robot's centre is in is not seen."""
         c, s = math.cos(angle), math.sin(angle)
         found = math.inf
@@ -110,7 +126,7 @@ class PlainWorld:
             for position, half, direction in ((self.x, self.half[0], c), (self.y, self.half[1], s)):
                 if direction * sign > 1e-12:
                     found = min(found, (sign * half - position) / direction)
-        for x, y, half_x, half_y in self.boxes:
+        for x, y, half_x, half_y in self.boxes if boxes is None else boxes:
             enter, leave = -math.inf, math.inf
             for low, high, direction in (
                 (x - half_x - more - self.x, x + half_x + more - self.x, c),

@@ -4,10 +4,11 @@ from dataclasses import dataclass
 from math import inf
 from typing import Annotated, Any
 
-from mindrun.arithmetic import COSINE, DISTANCE, HALF, SINE, F, X, Y, bearing, nearest
+from mindrun.arithmetic import COSINE, DISTANCE, HALF, SINE, F, X, Y, bearing, find_nearest_point, nearest
 from mindrun.quantity import LENGTH, RATIO, THING
 from mindrun.registry import kind
 from mindrun.sensors.sensor import Physical, Row, Scene, World
+from mindrun.things.thing import ThingKind
 
 
 @kind("sensor", "bearing")
@@ -15,8 +16,8 @@ from mindrun.sensors.sensor import Physical, Row, Scene, World
 class Bearing(Physical):
     """Direction of a thing: 0.5 straight ahead, less on the left, more on the right, the seam behind; 0.5 without it.
 
-    0.5 − atan2(y, x)/2π in the body's frame, of several the nearest's. Within `dead_zone` of straight ahead it reads
-    0.5; with a `range`, a thing farther away than that reads 0.5 too.
+    0.5 − atan2(y, x)/2π in the body's frame, of several the nearest's; of an obstacle, a wall or a map its nearest
+    point's. Within `dead_zone` of straight ahead it reads 0.5; with a `range`, a thing farther away than that, too.
     """
 
     of: Annotated[str, THING]
@@ -26,6 +27,11 @@ class Bearing(Physical):
     circular = True
     scaled = True
     blank = rest = 0.5
+
+    @staticmethod
+    def is_about(kind: type[ThingKind]) -> bool:
+        """Whatever there is."""
+        return True
 
     def constant(self, world: World) -> float | None:
         """0.5 without the thing, and where all directions are in the dead zone."""
@@ -39,11 +45,13 @@ class Bearing(Physical):
     def lane(t: Any, s: Any, n: int, clock: int, sensor: Any) -> None:
         """0.5 − atan2/2π in the body's frame."""
         out = s.readings[sensor.start]
-        if sensor.thing < 0:
+        if sensor.things == 0 and sensor.boxes == 0:
             for p in range(n):
                 out[p] = HALF
             return
-        thing = nearest(s, sensor, n)
+        if sensor.boxes > 0:
+            find_nearest_point(s, sensor, n)
+        thing = s.nearest if sensor.boxes > 0 else nearest(s, sensor, n)
         x, y, away = thing[X], thing[Y], thing[DISTANCE]
         for p in range(n):
             dx, dy = F(x[p] - s.body[X, p]), F(y[p] - s.body[Y, p])

@@ -5,10 +5,11 @@ from typing import Annotated, Any
 
 import numpy as np
 
-from mindrun.arithmetic import COSINE, DISTANCE, ONE, SINE, SIZE, F, X, Y, clamp, nearest
+from mindrun.arithmetic import COSINE, DISTANCE, ONE, SINE, SIZE, F, X, Y, clamp, find_nearest_point, nearest
 from mindrun.quantity import POSITIVE, THING
 from mindrun.registry import kind
 from mindrun.sensors.sensor import Physical, Row, Scene, World
+from mindrun.things.thing import ThingKind
 
 
 @kind("sensor", "distance")
@@ -17,7 +18,7 @@ class Distance(Physical):
     """Distance from the body's rim to that of a thing, of several the nearest: 0 touching, 1 from `range` on or none.
 
     (distance of the middles − where the body ends in that direction − size / 2) / range: a square is taken for the disc
-    in it.
+    in it. Of an obstacle, a wall or a map it is to the nearest point, which has no size.
     """
 
     of: Annotated[str, THING]
@@ -27,6 +28,11 @@ class Distance(Physical):
     near = 0
     blank = 1.0
     remedy = "Let a task contain what it is about"
+
+    @staticmethod
+    def is_about(kind: type[ThingKind]) -> bool:
+        """Whatever there is."""
+        return True
 
     def constant(self, world: World) -> float | None:
         """1 without the thing."""
@@ -40,11 +46,13 @@ class Distance(Physical):
     def lane(t: Any, s: Any, n: int, clock: int, sensor: Any) -> None:
         """The distance of the middles less what lies within the two rims, as a share of `range`."""
         out = s.readings[sensor.start]
-        if sensor.things == 0:
+        if sensor.things == 0 and sensor.boxes == 0:
             for p in range(n):
                 out[p] = ONE
             return
-        thing, body = nearest(s, sensor, n), t.world[0]
+        if sensor.boxes > 0:
+            find_nearest_point(s, sensor, n)
+        thing, body = s.nearest if sensor.boxes > 0 else nearest(s, sensor, n), t.world[0]
         away, size, radius = thing[DISTANCE], thing[SIZE], body.radius
         if body.is_round:
             for p in range(n):

@@ -5,10 +5,26 @@ from typing import Annotated, Any
 
 import numpy as np
 
-from mindrun.arithmetic import COSINE, MAX_FLOAT32, ONE, SINE, SIZE, THING_ROWS, ZERO, F, X, Y, clamp
+from mindrun.arithmetic import (
+    BOX_COLUMNS,
+    COSINE,
+    HALF_X,
+    HALF_Y,
+    MAX_FLOAT32,
+    ONE,
+    SINE,
+    SIZE,
+    THING_ROWS,
+    ZERO,
+    F,
+    X,
+    Y,
+    clamp,
+)
 from mindrun.quantity import ANGLE, POSITIVE, THING
 from mindrun.registry import kind
 from mindrun.sensors.sensor import Physical, Row, Scene, World
+from mindrun.things.thing import ThingKind
 
 
 @kind("sensor", "eye")
@@ -16,8 +32,9 @@ from mindrun.sensors.sensor import Physical, Row, Scene, World
 class Eye(Physical):
     """Distance from the body's rim to a thing, one reading per angle: 0 touching or inside, 1 where the ray meets none.
 
-    A range finder that sees all things of that name and no other; an obstacle or a wall before one hides it. Angles
-    turn counterclockwise from straight ahead. Of a box that can be pushed it sees the disc in it.
+    A range finder that sees all things of that name and no other, obstacles and walls too; whatever is solid before one
+    hides it, but for those of its own name that can be pushed. Angles turn counterclockwise from straight ahead. Of a
+    box that can be pushed it sees the disc in it.
     """
 
     of: Annotated[str, THING]
@@ -25,7 +42,6 @@ class Eye(Physical):
     range: Annotated[float, POSITIVE] = 30.0
 
     scaled = True
-    pierces = True
     near = 0
     blank = 1.0
     remedy = "Let a task contain what it is about"
@@ -44,6 +60,11 @@ class Eye(Physical):
     def reach(self) -> float:
         """Its range."""
         return self.range
+
+    @staticmethod
+    def is_about(kind: type[ThingKind]) -> bool:
+        """Whatever there is."""
+        return True
 
     def constant(self, world: World) -> float | None:
         """1 without the thing."""
@@ -68,7 +89,12 @@ class Eye(Physical):
                 if is_disc:
                     meet_disc(s.sight, s.frame, cosine, sine, out[k], n)
                 else:
-                    meet_square(s.sight, s.frame, cosine, sine, out[k], n)
+                    meet_rectangle(s.sight, s.frame, cosine, sine, out[k], n)
+        for b in range(sensor.box, sensor.box + sensor.boxes):
+            locate_box(s.body, s.boxes, b, s.frame, n)
+            for k in range(sensor.width):
+                cosine, sine = t.rays[COSINE, sensor.ray + k], t.rays[SINE, sensor.ray + k]
+                meet_rectangle(s.sight, s.frame, cosine, sine, out[k], n)
         for k in range(sensor.width):
             solid, rim = s.sight[4 + sensor.ray + k], t.rims[sensor.ray + k]
             for p in range(n):
@@ -76,10 +102,18 @@ class Eye(Physical):
 
 
 def locate(body: Any, thing: Any, frame: Any, n: Any) -> None:
-    """Where a thing is from each robot's middle, and half of its size, in float32."""
+    """Where a thing is from each robot's middle, and half of its size along x and y, in float32."""
     for p in range(n):
         frame[X, p], frame[Y, p] = F(thing[X, p] - body[X, p]), F(thing[Y, p] - body[Y, p])
-        frame[SIZE, p] = F(thing[SIZE, p] / 2)
+        frame[HALF_X, p] = frame[HALF_Y, p] = F(thing[SIZE, p] / 2)
+
+
+def locate_box(body: Any, boxes: Any, b: Any, frame: Any, n: Any) -> None:
+    """The same of box number b."""
+    for p in range(n):
+        box = BOX_COLUMNS * b
+        frame[X, p], frame[Y, p] = F(boxes[p, box + X] - body[X, p]), F(boxes[p, box + Y] - body[Y, p])
+        frame[HALF_X, p], frame[HALF_Y, p] = F(boxes[p, box + HALF_X]), F(boxes[p, box + HALF_Y])
 
 
 def meet_disc(heading: Any, frame: Any, cosine: Any, sine: Any, out: Any, n: Any) -> None:
@@ -87,7 +121,7 @@ def meet_disc(heading: Any, frame: Any, cosine: Any, sine: Any, out: Any, n: Any
     for p in range(n):
         c = heading[COSINE, p] * cosine - heading[SINE, p] * sine
         s = heading[SINE, p] * cosine + heading[COSINE, p] * sine
-        dx, dy, half, before = frame[X, p], frame[Y, p], frame[SIZE, p], out[p]
+        dx, dy, half, before = frame[X, p], frame[Y, p], frame[HALF_X, p], out[p]
         along, aside = c * dx + s * dy, c * dy - s * dx
         inner = half * half - aside * aside
         chord = F(np.sqrt(inner if inner > ZERO else ZERO))
@@ -96,13 +130,13 @@ def meet_disc(heading: Any, frame: Any, cosine: Any, sine: Any, out: Any, n: Any
         out[p] = near if (inner >= ZERO) & (along + chord >= ZERO) & (near < before) else before
 
 
-def meet_square(heading: Any, frame: Any, cosine: Any, sine: Any, out: Any, n: Any) -> None:
-    """The same to a square (the slab method)."""
+def meet_rectangle(heading: Any, frame: Any, cosine: Any, sine: Any, out: Any, n: Any) -> None:
+    """The same to a rectangle (the slab method)."""
     for p in range(n):
         ix = ONE / (heading[COSINE, p] * cosine - heading[SINE, p] * sine)
         iy = ONE / (heading[SINE, p] * cosine + heading[COSINE, p] * sine)
-        dx, dy, half, before = frame[X, p], frame[Y, p], frame[SIZE, p], out[p]
-        left, right, low, high = (dx - half) * ix, (dx + half) * ix, (dy - half) * iy, (dy + half) * iy
+        dx, dy, half_x, half_y, before = frame[X, p], frame[Y, p], frame[HALF_X, p], frame[HALF_Y, p], out[p]
+        left, right, low, high = (dx - half_x) * ix, (dx + half_x) * ix, (dy - half_y) * iy, (dy + half_y) * iy
         enter_x, leave_x = (left, right) if left < right else (right, left)
         enter_y, leave_y = (low, high) if low < high else (high, low)
         enter = enter_x if enter_x > enter_y else enter_y

@@ -95,7 +95,6 @@ class SensorKind(AboutThing):
     scaled = False  # whether its values mean something by themselves, so that they need no calibration
     near: int | None = None  # the reading of what is near
     keeps_lost = False  # whether a reading that fails is the one before, and not `blank`
-    pierces = False  # whether its rays go on through what is loose
     remembered = 0  # how many numbers the lanes keep of each of its readings
     blank, rest = 0.0, 0.0  # what it reads where there is nothing to measure, and in its dead zone
     remedy = "Give it a dead_zone below 0.5"  # for one that is constant

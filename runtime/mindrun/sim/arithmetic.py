@@ -15,6 +15,7 @@ from mindrun.sim.compiling import compiled, inlined
 bearing, clamp = inlined(arithmetic.bearing), inlined(arithmetic.clamp)
 finite, sine_cosine = inlined(arithmetic.finite), inlined(arithmetic.sine_cosine)
 in_claw, inside = compiled(arithmetic.in_claw), compiled(arithmetic.inside)
+find_nearest_point = compiled(arithmetic.find_nearest_point)
 nearest = inlined(arithmetic.nearest)  # which no call can return
 _COMPILED: dict[Any, Callable[..., Any]] = {
     arithmetic.bearing: bearing,
@@ -23,6 +24,7 @@ _COMPILED: dict[Any, Callable[..., Any]] = {
     arithmetic.sine_cosine: sine_cosine,
     arithmetic.in_claw: in_claw,
     arithmetic.inside: inside,
+    arithmetic.find_nearest_point: find_nearest_point,
     arithmetic.nearest: nearest,
     arithmetic.splat: vector.splat,
     arithmetic.broadcast: vector.broadcast,

@@ -51,8 +51,8 @@ def _row(**columns: str) -> np.dtype[Any]:
 
 
 SENSOR = _row(
-    kind="i8", start="i8", width="i8", thing="i8", things="i8", source="i8", ray="i8", number="i8", part="i8",
-    before="i8", turns="i8", code="i8", length="i8", over="i8", low="f4", high="f4",
+    kind="i8", start="i8", width="i8", thing="i8", things="i8", box="i8", boxes="i8", source="i8", ray="i8",
+    number="i8", part="i8", before="i8", turns="i8", code="i8", length="i8", over="i8", low="f4", high="f4",
     range="f8", dead_zone="f4", gain="f4", period="f8",
     is_rough="i8", is_aside="i8", noise="i8", lost="i8", blank="f4", every="i8", delay="i8", wait="i8", held="i8",
     ring="i8",

@@ -15,7 +15,7 @@ from mindrun.sim.codes import SENSOR, sensor_codes
 from mindrun.sim.parameter_rows import Parameters
 from mindrun.sim.programs import Programs
 from mindrun.sim.records import Row, records
-from mindrun.sim.task_rows import NOWHERE, rows_by_name
+from mindrun.sim.task_rows import NOWHERE, boxes_by_name, rows_by_name
 from mindrun.virtual_sensors import scene_of
 
 Array = NDArray[Any]
@@ -66,7 +66,8 @@ def _measured(graph: Graph, rows: set[int]) -> list[Sensor]:
 
 @dataclass(frozen=True, slots=True)
 class Sensed:
-    """Rows of SENSOR, the directions [2, rays] of all rays, where they leave the body, the readings they write.
+    """Rows of SENSOR, the directions [2, rays] of all rays, where they leave the body, the readings they write,
+    the things through which they go on.
 
     Then the numbers of kinds, and how many readings are derived, rough, and wait in their rings.
     """
@@ -75,7 +76,7 @@ class Sensed:
     rays: Array
     rims: Array
     ray_row: Array
-    pierces: Array
+    passes: Array
     numbers: Array
     derived: int
     rough: int
@@ -87,26 +88,28 @@ def sensor_rows(graph: Graph, used: Used, task: Task, programs: Programs, parame
 
     What is measured aside draws its noise from a generator of its own: a reward changes nothing in the world.
     """
-    things = rows_by_name(task)
+    things, boxes = rows_by_name(task), boxes_by_name(task)
     scene, room = scene_of(graph), _Room()
     rows: list[Row] = []
     for is_aside, sensor in [(False, s) for s in used.skills] + [(True, s) for s in used.aside]:
         kind = sensor.kind
-        about = things.get(kind.thing, NOWHERE)
+        about, solid = things.get(kind.thing, NOWHERE), boxes.get(kind.thing, NOWHERE)
         row: dict[str, float] = {
             "kind": sensor_codes()[names()[type(kind)]], "start": sensor.start, "width": sensor.width,
-            "thing": about.start, "things": len(about), "turns": kind.source in scene.circular,
+            "thing": about.start, "things": len(about), "box": solid.start, "boxes": len(solid),
+            "turns": kind.source in scene.circular,
             "is_aside": is_aside, "every": 1,
         }  # fmt: skip
         row["code"], row["length"] = programs.add(placed(kind.formula, scene.starts))
-        rows.append({**row, **room.take(sensor, parameters), **_roughness(sensor, parameters), **kind.row(scene)})
+        taken, roughness = room.take(sensor, about, parameters), _roughness(sensor, parameters)
+        rows.append({**row, **taken, **roughness, **kind.row(scene)})
     turn = np.array(room.rays, np.float64)
     return Sensed(
         rows=records(rows, SENSOR),
         rays=np.array([np.cos(turn), np.sin(turn)], np.float32),
         rims=np.array([graph.body.rim(angle) for angle in room.rays], np.float32),
         ray_row=np.array(room.ray_row, np.int64),
-        pierces=np.array(room.pierces, np.bool_),
+        passes=np.array(room.passes, np.int64).reshape(-1, 2).T.copy(),
         numbers=np.array(room.numbers, np.float64),
         derived=room.before,
         rough=room.held,
@@ -120,13 +123,13 @@ class _Room:
 
     rays: list[float] = field(default_factory=list)
     ray_row: list[int] = field(default_factory=list)
-    pierces: list[bool] = field(default_factory=list)
+    passes: list[tuple[int, int]] = field(default_factory=list)
     numbers: list[float] = field(default_factory=list)
     before: int = 0
     held: int = 0
     ring: int = 0
 
-    def take(self, sensor: Sensor, parameters: Parameters) -> Row:
+    def take(self, sensor: Sensor, about: range, parameters: Parameters) -> Row:
         """Where what a sensor needs begins."""
         kind = sensor.kind
         row = {
@@ -135,7 +138,7 @@ class _Room:
         }  # fmt: skip
         self.rays.extend(kind.rays)
         self.ray_row.extend(range(sensor.start, sensor.start + len(kind.rays)))
-        self.pierces.extend(kind.pierces for _ in kind.rays)
+        self.passes.extend((about.start, about.stop) for _ in kind.rays)
         self.numbers.extend(kind.numbers)
         self.before += sensor.width * kind.remembered
         if isinstance(kind, Physical):

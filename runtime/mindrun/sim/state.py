@@ -54,7 +54,7 @@ class Sight(NamedTuple):
     # for this tick
     sides: Array  # [SIDES·boxes] float32: those of the boxes nearby, relative to the robot
     nearest: Array  # [THING_ROWS] float64: of several things of one name
-    nearest_of: Array  # [1] int64: the first row of these, −1 before any sensor has asked
+    nearest_of: Array  # [1] int64: the first row of these, −2 − the first box, −1 before any sensor has asked
     frame: Array  # [FRAME_ROWS] float32: of the thing that is looked at: how it is turned, where it is, its size
     sight: Array  # [FIRST_RAY + rays] float32: heading and place, then how far each ray goes
 

@@ -48,7 +48,7 @@ class Tables(NamedTuple):
     rays: Array  # [2, rays] float32: cosine and sine of each ray's angle
     rims: Array  # [rays] float32: how far from the robot's middle each ray leaves it
     ray_row: Array  # the row of readings that each ray writes
-    pierces: Array  # whether each ray goes on through what is loose
+    passes: Array  # [2, rays]: the first thing that each ray goes on through, and the one after the last
     numbers: Array  # float64, of the sensors whose kinds say `numbers`
     skills: Array
     inputs: Array  # rows of readings, skill after skill
@@ -115,7 +115,7 @@ def build(
     tables = Tables(
         world=world_row(graph, task, parameters, len(sensed.ray_row), [*used.skills, *used.aside], master),
         sensors=sensed.rows, rays=sensed.rays, rims=sensed.rims, ray_row=sensed.ray_row,
-        pierces=sensed.pierces, numbers=sensed.numbers,
+        passes=sensed.passes, numbers=sensed.numbers,
         skills=skills.rows, inputs=skills.inputs, edges=skills.edges, weights=skills.weights,
         codes=np.array(codes.rows, CODE), actuators=driven, memories=memory_rows(graph),
         things=np.array(thing_rows(graph, task), THING), loose=loose_rows(task, graph.tick, parameters),

@@ -56,6 +56,20 @@ def box_count(task: Task) -> int:
     return sum(thing.kind.obstacles(task.scene) for thing in task.things)
 
 
+def boxes_by_name(task: Task) -> dict[str, range]:
+    """The boxes that each name has in every lane, as they are drawn: walls, what has a place or a grid, all others."""
+    obstacles = [thing for thing in task.things if thing.kind.is_obstacle]
+
+    def turn(thing: Thing) -> int:
+        return 0 if thing.kind.walls else 1 + any(row["count"] for row in thing.kind.rows(task.scene))
+
+    found, last = {}, 0
+    for thing in sorted(obstacles, key=turn):
+        found[thing.name] = range(last, last + thing.kind.obstacles(task.scene))
+        last = found[thing.name].stop
+    return found
+
+
 def thing_rows(graph: Graph, task: Task) -> Array:
     """Rows of THING, the items, zones and powers in the order of the source."""
     rows: list[Row] = []

@@ -6,7 +6,7 @@ from mindrun.things.thing import ThingKind
 
 
 class AboutThing:
-    """Something that may be about a thing of the task: one of any kind but obstacles, which are many."""
+    """Something that may be about a thing of the task: of any kind but obstacles, if it does not say otherwise."""
 
     __slots__ = ()
 

@@ -19,13 +19,14 @@ from mindrun.sim.state import (
 
 @compiled
 def look_at_loose(tables, world, sight, lanes):
-    """Shorten every ray that meets a loose thing and does not go on through it."""
+    """Shorten every ray that meets a loose thing, but for one of those that its own sensor looks for."""
     rows, frame = sight.sight, sight.frame
     for i in range(len(tables.loose)):
         enter_frame(tables, world, frame, i, lanes)
+        thing = tables.loose[i].thing
         for ray in range(len(tables.ray_row)):
             cosine, sine, out = tables.rays[COSINE, ray], tables.rays[SINE, ray], rows[FIRST_RAY + ray]
-            if tables.pierces[ray]:
+            if (tables.passes[0, ray] <= thing) & (thing < tables.passes[1, ray]):
                 continue
             if tables.loose[i].is_round:
                 meet_ball(rows, frame, cosine, sine, out, lanes)
