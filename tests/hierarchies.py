@@ -100,6 +100,7 @@ ROUGH = st.fixed_dictionaries(
         "delay": st.integers(1, 3),
     },
 )
+VIRTUAL = st.sampled_from(["sine", "clock", "derivative", "computed", "latch", "average", "reading"])
 ACTUATORS = [Wheel("left", 0.5), Wheel("right", 0.5, delay=2), Gripper(0.0), Servo(0.3)]
 CALLED = Procedure("")
 PROCEDURES = Path(__file__).parent / "procedures"  # the folder of the modules that are called
@@ -212,8 +213,7 @@ def physical_kinds(draw: st.DrawFn) -> Physical:
 @st.composite
 def _senses(draw: st.DrawFn) -> tuple[tuple[Sensor, ...], tuple[Memory, ...]]:
     """Sensors and memories; derivatives of anything, and of one another."""
-    virtual = st.sampled_from(["sine", "clock", "derivative", "computed", "latch", "average", "reading"])
-    kinds = draw(st.lists(physical_kinds() | physical_kinds() | virtual, min_size=2, max_size=7))
+    kinds = draw(st.lists(physical_kinds() | physical_kinds() | VIRTUAL, min_size=2, max_size=7))
     cells = [Cell(draw(SHARES), draw(SHARES)) for _ in range(draw(st.integers(0, 2)))]
     widths = {f"m{i}": 1 for i in range(len(cells))}
     sensors: list[Sensor] = []
@@ -221,7 +221,7 @@ def _senses(draw: st.DrawFn) -> tuple[tuple[Sensor, ...], tuple[Memory, ...]]:
     for number, kind in enumerate(kinds):
         width = getattr(kind, "width", 1)
         if isinstance(kind, str):
-            width, kind = draw(_virtual(kind, widths))
+            width, kind = draw(virtual_kinds(kind, widths))
         sensors.append(Sensor(f"s{number}", kind, start, width))
         widths[f"s{number}"] = width
         start += width
@@ -230,7 +230,7 @@ def _senses(draw: st.DrawFn) -> tuple[tuple[Sensor, ...], tuple[Memory, ...]]:
 
 
 @st.composite
-def _virtual(draw: st.DrawFn, kind: str, widths: dict[str, int]) -> tuple[int, SensorKind]:
+def virtual_kinds(draw: st.DrawFn, kind: str, widths: dict[str, int]) -> tuple[int, SensorKind]:
     """A sensor that is computed, and how many readings it has; of a source, where there is one."""
     if kind == "clock":
         return 1, Clock(draw(st.sampled_from([0.05, 0.3, 2.0])))

@@ -13,12 +13,13 @@ from mindrun.graph import Graph
 from mindrun.registry import arguments, kinds
 
 from tests.edits.sources import a_mind
-from tests.hierarchies import physical_kinds
+from tests.hierarchies import VIRTUAL, physical_kinds, virtual_kinds
 from tests.sim.worlds import learner_kinds, random_world, robot_kinds
 
 DRAWN = 200  # minds
 NOUNS = ("body", "actuator", "sensor", "memory", "skill", "task", "content", "event", "measure", "curriculum")
 OF_FILES = {"map"}  # which no text says by itself
+WIDTHS = {"s0": 1, "s1": 3, "m0": 1}  # of what sensors are made of
 ONE_VALUE = {("visit", "of"), ("change", "of")}  # the language has a single word for it
 
 Values = dict[tuple[type[Any], str], set[Any]]
@@ -40,7 +41,8 @@ def of_worlds() -> Iterator[Any]:
     """Kinds in worlds that are drawn, and more of those that have too many arguments for so few worlds."""
     for graph in drawn_from(random_world()):
         yield from parts(graph)
-    for some in (physical_kinds(), learner_kinds(), robot_kinds()):
+    virtual = VIRTUAL.flatmap(lambda kind: virtual_kinds(kind, WIDTHS)).map(lambda drawn: drawn[1])
+    for some in (physical_kinds(), virtual, learner_kinds(), robot_kinds()):
         for kinds_ in drawn_from(st.lists(some, min_size=24)):
             yield from kinds_
 
