@@ -11,6 +11,7 @@ from mindlang.pictures.theme import Theme
 
 LIT_COMMAND = 0.5  # of a lamp: above it, it throws a beam
 BEAM_UNITS, BEAM_SLOPE = 5.0, 0.4  # how many of its sides a beam is long, and how fast it widens
+JET_SIDES = 1.6  # how long a thruster's jet is at most: one in the middle of the body is seen, too
 WHEEL_SHARES = 0.16, 0.07  # half of a car's wheel, long and wide: shares of the car's length
 
 
@@ -69,7 +70,7 @@ def _jets(canvas: Canvas, run: RecordedRun, theme: Theme, tick: int) -> None:
         if (push := actuator.kind.push(body)) is not None:
             at, way = (np.array(each) for each in push)
             force = 2 * float(run.commands[tick - 1, number]) - 1
-            canvas.line(placed([at, at - way * force * body.side], pose), theme.lamp, 4.0)
+            canvas.line(placed([at, at - JET_SIDES * body.side * force * way], pose), theme.lamp, 4.0)
 
 
 def _lamps(canvas: Canvas, run: RecordedRun, theme: Theme, tick: int) -> None:

@@ -129,7 +129,7 @@ def test_the_front_wheels_of_a_car_are_turned_as_late_as_their_steering(tmp_path
 
 def test_thrusters_throw_away_from_where_they_push(tmp_path: Path) -> None:
     run = recorded(tmp_path, HOVER)
-    thrown = [placed(way, run.body[-1]) for way in ([(-1, 0), (-2, 0)], [(0, 1), (0, 1)], [(1, 0), (1, 0.5)])]
+    thrown = [placed(way, run.body[-1]) for way in ([(-1, 0), (-2.6, 0)], [(0, 1), (0, 1)], [(1, 0), (1, 0.8)])]
     assert np.allclose(robot(run, 1).of("line", PAPER.lamp), thrown)
 
 
