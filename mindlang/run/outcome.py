@@ -79,9 +79,9 @@ def bench_data(task: Task, scores: Scores, seeds: Sequence[int], seconds: float)
 
 
 def _succeeded(task: Task, scores: Scores) -> NDArray[np.bool_]:
-    """Which runs [genomes, seeds] have ended as a success."""
+    """Which runs [genomes, seeds] are a success: one came before any other end, whether or not it ended them."""
     successes = [number for number, end in enumerate(task.ends) if end.succeeds]
-    return np.isin(scores.ended_by, successes)
+    return np.isin(scores.met, successes)
 
 
 def _spread(of: str, values: NDArray[Any]) -> dict[str, float | None]:

@@ -47,6 +47,21 @@ def test_without_interruption_a_success_happens_once() -> None:
     assert (on.ticks == 2000).all()
 
 
+@pytest.mark.parametrize("other", ["", "  ends on collision\n", "  ends when charge < 39.99%\n"])
+def test_the_share_of_successes_is_the_same_where_nothing_interrupts(other: str) -> None:
+    task = DELIVERIES + "  succeeds on 1 reach of object\n" + other
+    share = [
+        bench_data(
+            rollout(task).task, rollout(task, interrupt=on).score(np.zeros((1, 0), np.float32), range(8)), range(8), 1.0
+        )["success"]
+        for on in (True, False)
+    ]
+    assert share[0] == share[1]
+    assert share[0]["mean"] > 0 or other.endswith("%\n")
+    one = rollout(task, interrupt=False).score(np.zeros((1, 0), np.float32), [0])
+    assert run_data(rollout(task).task, one)["succeeded"] == (one.met[0, 0] == 0)
+
+
 def test_a_condition_ends_the_run_in_the_tick_in_which_it_holds() -> None:
     task = "task Test in plain\n  contains object is item\n  contains home is zone\n  contains plug is power\n"
     task += "  lasts 900 ticks\n  ends when charge < 45%\n  rewards 1 per tick\n  rewards charge per tick\n"

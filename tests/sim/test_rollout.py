@@ -35,7 +35,7 @@ def some_weights(graph: Graph, seed: int = 0) -> dict[str, np.ndarray]:
 def same(a: Scores, b: Scores) -> bool:
     return all(
         np.array_equal(getattr(a, name), getattr(b, name), equal_nan=True)
-        for name in ("total", "by_line", "counts", "by_event", "ticks", "ended_by", "faults")
+        for name in ("total", "by_line", "counts", "by_event", "ticks", "ended_by", "met", "faults")
     )
 
 

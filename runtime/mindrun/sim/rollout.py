@@ -34,7 +34,8 @@ class Scores:
     `total` is −∞ where a reward was not a number; `by_line` [genomes, seeds, lines] sums each reward line; `counts` are
     all events that the task counts together, `by_event` [genomes, seeds, events] each event of the task; `ended_by` is
     an index into the task's ends, −1 where the run lasted its time, −2 where the robot was beyond all places (FAR);
-    `faults` counts values that were not sent, and such a flight.
+    `met` is the end that came first, −1 where none did, also where a run goes on behind it; `faults` counts values that
+    were not sent, and such a flight.
     """
 
     total: NDArray[np.float64]
@@ -43,6 +44,7 @@ class Scores:
     by_event: NDArray[np.int64]
     ticks: NDArray[np.int64]
     ended_by: NDArray[np.int64]
+    met: NDArray[np.int64]
     faults: NDArray[np.int64]
 
 
@@ -185,6 +187,7 @@ def _jobs(genomes: Array, seeds: Array, genome: Array, seed: Array, lines: int, 
         counts=np.zeros((count, events), np.int64),
         ticks=np.zeros(count, np.int64),
         ended=np.zeros(count, np.int64),
+        met=np.zeros(count, np.int64),
         faults=np.zeros(count, np.int64),
     )
 
@@ -208,5 +211,6 @@ def _scores(parts: Sequence[Jobs], shares: Sequence[Array], shape: tuple[int, in
         by_event=happened,
         ticks=joined("ticks"),
         ended_by=joined("ended"),
+        met=joined("met"),
         faults=joined("faults") + broken,
     )

@@ -178,4 +178,5 @@ class Jobs(NamedTuple):
     counts: Array  # [jobs, events]
     ticks: Array
     ended: Array
+    met: Array  # the end that came first, which is not what ended the run where nothing interrupts one
     faults: Array

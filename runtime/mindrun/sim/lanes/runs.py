@@ -125,7 +125,8 @@ def finish(tables, state, jobs, lane):
         jobs.lines[job, i] = judge.lines[i, lane]
     for i in range(len(tables.events)):
         jobs.counts[job, i] = judge.counts[i, lane]
-    jobs.ticks[job], jobs.ended[job], jobs.faults[job] = state.world.tick[lane], run.ended[lane], run.faults[lane]
+    jobs.ticks[job], jobs.ended[job], jobs.met[job] = state.world.tick[lane], run.ended[lane], run.met[lane]
+    jobs.faults[job] = run.faults[lane]
     close_space(tables, state.contact, lane)
     run.job[lane] = -1
 
