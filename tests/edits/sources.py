@@ -111,6 +111,14 @@ THINGS = [
     ["crate is box size 2", "crate is box at 12.5 -2.5", "crate is ball", "crate is ball at -7.5 -12.5"],
     ["cat is walker size 2", "cat is walker at 2.5 2.5", "cat is walker along 2.5 -2.5 to 7.5 -2.5"],
 ]
+STARTS = ["starts at 2.5 12.5", "starts facing -45 deg", "starts at 2.5 12.5 facing 1/2 deg"]
+SPREADS = [
+    ["varies noise of eye 0 to 10%", "varies lost of ball_bearing 0 to 5%", "varies delay of moving 0 to 2 ticks"],
+    ["varies density of Robot 1 to 3", "varies noise of left_wheel 0 to 1/4"],
+    ["varies density of crate 0.5 to 1", "varies delay of right_wheel 1 to 3 ticks"],
+    ["fails left_wheel 1% per s", "fails claw 0.1% per tick"],
+    ["fails mast 0.01"],
+]
 REWARDS = [
     ["rewards 10 on reach of ball"],
     ["rewards 0.01 * forward per tick"],
@@ -257,7 +265,7 @@ def _said(rng: Random, argument: Argument, is_drawn: bool) -> str:
     if isinstance(argument.type, Reference):
         return rng.choice([word for word in argument.type.words if word != argument.default])
     if argument.shape == "span":
-        return rng.choice(["3 to 6", "4", "5 to 6" if is_drawn else "5 to 3 by 0.5"])
+        return rng.choice(["3 to 6", "4", "2 to 5" if is_drawn else "5 to 3 by 0.5"])
     if argument.shape == "extent":
         return rng.choice(["60 40", "2 3", "7"])
     if argument.shape == "place":
@@ -310,7 +318,8 @@ def _in_scene(rng: Random, task: list[str]) -> list[list[str]]:
         return [task]
     (header, phrase), facts = task[0].split(" in "), task[1:]
     name = f"{header.split()[1].replace('+', '')}World"
-    things = [fact for fact in facts if fact.startswith("contains") and rng.random() < 0.7]
+    of_world = [fact for fact in facts if fact.startswith(("contains", "starts", "varies", "fails"))]
+    things = [fact for fact in of_world if " of crate" not in fact and rng.random() < 0.7]
     scene = [f"scene {name} is {phrase}", *things]
     other = [f"scene {name}More is like {name}", *(thing for thing in things if rng.random() < 0.2)]
     is_like = rng.random() < 0.3
@@ -325,6 +334,8 @@ def _task(rng: Random, name: str) -> list[str]:
     rewards = [rng.choice(lines) for lines in rng.sample(REWARDS + [VISITS] * arena, rng.randint(1, 3))]
     facts = [
         *(f"contains {_more(rng, 'content', thing)}" for thing in things),
+        *([rng.choice(STARTS)] if rng.random() < 0.3 else []),
+        *(rng.choice(lines) for lines in rng.sample(SPREADS, rng.choice([0, 0, 1, 3]))),
         "lasts 600 ticks",
         rng.choice(["ends on collision", "ends on exhaustion", "ends on 2 collision", "ends when charge < 5%"]),
         *rewards,

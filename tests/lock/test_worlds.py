@@ -109,9 +109,9 @@ skill Top is mlp
   reads ball_bearing
   reads mood
   influences Go
-  influences Search
-  influences Turn
-  influences Watch
+  influences Search when mood < 0.9
+  influences Turn when mood > 0.1 otherwise 0.2
+  influences Watch cuts below 5%
   influences Grab at 1
 
 task Fetch in arena size 80
@@ -131,6 +131,7 @@ task Fetch in arena size 80
   ends on exhaustion
   ends when charge < 5%
   succeeds on 5 delivery of ball to bin
+  starts at 20 -20 facing 90 deg
   rewards 20 on success
   rewards 10 on reach of ball
   rewards 50 on delivery of ball
@@ -362,6 +363,17 @@ TEXTS = [
     ("drives mood at 1/2", "drives mood at 1/2\n  drives mast at 1", "Grab has changed: sends mast at 1 is new"),
     ("influences Grab at 1", "influences Grab at 0.5", "Top has changed: sends Grab at 1, now sends Grab at 0.5"),
     ("Top on Fetch for 3 generations", "Top on Fetch for 3 generations from scratch", None),
+    ("mood < 0.9", "mood < 0.8", None),
+    ("mood < 0.9", "mood <= 0.9", None),
+    ("influences Search when mood < 0.9", "influences Search", None),
+    ("otherwise 0.2", "otherwise 0.3", None),
+    (" otherwise 0.2", "", None),
+    ("cuts below 5%", "cuts below 6%", None),
+    (" cuts below 5%", "", None),
+    ("mast at 2 * moving", "mast at 2 * moving when moving > 0.1 otherwise 0.5", None),
+    ("starts at 20 -20", "starts at 20 -21", None),
+    ("facing 90 deg", "facing 91 deg", None),
+    ("  starts at 20 -20 facing 90 deg\n", "", None),
     ("from turn.by", "from turn.to", None),
     ("claw is gripper", "claw is gripper reach 2", "taught with claw reach 1.5, now 2"),
 ]  # fmt: skip
