@@ -17,6 +17,7 @@ from mindlang.compiler.syntax import (
     File,
     Influences,
     Lasts,
+    Number,
     Reads,
     Rewards,
     Starts,
@@ -118,6 +119,12 @@ def use_line(file: File, path: str) -> Splice:
     if used := [setting for setting in file.settings if isinstance(setting, Use)]:
         return insert_below(first_line(used[-1].span), [line])
     return insert_above(first_line(file.settings[0].span), line)
+
+
+def number_lines(file: File, texts: Sequence[str]) -> Splice:
+    """Numbers below the last one, or below the last setting."""
+    numbers = [setting for setting in file.settings if isinstance(setting, Number)]
+    return insert_below(first_line((numbers or file.settings)[-1].span), texts)
 
 
 def without_declarations(declarations: Iterable[Declaration]) -> tuple[Splice, ...]:

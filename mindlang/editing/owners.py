@@ -8,7 +8,7 @@ OWNERS = {
 }
 
 
-def owner(fact: str) -> str:
-    """The noun below which a fact of this verb stands; nothing where it begins with no verb."""
+def owners(fact: str) -> tuple[str, ...]:
+    """The nouns below which a fact of this verb may stand; none where it begins with no verb."""
     verb = fact.partition(" ")[0]
-    return next((noun for noun, verbs in OWNERS.items() if verb in verbs), "")
+    return tuple(noun for noun, verbs in OWNERS.items() if verb in verbs)

@@ -110,19 +110,19 @@ class Project:
                 label = self.names.place_of(taken, name)
                 raise EditError(f"There is already {a(taken)} called {name}.", "Choose another name.", label)
 
-    def declared(self, name: str, noun: str, say: str = "--noun {}") -> Declaration:
-        """The declaration of a name, of any noun where none is said; EditError where that is none, or two.
+    def declared(self, name: str, noun: str, say: str = "--noun {}", among: Sequence[str] = NOUNS) -> Declaration:
+        """The declaration of a name, of a noun `among` these where none is said; EditError where that is none, or two.
 
         `say` is how a noun is said on the command line.
         """
         if noun:
             refuse_no_noun(noun, NOUNS)
             return self.find(name, noun)
-        found = [self.names.table[of][name] for of in NOUNS if name in self.names.table.get(of, {})]
+        found = [self.names.table[of][name] for of in among if name in self.names.table.get(of, {})]
         if len(found) == 1:
             return found[0]
         if not found:
-            return self.find(name, *NOUNS)
+            return self.find(name, *among)
         labels = [Label(each.header.name.span, f"{a(each.header.noun.text)} of this name") for each in found]
         hint = f"Say which: {say.format(found[0].header.noun.text)}"
         raise EditError(f"There are {len(found)} declarations called {name}.", hint, labels[0].span, *labels[1:])

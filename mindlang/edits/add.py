@@ -8,9 +8,9 @@ from mindlang.compiler.diagnostic import Findings
 from mindlang.compiler.parse import parse
 from mindlang.compiler.source import Source, Span
 from mindlang.compiler.splice import Splice
-from mindlang.compiler.syntax import Declaration, Fact, File
-from mindlang.editing.insertion import FACTS, INDENT, NOUNS, below_siblings, commented, declare, text_of
-from mindlang.editing.owners import owner
+from mindlang.compiler.syntax import Declaration, Fact, File, Number
+from mindlang.editing.insertion import FACTS, INDENT, NOUNS, below_siblings, commented, declare, number_lines, text_of
+from mindlang.editing.owners import owners
 from mindlang.editing.project import EditError, MindChange, Project
 
 
@@ -30,15 +30,22 @@ def add(
     """
     said = [line.strip() for text in lines for line in text.splitlines()]
     if to:
-        declaration = project.declared(to, noun or next(filter(None, map(owner, said)), ""))
+        declaration = project.declared(to, noun, among=next(filter(None, map(owners, said)), NOUNS))
         return MindChange(tuple(_facts(declaration, _read_facts(declaration, said))))
     return MindChange(tuple(_declarations(project, _read(said))))
 
 
 def _declarations(project: Project, read: File) -> Iterator[Splice]:
-    """Each noun's declarations below those that there are."""
-    if not read.declarations or read.settings:
-        raise EditError("Only declarations and facts can be added.", "Begin with a noun: skill, sensor, task, ….")
+    """The numbers, and each noun's declarations, below those that there are."""
+    numbers = [setting for setting in read.settings if isinstance(setting, Number)]
+    if not (read.declarations or numbers) or len(numbers) < len(read.settings):
+        raise EditError(
+            "Only declarations, numbers and facts can be added.", "Begin with a noun: skill, sensor, task, …."
+        )
+    for number in numbers:
+        project.refuse_taken("number", number.name.text)
+    if numbers:
+        yield number_lines(project.main, [number.span.text for number in numbers])
     for declaration in read.declarations:
         project.refuse_taken(declaration.header.noun.text, declaration.header.name.text)
     for noun in NOUNS:

@@ -2,11 +2,13 @@
 
 from typing import Annotated
 
-from mindlang.compiler.diagnostic import did_you_mean
+from mindlang.compiler.diagnostic import Label, did_you_mean
+from mindlang.compiler.splice import Splice
 from mindlang.compiler.syntax import NOUNS, Declaration
 from mindlang.editing.insertion import without_declarations, without_fact
-from mindlang.editing.owners import owner
-from mindlang.editing.project import EditError, MindChange, Project
+from mindlang.editing.lines import first_line, remove_lines
+from mindlang.editing.owners import owners
+from mindlang.editing.project import EditError, MindChange, Project, suggestion
 
 
 def remove(
@@ -18,17 +20,41 @@ def remove(
 ) -> MindChange:
     """Remove a declaration or, with --from, a fact.
 
-    Nothing may name the declaration any more, which is said by its name alone, or as "sensor pulse"; the fact is said
-    as it stands.
+    Nothing may name the declaration any more, which is said by its name alone, or as "sensor pulse" ("number sight");
+    the fact is said as it stands.
 
     Example: mindc edit remove "rewards 0.01 * forward per tick" --from GoToObject --noun task collect.mind
     """
     words = " ".join(what).split()
     if from_:
-        return _fact(words, project.declared(from_, noun or owner(" ".join(words))))
+        return _fact(words, project.declared(from_, noun, among=owners(words[0]) or NOUNS))
+    if name := _name_of_number(project, words, noun):
+        return MindChange((_number(project, name),))
     declaration = _declaration(project, words, noun)
     project.refuse_used(declaration.header.noun.text, declaration.header.name.text, [declaration])
     return MindChange(without_declarations([declaration]))
+
+
+def _name_of_number(project: Project, words: list[str], noun: str) -> str:
+    """The name where a number is meant: by its noun, or as nothing else is called so."""
+    match words:
+        case ["number", name]:
+            return name
+        case [name] if noun == "number" or (not noun and name in project.names.numbers):
+            return name if noun or not project.names.noun_of(name, NOUNS) else ""
+    return ""
+
+
+def _number(project: Project, name: str) -> Splice:
+    """The line of a number taken out; EditError where there is none, or where a line says its name."""
+    if name not in project.names.numbers:
+        raise EditError(f"There is no number called {name}.", suggestion(name, [*project.names.numbers]))
+    used = [mention.name.span for mention in project.everywhere("number", name) if not mention.is_own]
+    if used:
+        labels = [Label(span, "and here") for span in used[1:]]
+        raise EditError(f"{name} is still used.", "Write the number itself there first.", used[0], *labels)
+    line = first_line(project.names.numbers[name].span)
+    return remove_lines(line, line)
 
 
 def _declaration(project: Project, words: list[str], noun: str) -> Declaration:
