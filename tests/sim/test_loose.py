@@ -68,3 +68,36 @@ def test_pushes_equal_plain_pymunk(seed: int) -> None:
     rollout = world(5_000, ("", "delivered stays", "delivered vanishes")[seed % 3])
     happened = follow(rollout, Engine(Policy(rollout.graph, {})), seed)
     assert happened["Collision"] > 2
+
+
+@pytest.mark.parametrize("outcome", ["moves", "vanishes"])
+@pytest.mark.parametrize("seed", range(4))
+def test_what_has_settled_and_is_then_elsewhere_without_a_contact_is_nowhere_else(outcome: str, seed: int) -> None:
+    """Reached before it is touched: at the next wall Chipmunk is told where it is, or that it is not there."""
+    text = """
+tick 1/60 s
+master Go
+body Robot is disc
+actuator left_wheel is wheel side left neutral 0.5 thrust 240
+actuator right_wheel is wheel side right neutral 0.5 thrust 240
+actuator claw is gripper neutral 0 reach 2
+sensor slow is sine period 7.3 s
+sensor odd is sine period 2.77 s
+sensor crate_bearing is bearing of crate
+skill Go is rule
+  reads slow
+  reads odd
+  reads crate_bearing
+  drives left_wheel at 1.6 - 2 * odd + 6 * (crate_bearing - 0.5) * slow
+  drives right_wheel at 1.6 - 2 * odd - 6 * (crate_bearing - 0.5) * slow
+task World in arena size 16
+  contains crate is box size 0.5 count 6 reached OUTCOME
+  lasts 2000 ticks
+  rewards progress toward crate per tick
+  counts reach of crate
+  counts collision
+"""
+    rollout = Rollout(Policy(compile_text(text.replace("OUTCOME", outcome)), {}), "World", "Go")
+    happened = follow(rollout, Engine(Policy(rollout.graph, {})), seed)
+    assert happened["Reach"] > 2
+    assert happened["Collision"] > 2

@@ -33,11 +33,15 @@ LOOSE_MARGIN_UNITS = 0.01  # beyond the rounding of any distance here
 
 
 @compiled
-def slow_down(tables, world, lane):
-    """Damp what has not settled, v / (1 + dt·c), and let it rest where it is slow enough."""
+def slow_down(tables, world, placed, lane):
+    """Damp what has not settled, v / (1 + dt·c), and let it rest where it is slow enough.
+
+    Its body in the Space has to be `placed` again: it may have appeared elsewhere, and settles there without a contact.
+    """
     loose, dt, restless = world.loose, tables.world[0].dt, 0
     for i in range(len(tables.loose)):
         if world.still[i, lane] < SETTLED_TICKS:
+            placed[lane, i] = 0
             row, place = LOOSE_ROWS * i, THING_ROWS * tables.loose[i].thing
             slower = world.numbers[tables.loose[i].slower, lane]
             vx, vy = loose[row + PUSHED_X, lane] * slower, loose[row + PUSHED_Y, lane] * slower

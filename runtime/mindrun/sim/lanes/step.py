@@ -37,7 +37,7 @@ def step(tables, state, lanes):
     thrust(tables, world, state.mind.commands, lanes)
     for lane in range(lanes if len(tables.loose) > 0 else 0):
         if world.restless[lane] > 0:
-            slow_down(tables, world, lane)
+            slow_down(tables, world, contact.placed, lane)
     find_near(tables, world, state.sight, contact, lanes)
     fly(world, contact.near, constants, lanes)
     touching = contact.touching
