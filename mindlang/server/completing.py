@@ -9,7 +9,8 @@ from pathlib import Path
 from mindlang.compiler.syntax import NOUNS, SETTINGS
 from mindlang.editing.owners import OWNERS
 from mindlang.file_search import files_below
-from mindlang.server.facts import FACTS, CursorLine
+from mindlang.server.cursor_line import CursorLine
+from mindlang.server.facts import FACTS
 from mindlang.server.offers import Offer, arguments_of, functions, kinds_of, names, words
 from mindlang.server.view import MindView, declaration_at
 from mindlang.server.words import WORDS

@@ -1,14 +1,21 @@
 """What may be written in a fact, by its verb and the words that stand behind it."""
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
-from pathlib import Path
 
 from mindrun.registry import kinds
 
 from mindlang.compiler.references import DRIVABLE_NOUNS, READABLE_NOUNS
-from mindlang.compiler.syntax import Declaration, Drives, Influences, Reads
+from mindlang.compiler.syntax import Drives, Influences, Reads
 from mindlang.server import offers
+from mindlang.server.cursor_line import CursorLine
+from mindlang.server.expressions import (
+    awaits_value,
+    condition_offers,
+    condition_words,
+    reward_offers,
+    takes_value,
+    values,
+)
 from mindlang.server.offers import (
     NUMBER,
     Offer,
@@ -16,34 +23,13 @@ from mindlang.server.offers import (
     inputs_of,
     kinds_of,
     names,
+    numbers,
     units,
     words,
-    written_arguments,
 )
-from mindlang.server.view import MindView, on_line
+from mindlang.server.run_facts import fails, starts, varies
 
-UNFINISHED_WORDS = ("+", "-", "*", "/", "(", "<", ">", "<=", ">=", "when")
-
-
-@dataclass(frozen=True, slots=True)
-class CursorLine:
-    """What stands before a place in its line, and the declaration to which the line belongs."""
-
-    view: MindView
-    folder: Path
-    words: Sequence[str]
-    above: Declaration | None
-    offset: int
-
-    @property
-    def noun(self) -> str:
-        """The noun of the declaration above."""
-        return self.above.header.noun.text if self.above else ""
-
-    def names_after(self, *forms: type[Reads | Drives | Influences]) -> set[str]:
-        """What the skill above says with these verbs on its other lines."""
-        facts = [fact for fact in (self.above.facts if self.above else ()) if isinstance(fact, forms)]
-        return {fact.name.text for fact in facts if not on_line(fact.span, self.offset)}
+EDGE_JOINTS = ("at", "when", "otherwise", "cuts")
 
 
 Answer = Callable[[CursorLine, Sequence[str]], list[Offer]]
@@ -62,22 +48,39 @@ def _reads(line: CursorLine, rest: Sequence[str]) -> list[Offer]:
 
 
 def _drives(line: CursorLine, rest: Sequence[str]) -> list[Offer]:
-    return _at(line, rest) if rest else names(line.view, *DRIVABLE_NOUNS, but=line.names_after(Drives))
+    return _edge(line, rest) if rest else names(line.view, *DRIVABLE_NOUNS, but=line.names_after(Drives))
 
 
 def _influences(line: CursorLine, rest: Sequence[str]) -> list[Offer]:
     own = {line.above.header.name.text} if line.above else set()
-    return _at(line, rest) if rest else names(line.view, "skill", but=own | line.names_after(Influences))
+    others = names(line.view, "skill", but=own | line.names_after(Influences))
+    return _edge(line, rest, "cuts below") if rest else others
 
 
-def _at(line: CursorLine, rest: Sequence[str]) -> list[Offer]:
-    """After the name of an edge: `at`, and an expression of what the skill reads."""
-    if len(rest) == 1:
-        return words("at")
-    if rest[-1] == "at" or rest[-1] in "+-*/(":
-        read = line.names_after(Reads)
-        return [offer for offer in names(line.view, *READABLE_NOUNS) if offer.label in read]
-    return []
+def _edge(line: CursorLine, rest: Sequence[str], *last: str) -> list[Offer]:
+    """After the name of an edge: its value, its condition, what is sent otherwise, and what comes `last`."""
+    joint = max((place for place, word in enumerate(rest) if word in EDGE_JOINTS), default=0)
+    said = rest[joint + 1 :]
+    match rest[joint]:
+        case "cuts":
+            is_number = said[-1:] and said[-1][0] in NUMBER
+            return units("%") if is_number else numbers(line.view) if said else [Offer("below", "word")]
+        case "at" | "when" | "otherwise" if takes_value(rest[joint:]):
+            read = line.names_after(Reads)
+            found = values(line.view, rest, [each for each in names(line.view, *READABLE_NOUNS) if each.label in read])
+        case _:
+            found = []
+    if awaits_value(rest):
+        return found
+    match rest[joint]:
+        case "at":
+            return [*found, *words("when", *last)]
+        case "when":
+            joints = condition_words(rest[joint:])
+            return [*found, *joints, *(words("otherwise", *last) if joints else [])]
+        case "otherwise":
+            return [*found, *words(*last)]
+    return words("at", "when", *last)
 
 
 def _contains(line: CursorLine, rest: Sequence[str]) -> list[Offer]:
@@ -96,7 +99,14 @@ def _event(line: CursorLine, rest: Sequence[str]) -> list[Offer]:
 
 
 def _ends(line: CursorLine, rest: Sequence[str]) -> list[Offer]:
-    return _event(line, rest[1:]) if rest else words("on")
+    match rest:
+        case []:
+            return words("on", "when")
+        case ["when", *_]:
+            return condition_offers(line.view, line.above, rest)
+        case [_, times, *event] if times[0] in NUMBER:
+            return _event(line, event)
+    return _event(line, rest[1:])
 
 
 def _rewards(line: CursorLine, rest: Sequence[str]) -> list[Offer]:
@@ -157,58 +167,15 @@ FACTS: Mapping[str, Answer] = {
     "influences": _influences,
     "stays": lambda line, rest: [] if rest else words("frozen"),
     "contains": _contains,
+    "starts": starts,
+    "varies": varies,
+    "fails": fails,
     "lasts": _number("ticks", "s"),
     "ends": _ends,
+    "succeeds": _ends,
     "rewards": _rewards,
     "counts": _event,
     "teaches": _teaches,
     "master": lambda line, rest: [] if rest else names(line.view, "skill"),
     "tick": _number("s"),
 }
-
-
-def reward_offers(view: MindView, task: Declaration | None, rest: Sequence[str]) -> list[Offer]:
-    """What can come after the words `rest` of a reward."""
-    if "when" in rest:
-        return _term(view, task, rest[rest.index("when") :])
-    match rest:
-        case [*_, "per"]:
-            return [Offer("tick", "word")]
-        case [*_, "for"]:
-            return [Offer("each", "word")]
-        case [*_, "each"] | [*_, "each", _]:
-            return words("in") if rest[-1] != "each" else []
-        case [*_, "each", _, "in"]:
-            return names(view, *READABLE_NOUNS)
-        case [*_, "each", _, "in", _]:
-            return words("when")
-        case [*_, "per", "tick"]:
-            return words("for each", "when")
-        case [*_, "on"]:
-            return kinds_of("event")
-    if "on" in rest:
-        kind, *arguments = rest[rest.index("on") + 1 :]
-        return [*arguments_of(view, "event", kind, arguments, task), *words("when")]
-    joints = words("per tick", "on") if rest and rest[-1] not in UNFINISHED_WORDS and not _waits(rest) else []
-    return [*_term(view, task, rest), *joints]
-
-
-def _term(view: MindView, task: Declaration | None, rest: Sequence[str]) -> list[Offer]:
-    """A reading or a measure, or what the measure that was begun still needs."""
-    if not rest or rest[-1] in UNFINISHED_WORDS:
-        return [*names(view, *READABLE_NOUNS), *offers.numbers(view), *kinds_of("measure")]
-    begun = _begun(rest)
-    return arguments_of(view, "measure", begun[0], begun[1:], task) if begun else []
-
-
-def _begun(rest: Sequence[str]) -> Sequence[str]:
-    """The measure that was begun last, with its arguments; nothing where it is over."""
-    begun = max((place for place, word in enumerate(rest) if word in kinds("measure")), default=len(rest))
-    return () if any(word in UNFINISHED_WORDS for word in rest[begun:]) else rest[begun:]
-
-
-def _waits(rest: Sequence[str]) -> bool:
-    """Whether an argument of a measure waits for its value."""
-    begun = _begun(rest)
-    state = written_arguments(kinds("measure")[begun[0]], begun[1:]) if begun else None
-    return state is not None and (state.awaits_name or state.awaits_number)

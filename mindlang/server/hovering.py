@@ -6,17 +6,19 @@ from pathlib import Path
 from typing import Any
 
 from mindrun.registry import arguments, kinds
+from mindrun.variation import VARIED_NOUNS
 
 from mindlang.compiler.resolve.curricula import USING
 from mindlang.compiler.source import Span
-from mindlang.compiler.syntax import NOUNS, Argument, Contains, Expression, File, Header, Name, Phrase, Teaches
+from mindlang.compiler.syntax import NOUNS, Argument, Contains, Expression, File, Header, Name, Phrase, Teaches, Varies
 from mindlang.server.cards import card
-from mindlang.server.describing import argument_card, kind_card
+from mindlang.server.describing import argument_card, argument_line, kind_card
 from mindlang.server.tree import path_to
 from mindlang.server.view import MindView, declaration_at
 from mindlang.server.words import WORDS
 
 _WORD = re.compile(r"[A-Za-z_][\w.]*(?:\+[A-Z]\w*)*|%")
+_JOINT = re.compile(rf"\b(?:{'|'.join(word for word in WORDS if ' ' in word)})\b")  # of several words
 
 
 @dataclass(frozen=True, slots=True)
@@ -52,6 +54,8 @@ def noun_of(above: object) -> str:
 
 def _kind(view: MindView, file: File, offset: int) -> Hover | None:
     """A kind, or an argument of one; those of a lesson are of its own learner or the curriculum's."""
+    if varies := next((node for node in path_to(file, offset) if isinstance(node, Varies)), None):
+        return _varied(view, varies) if varies.argument.span.start <= offset <= varies.argument.span.end else None
     match _owned(path_to(file, offset)):
         case above, Phrase(kind=kind), Name() as name if name is kind:
             return _kind_itself(noun_of(above), kind)
@@ -60,6 +64,16 @@ def _kind(view: MindView, file: File, offset: int) -> Hover | None:
         case _, Teaches() as lesson, Argument() as argument if declaration := declaration_at(file, offset):
             return _of_lesson(lesson, declaration.header.phrase, argument, offset)
     return None
+
+
+def _varied(view: MindView, fact: Varies) -> Hover | None:
+    """The argument that varies, of the part of the robot or the thing that has it."""
+    noun = view.names.noun_of(fact.of.text, VARIED_NOUNS)
+    phrase = view.names.table[noun][fact.of.text].header.phrase if noun else None
+    classes = [cls for name, cls in kinds(noun or "content").items() if not phrase or name == phrase.kind.text]
+    known = [each for cls in classes for each in arguments(cls) if each.field in cls.varying]
+    found = next((argument_line(each) for each in known if each.field == fact.argument.text), None)
+    return Hover(found, fact.argument.span) if found else None
 
 
 def _of_lesson(lesson: Teaches, of_all: Phrase | None, argument: Argument, offset: int) -> Hover | None:
@@ -100,6 +114,8 @@ def _word(view: MindView, file: File, offset: int) -> Hover | None:
     found = next((word for word in _WORD.finditer(line) if word.start() <= offset - start <= word.end()), None)
     if found is None:
         return None
+    for joint in (each for each in _JOINT.finditer(line) if each.start() <= offset - start <= each.end()):
+        return Hover(WORDS[joint[0]], Span(source, start + joint.start(), start + joint.end()))
     span = Span(source, start + found.start(), start + found.end())
     if noun := view.names.noun_of(found[0], NOUNS):
         return Hover(card(view, noun, found[0]), span)

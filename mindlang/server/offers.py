@@ -8,6 +8,7 @@ from typing import Any
 
 from mindrun.quantity import Quantity, Reference
 from mindrun.registry import Argument, arguments, kinds
+from mindrun.variation import VARIED_NOUNS
 
 from mindlang.compiler.comments import comment_of
 from mindlang.compiler.names import things_of
@@ -160,6 +161,26 @@ def _after_number(state: WrittenArguments) -> Iterator[Offer]:
 def units(*units_: str) -> list[Offer]:
     """Units of a number."""
     return [Offer(unit, "unit", WORDS.get(unit, "")) for unit in units_ if unit]
+
+
+def units_of(parameter: Argument) -> list[Offer]:
+    """The units that an argument takes."""
+    return units(*parameter.type.units) if isinstance(parameter.type, Quantity) else []
+
+
+def varying_parts(view: MindView, task: Declaration | None) -> Iterator[tuple[Offer, list[Argument]]]:
+    """What has arguments that can differ from run to run, and which: parts of the robot, things of a task."""
+    declared = [(offer, noun) for noun in VARIED_NOUNS for offer in names(view, noun)]
+    for offer, noun in declared:
+        phrase = view.names.table[noun][offer.label].header.phrase
+        yield offer, _varying(noun, {phrase.kind.text} if phrase else set())
+    for thing in things(view, task, kinds("content")):
+        yield thing, _varying("content", set(thing.detail.split()))
+
+
+def _varying(noun: str, of: Iterable[str]) -> list[Argument]:
+    classes = [cls for name, cls in kinds(noun).items() if name in of]
+    return [each for cls in classes for each in arguments(cls) if each.field in cls.varying]
 
 
 def _fits(word: str, values: tuple[str, ...]) -> bool:

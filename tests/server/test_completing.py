@@ -5,6 +5,7 @@ from pathlib import Path
 import pytest
 
 from mindlang.server.completing import complete
+from mindlang.server.hovering import hover
 from mindlang.server.workspace import Workspace
 from tests.language.examples import TOUR
 
@@ -76,6 +77,38 @@ CASES = [  # where the line is put, the line with | for the cursor, what must be
     (BELOW_QUICK, "  teaches Avoid on Work for 9 generations |", "using", "evolution_strategy"),
     (BELOW_QUICK, "  teaches Avoid on Work for 9 generations using |", "genetic evolution_strategy", "population"),
     (BELOW_QUICK, "  teaches Avoid on Work for 9 generations using evolution_strategy |", "mutation", "elite using"),
+    (BELOW_AVOID, "  drives claw |", "at when", "cuts otherwise"),
+    (BELOW_AVOID, "  influences Fetch |", "at when", "otherwise"),
+    (BELOW_AVOID, "  drives claw at moving |", "when", "at moving otherwise"),
+    (BELOW_AVOID, "  drives claw when |", "moving pulse", "parcel_bearing when"),
+    (BELOW_AVOID, "  drives claw when moving |", "", "otherwise"),
+    (BELOW_AVOID, "  drives claw when moving > 0.5 |", "and or otherwise", "when"),
+    (BELOW_AVOID, "  drives claw when moving > 0.5 and |", "moving pulse", "otherwise"),
+    (BELOW_AVOID, "  drives claw when moving > 0.5 otherwise |", "moving pulse", "otherwise"),
+    (BELOW_AVOID, "  drives claw at least |", "of", "moving"),
+    (BELOW_AVOID, "  drives claw at least of |", "moving pulse", "when"),
+    (BELOW_AVOID, "  drives claw at least of moving |", "moving pulse when", "of"),
+    (BELOW_AVOID, "  influences Fetch cuts |", "below", "at"),
+    (BELOW_AVOID, "  influences Fetch at 1 cuts below 5 |", "%", "below"),
+    (BELOW_WORK, "  |", "starts varies fails succeeds", "reads"),
+    (BELOW_WORK, "  ends |", "when", ""),
+    (BELOW_WORK, "  succeeds |", "on when", ""),
+    (BELOW_WORK, "  succeeds on |", "collision delivery", "forward"),
+    (BELOW_WORK, "  succeeds on 5 |", "collision delivery", "forward"),
+    (BELOW_WORK, "  succeeds on 5 delivery of |", "parcel", "depot"),
+    (BELOW_WORK, "  ends when |", "holding left_wheel forward", "on"),
+    (BELOW_WORK, "  ends when holding < 0.5 |", "and or", "otherwise"),
+    (BELOW_WORK, "  starts |", "at facing", "on"),
+    (BELOW_WORK, "  starts at -5 3 |", "facing", "deg"),
+    (BELOW_WORK, "  starts at -5 3 facing 9 |", "deg", "facing"),
+    (BELOW_WORK, "  varies |", "thrust noise density", "neutral parcel"),
+    (BELOW_WORK, "  varies thrust |", "of", "thrust"),
+    (BELOW_WORK, "  varies thrust of |", "left_wheel", "eyes claw"),
+    (BELOW_WORK, "  varies noise of eyes 5 |", "% to", "deg"),
+    (BELOW_WORK, "  varies noise of eyes 5% to 9 |", "%", "to"),
+    (BELOW_WORK, "  fails |", "left_wheel claw", "eyes"),
+    (BELOW_WORK, "  fails claw 1 |", "% per", "to"),
+    (BELOW_WORK, "  fails claw 1% per |", "s tick", "per"),
 ]
 
 
@@ -127,3 +160,27 @@ def test_a_lesson_may_begin_from_nothing_or_from_a_skill() -> None:
     path = Path("mind.mind").resolve()
     found = complete(Workspace({path: text}).view(path), path, text, len(text))
     assert [offer.label for offer in found.offers] == ["scratch", "Go"]
+
+
+@pytest.mark.parametrize(
+    ("place", "line", "said"),
+    [
+        (BELOW_AVOID, "  drives claw at least |of moving pulse", "The least of several"),
+        (BELOW_AVOID, "  drives claw at great|est of moving pulse", "The greatest of several"),
+        (BELOW_AVOID, "  drives claw at 1 when moving > 0.5 other|wise 0", "does not hold"),
+        (BELOW_AVOID, "  influences Fetch cuts be|low 5%", "smaller than this is none"),
+        (BELOW_WORK, "  succe|eds on 5 delivery of parcel", "as a success"),
+        (BELOW_WORK, "  starts at 0 0 fac|ing 90 deg", "when it starts"),
+        (BELOW_WORK, "  var|ies thrust of left_wheel 60 to 90", "drawn anew for each run"),
+        (BELOW_WORK, "  varies thr|ust of left_wheel 60 to 90", "`thrust`"),
+        (BELOW_WORK, "  varies noise of ey|es 0 to 5%", "range_finder"),
+        (BELOW_WORK, "  fa|ils claw 1% per s", "stuck at neutral"),
+        (BELOW_WORK, "  fails claw 1% p|er s", "The time that a rate is for"),
+    ],
+)
+def test_words_are_explained_where_they_stand(place: str, line: str, said: str) -> None:
+    at = TEXT.index(place)
+    text = f"{TEXT[:at]}{line.replace('|', '')}\n{TEXT[at:]}"
+    found = hover(Workspace({TOUR: text}).view(TOUR), TOUR, at + line.index("|"))
+    assert found
+    assert said in found.text
