@@ -1,4 +1,4 @@
-"""How far a sensor sees, in metres, where the mind says how long a unit of its world is."""
+"""What a sensor measures in metres, where the mind says how long a unit of its world is."""
 
 from dataclasses import replace
 from typing import Any
@@ -11,19 +11,28 @@ from mindrun.sensors import SensorKind
 from mindlang.wiring.driver import Wired
 from mindlang.wiring.options import driver_options
 
-RANGE = "range"  # an argument of sensors, and an option of drivers
+RANGE = "range"  # an option of drivers
 
 
 def seeing_as_far(wired: Wired, sensor: Sensor, unit_metres: float | None) -> Wired:
     """A driver whose range nobody says sees as far as the sensor of the mind."""
     option = next((each for each in driver_options(type(wired.driver)) if each.key == RANGE), None)
-    metres = (unit_metres or 0.0) * _units(sensor.kind)
-    if not metres or option is None or option.type is not METRES or wired.entry(RANGE) or not fits(METRES, metres):
+    metres = (unit_metres or 0.0) * sensor.kind.ends[1]
+    is_length = sensor.kind.unit == wired.driver.unit != ""
+    if not (metres and is_length) or option is None or option.type is not METRES or wired.entry(RANGE):
+        return wired
+    if not fits(METRES, metres):
         return wired
     driver: Any = replace(wired.driver, **{option.field: metres})
     return replace(wired, driver=driver)
 
 
-def _units(kind: SensorKind) -> float:
-    """How many units of the world away a sensor sees something; 0 where that is not so many."""
-    return float(getattr(kind, RANGE, 0.0)) if kind.rays else 0.0
+def usual_ends(wired: Wired, kind: SensorKind, unit_metres: float | None) -> tuple[float, float]:
+    """The values of a driver that are the readings 0 and 1 where nobody says so: as long as in the mind's world.
+
+    As the driver says where the mind does not say how long a unit is, or what it measures is no length and no speed.
+    """
+    low, high = kind.ends
+    if unit_metres is None or kind.unit != wired.driver.unit or not kind.unit or wired.entry(RANGE):
+        return float(wired.driver.usual[0]), float(wired.driver.usual[1])
+    return low * unit_metres, high * unit_metres

@@ -25,7 +25,7 @@ def sensors(
     needed = read_by(graph, graph.master)
 
     def wire(wired: Wired, sensor: Sensor, findings: Findings) -> SensorWire | None:
-        return sensor_wire(seeing_as_far(wired, sensor, unit_metres), sensor, findings)
+        return sensor_wire(seeing_as_far(wired, sensor, unit_metres), sensor, unit_metres, findings)
 
     return list(_section("sensor", entry, physical(graph), needed, graph, wire, findings))
 

@@ -9,6 +9,7 @@ from mindlang.compiler.diagnostic import Findings, Label, errors
 from mindlang.wiring.direction import check_direction
 from mindlang.wiring.driver import Wired
 from mindlang.wiring.nodes import report_error
+from mindlang.wiring.scale import usual_ends
 from mindlang.wiring.values import first_line, is_empty, number
 
 # What a driver may measure in, and how people may write it.
@@ -21,10 +22,14 @@ UNITS = {
 FULL_TURN_DEGREES = 360.0
 
 
-def sensor_wire(wired: Wired, sensor: Sensor, findings: Findings) -> SensorWire | None:
-    """The wire of a sensor, or None after reporting why it cannot be wired so."""
+def sensor_wire(wired: Wired, sensor: Sensor, unit_metres: float | None, findings: Findings) -> SensorWire | None:
+    """The wire of a sensor, or None after reporting why it cannot be wired so.
+
+    `unit_metres` is how long a unit of the mind's world is, where the mind says so.
+    """
     before = len(errors(findings.diagnostics))
-    low, high = (_end(wired, index, findings) for index in (0, 1))
+    usual = usual_ends(wired, sensor.kind, unit_metres)
+    low, high = (_end(wired, index, usual, findings) for index in (0, 1))
     if low is None or high is None:
         return None
     kind = sensor.kind
@@ -42,12 +47,12 @@ def sensor_wire(wired: Wired, sensor: Sensor, findings: Findings) -> SensorWire 
     return wire
 
 
-def _end(wired: Wired, index: int, findings: Findings) -> float | None:
+def _end(wired: Wired, index: int, usual: tuple[float, float], findings: Findings) -> float | None:
     """The value that is the reading 0, or 1."""
     unit = wired.driver.unit
     entry = wired.entry(("from", "to")[index])
     if entry is None:
-        return float(wired.driver.usual[index])
+        return usual[index]
     if is_empty(entry, findings):
         return None
     name = f"a value in {unit}" if unit else "a number without a unit"

@@ -26,6 +26,7 @@ class Distance(Physical):
 
     scaled = True
     near = 0
+    unit = "m"
     blank = 1.0
     remedy = "Let a task contain what it is about"
 
@@ -37,6 +38,11 @@ class Distance(Physical):
     def constant(self, world: World) -> float | None:
         """1 without the thing."""
         return None if self.of in world.things else 1.0
+
+    @property
+    def ends(self) -> tuple[float, float]:
+        """Touching, and `range` away."""
+        return 0.0, self.range
 
     def row(self, scene: Scene) -> Row:
         """Where it reads 1."""

@@ -43,6 +43,7 @@ class Eye(Physical):
 
     scaled = True
     near = 0
+    unit = "m"
     blank = 1.0
     remedy = "Let a task contain what it is about"
 

@@ -24,7 +24,13 @@ class Odometer(Physical):
     range: Annotated[float, POSITIVE] = 10.0
 
     scaled = True
+    unit = "m/s"
     blank = rest = 0.5
+
+    @property
+    def ends(self) -> tuple[float, float]:
+        """Backward and forward with `range`."""
+        return -self.range, self.range
 
     def row(self, scene: Scene) -> Row:
         """What a unit a second adds, and the side: −1 left, 1 right."""

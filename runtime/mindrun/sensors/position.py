@@ -23,7 +23,13 @@ class Position(Physical):
     range: Annotated[float, POSITIVE] = 50.0
 
     scaled = True
+    unit = "m"
     blank = 0.5
+
+    @property
+    def ends(self) -> tuple[float, float]:
+        """`range` on either side of the origin."""
+        return -self.range, self.range
 
     def row(self, scene: Scene) -> Row:
         """What a unit adds, and the axis as a row of the body."""

@@ -23,6 +23,7 @@ class RangeFinder(Physical):
 
     scaled = True
     near = 0
+    unit = "m"
     blank = 1.0
 
     @property

@@ -94,6 +94,7 @@ class SensorKind(AboutThing):
     circular = False  # whether the readings 0 and 1 are neighbours
     scaled = False  # whether its values mean something by themselves, so that they need no calibration
     near: int | None = None  # the reading of what is near
+    unit = ""  # of a driver that measures the same: m for a length, m/s for a speed
     keeps_lost = False  # whether a reading that fails is the one before, and not `blank`
     remembered = 0  # how many numbers the lanes keep of each of its readings
     blank, rest = 0.0, 0.0  # what it reads where there is nothing to measure, and in its dead zone
@@ -157,6 +158,11 @@ class SensorKind(AboutThing):
     def reach(self) -> float:
         """How far it looks, in world units."""
         return 0.0
+
+    @property
+    def ends(self) -> tuple[float, float]:
+        """What its readings 0 and 1 are in units of the world, of what has a `unit`: a length, or one a second."""
+        return 0.0, self.reach
 
     def row(self, scene: Scene) -> Row:
         """What its lane function is told: range, dead_zone, gain, period, source or part, those that it reads."""

@@ -21,11 +21,17 @@ class Speed(Physical):
     dead_zone: Annotated[float, RATIO] = 0.0
 
     scaled = True
+    unit = "m/s"
     blank = rest = 0.5
 
     def constant(self, world: World) -> float | None:
         """0.5 where all speeds are in the dead zone."""
         return 0.5 if self.dead_zone > 0.5 else None
+
+    @property
+    def ends(self) -> tuple[float, float]:
+        """Backward and forward with `range`."""
+        return -self.range, self.range
 
     def row(self, scene: Scene) -> Row:
         """What a unit a second adds."""
