@@ -13,12 +13,12 @@ from mindlang.compiler.source import Span
 from mindlang.compiler.syntax import Contains, Declaration, Fact, File, Name, Number
 
 # A memory is read like a sensor and driven like an actuator, so its name must be neither's.
-# In an expression, a number's name stands where a reading's may.
+# In an expression, a number's name stands where a reading's may, and in rewards a command's.
 SHARED = {
     "sensor": ("memory", "number"),
-    "actuator": ("memory",),
+    "actuator": ("memory", "number"),
     "memory": ("sensor", "actuator", "number"),
-    "number": ("sensor", "memory"),
+    "number": ("sensor", "memory", "actuator"),
 }
 _WORD = re.compile(r"\w[\w.+-]*")
 NOUN_USES = {
