@@ -1,6 +1,7 @@
 """What becomes of trained weights when a source is edited: they follow, or it is said why not."""
 
 import re
+from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -10,7 +11,7 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from mindrun.engine import Engine
-from mindrun.graph import Edge, Graph, Sensor
+from mindrun.graph import Edge, Gate, Graph, Program, Sensor
 from mindrun.policy import Policy
 from mindrun.sensors import Battery
 from mindrun.weights import genes
@@ -340,11 +341,14 @@ def _wider(graph: Graph, draw: Any) -> Graph:
     def moved(index: int) -> int:
         return index + (index >= place)
 
+    def elsewhere(program: Program) -> Program:
+        return tuple((w, moved(int(v))) if w == "reading" else (w, v) for w, v in program)
+
     skills = []
     for number, skill in enumerate(graph.skills):
         inputs = tuple(map(moved, skill.inputs))
         edges = [
-            replace(edge, value=tuple((w, moved(int(v))) if w == "reading" else (w, v) for w, v in edge.value))
+            replace(edge, value=elsewhere(edge.value), gate=edge.gate and _gate(edge.gate, elsewhere))
             for edge in skill.edges
         ]
         if genes(skill):
@@ -356,6 +360,10 @@ def _wider(graph: Graph, draw: Any) -> Graph:
                 edges.append(Edge("skill", target, outputs))
         skills.append(replace(skill, inputs=inputs, edges=tuple(edges)))
     return replace(graph, sensors=(*graph.sensors, fresh), memories=memories, skills=tuple(skills))
+
+
+def _gate(gate: Gate, other: Callable[[Program], Program]) -> Gate:
+    return Gate(other(gate.when), None if gate.otherwise is None else other(gate.otherwise))
 
 
 def _readings(graph: Graph, draw: Any) -> np.ndarray:

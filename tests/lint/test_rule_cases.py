@@ -160,6 +160,15 @@ def rewards(scene: str, *lines: str) -> str:
         ("rewards 1 per tick when change of thrust beyond 20% over 9 ticks > 40", False),
         ("rewards -0.03 * (1 - 4 * p) per tick for each p in eye when p < 1/4", False),
         ("rewards 1 per tick for each p in eye when p < 0", True),
+        ("rewards 1 per tick when eye > 0.5 and eye < 0.4", True),
+        ("rewards 1 per tick when eye > 0.5 and eye < 0.4 or eye > 0.9", False),
+        ("rewards 1 per tick when eye >= 0.5 and eye <= 0.5", False),
+        ("rewards 1 per tick when eye > 0.5 and eye <= 0.5", True),
+        ("rewards 1 per tick when 0.2 > eye and eye > 0.3", True),
+        ("rewards 1 per tick when 0.3 > eye and eye > 0.2", False),
+        ("rewards 1 per tick when 1  - eye > 0.5 and 1 - eye < 0.4", True),
+        ("rewards 1 per tick when eye > 0.5 and forward < 0.4", False),
+        ("rewards 1 per tick when eye < 0.4 and eye < 0.3 and eye > 0.3", True),
         ("rewards eye - eye per tick", False),  # 0, but intervals do not know that both are one reading
     ],
 )
@@ -225,3 +234,38 @@ def span() -> Span:
 def test_intervals(symbol: str, right: float, expected: tuple[float, float]) -> None:
     terms = (Reading("eye", span()), Number(right, span()), Operator(symbol, span()))
     assert interval(Expression(terms, span())) == expected
+
+
+@pytest.mark.parametrize(
+    ("gate", "said"),
+    [
+        ("eye > 0.5", []),
+        ("eye > 20", ["This condition never holds: eye is 0 to 1, never above 20."]),
+        ("eye > -0.5", ["This condition always holds: eye is 0 to 1, always above -0.5."]),
+        ("eye >= 0", ["This condition always holds: eye is 0 to 1, always at or above 0."]),
+        ("eye > 0", []),
+        ("eye <= 1 and eye > 0.2", []),
+        ("eye > 0.2 or eye <= 1", ["This condition always holds: eye is 0 to 1, always at or below 1."]),
+        ("eye > 0.2 and eye < 0.1", ["This condition never holds: eye is never below 0.1 and above 0.2 at once."]),
+        ("1 / eye > -1", []),  # it may be no number, of which nobody knows
+        ("least of eye 0.5 < 0.6", ["This condition always holds: least of eye 0.5 is 0 to 0.5, always below 0.6."]),
+    ],
+)
+@pytest.mark.parametrize("line", ["drives left_wheel at 1 when {}", "drives left_wheel at 1 when {} otherwise eye"])
+def test_conditions_of_edges(found: Lint, line: str, gate: str, said: list[str]) -> None:
+    assert found("constant-condition", EYE + rule("Go", "reads eye", line.format(gate))) == said
+
+
+@pytest.mark.parametrize(
+    ("line", "is_constant"),
+    [
+        ("ends when eye < 20", True),
+        ("ends when eye < 0.2", False),
+        ("ends when eye > 20", False),  # which is for dead-event
+        ("succeeds when eye >= 0 and eye <= 1", True),
+        ("rewards 1 per tick when eye > 20", False),  # which is for dead-reward
+        ("rewards 1 per tick for each p in eye when p < 1.5", True),
+    ],
+)
+def test_conditions_of_tasks(found: Lint, line: str, is_constant: bool) -> None:
+    assert bool(found("constant-condition", EYE + rewards("arena", line))) == is_constant
