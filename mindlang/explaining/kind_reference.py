@@ -7,6 +7,8 @@ import mindrun.graph  # noqa: F401  (it knows all kinds)
 from mindrun.quantity import Quantity, Reference, Span
 from mindrun.registry import Argument, arguments, kinds
 
+from mindlang.explaining.reference_section import reference_section
+
 NOUNS = {"body": "Bodies", "actuator": "Actuators", "sensor": "Sensors", "content": "Things", "task": "Worlds"}
 NAMED = ("thing", "sensor")
 SEVERAL = {"list": "several, each ", "places": "places, each number ", "place": "two numbers, each ", "span": ""}
@@ -29,13 +31,8 @@ def all_kinds() -> str:
 
 def _lines(noun: str, name: str) -> Iterator[str]:
     cls = kinds(noun)[name]
-    yield from (f"### `{name}`", "")
-    yield from (line.removeprefix("    ") for line in str(cls.__doc__).strip().splitlines())
-    yield ""
-    if taken := arguments(cls):
-        yield from (f"| of `{name}` | | if it is not said |", "|---|---|---|")
-        yield from (f"| `{each.key}` | {_what(each)} | {_otherwise(each)} |" for each in taken)
-        yield ""
+    rows = ((each.key, _what(each), _otherwise(each)) for each in arguments(cls))
+    return reference_section(name, cls, name, rows)
 
 
 def _what(argument: Argument) -> str:

@@ -7,6 +7,7 @@ from mindrun.quantity import RATIO, Quantity, Reference
 from mindrun.robot.driver_support import ADDRESS
 
 from mindlang.compiler.diagnostic import listed
+from mindlang.explaining.reference_section import reference_section
 from mindlang.wiring.options import DRIVER, DriverOption, driver_options, drivers
 
 NOUNS = ("sensor", "actuator")
@@ -38,13 +39,8 @@ def driver_page(name: str, *nouns: str) -> str:
 
 def _lines(name: str, noun: str) -> Iterator[str]:
     cls = drivers(noun)[name]
-    yield from (f"### `{name}`", "")
-    yield from (line.removeprefix("    ") for line in str(cls.__doc__).strip().splitlines())
-    yield ""
-    if options := driver_options(cls):
-        yield from (f"| of `{DRIVER}: {name}` | | if it is not said |", "|---|---|---|")
-        yield from (f"| `{option.key}` | {_what(option)} | {_otherwise(option)} |" for option in options)
-        yield ""
+    rows = ((option.key, _what(option), _otherwise(option)) for option in driver_options(cls))
+    return reference_section(name, cls, f"{DRIVER}: {name}", rows)
 
 
 def _what(option: DriverOption) -> str:

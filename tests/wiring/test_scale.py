@@ -12,23 +12,24 @@ tick 1/30 s
 master Go
 body Robot is disc
 actuator wheel is wheel side left neutral 0.5
-sensor eye is range_finder at 0 deg range 12
+sensor it is {sensor}
 skill Go is rule
-  reads eye
-  drives wheel at eye
+  reads it
+  drives wheel at it
+task Roam in plain
+  contains ball is item
+  lasts 9 s
 """
 WIRING = """\
 robot: any
 sensors:
-  eye:
-    driver: ultrasonic
-    trigger: 5
-    echo: 6
-{}
+  it:
+{driver}
 actuators:
   wheel:
     driver: mock
 """
+SONAR = "    driver: ultrasonic\n    trigger: 5\n    echo: 6\n"
 
 
 @pytest.mark.parametrize(
@@ -42,38 +43,9 @@ actuators:
     ],
 )
 def test_a_driver_sees_as_far_as_the_sensor(unit: str, said: str, far: float) -> None:
-    mind = compile_source(Source("any.mind", MIND.format(unit=unit)))
-    assert mind.mind is not None
-    assert mind.graph is not None
-    checked = check_wiring(Source("robot.yaml", WIRING.format(said)), mind.graph, mind.mind.unit_metres)
-    assert checked.wiring is not None
-    [wire] = checked.wiring.sensors
-    assert (wire.low, wire.high) == (0.0, pytest.approx(far))
+    assert _ends(unit, "range_finder at 0 deg range 12", f"{SONAR}{said}\n") == (0.0, pytest.approx(far))
 
 
-LENGTHS = """\
-{unit}
-tick 1/30 s
-master Go
-body Robot is disc
-actuator wheel is wheel side left neutral 0.5
-sensor it is {sensor}
-skill Go is rule
-  reads it
-  drives wheel at it
-task Roam in plain
-  contains ball is item
-  lasts 9 s
-"""
-WIRES = """\
-robot: any
-sensors:
-  it:
-{driver}
-actuators:
-  wheel:
-    driver: mock
-"""
 ENCODER = "    driver: encoder\n    a: 5\n    b: 6\n    steps: 20\n"
 CAMERA = "    driver: ball_tracker\n    measure: distance\n"
 
@@ -116,10 +88,10 @@ def test_what_is_no_length_is_as_its_driver_says(sensor: str, driver: str, usual
 
 
 def _ends(unit: str, sensor: str, driver: str) -> tuple[float, float]:
-    mind = compile_source(Source("any.mind", LENGTHS.format(unit=unit, sensor=sensor)))
+    mind = compile_source(Source("any.mind", MIND.format(unit=unit, sensor=sensor)))
     assert mind.mind, mind.diagnostics
     assert mind.graph
-    checked = check_wiring(Source("robot.yaml", WIRES.format(driver=driver)), mind.graph, mind.mind.unit_metres)
+    checked = check_wiring(Source("robot.yaml", WIRING.format(driver=driver)), mind.graph, mind.mind.unit_metres)
     assert checked.wiring, checked
     [wire] = checked.wiring.sensors
     return wire.low, wire.high

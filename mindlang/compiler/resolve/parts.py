@@ -1,6 +1,6 @@
 """Sensors, memories, actuators and the body; how many readings each sensor has."""
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 from typing import Any
 
@@ -8,7 +8,7 @@ from mindrun.expression import Formula
 from mindrun.sensors import Computed
 from mindrun.validate import depths_of
 
-from mindlang.compiler.diagnostic import Findings, a, listed
+from mindlang.compiler.diagnostic import Findings, Label, a, listed
 from mindlang.compiler.model import Expression, Number, Part, Reading, Term
 from mindlang.compiler.names import Names
 from mindlang.compiler.resolve.expressions import Visible, resolve
@@ -49,6 +49,12 @@ def refuse_facts(declaration: Declaration, allowed: tuple[type[Fact], ...], find
             verbs = [form.__name__.lower() for form in allowed]
             hint = f"Below {noun} {declaration.header.name.text} can stand {listed(verbs)}." if verbs else ONE_LINE
             findings.error("foreign-fact", fact.span, f"{verb} does not belong to {a(noun)}.", hint)
+
+
+def refuse_repeated(facts: Sequence[Fact], message: str, hint: str, findings: Findings) -> None:
+    """Report all but the first of facts that say the same."""
+    for again in facts[1:]:
+        findings.error("repeated-fact", again.span, message, hint, Label(facts[0].span, "first said here"))
 
 
 def sensors(names: Names, findings: Findings) -> tuple[Part[Any], ...]:

@@ -10,6 +10,7 @@ from mindrun.things.rectangle import Rectangle
 
 from mindlang.compiler.diagnostic import Findings, Label
 from mindlang.compiler.model import Part
+from mindlang.compiler.resolve.parts import refuse_repeated
 from mindlang.compiler.resolve.quantities import convert
 from mindlang.compiler.syntax import Declaration, Starts
 
@@ -30,12 +31,8 @@ def start_of(
     start, said = Start(), [fact for fact in declaration.facts if isinstance(fact, Starts)]
     for fact in said:
         start = Start(_start(fact, scene, things, findings), _facing(fact, findings))
-    for again in said[1:]:
-        first = Label(said[0].span, "first said here")
-        message = f"The {declaration.header.noun.text} already says where the robot starts."
-        findings.error(
-            "repeated-fact", again.span, message, "Write both on one line: starts at 0 0 facing 90 deg.", first
-        )
+    message = f"The {declaration.header.noun.text} already says where the robot starts."
+    refuse_repeated(said, message, "Write both on one line: starts at 0 0 facing 90 deg.", findings)
     is_in_middle = scene and not scene.is_bounded and not _says_place(declaration)
     if is_in_middle and (thing := _solid_at(PLAIN_START, things, scene)):
         hint = f"Write another place for {thing.name}, or starts at and a place for the robot."

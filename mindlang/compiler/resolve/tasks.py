@@ -16,7 +16,7 @@ from mindlang.compiler.names import Names, things_of
 from mindlang.compiler.resolve.expressions import Visible, condition, resolve
 from mindlang.compiler.resolve.kinds import Scope, make
 from mindlang.compiler.resolve.maps import with_places
-from mindlang.compiler.resolve.parts import refuse_facts
+from mindlang.compiler.resolve.parts import refuse_facts, refuse_repeated
 from mindlang.compiler.resolve.places import check_places, start_of
 from mindlang.compiler.resolve.quantities import convert
 from mindlang.compiler.resolve.variations import Variable, failures, variations
@@ -188,9 +188,7 @@ def _ticks(declaration: Declaration, tick: float, findings: Findings) -> int:
             message = f"{name.text} does not say how long it lasts."
             findings.error("endless-task", name.span, message, "Add lasts 10000 ticks.")
         return 1
-    for again in lasts[1:]:
-        first = Label(lasts[0].span, "first said here")
-        findings.error("repeated-fact", again.span, "The task already says how long it lasts.", "Leave one out.", first)
+    refuse_repeated(lasts, "The task already says how long it lasts.", "Leave one out.", findings)
     amount = lasts[0].amount
     if amount.unit == "s":
         # What would be a single tick, or none, was surely meant otherwise.

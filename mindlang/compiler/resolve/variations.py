@@ -8,9 +8,10 @@ from mindrun.quantity import RATE, Quantity
 from mindrun.registry import arguments, names
 from mindrun.variation import VARIED_NOUNS, Failure, Variation, Varying, varied_quantity
 
-from mindlang.compiler.diagnostic import Findings, Label, did_you_mean, listed
+from mindlang.compiler.diagnostic import Findings, did_you_mean, listed
 from mindlang.compiler.model import Part
 from mindlang.compiler.names import Names
+from mindlang.compiler.resolve.parts import refuse_repeated
 from mindlang.compiler.resolve.quantities import convert
 from mindlang.compiler.source import Span
 from mindlang.compiler.syntax import Declaration, Fails, Name, Varies
@@ -108,11 +109,9 @@ def _range(fact: Varies, quantity: Quantity, findings: Findings) -> tuple[float,
 
 def _once(facts: Mapping[F, str], findings: Findings) -> Iterator[F]:
     """The facts, each of which says something, without those that say again what one before has said."""
-    first: dict[str, F] = {}
+    by_meaning: dict[str, list[F]] = {}
     for fact, says in facts.items():
-        if says in first:
-            label = Label(first[says].span, "first said here")
-            findings.error("repeated-fact", fact.span, f"The task already says {says}.", "Leave one out.", label)
-        else:
-            first[says] = fact
-            yield fact
+        by_meaning.setdefault(says, []).append(fact)
+    for says, same in by_meaning.items():
+        refuse_repeated(same, f"The task already says {says}.", "Leave one out.", findings)
+        yield same[0]
