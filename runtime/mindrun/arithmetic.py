@@ -102,8 +102,11 @@ def nearest(s: Any, sensor: Any, n: Any) -> Any:
     """The rows [THING_ROWS, lane] of the thing that a sensor speaks of: of several, in each lane the nearest one.
 
     The first where two are as near; one that has vanished is nowhere, and NaN where all have. Sensors that follow one
-    another and are about the same things look for it once.
+    another and are about the same things look for it once. Of obstacles it is the nearest point of any of them.
     """
+    if sensor.boxes > 0:
+        find_nearest_point(s, sensor, n)
+        return s.nearest
     if sensor.things == 1:
         return s.things[THING_ROWS * sensor.thing : THING_ROWS * (sensor.thing + 1)]
     found, first = s.nearest, THING_ROWS * sensor.thing

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 from math import inf
 from typing import Annotated, Any
 
-from mindrun.arithmetic import COSINE, DISTANCE, HALF, SINE, F, X, Y, bearing, find_nearest_point, nearest
+from mindrun.arithmetic import COSINE, DISTANCE, HALF, SINE, F, X, Y, bearing, nearest
 from mindrun.quantity import LENGTH, RATIO, THING
 from mindrun.registry import kind
 from mindrun.sensors.sensor import Physical, Row, Scene, World
@@ -49,9 +49,7 @@ class Bearing(Physical):
             for p in range(n):
                 out[p] = HALF
             return
-        if sensor.boxes > 0:
-            find_nearest_point(s, sensor, n)
-        thing = s.nearest if sensor.boxes > 0 else nearest(s, sensor, n)
+        thing = nearest(s, sensor, n)
         x, y, away = thing[X], thing[Y], thing[DISTANCE]
         for p in range(n):
             dx, dy = F(x[p] - s.body[X, p]), F(y[p] - s.body[Y, p])

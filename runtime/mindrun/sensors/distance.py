@@ -5,7 +5,7 @@ from typing import Annotated, Any
 
 import numpy as np
 
-from mindrun.arithmetic import COSINE, DISTANCE, ONE, SINE, SIZE, F, X, Y, clamp, find_nearest_point, nearest
+from mindrun.arithmetic import COSINE, DISTANCE, ONE, SINE, SIZE, F, X, Y, clamp, nearest
 from mindrun.quantity import POSITIVE, THING
 from mindrun.registry import kind
 from mindrun.sensors.sensor import Physical, Row, Scene, World
@@ -56,9 +56,7 @@ class Distance(Physical):
             for p in range(n):
                 out[p] = ONE
             return
-        if sensor.boxes > 0:
-            find_nearest_point(s, sensor, n)
-        thing, body = s.nearest if sensor.boxes > 0 else nearest(s, sensor, n), t.world[0]
+        thing, body = nearest(s, sensor, n), t.world[0]
         away, size, radius = thing[DISTANCE], thing[SIZE], body.radius
         if body.is_round:
             for p in range(n):

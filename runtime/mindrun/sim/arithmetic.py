@@ -15,8 +15,6 @@ from mindrun.sim.compiling import compiled, inlined
 bearing, clamp = inlined(arithmetic.bearing), inlined(arithmetic.clamp)
 finite, sine_cosine = inlined(arithmetic.finite), inlined(arithmetic.sine_cosine)
 in_claw, inside = compiled(arithmetic.in_claw), compiled(arithmetic.inside)
-find_nearest_point = compiled(arithmetic.find_nearest_point)
-nearest = inlined(arithmetic.nearest)  # which no call can return
 _COMPILED: dict[Any, Callable[..., Any]] = {
     arithmetic.bearing: bearing,
     arithmetic.clamp: clamp,
@@ -24,8 +22,7 @@ _COMPILED: dict[Any, Callable[..., Any]] = {
     arithmetic.sine_cosine: sine_cosine,
     arithmetic.in_claw: in_claw,
     arithmetic.inside: inside,
-    arithmetic.find_nearest_point: find_nearest_point,
-    arithmetic.nearest: nearest,
+    arithmetic.find_nearest_point: compiled(arithmetic.find_nearest_point),
     arithmetic.splat: vector.splat,
     arithmetic.broadcast: vector.broadcast,
     arithmetic.load: vector.load,
@@ -37,12 +34,21 @@ _COMPILED: dict[Any, Callable[..., Any]] = {
 def compiled_lane(function: Any) -> Callable[..., Any]:
     """A function of a kind's module, compiled with those of that module and of `mindrun.arithmetic` that it calls."""
     if function not in _COMPILED:
-        known = function.__globals__
-        names = {name: known[name] for name in function.__code__.co_names if name in known}
-        names = {
-            name: compiled_lane(value) if isinstance(value, FunctionType) else value for name, value in names.items()
-        }
-        plain = FunctionType(function.__code__, names, function.__name__)
-        plain.__module__, plain.__qualname__ = function.__module__, function.__qualname__
-        _COMPILED[function] = compiled(plain)
+        _COMPILED[function] = compiled(_calling_compiled(function))
     return _COMPILED[function]
+
+
+def _calling_compiled(function: Any) -> FunctionType:
+    """The same function, which calls what is compiled."""
+    known = function.__globals__
+    called = {name: known[name] for name in function.__code__.co_names if name in known}  # and attributes of that name
+    names = {
+        name: compiled_lane(value) if isinstance(value, FunctionType) and value is not function else value
+        for name, value in called.items()
+    }
+    plain = FunctionType(function.__code__, names, function.__name__)
+    plain.__module__, plain.__qualname__ = function.__module__, function.__qualname__
+    return plain
+
+
+nearest = _COMPILED[arithmetic.nearest] = inlined(_calling_compiled(arithmetic.nearest))  # which no call can return
