@@ -44,7 +44,15 @@ class Whole(JITCodeLibrary):  # type: ignore[misc]
         for function in self._final_module.functions:
             if function.linkage == Linkage.linkonce_odr and not function.is_declaration:
                 function.linkage = "internal"  # nobody else calls it: what it is handed and does not need falls away
-        super()._optimize_final_module()
+        # Numba prunes reference counts between two passes, and turns loops round before; there are none here, and LLVM
+        # does better with variables out of memory (docs/decisions/whole-ticks-compiled.md).
+        first, builder = self._codegen._module_pass_manager(opt=0, loop_vectorize=False)
+        first.add_sroa_pass()
+        first.add_instruction_combine_pass()
+        first.add_simplify_cfg_pass()
+        first.run(self._final_module, builder)
+        full, builder = self._codegen._module_pass_manager()
+        full.run(self._final_module, builder)
 
 
 @register_pass(mutates_CFG=True, analysis_only=False)
