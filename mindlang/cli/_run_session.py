@@ -61,7 +61,7 @@ class RunSession:
     def draw(self, set_up: RunSetup, rollout: Rollout, found: dict[str, Any], path: Path) -> None:
         """The picture of a run, written to `path`."""
         from mindlang.pictures.picture import picture, png
-        from mindlang.pictures.recorded_run import record_run
+        from mindlang.run.recorded_run import record_run
 
         recorded = record_run(set_up, rollout, found["seed"])
         write_picture(path, png(picture(recorded, found)))
@@ -71,7 +71,7 @@ class RunSession:
     def film(self, set_up: RunSetup, rollout: Rollout, found: dict[str, Any], path: Path, speed: float | None) -> None:
         """The video of a run, written to `path`."""
         from mindlang.pictures.film import Film, FilmError
-        from mindlang.pictures.recorded_run import record_run
+        from mindlang.run.recorded_run import record_run
 
         film = Film.of(record_run(set_up, rollout, found["seed"]), found, speed)
         try:

@@ -6,9 +6,9 @@ from typing import Any
 from mindlang.number_format import score
 from mindlang.pictures.canvas import Canvas, square, text_width
 from mindlang.pictures.path import MIN_CONTROL_SHARE, Path, draw_cross
-from mindlang.pictures.recorded_run import RecordedRun
 from mindlang.pictures.scene import thing_colours
 from mindlang.pictures.theme import Theme, mixed
+from mindlang.run.recorded_run import RecordedRun
 
 ENTRY_GAP_PIXELS = 22.0  # between two entries
 SMALL_PIXELS, LARGE_PIXELS, MIN_TEXT_PIXELS = 11.0, 14.0, 5.0

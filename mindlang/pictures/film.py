@@ -14,7 +14,6 @@ from mindlang.pictures.film_layout import FilmLayout
 from mindlang.pictures.hierarchy_panel import Panel
 from mindlang.pictures.names import draw_names
 from mindlang.pictures.path import Path, draw_cross
-from mindlang.pictures.recorded_run import RecordedRun
 from mindlang.pictures.robot import draw_robot
 from mindlang.pictures.scene import (
     WALL_UNITS,
@@ -24,6 +23,7 @@ from mindlang.pictures.scene import (
     half_sides,
 )
 from mindlang.pictures.theme import NIGHT
+from mindlang.run.recorded_run import RecordedRun
 
 FILM_SECONDS = 60.0  # that a whole run lasts, sped up
 WINDOW_UNITS = 84.0  # of a plain scene that are seen around the robot

@@ -9,8 +9,8 @@ from numpy.typing import NDArray
 from mindlang.pictures.canvas import Canvas, text_width
 from mindlang.pictures.influence_flow import Flow, Flowing, Sink
 from mindlang.pictures.layout import Layout, Place
-from mindlang.pictures.recorded_run import RecordedRun
 from mindlang.pictures.theme import Theme, mixed
+from mindlang.run.recorded_run import RecordedRun
 
 BEND = np.linspace(0.0, 1.0, 24)
 MAX_TEXT_PIXELS, MIN_TEXT_PIXELS = 11.0, 5.0  # capitals of names, in pixels

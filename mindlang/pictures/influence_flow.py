@@ -10,7 +10,7 @@ from mindrun.graph import Receiver
 from mindrun.think import hierarchy, values
 from numpy.typing import NDArray
 
-from mindlang.pictures.recorded_run import RecordedRun
+from mindlang.run.recorded_run import RecordedRun
 
 Sink = tuple[Receiver, int]  # which one of its kind
 

@@ -7,9 +7,9 @@ from typing import NamedTuple
 import numpy as np
 
 from mindlang.pictures.canvas import Canvas, text_width
-from mindlang.pictures.recorded_run import RecordedRun
 from mindlang.pictures.scene import each_thing
 from mindlang.pictures.theme import Theme
+from mindlang.run.recorded_run import RecordedRun
 
 MAX_NAMED_COPIES = 6  # things of one name that each have it beside them
 NAME_PIXELS = 10.0  # the capitals of a thing's name

@@ -7,9 +7,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mindlang.pictures.canvas import Canvas, square
-from mindlang.pictures.recorded_run import RecordedRun
 from mindlang.pictures.scene import thing_colours
 from mindlang.pictures.theme import Colour, Theme, mixed
+from mindlang.run.recorded_run import RecordedRun
 
 TIME_SHADES = 64  # shades of a path by time
 MIN_CONTROL_SHARE = 0.005  # of the run: a skill that was in control for less does not count

@@ -9,7 +9,6 @@ from mindlang.pictures.canvas import Canvas, Image, Viewport, blank, pasted
 from mindlang.pictures.caption import draw_legend, draw_scale, draw_title
 from mindlang.pictures.names import draw_names
 from mindlang.pictures.path import Path, draw_collisions, draw_former, draw_start
-from mindlang.pictures.recorded_run import RecordedRun
 from mindlang.pictures.robot import draw_robot
 from mindlang.pictures.scene import (
     WALL_UNITS,
@@ -19,6 +18,7 @@ from mindlang.pictures.scene import (
     half_sides,
 )
 from mindlang.pictures.theme import PAPER
+from mindlang.run.recorded_run import RecordedRun
 
 PICTURE_PIXELS = 1000
 TOP_PIXELS, BOTTOM_PIXELS, SIDE_PIXELS = 96, 74, 28  # what stands around the world

@@ -5,9 +5,9 @@ from mindrun.bodies import BodyKind
 
 from mindlang.pictures.canvas import Canvas, rectangle
 from mindlang.pictures.pose import Floats, placed
-from mindlang.pictures.recorded_run import RecordedRun
 from mindlang.pictures.sensing import draw_rays, draw_spots, draw_touches
 from mindlang.pictures.theme import Theme
+from mindlang.run.recorded_run import RecordedRun
 
 LIT_COMMAND = 0.5  # of a lamp: above it, it throws a beam
 BEAM_UNITS, BEAM_SLOPE = 5.0, 0.4  # how many of its sides a beam is long, and how fast it widens

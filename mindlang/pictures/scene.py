@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 
 from mindlang.pictures.canvas import Canvas, rectangle, square
 from mindlang.pictures.pose import placed
-from mindlang.pictures.recorded_run import RecordedRun
 from mindlang.pictures.theme import Colour, Theme, mixed
+from mindlang.run.recorded_run import RecordedRun
 
 GRID_UNITS = 10.0
 WALL_UNITS = 0.8

@@ -4,8 +4,8 @@ import numpy as np
 
 from mindlang.pictures.canvas import Canvas
 from mindlang.pictures.pose import Floats, placed
-from mindlang.pictures.recorded_run import RecordedRun
 from mindlang.pictures.theme import Theme
+from mindlang.run.recorded_run import RecordedRun
 
 RAY_END_PIXELS, SPOT_PIXELS = 2.5, 2.6  # radii
 SECTOR_POINTS = 9  # of the line that shows a switch

@@ -12,9 +12,9 @@ from mindlang.pictures.film_layout import FILM_HEIGHT, FILM_WIDTH, FilmLayout
 from mindlang.pictures.hierarchy_panel import MAX_TEXT_PIXELS, fitting
 from mindlang.pictures.influence_flow import Flow, Link
 from mindlang.pictures.layout import Layout, Place
-from mindlang.pictures.recorded_run import record_run
 from mindlang.pictures.scene import WALL_UNITS
 from mindlang.pictures.theme import NIGHT
+from mindlang.run.recorded_run import record_run
 from mindlang.run.setup import set_up
 from tests.calling import RULES, Call
 

@@ -16,11 +16,11 @@ from mindlang.pictures.canvas import Canvas, Image, Viewport, blank
 from mindlang.pictures.caption import LEGEND_LINES, MIN_TEXT_PIXELS, fitted
 from mindlang.pictures.path import draw_former
 from mindlang.pictures.picture import BOTTOM_PIXELS, PICTURE_PIXELS, SIDE_PIXELS, TOP_PIXELS, picture, view_of
-from mindlang.pictures.recorded_run import RecordedRun, record_run
 from mindlang.pictures.scene import thing_colours
 from mindlang.pictures.theme import NIGHT, PAPER, Theme, mixed
 from mindlang.run.layouts import NO_GENOME
 from mindlang.run.outcome import run_data
+from mindlang.run.recorded_run import RecordedRun, record_run
 from mindlang.run.setup import set_up
 from tests.calling import RULES, Call
 

@@ -14,11 +14,11 @@ from mindlang.pictures.canvas import Canvas, Viewport, blank, text_width
 from mindlang.pictures.names import NAME_PIXELS, Label, draw_names, free
 from mindlang.pictures.picture import height_of, picture
 from mindlang.pictures.pose import placed
-from mindlang.pictures.recorded_run import RecordedRun, record_run
 from mindlang.pictures.robot import draw_robot, steering_angle
 from mindlang.pictures.theme import PAPER
 from mindlang.run.layouts import NO_GENOME
 from mindlang.run.outcome import run_data
+from mindlang.run.recorded_run import RecordedRun, record_run
 from mindlang.run.setup import set_up
 
 CAR = """tick 1/30 s

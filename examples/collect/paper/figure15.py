@@ -13,10 +13,10 @@ from mindlang.pictures.film import Film
 from mindlang.pictures.film_layout import FILM_HEIGHT
 from mindlang.pictures.hierarchy_panel import Panel
 from mindlang.pictures.path import Path as Trail
-from mindlang.pictures.recorded_run import RecordedRun, record_run
 from mindlang.pictures.theme import NIGHT
 from mindlang.run import outcome
 from mindlang.run.layouts import NO_GENOME
+from mindlang.run.recorded_run import RecordedRun, record_run
 from mindlang.run.setup import SetupError, set_up
 
 FILE, TASK, MASTER = "constant_skills.mind", "Collect", "Gather"

@@ -1,4 +1,4 @@
-"""A run written down tick by tick, as arrays: what pictures and films are drawn from."""
+"""A run written down tick by tick, as arrays: what pictures, films, traces and answers are made from."""
 
 from dataclasses import dataclass
 
@@ -21,7 +21,9 @@ class RecordedRun:
     """Row 0 of `body` [ticks + 1, 3], `things` [ticks + 1, things, 3], `turned` [ticks + 1, things] and
     `held` is the beginning.
 
-    `readings`, `influence`, `commands`, `lines`, `touching` and `counts` [ticks, counted events] have a row per tick.
+    `readings` as its skills read them, `influence`, `commands` before the noise of their actuators, `lines` (the sum of
+    each reward line so far), `touching`, `battery`, `events` (how often each has happened so far) and `counts` (of the
+    counted ones) have a row per tick.
     """
 
     setup: RunSetup
@@ -35,7 +37,8 @@ class RecordedRun:
     commands: NDArray[np.float32]
     lines: Floats
     touching: NDArray[np.bool_]
-    counts: NDArray[np.int64]
+    battery: Floats
+    events: NDArray[np.int64]
 
     @property
     def graph(self) -> Graph:
@@ -51,6 +54,11 @@ class RecordedRun:
     def ticks(self) -> int:
         """How many ticks the run had."""
         return len(self.body) - 1
+
+    @property
+    def counts(self) -> NDArray[np.int64]:
+        """How often each counted event has happened so far."""
+        return self.events[:, list(self.task.counts)]
 
     @property
     def contents(self) -> list[Thing]:
@@ -117,7 +125,8 @@ def record_run(setup: RunSetup, rollout: Rollout, seed: int) -> RecordedRun:
         np.array([moment.commands for moment in moments]),
         np.array([moment.lines for moment in moments]).reshape(len(moments), -1),
         np.array([moment.touching for moment in moments]),
-        np.cumsum(events[:, list(setup.task.counts)], axis=0),
+        np.array([moment.battery for moment in moments]),
+        np.cumsum(events, axis=0),
     )
 
 
