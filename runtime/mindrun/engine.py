@@ -12,7 +12,7 @@ from mindrun.functions.procedure import module_source
 from mindrun.functions.procedure_text import module_of
 from mindrun.graph import Graph
 from mindrun.policy import Policy
-from mindrun.think import hierarchy, think
+from mindrun.think import Thought, hierarchy, think
 from mindrun.virtual_sensors import virtual_sensors
 from mindrun.weights import reachable
 
@@ -67,7 +67,7 @@ class Engine:
         """Commands [actuators] for readings [graph.width]; those of virtual sensors and memories are filled in here."""
         with np.errstate(all="ignore"):
             self.readings = self._filled(np.array(readings, np.float32))
-            thought = think(self._hierarchy, self.readings)
+            thought = self._thought()
             actuators = len(self._neutral)
             self._remember(thought.command[actuators:], thought.driven[actuators:])
         self._tick, self._before = self._tick + 1, self.readings
@@ -82,6 +82,9 @@ class Engine:
         for place, read in self._virtual:
             now[place] = read(self._tick, now, self._before)
         return now
+
+    def _thought(self) -> Thought:
+        return think(self._hierarchy, self.readings)
 
     def _remember(self, command: NDArray[np.float32], driven: NDArray[np.bool_]) -> None:
         kept = self._decay * self._cells

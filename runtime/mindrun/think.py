@@ -6,6 +6,7 @@ Everything is float32, in the order of the graph: parents first, each skill's ed
 from collections.abc import Mapping
 from dataclasses import dataclass
 from math import isfinite
+from types import MappingProxyType
 
 import numpy as np
 from numpy.typing import NDArray
@@ -86,13 +87,20 @@ def _sent(edge: Edge, actuators: int) -> Sent:
     return Sent(edge.to != "skill", place, edge.output, edge.value, edge.gate, np.float32(edge.cuts))
 
 
-def think(mind: Hierarchy, readings: NDArray[np.float32]) -> Thought:
-    """Equations 2 and 3 over the full vector of readings; call it where numpy's warnings are off."""
+def think(
+    mind: Hierarchy, readings: NDArray[np.float32], replaced: Mapping[int, float] = MappingProxyType({})
+) -> Thought:
+    """Equations 2 and 3 over the full vector of readings; call it where numpy's warnings are off.
+
+    Influence that is `replaced`, by the index of its skill, is this, whatever all above it send.
+    """
     influence = np.zeros(mind.count, np.float32)
     influence[mind.master] = _ONE
     commands, influences = np.zeros((2, mind.commands), np.float32)
     faults = 0
     for skill in mind.skills:
+        if skill.index in replaced:
+            influence[skill.index] = replaced[skill.index]
         own = influence[skill.index]
         if own == 0:
             continue

@@ -45,16 +45,28 @@ def advance_slowly(
         if jobs.lanes[0] == 0:
             break
         before(tables, state, jobs)
-        for row in range(len(tables.skills)):
-            name = graph.skills[int(tables.skills[row]["index"])].name
-            if name in memories.procedures.slow:
-                _run(memories, name, tables, state, int(jobs.lanes[0]), row)
-            else:
-                run_skills(tables, state, jobs.lanes[0], row, row + 1)
-                if state.run.failed[FAILED_SKILL] >= 0:
-                    return
+        think_slowly(graph, memories, tables, state, int(jobs.lanes[0]), 0, len(tables.skills))
+        if state.run.failed[FAILED_SKILL] >= 0:
+            return
         after(tables, state, jobs, interrupt)
     memories.forget(set(state.run.job[: jobs.lanes[0]].tolist()))
+
+
+def think_slowly(
+    graph: Graph, memories: Memories, tables: Tables, state: State, lanes: int, first: int, last: int
+) -> None:
+    """As `lanes.think`: the skills first..last of the table; it ends where a compiled procedure fails."""
+    if not memories.procedures.slow:
+        run_skills(tables, state, np.int64(lanes), first, last)
+        return
+    for row in range(first, last):
+        name = graph.skills[int(tables.skills[row]["index"])].name
+        if name in memories.procedures.slow:
+            _run(memories, name, tables, state, lanes, row)
+        else:
+            run_skills(tables, state, np.int64(lanes), row, row + 1)
+            if state.run.failed[FAILED_SKILL] >= 0:
+                return
 
 
 def _run(memories: Memories, name: str, tables: Tables, state: State, lanes: int, row: int) -> None:

@@ -17,7 +17,7 @@ from mindrun.sim.codes import ITEM
 from mindrun.sim.lanes.advance import advance
 from mindrun.sim.lanes.runs import fill
 from mindrun.sim.procedures import Procedures
-from mindrun.sim.python_procedures import Memories, advance_slowly
+from mindrun.sim.python_procedures import Memories, advance_slowly, think_slowly
 from mindrun.sim.state import FAILED_COLUMN, FAILED_SKILL, Jobs, State
 from mindrun.sim.tables import Sizes, Tables, build, genome_length
 from mindrun.sim.threads import in_threads
@@ -153,12 +153,21 @@ class Rollout:
             advance_slowly(self.graph, tile.memories, self.tables, tile.state, jobs, ticks, self.interrupt)
         else:
             advance(self.tables, tile.state, jobs, ticks, self.interrupt)
+        self._explain(tile)
+        return int(jobs.lanes[0])
+
+    def think(self, tile: Tile, jobs: Jobs, first: int, last: int) -> None:
+        """Run the skills first..last of the table, between both halves of a tick; ProcedureError where one fails."""
+        think_slowly(self.graph, tile.memories, self.tables, tile.state, int(jobs.lanes[0]), first, last)
+        self._explain(tile)
+
+    def _explain(self, tile: Tile) -> None:
+        """ProcedureError where a procedure has failed."""
         failed = tile.state.run.failed
         if failed[FAILED_SKILL] >= 0:
             skill = self.tables.skills[failed[FAILED_SKILL]]
             inputs = tile.state.mind.gathered[: int(skill["inputs"]), failed[FAILED_COLUMN]]
             raise self.procedures.explain(self.graph.skills[int(skill["index"])].name, inputs)
-        return int(jobs.lanes[0])
 
 
 def cores() -> int:

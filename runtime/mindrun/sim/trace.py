@@ -1,12 +1,14 @@
 """One run, tick by tick: what the pictures, the videos and the tests look at."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
 from mindrun.arithmetic import ANGLE, BOX_COLUMNS, LOOSE_ROWS, SIZE, THING_ROWS, TURN
+from mindrun.changes import Change
+from mindrun.sim.changed_ticks import changed
 from mindrun.sim.rollout import Rollout
 from mindrun.sim.state import Jobs, World
 
@@ -54,8 +56,11 @@ class Trace:
     jobs: Jobs
 
 
-def trace(rollout: Rollout, seed: int, genome: NDArray[np.float32] | None = None) -> Trace:
-    """The run that `rollout.score` would make of that genome and seed."""
+def trace(
+    rollout: Rollout, seed: int, genome: NDArray[np.float32] | None = None, changes: Sequence[Change] = ()
+) -> Trace:
+    """The run that `rollout.score` would make of that genome and seed; with changes, what had become of it then."""
+    advance = changed(rollout, changes) if changes else rollout.advance
     genomes = np.zeros((1, 0), np.float32) if genome is None else genome[None].astype(np.float32)
     jobs = rollout.jobs(genomes, np.array([seed], np.uint64))
     tile = rollout.tile(1)
@@ -71,7 +76,7 @@ def trace(rollout: Rollout, seed: int, genome: NDArray[np.float32] | None = None
     def moments() -> Iterator[Moment]:
         working = 1
         while working:
-            working = rollout.advance(tile, jobs, 1)
+            working = advance(tile, jobs, 1)
             yield Moment(
                 tick=int(world.tick[0]),
                 body=world.body[:, 0].copy(),
