@@ -13,6 +13,7 @@ from rich.progress import BarColumn, Progress, TaskProgressColumn, TextColumn, T
 
 from mindlang.cli._simulator_compilation import ensure_compiled
 from mindlang.cli._terminal import FINDINGS, MISUSE, fail, load_compiled, procedures_talk, say, talk, write_picture
+from mindlang.compiler.compile import Compiled
 from mindlang.resource_limits import refuse_too_large, refuse_too_many
 from mindlang.run.layouts import NO_GENOME
 from mindlang.run.setup import RunSetup, SetupError, set_up
@@ -29,7 +30,20 @@ class RunSession:
         self, file: str, task: str | None, master: str | None, interrupt: bool, workers: int = 1, runs: int = 1
     ) -> tuple[RunSetup, Rollout]:
         """The cast of a run, in the simulator."""
-        compiled = load_compiled(file)
+        return self.prepare_compiled(file, load_compiled(file), task, master, interrupt, workers, runs)
+
+    @procedures_talk()
+    def prepare_compiled(
+        self,
+        file: str,
+        compiled: Compiled,
+        task: str | None,
+        master: str | None,
+        interrupt: bool,
+        workers: int = 1,
+        runs: int = 1,
+    ) -> tuple[RunSetup, Rollout]:
+        """The cast of a run of a file that is compiled."""
         try:
             found = set_up(file, compiled, task, master)
             self.say(*(f"note: {note}" for note in (*found.ready.notes, found.note) if note))

@@ -1,0 +1,105 @@
+"""`mindc view`: a run, seen in a browser."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import click
+
+from mindlang.cli._options import WholeOption
+
+if TYPE_CHECKING:
+    from mindlang.view.viewed import Viewed
+
+EXAMPLES = """\b
+Examples:
+  mindc view collect.mind
+  mindc view collect.mind --task Collect --seed 3
+  mindc view collect.mind --task Avoid --no-interruption --port 8123 --no-browser
+"""
+MAX_PORT = 65535
+
+
+@click.command(epilog=EXAMPLES)
+@click.argument("file")
+@click.option("--task", metavar="TASK", help="Default: that on which the master is taught, or of its name.")
+@click.option("--seed", type=WholeOption(0, 2**64 - 1), help="The same seed gives the same run. Default: drawn.")
+@click.option("--master", metavar="SKILL", help="Who is in charge. Default: the master of the task's first lesson.")
+@click.option("--no-interruption", is_flag=True, help="Go on to the last tick, whatever would end the run.")
+@click.option("--port", type=WholeOption(1, MAX_PORT), help="Of this machine. Default: any that is free.")
+@click.option("--no-browser", is_flag=True, help="Print the address, and open nothing.")
+@click.option("-q", "--quiet", is_flag=True, help="Print nothing but the address and errors.")
+def command(
+    file: str,
+    task: str | None,
+    seed: int | None,
+    master: str | None,
+    no_interruption: bool,
+    port: int | None,
+    no_browser: bool,
+    quiet: bool,
+) -> None:
+    """See a run of FILE in a browser: the world, the hierarchy, and every value over time.
+
+    Serves a page at an address of this machine, which nobody else can open, until Ctrl-C; a browser that is closed may
+    open it again. Runs the Python code of the file's procedures.
+    """
+    viewed = _simulated(file, task, seed, master, not no_interruption, quiet)
+    _serve(viewed, port, not no_browser, quiet)
+
+
+def _simulated(
+    file: str, task: str | None, seed: int | None, master: str | None, interrupt: bool, quiet: bool
+) -> Viewed:
+    import secrets
+
+    from mindlang.cli._run_session import RunSession
+    from mindlang.cli._terminal import load_compiled
+    from mindlang.compiler.drawing import text_after_name
+    from mindlang.view.viewed_run import viewed_run
+
+    compiled = load_compiled(file)
+    setup, rollout = RunSession(quiet).prepare_compiled(file, compiled, task, master, interrupt)
+    skills = compiled.mind.skills if compiled.mind else ()
+    texts = {(skill.name, edge.target): text_after_name(edge.fact) for skill in skills for edge in skill.edges}
+    return viewed_run(setup, rollout, secrets.randbits(31) if seed is None else seed, texts)
+
+
+def _serve(viewed: Viewed, port: int | None, opens: bool, quiet: bool) -> None:
+    import asyncio
+    import sys
+
+    from mindrun.errors import reason
+
+    from mindlang.cli._terminal import MISUSE, fail, procedures_talk, talk
+    from mindlang.view.server import ViewServer
+    from mindlang.view.session import Session
+
+    out = sys.stdout
+
+    def ready(address: str) -> None:
+        click.echo(address, file=out)
+        if not quiet:
+            talk.print("Ctrl-C ends this; a browser that is closed does not.")
+        if opens:
+            _open(address)
+
+    viewed.grow()
+    try:
+        with procedures_talk():
+            asyncio.run(ViewServer(Session(viewed), port or 0).serve(ready))
+    except OSError as error:
+        hint = "Another program has that port: leave --port out, and one that is free is taken."
+        fail(f"port {port} of this machine cannot be opened: {reason(error)}", hint, MISUSE)
+
+
+def _open(address: str) -> None:
+    """Open a browser with windows, if there is one: what runs in a terminal would take this one."""
+    import webbrowser
+    from contextlib import suppress
+    from threading import Thread
+
+    with suppress(webbrowser.Error):
+        browser = webbrowser.get()
+        if type(browser) is not webbrowser.GenericBrowser:
+            Thread(target=browser.open, args=(address,), daemon=True).start()

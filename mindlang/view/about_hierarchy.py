@@ -1,0 +1,109 @@
+"""What does not change of a hierarchy: its nodes, its edges and its curves, as plain data."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from mindrun.graph import Graph, Skill
+from mindrun.registry import names
+
+from mindlang.view.columns import Columns
+from mindlang.view.texts import shown
+
+Texts = Mapping[tuple[str, str], str]  # what a line says, by the names of its skill and of whom it is for
+
+
+@dataclass(frozen=True, slots=True)
+class HierarchyData:
+    """The hierarchy below a master: `skills` are those that it reaches, in the order of the graph."""
+
+    graph: Graph
+    master: str
+    skills: Sequence[Skill]
+    columns: Columns
+
+    def data(self, texts: Texts) -> dict[str, Any]:
+        """`nodes`, `edges` and `reads`."""
+        nodes = [*self._nodes()]
+        numbers = {address: number for number, (address, _) in enumerate(nodes)}
+        places = {skill.name: ("skill", place) for place, skill in enumerate(self.graph.skills)}
+        inputs = [*self._inputs()]
+        return {
+            "nodes": [node for _, node in nodes],
+            "edges": [
+                {
+                    "from": numbers[places[skill.name]],
+                    "to": numbers[edge.to, edge.target],
+                    "text": shown(texts.get((skill.name, self.graph.named(edge.to, edge.target)), "").strip()),
+                }
+                for skill in self.skills
+                for edge in skill.edges
+            ],
+            "reads": [
+                [numbers[source], numbers[places[skill.name]]]
+                for skill in self.skills
+                for source in dict.fromkeys(inputs[reading] for reading in skill.inputs)
+            ],
+        }
+
+    def _nodes(self) -> Iterator[tuple[tuple[str, int], dict[str, Any]]]:
+        """Each node, and what it is a node of: its noun and its place there."""
+        graph, reached = self.graph, {skill.name for skill in self.skills}
+        for place, sensor in enumerate(graph.sensors):
+            read = range(sensor.start, sensor.start + sensor.width)
+            yield ("sensor", place), self._node("sensor", sensor.name, sensor.kind, "readings", read)
+        for place, memory in enumerate(graph.memories):
+            read = range(memory.start, memory.start + 1)
+            yield ("memory", place), self._node("memory", memory.name, memory.kind, "readings", read)
+        for place, skill in enumerate(graph.skills):
+            if skill.name in reached:
+                yield ("skill", place), self._node("skill", skill.name, skill.function, "influence", [place])
+        for place, actuator in enumerate(graph.actuators):
+            yield ("actuator", place), self._node("actuator", actuator.name, actuator.kind, "commands", [place])
+
+    def _node(self, noun: str, name: str, kind: object, group: str, places: Sequence[int]) -> dict[str, Any]:
+        return {
+            "name": shown(name),
+            "kind": noun,
+            "says": names().get(type(kind), ""),
+            "columns": [self.columns[group].column(place) for place in places],
+            "master": noun == "skill" and name == self.master,
+        }
+
+    def _inputs(self) -> Iterator[tuple[str, int]]:
+        """For each reading, of which sensor or memory it is."""
+        for place, sensor in enumerate(self.graph.sensors):
+            for _ in range(sensor.width):
+                yield "sensor", place
+        for place, _ in enumerate(self.graph.memories):
+            yield "memory", place
+
+    def curves(self, rewards: Sequence[str] = ()) -> list[dict[str, Any]]:
+        """Every column that can be drawn over time, by name; of the world and of rewards where there are any."""
+        graph, reached = self.graph, {skill.name for skill in self.skills}
+        named: list[tuple[str, str, list[tuple[int, str]]]] = [
+            ("reading", "readings", [*enumerate(reading_names(graph))]),
+            ("influence", "influence", [(i, s.name) for i, s in enumerate(graph.skills) if s.name in reached]),
+            ("command", "commands", [*enumerate(actuator.name for actuator in graph.actuators)]),
+            ("reward", "rewards", [*enumerate(rewards)]),
+            ("world", "robot", [*enumerate(("x", "y", "angle"))]),
+            ("world", "battery", [(0, "battery")]),
+        ]
+        return [
+            {"name": shown(name), "group": group, "column": self.columns[of].column(place)}
+            for group, of, each in named
+            if of in self.columns.groups
+            for place, name in each
+        ]
+
+
+def reading_names(graph: Graph) -> list[str]:
+    """The name of every reading: its sensor's or memory's, with a number where there are several."""
+    wide = (
+        f"{sensor.name} {place + 1}" if sensor.width > 1 else sensor.name
+        for sensor in graph.sensors
+        for place in range(sensor.width)
+    )
+    return [*wide, *(memory.name for memory in graph.memories)]

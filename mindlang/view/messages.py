@@ -1,0 +1,163 @@
+"""What a client may say: each message checked in every part, or a RefusedError with a sentence."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from mindrun.strict_json import is_whole, parsed
+
+from mindlang.view.columns import DOUBLES, SINGLES
+
+MAX_MESSAGE_BYTES = 16 << 10
+MAX_NUMBER = (1 << 32) - 1  # as the header of a frame has it
+MAX_COLUMNS = 64  # that are asked for at once
+MAX_FORKS = 16
+REPLACED = "reading", "influence", "memory"
+
+
+class RefusedError(ValueError):
+    """What cannot be answered; the sentence is for who has asked."""
+
+
+@dataclass(frozen=True, slots=True)
+class AskRows:
+    """Ticks `first`, `first` + `every` … below `below`."""
+
+    fork: int
+    first: int
+    below: int
+    every: int
+    ask: int
+
+
+@dataclass(frozen=True, slots=True)
+class AskColumns:
+    """Some columns of ticks."""
+
+    fork: int
+    columns: tuple[tuple[int, int], ...]
+    first: int
+    below: int
+    every: int
+    ask: int
+
+
+@dataclass(frozen=True, slots=True)
+class Run:
+    """Let a run go on to a tick."""
+
+    fork: int
+    to: int
+
+
+@dataclass(frozen=True, slots=True)
+class Why:
+    """What an actuator's command of a tick consists of."""
+
+    fork: int
+    tick: int
+    actuator: int
+
+
+@dataclass(frozen=True, slots=True)
+class Change:
+    """A run beside the one seen, in which something is replaced in a tick and `lasts` for so many."""
+
+    fork: int
+    tick: int
+    what: str
+    column: tuple[int, int]
+    value: float
+    lasts: int
+
+
+Message = AskRows | AskColumns | Run | Why | Change
+
+
+def message(text: str) -> Message:
+    """The message in a text; RefusedError where it is none."""
+    try:
+        plain = parsed(text, MAX_MESSAGE_BYTES)
+    except ValueError as error:
+        raise RefusedError(f"this is no JSON: {error}") from error
+    if not isinstance(plain, dict):
+        raise RefusedError("a message is an object")
+    read = READERS.get(says) if isinstance(says := plain.pop("say", None), str) else None
+    if read is None:
+        raise RefusedError(f"a message says one of: {', '.join(READERS)}")
+    found = read(plain)
+    if plain.keys() - KEYS[says]:
+        raise RefusedError(f"{says} knows only: {', '.join(sorted(KEYS[says]))}")
+    return found
+
+
+def _rows(plain: Mapping[str, Any]) -> AskRows:
+    return AskRows(_fork(plain), *_span(plain))
+
+
+def _columns(plain: Mapping[str, Any]) -> AskColumns:
+    columns = plain.get("columns")
+    if not isinstance(columns, list) or not 0 < len(columns) <= MAX_COLUMNS:
+        raise RefusedError(f"columns is a list of 1 to {MAX_COLUMNS}")
+    return AskColumns(_fork(plain), tuple(map(_column, columns)), *_span(plain))
+
+
+def _run(plain: Mapping[str, Any]) -> Run:
+    return Run(_fork(plain), _whole(plain, "to"))
+
+
+def _why(plain: Mapping[str, Any]) -> Why:
+    return Why(_fork(plain), _whole(plain, "tick", 1), _whole(plain, "actuator"))
+
+
+def _change(plain: Mapping[str, Any]) -> Change:
+    what, value = plain.get("what"), plain.get("value")
+    if what not in REPLACED:
+        raise RefusedError(f"what is one of: {', '.join(REPLACED)}")
+    if isinstance(value, bool) or not isinstance(value, int | float) or not 0 <= value <= 1:
+        raise RefusedError("value is a number from 0 to 1")
+    lasts = _whole(plain, "lasts", 1, default=1)
+    return Change(_fork(plain), _whole(plain, "tick", 1), what, _column(plain.get("column")), float(value), lasts)
+
+
+def _fork(plain: Mapping[str, Any]) -> int:
+    return _whole(plain, "fork", 0, MAX_FORKS, default=0)
+
+
+def _span(plain: Mapping[str, Any]) -> tuple[int, int, int, int]:
+    """From, to, every and what is asked."""
+    first, below = _whole(plain, "from"), _whole(plain, "to")
+    return first, below, _whole(plain, "every", 1, default=1), _whole(plain, "ask", default=0)
+
+
+def _column(plain: object) -> tuple[int, int]:
+    match plain:
+        case [int(block), int(index)] if is_whole(block, DOUBLES, SINGLES) and is_whole(index, 0, MAX_NUMBER):
+            return block, index
+    raise RefusedError("a column is a block, 0 or 1, and a number")
+
+
+def _whole(plain: Mapping[str, Any], key: str, low: int = 0, high: int = MAX_NUMBER, default: int | None = None) -> int:
+    value = plain.get(key, default)
+    if not is_whole(value, low, high):
+        raise RefusedError(f"{key} is a whole number from {low} to {high}")
+    return int(value)
+
+
+SPAN_KEYS = {"fork", "from", "to", "every", "ask"}
+KEYS: Mapping[str, set[str]] = {
+    "rows": SPAN_KEYS,
+    "columns": SPAN_KEYS | {"columns"},
+    "run": {"fork", "to"},
+    "why": {"fork", "tick", "actuator"},
+    "change": {"fork", "tick", "what", "column", "value", "lasts"},
+}
+READERS: Mapping[str, Callable[[Mapping[str, Any]], Message]] = {
+    "rows": _rows,
+    "columns": _columns,
+    "run": _run,
+    "why": _why,
+    "change": _change,
+}

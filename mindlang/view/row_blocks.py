@@ -1,0 +1,64 @@
+"""Rows that have come so far, kept in the parts in which they came."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+
+Doubles = NDArray[np.float64]
+Singles = NDArray[np.float32]
+Ticks = NDArray[np.int64]
+
+
+@dataclass(frozen=True, slots=True)
+class Chunk:
+    """Some ticks, one after the other: `doubles` [ticks, columns], `singles` [ticks, columns that are kept].
+
+    `happened` has pairs of a tick and the number of an event, `ended_by` what ended the run, where it
+    did in the last chunk of all.
+    """
+
+    doubles: Doubles
+    singles: Singles
+    happened: tuple[tuple[int, int], ...] = ()
+    ended_by: str | None = None
+    is_last: bool = False
+
+
+@dataclass(slots=True)
+class RowBlocks:
+    """Rows by their tick, from 0 on. One thread adds rows while others read those that were there before."""
+
+    chunks: list[Chunk] = field(default_factory=list)
+    firsts: list[int] = field(default_factory=list)  # the tick of the first row of each chunk
+    rows: int = 0
+    kept_bytes: int = 0
+
+    def append(self, chunk: Chunk) -> None:
+        """Put a chunk behind all others; its rows are there when `rows` counts them."""
+        self.chunks.append(chunk)
+        self.firsts.append(self.rows)
+        self.kept_bytes += chunk.doubles.nbytes + chunk.singles.nbytes
+        self.rows += len(chunk.doubles)
+
+    def ticks(self, first: int, below: int, every: int, most: int) -> Ticks:
+        """The ticks first, first + every … that are below `below` and known, and of these no more than `most`."""
+        return np.arange(first, min(below, self.rows, first + every * most), every, dtype=np.int64)
+
+    def doubles(self, ticks: Ticks) -> Doubles:
+        """The doubles [ticks, columns] of ticks in rising order."""
+        parts = [self.chunks[chunk].doubles[rows] for chunk, rows in self._places(ticks)]
+        return np.concatenate(parts) if parts else self.chunks[0].doubles[:0]
+
+    def singles(self, ticks: Ticks) -> Singles:
+        """The singles [ticks, columns] that are kept, of ticks in rising order."""
+        parts = [self.chunks[chunk].singles[rows] for chunk, rows in self._places(ticks)]
+        return np.concatenate(parts) if parts else self.chunks[0].singles[:0]
+
+    def _places(self, ticks: Ticks) -> list[tuple[int, Ticks]]:
+        """For each chunk with some of the ticks: its number, and their rows in it."""
+        firsts = np.array(self.firsts)
+        of_chunk = np.searchsorted(firsts, ticks, side="right") - 1
+        return [(int(chunk), ticks[of_chunk == chunk] - firsts[chunk]) for chunk in np.unique(of_chunk)]

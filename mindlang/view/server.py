@@ -1,0 +1,172 @@
+"""The server of a view: a page and its websocket from one port of this machine, for whoever has the token."""
+
+from __future__ import annotations
+
+import asyncio
+import hmac
+import json
+import secrets
+from asyncio import BaseTransport
+from collections.abc import Callable
+from contextlib import suppress
+from dataclasses import dataclass, field
+from typing import Any
+
+from websockets.asyncio.server import Server, ServerConnection, serve
+from websockets.exceptions import ConnectionClosed
+from websockets.frames import CloseCode
+
+from mindlang.view.http_answers import HttpAnswers
+from mindlang.view.messages import MAX_MESSAGE_BYTES, RefusedError, message
+from mindlang.view.session import MAX_HAPPENED, Session
+
+LOOPBACK = "127.0.0.1"
+MAX_VIEWERS, MAX_CONNECTIONS = 16, 64
+MAX_QUEUED_FRAMES = 4  # of what one viewer has said and nobody has read
+OPEN_SECONDS, TOKEN_SECONDS, SEND_SECONDS, CLOSE_SECONDS = 5.0, 5.0, 10.0, 0.5
+
+
+class BoundedConnection(ServerConnection):
+    """One of so many that are open at the same time, whatever they say or do not say."""
+
+    def connection_made(self, transport: BaseTransport) -> None:
+        """As the library does it; one too many is closed."""
+        super().connection_made(transport)
+        if len(self.server.handler_tasks) > MAX_CONNECTIONS:
+            self.transport.abort()
+
+
+@dataclass(eq=False, slots=True)
+class Viewer:
+    """One who sees a session: whether it may change it, and how many events of each fork it has heard."""
+
+    connection: ServerConnection
+    edits: bool
+    changed: asyncio.Event = field(default_factory=asyncio.Event)
+    heard: dict[int, int] = field(default_factory=dict)
+
+    async def send(self, said: bytes | dict[str, Any]) -> None:
+        """Send rows or a message; who does not read for long is dropped."""
+        data = said if isinstance(said, bytes) else json.dumps(said, allow_nan=False)
+        try:
+            async with asyncio.timeout(SEND_SECONDS):
+                await self.connection.send(data)
+        except TimeoutError:
+            self.connection.transport.abort()
+            raise
+
+
+class ViewServer:
+    """Serves a session; `ready` is told the address, token and all, as soon as it can be opened."""
+
+    def __init__(self, session: Session, port: int = 0) -> None:
+        self.token = secrets.token_urlsafe(32)
+        self.port = port
+        self._session = session
+        self._viewers: list[Viewer] = []
+        session.changed = self._changed
+
+    @property
+    def address(self) -> str:
+        """What a browser opens; what is behind # is never sent over the net."""
+        return f"http://{LOOPBACK}:{self.port}/#{self.token}"
+
+    async def serve(self, ready: Callable[[str], None]) -> None:
+        """Serve until this is cancelled; OSError where the port is taken."""
+        server = await self._listening()
+        self.port = server.sockets[0].getsockname()[1]
+        self._answers = HttpAnswers(self.port)
+        await server.start_serving()
+        ready(self.address)
+        try:
+            await asyncio.get_running_loop().create_future()
+        finally:
+            server.close(close_connections=False)
+            await self._say_goodbye()
+
+    async def _listening(self) -> Server:
+        return await serve(
+            self._handle,
+            LOOPBACK,
+            self.port,
+            process_request=lambda connection, request: self._answers.to_request(connection, request),
+            process_response=lambda connection, request, response: self._answers.secured(connection, request, response),
+            server_header=None,
+            compression=None,
+            create_connection=BoundedConnection,
+            open_timeout=OPEN_SECONDS,
+            close_timeout=CLOSE_SECONDS,
+            max_size=MAX_MESSAGE_BYTES,
+            max_queue=MAX_QUEUED_FRAMES,
+            start_serving=False,
+        )
+
+    async def _handle(self, connection: ServerConnection) -> None:
+        if not await self._has_token(connection):
+            await connection.close(CloseCode.POLICY_VIOLATION)
+            return
+        if len(self._viewers) >= MAX_VIEWERS:
+            await connection.close(CloseCode.TRY_AGAIN_LATER)
+            return
+        viewer = Viewer(connection, edits=not any(other.edits for other in self._viewers))
+        self._viewers.append(viewer)
+        telling = asyncio.create_task(self._tell(viewer))
+        try:
+            with suppress(ConnectionClosed, TimeoutError):
+                await self._listen(viewer)
+        finally:
+            telling.cancel()
+            self._viewers.remove(viewer)
+
+    async def _has_token(self, connection: ServerConnection) -> bool:
+        """Whether the first message is the token, and comes in time."""
+        try:
+            async with asyncio.timeout(TOKEN_SECONDS):
+                first = await connection.recv()
+        except (TimeoutError, ConnectionClosed):
+            return False
+        return isinstance(first, str) and hmac.compare_digest(first.encode(errors="replace"), self.token.encode())
+
+    async def _listen(self, viewer: Viewer) -> None:
+        """Answer one message after the other."""
+        async for text in viewer.connection:
+            ask = None
+            try:
+                asked = message(_as_text(text))
+                ask = getattr(asked, "ask", None)
+                answer = await self._session.answer(asked, viewer.edits)
+            except RefusedError as error:
+                answer = {"say": "refused", "why": str(error), "ask": ask}
+            if answer is not None:
+                await viewer.send(answer)
+
+    async def _tell(self, viewer: Viewer) -> None:
+        """Tell a viewer what this is about, and whenever the forks have come farther, how far: no step by itself."""
+        viewer.changed.set()
+        with suppress(ConnectionClosed, TimeoutError):
+            await viewer.send(self._session.about(viewer.edits))
+            while True:
+                await viewer.changed.wait()
+                viewer.changed.clear()
+                for fork in range(len(self._session.forks)):
+                    ticks = self._session.ticks(fork, viewer.heard.get(fork, 0))
+                    viewer.heard[fork] = viewer.heard.get(fork, 0) + len(ticks["happened"])
+                    await viewer.send(ticks)
+                    if len(ticks["happened"]) == MAX_HAPPENED:  # there may be more
+                        viewer.changed.set()
+
+    def _changed(self) -> None:
+        for viewer in self._viewers:
+            viewer.changed.set()
+
+    async def _say_goodbye(self) -> None:
+        closing = [viewer.connection.close(CloseCode.GOING_AWAY) for viewer in self._viewers]
+        with suppress(TimeoutError):
+            async with asyncio.timeout(CLOSE_SECONDS):
+                await asyncio.gather(*closing)
+
+
+def _as_text(said: str | bytes) -> str:
+    if isinstance(said, bytes):
+        raise RefusedError("a message is text")
+    return said

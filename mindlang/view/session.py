@@ -1,0 +1,96 @@
+"""What several viewers see together: a run and its forks, who may change them, and answers to what is asked."""
+
+from __future__ import annotations
+
+import asyncio
+from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
+from typing import Any
+
+from mindrun.errors import MindError
+
+from mindlang.view.columns import DOUBLES, SINGLES
+from mindlang.view.messages import AskColumns, AskRows, Change, Message, RefusedError, Run, Why
+from mindlang.view.viewed import Viewed
+
+MAX_HAPPENED = 10_000  # events that are told at once
+
+
+class Session:
+    """Lives in one event loop. Runs grow in a thread of their own, and answers are computed in another."""
+
+    def __init__(self, viewed: Viewed, changed: Callable[[], None] = lambda: None) -> None:
+        self.forks = [viewed]
+        self.changed = changed  # told whenever something has come
+        self._wanted = [0]
+        self._growing: dict[int, asyncio.Task[None]] = {}
+        self._grower = ThreadPoolExecutor(1, "growing")
+        self._answerer = ThreadPoolExecutor(1, "answering")
+
+    def about(self, edits: bool) -> dict[str, Any]:
+        """What a viewer is told first."""
+        viewed = self.forks[0]
+        columns = viewed.columns
+        return {
+            "say": "about",
+            "edits": edits,
+            "doubles": columns.width(DOUBLES),
+            "singles": columns.width(SINGLES),
+            "columns": {name: [g.block, g.first, g.count] for name, g in columns.groups.items()},
+            **viewed.about,
+        }
+
+    def ticks(self, fork: int, heard: int) -> dict[str, Any]:
+        """How far a fork has come; of what happened, what comes behind the `heard` events."""
+        viewed = self.forks[fork]
+        over, known = viewed.over, viewed.known
+        return {
+            "say": "ticks",
+            "fork": fork,
+            "known": known,
+            "over": over,
+            "ended_by": viewed.ended_by,
+            "failed": viewed.failed,
+            "happened": viewed.happened[heard : heard + MAX_HAPPENED],
+            "stops": [],
+        }
+
+    async def answer(self, message: Message, edits: bool) -> bytes | dict[str, Any] | None:
+        """What is said to one message; RefusedError where it cannot be answered."""
+        if message.fork >= len(self.forks):
+            raise RefusedError(f"there is no fork {message.fork}")
+        match message:
+            case Run(fork=fork, to=to):
+                self._run(fork, to)
+                return None
+            case Change() if not edits:
+                raise RefusedError("somebody else may change this run: the first who opened it")
+            case Change():
+                raise RefusedError("nothing can be changed yet")
+        loop = asyncio.get_running_loop()
+        return await loop.run_in_executor(self._answerer, self._computed, message)
+
+    def _computed(self, message: Message) -> bytes | dict[str, Any]:
+        viewed = self.forks[message.fork]
+        try:
+            match message:
+                case AskRows(fork, first, below, every, ask):
+                    return viewed.rows(fork, first, below, every, ask)
+                case AskColumns(fork, columns, first, below, every, ask):
+                    return viewed.some_columns(fork, columns, first, below, every, ask)
+                case Why():
+                    raise RefusedError("this is not known yet")
+        except MindError as error:
+            raise RefusedError(f"{error}") from error
+        raise RefusedError("that is no question")
+
+    def _run(self, fork: int, to: int) -> None:
+        self._wanted[fork] = max(self._wanted[fork], to)
+        if fork not in self._growing or self._growing[fork].done():
+            self._growing[fork] = asyncio.create_task(self._grow(fork))
+
+    async def _grow(self, fork: int) -> None:
+        viewed, loop = self.forks[fork], asyncio.get_running_loop()
+        while not viewed.over and viewed.known < self._wanted[fork]:
+            await loop.run_in_executor(self._grower, viewed.grow)
+            self.changed()

@@ -1,0 +1,99 @@
+"""A run or a recording while it is seen: rows that come chunk by chunk, and answers about those that are there."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+from mindrun.errors import MindError
+from numpy.typing import NDArray
+
+from mindlang.view.columns import DOUBLES, FLOW, SINGLES, Columns
+from mindlang.view.edge_flow import EdgeFlow
+from mindlang.view.frames import columns_frame, rows_frame, rows_that_fit
+from mindlang.view.messages import RefusedError
+from mindlang.view.row_blocks import Chunk, Doubles, RowBlocks, Singles, Ticks
+from mindlang.view.texts import shown
+
+FLOW_ROWS = 1024  # of a curve of what an edge transmits
+MAX_KEPT_BYTES = 2 << 30  # of rows
+
+Answer = dict[str, Any]
+
+
+@dataclass(slots=True)
+class Viewed:
+    """`about` is what does not change, `chunks` what is still to come; the first chunk begins with tick 0.
+
+    One thread lets it `grow`; others may ask at the same time.
+    """
+
+    about: Mapping[str, Any]
+    columns: Columns
+    chunks: Iterator[Chunk]
+    flow: Callable[[Viewed], EdgeFlow]
+    blocks: RowBlocks = field(default_factory=RowBlocks)
+    happened: list[tuple[int, int]] = field(default_factory=list)
+    over: bool = False
+    ended_by: str | None = None
+    failed: str | None = None
+    _edges: EdgeFlow | None = None
+
+    @property
+    def known(self) -> int:
+        """The last tick that can be asked for."""
+        return self.blocks.rows - 1
+
+    def grow(self) -> None:
+        """One chunk more; where a procedure fails, or memory ends, the run is over and `failed` says why."""
+        if self.blocks.kept_bytes > MAX_KEPT_BYTES:
+            self.failed, self.over = f"more than {MAX_KEPT_BYTES >> 30} GiB of rows are not kept", True
+            return
+        try:
+            chunk = next(self.chunks, None)
+        except MindError as error:
+            self.failed = shown(f"{error} {error.hint}".strip())
+            chunk = None
+        if chunk is None:
+            self.over = True
+            return
+        self.happened.extend(chunk.happened)
+        self.blocks.append(chunk)
+        self.ended_by, self.over = chunk.ended_by, chunk.is_last
+
+    def rows(self, fork: int, first: int, below: int, every: int, ask: int) -> bytes:
+        """A frame of rows: as many as are known and fit."""
+        fit = rows_that_fit(self.columns.width(DOUBLES), self.columns.width(SINGLES))
+        ticks = self.blocks.ticks(first, below, every, fit)
+        return rows_frame(fork, ask, first, every, self.blocks.doubles(ticks), self.singles(ticks))
+
+    def some_columns(
+        self, fork: int, asked: Sequence[tuple[int, int]], first: int, below: int, every: int, ask: int
+    ) -> bytes:
+        """A frame of columns; RefusedError where there is no such column."""
+        for block, index in asked:
+            if index >= self.columns.width(block):
+                raise RefusedError(f"there is no column {index} in block {block}")
+        flows = any(block == SINGLES and index >= self.columns.kept_singles for block, index in asked)
+        most = rows_that_fit(len(asked), 0)
+        ticks = self.blocks.ticks(first, below, every, min(most, FLOW_ROWS) if flows else most)
+        blocks = self.blocks.doubles(ticks), self.singles(ticks) if flows else self.blocks.singles(ticks)
+        values = np.column_stack([blocks[block][:, index].astype(np.float64) for block, index in asked])
+        return columns_frame(fork, ask, first, every, values)
+
+    def singles(self, ticks: Ticks) -> Singles:
+        """The singles [ticks, columns] with what each edge transmits."""
+        kept = self.blocks.singles(ticks)
+        return np.concatenate([kept, self._flow().at(ticks)], axis=1) if FLOW in self.columns.groups else kept
+
+    def group(self, name: str, ticks: Ticks) -> NDArray[Any]:
+        """The columns [ticks, count] of a group that is kept."""
+        group = self.columns[name]
+        rows: Doubles | Singles = self.blocks.doubles(ticks) if group.block == DOUBLES else self.blocks.singles(ticks)
+        return rows[:, group.first : group.first + group.count]
+
+    def _flow(self) -> EdgeFlow:
+        self._edges = self._edges or self.flow(self)
+        return self._edges

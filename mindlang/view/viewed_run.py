@@ -1,0 +1,151 @@
+"""A simulated run that is seen while it is made."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from itertools import islice
+from typing import Any
+
+import numpy as np
+from mindrun.engine import procedure_sources
+from mindrun.graph import Graph
+from mindrun.registry import names
+from mindrun.sim.rollout import Rollout
+from mindrun.sim.task_rows import things_of
+from mindrun.sim.trace import Moment, Trace, trace
+from mindrun.think import hierarchy
+from mindrun.weights import reachable
+from numpy.typing import NDArray
+
+from mindlang.run import outcome
+from mindlang.run.setup import RunSetup
+from mindlang.view.about_hierarchy import HierarchyData, Texts
+from mindlang.view.about_world import world_data
+from mindlang.view.columns import FLOW, POSE_COLUMNS, THING_COLUMNS, Columns
+from mindlang.view.edge_flow import EdgeFlow
+from mindlang.view.row_blocks import Chunk, Doubles, Singles, Ticks
+from mindlang.view.texts import shown
+from mindlang.view.viewed import Viewed
+
+CHUNK_TICKS = 250
+NOTHING_HELD = -1
+TOUCH, COLLISION = "touch", "collision"  # kinds of events
+
+
+def viewed_run(setup: RunSetup, rollout: Rollout, seed: int, texts: Texts) -> Viewed:
+    """The run that `rollout` makes of a seed; `texts` are what its edges say."""
+    graph = setup.ready.policy.graph
+    skills = reachable(graph, setup.master)
+    columns = run_columns(setup, sum(len(skill.edges) for skill in skills))
+    run = trace(rollout, seed)
+    below = HierarchyData(graph, setup.master, skills, columns)
+    rewards = [reward.text for reward in setup.task.rewards]
+    about = {
+        "title": shown(f"{setup.task.name} with {setup.master} in charge, seed {seed}"),
+        "task": shown(setup.task.name),
+        "master": shown(setup.master),
+        "source": "simulation",
+        "seed": str(seed),
+        "tick": graph.tick,
+        "of_ticks": setup.task.ticks,
+        "events": events_data(setup),
+        "rewards": [shown(text) for text in rewards],
+        "ends": [shown(text) for text in outcome.ends(setup.task)],
+        "world": world_data(graph, setup.task, run.boxes, columns),
+        "curves": below.curves(rewards),
+        **below.data(texts),
+    }
+    return Viewed(about, columns, run_chunks(setup, run, columns), lambda viewed: run_flow(setup, viewed))
+
+
+def run_columns(setup: RunSetup, edges: int) -> Columns:
+    """The columns of a simulated run."""
+    graph, task = setup.ready.policy.graph, setup.task
+    things = THING_COLUMNS * len(things_of(task))
+    return Columns.of(
+        {"robot": POSE_COLUMNS, "things": things, "battery": 1, "rewards": len(task.rewards)},
+        {
+            "held": 1,
+            "touching": 1,
+            "readings": graph.width,
+            "influence": len(graph.skills),
+            "commands": len(graph.actuators),
+            FLOW: edges,
+        },
+    )
+
+
+def events_data(setup: RunSetup) -> list[dict[str, str]]:
+    """The events of the task, and touching, where no event of the task says it."""
+    kinds = [names()[type(event)] for event in setup.task.events]
+    found = [{"text": shown(text), "kind": kind} for text, kind in zip(outcome.events(setup.task), kinds, strict=True)]
+    return found if COLLISION in kinds else [*found, {"text": "touch", "kind": TOUCH}]
+
+
+def run_flow(setup: RunSetup, viewed: Viewed) -> EdgeFlow:
+    """What the edges of a run transmit."""
+    sources = procedure_sources(setup.ready.policy.graph, setup.folder, setup.master)
+
+    def rows(ticks: Ticks) -> tuple[Singles, Singles]:
+        return viewed.group("readings", ticks), viewed.group("influence", ticks)
+
+    return EdgeFlow(hierarchy(setup.ready.policy, sources, setup.master), rows)
+
+
+def run_chunks(setup: RunSetup, run: Trace, columns: Columns) -> Iterator[Chunk]:
+    """A run as it is made: the only place that knows where rows come from."""
+    yield Chunk(_beginning(run, setup), _nothing_held(columns)[None])
+    cells = [memory.kind.start for memory in setup.ready.policy.graph.memories]
+    touched = False
+    while moments := list(islice(run.moments, CHUNK_TICKS)):
+        doubles = np.array([_doubles(moment) for moment in moments])
+        singles = np.array([_singles(moment) for moment in moments], np.float32)
+        cells = _as_read(setup.ready.policy.graph, singles[:, columns["readings"].first :], cells)
+        touching = np.array([touched, *(moment.touching for moment in moments)])
+        touched = bool(touching[-1])
+        happened, is_last = tuple(_happened(setup, moments, touching)), run.jobs.lanes[0] == 0
+        yield Chunk(doubles, singles, happened, _ended_by(setup, run) if is_last else None, bool(is_last))
+
+
+def _beginning(run: Trace, setup: RunSetup) -> Doubles:
+    things = np.column_stack([run.things, run.turned])
+    return np.concatenate([run.begin, things.ravel(), [np.nan], np.zeros(len(setup.task.rewards))])[None]
+
+
+def _nothing_held(columns: Columns) -> Singles:
+    row = np.zeros(columns.kept_singles, np.float32)
+    row[columns["held"].first] = NOTHING_HELD
+    return row
+
+
+def _doubles(moment: Moment) -> Doubles:
+    things = np.column_stack([moment.things, moment.turned])
+    return np.concatenate([moment.body[:POSE_COLUMNS], things.ravel(), [moment.battery], moment.lines])
+
+
+def _singles(moment: Moment) -> NDArray[Any]:
+    facts = [moment.held, moment.touching]
+    return np.concatenate([facts, moment.readings, moment.influence, moment.commands])
+
+
+def _as_read(graph: Graph, readings: Singles, cells: list[float]) -> list[float]:
+    """Readings with the memory cells as they were read, which a moment has as its tick left them; those it left."""
+    left = [float(readings[-1, memory.start]) for memory in graph.memories]
+    for memory, before in zip(graph.memories, cells, strict=True):
+        readings[1:, memory.start] = readings[:-1, memory.start]
+        readings[0, memory.start] = before
+    return left
+
+
+def _happened(setup: RunSetup, moments: list[Moment], touching: NDArray[np.bool_]) -> Iterator[tuple[int, int]]:
+    says_touch = len(events_data(setup)) > len(setup.task.events)
+    for moment, before, now in zip(moments, touching[:-1], touching[1:], strict=True):
+        for event in np.flatnonzero(moment.events):
+            yield moment.tick, int(event)
+        if says_touch and now and not before:
+            yield moment.tick, len(setup.task.events)
+
+
+def _ended_by(setup: RunSetup, run: Trace) -> str | None:
+    ended = [*outcome.ends(setup.task), outcome.FLIGHT, None][int(run.jobs.ended[0])]
+    return None if ended is None else shown(ended)

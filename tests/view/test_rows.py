@@ -1,0 +1,50 @@
+"""What a viewer of a simulated run is told is the run, to the bit."""
+
+from collections.abc import Iterator
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from mindlang.pictures.influence_flow import Flow
+from mindlang.run.recorded_run import record_run
+from mindlang.view.frames import unpacked
+from tests.calling import write_rules
+from tests.view.serving import Served, prepared, served, simulated
+
+
+@pytest.fixture(scope="module")
+def path(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return write_rules(tmp_path_factory.mktemp("mind"))
+
+
+@pytest.fixture(scope="module")
+def view(path: Path) -> Iterator[Served]:
+    with served(simulated(path)) as found:
+        yield found
+
+
+def test_rows_are_the_run(view: Served, path: Path) -> None:
+    setup = prepared(path, "Chase")
+    run = record_run(setup, setup.rollout(True), 3)
+    flow = Flow(run)
+    with view.viewer() as viewer:
+        about = viewer.hear("about")
+        assert viewer.run(1200)["over"]
+        frame = viewer.frame(say="rows", **{"from": 0, "to": 5000, "every": 7}, ask=9)
+    fork, ask, ticks, doubles, singles = unpacked(frame, about["doubles"], about["singles"])
+    assert (fork, ask) == (0, 9)
+    assert ticks.tolist() == [*range(0, 1201, 7)]
+
+    def group(name: str) -> np.ndarray:
+        block, first, count = about["columns"][name]
+        return (doubles, singles)[block][:, first : first + count]
+
+    assert group("robot").tobytes() == run.body[ticks].tobytes()
+    assert group("things").reshape(len(ticks), -1, 4)[:, :, :3].tobytes() == run.things[ticks].tobytes()
+    assert group("held")[:, 0].tolist() == run.held[ticks].tolist()
+    for name, rows in (("readings", run.readings), ("influence", run.influence), ("commands", run.commands)):
+        assert group(name)[1:].tobytes() == rows[ticks[1:] - 1].tobytes()
+        assert not group(name)[0].any()
+    assert group("rewards")[1:].tobytes() == run.lines[ticks[1:] - 1].tobytes()
+    assert np.array_equal(group("flow")[1:], np.float32([[f.transmitted for f in flow.at(t)] for t in ticks[1:]]))
