@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-DOUBLES, SINGLES = 0, 1  # blocks
+DOUBLE_BLOCK, SINGLE_BLOCK = 0, 1  # blocks
 POSE_COLUMNS, THING_COLUMNS = 3, 4  # x, y, angle of the robot; x, y, size, turned of a thing
 FLOW = "flow"  # the last group of singles: it is not kept, but computed for the rows that are asked for
 
@@ -33,7 +33,7 @@ class Columns:
     def of(cls, doubles: Mapping[str, int], singles: Mapping[str, int]) -> Columns:
         """Groups of so many columns each, in this order; `flow`, where there is one, is the last of the singles."""
         groups: dict[str, Group] = {}
-        for block, counts in ((DOUBLES, doubles), (SINGLES, singles)):
+        for block, counts in ((DOUBLE_BLOCK, doubles), (SINGLE_BLOCK, singles)):
             first = 0
             for name, count in counts.items():
                 groups[name] = Group(block, first, count)
@@ -50,4 +50,4 @@ class Columns:
     @property
     def kept_singles(self) -> int:
         """How many columns of the singles are kept."""
-        return self.width(SINGLES) - (self.groups[FLOW].count if FLOW in self.groups else 0)
+        return self.width(SINGLE_BLOCK) - (self.groups[FLOW].count if FLOW in self.groups else 0)

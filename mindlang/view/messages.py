@@ -8,7 +8,7 @@ from typing import Any
 
 from mindrun.strict_json import is_whole, parsed
 
-from mindlang.view.columns import DOUBLES, SINGLES
+from mindlang.view.columns import DOUBLE_BLOCK, SINGLE_BLOCK
 
 MAX_MESSAGE_BYTES = 16 << 10
 MAX_NUMBER = (1 << 32) - 1  # as the header of a frame has it
@@ -134,7 +134,7 @@ def _span(plain: Mapping[str, Any]) -> tuple[int, int, int, int]:
 
 def _column(plain: object) -> tuple[int, int]:
     match plain:
-        case [int(block), int(index)] if is_whole(block, DOUBLES, SINGLES) and is_whole(index, 0, MAX_NUMBER):
+        case [int(block), int(index)] if is_whole(block, DOUBLE_BLOCK, SINGLE_BLOCK) and is_whole(index, 0, MAX_NUMBER):
             return block, index
     raise RefusedError("a column is a block, 0 or 1, and a number")
 

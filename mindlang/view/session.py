@@ -9,7 +9,7 @@ from typing import Any
 
 from mindrun.errors import MindError
 
-from mindlang.view.columns import DOUBLES, SINGLES
+from mindlang.view.columns import DOUBLE_BLOCK, SINGLE_BLOCK
 from mindlang.view.messages import AskColumns, AskRows, Change, Message, RefusedError, Run, Why
 from mindlang.view.viewed import Viewed
 
@@ -34,8 +34,8 @@ class Session:
         return {
             "say": "about",
             "edits": edits,
-            "doubles": columns.width(DOUBLES),
-            "singles": columns.width(SINGLES),
+            "doubles": columns.width(DOUBLE_BLOCK),
+            "singles": columns.width(SINGLE_BLOCK),
             "columns": {name: [g.block, g.first, g.count] for name, g in columns.groups.items()},
             **viewed.about,
         }

@@ -10,11 +10,11 @@ import numpy as np
 from mindrun.errors import MindError
 from numpy.typing import NDArray
 
-from mindlang.view.columns import DOUBLES, FLOW, SINGLES, Columns
+from mindlang.view.columns import DOUBLE_BLOCK, FLOW, SINGLE_BLOCK, Columns
 from mindlang.view.edge_flow import EdgeFlow
 from mindlang.view.frames import columns_frame, rows_frame, rows_that_fit
 from mindlang.view.messages import RefusedError
-from mindlang.view.row_blocks import Chunk, Doubles, RowBlocks, Singles, Ticks
+from mindlang.view.row_blocks import Chunk, RowBlocks, Singles, Ticks
 from mindlang.view.texts import shown
 
 FLOW_ROWS = 1024  # of a curve of what an edge transmits
@@ -65,7 +65,7 @@ class Viewed:
 
     def rows(self, fork: int, first: int, below: int, every: int, ask: int) -> bytes:
         """A frame of rows: as many as are known and fit."""
-        fit = rows_that_fit(self.columns.width(DOUBLES), self.columns.width(SINGLES))
+        fit = rows_that_fit(self.columns.width(DOUBLE_BLOCK), self.columns.width(SINGLE_BLOCK))
         ticks = self.blocks.ticks(first, below, every, fit)
         return rows_frame(fork, ask, first, every, self.blocks.doubles(ticks), self.singles(ticks))
 
@@ -76,7 +76,7 @@ class Viewed:
         for block, index in asked:
             if index >= self.columns.width(block):
                 raise RefusedError(f"there is no column {index} in block {block}")
-        flows = any(block == SINGLES and index >= self.columns.kept_singles for block, index in asked)
+        flows = any(block == SINGLE_BLOCK and index >= self.columns.kept_singles for block, index in asked)
         most = rows_that_fit(len(asked), 0)
         ticks = self.blocks.ticks(first, below, every, min(most, FLOW_ROWS) if flows else most)
         blocks = self.blocks.doubles(ticks), self.singles(ticks) if flows else self.blocks.singles(ticks)
@@ -91,7 +91,9 @@ class Viewed:
     def group(self, name: str, ticks: Ticks) -> NDArray[Any]:
         """The columns [ticks, count] of a group that is kept."""
         group = self.columns[name]
-        rows: Doubles | Singles = self.blocks.doubles(ticks) if group.block == DOUBLES else self.blocks.singles(ticks)
+        rows: Doubles | Singles = (
+            self.blocks.doubles(ticks) if group.block == DOUBLE_BLOCK else self.blocks.singles(ticks)
+        )
         return rows[:, group.first : group.first + group.count]
 
     def _flow(self) -> EdgeFlow:
