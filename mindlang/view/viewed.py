@@ -91,9 +91,8 @@ class Viewed:
     def group(self, name: str, ticks: Ticks) -> NDArray[Any]:
         """The columns [ticks, count] of a group that is kept."""
         group = self.columns[name]
-        rows: Doubles | Singles = (
-            self.blocks.doubles(ticks) if group.block == DOUBLE_BLOCK else self.blocks.singles(ticks)
-        )
+        is_double = group.block == DOUBLE_BLOCK
+        rows: NDArray[Any] = self.blocks.doubles(ticks) if is_double else self.blocks.singles(ticks)
         return rows[:, group.first : group.first + group.count]
 
     def _flow(self) -> EdgeFlow:
