@@ -1,0 +1,246 @@
+/** The hierarchy as SVG: what acts now is lit, and edges are as thick as what they transmit. */
+
+import { Camera } from "./camera";
+import { type Placed, place, type Size } from "./layout";
+import { percent, shown } from "./names";
+import { type About, type Column, columnOf } from "./protocol";
+import { type Row, valueAt } from "./rows";
+import { Subtrees } from "./subtrees";
+
+export type Selected = { kind: "node" | "edge"; number: number } | null;
+
+export interface Shown {
+  over(selected: Selected, event: PointerEvent): void;
+  chosen(selected: Selected): void;
+}
+
+const SVG = "http://www.w3.org/2000/svg";
+const NODE_HEIGHT = 34;
+const CHARACTER_PIXELS = 7.4;
+const NODE_CHARACTERS = 26;
+const NODE_WIDTH_MIN = 72;
+const LEVELS = 48; // so many widths and glows there are: what has not changed is not touched
+const EDGE_PIXELS_MAX = 9;
+const TAB_STOPS_MAX = 80; // with more than that, edges are not stops of the tab key
+const LARGEST_SCALE_AT_FIRST = 1.25;
+
+interface Drawn {
+  node: SVGElement;
+  level: number;
+  column: Column | null;
+}
+
+export class Hierarchy {
+  private readonly camera: Camera;
+  private readonly plane: SVGGElement;
+  private readonly subtrees: Subtrees;
+  private readonly nodes = new Map<number, Drawn>();
+  private readonly edges = new Map<number, Drawn>();
+  private placed: Placed = { centres: new Map(), lines: new Map(), width: 1, height: 1 };
+  private selected: Selected = null;
+
+  constructor(
+    private readonly svg: SVGSVGElement,
+    private readonly about: About,
+    private readonly listener: Shown,
+    private readonly changed: () => void,
+  ) {
+    this.plane = make("g", {}) as SVGGElement;
+    svg.append(this.plane);
+    this.camera = new Camera(svg, () => this.move());
+    this.subtrees = new Subtrees(about);
+    svg.addEventListener("click", (event) => !this.camera.dragged && this.choose(this.at(event.target)));
+    svg.addEventListener("dblclick", (event) => this.toggle(this.at(event.target)));
+    svg.addEventListener("pointermove", (event) => listener.over(this.at(event.target), event));
+    svg.addEventListener("pointerleave", (event) => listener.over(null, event));
+    svg.addEventListener("keydown", (event) => this.key(event));
+    this.layout();
+  }
+
+  fit(): void {
+    this.camera.fit(0, 0, this.placed.width, this.placed.height, LARGEST_SCALE_AT_FIRST);
+  }
+
+  zoom(factor: number): void {
+    this.camera.zoom(factor);
+  }
+
+  resize(): void {
+    if (!this.camera.touched) this.fit();
+  }
+
+  collapseAll(collapsed: boolean): void {
+    this.subtrees.all(!collapsed);
+    this.layout();
+    this.fit();
+  }
+
+  /** Shows a node, wherever it is, and chooses it. */
+  reveal(number: number): void {
+    this.subtrees.reveal(number);
+    if (!this.nodes.has(number)) this.layout();
+    const centre = this.placed.centres.get(number);
+    if (centre) {
+      this.camera.x = this.svg.clientWidth / 2 - centre.x * this.camera.scale;
+      this.camera.y = this.svg.clientHeight / 2 - centre.y * this.camera.scale;
+      this.camera.touched = true;
+      this.move();
+    }
+    this.choose({ kind: "node", number });
+  }
+
+  choose(selected: Selected): void {
+    this.drawnOf(this.selected)?.node.classList.remove("selected");
+    this.selected = selected;
+    this.drawnOf(selected)?.node.classList.add("selected");
+    this.listener.chosen(selected);
+  }
+
+  /** Lights it as a row has it; what is as it was is not touched. */
+  draw(row: Row): void {
+    for (const drawn of this.nodes.values()) {
+      const level = levelOf(valueAt(row, drawn.column));
+      if (level === drawn.level) continue;
+      drawn.level = level;
+      (drawn.node.children[1] as SVGElement).style.opacity = String(level / LEVELS);
+      drawn.node.classList.toggle("lit", level > 0);
+    }
+    for (const drawn of this.edges.values()) {
+      const level = levelOf(valueAt(row, drawn.column));
+      if (level === drawn.level) continue;
+      drawn.level = level;
+      const style = (drawn.node.children[0] as SVGElement).style;
+      style.strokeWidth = `${1 + ((EDGE_PIXELS_MAX - 1) * level) / LEVELS}`;
+      drawn.node.classList.toggle("lit", level > 0);
+    }
+  }
+
+  private drawnOf(selected: Selected): Drawn | undefined {
+    return selected ? (selected.kind === "node" ? this.nodes : this.edges).get(selected.number) : undefined;
+  }
+
+  private at(target: EventTarget | null): Selected {
+    const found = (target as Element).closest<SVGElement>("[data-node],[data-edge]")?.dataset;
+    if (found?.node) return { kind: "node", number: Number(found.node) };
+    return found?.edge ? { kind: "edge", number: Number(found.edge) } : null;
+  }
+
+  private key(event: KeyboardEvent): void {
+    if (event.key !== "Enter") return;
+    const at = this.at(event.target);
+    if (this.selected?.kind === "node" && this.selected.number === at?.number) this.toggle(at);
+    else this.choose(at);
+    event.stopPropagation();
+  }
+
+  private toggle(at: Selected): void {
+    if (at?.kind !== "node" || !this.subtrees.leads(at.number)) return;
+    const before = this.placed.centres.get(at.number);
+    this.subtrees.toggle(at.number);
+    this.layout();
+    const after = this.placed.centres.get(at.number);
+    if (before && after) { // it stays where it was on the screen
+      this.camera.x += (before.x - after.x) * this.camera.scale;
+      this.camera.y += (before.y - after.y) * this.camera.scale;
+      this.camera.touched = true;
+      this.move();
+    }
+    this.choose(at);
+  }
+
+  private size(node: number): Size {
+    const characters = shown(this.about.nodes[node].name, NODE_CHARACTERS).length;
+    const folded = this.subtrees.leads(node) ? 22 : 0;
+    return { width: Math.max(NODE_WIDTH_MIN, 24 + characters * CHARACTER_PIXELS + folded), height: NODE_HEIGHT };
+  }
+
+  private layout(): void {
+    const open = this.subtrees.open();
+    this.placed = place(open.nodes, open.edges, (edge) => this.about.edges[edge], (node) => this.size(node));
+    this.nodes.clear();
+    this.edges.clear();
+    for (const edge of open.edges) this.edges.set(edge, this.edge(edge, open.edges.length <= TAB_STOPS_MAX));
+    for (const node of open.nodes) this.nodes.set(node, this.node(node));
+    this.plane.replaceChildren(...[...this.edges.values(), ...this.nodes.values()].map(({ node }) => node));
+    this.drawnOf(this.selected)?.node.classList.add("selected");
+    this.changed();
+  }
+
+  private edge(number: number, stops: boolean): Drawn {
+    const { from, to } = this.about.edges[number];
+    const name = `${shown(this.about.nodes[from].name)} to ${shown(this.about.nodes[to].name)}`;
+    const node = make("g", { class: "edge", "data-edge": number, role: "button", "aria-label": name });
+    if (stops) node.setAttribute("tabindex", "0");
+    const d = smooth(this.placed.lines.get(number)!);
+    node.append(make("path", { class: "line", d }), make("path", { class: "touch", d }));
+    return { node, level: -1, column: columnOf(this.about, "flow", number) };
+  }
+
+  private node(number: number): Drawn {
+    const { name, kind, columns, master } = this.about.nodes[number];
+    const { width, height } = this.size(number);
+    const { x, y } = this.placed.centres.get(number)!;
+    const node = make("g", {
+      class: `node ${kind}${master ? " master" : ""}`,
+      "data-node": number,
+      transform: `translate(${x - width / 2} ${y - height / 2})`,
+      tabindex: 0,
+      role: "button",
+      "aria-label": `${kind} ${shown(name)}`,
+    });
+    const shape = { width, height, rx: kind === "skill" ? 9 : 3 };
+    const text = make("text", { x: width / 2 - (this.subtrees.leads(number) ? 9 : 0), y: height / 2 });
+    text.textContent = shown(name, NODE_CHARACTERS);
+    node.append(make("rect", { class: "back", ...shape }), make("rect", { class: "glow", ...shape }), text);
+    if (this.subtrees.leads(number)) {
+      const fold = make("text", { class: "fold", x: width - 15, y: height / 2 });
+      const collapsed = this.subtrees.collapsed.has(number);
+      fold.textContent = collapsed ? `+${this.subtrees.size(number)}` : "\u2212";
+      fold.addEventListener("click", (event) => (event.stopPropagation(), this.toggle({ kind: "node", number })));
+      node.append(fold);
+    }
+    return { node, level: -1, column: columns[0] ?? null };
+  }
+
+  private move(): void {
+    const { x, y, scale } = this.camera;
+    this.plane.setAttribute("transform", `translate(${x} ${y}) scale(${scale})`);
+    this.svg.classList.toggle("far", scale < 0.35);
+  }
+}
+
+function levelOf(value: number): number {
+  return value > 0 ? Math.max(1, Math.round(Math.min(1, value) * LEVELS)) : 0;
+}
+
+function make(name: string, attributes: Record<string, string | number>): SVGElement {
+  const element = document.createElementNS(SVG, name);
+  for (const [key, value] of Object.entries(attributes)) element.setAttribute(key, String(value));
+  return element;
+}
+
+/** A line through points, round where it bends. */
+function smooth(points: { x: number; y: number }[]): string {
+  const at = ({ x, y }: { x: number; y: number }) => `${x.toFixed(1)} ${y.toFixed(1)}`;
+  if (points.length < 3) return points.map((point, place) => (place ? "L" : "M") + at(point)).join("");
+  let line = `M${at(points[0])}`;
+  for (let place = 1; place < points.length - 1; place++) {
+    const [point, next] = [points[place], points[place + 1]];
+    const end = place === points.length - 2 ? next : { x: (point.x + next.x) / 2, y: (point.y + next.y) / 2 };
+    line += `Q${at(point)} ${at(end)}`;
+  }
+  return line;
+}
+
+/** What a node or an edge is, and its value in a row, in words. */
+export function described(about: About, selected: NonNullable<Selected>, row: Row | undefined): { text: string; value: number } {
+  if (selected.kind === "edge") {
+    const { from, to, text } = about.edges[selected.number];
+    const value = row ? valueAt(row, columnOf(about, "flow", selected.number)) : NaN;
+    const name = `${shown(about.nodes[from].name)} \u2192 ${shown(about.nodes[to].name)}`;
+    return { text: `${name}: ${percent(value)}${text ? `\n${shown(text, 160)}` : ""}`, value };
+  }
+  const { name, kind, says, columns } = about.nodes[selected.number];
+  const value = row && columns.length ? valueAt(row, columns[0]) : NaN;
+  return { text: `${shown(name)} (${says ? `${kind}, ${says}` : kind}): ${percent(value)}`, value };
+}

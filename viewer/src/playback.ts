@@ -1,0 +1,88 @@
+/** Which tick is shown, and how it goes on: at a multiple of real time, in steps, or by a jump. */
+
+export const RATES = [0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 50, 100];
+const FRAME_SECONDS_MAX = 0.1; // after a pause of the browser the run does not leap
+
+export class Playback {
+  private position = 0; // ticks, with a fraction
+  private following = false; // stays with the newest tick of a run that goes on
+  known = 0;
+  over = false;
+  playing = false;
+  rate = 1;
+
+  constructor(
+    private readonly tickSeconds: number,
+    private readonly ready: (tick: number) => boolean,
+    private readonly changed: () => void,
+    private readonly wanted: (tick: number) => void,
+    private readonly ofTicks: number | null,
+  ) {}
+
+  get tick(): number {
+    return Math.floor(this.position);
+  }
+
+  /** Goes on by the seconds since the last picture; waits where the next rows are not here yet. */
+  advance(seconds: number): void {
+    if (!this.playing) return;
+    const ticks = (Math.min(seconds, FRAME_SECONDS_MAX) * this.rate) / this.tickSeconds;
+    const next = Math.min(this.position + ticks, this.known);
+    if (!this.ready(Math.floor(next))) return;
+    this.position = next;
+    this.wanted(Math.ceil(next + 2 * ticks + this.rate / this.tickSeconds));
+    if (this.over && this.tick >= this.known) this.pause();
+  }
+
+  play(): void {
+    if (this.over && this.tick >= this.known) this.position = 0;
+    this.playing = true;
+    this.wanted(this.tick + 1);
+    this.changed();
+  }
+
+  pause(): void {
+    this.playing = false;
+    this.following = false;
+    this.changed();
+  }
+
+  toggle(): void {
+    if (this.playing) this.pause();
+    else this.play();
+  }
+
+  step(ticks: number): void {
+    this.pause();
+    this.jump(this.tick + ticks);
+  }
+
+  jump(tick: number): void {
+    this.following = false;
+    this.wanted(tick);
+    this.position = Math.min(Math.max(0, Math.round(tick)), this.known);
+    this.changed();
+  }
+
+  /** Goes to the newest tick, and stays with it while the run goes on. */
+  end(): void {
+    this.wanted(this.ofTicks ?? this.known + 1);
+    this.position = this.known;
+    this.following = !this.over;
+    this.changed();
+  }
+
+  faster(steps: number): void {
+    const place = RATES.indexOf(this.rate);
+    this.rate = RATES[Math.min(RATES.length - 1, Math.max(0, place + steps))];
+    this.changed();
+  }
+
+  /** More is known of the run. */
+  grown(known: number, over: boolean): void {
+    this.known = known;
+    this.over = over;
+    if (this.following) this.position = known;
+    this.changed();
+  }
+}

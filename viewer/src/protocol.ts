@@ -1,0 +1,168 @@
+/** What the page and the server say to each other: docs/decisions/a-run-is-a-recording.md. */
+
+/** A place in a row: block 0 has the doubles, block 1 the singles. */
+export type Column = [block: number, index: number];
+type Point = [x: number, y: number];
+
+export interface Node {
+  name: string;
+  kind: "sensor" | "skill" | "actuator" | "memory";
+  says: string;
+  columns: Column[];
+  master: boolean;
+}
+
+/** From a node to a node; what edge number i transmits is the i-th column of the group `flow`. */
+export interface Edge {
+  from: number;
+  to: number;
+  text: string;
+}
+
+export interface Curve {
+  name: string;
+  group: "reading" | "influence" | "command" | "reward" | "world";
+  column: Column;
+}
+
+export interface Robot {
+  radius: number;
+  outline: Point[];
+  front: number;
+  side: number;
+  axles: number;
+  rays: { angle: number; rim: number; reach: number; column: Column; name: string; sees: boolean }[];
+  spots: { x: number; y: number; column: Column }[];
+  switches: { angle: number; width: number; column: Column }[];
+  bearings: { name: string; column: Column }[];
+  claw: Column | null;
+  steering: { column: Column; turn: number } | null;
+  lamps: Column[];
+  jets: { at: Point; way: Point; column: Column }[];
+}
+
+export interface Thing {
+  name: string;
+  kind: string;
+  shape: "disc" | "square" | "area";
+  light: string;
+  dark: string;
+}
+
+export interface World {
+  arena: [halfX: number, halfY: number] | null;
+  boxes: [x: number, y: number, halfX: number, halfY: number][];
+  things: Thing[];
+  robot: Robot;
+}
+
+type Group = [block: number, first: number, count: number];
+
+export interface About {
+  say: "about";
+  title: string;
+  task: string | null;
+  master: string;
+  source: "simulation" | "recording" | "robot";
+  seed: string | null;
+  edits: boolean;
+  tick: number; // seconds
+  of_ticks: number | null;
+  doubles: number;
+  singles: number;
+  columns: Record<string, Group>;
+  curves: Curve[];
+  nodes: Node[];
+  edges: Edge[];
+  reads: [from: number, to: number][];
+  events: { text: string; kind: string }[];
+  rewards: string[];
+  ends: string[];
+  world: World | null;
+}
+
+export interface Ticks {
+  say: "ticks";
+  fork: number;
+  known: number;
+  over: boolean;
+  ended_by: string | null;
+  failed: string | null;
+  happened: [tick: number, event: number][];
+  stops: [tick: number, text: string][];
+}
+
+export interface Why {
+  say: "why";
+  fork: number;
+  tick: number;
+  actuator: number;
+  command: number;
+  paths: { path: number[]; value: number; influence: number; share: number }[];
+  rest: number;
+}
+
+export interface Fork {
+  say: "fork";
+  fork: number;
+  of: number;
+  tick: number;
+  text: string;
+}
+
+export interface Refused {
+  say: "refused";
+  why: string;
+  ask: number | null;
+}
+
+export type Said = About | Ticks | Why | Fork | Refused;
+
+/** What came as bytes: rows of both blocks, or some columns as doubles, every `every` ticks from `first` on. */
+export interface Frame {
+  kind: number;
+  fork: number;
+  first: number;
+  every: number;
+  rows: number;
+  ask: number;
+  blocks: ArrayBuffer;
+}
+
+/** Where messages go to, and where what is said arrives. */
+export type Send = (message: object) => void;
+export interface Listener {
+  said(said: Said): void;
+  frame(frame: Frame): void;
+  closed(reason: string): void;
+}
+
+const HEADER_WORDS = 6; // u32: kind, fork, first tick, every, rows, ask
+export const HEADER_BYTES = 4 * HEADER_WORDS;
+export const ROWS_KIND = 1;
+
+/** A message of bytes, its header read. */
+export function frameOf(bytes: ArrayBuffer): Frame {
+  const [kind, fork, first, every, rows, ask] = new Uint32Array(bytes, 0, HEADER_WORDS);
+  return { kind, fork, first, every, rows, ask, blocks: bytes };
+}
+
+/** The server of this page, which knows us by the token behind # in the address. */
+export function connect(listener: Listener): Send {
+  const scheme = location.protocol === "https:" ? "wss:" : "ws:";
+  const socket = new WebSocket(`${scheme}//${location.host}/rows`);
+  socket.binaryType = "arraybuffer";
+  socket.onopen = () => socket.send(location.hash.slice(1));
+  socket.onclose = (event) => listener.closed(event.reason || "the program behind this page has ended");
+  socket.onmessage = ({ data }) => {
+    if (typeof data === "string") listener.said(JSON.parse(data) as Said);
+    else listener.frame(frameOf(data as ArrayBuffer));
+  };
+  return (message) => socket.readyState === WebSocket.OPEN && socket.send(JSON.stringify(message));
+}
+
+/** The address of a column of a group, or null where this recording has none. */
+export function columnOf(about: About, group: string, number = 0): Column | null {
+  const found = about.columns[group];
+  return found && number < found[2] ? [found[0], found[1] + number] : null;
+}

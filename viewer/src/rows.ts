@@ -1,0 +1,167 @@
+/** Rows that were asked for and came: what the page shows of a tick stands in its row, and nowhere else. */
+
+import { type About, type Column, type Frame, HEADER_BYTES, type Send } from "./protocol";
+
+export interface Row {
+  tick: number;
+  doubles: Float64Array;
+  singles: Float32Array;
+}
+
+/** What stands in a column of a row; NaN where there is no such column. */
+export function valueAt(row: Row, column: Column | null): number {
+  if (!column) return NaN;
+  return column[0] === 0 ? row.doubles[column[1]] : row.singles[column[1]];
+}
+
+/** Values of some columns at evenly spaced ticks. */
+export interface Series {
+  ticks: number[];
+  values: number[][];
+}
+
+/** Rows that stand one after the other. */
+interface Chunk {
+  first: number;
+  rows: number;
+  doubles: Float64Array;
+  singles: Float32Array;
+}
+
+const CHUNK_BYTES = 1 << 20;
+const CHUNK_ROWS_MIN = 8;
+const CHUNK_ROWS_MAX = 1024;
+const KEPT_CHUNKS = 96;
+const KEPT_SINGLE_ROWS = 500;
+
+export class Rows {
+  private readonly chunks = new Map<number, Chunk>();
+  private readonly single = new Map<number, Row | null>(); // null: it was asked for
+  private readonly awaited = new Set<number>(); // first ticks that were asked for
+  private readonly answers = new Map<number, (frame: Frame) => void>();
+  private readonly chunkRows: number;
+  private asked = 0;
+  known = -1;
+
+  constructor(
+    private readonly about: About,
+    private readonly fork: number,
+    private readonly send: Send,
+    private readonly changed: () => void,
+  ) {
+    const bytes = Math.max(1, 8 * about.doubles + 4 * about.singles);
+    const rows = 2 ** Math.floor(Math.log2(CHUNK_BYTES / bytes));
+    this.chunkRows = Math.min(CHUNK_ROWS_MAX, Math.max(CHUNK_ROWS_MIN, rows));
+  }
+
+  /** The row of a tick, if it is here; else it is asked for, and so is what comes after it. */
+  row(tick: number): Row | undefined {
+    const chunk = this.chunk(Math.floor(tick / this.chunkRows));
+    this.chunk(Math.floor((tick + this.chunkRows / 2) / this.chunkRows));
+    return chunk && tick - chunk.first < chunk.rows ? this.rowOf(chunk, tick - chunk.first) : undefined;
+  }
+
+  /** The row of a tick whose neighbours are not needed. */
+  alone(tick: number): Row | undefined {
+    const chunk = this.chunks.get(Math.floor(tick / this.chunkRows));
+    if (chunk && tick - chunk.first < chunk.rows) return this.rowOf(chunk, tick - chunk.first);
+    const found = this.single.get(tick);
+    if (found === undefined && tick <= this.known) {
+      if (this.single.size > KEPT_SINGLE_ROWS) this.single.clear();
+      this.single.set(tick, null);
+      this.ask({ say: "rows", from: tick, to: tick + 1, every: 1 }, (frame) => {
+        if (frame.rows) this.single.set(tick, this.rowOf(this.chunkOf(frame), 0));
+        this.changed();
+      });
+    }
+    return found ?? undefined;
+  }
+
+  /** The rows from one tick to another that are here, in order; what is missing is fetched. */
+  *between(from: number, to: number): Iterable<Row> {
+    let chunk: Chunk | undefined;
+    for (let tick = Math.max(0, from); tick <= to; tick++) {
+      if (!chunk || tick >= chunk.first + this.chunkRows) chunk = this.chunk(Math.floor(tick / this.chunkRows));
+      if (!chunk) tick += this.chunkRows - 1 - (tick % this.chunkRows);
+      else if (tick - chunk.first < chunk.rows) yield this.rowOf(chunk, tick - chunk.first);
+    }
+  }
+
+  /** Some columns from a tick to another, both included, no more than about `most` values of each. */
+  series(columns: Column[], from: number, to: number, most: number, then: (series: Series) => void): void {
+    const every = Math.max(1, Math.ceil((to - from + 1) / most));
+    const found: Series = { ticks: [], values: columns.map(() => []) };
+    const next = (first: number) =>
+      this.ask({ say: "columns", columns, from: first, to: to + 1, every }, (frame) => {
+        const values = new Float64Array(frame.blocks, HEADER_BYTES);
+        for (let row = 0; row < frame.rows; row++) found.ticks.push(first + row * every);
+        found.values.forEach((of, place) => of.push(...values.subarray(place * frame.rows, (place + 1) * frame.rows)));
+        const after = first + frame.rows * every;
+        if (frame.rows && after <= to) next(after);
+        else then(found);
+      });
+    next(from);
+  }
+
+  /** Takes in what came of this fork. */
+  add(frame: Frame): void {
+    const answer = this.answers.get(frame.ask);
+    this.answers.delete(frame.ask);
+    answer?.(frame);
+  }
+
+  private ask(message: object, answer: (frame: Frame) => void): void {
+    this.answers.set(++this.asked, answer);
+    this.send({ ...message, fork: this.fork, ask: this.asked });
+  }
+
+  private chunk(place: number): Chunk | undefined {
+    const found = this.chunks.get(place);
+    const first = place * this.chunkRows;
+    const from = first + (found?.rows ?? 0);
+    if (from <= Math.min(this.known, first + this.chunkRows - 1) && !this.awaited.has(from)) {
+      this.awaited.add(from);
+      this.ask({ say: "rows", from, to: first + this.chunkRows, every: 1 }, (frame) => this.keep(place, frame));
+    }
+    return found;
+  }
+
+  private keep(place: number, frame: Frame): void {
+    this.awaited.delete(frame.first);
+    const found = this.chunks.get(place);
+    const came = this.chunkOf(frame);
+    this.chunks.delete(place); // a Map keeps the order of setting: the oldest goes first
+    this.chunks.set(place, found && found.first + found.rows === came.first ? joined(found, came) : came);
+    if (this.chunks.size > KEPT_CHUNKS) this.chunks.delete(this.chunks.keys().next().value!);
+    this.changed();
+  }
+
+  private chunkOf({ first, rows, blocks }: Frame): Chunk {
+    const doubles = rows * this.about.doubles;
+    return {
+      first,
+      rows,
+      doubles: new Float64Array(blocks, HEADER_BYTES, doubles),
+      singles: new Float32Array(blocks, HEADER_BYTES + 8 * doubles, rows * this.about.singles),
+    };
+  }
+
+  private rowOf(chunk: Chunk, place: number): Row {
+    const { doubles, singles } = this.about;
+    return {
+      tick: chunk.first + place,
+      doubles: chunk.doubles.subarray(place * doubles, (place + 1) * doubles),
+      singles: chunk.singles.subarray(place * singles, (place + 1) * singles),
+    };
+  }
+}
+
+function joined(one: Chunk, next: Chunk): Chunk {
+  const doubles = new Float64Array(one.doubles.length + next.doubles.length);
+  doubles.set(one.doubles);
+  doubles.set(next.doubles, one.doubles.length);
+  const singles = new Float32Array(one.singles.length + next.singles.length);
+  singles.set(one.singles);
+  singles.set(next.singles, one.singles.length);
+  return { first: one.first, rows: one.rows + next.rows, doubles, singles };
+}

@@ -1,0 +1,214 @@
+/** A run on the page: one clock, and everything that shows a tick of it. */
+
+import { ActiveList } from "./active";
+import { Curves } from "./curves";
+import { element, pressed, svgElement } from "./elements";
+import { described, Hierarchy, type Selected } from "./hierarchy";
+import { helpRows, listen } from "./keys";
+import { keysOf } from "./key_table";
+import { shown } from "./names";
+import { Playback } from "./playback";
+import type { About, Frame, Said, Send, Ticks } from "./protocol";
+import { Rows } from "./rows";
+import { theme, themeSwitch } from "./theme";
+import { type Happened, Timeline } from "./timeline";
+import { Transport } from "./transport";
+import { Why } from "./why";
+import { World } from "./world";
+
+const FIRST_TICKS = 1200; // of a run that goes on when it is asked
+
+export class View {
+  readonly playback: Playback;
+  readonly hierarchy: Hierarchy;
+  readonly world: World | null;
+  readonly timeline: Timeline;
+  private readonly rows: Rows;
+  private readonly active: ActiveList;
+  private readonly curves: Curves;
+  private readonly why: Why;
+  private readonly transport: Transport;
+  private readonly happened: Happened[] = [];
+  private collisions: number[] = [];
+  private readonly stops = new Map<number, string>();
+  private selected: Selected = null;
+  private over: Selected = null;
+  private dirty = true;
+  private asked = -1;
+  private last = performance.now();
+
+  constructor(
+    private readonly about: About,
+    private readonly send: Send,
+  ) {
+    const redraw = () => {
+      this.dirty = true;
+    };
+    const jump = (tick: number) => this.playback.jump(tick);
+    this.rows = new Rows(about, 0, send, redraw);
+    this.playback = new Playback(about.tick, (tick) => !!this.rows.row(tick), redraw, (tick) => this.want(tick), about.of_ticks);
+    this.world = about.world && new World(element<HTMLCanvasElement>("world"), about, about.world, theme(), redraw);
+    element("no-world").hidden = !!about.world;
+    const shows = { over: (at: Selected, event: PointerEvent) => this.tip(at, event), chosen: (at: Selected) => this.choose(at) };
+    this.hierarchy = new Hierarchy(svgElement("hierarchy"), about, shows, redraw);
+    const search = element<HTMLInputElement>("search");
+    this.active = new ActiveList(element("active"), search, element("count"), about, (node) => this.hierarchy.reveal(node));
+    const curvesSearch = element<HTMLInputElement>("curves-search");
+    this.curves = new Curves(element("curves"), element("curves-choice"), curvesSearch, about, this.rows, theme(), jump);
+    this.timeline = new Timeline(element<HTMLCanvasElement>("timeline"), element("hint"), about, theme(), jump);
+    this.why = new Why(element("why"), about, send);
+    this.transport = new Transport(this.playback, this.timeline, about.tick);
+    this.title();
+    this.buttons();
+    const keys = keysOf({ ...this.parts(), follow: () => this.follow() }, () => search.focus(), () => element<HTMLDialogElement>("keys").showModal());
+    listen(keys);
+    element("keys-table").replaceChildren(...helpRows(keys));
+    themeSwitch(element("theme"), () => this.recolour());
+    new ResizeObserver(() => this.resize()).observe(document.body);
+    this.want(FIRST_TICKS);
+    requestAnimationFrame((now) => this.step(now));
+  }
+
+  said(message: Exclude<Said, About>): void {
+    if (message.say === "ticks" && message.fork === 0) this.grown(message);
+    else if (message.say === "why") this.why.show(message);
+    else if (message.say === "refused") element("state").textContent = shown(message.why, 160);
+  }
+
+  frame(frame: Frame): void {
+    if (frame.fork === 0) this.rows.add(frame);
+  }
+
+  private parts() {
+    const { playback, timeline, hierarchy, world } = this;
+    return { playback, timeline, hierarchy, world };
+  }
+
+  private title(): void {
+    const { source } = this.about;
+    const text = shown(this.about.title, 120);
+    element("title").textContent = text;
+    element("source").textContent = source === "robot" ? "live from the robot" : source;
+    document.title = `${text} \u2013 mind view`;
+  }
+
+  private buttons(): void {
+    pressed("help", () => element<HTMLDialogElement>("keys").showModal());
+    pressed("close-keys", () => element<HTMLDialogElement>("keys").close());
+    pressed("hierarchy-fit", () => this.hierarchy.fit());
+    pressed("open-all", () => this.hierarchy.collapseAll(false));
+    pressed("close-all", () => this.hierarchy.collapseAll(true));
+    pressed("world-fit", () => this.world?.fit());
+    pressed("world-follow", () => this.follow());
+  }
+
+  follow(): void {
+    if (this.world) element("world-follow").setAttribute("aria-pressed", String(this.world.follow()));
+    this.dirty = true;
+  }
+
+  /** Lets a run go on that does so when it is asked. */
+  private want(tick: number): void {
+    const to = Math.min(tick, this.about.of_ticks ?? tick);
+    if (this.playback?.over || to <= Math.max(this.asked, this.rows.known)) return;
+    this.asked = to;
+    this.send({ say: "run", to });
+  }
+
+  private grown({ known, over, ended_by, failed, happened, stops }: Ticks): void {
+    this.rows.known = known;
+    for (const [tick, event] of happened) this.happened.push({ tick, event });
+    this.collisions = this.happened.filter(({ event }) => this.about.events[event]?.kind === "collision").map(({ tick }) => tick);
+    for (const [tick, text] of stops) this.stops.set(tick, text);
+    this.playback.grown(known, over);
+    this.curves.refresh();
+    const end = over ? `${known} ticks${ended_by ? `, ended by ${shown(ended_by)}` : ""}` : "";
+    element("state").textContent = failed ? shown(failed, 200) : end;
+    element("state").classList.toggle("alarm", !!failed);
+  }
+
+  private recolour(): void {
+    const colours = theme();
+    this.world?.recolour(colours);
+    this.curves.recolour(colours);
+    this.timeline.recolour(colours);
+    this.dirty = true;
+  }
+
+  private resize(): void {
+    this.world?.resize();
+    this.hierarchy.resize();
+    this.curves.resize();
+    this.timeline.resize();
+    this.dirty = true;
+  }
+
+  private step(now: number): void {
+    requestAnimationFrame((next) => this.step(next));
+    const before = this.playback.tick;
+    this.playback.advance((now - this.last) / 1000);
+    this.last = now;
+    this.stopBetween(before, this.playback.tick);
+    if (this.dirty || this.playback.tick !== before) this.draw(now);
+    this.why.at(this.playback.tick, 0, now);
+  }
+
+  /** Pauses where a breakpoint holds that was come by. */
+  private stopBetween(before: number, now: number): void {
+    if (!this.playback.playing || !this.stops.size) return;
+    for (let tick = before + 1; tick <= now; tick++) {
+      const text = this.stops.get(tick);
+      if (text === undefined) continue;
+      this.playback.pause();
+      this.playback.jump(tick);
+      element("state").textContent = `stopped: ${shown(text, 120)}`;
+      return;
+    }
+  }
+
+  private draw(now: number): void {
+    const { tick, known } = this.playback;
+    this.transport.show();
+    this.timeline.show(tick, known, this.happened);
+    this.curves.move(tick);
+    const row = this.rows.row(tick);
+    if (!row) return;
+    this.dirty = !this.active.draw(row, now);
+    this.hierarchy.draw(row);
+    this.world?.draw(row, this.rows, this.collisions.filter((each) => each <= tick));
+    this.describe("chosen-text", this.selected);
+    this.describe("tip", this.over);
+  }
+
+  private choose(selected: Selected): void {
+    this.selected = selected;
+    this.why.choose(selected?.kind === "node" ? selected.number : null);
+    if (!selected) element("chosen-text").textContent = "Choose a skill, an edge or an actuator to see its value, and why.";
+    this.dirty = true;
+  }
+
+  private tip(at: Selected, event: PointerEvent): void {
+    const tip = element("tip");
+    const { left, top, width } = (event.currentTarget as Element).getBoundingClientRect();
+    tip.hidden = !at;
+    tip.style.left = `${Math.min(event.clientX - left + 14, width - 240)}px`;
+    tip.style.top = `${event.clientY - top + 16}px`;
+    if (at?.number !== this.over?.number || at?.kind !== this.over?.kind) this.hover(at);
+  }
+
+  private hover(at: Selected): void {
+    this.over = at;
+    const actuator = at?.kind === "node" && this.about.nodes[at.number].kind === "actuator";
+    if (actuator) this.why.choose(at.number);
+    this.describe("tip", at);
+  }
+
+  private describe(name: string, selected: Selected): void {
+    if (!selected) return;
+    const { text, value } = described(this.about, selected, this.rows.row(this.playback.tick));
+    const place = element(name);
+    place.textContent = text;
+    place.title = String(value);
+    place.dataset.value = String(value);
+  }
+}

@@ -1,0 +1,71 @@
+/** Why an actuator does what it does: each path from the master and its share of the command, as the server says. */
+
+import { digits, percent, shown } from "./names";
+import type { About, Send, Why as Answer } from "./protocol";
+
+const ASK_MILLISECONDS = 120; // not more often, while it plays
+const PATHS_MAX = 12;
+
+export class Why {
+  private actuator: number | null = null; // its number among the commands
+  private asked = "";
+  private askedAt = -Infinity;
+
+  constructor(
+    private readonly place: HTMLElement,
+    private readonly about: About,
+    private readonly send: Send,
+  ) {}
+
+  /** Asks about the actuator that is this node; about none, where it is no actuator. */
+  choose(node: number | null): void {
+    const actuators = [...this.about.nodes.keys()].filter((each) => this.about.nodes[each].kind === "actuator");
+    const found = node === null ? -1 : actuators.indexOf(node);
+    this.actuator = found < 0 ? null : found;
+    this.asked = "";
+    if (this.actuator === null) this.place.replaceChildren();
+  }
+
+  /** Asks for a tick, if that has not been asked. */
+  at(tick: number, fork: number, now: number): void {
+    const question = `${fork}/${tick}/${this.actuator}`;
+    if (this.actuator === null || question === this.asked || now - this.askedAt < ASK_MILLISECONDS || tick < 1) return;
+    this.asked = question;
+    this.askedAt = now;
+    this.send({ say: "why", fork, tick, actuator: this.actuator });
+  }
+
+  show(answer: Answer): void {
+    if (answer.actuator !== this.actuator) return;
+    const head = document.createElement("p");
+    head.className = "sum";
+    head.textContent = `command ${digits(answer.command)} at tick ${answer.tick}`;
+    head.title = String(answer.command);
+    const paths = [...answer.paths].sort((one, other) => Math.abs(other.share) - Math.abs(one.share));
+    const lines = paths.slice(0, PATHS_MAX).map((path) => this.path(path, answer.command));
+    if (!paths.length) lines.push(text("p", "note", "nobody influences it: it is at its neutral"));
+    if (paths.length > PATHS_MAX) lines.push(text("p", "note", `and ${paths.length - PATHS_MAX} paths with smaller shares`));
+    if (answer.rest) lines.push(text("p", "note", `rest ${digits(answer.rest)}`));
+    this.place.replaceChildren(head, ...lines);
+  }
+
+  private path({ path, value, influence, share }: Answer["paths"][number], command: number): HTMLElement {
+    const line = document.createElement("div");
+    line.className = "path";
+    const bar = text("span", "bar", "");
+    bar.style.transform = `scaleX(${Math.min(1, Math.abs(share / command)) || 0})`;
+    const names = path.map((node) => shown(this.about.nodes[node]?.name ?? "?", 24));
+    const ways = text("span", "way", names.slice(0, -1).join(" \u203a "));
+    const numbers = text("span", "numbers", `${digits(value)} with ${percent(influence)} influence: ${digits(share)} of the command`);
+    numbers.title = `value ${value}, influence ${influence}, share ${share}`;
+    line.append(bar, ways, numbers);
+    return line;
+  }
+}
+
+function text(name: string, kind: string, content: string): HTMLElement {
+  const element = document.createElement(name);
+  element.className = kind;
+  element.textContent = content;
+  return element;
+}

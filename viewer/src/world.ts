@@ -1,0 +1,232 @@
+/** The world on a canvas: arena, obstacles, things, the path behind the robot, and where it collided. */
+
+import { Camera } from "./camera";
+import { shown } from "./names";
+import { type About, columnOf, type Column, type Thing, type World as WorldData } from "./protocol";
+import { drawRobot } from "./robot";
+import { type Row, type Rows, valueAt } from "./rows";
+import type { Theme } from "./theme";
+
+const GRID_UNITS = 10;
+const WALL_UNITS = 0.8;
+const PATH_TICKS = 1500;
+const PATH_PARTS = 30; // each a little darker than the one before
+const COLLISION_MARKS = 60;
+const FREE_VIEW_UNITS = 60; // what is seen where there are no walls
+const THING_COLUMNS = 4; // x, y, size, turned
+
+export class World {
+  private readonly camera: Camera;
+  private readonly context: CanvasRenderingContext2D;
+  private readonly held: Column | null;
+  private follows = false;
+
+  constructor(
+    private readonly canvas: HTMLCanvasElement,
+    private readonly about: About,
+    private readonly world: WorldData,
+    private theme: Theme,
+    changed: () => void,
+  ) {
+    this.context = canvas.getContext("2d")!;
+    this.held = columnOf(about, "held");
+    this.camera = new Camera(canvas, changed);
+    canvas.addEventListener("dblclick", () => this.fit());
+    this.follows = world.arena === null;
+  }
+
+  recolour(theme: Theme): void {
+    this.theme = theme;
+  }
+
+  /** Shows the whole arena, or what is around the robot where there is none. */
+  fit(): void {
+    const [x, y] = this.world.arena ?? [FREE_VIEW_UNITS / 2, FREE_VIEW_UNITS / 2];
+    const margin = WALL_UNITS + 0.02 * x;
+    this.follows = this.world.arena === null;
+    this.camera.fit(-x - margin, -y - margin, 2 * (x + margin), 2 * (y + margin));
+  }
+
+  zoom(factor: number): void {
+    this.camera.zoom(factor);
+  }
+
+  /** Stays with the robot, or no more; whether it does so now. */
+  follow(): boolean {
+    this.follows = !this.follows;
+    return this.follows;
+  }
+
+  resize(): void {
+    const { clientWidth, clientHeight } = this.canvas;
+    this.canvas.width = clientWidth * devicePixelRatio;
+    this.canvas.height = clientHeight * devicePixelRatio;
+    if (!this.camera.touched) this.fit();
+  }
+
+  /** Draws what was after a tick; `other` is the row of the run beside this one. */
+  draw(row: Row, rows: Rows, collisions: number[], other?: Row): void {
+    const { context, canvas, camera, theme } = this;
+    const [x, y] = this.pose(row);
+    if (this.follows) {
+      camera.x = canvas.clientWidth / 2 - x * camera.scale;
+      camera.y = canvas.clientHeight / 2 + y * camera.scale;
+    }
+    context.setTransform(devicePixelRatio, 0, 0, devicePixelRatio, 0, 0);
+    context.fillStyle = this.world.arena ? theme.page : theme.floor;
+    context.fillRect(0, 0, canvas.clientWidth, canvas.clientHeight);
+    context.translate(camera.x, camera.y);
+    context.scale(camera.scale, -camera.scale); // y points up
+    context.lineJoin = context.lineCap = "round";
+    this.floor();
+    this.things(row, true);
+    this.path(row, rows);
+    this.collisions(rows, collisions);
+    this.things(row, false);
+    if (other) this.ghost(other);
+    drawRobot(context, this.world.robot, row, this.pose(row), theme, 1 / camera.scale);
+    this.names(row);
+  }
+
+  private pose(row: Row): [number, number, number] {
+    const first = this.about.columns.robot?.[1] ?? 0;
+    return [row.doubles[first], row.doubles[first + 1], row.doubles[first + 2]];
+  }
+
+  private floor(): void {
+    const { context, theme, camera } = this;
+    const { arena, boxes } = this.world;
+    if (arena) {
+      const [x, y] = arena;
+      context.fillStyle = theme.wall;
+      context.fillRect(-x - WALL_UNITS, -y - WALL_UNITS, 2 * (x + WALL_UNITS), 2 * (y + WALL_UNITS));
+      context.fillStyle = theme.floor;
+      context.fillRect(-x, -y, 2 * x, 2 * y);
+    }
+    this.grid();
+    context.fillStyle = theme.rock;
+    context.strokeStyle = theme.rockEdge;
+    context.lineWidth = 1.2 / camera.scale;
+    for (const [x, y, halfX, halfY] of boxes) {
+      context.fillRect(x - halfX, y - halfY, 2 * halfX, 2 * halfY);
+      context.strokeRect(x - halfX, y - halfY, 2 * halfX, 2 * halfY);
+    }
+  }
+
+  private grid(): void {
+    const { context, camera, canvas } = this;
+    const { arena } = this.world;
+    const left = arena ? -arena[0] : -camera.x / camera.scale;
+    const right = arena ? arena[0] : (canvas.clientWidth - camera.x) / camera.scale;
+    const high = arena ? arena[1] : camera.y / camera.scale;
+    const low = arena ? -arena[1] : (camera.y - canvas.clientHeight) / camera.scale;
+    const apart = GRID_UNITS * Math.max(1, 10 ** Math.ceil(Math.log10(1 / camera.scale)));
+    context.beginPath();
+    for (let x = Math.ceil(left / apart) * apart; x <= right; x += apart) {
+      context.moveTo(x, low);
+      context.lineTo(x, high);
+    }
+    for (let y = Math.ceil(low / apart) * apart; y <= high; y += apart) {
+      context.moveTo(left, y);
+      context.lineTo(right, y);
+    }
+    context.strokeStyle = this.theme.grid;
+    context.lineWidth = 1 / camera.scale;
+    context.stroke();
+  }
+
+  private *eachThing(row: Row): Iterable<[Thing, number[], boolean]> {
+    const first = this.about.columns.things?.[1] ?? 0;
+    const held = valueAt(row, this.held);
+    for (const [number, thing] of this.world.things.entries()) {
+      const at = first + THING_COLUMNS * number;
+      const place = [...row.doubles.subarray(at, at + THING_COLUMNS)];
+      if (Number.isFinite(place[0])) yield [thing, place, held === number];
+    }
+  }
+
+  private colour(thing: Thing): string {
+    return document.documentElement.dataset.theme === "dark" ? thing.dark : thing.light;
+  }
+
+  private things(row: Row, areas: boolean): void {
+    const { context, theme, camera } = this;
+    for (const [thing, [x, y, size, turned], isHeld] of this.eachThing(row)) {
+      if ((thing.shape === "area") !== areas) continue;
+      context.save();
+      context.translate(x, y);
+      context.beginPath();
+      if (thing.shape === "disc") context.arc(0, 0, size / 2, 0, 2 * Math.PI);
+      else {
+        if (!areas) context.rotate(turned || 0);
+        context.rect(-size / 2, -size / 2, size, size);
+      }
+      context.fillStyle = context.strokeStyle = this.colour(thing);
+      context.globalAlpha = areas ? 0.22 : 1;
+      context.fill();
+      context.globalAlpha = 1;
+      if (!areas) context.strokeStyle = isHeld ? theme.lamp : theme.floor;
+      context.lineWidth = (isHeld ? 3 : 1.5) / camera.scale;
+      context.stroke();
+      context.restore();
+    }
+  }
+
+  private path(row: Row, rows: Rows): void {
+    const { context, theme, camera } = this;
+    const points = [...rows.between(row.tick - PATH_TICKS, row.tick)].map((each) => this.pose(each));
+    const step = Math.ceil(points.length / PATH_PARTS) || 1;
+    context.strokeStyle = theme.late;
+    context.lineWidth = 2 / camera.scale;
+    for (let first = 0; first < points.length - 1; first += step) {
+      context.beginPath();
+      context.moveTo(points[first][0], points[first][1]);
+      for (const [x, y] of points.slice(first + 1, first + step + 1)) context.lineTo(x, y);
+      context.globalAlpha = 0.08 + (0.72 * (first + step)) / points.length;
+      context.stroke();
+    }
+    context.globalAlpha = 1;
+  }
+
+  private collisions(rows: Rows, ticks: number[]): void {
+    const { context, theme, camera } = this;
+    const arm = 5 / camera.scale;
+    context.strokeStyle = theme.crash;
+    context.lineWidth = 2 / camera.scale;
+    context.beginPath();
+    for (const tick of ticks.slice(-COLLISION_MARKS)) {
+      const found = rows.alone(tick);
+      if (!found) continue;
+      const [x, y] = this.pose(found);
+      context.moveTo(x - arm, y - arm);
+      context.lineTo(x + arm, y + arm);
+      context.moveTo(x - arm, y + arm);
+      context.lineTo(x + arm, y - arm);
+    }
+    context.stroke();
+  }
+
+  private ghost(row: Row): void {
+    const { context } = this;
+    context.globalAlpha = 0.35;
+    drawRobot(context, { ...this.world.robot, rays: [] }, row, this.pose(row), this.theme, 1 / this.camera.scale);
+    context.globalAlpha = 1;
+  }
+
+  private names(row: Row): void {
+    const { context, camera, theme } = this;
+    context.setTransform(devicePixelRatio, 0, 0, devicePixelRatio, 0, 0);
+    context.font = "12px system-ui, sans-serif";
+    context.textAlign = "center";
+    context.lineWidth = 3;
+    for (const [thing, [x, y, size], isHeld] of this.eachThing(row)) {
+      const text = isHeld ? `${shown(thing.name, 24)} (held)` : shown(thing.name, 24);
+      const left = camera.x + x * camera.scale;
+      const top = camera.y - (y + size / 2) * camera.scale - 6;
+      context.strokeStyle = theme.floor;
+      context.strokeText(text, left, top);
+      context.fillStyle = theme.ink;
+      context.fillText(text, left, top);
+    }
+  }
+}
