@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from mindrun.sim.rollout import Rollout
+from mindrun.sim.ticks import joined
 from mindrun.sim.trace import trace
 
 from mindlang.run.setup import RunSetup
@@ -37,13 +38,10 @@ def record(setup: RunSetup, seed: int, prepare: Callable[[Rollout], None] = Roll
     rollout = setup.rollout()
     prepare(rollout)
     run = trace(rollout, seed)
-    influence, commands = [], []
-    for moment in run.moments:
-        influence.append(moment.influence)
-        commands.append(moment.commands)
-    total = np.array(influence) @ _drivers(rollout)
-    actuators = (_undriven(total[:, place], np.array(commands)[:, place]) for place in range(total.shape[1]))
-    return Recorded(setup.task.name, seed, len(influence), int(run.jobs.faults[0]), tuple(actuators))
+    ticks = joined(run.chunks)
+    total = ticks.influence @ _drivers(rollout)
+    actuators = (_undriven(total[:, place], ticks.commands[:, place]) for place in range(total.shape[1]))
+    return Recorded(setup.task.name, seed, len(ticks), int(run.jobs.faults[0]), tuple(actuators))
 
 
 def _drivers(rollout: Rollout) -> np.ndarray[tuple[int, int], np.dtype[np.float32]]:

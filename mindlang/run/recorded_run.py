@@ -6,6 +6,7 @@ import numpy as np
 from mindrun.graph import Graph, Skill, Task, Thing
 from mindrun.sim.rollout import Rollout
 from mindrun.sim.task_rows import things_of
+from mindrun.sim.ticks import joined
 from mindrun.sim.trace import trace
 from mindrun.weights import reachable
 from numpy.typing import NDArray
@@ -111,28 +112,19 @@ class RecordedRun:
 def record_run(setup: RunSetup, rollout: Rollout, seed: int) -> RecordedRun:
     """The run that `rollout` makes of a seed, written down."""
     run = trace(rollout, seed)
-    moments = list(run.moments)
-    events = np.array([moment.events for moment in moments]).reshape(len(moments), -1)
+    ticks = joined(run.chunks)
     return RecordedRun(
         setup,
         run.boxes,
-        np.array([run.begin, *(moment.body[:3] for moment in moments)]),
-        np.array([run.things, *(moment.things for moment in moments)]),
-        np.array([run.turned, *(moment.turned for moment in moments)]),
-        np.array([-1, *(moment.held for moment in moments)]),
-        _as_read(setup.ready.policy.graph, np.array([moment.readings for moment in moments])),
-        np.array([moment.influence for moment in moments]),
-        np.array([moment.commands for moment in moments]),
-        np.array([moment.lines for moment in moments]).reshape(len(moments), -1),
-        np.array([moment.touching for moment in moments]),
-        np.array([moment.battery for moment in moments]),
-        np.cumsum(events, axis=0),
+        np.concatenate([run.begin[None], ticks.body[:, :3]]),
+        np.concatenate([run.things[None], ticks.things]),
+        np.concatenate([run.turned[None], ticks.turned]),
+        np.concatenate([[-1], ticks.held]),
+        ticks.readings,
+        ticks.influence,
+        ticks.commands,
+        ticks.lines,
+        ticks.touching,
+        ticks.battery,
+        np.cumsum(ticks.events, axis=0),
     )
-
-
-def _as_read(graph: Graph, readings: NDArray[np.float32]) -> NDArray[np.float32]:
-    """The readings with the memory cells as they were read: a moment has them as its tick left them."""
-    for memory in graph.memories:
-        readings[1:, memory.start] = readings[:-1, memory.start]
-        readings[0, memory.start] = memory.kind.start
-    return readings

@@ -23,8 +23,6 @@ def follow(rollout: Rollout, engine: Engine, seed: int) -> Counter[str]:
     plain = PlainWorld(graph, task, run, bool(rollout.tables.world[0]["battery"]))
     used = {int(row["start"]) for row in rollout.tables.sensors}
     counts = np.zeros(len(task.events), np.int64)
-    cells = [memory.start for memory in graph.memories]
-    known = np.array([memory.kind.start for memory in graph.memories], np.float32)
     ended = -1
     for moment in run.moments:
         assert ended < 0
@@ -39,12 +37,9 @@ def follow(rollout: Rollout, engine: Engine, seed: int) -> Counter[str]:
         happened = plain.happened()
         assert plain.touched == moment.touching
         with np.errstate(all="ignore"):
-            readings = moment.readings.copy()
-            readings[cells] = known  # a reward reads what the skills have read
-            ended = plain.ends(happened, readings)
-            plain.reward(happened, readings)
+            ended = plain.ends(happened, moment.readings)
+            plain.reward(happened, moment.readings)
         assert happened == moment.events.tolist()
-        known = moment.readings[cells]
         assert np.array_equal(plain.lines, moment.lines, equal_nan=True)
         hold_things(plain, moment)
         counts += np.array(happened, np.int64)
@@ -70,6 +65,7 @@ def hold_readings(plain: PlainWorld, used: set[int], moment: Moment) -> None:
 def hold_mind(engine: Engine, used: set[int], moment: Moment) -> None:
     """The engine sees the same, also where it computes it itself, and thinks the same."""
     rows = [s.start + k for s in engine.graph.sensors if s.start in used for k in range(s.width)]
+    rows += [memory.start for memory in engine.graph.memories]
     assert np.array_equal(engine.readings[rows], moment.readings[rows], equal_nan=True)
     assert engine.influence.tobytes() == moment.influence.tobytes()
 

@@ -198,6 +198,9 @@ def _jobs(genomes: Array, seeds: Array, genome: Array, seed: Array, lines: int, 
         ended=np.zeros(count, np.int64),
         met=np.zeros(count, np.int64),
         faults=np.zeros(count, np.int64),
+        doubles=np.zeros((0, 0)),
+        singles=np.zeros((0, 0), np.float32),
+        recorded=np.zeros(1, np.int64),
     )
 
 

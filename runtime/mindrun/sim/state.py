@@ -180,3 +180,6 @@ class Jobs(NamedTuple):
     ended: Array
     met: Array  # the end that came first, which is not what ended the run where nothing interrupts one
     faults: Array
+    doubles: Array  # [ticks, columns] float64: the first lane after each tick, in as many as there is room for
+    singles: Array  # [ticks, columns] float32: its mind (lanes/record)
+    recorded: Array  # [1]: how many ticks have been written down

@@ -1,28 +1,22 @@
 """One run, tick by tick: what the pictures, the videos and the tests look at."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
-from mindrun.arithmetic import ANGLE, BOX_COLUMNS, LOOSE_ROWS, SIZE, THING_ROWS, TURN
+from mindrun.arithmetic import ANGLE, BOX_COLUMNS, SIZE, THING_ROWS
 from mindrun.changes import Change
 from mindrun.sim.changed_ticks import changed
-from mindrun.sim.rollout import Rollout
-from mindrun.sim.state import Jobs, World
+from mindrun.sim.rollout import Rollout, Tile
+from mindrun.sim.state import Jobs
+from mindrun.sim.ticks import Ticks, turned, with_room, written
 
 
 @dataclass(frozen=True, slots=True)
 class Moment:
-    """The world and the mind after one tick; `tick` counts from 1.
-
-    `body` is x, y, angle and their velocities; `things` [things, 3] is x, y and size of each, and
-    `turned` [things] how far each has turned, counterclockwise in radians, or the direction of one that wanders;
-    `held` the number of the thing in the claw or −1; `acting` the commands with the noise of their actuators, and
-    `grip` the share of its force that each kept; `events` how often each event happened; `lines` the sum of each
-    reward line so far.
-    """
+    """The world and the mind after one tick, as a row of `Ticks`; `tick` counts from 1."""
 
     tick: int
     body: NDArray[np.float64]
@@ -42,9 +36,10 @@ class Moment:
 
 @dataclass(frozen=True, slots=True)
 class Trace:
-    """A run that is about to begin: the obstacles [boxes, 4] as x, y and half of both sides, and its moments.
+    """A run that is about to begin: the obstacles [boxes, 4] as x, y and half of both sides, and its ticks.
 
-    `drawn` has what each argument that varies is, and from which tick on, counted from 0, what fails is stuck.
+    `drawn` has what each argument that varies is, and from which tick on, counted from 0, what fails is stuck. The run
+    is made while `chunks` is gone through, or `moments`, which takes from the same.
     """
 
     boxes: NDArray[np.float64]
@@ -52,6 +47,7 @@ class Trace:
     things: NDArray[np.float64]
     turned: NDArray[np.float64]
     drawn: NDArray[np.float64]
+    chunks: Iterator[Ticks]
     moments: Iterator[Moment]
     jobs: Jobs
 
@@ -62,50 +58,40 @@ def trace(
     """The run that `rollout.score` would make of that genome and seed; with changes, what had become of it then."""
     advance = changed(rollout, changes) if changes else rollout.advance
     genomes = np.zeros((1, 0), np.float32) if genome is None else genome[None].astype(np.float32)
-    jobs = rollout.jobs(genomes, np.array([seed], np.uint64))
     tile = rollout.tile(1)
+    jobs = with_room(rollout.jobs(genomes, np.array([seed], np.uint64)), tile.state)
     rollout.fill(tile, jobs)
-    world, mind, judge = tile.state.world, tile.state.mind, tile.state.judge
-    boxes = world.boxes[0].reshape(-1, BOX_COLUMNS).copy()
-    things, turned = _things(world, rollout), _turned(world, rollout)
-    rows = rollout.tables.actuators
-    rough, slipping = (np.array([bool(row[name]) for row in rows], bool) for name in ("is_rough", "is_slipping"))
-    count = len(rows)
-    drawn = world.numbers[: len(rollout.task.varies) + len(rollout.task.fails), 0].copy()
-
-    def moments() -> Iterator[Moment]:
-        working = 1
-        while working:
-            working = advance(tile, jobs, 1)
-            yield Moment(
-                tick=int(world.tick[0]),
-                body=world.body[:, 0].copy(),
-                things=_things(world, rollout),
-                turned=_turned(world, rollout),
-                held=int(world.held[0]),
-                battery=float(world.battery[0]),
-                touching=bool(tile.state.contact.touching[0] & 1),
-                readings=mind.readings[:, 0].copy(),
-                influence=mind.influence[:, 0].copy(),
-                commands=mind.commands[:, 0].copy(),
-                acting=np.where(rough, world.acting[:count, 0], mind.commands[:count, 0]),
-                grip=np.where(slipping, world.grip[:count, 0], 1.0),
-                events=judge.events[: len(rollout.task.events), 0].astype(np.int64),
-                lines=judge.lines[: len(rollout.task.rewards), 0].copy(),
-            )
-
-    return Trace(boxes, world.body[: ANGLE + 1, 0].copy(), things, turned, drawn, moments(), jobs)
+    world, things = tile.state.world, len(rollout.tables.things)
+    chunks = _chunks(rollout, advance, tile, jobs)
+    return Trace(
+        boxes=world.boxes[0].reshape(-1, BOX_COLUMNS).copy(),
+        begin=world.body[: ANGLE + 1, 0].copy(),
+        things=world.things[: THING_ROWS * things, 0].reshape(-1, THING_ROWS)[:, : SIZE + 1].copy(),
+        turned=turned(rollout, world.loose[:, :1].T, world.direction[:, :1].T)[0],
+        drawn=world.numbers[: len(rollout.task.varies) + len(rollout.task.fails), 0].copy(),
+        chunks=chunks,
+        moments=_moments(chunks),
+        jobs=jobs,
+    )
 
 
-def _turned(world: World, rollout: Rollout) -> NDArray[np.float64]:
-    turned = np.zeros(len(rollout.tables.things))
-    for i, row in enumerate(rollout.tables.loose):
-        turned[int(row["thing"])] = world.loose[LOOSE_ROWS * i + TURN, 0]
-    for i, row in enumerate(rollout.tables.walkers):
-        turned[int(row["thing"])] = world.direction[i, 0]
-    return turned
+def _chunks(
+    rollout: Rollout, advance: Callable[[Tile, Jobs, int], int], tile: Tile, jobs: Jobs
+) -> Iterator[Ticks]:
+    working = 1
+    while working:
+        try:
+            working = advance(tile, jobs, len(jobs.singles))
+        finally:
+            if jobs.recorded[0]:  # where a procedure fails, too: what was before that happened
+                yield written(rollout, tile.state, jobs)
 
 
-def _things(world: World, rollout: Rollout) -> NDArray[np.float64]:
-    rows = world.things[: THING_ROWS * len(rollout.tables.things), 0].reshape(-1, THING_ROWS)
-    return rows[:, : SIZE + 1].copy()
+def _moments(chunks: Iterator[Ticks]) -> Iterator[Moment]:
+    number = 0
+    for ticks in chunks:
+        for i in range(len(ticks)):
+            number += 1
+            row = {name: getattr(ticks, name)[i] for name in Ticks.__slots__}
+            scalars = {"held": int(row["held"]), "battery": float(row["battery"]), "touching": bool(row["touching"])}
+            yield Moment(tick=number, **row | scalars)

@@ -6,6 +6,7 @@ from mindrun.sim.compiling import compiled, entry, part_of_tick
 from mindrun.sim.lanes.act import act, recall
 from mindrun.sim.lanes.judge import judge
 from mindrun.sim.lanes.places import within
+from mindrun.sim.lanes.record import record
 from mindrun.sim.lanes.runs import end
 from mindrun.sim.lanes.sense import sense
 from mindrun.sim.lanes.step import step
@@ -35,7 +36,7 @@ def before(tables, state, jobs):
 
 @part_of_tick
 def after(tables, state, jobs, interrupt):
-    """The second half of a tick: act, step, judge, recall.
+    """The second half of a tick: act, step, judge, recall; where somebody wants to know, it is written down.
 
     Lanes whose run is over write their result and begin the next.
     """
@@ -45,6 +46,7 @@ def after(tables, state, jobs, interrupt):
         world.begun_at[X, lane], world.begun_at[Y, lane] = world.body[X, lane], world.body[Y, lane]
     step(tables, state, lanes)
     judge(tables, state, lanes, clock, interrupt)
+    record(state, jobs)
     recall(tables, state.mind, state.run, lanes)
     for row in range(len(tables.actuators)):
         for lane in range(lanes):
