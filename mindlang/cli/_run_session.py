@@ -1,4 +1,4 @@
-"""What `run` and `bench` do beside computing: loading a cast, showing progress, writing pictures, and saying so."""
+"""What `run` and `bench` do beside computing: loading a cast, showing progress, and saying so."""
 
 from __future__ import annotations
 
@@ -12,10 +12,11 @@ from mindrun.sim.rollout import Rollout, Scores
 from rich.progress import BarColumn, Progress, TaskProgressColumn, TextColumn, TimeRemainingColumn
 
 from mindlang.cli._simulator_compilation import ensure_compiled
-from mindlang.cli._terminal import FINDINGS, MISUSE, fail, load_compiled, procedures_talk, say, talk, write_picture
+from mindlang.cli._terminal import FINDINGS, MISUSE, fail, load_compiled, procedures_talk, say, talk
 from mindlang.compiler.compile import Compiled
 from mindlang.resource_limits import refuse_too_large, refuse_too_many
 from mindlang.run.layouts import NO_GENOME
+from mindlang.run.recorded_run import RecordedRun
 from mindlang.run.setup import RunSetup, SetupError, set_up
 
 
@@ -65,45 +66,26 @@ class RunSession:
     @procedures_talk()
     def score(self, rollout: Rollout, seeds: list[int]) -> tuple[Scores, float]:
         """All runs, and the seconds that they took."""
-        with self._progress() as progress:
+        with self.progress() as progress:
             bar = progress.add_task(f"{rollout.task.name}", total=len(seeds))
             begin = perf_counter()
             scores = rollout.score(NO_GENOME, seeds, lambda runs: progress.advance(bar, runs))
             return scores, perf_counter() - begin
 
     @procedures_talk()
-    def draw(self, set_up: RunSetup, rollout: Rollout, found: dict[str, Any], path: Path) -> None:
-        """The picture of a run, written to `path`."""
-        from mindlang.pictures.picture import picture, png
+    def record(self, set_up: RunSetup, rollout: Rollout, seed: int) -> RecordedRun:
+        """A run again, tick by tick."""
         from mindlang.run.recorded_run import record_run
 
-        recorded = record_run(set_up, rollout, found["seed"])
-        write_picture(path, png(picture(recorded, found)))
-        self.say(f"{path}: the path of the robot")
-
-    @procedures_talk()
-    def film(self, set_up: RunSetup, rollout: Rollout, found: dict[str, Any], path: Path, speed: float | None) -> None:
-        """The video of a run, written to `path`."""
-        from mindlang.pictures.film import Film, FilmError
-        from mindlang.run.recorded_run import record_run
-
-        film = Film.of(record_run(set_up, rollout, found["seed"]), found, speed)
-        try:
-            with self._progress() as progress:
-                bar = progress.add_task(path.name, total=film.frames)
-                film.write(path, lambda: progress.advance(bar))
-        except FilmError as error:
-            fail(str(error), code=MISUSE)
-        except OSError as error:
-            fail(f"{path} cannot be written: {error.strerror}", code=MISUSE)
-        self.say(f"{path}: {film.frames / film.FPS:.0f} s at {film.speed:g} times the robot's speed")
+        return record_run(set_up, rollout, seed)
 
     def say(self, *lines: str) -> None:
         """Print lines on stderr."""
         for line in () if self.quiet else lines:
             talk.print(line, markup=False)
 
-    def _progress(self) -> Progress:
+    def progress(self) -> Progress:
+        """A bar on stderr, where somebody looks at it."""
         columns = (TextColumn("{task.description}", markup=False), BarColumn(30), TaskProgressColumn())
         hidden = self.quiet or not talk.is_terminal
         return Progress(*columns, TimeRemainingColumn(), console=talk, transient=True, disable=hidden)

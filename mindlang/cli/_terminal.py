@@ -74,7 +74,7 @@ def procedures_talk() -> Iterator[None]:
 
 
 def refuse_unwritable(path: Path | None, *suffixes: str) -> None:
-    """End the program where no picture could be written to `path`, before any work is done."""
+    """End the program where no file could be written to `path`, before any work is done."""
     from mindrun.atomic_write import refuse
 
     if path is None:
@@ -87,8 +87,8 @@ def refuse_unwritable(path: Path | None, *suffixes: str) -> None:
         fail(f"{path} cannot be written: {error.strerror}", code=MISUSE)
 
 
-def write_picture(path: Path, data: bytes) -> None:
-    """Write a picture that is done; where that fails the program ends, and the old one is still there."""
+def write_file(path: Path, data: bytes) -> None:
+    """Write a file whose contents are done; where that fails the program ends, and the old one is still there."""
     from mindrun.atomic_write import write_out
 
     try:

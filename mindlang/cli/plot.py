@@ -41,7 +41,7 @@ def command(runs: tuple[Path, ...], output: Path, as_json: bool, quiet: bool) ->
     from mindrun.errors import MindError
     from mindrun.train import NotFoundError
 
-    from mindlang.cli._terminal import MISUSE, fail, print_json, refuse_unwritable, write_picture
+    from mindlang.cli._terminal import MISUSE, fail, print_json, refuse_unwritable, write_file
     from mindlang.pictures.learning_log import load_curves
 
     if find_spec("matplotlib") is None:
@@ -60,7 +60,7 @@ def command(runs: tuple[Path, ...], output: Path, as_json: bool, quiet: bool) ->
 
     from mindlang.pictures.curves import figure, image
 
-    write_picture(output, image(figure(curves), output.suffix))
+    write_file(output, image(figure(curves), output.suffix))
     if as_json:
         print_json(_drawn(output, curves))
     if not quiet:

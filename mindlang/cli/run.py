@@ -1,4 +1,4 @@
-"""`mindc run`: one run of a task, in numbers and in pictures."""
+"""`mindc run`: one run of a task, in numbers, pictures and tables."""
 
 from __future__ import annotations
 
@@ -14,6 +14,7 @@ Examples:
   mindc run collect.mind --task GoToObject --seed 3
   mindc run collect.mind --task Collect --no-interruption --picture path.png
   mindc run collect.mind --task Collect --seed 3 --video run.mp4 --speed 4
+  mindc run collect.mind --task Collect --seed 3 --trace run.csv
   mindc run collect.mind --task Avoid --seed 3 --json
 """
 
@@ -29,6 +30,9 @@ Examples:
 @click.option("--picture", type=NewFile(), metavar="PATH.png", help="Draw the world and the path that the robot took.")
 @click.option("--video", type=NewFile(), metavar="PATH.mp4", help="Film the world and the influence in the hierarchy.")
 @click.option("--speed", type=NumberOption(0.01, 1000), help="Of the video. Default: a whole run takes a minute.")
+@click.option(
+    "--trace", type=NewFile(), metavar="PATH.csv", help="Write readings, influence, commands and rewards of every tick."
+)
 @click.option("--json", "as_json", is_flag=True, help="Print one JSON document instead.")
 @click.option("-q", "--quiet", is_flag=True, help="Print nothing but results and errors.")
 def command(
@@ -40,24 +44,25 @@ def command(
     picture: Path | None,
     video: Path | None,
     speed: float | None,
+    trace: Path | None,
     as_json: bool,
     quiet: bool,
 ) -> None:
-    """Run a task of FILE once, in numbers and in pictures.
+    """Run a task of FILE once, in numbers, pictures and tables.
 
     With the weights that its skills were taught. Runs the Python code of the file's procedures. Refuses skills that
     have not been taught, or whose weights belong to another declaration.
     """
     import secrets
 
+    from mindlang.cli._run_files import RunFiles
     from mindlang.cli._run_session import RunSession
-    from mindlang.cli._terminal import console, print_json, refuse_unwritable
+    from mindlang.cli._terminal import console, print_json
     from mindlang.run import outcome
     from mindlang.run.summary import run_summary
 
-    session = RunSession(quiet)
-    refuse_unwritable(picture, ".png")
-    refuse_unwritable(video, ".mp4")
+    session, files = RunSession(quiet), RunFiles(picture, video, speed, trace)
+    files.refuse_unwritable()
     setup, rollout = session.prepare(file, task, master, interrupt=not no_interruption)
     seed = secrets.randbits(31) if seed is None else seed
     found = outcome.run_data(setup.task, session.score(rollout, [seed])[0])
@@ -66,7 +71,5 @@ def command(
         print_json(found)
     else:
         console().print(run_summary(found))
-    if picture:
-        session.draw(setup, rollout, found, picture)
-    if video:
-        session.film(setup, rollout, found, video, speed)
+    if files.any():
+        files.write(session, session.record(setup, rollout, seed), found)

@@ -5,6 +5,7 @@ import json
 import subprocess
 import sys
 import tomllib
+from itertools import chain
 from collections.abc import Iterable, Mapping
 from graphlib import TopologicalSorter
 from pathlib import Path
@@ -112,7 +113,8 @@ def test_only_commands_know_the_command_line() -> None:
 def test_what_is_imported_is_declared() -> None:
     project = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]
     extras = project["optional-dependencies"]
-    declared = [*project["dependencies"], *extras["plot"], *extras["lsp"], *extras.get("robot", [])]
+    used = (requirements for extra, requirements in extras.items() if extra != "dev")
+    declared = [*project["dependencies"], *chain.from_iterable(used)]
     distributions = [requirement.split(">")[0] for requirement in declared]
     known = {MODULES.get(name, name) for name in distributions}
     assert {path: names - known for path, names in foreign(modules(COMPILER, RUNTIME)).items() if names - known} == {}

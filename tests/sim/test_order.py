@@ -56,9 +56,9 @@ def test_a_reward_reads_what_the_skills_read() -> None:
     of, run = graph(), moments(3)
     rows = {part.name: part.start for part in (*of.sensors, *of.memories)}
     read = np.array([m.readings for m in run], np.float64)
-    after = read[:, rows["mood"]]  # a moment has a memory as its tick left it
-    mood = np.concatenate([[0.25], after[:-1]])
-    assert np.array_equal(after, read[:, rows["holding"]]), "it remembers what was held when its tick began"
+    mood = read[:, rows["mood"]]
+    assert mood[0] == 0.25
+    assert np.array_equal(mood[1:], read[:-1, rows["holding"]]), "it remembers what was held when its tick began"
     assert run[-1].lines[0] == _sum(read[:, rows["ball_bearing"]])
     assert run[-1].lines[1] == _sum(mood)
     assert run[-1].lines[5] == (read[:, rows["holding"]] > 0.5 - mood).sum()

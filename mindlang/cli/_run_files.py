@@ -1,0 +1,75 @@
+"""The files that a run is written to: a picture, a film, a table."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from mindrun.errors import MindError
+
+from mindlang.cli._run_session import RunSession
+from mindlang.cli._terminal import MISUSE, fail, refuse_unwritable, write_file
+from mindlang.run.recorded_run import RecordedRun
+
+
+@dataclass(frozen=True, slots=True)
+class RunFiles:
+    """Paths, None for what nobody asked for, and the speed of the film."""
+
+    picture: Path | None
+    video: Path | None
+    speed: float | None
+    trace: Path | None
+
+    def refuse_unwritable(self) -> None:
+        """End the program where one cannot be written, before any work is done."""
+        refuse_unwritable(self.picture, ".png")
+        refuse_unwritable(self.video, ".mp4")
+        refuse_unwritable(self.trace, ".csv", ".parquet")
+
+    def any(self) -> bool:
+        """Whether there is something to write."""
+        return bool(self.picture or self.video or self.trace)
+
+    def write(self, session: RunSession, run: RecordedRun, found: dict[str, Any]) -> None:
+        """Write what was asked for, and say so."""
+        if self.picture:
+            _draw(session, run, found, self.picture)
+        if self.video:
+            _film(session, run, found, self.video, self.speed)
+        if self.trace:
+            _tabulate(session, run, self.trace)
+
+
+def _draw(session: RunSession, run: RecordedRun, found: dict[str, Any], path: Path) -> None:
+    from mindlang.pictures.picture import picture, png
+
+    write_file(path, png(picture(run, found)))
+    session.say(f"{path}: the path of the robot")
+
+
+def _film(session: RunSession, run: RecordedRun, found: dict[str, Any], path: Path, speed: float | None) -> None:
+    from mindlang.pictures.film import Film, FilmError
+
+    film = Film.of(run, found, speed)
+    try:
+        with session.progress() as progress:
+            bar = progress.add_task(path.name, total=film.frames)
+            film.write(path, lambda: progress.advance(bar))
+    except FilmError as error:
+        fail(str(error), code=MISUSE)
+    except OSError as error:
+        fail(f"{path} cannot be written: {error.strerror}", code=MISUSE)
+    session.say(f"{path}: {film.frames / film.FPS:.0f} s at {film.speed:g} times the robot's speed")
+
+
+def _tabulate(session: RunSession, run: RecordedRun, path: Path) -> None:
+    from mindlang.run.trace_file import trace_bytes
+
+    try:
+        data = trace_bytes(run, path.suffix.lower())
+    except MindError as error:
+        fail(str(error), error.hint, MISUSE)
+    write_file(path, data)
+    session.say(f"{path}: a row for each of {run.ticks:,} ticks")

@@ -1,0 +1,124 @@
+"""A run as a table, a row for each tick, in a file for spreadsheets and notebooks: CSV, or Parquet by pyarrow."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from io import BytesIO
+from typing import Any
+
+import numpy as np
+from mindrun.errors import MindError
+from numpy.typing import NDArray
+
+from mindlang.run.outcome import events
+from mindlang.run.recorded_run import RecordedRun
+
+Column = NDArray[Any]
+FEWEST_DECIMALS, MOST_DECIMALS = 6, 10  # a reading is one of 2^24 numbers: so many digits say which
+
+
+def trace_table(run: RecordedRun) -> dict[str, Column]:
+    """The columns of a run by name, each with a row for each tick.
+
+    `tick` from 1 and `time` in seconds; where the robot is (`x`, `y` in units, `angle` in radians), each thing
+    (`ball x`, NaN while it is nowhere) and what the claw holds; `reading`, `influence` and `command` of each name, 0 to
+    1; `event`, how often it happened in this tick; `total`, the sum of each reward line so far, and of them all. A name
+    that several have is numbered, from 1 on.
+    """
+    return dict(zip(*_numbered([*_world(run), *_mind(run), *_task(run)]), strict=True))
+
+
+def trace_bytes(run: RecordedRun, suffix: str) -> bytes:
+    """The table as a file of that suffix; MindError where pyarrow is needed and not there."""
+    table = trace_table(run)
+    return _csv(table) if suffix == ".csv" else _parquet(table)
+
+
+def _world(run: RecordedRun) -> Iterator[tuple[str, Column]]:
+    yield "tick", np.arange(1, run.ticks + 1)
+    yield "time", np.arange(1, run.ticks + 1) * run.graph.tick
+    for k, name in enumerate(("x", "y", "angle")):
+        yield name, run.body[1:, k]
+    for i, thing in enumerate(run.contents):
+        for k, name in enumerate(("x", "y", "size")):
+            yield f"{thing.name} {name}", np.where(np.isfinite(run.things[1:, i, k]), run.things[1:, i, k], np.nan)
+    names = np.array([*(thing.name for thing in run.contents), ""])
+    yield "held", names[run.held[1:]]
+    yield "touching", run.touching.astype(np.int64)
+    yield "battery", run.battery
+
+
+def _mind(run: RecordedRun) -> Iterator[tuple[str, Column]]:
+    graph = run.graph
+    for sensor in graph.sensors:
+        for k in range(sensor.width):
+            yield f"reading {sensor.name}", run.readings[:, sensor.start + k]
+    for memory in graph.memories:
+        yield f"reading {memory.name}", run.readings[:, memory.start]
+    for i, skill in enumerate(graph.skills):
+        yield f"influence {skill.name}", run.influence[:, i]
+    for i, actuator in enumerate(graph.actuators):
+        yield f"command {actuator.name}", run.commands[:, i]
+
+
+def _task(run: RecordedRun) -> Iterator[tuple[str, Column]]:
+    happened = np.diff(run.events, axis=0, prepend=0)
+    for i, name in enumerate(events(run.task)):
+        yield f"event {name}", happened[:, i]
+    total = np.zeros(run.ticks)
+    for i, reward in enumerate(run.task.rewards):
+        total = total + run.lines[:, i]
+        yield f"total {reward.text}", run.lines[:, i]
+    yield "total", total
+
+
+def _numbered(columns: list[tuple[str, Column]]) -> tuple[list[str], list[Column]]:
+    names = [name for name, _ in columns]
+    seen: dict[str, int] = {}
+    numbered = []
+    for name in names:
+        seen[name] = seen.get(name, 0) + 1
+        numbered.append(f"{name} {seen[name]}" if names.count(name) > 1 else name)
+    return numbered, [column for _, column in columns]
+
+
+def _csv(table: dict[str, Column]) -> bytes:
+    header = ",".join(map(_quoted, table))
+    columns = [_texts(column) for column in table.values()]
+    return "\n".join([header, *map(",".join, zip(*columns, strict=True)), ""]).encode()
+
+
+def _quoted(name: str) -> str:
+    return '"' + name.replace('"', '""') + '"' if set(name) & set('",\n\r') else name
+
+
+def _texts(column: Column) -> list[str]:
+    """Each number with the fewest digits that give it back; nothing where it is not finite."""
+    if column.dtype.kind in "US":
+        return list(map(_quoted, column.tolist()))
+    if column.dtype == np.float32:
+        column = _shortest(column)
+    texts = list(map(repr, column.tolist()))
+    for row in np.flatnonzero(~np.isfinite(column)):
+        texts[row] = ""
+    return texts
+
+
+def _shortest(column: NDArray[np.float32]) -> NDArray[np.float64]:
+    """Numbers in twice the precision that are written shorter and are the same in the single one."""
+    found = column.astype(np.float64)
+    for decimals in range(MOST_DECIMALS, FEWEST_DECIMALS - 1, -1):
+        shorter = np.round(column.astype(np.float64), decimals)
+        found = np.where(shorter.astype(np.float32) == column, shorter, found)
+    return found
+
+
+def _parquet(table: dict[str, Column]) -> bytes:
+    try:
+        import pyarrow
+        from pyarrow import parquet
+    except ImportError as error:
+        raise MindError("parquet files need pyarrow", "pip install 'mindlang[parquet]', or a name with .csv") from error
+    file = BytesIO()
+    parquet.write_table(pyarrow.table(table), file)
+    return file.getvalue()

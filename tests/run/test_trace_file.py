@@ -1,0 +1,105 @@
+"""`mindc run --trace`: a run as a table."""
+
+import csv
+import json
+from io import BytesIO, StringIO
+from pathlib import Path
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from hypothesis.extra.numpy import arrays
+from numpy.typing import NDArray
+from pyarrow import parquet
+
+from mindlang.compiler.compile import load
+from mindlang.run.recorded_run import RecordedRun, record_run
+from mindlang.run.setup import set_up
+from mindlang.run.trace_file import _csv, trace_bytes, trace_table
+from tests.calling import Call
+
+
+def rows(text: str) -> list[dict[str, str]]:
+    """A CSV file as spreadsheets read it."""
+    return list(csv.DictReader(StringIO(text)))
+
+
+def recorded(file: Path, task: str, seed: int) -> RecordedRun:
+    """A run of a mind that has nothing to learn."""
+    setup = set_up(str(file), load(file), task, None)
+    return record_run(setup, setup.rollout(), seed)
+
+
+def test_the_last_row_is_what_the_run_came_to(mindc: Call, rules: Path, tmp_path: Path) -> None:
+    path = tmp_path / "run.csv"
+    said = mindc("run", rules, "--task", "Chase", "--seed", 3, "--trace", path, "--json")
+    found, table = json.loads(said.out), rows(path.read_text())
+    assert len(table) == found["ticks"]
+    assert [row["tick"] for row in table] == [str(i + 1) for i in range(len(table))]
+    assert float(table[-1]["total"]) == found["score"]
+    for line, paid in found["by_line"].items():
+        assert float(table[-1][f"total {line}"]) == paid
+    for event, times in found["by_event"].items():
+        assert sum(int(row[f"event {event}"]) for row in table) == times
+    assert f"{path}: a row for each of 1,200 ticks" in said.err
+
+
+def test_every_reading_influence_and_command_is_there_to_the_bit(rules: Path) -> None:
+    run = recorded(rules, "Chase", 3)
+    table = rows(trace_bytes(run, ".csv").decode())
+    for i, skill in enumerate(run.graph.skills):
+        written = np.array([row[f"influence {skill.name}"] for row in table], np.float32)
+        assert np.array_equal(written, run.influence[:, i])
+    for i, actuator in enumerate(run.graph.actuators):
+        written = np.array([row[f"command {actuator.name}"] for row in table], np.float32)
+        assert np.array_equal(written, run.commands[:, i])
+    for sensor in run.graph.sensors:
+        for k in range(sensor.width):
+            name = f"reading {sensor.name}" + f" {k + 1}" * (sensor.width > 1)
+            written = np.array([row[name] for row in table], np.float32)
+            assert np.array_equal(written, run.readings[:, sensor.start + k])
+    assert np.array_equal(np.array([row["x"] for row in table], float), run.body[1:, 0])
+
+
+def test_parquet_says_the_same(rules: Path) -> None:
+    run = recorded(rules, "Chase", 3)
+    table = parquet.read_table(BytesIO(trace_bytes(run, ".parquet"))).to_pydict()
+    expected = trace_table(run)
+    assert list(table) == list(expected)
+    for name, column in expected.items():
+        assert np.array_equal(np.array(table[name], column.dtype), column), name
+
+
+@pytest.mark.parametrize("precision", [np.float32, np.float64])
+@given(data=st.data())
+def test_a_number_that_is_written_is_read_again(precision: type, data: st.DataObject) -> None:
+    width = st.floats(width=32) if precision is np.float32 else st.floats()
+    column: NDArray[np.float64] = data.draw(arrays(precision, st.integers(1, 20), elements=width))
+    texts = [row["a"] for row in rows("a,b\n" + _csv({"a": column, "b": column}).decode().partition("\n")[2])]
+    for text, number in zip(texts, column, strict=True):
+        assert (text == "") == (not np.isfinite(number))
+        assert text == "" or precision(text).tobytes() == precision(number).tobytes()
+        assert precision is np.float64 or text == "" or len(text) <= len(repr(float(number)))
+
+
+@given(names=st.lists(st.text(min_size=1), min_size=1, max_size=5, unique=True))
+def test_any_name_is_one_column(names: list[str]) -> None:
+    text = _csv({name: np.arange(2) for name in names}).decode()
+    assert next(csv.reader(StringIO(text, newline=""))) == names
+
+
+def test_another_suffix_is_refused_before_anything_runs(mindc: Call, rules: Path, tmp_path: Path) -> None:
+    said = mindc("run", rules, "--trace", tmp_path / "run.xls")
+    assert (said.code, said.out) == (2, "")
+    assert "must end in .csv or .parquet" in said.err
+
+
+def test_without_pyarrow_it_says_what_to_install(
+    mindc: Call, rules: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setitem(__import__("sys").modules, "pyarrow", None)
+    said = mindc("run", rules, "--trace", tmp_path / "run.parquet")
+    assert said.code == 2
+    assert "pip install" in said.err
+    assert not (tmp_path / "run.parquet").exists()
