@@ -75,9 +75,7 @@ def trace(
     )
 
 
-def _chunks(
-    rollout: Rollout, advance: Callable[[Tile, Jobs, int], int], tile: Tile, jobs: Jobs
-) -> Iterator[Ticks]:
+def _chunks(rollout: Rollout, advance: Callable[[Tile, Jobs, int], int], tile: Tile, jobs: Jobs) -> Iterator[Ticks]:
     working = 1
     while working:
         try:
