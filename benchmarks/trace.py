@@ -20,7 +20,7 @@ from mindlang.run.setup import set_up
 
 MINDC = (sys.executable, "-c", "from mindlang.cli import main; main()")
 COLLECT = Path(__file__).resolve().parent.parent / "examples" / "collect" / "collect.mind"
-SEED = 3
+RUN_SEED = 3
 
 
 def arrays() -> tuple[Callable[[], object], Callable[[], object]]:
@@ -28,12 +28,12 @@ def arrays() -> tuple[Callable[[], object], Callable[[], object]]:
     setup = set_up(str(COLLECT), load(COLLECT), "Collect", None)
     rollout = setup.rollout()
     rollout.compile()
-    return lambda: rollout.score(NO_GENOME, [SEED]), lambda: record_run(setup, rollout, SEED)
+    return lambda: rollout.score(NO_GENOME, [RUN_SEED]), lambda: record_run(setup, rollout, RUN_SEED)
 
 
 def commands(folder: Path) -> tuple[Callable[[], object], Callable[[], object]]:
     """The command that a user types."""
-    plain = [*MINDC, "run", str(COLLECT), "--task", "Collect", "--seed", str(SEED), "-q"]
+    plain = [*MINDC, "run", str(COLLECT), "--task", "Collect", "--seed", str(RUN_SEED), "-q"]
     traced = [*plain, "--trace", str(folder / "run.csv")]
     return lambda: _run(plain), lambda: _run(traced)
 

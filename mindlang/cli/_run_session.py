@@ -3,9 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from pathlib import Path
 from time import perf_counter
-from typing import Any
 
 from mindrun.errors import MindError
 from mindrun.sim.rollout import Rollout, Scores

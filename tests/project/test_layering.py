@@ -5,9 +5,9 @@ import json
 import subprocess
 import sys
 import tomllib
-from itertools import chain
 from collections.abc import Iterable, Mapping
 from graphlib import TopologicalSorter
+from itertools import chain
 from pathlib import Path
 
 import pytest
