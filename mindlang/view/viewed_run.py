@@ -3,16 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from itertools import islice
-from typing import Any
 
 import numpy as np
 from mindrun.engine import procedure_sources
-from mindrun.graph import Graph
 from mindrun.registry import names
 from mindrun.sim.rollout import Rollout
 from mindrun.sim.task_rows import things_of
-from mindrun.sim.trace import Moment, Trace, trace
+from mindrun.sim.ticks import Ticks
+from mindrun.sim.trace import Trace, trace
 from mindrun.think import hierarchy
 from mindrun.weights import reachable
 from numpy.typing import NDArray
@@ -23,11 +21,11 @@ from mindlang.view.about_hierarchy import HierarchyData, Texts
 from mindlang.view.about_world import world_data
 from mindlang.view.columns import FLOW, POSE_COLUMNS, THING_COLUMNS, Columns
 from mindlang.view.edge_flow import EdgeFlow
-from mindlang.view.row_blocks import Chunk, Doubles, Singles, Ticks
+from mindlang.view.row_blocks import Chunk, Doubles, Singles
+from mindlang.view.row_blocks import Ticks as Selected
 from mindlang.view.texts import shown
 from mindlang.view.viewed import Viewed
 
-CHUNK_TICKS = 250
 NOTHING_HELD = -1
 TOUCH, COLLISION = "touch", "collision"  # kinds of events
 
@@ -86,7 +84,7 @@ def run_flow(setup: RunSetup, viewed: Viewed) -> EdgeFlow:
     """What the edges of a run transmit."""
     sources = procedure_sources(setup.ready.policy.graph, setup.folder, setup.master)
 
-    def rows(ticks: Ticks) -> tuple[Singles, Singles]:
+    def rows(ticks: Selected) -> tuple[Singles, Singles]:
         return viewed.group("readings", ticks), viewed.group("influence", ticks)
 
     return EdgeFlow(hierarchy(setup.ready.policy, sources, setup.master), rows)
@@ -95,16 +93,15 @@ def run_flow(setup: RunSetup, viewed: Viewed) -> EdgeFlow:
 def run_chunks(setup: RunSetup, run: Trace, columns: Columns) -> Iterator[Chunk]:
     """A run as it is made: the only place that knows where rows come from."""
     yield Chunk(_beginning(run, setup), _nothing_held(columns)[None])
-    cells = [memory.kind.start for memory in setup.ready.policy.graph.memories]
-    touched = False
-    while moments := list(islice(run.moments, CHUNK_TICKS)):
-        doubles = np.array([_doubles(moment) for moment in moments])
-        singles = np.array([_singles(moment) for moment in moments], np.float32)
-        cells = _as_read(setup.ready.policy.graph, singles[:, columns["readings"].first :], cells)
-        touching = np.array([touched, *(moment.touching for moment in moments)])
+    touched, number = False, 0
+    for ticks in run.chunks:
+        touching = np.concatenate([[touched], ticks.touching])
         touched = bool(touching[-1])
-        happened, is_last = tuple(_happened(setup, moments, touching)), run.jobs.lanes[0] == 0
-        yield Chunk(doubles, singles, happened, _ended_by(setup, run) if is_last else None, bool(is_last))
+        happened, is_last = tuple(_happened(setup, ticks, number, touching)), run.jobs.lanes[0] == 0
+        number += len(ticks)
+        yield Chunk(
+            _doubles(ticks), _singles(ticks), happened, _ended_by(setup, run) if is_last else None, bool(is_last)
+        )
 
 
 def _beginning(run: Trace, setup: RunSetup) -> Doubles:
@@ -118,32 +115,23 @@ def _nothing_held(columns: Columns) -> Singles:
     return row
 
 
-def _doubles(moment: Moment) -> Doubles:
-    things = np.column_stack([moment.things, moment.turned])
-    return np.concatenate([moment.body[:POSE_COLUMNS], things.ravel(), [moment.battery], moment.lines])
+def _doubles(ticks: Ticks) -> Doubles:
+    things = np.concatenate([ticks.things, ticks.turned[:, :, None]], axis=2).reshape(len(ticks), -1)
+    return np.column_stack([ticks.body[:, :POSE_COLUMNS], things, ticks.battery, ticks.lines])
 
 
-def _singles(moment: Moment) -> NDArray[Any]:
-    facts = [moment.held, moment.touching]
-    return np.concatenate([facts, moment.readings, moment.influence, moment.commands])
+def _singles(ticks: Ticks) -> Singles:
+    facts = np.column_stack([ticks.held, ticks.touching]).astype(np.float32)
+    return np.column_stack([facts, ticks.readings, ticks.influence, ticks.commands])
 
 
-def _as_read(graph: Graph, readings: Singles, cells: list[float]) -> list[float]:
-    """Readings with the memory cells as they were read, which a moment has as its tick left them; those it left."""
-    left = [float(readings[-1, memory.start]) for memory in graph.memories]
-    for memory, before in zip(graph.memories, cells, strict=True):
-        readings[1:, memory.start] = readings[:-1, memory.start]
-        readings[0, memory.start] = before
-    return left
-
-
-def _happened(setup: RunSetup, moments: list[Moment], touching: NDArray[np.bool_]) -> Iterator[tuple[int, int]]:
-    says_touch = len(events_data(setup)) > len(setup.task.events)
-    for moment, before, now in zip(moments, touching[:-1], touching[1:], strict=True):
-        for event in np.flatnonzero(moment.events):
-            yield moment.tick, int(event)
-        if says_touch and now and not before:
-            yield moment.tick, len(setup.task.events)
+def _happened(setup: RunSetup, ticks: Ticks, number: int, touching: NDArray[np.bool_]) -> Iterator[tuple[int, int]]:
+    """Ticks and events of a chunk after tick `number`; `touching` begins with the tick before it."""
+    happened = [ticks.events > 0]
+    if len(events_data(setup)) > len(setup.task.events):
+        happened.append((touching[1:] & ~touching[:-1])[:, None])
+    for row, event in np.argwhere(np.concatenate(happened, axis=1)):
+        yield number + 1 + int(row), int(event)
 
 
 def _ended_by(setup: RunSetup, run: Trace) -> str | None:
