@@ -25,7 +25,7 @@ class RunFiles:
     def refuse_unwritable(self) -> None:
         """End the program where one cannot be written, before any work is done."""
         refuse_unwritable(self.picture, ".png")
-        refuse_unwritable(self.video, ".mp4")
+        refuse_unwritable(self.video, ".mp4", ".gif")
         refuse_unwritable(self.trace, ".csv", ".parquet")
 
     def any(self) -> bool:
@@ -50,18 +50,19 @@ def _draw(session: RunSession, run: RecordedRun, found: dict[str, Any], path: Pa
 
 
 def _film(session: RunSession, run: RecordedRun, found: dict[str, Any], path: Path, speed: float | None) -> None:
-    from mindlang.pictures.film import Film, FilmError
+    from mindlang.pictures.film import Film
+    from mindlang.pictures.video_formats import VideoError
 
-    film = Film.of(run, found, speed)
+    film = Film.of(run, found, speed, path.suffix.lower())
     try:
         with session.progress() as progress:
             bar = progress.add_task(path.name, total=film.frames)
             film.write(path, lambda: progress.advance(bar))
-    except FilmError as error:
-        fail(str(error), code=MISUSE)
+    except VideoError as error:
+        fail(str(error), error.hint, MISUSE)
     except OSError as error:
         fail(f"{path} cannot be written: {error.strerror}", code=MISUSE)
-    session.say(f"{path}: {film.frames / film.FPS:.0f} s at {film.speed:g} times the robot's speed")
+    session.say(f"{path}: {film.seconds:.0f} s at {film.speed:g} times the robot's speed")
 
 
 def _tabulate(session: RunSession, run: RecordedRun, path: Path) -> None:

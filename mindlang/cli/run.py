@@ -14,6 +14,7 @@ Examples:
   mindc run collect.mind --task GoToObject --seed 3
   mindc run collect.mind --task Collect --no-interruption --picture path.png
   mindc run collect.mind --task Collect --seed 3 --video run.mp4 --speed 4
+  mindc run collect.mind --task Collect --seed 3 --video run.gif
   mindc run collect.mind --task Collect --seed 3 --trace run.csv
   mindc run collect.mind --task Avoid --seed 3 --json
 """
@@ -28,8 +29,17 @@ Examples:
 @click.option("--master", metavar="SKILL", help="Who is in charge. Default: the master of the task's first lesson.")
 @click.option("--no-interruption", is_flag=True, help="Go on to the last tick, whatever would end the run.")
 @click.option("--picture", type=NewFile(), metavar="PATH.png", help="Draw the world and the path that the robot took.")
-@click.option("--video", type=NewFile(), metavar="PATH.mp4", help="Film the world and the influence in the hierarchy.")
-@click.option("--speed", type=NumberOption(0.01, 1000), help="Of the video. Default: a whole run takes a minute.")
+@click.option(
+    "--video",
+    type=NewFile(),
+    metavar="PATH.mp4|gif",
+    help="Film the world, the influence in the hierarchy and the readings. A GIF is smaller, with 10 images a second.",
+)
+@click.option(
+    "--speed",
+    type=NumberOption(0.01, 1000),
+    help="Of the video. Default: a whole run takes a minute, in a GIF 20 seconds.",
+)
 @click.option(
     "--trace", type=NewFile(), metavar="PATH.csv", help="Write readings, influence, commands and rewards of every tick."
 )

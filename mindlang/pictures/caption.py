@@ -5,6 +5,7 @@ from typing import Any
 
 from mindlang.number_format import score
 from mindlang.pictures.canvas import Canvas, square, text_width
+from mindlang.pictures.ending import draw_rings
 from mindlang.pictures.path import MIN_CONTROL_SHARE, Path, draw_cross
 from mindlang.pictures.scene import thing_colours
 from mindlang.pictures.theme import Theme, mixed
@@ -41,9 +42,18 @@ def _facts(run: RecordedRun, found: dict[str, Any]) -> list[tuple[str, str]]:
     return [*facts, ("success" if found.get("succeeded") else "ended by", found["ended_by"] or "time")]
 
 
-def draw_legend(canvas: Canvas, run: RecordedRun, path: Path, theme: Theme, x: float, y: float, right: float) -> None:
+def draw_legend(
+    canvas: Canvas,
+    run: RecordedRun,
+    found: dict[str, Any],
+    path: Path,
+    theme: Theme,
+    x: float,
+    y: float,
+    right: float,
+) -> None:
     """What the colours and marks mean, in lines that end before `right`, smaller where they are many."""
-    entries = _entries(canvas, run, path, theme)
+    entries = _entries(canvas, run, found, path, theme)
     size, places = fitted(canvas, [name for _, name in entries], right - x)
     for (draw, name), (along, line) in zip(entries, places, strict=True):
         low = y + LEGEND_LINE_PIXELS * line
@@ -72,7 +82,7 @@ def _places(widths: Sequence[float], room: float) -> list[tuple[float, int]]:
     return places
 
 
-def _entries(canvas: Canvas, run: RecordedRun, path: Path, theme: Theme) -> list[Any]:
+def _entries(canvas: Canvas, run: RecordedRun, found: dict[str, Any], path: Path, theme: Theme) -> list[Any]:
     def bar(colour: Any) -> Any:
         return lambda x, y: canvas.line([(x, y), (x + 18, y)], colour, 3.0)
 
@@ -90,6 +100,7 @@ def _entries(canvas: Canvas, run: RecordedRun, path: Path, theme: Theme) -> list
         if share >= MIN_CONTROL_SHARE
     ] or [(ramp, f"path, 0 to {seconds:.0f} s")]
     entries.append((lambda x, y: canvas.disc(x + 9, y, 4.5, theme.ink, width=1.6), "start"))
+    entries.append((lambda x, y: draw_rings(canvas, x + 9, y, 3.0, found, theme), "end"))
     coloured = {thing.name: (thing, colour) for thing, colour in zip(run.contents, colours, strict=True)}
     for name, (thing, colour) in coloured.items():
         entries.append((_dot(canvas, colour) if thing.kind.is_round else box(colour), name))

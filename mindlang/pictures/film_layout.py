@@ -1,6 +1,7 @@
 """How the images of a film are divided: the world beside the hierarchy, or above it where the arena is long."""
 
 from dataclasses import dataclass
+from math import ceil
 
 from mindlang.pictures.layout import Place
 
@@ -9,6 +10,8 @@ LEAST_HEIGHT, LEAST_WORLD_WIDTH = 480, 240
 LONG_RATIO = 16 / 9  # of width and depth, above which the world has the whole width
 TITLE_PIXELS, MARGIN_PIXELS = 86, 8  # above the hierarchy, and around it
 LOW_PANEL_PIXELS = 240  # the height of a hierarchy below its world
+ROW_PIXELS, COLUMN_PIXELS = 20.0, 250.0  # of a sensor's readings
+BELOW_SHARE, BESIDE_SHARE = 0.36, 0.36  # at most of the panel: readings below a hierarchy, or beside it
 
 
 @dataclass(frozen=True, slots=True)
@@ -32,9 +35,22 @@ class FilmLayout:
 
     @property
     def panel(self) -> Place:
-        """The rectangle of the hierarchy, by its upper left corner."""
+        """The rectangle of the hierarchy and the readings, by its upper left corner."""
         left, top = self.left + MARGIN_PIXELS, self.top + TITLE_PIXELS
         return Place(left, top, self.width - left - MARGIN_PIXELS, self.height - top - MARGIN_PIXELS - 2)
+
+    def divided(self, sensors: int, lower: float = 0.0) -> tuple[Place, Place]:
+        """The rectangles of the hierarchy and of the readings of so many sensors: below it, or beside where it is low.
+
+        The readings have at most their share, and show what fits. Both begin so many pixels `lower`, for a long title.
+        """
+        x, y, width, height = self.panel.x, self.panel.y + lower, self.panel.width, self.panel.height - lower
+        if self.left == 0:
+            wide = BESIDE_SHARE * width if sensors else 0.0
+            return Place(x, y, width - wide, height), Place(x + width - wide, y, wide, height)
+        rows = min(ceil(sensors / int(width // COLUMN_PIXELS)), int(BELOW_SHARE * height // ROW_PIXELS))
+        high = ROW_PIXELS * rows
+        return Place(x, y, width, height - high), Place(x, y + height - high, width, high)
 
 
 def _even(pixels: float) -> int:

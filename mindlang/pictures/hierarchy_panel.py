@@ -14,6 +14,7 @@ from mindlang.run.recorded_run import RecordedRun
 
 BEND = np.linspace(0.0, 1.0, 24)
 MAX_TEXT_PIXELS, MIN_TEXT_PIXELS = 11.0, 5.0  # capitals of names, in pixels
+LINE_GAP_PIXELS = 5.0  # between two lines of a box
 RIM_PIXELS, CORE_PIXELS = 7.0, 2.0
 
 
@@ -24,8 +25,8 @@ class Panel:
         self._run, self._theme = run, theme
         self._flow = Flow(run)
         self._layout = Layout.of(self._flow.links, self._flow.skills, room)
-        boxes = self._layout.boxes.items()
-        self._size = min(fitting(self._widest(sink), place) for sink, place in boxes)
+        self._lines = {sink: self._lines_of(sink, place) for sink, place in self._layout.boxes.items()}
+        self._size = min(fitting(self._lines[sink], place) for sink, place in self._layout.boxes.items())
 
     def draw(self, canvas: Canvas, tick: int) -> None:
         """The hierarchy in a tick, the first of which is 1."""
@@ -35,7 +36,7 @@ class Panel:
         for sink, place in self._layout.boxes.items():
             match sink:
                 case "skill", index:
-                    self._skill(canvas, self._name(sink), place, float(self._run.influence[tick - 1, index]))
+                    self._skill(canvas, self._lines[sink], place, float(self._run.influence[tick - 1, index]))
                 case "actuator", index:
                     self._actuator(canvas, index, place, float(self._run.commands[tick - 1, index]))
                 case "memory", index:
@@ -48,14 +49,17 @@ class Panel:
         canvas.line(line, theme.page, CORE_PIXELS + 2)
         canvas.line(line, mixed(theme.dark, theme.glow, carried.command), CORE_PIXELS)
 
-    def _skill(self, canvas: Canvas, name: str, place: Place, influence: float) -> None:
-        theme = self._theme
+    def _skill(self, canvas: Canvas, lines: Sequence[str], place: Place, influence: float) -> None:
+        """A box with the lines of a name, and below them the influence."""
+        theme, line_pixels = self._theme, self._size + LINE_GAP_PIXELS
         rim = mixed(theme.dark, theme.glow, influence)
         self._box(canvas, place, mixed(theme.floor, theme.glow, 0.22 * influence), rim)
         number = mixed(theme.rock_edge, theme.glow, influence)
         ink = mixed(theme.faint, theme.ink, 4 * influence)
-        canvas.text(place.x, place.y - 2, name, self._size, ink, align="centre")
-        canvas.text(place.x, place.y + self._size + 6, f"{influence:.2f}", self._size, number, align="centre")
+        low = place.y - line_pixels * len(lines) / 2 + self._size / 2
+        for text, colour in (*((line, ink) for line in lines), (f"{influence:.2f}", number)):
+            canvas.text(place.x, low, text, self._size, colour, align="centre")
+            low += line_pixels
 
     def _actuator(self, canvas: Canvas, index: int, place: Place, command: float) -> None:
         actuator = self._run.graph.actuators[index]
@@ -81,16 +85,30 @@ class Panel:
     def _name(self, sink: Sink) -> str:
         return self._run.graph.named(*sink)
 
-    def _widest(self, sink: Sink) -> str:
-        """The longest line in a box: a skill's number stands below its name, any other's behind it."""
-        return self._name(sink) if sink[0] == "skill" else f"{self._name(sink)}  0.00"
+    def _lines_of(self, sink: Sink, place: Place) -> list[str]:
+        """What has to fit into a box: a skill's number stands below its name, any other's behind it."""
+        name = self._name(sink)
+        return broken(name, 0.84 * place.width) if sink[0] == "skill" else [f"{name}  0.00"]
 
 
-def fitting(line: str, place: Place) -> float:
-    """The size at which a line fits into a box."""
-    return min(
-        MAX_TEXT_PIXELS, max(MIN_TEXT_PIXELS, MAX_TEXT_PIXELS * 0.84 * place.width / text_width(line, MAX_TEXT_PIXELS))
-    )
+def broken(name: str, room: float) -> list[str]:
+    """A name in one line, or if it is too wide in two: a new one begins with a plus, behind an underscore or a capital.
+
+    Of several places the one with the shortest lines.
+    """
+    behind = range(1, len(name))
+    starts = [i for i in behind if name[i] == "+"] or [i for i in behind if name[i - 1] == "_" or name[i].isupper()]
+    if not starts or text_width(name, MAX_TEXT_PIXELS) <= room:
+        return [name]
+    best = min(starts, key=lambda i: max(text_width(part, MAX_TEXT_PIXELS) for part in (name[:i], name[i:])))
+    return [name[:best], name[best:]]
+
+
+def fitting(lines: Sequence[str], place: Place) -> float:
+    """The size at which lines fit into a box, and below them one more."""
+    widest = max(text_width(line, MAX_TEXT_PIXELS) for line in lines)
+    high = (place.height - LINE_GAP_PIXELS * (len(lines) + 2)) / (len(lines) + 1)
+    return max(MIN_TEXT_PIXELS, min(MAX_TEXT_PIXELS, MAX_TEXT_PIXELS * 0.84 * place.width / widest, high))
 
 
 def _curve(stops: Sequence[Place]) -> NDArray[np.float64]:

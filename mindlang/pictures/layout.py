@@ -12,6 +12,7 @@ Stop = Sink | tuple[Literal["link"], int]  # a box, or where a link passes a row
 
 CROSSING_SWEEPS = 8
 MAX_BOX_WIDTH, MAX_BOX_HEIGHT = 210.0, 50.0  # pixels of a box
+BOX_SHARE = 0.58  # of the height of a row: that of its boxes, where rows are low
 PASSAGE_SHARE = 0.3  # of a box's room: that of a link which passes a row
 
 
@@ -90,8 +91,6 @@ def _spread(row: Sequence[Stop], level: int, levels: int, room: Place) -> Iterab
     unit, gap = room.width / sum(shares), room.height / levels
     x, y = room.x, room.y + (level + 0.5) * gap
     for sink, share in zip(row, shares, strict=True):
-        yield (
-            sink,
-            Place(x + share * unit / 2, y, min(0.88 * share * unit, MAX_BOX_WIDTH), min(0.5 * gap, MAX_BOX_HEIGHT)),
-        )
+        width, height = min(0.88 * share * unit, MAX_BOX_WIDTH), min(BOX_SHARE * gap, MAX_BOX_HEIGHT)
+        yield sink, Place(x + share * unit / 2, y, width, height)
         x += share * unit

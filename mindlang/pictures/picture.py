@@ -7,6 +7,7 @@ import numpy as np
 
 from mindlang.pictures.canvas import Canvas, Image, Viewport, blank, pasted
 from mindlang.pictures.caption import draw_legend, draw_scale, draw_title
+from mindlang.pictures.ending import draw_end_mark, end_label
 from mindlang.pictures.names import draw_names
 from mindlang.pictures.path import Path, draw_collisions, draw_former, draw_start
 from mindlang.pictures.robot import draw_robot
@@ -22,6 +23,7 @@ from mindlang.run.recorded_run import RecordedRun
 
 PICTURE_PIXELS = 1000
 TOP_PIXELS, BOTTOM_PIXELS, SIDE_PIXELS = 96, 74, 28  # what stands around the world
+SCALE_BAR_PIXELS = 170  # beside the legend
 SCALE_FACTOR = 2  # drawn so many times larger, then averaged
 PLAIN_MARGIN_UNITS = 6.0  # around a plain scene
 
@@ -33,10 +35,11 @@ def picture(run: RecordedRun, found: dict[str, Any]) -> Image:
     wide = SCALE_FACTOR * (PICTURE_PIXELS - 2 * SIDE_PIXELS)
     high = SCALE_FACTOR * (height - TOP_PIXELS - BOTTOM_PIXELS)
     view = view_of(run, wide, high)
-    pasted(page, _world(run, view, wide, high), SCALE_FACTOR * SIDE_PIXELS, SCALE_FACTOR * TOP_PIXELS)
+    pasted(page, _world(run, found, view, wide, high), SCALE_FACTOR * SIDE_PIXELS, SCALE_FACTOR * TOP_PIXELS)
     canvas = Canvas(page, Viewport(0.0, 0.0, SCALE_FACTOR), pen=SCALE_FACTOR, down=True)
     draw_title(canvas, run, found, PAPER, SIDE_PIXELS, 34, PICTURE_PIXELS - SIDE_PIXELS)
-    draw_legend(canvas, run, Path.of(run, PAPER), PAPER, SIDE_PIXELS, height - 46, PICTURE_PIXELS - SIDE_PIXELS - 170)
+    right = PICTURE_PIXELS - SIDE_PIXELS - SCALE_BAR_PIXELS
+    draw_legend(canvas, run, found, Path.of(run, PAPER), PAPER, SIDE_PIXELS, height - 46, right)
     draw_scale(canvas, SCALE_FACTOR / view.scale, PAPER, PICTURE_PIXELS - SIDE_PIXELS, height - 44)
     return cv2.resize(page, (PICTURE_PIXELS, height), interpolation=cv2.INTER_AREA).astype(np.uint8)
 
@@ -66,7 +69,7 @@ def png(image: Image) -> bytes:
     return bytes(data)
 
 
-def _world(run: RecordedRun, view: Viewport, width: int, height: int) -> Image:
+def _world(run: RecordedRun, found: dict[str, Any], view: Viewport, width: int, height: int) -> Image:
     is_plain = not run.task.scene.is_bounded
     image = blank(width, height, PAPER.floor if is_plain else PAPER.page)
     canvas = Canvas(image, view, pen=SCALE_FACTOR)
@@ -75,8 +78,9 @@ def _world(run: RecordedRun, view: Viewport, width: int, height: int) -> Image:
     draw_zones(canvas, run, PAPER, run.ticks)
     Path.of(run, PAPER).draw(canvas, 0, run.ticks, 2.0)
     draw_start(canvas, run, PAPER)
+    draw_end_mark(canvas, run, found, PAPER)
     draw_items(canvas, run, PAPER, run.ticks)
     draw_robot(canvas, run, PAPER, run.ticks)
     draw_collisions(canvas, run, PAPER)
-    draw_names(canvas, run, PAPER, run.ticks)
+    draw_names(canvas, run, PAPER, run.ticks, end_label(canvas, run, found, PAPER))
     return image

@@ -14,6 +14,7 @@ from mindrun.things import Item, Zone
 from mindlang.compiler.compile import load
 from mindlang.pictures.canvas import Canvas, Image, Viewport, blank
 from mindlang.pictures.caption import LEGEND_LINES, MIN_TEXT_PIXELS, fitted
+from mindlang.pictures.ending import MARK_PIXELS
 from mindlang.pictures.path import draw_former
 from mindlang.pictures.picture import BOTTOM_PIXELS, PICTURE_PIXELS, SIDE_PIXELS, TOP_PIXELS, picture, view_of
 from mindlang.pictures.scene import thing_colours
@@ -173,6 +174,24 @@ def test_a_collision_that_ends_the_run_lies_over_the_robot(rules: Path) -> None:
     assert near(pixel(story, image, *story.body[-1, :2]), PAPER.crash)
 
 
+@pytest.mark.parametrize(("task", "said"), [("Roam", "ended by collision"), ("Chase", "lasted its time")])
+def test_the_end_is_marked_and_said(rules: Path, monkeypatch: pytest.MonkeyPatch, task: str, said: str) -> None:
+    """Two rings around the robot, the words at them, and the mark in the legend."""
+    rules.write_text(RULES.replace("influences Turn at 0.2", "influences Turn at 0"))
+    story, image = told(rules, task)
+    x, y, angle = story.body[-1]
+    view = view_of(story, PICTURE_PIXELS - 2 * SIDE_PIXELS, PICTURE_PIXELS - TOP_PIXELS - BOTTOM_PIXELS)
+    far = story.graph.body.radius + MARK_PIXELS / view.scale
+    behind = [angle + np.pi + turn for turn in (-0.4, 0.0, 0.4)]
+    ring = [pixel(story, image, x + far * np.cos(at), y + far * np.sin(at)) for at in behind]
+    assert any(np.abs(found - PAPER.ink).max() < 80 for found in ring)
+    texts: list[str] = []
+    monkeypatch.setattr(Canvas, "text", lambda canvas, x, y, text, *rest, **how: texts.append(text))
+    told(rules, task)
+    assert said in texts
+    assert "end" in texts
+
+
 @pytest.mark.parametrize("names", [["a"], ["a", "bb", "ccc"] * 4, ["a_name_that_is_long"] * 20])
 def test_a_legend_stays_within_its_lines(names: list[str]) -> None:
     canvas = Canvas(blank(400, 100, PAPER.page), Viewport(0.0, 0.0, 1.0), down=True)
@@ -210,7 +229,7 @@ def test_the_picture_is_a_png_and_the_result_is_printed(mindc: Call, rules: Path
         ("--picture", "path.jpg", "must end in .png"),
         ("--picture", "folder.png", "cannot be written: it is a folder"),
         ("--video", "no/run.mp4", "cannot be written: there is no folder"),
-        ("--video", "run.avi", "must end in .mp4"),
+        ("--video", "run.avi", "must end in .mp4 or .gif"),
     ],
 )
 def test_a_path_that_cannot_be_written_is_refused_first(

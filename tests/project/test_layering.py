@@ -15,7 +15,8 @@ import pytest
 from tests.project.sources import COMPILER, ROOT, RUNTIME, arrows, imported, modules, package, tree
 
 OUR_OWN = {"mindlang", "mindrun"}
-MODULES = {"opencv-python-headless": "cv2", "pyyaml": "yaml"}  # whose names differ from what is imported
+# whose names differ from what is imported
+MODULES = {"opencv-python-headless": "cv2", "pillow": "PIL", "pyyaml": "yaml"}
 WORKSTATION = {"numba", "llvmlite", "pymunk", "cv2"}
 SIM = RUNTIME / "sim"
 

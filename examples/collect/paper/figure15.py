@@ -1,19 +1,17 @@
 """Figure 15: an obstacle passed by influence, in five steps of a hierarchy on skills that never change."""
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import cv2
 import numpy as np
 from measure import compiled
 
 from mindlang.pictures.canvas import Image, Viewport
-from mindlang.pictures.film import Film
+from mindlang.pictures.film import TRAIL_SECONDS
+from mindlang.pictures.film_images import FilmImages
 from mindlang.pictures.film_layout import FILM_HEIGHT
-from mindlang.pictures.hierarchy_panel import Panel
-from mindlang.pictures.path import Path as Trail
-from mindlang.pictures.theme import NIGHT
 from mindlang.run import outcome
 from mindlang.run.layouts import NO_GENOME
 from mindlang.run.recorded_run import RecordedRun, record_run
@@ -29,12 +27,12 @@ SEEDS = range(1, 41)
 FRAME_SCALE = 0.5  # than the frames of a film
 
 
-@dataclass(frozen=True, slots=True)
-class Close(Film):
-    """A film that looks at one place."""
+class Close(FilmImages):
+    """Images of a film that looks at one place."""
 
-    x: float
-    y: float
+    def __init__(self, run: RecordedRun, found: dict[str, Any], x: float, y: float) -> None:
+        self.x, self.y = x, y
+        super().__init__(run, found, speed=1.0, trail=round(TRAIL_SECONDS / run.graph.tick), flash=0.0)
 
     def view(self, tick: int) -> Viewport:
         """What is around the place."""
@@ -56,7 +54,7 @@ def passage(folder: Path) -> Image | None:
             about = {"seed": seed, **outcome.run_data(found.task, rollout.score(NO_GENOME, [seed]))}
             x, y = recorded.body[first : last + 1, :2].mean(axis=0)
             ticks = np.linspace(first - MARGIN_TICKS, last + MARGIN_TICKS, SNAPSHOT_COUNT).astype(int)
-            return strip(Close(recorded, about, 1.0, float(x), float(y)), ticks.tolist())
+            return strip(Close(recorded, about, float(x), float(y)), ticks.tolist())
     return None
 
 
@@ -77,11 +75,9 @@ def passages(recorded: RecordedRun) -> Iterator[tuple[int, int]]:
             yield first, last
 
 
-def strip(film: Film, ticks: list[int]) -> Image:
-    """The frames of some ticks one below the other."""
-    panel = Panel(film.run, NIGHT, film.layout.panel)
-    trail = Trail.of(film.run, NIGHT)
-    frames = [film.frame(panel, trail, tick) for tick in ticks]
+def strip(images: FilmImages, ticks: list[int]) -> Image:
+    """The images of some ticks one below the other."""
+    frames = [images.image(tick) for tick in ticks]
     return np.concatenate(
         [cv2.resize(f, None, fx=FRAME_SCALE, fy=FRAME_SCALE, interpolation=cv2.INTER_AREA) for f in frames]
     )
