@@ -5,10 +5,12 @@ import signal
 from collections.abc import Callable
 
 from mindrun.sim import warmup
+from mindrun.sim.changed_ticks import compile_stages
 from mindrun.sim.rollout import Rollout
 
 from mindlang.cli._terminal import INTERRUPTED, say
 
+COMPILING_STAGES = "compiling the stages of a tick once (about a minute)…"
 COMPILING = "compiling the simulator once (about half a minute)…"
 
 
@@ -34,3 +36,14 @@ def ensure_compiled(rollout: Rollout, say: Callable[[str], None]) -> None:
         signal.signal(signal.SIGINT, before)
     if had and not warmup.is_native():  # it was shipped, for any processor of its kind
         warmup.start(warmup.IN_BACKGROUND)
+
+
+def ensure_stages_compiled(rollout: Rollout, say: Callable[[str], None]) -> None:
+    """The same of the stages of a tick one by one, which runs with changes take."""
+    if not warmup.code_of_stages().is_there():
+        say(COMPILING_STAGES)
+    before = signal.signal(signal.SIGINT, lambda number, frame: os._exit(INTERRUPTED))
+    try:
+        compile_stages(rollout)
+    finally:
+        signal.signal(signal.SIGINT, before)

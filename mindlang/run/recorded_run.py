@@ -7,7 +7,7 @@ from mindrun.graph import Graph, Skill, Task, Thing
 from mindrun.sim.rollout import Rollout
 from mindrun.sim.task_rows import things_of
 from mindrun.sim.ticks import joined
-from mindrun.sim.trace import trace
+from mindrun.sim.trace import Trace, trace
 from mindrun.weights import reachable
 from numpy.typing import NDArray
 
@@ -111,7 +111,11 @@ class RecordedRun:
 
 def record_run(setup: RunSetup, rollout: Rollout, seed: int) -> RecordedRun:
     """The run that `rollout` makes of a seed, written down."""
-    run = trace(rollout, seed)
+    return recorded(setup, trace(rollout, seed))
+
+
+def recorded(setup: RunSetup, run: Trace) -> RecordedRun:
+    """A run that is about to begin, made and written down."""
     ticks = joined(run.chunks)
     return RecordedRun(
         setup,

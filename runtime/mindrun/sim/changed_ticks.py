@@ -6,8 +6,10 @@ sensor said. Influence is replaced after all above a skill have sent theirs and 
 
 from collections.abc import Callable, Mapping, Sequence
 
+import numpy as np
+
 from mindrun.changes import Change, Changed, calm_ticks, in_tick
-from mindrun.sim.lanes.stages import after, before
+from mindrun.sim.lanes.stages import after, before, run_skills
 from mindrun.sim.rollout import Rollout, Tile
 from mindrun.sim.state import Jobs, State
 from mindrun.sim.tables import Tables
@@ -29,6 +31,15 @@ def changed(rollout: Rollout, changes: Sequence[Change]) -> Advance:
         return working
 
     return advance
+
+
+def compile_stages(rollout: Rollout) -> None:
+    """Compile what such ticks take, where no cache has it: up to a minute, otherwise under a second."""
+    tile = rollout.tile(1)
+    jobs = rollout.jobs(np.zeros((0, rollout.genome_length), np.float32), np.zeros(0, np.uint64))
+    before(rollout.tables, tile.state, jobs)
+    run_skills(rollout.tables, tile.state, np.int64(0), 0, 0)
+    after(rollout.tables, tile.state, jobs, rollout.interrupt)
 
 
 def _tick(rollout: Rollout, tile: Tile, jobs: Jobs, made: Changed) -> int:

@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from mindrun.graph import Task
 from mindrun.policy import Policy
 from mindrun.sim import chipmunk_internals as chipmunk
 from mindrun.sim.allocation import empty_state
@@ -168,6 +169,11 @@ class Rollout:
             skill = self.tables.skills[failed[FAILED_SKILL]]
             inputs = tile.state.mind.gathered[: int(skill["inputs"]), failed[FAILED_COLUMN]]
             raise self.procedures.explain(self.graph.skills[int(skill["index"])].name, inputs)
+
+
+def scores_of(jobs: Jobs, task: Task) -> Scores:
+    """What came of all jobs, every genome on every seed."""
+    return _scores([jobs], [np.arange(len(jobs.genome))], (len(jobs.genomes), len(jobs.seeds)), task.counts)
 
 
 def cores() -> int:

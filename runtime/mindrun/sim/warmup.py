@@ -6,8 +6,6 @@ import subprocess
 import sys
 from collections.abc import Sequence
 
-import numpy as np
-
 from mindrun.actuators import Wheel
 from mindrun.bodies import Disc
 from mindrun.functions import Rule
@@ -15,6 +13,7 @@ from mindrun.graph import Actuator, Graph, Reward, Skill, Task
 from mindrun.policy import Policy
 from mindrun.scenes import Plain
 from mindrun.sim import cache
+from mindrun.sim.changed_ticks import compile_stages
 from mindrun.sim.lanes import stages
 from mindrun.sim.lanes.advance import advance
 from mindrun.sim.numba_internals import code_of
@@ -27,6 +26,12 @@ LOWEST_NICENESS = 19  # how little a process matters that works while others wai
 def code() -> cache.MachineCode:
     """What is kept and shipped of the way in that takes the longest to compile."""
     found: cache.MachineCode = code_of(advance)
+    return found
+
+
+def code_of_stages() -> cache.MachineCode:
+    """The same of the stages of a tick one by one."""
+    found: cache.MachineCode = code_of(stages.after)
     return found
 
 
@@ -48,13 +53,10 @@ def warm_up() -> None:
     """Compile every way in that is not kept yet."""
     rollout = Rollout(Policy(_smallest(), {}), "Nothing", "Rest")
     rollout.compile()
-    tile, jobs = rollout.tile(1), rollout.jobs(np.zeros((0, 0), np.float32), np.zeros(0, np.uint64))
-    tables, state, none = rollout.tables, tile.state, np.int64(0)
-    stages.before(tables, state, jobs)
-    stages.run_skills(tables, state, none, 0, 0)
+    tables, state = rollout.tables, rollout.tile(1).state
+    compile_stages(rollout)
     stages.wake(tables, state, 0, 0)
     stages.send(tables, state, 0, 0, 0, 0)
-    stages.after(tables, state, jobs, True)
 
 
 def main(words: Sequence[str]) -> None:

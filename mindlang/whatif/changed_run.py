@@ -1,0 +1,75 @@
+"""A run in the simulator with changes, beside the run as it was: the same seed, the same world."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from mindrun.changes import Change, ChangeError
+from mindrun.sim.rollout import Rollout, scores_of
+from mindrun.sim.trace import trace
+
+from mindlang.run.outcome import run_data
+from mindlang.run.recorded_run import RecordedRun, recorded
+from mindlang.run.setup import RunSetup
+from mindlang.whatif.difference import Array, Columns, Difference, first_differences, mind_columns
+
+POSE = ("x", "y", "angle")
+
+
+@dataclass(frozen=True, slots=True)
+class Course:
+    """A run written down, and what came of it (`mindlang.run.outcome.run_data`)."""
+
+    run: RecordedRun
+    found: dict[str, Any]
+
+
+@dataclass(frozen=True, slots=True)
+class Compared:
+    """A run as it `was` and as it is `now` with changes, and where they differ first, in the order of time."""
+
+    was: Course
+    now: Course
+    differences: list[Difference]
+
+
+def compare(setup: RunSetup, rollout: Rollout, seed: int, changes: Sequence[Change]) -> Compared:
+    """Run a seed as it is and with changes; ChangeError where the run is over before the first of them."""
+    was = course(setup, rollout, seed)
+    first = min((change.first for change in changes), default=1)
+    refuse_late(was, first)
+    return compared(was, course(setup, rollout, seed, changes))
+
+
+def refuse_late(was: Course, tick: int) -> None:
+    """ChangeError where a run is over before a tick."""
+    if tick > was.run.ticks:
+        raise ChangeError(
+            f"the run is over after tick {was.run.ticks:,}: there is no tick {tick:,}", "say an earlier one"
+        )
+
+
+def course(setup: RunSetup, rollout: Rollout, seed: int, changes: Sequence[Change] = ()) -> Course:
+    """The run of a seed, with changes."""
+    run = trace(rollout, seed, changes=changes)
+    written = recorded(setup, run)
+    outcome = run_data(setup.task, scores_of(run.jobs, setup.task))
+    return Course(written, {"task": setup.task.name, "master": setup.master, "seed": seed} | outcome)
+
+
+def compared(was: Course, now: Course) -> Compared:
+    """Two runs held against each other."""
+    return Compared(was, now, first_differences(_columns(was.run), _columns(now.run)))
+
+
+def _columns(run: RecordedRun) -> dict[str, Columns]:
+    """All numbers of each tick by name, in the order in which one comes of the other."""
+    rewards: dict[str, Array] = {}
+    for i, reward in enumerate(run.task.rewards):
+        rewards[reward.text] = rewards.get(reward.text, 0.0) + run.lines[:, i]
+    return {
+        **mind_columns(run.graph, run.readings, run.influence, run.commands),
+        "robot": {name: run.body[1:, i] for i, name in enumerate(POSE)} | {"holds": run.held[1:].astype(np.float64)},
+        "reward": rewards,
+    }

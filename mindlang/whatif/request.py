@@ -1,0 +1,100 @@
+"""What is to be different, as it is said on a command line, and as changes of a mind."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from mindrun.changes import Change, ChangeError, What, change_of, silenced
+from mindrun.graph import Graph
+from mindrun.weights import reachable
+
+from mindlang.compiler.diagnostic import did_you_mean, listed
+
+
+@dataclass(frozen=True, slots=True)
+class Request:
+    """Skills to go `without`, `sensors` as `proximity=0.5`, `settings` as `battery=0.1`; from `tick` on, for `ticks`.
+
+    Without `ticks`, a setting is for one tick and all else goes on to the end.
+    """
+
+    tick: int = 1
+    ticks: int | None = None
+    without: tuple[str, ...] = ()
+    sensors: tuple[str, ...] = ()
+    settings: tuple[str, ...] = ()
+
+    @property
+    def is_empty(self) -> bool:
+        """Whether nothing is to be different."""
+        return not self.parts
+
+    @property
+    def parts(self) -> tuple[str, ...]:
+        """Each change as it is said."""
+        return (*(f"without {skill}" for skill in self.without), *self.sensors, *self.settings)
+
+    @property
+    def words(self) -> str:
+        """For reading: without Avoid, proximity=0.5, from tick 812 on."""
+        return f"{listed(self.parts, 'and')}, {self._span}"
+
+    @property
+    def _span(self) -> str:
+        ticks = self.ticks or (1 if self.settings and not (self.without or self.sensors) else None)
+        if ticks is None:
+            return f"from tick {self.tick:,} on" if self.tick > 1 else "from the first tick on"
+        return f"in tick {self.tick:,}" if ticks == 1 else f"in ticks {self.tick:,} to {self.tick + ticks - 1:,}"
+
+
+def changes_of(request: Request, graph: Graph, master: str) -> tuple[Change, ...]:
+    """The changes of a mind under a master; ChangeError where one cannot be made."""
+    last = None if request.ticks is None else request.tick + request.ticks - 1
+    found: list[Change] = []
+    for skill in request.without:
+        _refuse_unreached(graph, master, skill)
+        found += silenced(graph, skill, request.tick, last)
+    for words in request.sensors:
+        name, values = _assignment(words, "--sensor")
+        found += change_of(graph, "reading", name, [values], request.tick, last)
+    for words in request.settings:
+        name, values = _assignment(words, "--set")
+        what = _what(graph, name)
+        if what == "influence":
+            _refuse_unreached(graph, master, name)
+        found += change_of(graph, what, name, [values], request.tick, request.tick if last is None else last)
+    return tuple(found)
+
+
+def _assignment(words: str, option: str) -> tuple[str, list[float]]:
+    """The name and the numbers of `proximity=0.5` or `proximity=1,0.5,1`."""
+    name, _, said = words.partition("=")
+    try:
+        values = [float(value) for value in said.split(",")]
+    except ValueError:
+        raise ChangeError(f"{option} {words} does not say a number", f"write {option} {name or 'NAME'}=0.5") from None
+    return name.strip(), values
+
+
+def _what(graph: Graph, name: str) -> What:
+    """Whether a name is that of a sensor, a memory or a skill; ChangeError where it is none, or of several."""
+    known: dict[What, Sequence[str]] = {
+        "reading": [sensor.name for sensor in graph.sensors],
+        "memory": [memory.name for memory in graph.memories],
+        "influence": [skill.name for skill in graph.skills],
+    }
+    found = [what for what, names in known.items() if name in names]
+    if len(found) > 1:
+        raise ChangeError(f"{name} is a sensor and a skill", f"say --sensor {name}=…, or --without {name}")
+    if not found:
+        hint = did_you_mean(name, [each for names in known.values() for each in names])
+        raise ChangeError(f"there is no sensor, memory or skill called {name}", hint)
+    return found[0]
+
+
+def _refuse_unreached(graph: Graph, master: str, skill: str) -> None:
+    """ChangeError where a skill has no influence anyway."""
+    names = [each.name for each in reachable(graph, master)]
+    if skill not in names:
+        known = skill in {each.name for each in graph.skills}
+        said = f"{master} does not influence {skill}" if known else f"there is no skill called {skill}"
+        raise ChangeError(said, did_you_mean(skill, names) or f"Below {master} there is {listed(names, 'and')}.")
