@@ -29,7 +29,7 @@ def compare_runs(file: str, played: Played, request: Request, picture: Path | No
     """Run as it is and with changes, and print what differs."""
     session = RunSession(quiet)
     if request.is_empty:
-        fail("nothing is changed.", "Say what: --without SKILL, --sensor NAME=0.5 or --set NAME=0.5", MISUSE)
+        fail("nothing is changed", "Say what: --without SKILL, --sensor NAME=0.5 or --set NAME=0.5", MISUSE)
     setup, rollout = session.prepare(file, played.task, played.master, played.interrupt)
     ensure_stages_compiled(rollout, session.say)
     try:
@@ -37,7 +37,7 @@ def compare_runs(file: str, played: Played, request: Request, picture: Path | No
         with procedures_talk():
             compared = compare(setup, rollout, played.seed, changes)
     except ChangeError as error:
-        fail(f"{error}.", error.hint, MISUSE)
+        fail(str(error), error.hint, MISUSE)
     if as_json:
         print_json(comparison_data(request, compared))
     else:

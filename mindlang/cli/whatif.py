@@ -28,9 +28,7 @@ Examples:
     "--ticks", type=WholeOption(1, 2**53), help="How many are. Default: all that follow; one with --set alone."
 )
 @click.option("--without", multiple=True, metavar="SKILL", help="Silence a skill: it has no influence.")
-@click.option(
-    "--sensor", multiple=True, metavar="NAME=0.5", help="Let a sensor read this; NAME=1,0.5,1 where it is wide."
-)
+@click.option("--sensor", multiple=True, metavar="NAME=0.5", help="What a sensor reads; NAME=1,0.5,1 of a wide one.")
 @click.option(
     "--set", "settings", multiple=True, metavar="NAME=0.5", help="A reading, a memory or an influence, for one tick."
 )

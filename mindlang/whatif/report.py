@@ -1,6 +1,6 @@
 """A comparison for reading, and as data: the first tick that differs, and outcome beside outcome."""
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from typing import Any
 
 from rich.console import Group, RenderableType
@@ -79,17 +79,22 @@ def _outcome(found: dict[str, Any]) -> dict[str, Any]:
 
 def _rows(was: dict[str, Any], now: dict[str, Any]) -> Iterable[tuple[str, str, str]]:
     """Outcome beside outcome: how both ended, what they counted, what each reward line paid."""
-    yield "ticks", f"{was['ticks']:,}", f"{now['ticks']:,}"
-    yield "ended by", was["ended_by"] or "time", now["ended_by"] or "time"
+    columns = zip(_column(was, was, now), _column(now, was, now), strict=True)
+    return [(name, before, after) for (name, before), (_, after) in columns]
+
+
+def _column(found: dict[str, Any], was: dict[str, Any], now: dict[str, Any]) -> Iterator[tuple[str, str]]:
+    yield "ticks", f"{found['ticks']:,}"
+    yield "ended by", found["ended_by"] or "time"
     if "succeeded" in was or "succeeded" in now:
-        yield "success", *("yes" if found.get("succeeded") else "no" for found in (was, now))
+        yield "success", "yes" if found.get("succeeded") else "no"
     for event in {**was["by_event"], **now["by_event"]}:
-        yield event, *(str(found["by_event"].get(event, "–")) for found in (was, now))
+        yield event, str(found["by_event"].get(event, "–"))
     if was["faults"] or now["faults"]:
-        yield "faults", f"{was['faults']:,}", f"{now['faults']:,}"
+        yield "faults", f"{found['faults']:,}"
     for line in {**was["by_line"], **now["by_line"]}:
-        yield line, *(score(found["by_line"][line]) if line in found["by_line"] else "–" for found in (was, now))
-    yield "score", score(was["score"]), score(now["score"])
+        yield line, score(found["by_line"][line]) if line in found["by_line"] else "–"
+    yield "score", score(found["score"])
 
 
 def beside(rows: Sequence[tuple[str, str, str]]) -> Text:

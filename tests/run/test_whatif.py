@@ -1,0 +1,118 @@
+"""`mindc whatif` in the simulator: what is changed, where it differs first, and what came of both runs."""
+
+import json
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from mindrun.changes import change_of, silenced
+
+from mindlang.compiler.compile import load
+from mindlang.run.setup import RunSetup, set_up
+from mindlang.whatif.changed_run import compare, course
+from mindlang.whatif.difference import Difference, first_differences
+from mindlang.whatif.request import Request, changes_of
+from tests.calling import Call
+
+PLAYED = ("--task", "Roam", "--seed", 3)
+
+
+def found(mindc: Call, rules: Path, *options: object) -> dict[str, Any]:
+    said = mindc("whatif", rules, *PLAYED, *options, "--json")
+    assert said.code == 0, said.err
+    data: dict[str, Any] = json.loads(said.out)
+    return data
+
+
+def setup_of(rules: Path) -> RunSetup:
+    return set_up(str(rules), load(rules), "Roam", None)
+
+
+def test_the_run_as_it_was_is_the_run(mindc: Call, rules: Path) -> None:
+    plain = json.loads(mindc("run", rules, *PLAYED, "--json").out)
+    was = found(mindc, rules, "--without", "Turn", "--tick", 20)["as_it_was"]
+    assert was == {name: plain[name] for name in was}
+
+
+def test_what_came_of_the_changed_run_is_what_the_changed_mind_does(mindc: Call, rules: Path) -> None:
+    changed = found(mindc, rules, "--without", "Turn")["changed"]
+    rules.write_text(rules.read_text().replace("influences Turn at 0.2", "influences Turn at 0"))
+    plain = json.loads(mindc("run", rules, *PLAYED, "--json").out)
+    assert changed == {name: plain[name] for name in changed}
+
+
+def test_the_first_tick_that_differs_is_the_first(rules: Path) -> None:
+    setup = setup_of(rules)
+    rollout = setup.rollout()
+    graph = setup.ready.policy.graph
+    for changes in (silenced(graph, "Turn", 30), change_of(graph, "reading", "ball_bearing", [[0.2]], 17, 20)):
+        compared = compare(setup, rollout, 3, changes)
+        was, now = compared.was.run, compared.now.run
+        ticks = min(was.ticks, now.ticks)
+        blocks = ("readings", "influence", "commands")
+        unlike = np.any([(getattr(was, b)[:ticks] != getattr(now, b)[:ticks]).any(axis=1) for b in blocks], axis=0)
+        assert compared.differences[0].tick == np.flatnonzero(unlike)[0] + 1 == changes[0].first
+        assert np.array_equal(was.body[: changes[0].first], now.body[: changes[0].first])
+
+
+def test_a_change_to_what_it_is_anyway_differs_nowhere(mindc: Call, rules: Path) -> None:
+    said = mindc("whatif", rules, *PLAYED, "--set", "Turn=0.2", "--ticks", 100)
+    assert said.code == 0
+    assert "nothing differs, to the bit" in said.out
+
+
+def test_a_setting_is_for_one_tick_and_a_sensor_for_all_that_follow(rules: Path) -> None:
+    setup = setup_of(rules)
+    graph = setup.ready.policy.graph
+    place = next(sensor for sensor in graph.sensors if sensor.name == "ball_bearing").start
+    read = [
+        course(setup, setup.rollout(), 3, changes_of(request, graph, setup.master)).run.readings[:, place] == 0.25
+        for request in (Request(10, settings=("ball_bearing=0.25",)), Request(10, sensors=("ball_bearing=0.25",)))
+    ]
+    assert read[0].nonzero()[0].tolist() == [9]
+    assert read[1].nonzero()[0].tolist() == [*range(9, len(read[1]))]
+
+
+def test_the_summary_is_for_people(mindc: Call, rules: Path) -> None:
+    said = mindc("whatif", rules, *PLAYED, "--tick", 20, "--without", "Chase", "--sensor", "ball_bearing=0.5")
+    assert said.code == 0
+    assert "Roam with Roam in charge, seed 3" in said.out
+    assert "without Chase and ball_bearing=0.5, from tick 20 on" in said.out
+    assert "tick 20  influence of Chase 1 → 0" in said.out
+    assert "as it was" in said.out
+
+
+@pytest.mark.parametrize(
+    ("options", "said"),
+    [
+        ((), "nothing is changed"),
+        (("--without", "Trun"), "there is no skill called Trun"),
+        (("--task", "Chase", "--master", "Chase", "--without", "Turn"), "Chase does not influence Turn"),
+        (("--sensor", "feeler"), "--sensor feeler does not say a number"),
+        (("--sensor", "feeler=1,2"), "sensor feeler has 3 readings"),
+        (("--sensor", "feeler=2"), "feeler cannot be 2"),
+        (("--set", "felt=1"), "there is no sensor, memory or skill called felt"),
+        (("--without", "Turn", "--tick", 100000), "there is no tick 100,000"),
+    ],
+)
+def test_what_cannot_be_is_said_in_a_sentence(mindc: Call, rules: Path, options: tuple[object, ...], said: str) -> None:
+    answer = mindc("whatif", rules, *PLAYED, *options)
+    assert answer.code == 2
+    assert said in answer.err
+    assert answer.out == ""
+
+
+def test_differences_stand_in_the_order_of_time_and_of_causes() -> None:
+    a = {"reading": {"x": np.array([0.0, np.nan, 1.0])}, "command": {"w": np.zeros(3), "v": np.zeros(3)}}
+    b = {"reading": {"x": np.array([0.0, np.nan, 2.0])}, "command": {"w": np.array([0.0, 1.0, 1.0]), "v": np.zeros(2)}}
+    assert first_differences(a, b) == [Difference(2, "command", "w", 0.0, 1.0), Difference(3, "reading", "x", 1.0, 2.0)]
+    b["command"]["v"] = b["command"]["w"] = np.array([0.0, 0.0, 1.0])
+    assert [each.name for each in first_differences(a, b)] == ["x", "w", "v"]
+
+
+def test_what_is_asked_is_said_as_it_is() -> None:
+    assert Request(1, None, ("Avoid",)).words == "without Avoid, from the first tick on"
+    assert Request(1000, 5, (), ("eyes=1",)).words == "eyes=1, in ticks 1,000 to 1,004"
+    assert Request(7, None, (), (), ("mood=1",)).words == "mood=1, in tick 7"
+    assert Request(1, None, ("A", "B"), ("c=1",)).words == "without A, without B and c=1, from the first tick on"
