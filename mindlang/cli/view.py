@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 import click
 
-from mindlang.cli._options import WholeOption
+from mindlang.cli._options import NewFile, WholeOption
 
 if TYPE_CHECKING:
     from mindlang.view.viewed import Viewed
@@ -16,6 +17,7 @@ Examples:
   mindc view collect.mind
   mindc view collect.mind --task Collect --seed 3
   mindc view collect.mind --task Avoid --no-interruption --port 8123 --no-browser
+  mindc view collect.mind --task Collect --export run.html
 """
 MAX_PORT = 65535
 
@@ -28,6 +30,7 @@ MAX_PORT = 65535
 @click.option("--no-interruption", is_flag=True, help="Go on to the last tick, whatever would end the run.")
 @click.option("--port", type=WholeOption(1, MAX_PORT), help="Of this machine. Default: any that is free.")
 @click.option("--no-browser", is_flag=True, help="Print the address, and open nothing.")
+@click.option("--export", type=NewFile(), metavar="PATH.html", help="Write the page with the run in it, and end.")
 @click.option("-q", "--quiet", is_flag=True, help="Print nothing but the address and errors.")
 def command(
     file: str,
@@ -37,15 +40,23 @@ def command(
     no_interruption: bool,
     port: int | None,
     no_browser: bool,
+    export: Path | None,
     quiet: bool,
 ) -> None:
     """See a run of FILE in a browser: the world, the hierarchy, and every value over time.
 
     Serves a page at an address of this machine, which nobody else can open, until Ctrl-C; a browser that is closed may
-    open it again. Runs the Python code of the file's procedures.
+    open it again. With --export it is one file, which opens from a disk without a server. Runs the Python code of the
+    file's procedures.
     """
+    from mindlang.cli._terminal import refuse_unwritable
+
+    refuse_unwritable(export, ".html")
     viewed = _simulated(file, task, seed, master, not no_interruption, quiet)
-    _serve(viewed, port, not no_browser, quiet)
+    if export:
+        _export(viewed, export, quiet)
+    else:
+        _serve(viewed, port, not no_browser, quiet)
 
 
 def _simulated(
@@ -91,6 +102,29 @@ def _serve(viewed: Viewed, port: int | None, opens: bool, quiet: bool) -> None:
     except OSError as error:
         hint = "Another program has that port: leave --port out, and one that is free is taken."
         fail(f"port {port} of this machine cannot be opened: {reason(error)}", hint, MISUSE)
+
+
+def _export(viewed: Viewed, path: Path, quiet: bool) -> None:
+    from mindrun.errors import MindError
+
+    from mindlang.cli._run_session import RunSession
+    from mindlang.cli._terminal import MISUSE, fail, procedures_talk, write_file
+    from mindlang.view.export import exported
+    from mindlang.view.session import Session
+
+    said = RunSession(quiet)
+    with said.progress() as progress, procedures_talk():
+        bar = progress.add_task(path.name, total=viewed.about["of_ticks"])
+        while not viewed.over:
+            viewed.grow()
+            progress.update(bar, completed=viewed.known)
+    session = Session(viewed)
+    try:
+        page = exported(session.about(edits=False), session.ticks(0, 0), viewed)
+    except MindError as error:
+        fail(str(error), error.hint, MISUSE)
+    write_file(path, page.encode())
+    said.say(f"{path}: {viewed.known:,} ticks, {len(page) / 1e6:.1f} MB, opens in any browser")
 
 
 def _open(address: str) -> None:

@@ -140,6 +140,7 @@ export interface Listener {
 const HEADER_WORDS = 6; // u32: kind, fork, first tick, every, rows, ask
 export const HEADER_BYTES = 4 * HEADER_WORDS;
 export const ROWS_KIND = 1;
+export const COLUMNS_KIND = 2;
 
 /** A message of bytes, its header read. */
 export function frameOf(bytes: ArrayBuffer): Frame {
