@@ -1,6 +1,7 @@
 """A view that is served while a test asks it: its server in a thread, clients that speak its protocol."""
 
 import asyncio
+import base64
 import json
 import socket
 from collections.abc import Iterator
@@ -20,6 +21,13 @@ from mindlang.view.viewed import Viewed
 from mindlang.view.viewed_run import viewed_run
 
 ANSWER_SECONDS = 20.0  # at which a test gives up
+ENTERS = "\r\n"
+UPGRADE = {
+    "Upgrade": "websocket",
+    "Connection": "Upgrade",
+    "Sec-WebSocket-Key": base64.b64encode(b"0123456789abcdef").decode(),
+    "Sec-WebSocket-Version": "13",
+}
 
 
 def prepared(path: Path, task: str) -> RunSetup:
@@ -129,3 +137,10 @@ def served(viewed: Viewed) -> Iterator[Served]:
             loop.call_soon_threadsafe(tasks[0].cancel)
         thread.join(ANSWER_SECONDS)
         assert not thread.is_alive()
+
+
+def request(view: Served, line: str = "GET / HTTP/1.1", host: str | None = "HOST", **headers: str) -> bytes:
+    """A request as bytes; HOST and PORT are those of the server."""
+    lines = [line, *([] if host is None else [f"Host: {host}"]), *(f"{name}: {headers[name]}" for name in headers)]
+    text = ENTERS.join([*lines, "", ""]).replace("HOST", view.host).replace("PORT", str(view.port))
+    return text.encode("latin-1")

@@ -1,27 +1,13 @@
 """What a viewer of a simulated run is told is the run, to the bit."""
 
-from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
-import pytest
 
 from mindlang.pictures.influence_flow import Flow
 from mindlang.run.recorded_run import record_run
 from mindlang.view.frames import unpacked
-from tests.calling import write_rules
-from tests.view.serving import Served, prepared, served, simulated
-
-
-@pytest.fixture(scope="module")
-def path(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    return write_rules(tmp_path_factory.mktemp("mind"))
-
-
-@pytest.fixture(scope="module")
-def view(path: Path) -> Iterator[Served]:
-    with served(simulated(path)) as found:
-        yield found
+from tests.view.serving import Served, prepared
 
 
 def test_rows_are_the_run(view: Served, path: Path) -> None:
