@@ -149,6 +149,8 @@ class ViewServer:
                 await viewer.changed.wait()
                 viewer.changed.clear()
                 for fork in range(len(self._session.forks)):
+                    if fork and fork not in viewer.heard:
+                        await viewer.send(self._session.forks_data[fork])
                     ticks = self._session.ticks(fork, viewer.heard.get(fork, 0))
                     viewer.heard[fork] = viewer.heard.get(fork, 0) + len(ticks["happened"])
                     await viewer.send(ticks)

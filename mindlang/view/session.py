@@ -10,8 +10,8 @@ from typing import Any
 from mindrun.errors import MindError
 
 from mindlang.view.columns import DOUBLE_BLOCK, SINGLE_BLOCK
-from mindlang.view.messages import AskColumns, AskRows, Change, Message, RefusedError, Run, Why
-from mindlang.view.viewed import Viewed
+from mindlang.view.messages import MAX_FORKS, AskColumns, AskRows, Change, Message, RefusedError, Run, Why
+from mindlang.view.viewed import Fork, Viewed
 
 MAX_HAPPENED = 10_000  # events that are told at once
 
@@ -21,6 +21,7 @@ class Session:
 
     def __init__(self, viewed: Viewed, changed: Callable[[], None] = lambda: None) -> None:
         self.forks = [viewed]
+        self.forks_data: list[dict[str, Any]] = [{}]  # how each has begun
         self.changed = changed  # told whenever something has come
         self._wanted = [0]
         self._growing: dict[int, asyncio.Task[None]] = {}
@@ -62,13 +63,30 @@ class Session:
         match message:
             case Run(fork=fork, to=to):
                 self._run(fork, to)
+                self.changed()  # said also where the run is there already
                 return None
             case Change() if not edits:
                 raise RefusedError("somebody else may change this run: the first who opened it")
             case Change():
-                raise RefusedError("nothing can be changed yet")
+                await self._fork(message)
+                return None
         loop = asyncio.get_running_loop()
         return await loop.run_in_executor(self._answerer, self._computed, message)
+
+    async def _fork(self, change: Change) -> None:
+        """A run beside another, which goes on at once to where that is."""
+        of = self.forks[change.fork]
+        if of.forked is None:
+            raise RefusedError("a recording is what it is: nothing in it can be changed")
+        if len(self.forks) > MAX_FORKS:
+            raise RefusedError(f"there are {MAX_FORKS} forks already: open the run anew")
+        fork = await asyncio.get_running_loop().run_in_executor(self._grower, _begun, of.forked, change)
+        number = len(self.forks)
+        told = {"say": "fork", "fork": number, "of": change.fork, "tick": change.tick, "text": fork.text}
+        self.forks_data.append(told)
+        self._wanted.append(0)
+        self.forks.append(fork.viewed)
+        self._run(number, max(of.known, change.tick))
 
     def _computed(self, message: Message) -> bytes | dict[str, Any]:
         viewed = self.forks[message.fork]
@@ -94,3 +112,9 @@ class Session:
         while not viewed.over and viewed.known < self._wanted[fork]:
             await loop.run_in_executor(self._grower, viewed.grow)
             self.changed()
+
+
+def _begun(forked: Callable[[Change], Fork], change: Change) -> Fork:
+    fork = forked(change)
+    fork.viewed.grow()
+    return fork

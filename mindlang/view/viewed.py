@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from mindlang.view.columns import DOUBLE_BLOCK, FLOW, SINGLE_BLOCK, Columns
 from mindlang.view.edge_flow import EdgeFlow
 from mindlang.view.frames import columns_frame, rows_frame, rows_that_fit
-from mindlang.view.messages import RefusedError
+from mindlang.view.messages import Change, RefusedError
 from mindlang.view.row_blocks import Chunk, RowBlocks, Singles, Ticks
 from mindlang.view.texts import shown
 
@@ -27,13 +27,15 @@ Answer = dict[str, Any]
 class Viewed:
     """`about` is what does not change, `chunks` what is still to come; the first chunk begins with tick 0.
 
-    One thread lets it `grow`; others may ask at the same time.
+    `forked` makes the same run with a change; RefusedError where that cannot be, None where nothing can be changed. One
+    thread lets it `grow`; others may ask at the same time.
     """
 
     about: Mapping[str, Any]
     columns: Columns
     chunks: Iterator[Chunk]
     flow: Callable[[Viewed], EdgeFlow]
+    forked: Callable[[Change], Fork] | None = None
     blocks: RowBlocks = field(default_factory=RowBlocks)
     happened: list[tuple[int, int]] = field(default_factory=list)
     over: bool = False
@@ -98,3 +100,11 @@ class Viewed:
     def _flow(self) -> EdgeFlow:
         self._edges = self._edges or self.flow(self)
         return self._edges
+
+
+@dataclass(frozen=True, slots=True)
+class Fork:
+    """A run beside another, from a tick on: what is changed, in words."""
+
+    viewed: Viewed
+    text: str

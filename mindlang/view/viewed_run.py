@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 import numpy as np
+from mindrun import changes
 from mindrun.engine import procedure_sources
 from mindrun.registry import names
 from mindrun.sim.rollout import Rollout
@@ -21,21 +22,25 @@ from mindlang.view.about_hierarchy import HierarchyData, Texts
 from mindlang.view.about_world import world_data
 from mindlang.view.columns import FLOW, POSE_COLUMNS, THING_COLUMNS, Columns
 from mindlang.view.edge_flow import EdgeFlow
+from mindlang.view.messages import Change
+from mindlang.view.replacement import replacement, replacement_text
 from mindlang.view.row_blocks import Chunk, Doubles, Singles
 from mindlang.view.row_blocks import Ticks as Selected
 from mindlang.view.texts import shown
-from mindlang.view.viewed import Viewed
+from mindlang.view.viewed import Fork, Viewed
 
 NOTHING_HELD = -1
 TOUCH, COLLISION = "touch", "collision"  # kinds of events
 
 
-def viewed_run(setup: RunSetup, rollout: Rollout, seed: int, texts: Texts) -> Viewed:
-    """The run that `rollout` makes of a seed; `texts` are what its edges say."""
+def viewed_run(
+    setup: RunSetup, rollout: Rollout, seed: int, texts: Texts, made: tuple[changes.Change, ...] = ()
+) -> Viewed:
+    """The run that `rollout` makes of a seed, with changes if there are any; `texts` are what its edges say."""
     graph = setup.ready.policy.graph
     skills = reachable(graph, setup.master)
     columns = run_columns(setup, sum(len(skill.edges) for skill in skills))
-    run = trace(rollout, seed)
+    run = trace(rollout, seed, changes=made)
     below = HierarchyData(graph, setup.master, skills, columns)
     rewards = [reward.text for reward in setup.task.rewards]
     about = {
@@ -53,7 +58,13 @@ def viewed_run(setup: RunSetup, rollout: Rollout, seed: int, texts: Texts) -> Vi
         "curves": below.curves(rewards),
         **below.data(texts),
     }
-    return Viewed(about, columns, run_chunks(setup, run, columns), lambda viewed: run_flow(setup, viewed))
+
+    def forked(asked: Change) -> Fork:
+        change = replacement(graph, setup.task, columns, asked)
+        return Fork(viewed_run(setup, rollout, seed, texts, (*made, change)), replacement_text(graph, change))
+
+    chunks = run_chunks(setup, run, columns)
+    return Viewed(about, columns, chunks, lambda viewed: run_flow(setup, viewed), forked)
 
 
 def run_columns(setup: RunSetup, edges: int) -> Columns:

@@ -20,7 +20,7 @@ from mindlang.view.session import Session
 from mindlang.view.viewed import Viewed
 from mindlang.view.viewed_run import viewed_run
 
-ANSWER_SECONDS = 20.0  # at which a test gives up
+ANSWER_SECONDS = 120.0  # at which a test gives up: the simulator may have to be compiled
 ENTERS = "\r\n"
 UPGRADE = {
     "Upgrade": "websocket",
