@@ -91,7 +91,7 @@ def _edges(
 
 def _gate(gate: model.Gate, places: Places) -> graph.Gate:
     otherwise = None if gate.otherwise is None else _program(gate.otherwise, places)
-    return graph.Gate(_condition(gate.when, places), otherwise)
+    return graph.Gate(condition(gate.when, places), otherwise)
 
 
 def _task(task: model.Task, readings: Mapping[str, tuple[int, int]], actuators: Mapping[str, int]) -> graph.Task:
@@ -111,7 +111,7 @@ def _end(end: model.End, events: dict[Any, int], places: Places) -> graph.End:
     if end.when is None:
         return graph.End(event, end.times, None, end.succeeds)
     text = spaced(f"ends {end.when.span.text}").removeprefix("ends when ")
-    return graph.End(event, end.times, _condition(end.when, places), end.succeeds, text)
+    return graph.End(event, end.times, condition(end.when, places), end.succeeds, text)
 
 
 def _index(value: T, known: dict[T, int]) -> int:
@@ -125,11 +125,11 @@ def _reward(reward: model.Reward, events: dict[Any, int], places: Places) -> gra
         _program(reward.amount, places),
         None if reward.on is None else _index(reward.on, events),
         None if reward.each is None else places.readings[reward.each],
-        None if reward.when is None else _condition(reward.when, places),
+        None if reward.when is None else condition(reward.when, places),
     )
 
 
-def _condition(when: model.When, places: Places) -> graph.Program:
+def condition(when: model.When, places: Places) -> graph.Program:
     """All comparisons of an alternative one after the other, each but the first with `and`; so with `or`."""
     found: list[tuple[str, float | int]] = []
     for number, all_ in enumerate(when.alternatives):

@@ -110,7 +110,7 @@ def think(
             if not isfinite(value):
                 faults += 1
                 continue
-            value = _clamped(value) * own
+            value = clamped(value) * own
             if edge.drives:
                 commands[edge.to] += value
                 influences[edge.to] += own
@@ -149,7 +149,8 @@ def gated(edge: Sent, gate: Gate, outputs: NDArray[np.float32], readings: NDArra
     return np.float32(np.nan)
 
 
-def _clamped(value: np.float32) -> np.float32:
+def clamped(value: np.float32) -> np.float32:
+    """The value within 0 to 1."""
     value = value if value > _ZERO else _ZERO
     return value if value < _ONE else _ONE
 

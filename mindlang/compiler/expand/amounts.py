@@ -1,7 +1,7 @@
 """Names of numbers replaced by what they stand for, and rates told how long a tick is."""
 
 import re
-from collections.abc import Iterable, Mapping, Set
+from collections.abc import Callable, Iterable, Mapping, Set
 from dataclasses import dataclass, fields, is_dataclass, replace
 from functools import cache
 from typing import Any
@@ -40,12 +40,17 @@ _WORD = re.compile(r"[a-z]\w*")
 
 def written_out(declaration: Declaration, numbers: Mapping[str, Amount], tick_seconds: float) -> Declaration:
     """A declaration with its numbers; itself where it has none that has to be replaced."""
-    writer = _Writer(numbers, tick_seconds, frozenset(name.rpartition(".")[2] for name in numbers))
-    header = writer.line(declaration.header)
-    facts = tuple(writer.line(fact) for fact in declaration.facts)
+    line = writer(numbers, tick_seconds)
+    header = line(declaration.header)
+    facts = tuple(line(fact) for fact in declaration.facts)
     if header is declaration.header and all(new is old for new, old in zip(facts, declaration.facts, strict=True)):
         return declaration
     return replace(declaration, header=header, facts=facts)
+
+
+def writer(numbers: Mapping[str, Amount], tick_seconds: float) -> Callable[[Any], Any]:
+    """What writes the numbers into a line, in the place of their names."""
+    return _Writer(numbers, tick_seconds, frozenset(name.rpartition(".")[2] for name in numbers)).line
 
 
 def in_place(amount: Amount, numbers: Mapping[str, Amount]) -> Amount:

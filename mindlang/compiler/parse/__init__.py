@@ -68,26 +68,43 @@ def code_of(line: str) -> str:
 
 
 def _lines(source: Source, findings: Findings) -> Iterator[syntax.Line | _Unread]:
+    for span, code in coded_lines(source):
+        if has_too_many_mistakes(span, "Is this a .mind file?", findings):
+            return
+        yield from _line(span, code, findings)
+
+
+def coded_lines(source: Source) -> Iterator[tuple[Span, str]]:
+    """The lines of a source that are more than a comment, each without it and without the blanks before it."""
     offset = 0
     for text in source.text.split("\n"):
-        code = code_of(text).rstrip(BLANKS)
-        if code:
-            span = Span(source, offset, offset + len(code))
-            if len(findings.diagnostics) > MAX_UNREADABLE_LINES:
-                hint = "Is this a .mind file?"
-                findings.error("too-many-mistakes", span, "Too many lines cannot be read; this is where I stop.", hint)
-                return
-            yield from _line(span, code, findings)
+        if code := code_of(text).rstrip(BLANKS):
+            yield Span(source, offset, offset + len(code)), code
         offset += len(text) + 1
+
+
+def has_too_many_mistakes(line: Span, hint: str, findings: Findings) -> bool:
+    """Whether so many lines cannot be read that no more are; this is reported."""
+    if len(findings.diagnostics) <= MAX_UNREADABLE_LINES:
+        return False
+    findings.error("too-many-mistakes", line, "Too many lines cannot be read; this is where I stop.", hint)
+    return True
+
+
+def is_too_deep(span: Span, code: str, findings: Findings) -> bool:
+    """Whether a line has more parentheses inside one another than can be read; this is reported."""
+    if code.count("(") + code.count("-") <= MAX_NESTING or _depth(code) <= MAX_NESTING:
+        return False
+    hint = f"At most {MAX_NESTING} parentheses and signs may stand inside one another."
+    findings.error("nested-too-deep", span, "This expression is nested too deep.", hint)
+    return True
 
 
 def _line(span: Span, code: str, findings: Findings) -> Iterator[syntax.Line | _Unread]:
     """What the line says, or after reporting it what can be saved of it."""
     from lark import UnexpectedInput
 
-    if code.count("(") + code.count("-") > MAX_NESTING and _depth(code) > MAX_NESTING:
-        hint = f"At most {MAX_NESTING} parentheses and signs may stand inside one another."
-        findings.error("nested-too-deep", span, "This expression is nested too deep.", hint)
+    if is_too_deep(span, code, findings):
         yield _Unread()
         return
     try:

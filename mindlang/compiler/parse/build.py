@@ -19,7 +19,7 @@ _NUMBER = re.compile(r"([+-]?)[ \t]*([0-9./]+)")
 
 def build(tree: Tree[Token], source: Source, offset: int) -> syntax.Line:
     """The line that stands at `offset` of `source`."""
-    return cast(syntax.Line, _Builder(source, offset).transform(tree))
+    return cast(syntax.Line, Builder(source, offset).transform(tree))
 
 
 @dataclass(frozen=True, slots=True)
@@ -44,7 +44,7 @@ class _Rate:
 
 
 @v_args(meta=True)
-class _Builder(Transformer_NonRecursive[Token, Any]):
+class Builder(Transformer_NonRecursive[Token, Any]):
     """One method per rule of the grammar; each takes the positions of its rule and what its parts became."""
 
     def __init__(self, source: Source, offset: int) -> None:

@@ -100,7 +100,11 @@ def _title(name: str) -> str:
 
 def explain(error: "UnexpectedInput", code: str, line: Span) -> Diagnostic:
     """Why the grammar refuses the line `code`, in the user's words."""
-    return _opening(code, line) or _common_mistake(MISTAKES, code, line) or _unexpected(error, code, line)
+    return (
+        _opening(code, line)
+        or common_mistake(MISTAKES, code, line)
+        or unexpected(error, code, line, LINES.get(code.split()[0], LINES["skill"]))
+    )
 
 
 def _at(line: Span, start: int, end: int) -> Span:
@@ -126,7 +130,7 @@ def _opening(code: str, line: Span) -> Diagnostic | None:
     if word in _keys() and re.match(r"\s*\w+(\s+[-+\d.]|\s*$)", code):
         hint = "Write it on the line of its declaration, after the kind, as in skill Avoid is mlp hidden 2."
         return Diagnostic("argument-below", f"{word} is an argument, and no fact of its own.", here, hint)
-    if told := _common_mistake(OPENINGS, code, line):
+    if told := common_mistake(OPENINGS, code, line):
         return told
     hint = did_you_mean(word, known) or f"A fact begins with its verb: {listed(VERBS)}."
     if not word[0].isalpha():
@@ -147,7 +151,8 @@ def _keys() -> frozenset[str]:
     return frozenset(argument.key for noun in nouns for cls in kinds(noun).values() for argument in arguments(cls))
 
 
-def _common_mistake(mistakes: Sequence[Mistake], code: str, line: Span) -> Diagnostic | None:
+def common_mistake(mistakes: Sequence[Mistake], code: str, line: Span) -> Diagnostic | None:
+    """The first of the mistakes that the line makes, in words; None where it makes none of them."""
     if len(code.strip()) > MAX_EXPLAINED_CHARACTERS:
         return None
     for mistake in mistakes:
@@ -197,7 +202,8 @@ def _taken(kind: type | None) -> str:
     return listed(argument.key for argument in arguments(kind)) if arguments(kind) else "no arguments"
 
 
-def _unexpected(error: "UnexpectedInput", code: str, line: Span) -> Diagnostic:
+def unexpected(error: "UnexpectedInput", code: str, line: Span, example: str) -> Diagnostic:
+    """Where the line is not as the grammar has it; `example` is such a line as it should be."""
     from lark import UnexpectedToken
 
     if isinstance(error, UnexpectedToken):
@@ -218,5 +224,5 @@ def _unexpected(error: "UnexpectedInput", code: str, line: Span) -> Diagnostic:
     here = code[start:end]
     message = f"{here[:40]} cannot stand here." if here else "The line ends too early."
     comes = f"Here comes {listed(words or ['the end of the line'])}. " if len(words) < 4 else ""
-    hint = f"{comes}Such a line is for example {LINES.get(code.split()[0], LINES['skill'])}."
+    hint = f"{comes}Such a line is for example {example}."
     return Diagnostic("malformed-line", message, _at(line, start, end), hint)

@@ -36,16 +36,17 @@ Maker = Callable[[_Line], Any]
 @cache
 def grammar() -> "Lark":
     """The grammar, with `start` for a whole file and `line` for one line."""
+    return read_grammar("mind.lark", "start", "line")
+
+
+def read_grammar(name: str, *starts: str) -> "Lark":
+    """A grammar of the folder `grammar/`, ready to parse from each of the rules `starts`."""
     from lark import Lark
 
     here = Path(__file__).parents[2]
     folder = next(folder for folder in (here / "grammar", here.parent / "grammar") if folder.is_dir())
-    return Lark(
-        (folder / "mind.lark").read_text(encoding="utf-8"),
-        parser="lalr",
-        start=["start", "line"],
-        propagate_positions=True,
-        maybe_placeholders=False,
+    return Lark.open(
+        str(folder / name), parser="lalr", start=[*starts], propagate_positions=True, maybe_placeholders=False
     )
 
 

@@ -31,6 +31,7 @@ class Visible:
     unread: Set[str] = frozenset()
     commands: Set[str] = frozenset()
     made_of: str = "numbers and the inputs of its skill"
+    where: str = "An expression after at"
 
 
 def resolve(expression: syntax.Expression, visible: Visible, findings: Findings) -> model.Expression:
@@ -115,5 +116,5 @@ def _unknown(term: Phrase, visible: Visible, findings: Findings) -> None:
         hint = findings.suggest(name, visible.readings, visible.elsewhere or ())
         if name in kinds("measure"):
             hint = f"{name} is a measure, which only tasks have; here stand {visible.made_of}."
-        hint = hint or f"An expression after at is made of {visible.made_of}."
+        hint = hint or f"{visible.where} is made of {visible.made_of}."
         findings.error("unknown-reading", term.kind.span, f"There is no reading called {name}.", hint)

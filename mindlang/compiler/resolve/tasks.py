@@ -69,7 +69,9 @@ class RobotFacts:
 
 
 @dataclass(frozen=True, slots=True)
-class _World:
+class World:
+    """What a task says of its world: what its events and measures can be about."""
+
     scene: Any  # a SceneKind; None where it is not well said
     things: tuple[model.Part[Any], ...]
     scope: Scope
@@ -103,7 +105,7 @@ def tasks(robot: RobotFacts, findings: Findings) -> tuple[model.Task, ...]:
     return tuple(found)
 
 
-def _world(declaration: Declaration, robot: RobotFacts, findings: Findings) -> _World:
+def _world(declaration: Declaration, robot: RobotFacts, findings: Findings) -> World:
     """What a task or a scene says of the world."""
     noun, name = declaration.header.noun.text, declaration.header.name.text
     things = things_of(declaration) if declaration.whole else None
@@ -111,7 +113,7 @@ def _world(declaration: Declaration, robot: RobotFacts, findings: Findings) -> _
     phrase = declaration.header.phrase
     scene: Any = make("task", phrase, scope, findings) if phrase else None
     succeeds = not declaration.whole or any(isinstance(fact, Succeeds) for fact in declaration.facts)
-    return _World(scene, _things(declaration, scene, scope, findings), scope, robot.has_battery, succeeds)
+    return World(scene, _things(declaration, scene, scope, findings), scope, robot.has_battery, succeeds)
 
 
 def _task(name: str, declaration: Declaration, robot: RobotFacts, findings: Findings) -> model.Task:
@@ -127,7 +129,7 @@ def _task(name: str, declaration: Declaration, robot: RobotFacts, findings: Find
         _ticks(declaration, robot.tick, findings),
         _ends(declaration, world, robot, findings),
         tuple(_reward(fact, world, robot, findings) for fact in _facts(declaration, Rewards)),
-        tuple(_event(fact.event, world, findings) for fact in _facts(declaration, Counts)),
+        tuple(event_in(fact.event, world, findings) for fact in _facts(declaration, Counts)),
         declaration.facts,
         declaration,
     )
@@ -197,7 +199,7 @@ def _ticks(declaration: Declaration, tick: float, findings: Findings) -> int:
     return int(convert(amount, LASTS, findings) or 1)
 
 
-def _event(written: Phrase, world: _World, findings: Findings) -> Any:
+def event_in(written: Phrase, world: World, findings: Findings) -> Any:
     """The event of a phrase; one that can never happen in the world is reported."""
     event = make("event", written, world.scope, findings)
     if event and (found := event.missing(world)):
@@ -205,12 +207,12 @@ def _event(written: Phrase, world: _World, findings: Findings) -> Any:
     return event
 
 
-def _ends(declaration: Declaration, world: _World, robot: RobotFacts, findings: Findings) -> tuple[model.End, ...]:
+def _ends(declaration: Declaration, world: World, robot: RobotFacts, findings: Findings) -> tuple[model.End, ...]:
     """What ends a run, in the order of the source; of two that come in one tick the first one counts."""
     ends = []
     for fact in (fact for fact in declaration.facts if isinstance(fact, Ends | Succeeds)):
         times = convert(fact.times, TIMES, findings) if fact.times else 1
-        event = _event(fact.event, world, findings) if fact.event else None
+        event = event_in(fact.event, world, findings) if fact.event else None
         when = condition(fact.when, _visible(world, robot), findings) if fact.when else None
         if fact.event and event and event.is_of_success and world.can_succeed:
             hint = "Write what a success is: succeeds on 5 delivery of red."
@@ -219,18 +221,18 @@ def _ends(declaration: Declaration, world: _World, robot: RobotFacts, findings: 
     return tuple(ends)
 
 
-def _visible(world: _World, robot: RobotFacts) -> Visible:
+def _visible(world: World, robot: RobotFacts) -> Visible:
     """What the expressions of a task can see."""
     commands = frozenset(robot.names.of("actuator"))
     return Visible(robot.widths, world.scope, unread=robot.names.unread, commands=commands)
 
 
-def _reward(fact: Rewards, world: _World, robot: RobotFacts, findings: Findings) -> model.Reward:
+def _reward(fact: Rewards, world: World, robot: RobotFacts, findings: Findings) -> model.Reward:
     visible = _visible(world, robot)
     each = None
     if fact.each:
         visible = replace(visible, each=fact.each.name.text)
         each = fact.each.sensor.text if robot.names.find(fact.each.sensor, ("sensor", "memory"), findings) else None
-    on = _event(fact.on, world, findings) if fact.on else None
+    on = event_in(fact.on, world, findings) if fact.on else None
     when = condition(fact.when, visible, findings) if fact.when else None
     return model.Reward(resolve(fact.amount, visible, findings), on, each, when, fact)

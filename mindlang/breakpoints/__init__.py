@@ -1,0 +1,1 @@
+"""Breakpoints in a file: in which ticks of a run somebody wants to look at it."""

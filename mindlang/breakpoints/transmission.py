@@ -1,0 +1,61 @@
+"""Which share of the influence that arrives somewhere a skill transmits, computed by the engine's own functions."""
+
+from collections.abc import Iterator, Sequence
+from math import isfinite
+
+import numpy as np
+from mindrun.think import Hierarchy, Ready, clamped, values
+from numpy.typing import NDArray
+
+from mindlang.breakpoints.breakpoint import Transmission
+
+Sink = tuple[bool, int]  # where an edge goes, as the engine has it: whether it drives, and the place
+NOTHING_SENT = np.float32(0.0)
+
+
+class Transmissions:
+    """The shares of some transmissions, row after row: a function with a memory needs every one that was before."""
+
+    def __init__(self, asked: Sequence[Transmission], mind: Hierarchy, actuators: int) -> None:
+        """The hierarchy has so many actuators, and nothing else makes its skills compute."""
+        self._asked = [(each.skill, _sink(each, actuators)) for each in asked]
+        sinks = {sink for _, sink in self._asked}
+        self._senders = [
+            skill for skill in mind.skills if not sinks.isdisjoint((edge.drives, edge.to) for edge in skill.edges)
+        ]
+
+    def feed(self, readings: NDArray[np.float32], influence: NDArray[np.float32]) -> NDArray[np.float64]:
+        """The shares [transmissions, rows] over the next readings [rows, width] and influence [rows, skills].
+
+        0 where a skill transmits nothing.
+        """
+        found = np.zeros((len(self._asked), len(readings)))
+        with np.errstate(all="ignore"):
+            for row in range(len(readings) if self._asked else 0):
+                found[:, row] = self._shares(readings[row], influence[row])
+        return found
+
+    def _shares(self, readings: NDArray[np.float32], influence: NDArray[np.float32]) -> list[float]:
+        sent: dict[tuple[int, Sink], np.float32] = {}
+        arriving: dict[Sink, np.float32] = {}
+        for skill in self._senders:
+            for sink, passed in _sent(skill, readings, influence[skill.index]):
+                sent[skill.index, sink] = sent.get((skill.index, sink), NOTHING_SENT) + passed
+                arriving[sink] = arriving.get(sink, NOTHING_SENT) + passed
+        return [float(sent[each]) / float(arriving[each[1]]) if sent.get(each) else 0.0 for each in self._asked]
+
+
+def _sink(transmission: Transmission, actuators: int) -> Sink:
+    return transmission.to != "skill", transmission.target + actuators * (transmission.to == "memory")
+
+
+def _sent(skill: Ready, readings: NDArray[np.float32], own: np.float32) -> Iterator[tuple[Sink, np.float32]]:
+    """The influence that goes over each edge: all of the skill's own with a command, or what it sends (Eq. 2)."""
+    if own == 0:
+        return
+    for edge, value in zip(skill.edges, values(skill, readings), strict=True):
+        if value is None or not isfinite(value):
+            continue
+        passed = own if edge.drives else clamped(value) * own
+        if edge.drives or not passed < edge.cuts:
+            yield (edge.drives, edge.to), passed

@@ -1,0 +1,127 @@
+"""Where a run stops is where a loop over its rows finds that it should."""
+
+from dataclasses import dataclass
+from itertools import pairwise
+
+import numpy as np
+from hypothesis import given
+from hypothesis import strategies as st
+from mindrun.engine import procedure_sources
+from mindrun.events import Collision, Exhaustion
+from mindrun.expression import Program, evaluate
+from mindrun.policy import Policy
+from mindrun.think import Hierarchy, hierarchy, think
+from numpy.typing import NDArray
+
+from mindlang.breakpoints.breakpoint import Breakpoint, Happens, Holds, Reaches, Transmission
+from mindlang.breakpoints.transmission import Transmissions
+from mindlang.breakpoints.watch import Part, Stop, Watcher, part
+from tests.hierarchies import PROCEDURES, Case, conditions, programs, random_case
+
+WIDTH, TICKS = 3, 12
+NO_SKILLS = Hierarchy((), 0, 0, 0)
+READINGS = st.sampled_from([0.0, 0.1, 0.25, 1.0, np.nan, np.inf, -1.0]) | st.floats(0, 1, width=32)
+
+
+@dataclass(frozen=True)
+class Watched:
+    """Breakpoints and the rows that they are about."""
+
+    breakpoints: tuple[Breakpoint, ...]
+    rows: Part
+
+
+@st.composite
+def random_watched(draw: st.DrawFn) -> Watched:
+    numbers = draw(st.lists(st.lists(READINGS, min_size=WIDTH, max_size=WIDTH), min_size=TICKS, max_size=TICKS))
+    happened = draw(st.lists(st.lists(st.integers(0, 2), min_size=2, max_size=2), min_size=TICKS, max_size=TICKS))
+    causes = st.one_of(
+        conditions(programs(tuple(range(WIDTH)))).map(lambda program: Holds(program, (), ())),
+        st.builds(Happens, st.sampled_from([Collision(), Exhaustion()]), st.integers(0, 4)),
+        st.integers(1, TICKS + 2).map(Reaches),
+    )
+    found = draw(st.lists(causes, min_size=1, max_size=4))
+    nothing = np.zeros((TICKS, 0), np.float32)
+    return Watched(
+        tuple(Breakpoint(line, "", cause) for line, cause in enumerate(found)),
+        Part(np.array(numbers, np.float32), nothing, nothing, np.cumsum(happened, axis=0)),
+    )
+
+
+def watcher(watched: Watched) -> Watcher:
+    return Watcher(watched.breakpoints, (Collision(), Exhaustion()), NO_SKILLS, 0)
+
+
+def where(stops: list[Stop]) -> list[tuple[int, int]]:
+    return [(stop.tick, stop.breakpoint.line) for stop in stops]
+
+
+def obvious(watched: Watched) -> list[tuple[int, int]]:
+    """The stops, row by row."""
+    found = []
+    for row in range(TICKS):
+        before, here = (row_or_none(watched.rows, at) for at in (row - 1, row))
+        assert here is not None
+        for each in watched.breakpoints:
+            match each.cause:
+                case Holds(program):
+                    stops = holds(program, here[0]) and not (before and holds(program, before[0]))
+                case Happens(event, times):
+                    column = (Collision(), Exhaustion()).index(event)
+                    now, then = here[1][column], before[1][column] if before else 0
+                    stops = then < times <= now if times else now > then
+                case Reaches(tick):
+                    stops = tick == row + 1
+            if stops:
+                found.append((row + 1, each.line))
+    return found
+
+
+def row_or_none(rows: Part, at: int) -> tuple[NDArray[np.float32], NDArray[np.int64]] | None:
+    return (rows.readings[at], rows.events[at]) if at >= 0 else None
+
+
+def holds(program: Program, readings: NDArray[np.float32]) -> bool:
+    with np.errstate(all="ignore"):
+        return bool(evaluate(program, readings) > 0)
+
+
+@given(random_watched())
+def test_a_run_stops_where_a_loop_over_its_rows_stops(watched: Watched) -> None:
+    assert where(watcher(watched).feed(watched.rows)) == obvious(watched)
+
+
+@given(random_watched(), st.lists(st.integers(0, TICKS), max_size=4))
+def test_rows_that_come_in_parts_stop_a_run_where_they_do_at_once(watched: Watched, cuts: list[int]) -> None:
+    bounds = [0, *sorted(cuts), TICKS]
+    watching = watcher(watched)
+    found = [stop for first, end in pairwise(bounds) for stop in watching.feed(part(watched.rows, first, end))]
+    assert found == watcher(watched).feed(watched.rows)
+    assert watching.ticks == TICKS
+
+
+@given(random_case())
+def test_the_shares_that_arrive_are_what_thinking_adds_up(case: Case) -> None:
+    """Together they are all that arrives, and nothing where nothing does."""
+    graph = case.graph
+    thinking, watching = (ready(case) for _ in range(2))  # each with the state of its own functions
+    with np.errstate(all="ignore"):
+        influence = np.array([think(thinking, row).influence for row in case.readings])
+    asked = [
+        Transmission(skill.index, to, target)
+        for skill in watching.skills
+        for to, target in {(edge.to, edge.target) for edge in graph.skills[skill.index].edges}
+    ]
+    shares = Transmissions(asked, watching, len(graph.actuators)).feed(case.readings, influence)
+    for to, target in {(each.to, each.target) for each in asked}:
+        whole = sum(share for each, share in zip(asked, shares, strict=True) if (each.to, each.target) == (to, target))
+        certain = np.isfinite(whole) & np.isfinite(influence).all(axis=1)
+        assert np.isin(np.round(whole[certain], 5), [0, 1]).all()
+        if to == "skill":
+            assert ((whole > 0.5) == (influence[:, target] > 0))[certain].all()
+
+
+def ready(case: Case) -> Hierarchy:
+    """The hierarchy of a case, as at the beginning of a run."""
+    sources = procedure_sources(case.graph, PROCEDURES)
+    return hierarchy(Policy(case.graph, case.weights), sources, case.graph.master)
