@@ -9,7 +9,7 @@ from mindrun.changes import ChangeError
 
 from mindlang.cli._run_session import RunSession
 from mindlang.cli._simulator_compilation import ensure_stages_compiled
-from mindlang.cli._terminal import MISUSE, console, fail, print_json, procedures_talk
+from mindlang.cli._terminal import MISUSE, console, fail, print_json, procedures_talk, write_file
 from mindlang.whatif.changed_run import compare
 from mindlang.whatif.report import comparison_data, comparison_summary
 from mindlang.whatif.request import Request, changes_of
@@ -42,3 +42,10 @@ def compare_runs(file: str, played: Played, request: Request, picture: Path | No
         print_json(comparison_data(request, compared))
     else:
         console().print(comparison_summary(request, compared))
+    if picture:
+        from mindlang.pictures.picture import png
+        from mindlang.pictures.two_paths import two_paths
+
+        both = [(each.run, each.found) for each in (compared.was, compared.now)]
+        write_file(picture, png(two_paths(both, request.words, request.tick)))
+        session.say(f"{picture}: both paths of the robot")

@@ -1,9 +1,11 @@
 """The picture of a run: its world as it was in the end, and the path that led there."""
 
+from collections.abc import Iterator
 from typing import Any
 
 import cv2
 import numpy as np
+from numpy.typing import NDArray
 
 from mindlang.pictures.canvas import Canvas, Image, Viewport, blank, pasted
 from mindlang.pictures.caption import draw_legend, draw_scale, draw_title
@@ -52,14 +54,20 @@ def height_of(run: RecordedRun) -> int:
     return min(PICTURE_PIXELS, TOP_PIXELS + BOTTOM_PIXELS + round((PICTURE_PIXELS - 2 * SIDE_PIXELS) * float(y / x)))
 
 
-def view_of(run: RecordedRun, width: int, height: int) -> Viewport:
-    """The arena, or in a plain scene all that happened."""
+def view_of(run: RecordedRun, width: int, height: int, *others: RecordedRun) -> Viewport:
+    """The arena, or in a plain scene all that happened, in other runs of the task as well."""
     if run.task.scene.is_bounded:
         half = np.add(half_sides(run.task.scene), WALL_UNITS)
         return Viewport.around(-half, half, width, height)
-    places = [run.body[:, :2], *(run.placements(i)[:, :2] for i in range(len(run.contents)))]
-    seen = np.concatenate([*places, run.boxes[:, :2]])
+    seen = np.concatenate([places for each in (run, *others) for places in _places(each)])
     return Viewport.around(seen.min(axis=0) - PLAIN_MARGIN_UNITS, seen.max(axis=0) + PLAIN_MARGIN_UNITS, width, height)
+
+
+def _places(run: RecordedRun) -> Iterator[NDArray[np.float64]]:
+    """The places [n, 2] at which anything was."""
+    yield run.body[:, :2]
+    yield from (run.placements(i)[:, :2] for i in range(len(run.contents)))
+    yield run.boxes[:, :2]
 
 
 def png(image: Image) -> bytes:

@@ -4,11 +4,14 @@ import json
 from pathlib import Path
 from typing import Any
 
+import cv2
 import numpy as np
 import pytest
 from mindrun.changes import change_of, silenced
 
 from mindlang.compiler.compile import load
+from mindlang.pictures.picture import view_of
+from mindlang.pictures.theme import PAPER
 from mindlang.run.setup import RunSetup, set_up
 from mindlang.whatif.changed_run import compare, course
 from mindlang.whatif.difference import Difference, first_differences
@@ -81,6 +84,30 @@ def test_the_summary_is_for_people(mindc: Call, rules: Path) -> None:
     assert "without Chase and ball_bearing=0.5, from tick 20 on" in said.out
     assert "tick 20  influence of Chase 1 → 0" in said.out
     assert "as it was" in said.out
+
+
+def test_both_paths_are_in_the_picture(mindc: Call, rules: Path, tmp_path: Path) -> None:
+    path = tmp_path / "paths.png"
+    said = mindc(
+        "whatif", rules, "--task", "Chase", "--tick", 100, "--set", "Turn=5", "--ticks", 100, "--picture", path
+    )
+    assert said.code == 0
+    assert "both paths" in said.err
+    image = cv2.imread(str(path)).astype(int)
+    for colour in PAPER.skills[:2]:
+        assert (np.abs(image[100:-80] - colour).max(axis=2) < 30).sum() > 300
+    assert mindc("whatif", rules, "--without", "Turn", "--picture", tmp_path / "paths.jpg").code == 2
+
+
+def test_the_picture_of_a_plain_scene_has_room_for_both(rules: Path) -> None:
+    setup = set_up(str(rules), load(rules), "Chase", None)
+    compared = compare(setup, setup.rollout(), 3, silenced(setup.ready.policy.graph, "Chase"))
+    both = [compared.was.run, compared.now.run]
+    view = view_of(both[0], 900, 900, both[1])
+    places = np.concatenate([run.body[:, :2] for run in both])
+    pixels = (places - [view.left, view.top]) * view.scale * [1, -1]
+    assert (pixels > 0).all()
+    assert (pixels < 900).all()
 
 
 @pytest.mark.parametrize(
