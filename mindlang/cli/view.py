@@ -1,4 +1,4 @@
-"""`mindc view`: a run, seen in a browser."""
+"""`mindc view`: a run or a recording, seen in a browser."""
 
 from __future__ import annotations
 
@@ -16,6 +16,7 @@ EXAMPLES = """\b
 Examples:
   mindc view collect.mind
   mindc view collect.mind --task Collect --seed 3
+  mindc view day.rec ball.bundle                 what a robot has recorded
   mindc view collect.mind --task Avoid --no-interruption --port 8123 --no-browser
   mindc view collect.mind --task Collect --export run.html
 """
@@ -24,6 +25,7 @@ MAX_PORT = 65535
 
 @click.command(epilog=EXAMPLES)
 @click.argument("file")
+@click.argument("bundle", required=False)
 @click.option("--task", metavar="TASK", help="Default: that on which the master is taught, or of its name.")
 @click.option("--seed", type=WholeOption(0, 2**64 - 1), help="The same seed gives the same run. Default: drawn.")
 @click.option("--master", metavar="SKILL", help="Who is in charge. Default: the master of the task's first lesson.")
@@ -34,6 +36,7 @@ MAX_PORT = 65535
 @click.option("-q", "--quiet", is_flag=True, help="Print nothing but the address and errors.")
 def command(
     file: str,
+    bundle: str | None,
     task: str | None,
     seed: int | None,
     master: str | None,
@@ -45,18 +48,29 @@ def command(
 ) -> None:
     """See a run of FILE in a browser: the world, the hierarchy, and every value over time.
 
-    Serves a page at an address of this machine, which nobody else can open, until Ctrl-C; a browser that is closed may
-    open it again. With --export it is one file, which opens from a disk without a server. Runs the Python code of the
-    file's procedures.
+    Or what a robot has recorded, with the BUNDLE that was running. Serves a page at an address of this machine, which
+    nobody else can open, until Ctrl-C; a browser that is closed may open it again. With --export it is one file, which
+    opens from a disk without a server. Runs the Python code of procedures.
     """
     from mindlang.cli._terminal import refuse_unwritable
 
     refuse_unwritable(export, ".html")
-    viewed = _simulated(file, task, seed, master, not no_interruption, quiet)
+    if bundle is None:
+        _refuse_recording(file)
+        viewed = _simulated(file, task, seed, master, not no_interruption, quiet)
+    elif (task, seed, master, no_interruption) == (None, None, None, False):
+        viewed = _recorded(file, bundle)
+    else:
+        raise click.UsageError("A recording has its task, its master and its end: those options are for a .mind file.")
     if export:
         _export(viewed, export, quiet)
     else:
         _serve(viewed, port, not no_browser, quiet)
+
+
+def _refuse_recording(file: str) -> None:
+    if file.endswith(".rec"):
+        raise click.UsageError(f"A recording is seen with the bundle that was running: mindc view {file} NAME.bundle")
 
 
 def _simulated(
@@ -74,6 +88,21 @@ def _simulated(
     skills = compiled.mind.skills if compiled.mind else ()
     texts = {(skill.name, edge.target): text_after_name(edge.fact) for skill in skills for edge in skill.edges}
     return viewed_run(setup, rollout, secrets.randbits(31) if seed is None else seed, texts)
+
+
+def _recorded(file: str, bundle: str) -> Viewed:
+    from pathlib import Path
+
+    from mindrun.errors import MindError
+
+    from mindlang.cli._terminal import MISUSE, fail, procedures_talk
+    from mindlang.view.viewed_recording import viewed_recording
+
+    try:
+        with procedures_talk():
+            return viewed_recording(Path(file), Path(bundle))
+    except MindError as error:
+        fail(str(error), error.hint, MISUSE)
 
 
 def _serve(viewed: Viewed, port: int | None, opens: bool, quiet: bool) -> None:

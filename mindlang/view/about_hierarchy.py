@@ -87,6 +87,7 @@ class HierarchyData:
             ("reading", "readings", [*enumerate(reading_names(graph))]),
             ("influence", "influence", [(i, s.name) for i, s in enumerate(graph.skills) if s.name in reached]),
             ("command", "commands", [*enumerate(actuator.name for actuator in graph.actuators)]),
+            ("command", "sent", [*enumerate(f"{actuator.name}, sent" for actuator in graph.actuators)]),
             ("reward", "rewards", [*enumerate(rewards)]),
             ("world", "robot", [*enumerate(("x", "y", "angle"))]),
             ("world", "battery", [(0, "battery")]),

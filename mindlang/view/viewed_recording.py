@@ -1,0 +1,139 @@
+"""What a robot has recorded, seen: what was read, thought and sent, and nothing of the world that it was in."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from mindrun.bundle import Bundle, digest, read_bundle
+from mindrun.engine import Engine
+from mindrun.robot.recording import MAX_HEADER_BYTES, About, read
+from mindrun.think import hierarchy
+from mindrun.virtual_sensors import virtual_sensors
+from mindrun.weights import reachable
+from numpy.typing import NDArray
+
+from mindlang.view.about_hierarchy import HierarchyData
+from mindlang.view.columns import FLOW, Columns
+from mindlang.view.edge_flow import EdgeFlow
+from mindlang.view.row_blocks import Chunk, Singles, Ticks
+from mindlang.view.texts import shown
+from mindlang.view.viewed import Viewed
+
+CHUNK_TICKS = 1000
+BEGIN_COLUMN = 1  # of the events: stopped, began anew, and a fault of each sensor
+Rows = NDArray[Any]
+
+
+def viewed_recording(path: Path, bundle: Path) -> Viewed:
+    """A recording and the bundle that was running; MindError where one cannot be read, or they do not fit.
+
+    Runs the Python code of the bundle's procedures.
+    """
+    mind = read_bundle(bundle)
+    of, parts = read(path)
+    of.refuse_another(digest(bundle), mind.graph)
+    skills = reachable(mind.graph, of.master)
+    columns = recording_columns(mind, of, sum(len(skill.edges) for skill in skills))
+    below = HierarchyData(mind.graph, of.master, skills, columns)
+    begins: set[int] = set()  # filled while the rows come
+    about = {
+        "title": shown(f"{path.name} with {of.master} in charge"),
+        "task": None,
+        "master": shown(of.master),
+        "source": "recording",
+        "seed": None,
+        "tick": of.tick,
+        "of_ticks": _row_count(path, of),
+        "events": [
+            {"text": "stopped", "kind": "stopped"},
+            {"text": "began anew", "kind": "begin"},
+            *({"text": shown(f"fault of {name}"), "kind": "fault"} for name in of.sensors),
+        ],
+        "rewards": [],
+        "ends": [],
+        "world": None,
+        "curves": below.curves(),
+        **below.data({}),
+    }
+
+    def flow(viewed: Viewed) -> EdgeFlow:
+        def rows(ticks: Ticks) -> tuple[Singles, Singles]:
+            return viewed.group("readings", ticks), viewed.group("influence", ticks)
+
+        return EdgeFlow(hierarchy(mind.policy, mind.procedures, of.master), rows, begins)
+
+    return Viewed(about, columns, recording_chunks(parts, mind, of, columns, begins), flow)
+
+
+def recording_columns(mind: Bundle, of: About, edges: int) -> Columns:
+    """The columns of a recording."""
+    commands = len(of.actuators)
+    return Columns.of(
+        {"time": 1},
+        {
+            "readings": mind.graph.width,
+            "influence": len(of.skills),
+            "commands": commands,
+            "sent": commands,
+            "stopped": 1,
+            "armed": 1,
+            "faults": len(of.sensors),
+            FLOW: edges,
+        },
+    )
+
+
+def recording_chunks(
+    parts: Iterator[Rows], mind: Bundle, of: About, columns: Columns, begins: set[int]
+) -> Iterator[Chunk]:
+    """Its rows; RecordingError where one is damaged. `begins` gets the ticks in which the mind was begun anew."""
+    yield Chunk(np.full((1, 1), np.nan), np.zeros((1, columns.kept_singles), np.float32))
+    fill = _filler(mind, of)
+    number, start, before = 0, 0.0, np.zeros(2 + len(of.sensors), bool)
+    for part in parts:
+        for first in range(0, len(part), CHUNK_TICKS):
+            rows = part[first : first + CHUNK_TICKS]
+            start = start if number else float(rows["time"][0])
+            begins |= {number + 1 + int(row) for row in np.flatnonzero(rows["tick"] == 0)}
+            facts = np.column_stack([rows["stopped"], rows["tick"] == 0, rows["faults"]]) != 0
+            facts[0, BEGIN_COLUMN] &= number > 0
+            happened = np.argwhere(facts & ~np.concatenate([before[None], facts[:-1]]))
+            yield Chunk(
+                (rows["time"] - start)[:, None],
+                _singles(rows, fill(rows)),
+                tuple((number + 1 + int(row), int(event)) for row, event in happened),
+            )
+            number, before = number + len(rows), facts[-1]
+
+
+def _singles(rows: Rows, readings: Singles) -> Singles:
+    states = [rows[name][:, None] for name in ("stopped", "armed")]
+    each = [readings, rows["influence"], rows["commands"], rows["sent"], *states, rows["faults"]]
+    return np.concatenate(each, axis=1).astype(np.float32)
+
+
+def _filler(mind: Bundle, of: About) -> Callable[[Rows], Singles]:
+    """Fills in the readings that a robot computes, which are not recorded: those of virtual sensors and memories."""
+    if not virtual_sensors(mind.graph) and not mind.graph.memories:
+        return lambda rows: rows["readings"]
+    engine = Engine(mind.policy, mind.procedures, of.master)
+
+    def filled(rows: Rows) -> Singles:
+        found = np.empty_like(rows["readings"])
+        for place, row in enumerate(rows):
+            if row["tick"] == 0:
+                engine.reset()
+            engine.tick(row["readings"])
+            found[place] = engine.readings
+        return found
+
+    return filled
+
+
+def _row_count(path: Path, of: About) -> int:
+    with path.open("rb") as file:
+        header = len(file.readline(MAX_HEADER_BYTES))
+    return max(0, path.stat().st_size - header) // of.row.itemsize

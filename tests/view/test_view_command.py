@@ -1,0 +1,98 @@
+"""`mindc view` from its command to its end."""
+
+import os
+import signal
+import socket
+import subprocess
+import sys
+import webbrowser
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from threading import Event
+from urllib.request import urlopen
+
+import pytest
+from websockets.sync.client import connect
+from websockets.typing import Origin
+
+from mindlang.cli import view as view_command
+from tests.calling import Call
+from tests.view.serving import ANSWER_SECONDS, ViewingClient
+
+MINDC = (sys.executable, "-c", "from mindlang.cli import main; main()")
+
+
+@contextmanager
+def begun(*words: object) -> Iterator["subprocess.Popen[str]"]:
+    """The command as a process, which does not outlive the test."""
+    command = [*MINDC, "view", *map(str, words), "--no-browser"]
+    process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, env=os.environ)
+    try:
+        with process:
+            yield process
+    finally:
+        process.kill()
+
+
+def test_it_says_where_it_is_and_ctrl_c_ends_it_quietly(rules: Path) -> None:
+    with begun(rules, "--task", "Chase", "--seed", 3) as process:
+        assert process.stdout is not None
+        address, token = process.stdout.readline().strip().split("#")
+        assert address.startswith("http://127.0.0.1:")
+        with urlopen(address) as page:
+            assert page.headers["Content-Type"] == "text/html; charset=utf-8"
+        with connect(f"ws{address.removeprefix('http')}rows", origin=Origin(address.rstrip("/"))) as connection:
+            connection.send(token)
+            viewer = ViewingClient(connection)
+            about = viewer.hear("about")
+            assert (about["task"], about["seed"], about["edits"]) == ("Chase", "3", True)
+            assert viewer.run(100)["known"] >= 100
+            process.send_signal(signal.SIGINT)
+            out, err = process.communicate(timeout=ANSWER_SECONDS)
+    assert process.returncode == 130
+    assert (out, err.strip().splitlines()[-1]) == ("", "Ctrl-C ends this; a browser that is closed does not.")
+
+
+def test_a_port_that_is_taken_is_said(rules: Path, mindc: Call) -> None:
+    with socket.create_server(("127.0.0.1", 0)) as taken:
+        port = taken.getsockname()[1]
+        said = mindc("view", rules, "--seed", 3, "--port", port, "--no-browser", "-q")
+    assert (said.code, said.out) == (2, "")
+    assert said.err.startswith(f"port {port} of this machine cannot be opened: ")
+    assert "--port" in said.err
+
+
+@pytest.mark.parametrize("port", [0, -1, 65536, "http"])
+def test_what_is_no_port_is_refused(rules: Path, mindc: Call, port: object) -> None:
+    assert mindc("view", rules, "--port", port).code == 2
+
+
+def test_a_browser_with_windows_is_opened_and_no_other(monkeypatch: pytest.MonkeyPatch) -> None:
+    """One that runs in a terminal would take the one that the command runs in."""
+    opened, done = [], Event()
+
+    class Windows(webbrowser.BaseBrowser):
+        def open(self, url: str, new: int = 0, autoraise: bool = True) -> bool:
+            opened.append(url)
+            done.set()
+            return True
+
+    monkeypatch.setattr(webbrowser, "get", Windows)
+    view_command._open("http://127.0.0.1:1/#token")
+    assert done.wait(ANSWER_SECONDS)
+    monkeypatch.setattr(webbrowser, "get", lambda: webbrowser.GenericBrowser("true"))
+    view_command._open("http://127.0.0.1:2/#token")
+
+    def none() -> None:
+        raise webbrowser.Error("there is none")
+
+    monkeypatch.setattr(webbrowser, "get", none)
+    view_command._open("http://127.0.0.1:3/#token")
+    assert opened == ["http://127.0.0.1:1/#token"]
+
+
+def test_what_edges_say_is_told(rules: Path) -> None:
+    viewed = view_command._simulated(str(rules), "Chase", 3, None, True, True)
+    texts = {edge["text"] for edge in viewed.about["edges"]}
+    assert {"at 1", "at 0.2", "at 3 * ball_bearing - 0.7"} <= texts
