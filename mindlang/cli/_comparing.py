@@ -1,35 +1,49 @@
-"""What `mindc whatif` does: a run as it is and with changes; printed, drawn."""
+"""What `mindc whatif` does: a run, or a recording, as it is and with changes; printed, drawn."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 
 from mindrun.changes import ChangeError
+from mindrun.errors import MindError
 
 from mindlang.cli._run_session import RunSession
 from mindlang.cli._simulator_compilation import ensure_stages_compiled
-from mindlang.cli._terminal import MISUSE, console, fail, print_json, procedures_talk, write_file
-from mindlang.whatif.changed_run import compare
-from mindlang.whatif.report import comparison_data, comparison_summary
+from mindlang.cli._terminal import (
+    FINDINGS,
+    MISUSE,
+    console,
+    fail,
+    print_json,
+    procedures_talk,
+    refuse_unwritable,
+    write_file,
+)
+from mindlang.whatif.changed_run import Compared, compare
+from mindlang.whatif.mind_version import from_bundle
+from mindlang.whatif.open_loop import OpenLoop, compare_recording
+from mindlang.whatif.report import comparison_data, comparison_summary, recording_data, recording_summary
 from mindlang.whatif.request import Request, changes_of
 
 
 @dataclass(frozen=True, slots=True)
 class Played:
-    """Which run of a mind it is."""
+    """Which run of a mind it is, and where it is drawn."""
 
     task: str | None
     seed: int
     master: str | None
     interrupt: bool
+    picture: Path | None
 
 
-def compare_runs(file: str, played: Played, request: Request, picture: Path | None, as_json: bool, quiet: bool) -> None:
+def compare_runs(file: str, played: Played, request: Request, as_json: bool, quiet: bool) -> None:
     """Run as it is and with changes, and print what differs."""
     session = RunSession(quiet)
-    if request.is_empty:
-        fail("nothing is changed", "Say what: --without SKILL, --sensor NAME=0.5 or --set NAME=0.5", MISUSE)
+    _refuse_nothing(request)
+    refuse_unwritable(played.picture, ".png")
     setup, rollout = session.prepare(file, played.task, played.master, played.interrupt)
     ensure_stages_compiled(rollout, session.say)
     try:
@@ -42,10 +56,38 @@ def compare_runs(file: str, played: Played, request: Request, picture: Path | No
         print_json(comparison_data(request, compared))
     else:
         console().print(comparison_summary(request, compared))
-    if picture:
-        from mindlang.pictures.picture import png
-        from mindlang.pictures.two_paths import two_paths
+    if played.picture:
+        _draw(compared, request, played.picture)
+        session.say(f"{played.picture}: both paths of the robot")
 
-        both = [(each.run, each.found) for each in (compared.was, compared.now)]
-        write_file(picture, png(two_paths(both, request.words, request.tick)))
-        session.say(f"{picture}: both paths of the robot")
+
+def _draw(compared: Compared, request: Request, path: Path) -> None:
+    from mindlang.pictures.picture import png
+    from mindlang.pictures.two_paths import two_paths
+
+    both = [(each.run, each.found) for each in (compared.was, compared.now)]
+    write_file(path, png(two_paths(both, request.words, request.tick)))
+
+
+@procedures_talk()
+def _recorded(path: Path, bundle: Path, request: Request) -> OpenLoop:
+    mind = from_bundle(bundle)
+    return compare_recording(path, bundle, mind, None, partial(changes_of, request), request.tick)
+
+
+def compare_recorded(path: Path, bundle: Path, request: Request, as_json: bool) -> None:
+    """Compute a recording as it was and with changes, and print what differs."""
+    _refuse_nothing(request)
+    try:
+        found = _recorded(path, bundle, request)
+    except MindError as error:
+        fail(str(error), error.hint, MISUSE if isinstance(error, ChangeError) else FINDINGS)
+    if as_json:
+        print_json(recording_data(request, found))
+    else:
+        console().print(recording_summary(request, path.name, found))
+
+
+def _refuse_nothing(request: Request) -> None:
+    if request.is_empty:
+        fail("nothing is changed", "Say what: --without SKILL, --sensor NAME=0.5 or --set NAME=0.5", MISUSE)

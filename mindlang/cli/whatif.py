@@ -14,13 +14,15 @@ Examples:
   mindc whatif collect.mind --task Collect --seed 3 --sensor proximity=1 --picture paths.png
   mindc whatif collect.mind --task Collect --seed 3 --tick 812 --set object_bearing=0.5 --ticks 60
   mindc whatif collect.mind --task Collect --seed 3 --tick 812 --without Avoid --json
+  mindc whatif day.rec ball.bundle --without Avoid
 """
 
 
 @click.command(epilog=EXAMPLES)
 @click.argument("file")
+@click.argument("bundle", required=False, type=click.Path(path_type=Path))
 @click.option("--task", metavar="TASK", help="Default: that on which the master is taught, or of its name.")
-@click.option("--seed", type=WholeOption(0, 2**64 - 1), default=1, show_default=True, help="Of the run.")
+@click.option("--seed", type=WholeOption(0, 2**64 - 1), help="Of the run. Default: 1.")
 @click.option("--master", metavar="SKILL", help="Who is in charge. Default: the master of the task's first lesson.")
 @click.option("--no-interruption", is_flag=True, help="Go on to the last tick, whatever would end the run.")
 @click.option("--tick", type=WholeOption(1, 2**53), default=1, help="The first tick that is changed. Default: 1.")
@@ -37,8 +39,9 @@ Examples:
 @click.option("-q", "--quiet", is_flag=True, help="Print nothing but results and errors.")
 def command(
     file: str,
+    bundle: Path | None,
     task: str | None,
-    seed: int,
+    seed: int | None,
     master: str | None,
     no_interruption: bool,
     tick: int,
@@ -54,11 +57,22 @@ def command(
 
     Both runs are the same to the bit until then. Says in which tick they differ first and in what, and what came of
     both. Runs the Python code of the file's procedures.
+
+    Where FILE is a robot's recording, BUNDLE is the one that was running: says what it would have sent for the same
+    readings, in an open loop.
     """
-    from mindlang.cli._comparing import Played, compare_runs
-    from mindlang.cli._terminal import refuse_unwritable
+    from mindlang.cli._comparing import Played, compare_recorded, compare_runs
     from mindlang.whatif.request import Request
 
     request = Request(tick, ticks, without, sensor, settings)
-    refuse_unwritable(picture, ".png")
-    compare_runs(file, Played(task, seed, master, not no_interruption), request, picture, as_json, quiet)
+    if bundle is None and file.endswith(".rec"):
+        raise click.UsageError(f"{file} is a recording: say the bundle that was running after it.")
+    if bundle is None:
+        played = Played(task, 1 if seed is None else seed, master, not no_interruption, picture)
+        compare_runs(file, played, request, as_json, quiet)
+        return
+    if any(option is not None for option in (task, seed, master, picture)) or no_interruption:
+        raise click.UsageError(
+            "--task, --seed, --master, --no-interruption and --picture are of runs, not of recordings."
+        )
+    compare_recorded(Path(file), bundle, request, as_json)

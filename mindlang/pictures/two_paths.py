@@ -57,8 +57,8 @@ def two_paths(both: Sequence[tuple[RecordedRun, dict[str, Any]]], words: str, ti
     canvas.text(SIDE_PIXELS, 40, was.task.name, TITLE_PIXELS, PAPER.ink, bold=True)
     said = f"{ways[0].found['master']} in charge, seed {ways[0].found['seed']}, {words}"
     _fitting(canvas, SIDE_PIXELS, 70, said, WORDS_PIXELS, right - 110)
-    wide = canvas.text(right, 70, f"tick {tick:,}", SMALL_PIXELS, PAPER.ink, align="right") / canvas.pen
-    _mark(canvas, right - wide - 2 * MARK_PIXELS, 66, 1.0)
+    said_wide = canvas.text(right, 70, f"tick {tick:,}", SMALL_PIXELS, PAPER.ink, align="right") / canvas.pen
+    _mark(canvas, right - said_wide - 2 * MARK_PIXELS, 66, 1.0)
     for line, way in enumerate(ways):
         _outcome(canvas, way, SIDE_PIXELS, height - 46.0 + OUTCOME_PIXELS * line, right - 150.0)
     draw_scale(canvas, SCALE_FACTOR / view.scale, PAPER, right, height - 44)

@@ -9,6 +9,7 @@ from rich.text import Text
 from mindlang.number_format import score
 from mindlang.whatif.changed_run import Compared
 from mindlang.whatif.difference import Difference
+from mindlang.whatif.open_loop import OPEN_LOOP, OpenLoop, Sent
 from mindlang.whatif.request import Request
 
 MAX_NAMED_DIFFERENCES = 6  # of one kind in one tick
@@ -56,7 +57,7 @@ def comparison_summary(request: Request, compared: Compared) -> RenderableType:
         "",
         differences_text(compared.differences),
         "",
-        beside([("", "as it was", "changed"), *_rows(was, now)]),
+        aligned([("", "as it was", "changed"), *_rows(was, now)]),
     )
 
 
@@ -70,6 +71,45 @@ def comparison_data(request: Request, compared: Compared) -> dict[str, Any]:
         "differs": [each.as_data() for each in compared.differences],
         "as_it_was": _outcome(was),
         "changed": _outcome(now),
+    }
+
+
+def recording_summary(request: Request, name: str, found: OpenLoop) -> RenderableType:
+    """What the mind would have sent for the readings of a recording."""
+    return Group(
+        Text.assemble((name, "bold"), f" with {found.master} in charge, {found.ticks:,} ticks"),
+        Text(request.words),
+        Text(OPEN_LOOP),
+        "",
+        differences_text(found.differences),
+        "",
+        aligned([("command", "differs in ticks", "mean", "most", "in tick"), *map(_sent_row, found.sent)]),
+    )
+
+
+def _sent_row(sent: Sent) -> tuple[str, ...]:
+    most_tick = f"{sent.most_tick:,}" if sent.ticks else "–"
+    return sent.name, f"{sent.ticks:,}", f"{sent.mean:.4g}", f"{sent.most:.4g}", most_tick
+
+
+def recording_data(request: Request, found: OpenLoop) -> dict[str, Any]:
+    """The contents of `--json`: `commands` has by how much each differs over the ticks from the first one changed."""
+    return {
+        "master": found.master,
+        "ticks": found.ticks,
+        "changes": [*request.parts],
+        "tick": request.tick,
+        "open_loop": True,
+        "differs": [each.as_data() for each in found.differences],
+        "commands": {
+            sent.name: {
+                "ticks": sent.ticks,
+                "mean": sent.mean,
+                "most": sent.most,
+                "most_tick": sent.most_tick if sent.ticks else None,
+            }
+            for sent in found.sent
+        },
     }
 
 
@@ -97,11 +137,13 @@ def _column(found: dict[str, Any], was: dict[str, Any], now: dict[str, Any]) -> 
     yield "score", score(found["score"])
 
 
-def beside(rows: Sequence[tuple[str, str, str]]) -> Text:
-    """Three columns, numbers to the right; nothing is padded at the ends of lines."""
-    first, second, third = (max(len(row[i]) for row in rows) for i in range(3))
+def aligned(rows: Sequence[Sequence[str]]) -> Text:
+    """Columns, the first to the left and numbers to the right; nothing is padded at the ends of lines."""
+    first, *others = (max(map(len, column)) for column in zip(*rows, strict=True))
     lines = (
-        Text.assemble((f"{name:<{first}}", "dim"), f"  {was:>{second}}  {now:>{third}}".rstrip())
-        for name, was, now in rows
+        Text.assemble(
+            (f"{name:<{first}}", "dim"), *(f"  {value:>{width}}" for value, width in zip(values, others, strict=True))
+        )
+        for name, *values in rows
     )
     return Text("\n").join(lines)

@@ -1,0 +1,145 @@
+"""A robot's recording with something changed: what the mind would have sent for the readings that there were.
+
+Open loop: other commands would have led to other readings, and nobody knows which.
+"""
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from mindrun.bundle import digest
+from mindrun.changed_engine import ChangedEngine
+from mindrun.changes import Change, ChangeError, in_tick
+from mindrun.graph import Graph
+from mindrun.named_readings import physical
+from mindrun.robot.recording import About, RecordingError, read
+from numpy.typing import NDArray
+
+from mindlang.compiler.diagnostic import listed
+from mindlang.whatif.difference import Columns, Difference, first_differences, mind_columns
+from mindlang.whatif.mind_version import MindVersion
+
+OPEN_LOOP = "open loop: the readings are those of the recording, whatever other commands would have led to"
+Thought = tuple[NDArray[np.float32], NDArray[np.float32], NDArray[np.float32]]  # readings, influence, commands
+
+
+@dataclass(frozen=True, slots=True)
+class Sent:
+    """An actuator: in how many ticks its command is another, by how much in the mean and at most, and when that is."""
+
+    name: str
+    ticks: int
+    mean: float
+    most: float
+    most_tick: int
+
+
+@dataclass(frozen=True, slots=True)
+class OpenLoop:
+    """What of a recording differs; ticks are counted from 1 over the whole recording."""
+
+    master: str
+    ticks: int
+    differences: list[Difference]
+    sent: list[Sent]
+
+
+def compare_recording(
+    path: Path,
+    bundle: Path,
+    mind: MindVersion,
+    other: MindVersion | None,
+    changes: Callable[[Graph, str], Sequence[Change]],
+    tick: int,
+) -> OpenLoop:
+    """Compute a recording as it was and with changes, under another mind from a tick on where there is one.
+
+    RecordingError where the recording was made with another bundle, or is not what this one computes; ChangeError where
+    it ends before the tick. Runs the Python code of both minds' procedures.
+    """
+    about, parts = read(path)
+    about.refuse_another(digest(bundle), mind.graph)
+    theirs = other or replace(mind, master=about.master)
+    both = _Both(
+        path,
+        ChangedEngine(mind.policy, mind.procedures, about.master),
+        ChangedEngine(theirs.policy, theirs.procedures, theirs.master),
+        _places(about, mind.graph, theirs),
+        changes(theirs.graph, theirs.master),
+    )
+    ticks = [both.tick(number, row) for number, row in _numbered(parts)]
+    if len(ticks) < tick:
+        raise ChangeError(f"{path} has {len(ticks):,} ticks: there is no tick {tick:,}", "say an earlier one")
+    was, now = ([*map(np.array, zip(*(each[i] for each in ticks), strict=True))] for i in (0, 1))
+    return _compared(about.master, mind_columns(mind.graph, *was), mind_columns(theirs.graph, *now), tick)
+
+
+def _numbered(parts: Iterator[NDArray[Any]]) -> Iterator[tuple[int, Any]]:
+    number = 0
+    for rows in parts:
+        for row in rows:
+            number += 1
+            yield number, row
+
+
+@dataclass(frozen=True, slots=True)
+class _Both:
+    """The mind that was running, and the one that is changed; `places` has where its readings stand in a row."""
+
+    path: Path
+    ours: ChangedEngine
+    theirs: ChangedEngine
+    places: NDArray[np.intp]
+    changes: Sequence[Change]
+
+    def tick(self, number: int, row: Any) -> tuple[Thought, Thought]:
+        """What both read, thought and sent; RecordingError where the first of them is not what was recorded."""
+        if row["tick"] == 0:  # begun anew
+            self.ours.reset()
+            self.theirs.reset()
+        commands = self.ours.tick(row["readings"])
+        influence = self.ours.influence
+        if commands.tobytes() != row["commands"].tobytes() or influence.tobytes() != row["influence"].tobytes():
+            said = f"tick {number:,} of {self.path} is not what its bundle computes"
+            raise RecordingError(said, "mindrun replay says what differs")
+        given = np.append(row["readings"], np.float32(0.0))[self.places]
+        changed = self.theirs.tick_with(given, in_tick(self.changes, number))
+        return (self.ours.readings, influence, commands), (self.theirs.readings, self.theirs.influence, changed)
+
+
+def _places(about: About, graph: Graph, other: MindVersion) -> NDArray[np.intp]:
+    """Where in a recorded row each reading of another mind stands; the place after the last reads 0."""
+    if other.graph == graph:
+        return np.arange(graph.width)
+    known = {name: sensor for name, sensor in physical(graph).items() if name in about.sensors}
+    places = np.full(other.graph.width, graph.width, np.intp)
+    wanted = physical(other.graph)
+    missing = [name for name in wanted if name not in known or known[name].width != wanted[name].width]
+    if missing:
+        raise ChangeError(f"the recording has no {listed(missing, 'and')}, which {other.name} reads")
+    for name, sensor in wanted.items():
+        places[sensor.start : sensor.start + sensor.width] = known[name].start + np.arange(sensor.width)
+    return places
+
+
+def _compared(master: str, was: dict[str, Columns], now: dict[str, Columns], tick: int) -> OpenLoop:
+    """What differs from a tick on; another mind has read along before, and sent nothing."""
+    begin = tick - 1
+    found = first_differences(_from(was, begin), _from(now, begin))
+    differences = [replace(each, tick=each.tick + begin) for each in found]
+    ticks = len(next(iter(was["command"].values())))
+    both = [name for name in was["command"] if name in now["command"]]
+    return OpenLoop(master, ticks, differences, [_sent(name, was["command"], now["command"], begin) for name in both])
+
+
+def _from(columns: dict[str, Columns], begin: int) -> dict[str, Columns]:
+    return {kind: {name: rows[begin:] for name, rows in of.items()} for kind, of in columns.items()}
+
+
+def _sent(name: str, was: Columns, now: Columns, begin: int) -> Sent:
+    apart = np.abs(now[name].astype(np.float64) - was[name])
+    apart[:begin] = 0.0
+    later = apart[begin:]
+    return Sent(name, int(np.count_nonzero(later)), float(later.mean()), float(apart.max()), int(apart.argmax()) + 1)

@@ -1,0 +1,163 @@
+"""`mindc whatif` on a robot's recording: the readings of the record, the commands compared."""
+
+import json
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from mindrun.bundle import digest, read_bundle
+from mindrun.engine import Engine
+from mindrun.graph import Graph
+from mindrun.robot.recording import About, Recorder
+from numpy.typing import NDArray
+
+from tests.calling import Call
+
+TICKS, ANEW = 200, 150  # so many, and the row in which the program was started again
+MIND = """
+tick 1/60 s
+master Go
+body Robot is disc
+actuator left_wheel is wheel side left neutral 0.5
+actuator right_wheel is wheel side right neutral 0.5
+sensor eyes is range_finder at 0 90 deg range 12
+sensor glow is distance of lamp range 40
+sensor rate is derivative of glow range 100
+memory mood is cell decay 0.9
+skill Wander is rule
+  reads mood
+  drives left_wheel at 0.2 + mood
+  drives right_wheel at 0.9 - mood
+skill Seek is rule
+  reads glow
+  reads rate
+  drives left_wheel at glow
+  drives right_wheel at rate
+skill Go is rule
+  reads eyes
+  reads glow
+  influences Wander at 1 - glow
+  influences Seek at glow when glow > 0.5
+  drives mood at glow
+task Roam in arena size 40
+  contains lamp is zone size 2
+  lasts 200 ticks
+  rewards forward per tick
+"""
+
+
+@pytest.fixture
+def day(tmp_path: Path, mindc: Call) -> tuple[Path, Path]:
+    """A recording of noise, and the bundle that was running."""
+    source, bundle, path = tmp_path / "ball.mind", tmp_path / "ball.bundle", tmp_path / "day.rec"
+    source.write_text(MIND)
+    assert mindc("build", source, "-o", bundle).code == 0
+    record(path, bundle, noise(read_bundle(bundle).graph))
+    return path, bundle
+
+
+def noise(graph: Graph) -> NDArray[np.float32]:
+    return np.random.default_rng(5).random((TICKS, graph.width)).astype(np.float32)
+
+
+def record(path: Path, bundle: Path, readings: NDArray[np.float32]) -> None:
+    found = read_bundle(bundle)
+    engine = Engine(found.policy, found.procedures)
+    with Recorder(path, About.of(found.graph, digest(bundle), found.graph.master, ("eyes", "glow"))) as recorder:
+        for number, row in enumerate(readings):
+            tick = number % ANEW
+            if tick == 0:
+                engine.reset()
+            commands = engine.tick(row)
+            recorder.write(
+                tick=tick, time=number / 60, readings=row, influence=engine.influence, commands=commands, sent=commands
+            )
+
+
+def found(mindc: Call, day: tuple[Path, Path], *options: object) -> dict[str, Any]:
+    said = mindc("whatif", *day, *options, "--json")
+    assert said.code == 0, said.err
+    data: dict[str, Any] = json.loads(said.out)
+    return data
+
+
+def test_silence_is_what_a_mind_without_the_skill_sends(mindc: Call, day: tuple[Path, Path], tmp_path: Path) -> None:
+    bundle = read_bundle(day[1])
+    other = tmp_path / "other.mind"
+    other.write_text(MIND.replace("influences Seek at glow when", "influences Seek at 0 when"))
+    mindc("build", other, "-o", tmp_path / "other.bundle")
+    changed = read_bundle(tmp_path / "other.bundle")
+    ours, theirs = Engine(bundle.policy, {}), Engine(changed.policy, {})
+    apart = []
+    for number, row in enumerate(noise(bundle.graph)):
+        if number == ANEW:
+            ours.reset()
+            theirs.reset()
+        apart.append(np.abs(ours.tick(row).astype(float) - theirs.tick(row)))
+    from_tick = np.array(apart)[49:, 0]
+    said = found(mindc, day, "--without", "Seek", "--tick", 50)
+    assert said["open_loop"]
+    assert said["ticks"] == TICKS
+    left = said["commands"]["left_wheel"]
+    assert left["ticks"] == np.count_nonzero(from_tick)
+    assert left["mean"] == pytest.approx(from_tick.mean())
+    assert left["most"] == from_tick.max()
+    assert left["most_tick"] == from_tick.argmax() + 50
+    first = min(each["tick"] for each in said["differs"] if each["what"] == "command")
+    assert first == np.flatnonzero(np.array(apart)[49:].any(axis=1))[0] + 50
+
+
+def test_what_derives_from_a_replaced_sensor_sees_it(mindc: Call, day: tuple[Path, Path]) -> None:
+    said = found(mindc, day, "--sensor", "glow=0.75", "--tick", 20)
+    assert {each["name"] for each in said["differs"] if each["what"] == "reading"} == {"glow", "rate"}
+    assert said["differs"][0]["tick"] == 20
+    assert found(mindc, day, "--set", "mood=1", "--tick", 30)["differs"][0]["name"] == "mood"
+
+
+def test_it_says_that_the_loop_is_open(mindc: Call, day: tuple[Path, Path]) -> None:
+    said = mindc("whatif", *day, "--without", "Wander")
+    assert said.code == 0
+    assert "open loop: the readings are those of the recording" in said.out
+    assert "Go in charge, 200 ticks" in said.out
+    assert "left_wheel" in said.out
+
+
+@pytest.mark.parametrize(
+    ("options", "code", "said"),
+    [
+        ((), 2, "nothing is changed"),
+        (("--without", "Sek"), 2, "there is no skill called Sek"),
+        (("--without", "Seek", "--tick", 201), 2, "has 200 ticks: there is no tick 201"),
+        (("--without", "Seek", "--seed", 3), 2, "are of runs, not of recordings"),
+    ],
+)
+def test_what_cannot_be_is_said(
+    mindc: Call, day: tuple[Path, Path], options: tuple[object, ...], code: int, said: str
+) -> None:
+    answer = mindc("whatif", *day, *options)
+    assert answer.code == code
+    assert said in answer.err
+
+
+def test_a_recording_alone_is_not_enough(mindc: Call, day: tuple[Path, Path]) -> None:
+    answer = mindc("whatif", day[0], "--without", "Seek")
+    assert answer.code == 2
+    assert "say the bundle that was running" in answer.err
+
+
+def test_another_bundle_and_what_it_does_not_compute_are_refused(
+    mindc: Call, day: tuple[Path, Path], tmp_path: Path
+) -> None:
+    other = tmp_path / "other.mind"
+    other.write_text(MIND.replace("0.9 - mood", "0.8 - mood"))
+    mindc("build", other, "-o", tmp_path / "other.bundle")
+    answer = mindc("whatif", day[0], tmp_path / "other.bundle", "--without", "Seek")
+    assert answer.code == 1
+    assert "recorded with another bundle" in answer.err
+    path, bundle = tmp_path / "odd.rec", read_bundle(day[1])
+    with Recorder(path, About.of(bundle.graph, digest(day[1]), "Go", ("eyes", "glow"))) as recorder:
+        recorder.write(tick=0, time=0.0, readings=noise(bundle.graph)[0])
+    answer = mindc("whatif", path, day[1], "--without", "Seek")
+    assert answer.code == 1
+    assert "is not what its bundle computes" in answer.err
