@@ -1,0 +1,202 @@
+"""Why a command was what it was: what each path of influence from the master down has contributed, exactly.
+
+    flows = EdgeFlows(policy, procedure_sources(graph, folder, master), master, run)  # a RecordedRun, or any Rows
+    found = shares(flows, sink_named(flows, "left_wheel"), range(811, 812))  # rows from 0: tick 812 of a simulation
+
+A command is a mean that influence weighs, command = Σ I·v / Σ I (Eq. 3), where the influence I of a skill is a sum over
+its parents of what they have sent it (Eq. 2). So each path has a `part` of Σ I, which is the influence that came along
+it, and the `share` of the command that this part makes with the value v that the last skill of the path sent. Shares
+add up to the command, parts to 1.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from math import fsum
+
+import numpy as np
+from mindrun.think import clamped
+from numpy.typing import NDArray
+
+from mindlang.run.edge_flow import EdgeFlow, EdgeFlows, Sink
+from mindlang.run.largest_paths import Doubles, FoundPath, Ways, largest_paths, path_count
+
+NAMED_PATHS = 10
+NOT_SENT = np.float32(0.0)
+
+
+@dataclass(frozen=True, slots=True)
+class Contribution:
+    """What one path has contributed, in the mean over the ticks.
+
+    `path` are names, from the master to what is asked about; `value` (0..1) is what its last skill sent, `influence`
+    what came along it to that skill, `part` (0..1) its part of all influence, `share` its part of the command.
+    """
+
+    path: tuple[str, ...]
+    value: float
+    influence: float
+    part: float
+    share: float
+
+
+@dataclass(frozen=True, slots=True)
+class Rest:
+    """The `paths` that are not named, together. Over several ticks some of these may have carried nothing."""
+
+    paths: int
+    part: float
+    share: float
+
+
+@dataclass(frozen=True, slots=True)
+class Shares:
+    """The command to an actuator or a memory, or the influence on a skill, and who made it; means over `ticks` rows.
+
+    command = Σ `share` of `paths` + `rest.share` + `neutral` + `rounding`: `command` is what the mind said, to the bit;
+    `neutral` is what an actuator has of it from the `undriven` rows, in which nothing influenced it (a memory that
+    nothing drives is sent nothing: 0), and `rounding` what the engine's sums in float32 have added. For a skill
+    `command` and `influence` are both its influence, and a share is the influence that came over that path.
+    Unless they `are_largest`, a path may be among the `rest` that is larger than those named.
+    """
+
+    target: Sink
+    ticks: int
+    command: float
+    influence: float
+    undriven: int
+    neutral: float
+    rounding: float
+    paths: tuple[Contribution, ...]
+    rest: Rest
+    are_largest: bool
+
+
+def shares(flows: EdgeFlows, target: Sink, rows: range, paths: int = NAMED_PATHS) -> Shares:
+    """Who made the command to `target`, or the influence on it, in these rows, one at least; the `paths` largest parts.
+
+    IndexError where a row is not there. It takes as long as thinking these rows does, and for so many paths as long as
+    they are, however many there are in all.
+    """
+    if target == ("skill", flows.skills[0]):
+        return _in_charge(flows, len(rows))
+    carried = [flows.at(row) for row in rows]
+    ends = _ends(flows, target, carried)
+    order = _above(flows, target)
+    into = {skill: ways for skill in order if (ways := _into(flows, skill, carried)) is not None}
+    weights = Ways(ends.edges, ends.sources, ends.parts)
+    found = largest_paths(weights, into, order, paths)
+    named = tuple(_contribution(flows, ends, path) for path in found.paths)
+    command, neutral = _command(flows, ends), _neutral(flows, ends)
+    every, part = _mean(ends.shares.sum(axis=0)), _mean(ends.parts.sum(axis=0))
+    rest = Rest(
+        path_count(weights, into, order) - len(named),
+        max(0.0, part - fsum(each.part for each in named)),
+        max(0.0, every - fsum(each.share for each in named)),
+    )
+    return Shares(
+        target,
+        len(rows),
+        command,
+        _mean(ends.total),
+        int((~ends.driven).sum()),
+        neutral,
+        command - neutral - every,
+        named,
+        rest,
+        found.are_largest,
+    )
+
+
+def _in_charge(flows: EdgeFlows, ticks: int) -> Shares:
+    """The influence of the master, which is 1 by definition."""
+    path = Contribution((flows.master,), 1.0, 1.0, 1.0, 1.0)
+    return Shares(("skill", flows.skills[0]), ticks, 1.0, 1.0, 0, 0.0, 0.0, (path,), Rest(0, 0.0, 0.0), True)
+
+
+@dataclass(frozen=True, slots=True)
+class _Ends:
+    """The edges to what is asked about, and what they carry [edges, ticks]; `total`, `engine`, `driven` are [ticks].
+
+    `engine` is what the engine computes of it in float32, where it is driven.
+    """
+
+    target: Sink
+    edges: tuple[int, ...]
+    sources: tuple[int, ...]
+    values: Doubles
+    behind: Doubles
+    parts: Doubles
+    shares: Doubles
+    total: Doubles
+    engine: Doubles
+    driven: NDArray[np.bool_]
+
+
+def _ends(flows: EdgeFlows, target: Sink, carried: Sequence[EdgeFlow]) -> _Ends:
+    edges = tuple(flows.links_to.get(target, ()))
+    values, behind, product = (
+        np.array([[getattr(flow, of)[edge] for flow in carried] for edge in edges], float).reshape(-1, len(carried))
+        for of in ("value", "behind", "carried")
+    )
+    is_skill = target[0] == "skill"
+    weight = product if is_skill else behind
+    with np.errstate(all="ignore"):
+        sums = [np.add.accumulate(each, axis=0, dtype=np.float32)[-1:].sum(axis=0) for each in (product, weight)]
+        engine = sums[0] if is_skill else sums[0] / sums[1]
+        driven = (sums[1] > 0) & np.isfinite(engine)
+        total = np.where(driven, weight.sum(axis=0), 0.0)
+        parts = np.where(driven, weight / total, 0.0)
+        gain = np.where(driven, product / (1.0 if is_skill else total), 0.0)
+    commands = np.array([value if is_skill else clamped(value) for value in np.where(driven, engine, NOT_SENT)], float)
+    sources = tuple(flows.links[edge].source for edge in edges)
+    return _Ends(target, edges, sources, values, behind, parts, gain, total, commands, driven)
+
+
+def _command(flows: EdgeFlows, ends: _Ends) -> float:
+    return _mean(ends.engine) + _neutral(flows, ends)
+
+
+def _neutral(flows: EdgeFlows, ends: _Ends) -> float:
+    kind, index = ends.target
+    if kind != "actuator":
+        return 0.0
+    return float(np.float32(flows.graph.actuators[index].kind.neutral)) * _mean(~ends.driven)
+
+
+def _contribution(flows: EdgeFlows, ends: _Ends, path: FoundPath) -> Contribution:
+    """A path in the mean over the ticks; its value where it has a part, weighed by that."""
+    place = ends.edges.index(path.edges[-1])
+    sources = [flows.links[edge].source for edge in path.edges]
+    names = [flows.graph.skills[source].name for source in sources] + [flows.graph.named(*ends.target)]
+    with np.errstate(all="ignore"):
+        along = np.where(ends.parts[place] > 0, path.part / ends.parts[place], 0.0)
+    sent = ends.values[place]
+    value = sent[0] if (sent == sent[0]).all() else np.average(sent, weights=path.part)
+    influence = _mean(along * ends.behind[place])
+    return Contribution(tuple(names), float(value), influence, _mean(path.part), _mean(along * ends.shares[place]))
+
+
+def _above(flows: EdgeFlows, target: Sink) -> list[int]:
+    """The master, and all skills over which influence comes to the target, parents first."""
+    found, wanted = {flows.skills[0]}, {target}
+    for link in reversed(flows.links):
+        if link.target in wanted:
+            found.add(link.source)
+            wanted.add(("skill", link.source))
+    return [skill for skill in flows.skills if skill in found]
+
+
+def _into(flows: EdgeFlows, skill: int, carried: Sequence[EdgeFlow]) -> Ways | None:
+    edges = tuple(flows.links_to.get(("skill", skill), ()))
+    if not edges:
+        return None
+    arrived = np.array([[flow.carried[edge] for flow in carried] for edge in edges], float)
+    # influence beyond float32 is no number: where some of it is none, that is all of it
+    arrived = np.where(np.isfinite(arrived).all(axis=0), arrived, ~np.isfinite(arrived))
+    total = arrived.sum(axis=0)
+    fractions = np.divide(arrived, total, out=np.zeros_like(arrived), where=total > 0)
+    return Ways(edges, tuple(flows.links[edge].source for edge in edges), fractions)
+
+
+def _mean(values: NDArray[np.generic]) -> float:
+    return fsum(values.tolist()) / len(values)

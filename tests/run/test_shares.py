@@ -1,0 +1,158 @@
+"""What each path has contributed to a command: held against exact fractions over every path there is."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from fractions import Fraction
+from math import fsum
+
+import numpy as np
+import pytest
+from hypothesis import assume, given
+from mindrun.engine import Engine, procedure_sources
+from mindrun.graph import Graph
+from mindrun.policy import Policy
+from mindrun.think import Hierarchy, hierarchy, values
+from numpy.typing import NDArray
+
+from mindlang.run.edge_flow import EdgeFlows, Sink, sink_named
+from mindlang.run.shares import Shares, shares
+from tests.hierarchies import PROCEDURES, Case, random_case
+
+HALF_ULP = Fraction(1, 2**24)  # relative error of a float32 operation
+LEAST = Fraction(1, 2**150)  # error of a quotient near 0
+DOUBLES = 1e-12  # what the doubles of the shares may be off, relatively
+ALL = 10_000  # paths
+MOST_SKILLS = 20  # of which every path is looked at
+
+
+@dataclass
+class Thought:
+    """A run of an engine: what it read, thought and commanded."""
+
+    readings: NDArray[np.float32]
+    influence: NDArray[np.float32]
+    commands: list[NDArray[np.float32]] = field(default_factory=list)
+
+
+def thought(case: Case) -> Thought:
+    """The engine's run over a case's readings."""
+    engine = Engine(Policy(case.graph, case.weights), PROCEDURES)
+    rows = [(engine.tick(row), engine.readings, engine.influence) for row in case.readings]
+    return Thought(np.array([row[1] for row in rows]), np.array([row[2] for row in rows]), [row[0] for row in rows])
+
+
+def flows_of(case: Case, run: Thought) -> EdgeFlows:
+    """The flows of that run."""
+    graph = case.graph
+    return EdgeFlows(Policy(graph, case.weights), procedure_sources(graph, PROCEDURES), graph.master, run)
+
+
+def sinks(flows: EdgeFlows) -> list[Sink]:
+    """All that can be asked about."""
+    graph = flows.graph
+    named = [*(graph.skills[index] for index in flows.skills), *graph.actuators, *graph.memories]
+    found = [sink_named(flows, each.name) for each in named]
+    return [sink for sink in found if sink is not None]
+
+
+@dataclass
+class Exact:
+    """One tick in fractions: what came over each edge to each target as (its skill, what it carried, the influence)."""
+
+    graph: Graph
+    came: dict[Sink, list[tuple[int, Fraction, Fraction]]] = field(default_factory=dict)
+
+    @classmethod
+    def of(cls, graph: Graph, mind: Hierarchy, run: Thought, row: int) -> "Exact | None":
+        """The tick; None where something overflows or is no number. Computes each skill once, as an engine does."""
+        found = cls(graph)
+        sound = True
+        for skill in mind.skills:
+            own = run.influence[row, skill.index]
+            if own == 0:
+                continue
+            for edge, value in zip(skill.edges, values(skill, run.readings[row]), strict=True):
+                if value is None or not np.isfinite(value):
+                    continue
+                carried = np.float32(min(max(value, np.float32(0)), np.float32(1))) * own
+                if not np.isfinite(carried):
+                    sound = False
+                elif edge.drives or not carried < edge.cuts:
+                    kind = "skill" if not edge.drives else "actuator" if edge.to < len(graph.actuators) else "memory"
+                    place = edge.to - len(graph.actuators) * (kind == "memory")
+                    came = Fraction(float(carried)), Fraction(float(own))
+                    found.came.setdefault((kind, place), []).append((skill.index, *came))
+        largest = max((sum(each[2] for each in came) for came in found.came.values()), default=0)
+        return found if sound and largest < Fraction(float(np.finfo(np.float32).max)) else None
+
+    def paths(self, target: Sink) -> Iterator[tuple[tuple[str, ...], Fraction, Fraction]]:
+        """Each path to a target that carried influence: its names, its part and its share."""
+        came = self.came.get(target, [])
+        is_skill = target[0] == "skill"
+        total = sum(carried if is_skill else own for _, carried, own in came)
+        if total > 0:
+            for skill, carried, own in came:
+                part, share = (carried, carried) if is_skill else (own, carried)
+                for names, along in self._along(skill):
+                    yield (
+                        (*names, self.graph.named(*target)),
+                        along * part / total,
+                        along * share / (1 if is_skill else total),
+                    )
+
+    def _along(self, skill: int) -> Iterator[tuple[tuple[str, ...], Fraction]]:
+        name = self.graph.skills[skill].name
+        if name == self.graph.master:
+            yield (name,), Fraction(1)
+            return
+        for names, part, _ in self.paths(("skill", skill)):
+            yield names, part
+
+
+@given(random_case())
+def test_shares_are_those_of_every_path_in_exact_fractions(case: Case) -> None:
+    assume(len(case.graph.skills) <= MOST_SKILLS)
+    run, graph = thought(case), case.graph
+    flows = flows_of(case, run)
+    with np.errstate(all="ignore"):
+        made = hierarchy(Policy(graph, case.weights), procedure_sources(graph, PROCEDURES), graph.master)
+        exact = [Exact.of(graph, made, run, row) for row in range(len(run.readings))]
+    for row, tick in enumerate(exact):
+        for sink in sinks(flows) if tick else ():
+            if sink == ("skill", flows.skills[0]):
+                continue
+            assert tick
+            expected = {names: (part, share) for names, part, share in tick.paths(sink) if part}
+            found = shares(flows, sink, range(row, row + 1), ALL)
+            assert {each.path for each in found.paths} == expected.keys()
+            assert found.rest.paths == 0
+            for each in found.paths:
+                part, share = expected[each.path]
+                assert each.part == pytest.approx(float(part), rel=DOUBLES)
+                assert each.share == pytest.approx(float(share), rel=DOUBLES)
+            holds_what_the_engine_said(found, run, row)
+            bounded(found, sum((share for _, share in expected.values()), Fraction(0)), len(tick.came.get(sink, [])))
+
+
+def holds_what_the_engine_said(found: Shares, run: Thought, row: int) -> None:
+    """The command is the engine's, bit for bit, and all parts of the answer make it."""
+    match found.target:
+        case "actuator", index:
+            assert found.command == run.commands[row][index]
+        case "skill", index:
+            assert found.command == run.influence[row, index]
+    made = [*(each.share for each in found.paths), found.rest.share, found.neutral, found.rounding]
+    assert fsum(made) == pytest.approx(found.command, rel=DOUBLES, abs=1e-300)
+    assert found.undriven or fsum([*(each.part for each in found.paths), found.rest.part]) == pytest.approx(1.0)
+
+
+def bounded(found: Shares, exact: Fraction, edges: int) -> None:
+    """The command is off by no more than the roundings of two float32 sums over so many edges and one division.
+
+    For influence there is one sum.
+    """
+    if found.undriven:
+        return
+    up, down = (1 + HALF_ULP) ** max(0, edges - 1), (1 - HALF_ULP) ** max(0, edges - 1)
+    worst = up - 1 if found.target[0] == "skill" else up * (1 + HALF_ULP) / down - 1
+    assert abs(Fraction(found.command) - exact) <= exact * worst + LEAST
