@@ -120,7 +120,9 @@ def _options() -> argparse.Namespace:
     robot.add_argument(
         "--ticks", type=whole(0, MAX_TICK), default=0, metavar="N", help="end after so many ticks (default: never)"
     )
-    robot.add_argument("--dry", action="store_true", help="no hardware: a simulated world (needs the simulator)")
+    robot.add_argument(
+        "--dry", action="store_true", help="no hardware: a run in a simulated world (needs the simulator)"
+    )
     robot.add_argument("--task", metavar="TASK", help="with --dry: the task of that world (default: the master's)")
     robot.add_argument("--seed", type=whole(0, MAX_SEED), default=1, help="with --dry: the layout of that world")
     robot.add_argument("-q", "--quiet", action="store_true", help="say nothing but errors")

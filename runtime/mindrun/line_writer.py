@@ -31,6 +31,12 @@ class LineWriter:
             self._waiting.append(data)
             self._change.notify_all()
 
+    @property
+    def is_idle(self) -> bool:
+        """Whether everything is written."""
+        with self._change:
+            return self._idle and not self._waiting
+
     def flush(self, seconds: float) -> None:
         """Wait until everything is written, but no longer than so many seconds."""
         with self._change:

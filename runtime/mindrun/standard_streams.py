@@ -17,6 +17,7 @@ from mindrun.printable import visible
 OUTPUT_DESCRIPTOR, ERROR_DESCRIPTOR = 1, 2
 SIZE_VARIABLES = "COLUMNS", "LINES"  # of the terminal, as the environment may say them
 MAX_TERMINAL_SIZE = 9999
+USUAL_COLUMNS = 80  # of a terminal that does not say
 FLUSH_SECONDS = 1.0  # in which what has been told aside must be taken
 
 
@@ -100,6 +101,22 @@ def flush_standard_error() -> None:
     if isinstance(raw := _raw(sys.stderr), Aside):
         sys.stderr.flush()
         raw.line_writer.flush(FLUSH_SECONDS)
+
+
+def is_error_read() -> bool:
+    """Whether standard error has taken all that has been told so far."""
+    raw = _raw(sys.stderr)
+    return raw.line_writer.is_idle if isinstance(raw, Aside) else True
+
+
+def error_columns() -> int | None:
+    """How wide the terminal is that standard error goes to; None where it is none, or one that rewrites no line."""
+    try:
+        if not os.isatty(ERROR_DESCRIPTOR) or os.environ.get("TERM", "dumb") == "dumb":
+            return None
+        return os.get_terminal_size(ERROR_DESCRIPTOR).columns or USUAL_COLUMNS
+    except OSError:
+        return None
 
 
 def lost() -> OSError | None:

@@ -213,9 +213,27 @@ def test_a_dry_run_says_where_it_drives_and_what_came_of_it(bundle: Path) -> Non
     seed = 2**64 - 1  # as `mindc bench` prints them
     said = mindrun(bundle, "--dry", "--arm", "--ticks", 5, "--seed", seed)
     assert said.returncode == 0, said.stderr
-    first, last, _ = said.stderr.splitlines()
-    assert first == f"in a simulated world: Play, seed {seed}; Ctrl-C ends it"
-    assert re.fullmatch(r"the simulated run: \d+ ticks(, ended by \w+)?(, \d+ × [\w ]+)*", last)
+    lines = said.stderr.splitlines()
+    assert lines[0].startswith("dry run: Play with ")
+    assert lines[0].endswith(f" in charge, in a world of 40 x 40 with ball, spot, seed {seed}")
+    assert lines[1] == "no device is touched: the world is simulated, in real time"
+    assert "Ctrl-C ends it now" in lines[2]
+    assert any(re.fullmatch(r" *ticks  \d+ of 100, ended before it was over", line) for line in lines)
+    assert f"seed  {seed}" in said.stderr
+    assert lines[-1].startswith("5 ticks of ")
+
+
+def test_a_dry_run_is_over_when_its_run_is(bundle: Path) -> None:
+    said = mindrun(bundle, "--dry", "--arm", "--ticks", 100_000)
+    assert said.returncode == 0, said.stderr
+    assert "100 of 100, lasted its time" in said.stderr
+    assert said.stderr.count("tick ") == 1  # one line, where there is no terminal, and the next one after 10 s
+
+
+def test_a_quiet_dry_run_says_nothing_and_ends_as_well(bundle: Path) -> None:
+    said = mindrun(bundle, "--dry", "--arm", "--quiet", "--ticks", 100_000)
+    assert (said.returncode, said.stdout) == (0, "")
+    assert all(line.startswith("guardian: ") for line in said.stderr.splitlines())
 
 
 def test_a_dry_run_ends_when_its_world_does(bundle: Path) -> None:

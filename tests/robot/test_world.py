@@ -172,6 +172,7 @@ class Counting:
     tick: int = 0
     pose: tuple[float, float, float] = (1.0, 2.0, 3.0)
     events: dict[str, int] = field(default_factory=dict)
+    by_line: dict[str, float] = field(default_factory=dict)
     given: list[float] = field(default_factory=list)
 
     @property

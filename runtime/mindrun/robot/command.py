@@ -4,17 +4,19 @@ import argparse
 import sys
 from contextlib import suppress
 from dataclasses import replace
-from typing import Any
 
 from mindrun.bundle import Bundle, digest, read_bundle
 from mindrun.default_task import default_task
 from mindrun.driver import DeviceError
 from mindrun.errors import MindError
+from mindrun.graph import Graph, Task
 from mindrun.robot.device_locks import hold_devices
 from mindrun.robot.drive import DriveOptions, drive
 from mindrun.robot.drivers.mock import MockActuator
+from mindrun.robot.dry_run import DryRun, beginning, outcome
 from mindrun.robot.identity import IdentityError, is_adopted
 from mindrun.robot.loop import Loop
+from mindrun.status_line import StatusLine
 from mindrun.wiring import still
 
 
@@ -51,34 +53,36 @@ def _dry(options: argparse.Namespace, bundle: Bundle, drive_options: DriveOption
     from mindrun.robot.drivers.simulated import dry, status
     from mindrun.robot.simulated_world.process import simulated
 
-    tasks = [task.name for task in bundle.graph.tasks]
-    task, why = options.task or "", ""
-    if tasks and options.task is None:
-        chosen, why = default_task(bundle.graph)
-        task = chosen.name
-    if not tasks:
-        raise MindError(
-            "this mind has no task, and so no world to be simulated in", "add one: task Play in arena size 40"
-        )
-    if task not in tasks:
-        raise MindError(f"this mind has no task {task or 'without a name'}", f"it has {', '.join(tasks)}")
-    tell = _quiet if options.quiet else _print_error
+    line = StatusLine(_quiet, columns=lambda: None) if options.quiet else StatusLine(_print_error)
+    task, why = _task(bundle.graph, options.task)
     if why:
-        tell(why)
-    with simulated(options.bundle, task, options.seed, master=options.master or "") as socket:
+        line.tell(why)
+    master = options.master or bundle.graph.master
+    for sentence in beginning(bundle.graph, task, master, options.seed):
+        line.tell(sentence)
+    with simulated(options.bundle, task.name, options.seed, master=options.master or "") as socket:
         wiring = dry(bundle.graph, socket)
-        tell(f"in a simulated world: {task}, seed {options.seed}; Ctrl-C ends it")
-        loop = drive(bundle, digest(options.bundle), wiring, drive_options, tell)
+        run = DryRun(bundle.graph, task, master, socket, line)
+        with run.shown():
+            loop = drive(bundle, digest(options.bundle), wiring, drive_options, line.tell, watch=run.watch)
         with suppress(DeviceError):  # the run was as good without it
-            tell(_outcome(status(socket)))
+            for sentence in outcome(task, master, status(socket)):
+                line.tell(sentence)
         return loop
 
 
-def _outcome(run: dict[str, Any]) -> str:
-    """How a simulated run went."""
-    ended = f", ended by {run['ended']}" if run["ended"] else ""
-    events = "".join(f", {times} × {event}" for event, times in run["events"].items())
-    return f"the simulated run: {run['tick']:,} ticks{ended}{events}"
+def _task(graph: Graph, name: str | None) -> tuple[Task, str]:
+    """The task of that name, or the default one, and why it is that one where this needs saying."""
+    if not graph.tasks:
+        raise MindError(
+            "this mind has no task, and so no world to be simulated in", "add one: task Play in arena size 40"
+        )
+    if name is None:
+        return default_task(graph)
+    tasks = {task.name: task for task in graph.tasks}
+    if name not in tasks:
+        raise MindError(f"this mind has no task {name or 'without a name'}", f"it has {', '.join(tasks)}")
+    return tasks[name], ""
 
 
 def _summary(loop: Loop) -> str:

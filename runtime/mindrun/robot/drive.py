@@ -52,11 +52,12 @@ def drive(
     options: DriveOptions,
     tell: Callable[[str], None],
     held: Sequence[int] = (),
+    watch: Callable[[Loop], bool] = lambda loop: True,
 ) -> Loop:
     """Run a mind on a robot until a signal comes or the ticks are over; the loop as it ended.
 
-    `tell` gets sentences for people; the guardian inherits the descriptors `held`. MindError where something fails;
-    then every actuator is at neutral, too.
+    `tell` gets sentences for people; the guardian inherits the descriptors `held`; `watch` sees the loop after each
+    tick, and says whether it goes on. MindError where something fails; then every actuator is at neutral, too.
     """
     graph = bundle.graph
     engine = Engine(bundle.policy, bundle.procedures, options.master)
@@ -73,7 +74,7 @@ def drive(
         notify("READY=1")
         try:
             if not stop:
-                loop.run(lambda tick: _goes_on(tick, options.ticks, stop))
+                loop.run(lambda tick: _goes_on(tick, options.ticks, stop) and watch(loop))
         finally:
             stop.in_order()
         return loop

@@ -92,6 +92,15 @@ class World:
         return dict(counts)
 
     @property
+    def by_line(self) -> dict[str, float]:
+        """What each reward line has paid in this run, by its text."""
+        sums = self._state.judge.lines[:, 0] if self.ended is None else self._jobs.lines[0]
+        paid: dict[str, float] = {}
+        for reward, value in zip(self._rollout.task.rewards, sums.tolist(), strict=False):
+            paid[reward.text] = paid.get(reward.text, 0.0) + value
+        return paid
+
+    @property
     def ended(self) -> str | None:
         """What has ended the run: an event or a condition, or "time"; None while it goes on."""
         if self._jobs.lanes[0] > 0:

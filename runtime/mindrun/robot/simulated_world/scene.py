@@ -28,6 +28,9 @@ class SimulatedWorld(Protocol):
     def events(self) -> dict[str, int]: ...
 
     @property
+    def by_line(self) -> dict[str, float]: ...
+
+    @property
     def ended(self) -> str | None: ...
 
     def readings(self) -> Any: ...
@@ -76,7 +79,7 @@ class SimulatedScene:
         world = self.world
         return {
             "seed": world.seed, "tick": world.tick, "pose": world.pose, "events": world.events, "ended": world.ended,
-            "commands": self.commands, "past": self.past, "missed": self.missed,
+            "by_line": world.by_line, "commands": self.commands, "past": self.past, "missed": self.missed,
         }  # fmt: skip
 
     def _sense(self) -> None:

@@ -1,0 +1,150 @@
+"""A dry run in words: what it is when it begins, how it stands while it drives, and what came of it."""
+
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager, suppress
+from math import isfinite
+from threading import Event, Thread
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mindrun.driver import DeviceError
+from mindrun.graph import Graph, Task
+from mindrun.robot.drivers.simulated import status
+from mindrun.robot.loop import Loop
+from mindrun.status_line import StatusLine
+from mindrun.weights import reachable
+
+SHOW_SECONDS = 0.25  # from one state of the line to the next
+MAX_THINGS_NAMED = 6
+MAX_ACTING_NAMED, LEAST_ACTING_INFLUENCE = 2, 0.01
+
+
+def beginning(graph: Graph, task: Task, master: str, seed: int) -> list[str]:
+    """What is run, in which world, that nothing real moves, and what ends it."""
+    seconds = task.ticks * graph.tick
+    return [
+        f"dry run: {task.name} with {master} in charge, in {_scene(task)}{_contents(task)}, seed {seed}",
+        "no device is touched: the world is simulated, in real time",
+        f"it ends with its run, after {task.ticks:,} ticks ({seconds:,.0f} s) at the latest; Ctrl-C ends it now",
+    ]
+
+
+def _scene(task: Task) -> str:
+    if not task.scene.is_bounded:
+        return "a world without walls"
+    return "a world of " + " x ".join(f"{side:g}" for side in task.scene.sides)
+
+
+def _contents(task: Task) -> str:
+    known = list(dict.fromkeys(thing.name for thing in task.things))
+    more = len(known) - MAX_THINGS_NAMED
+    shown = [*known[:MAX_THINGS_NAMED], *([f"{more} more"] if more > 0 else [])]
+    return f" with {', '.join(shown)}" if shown else ""
+
+
+class DryRun:
+    """Says on a status line how a run in the world at a socket stands, from a thread of its own.
+
+    The loop only leaves the influence of its last tick here: it waits neither for the world nor for a terminal.
+    """
+
+    def __init__(self, graph: Graph, task: Task, master: str, socket: str, line: StatusLine) -> None:
+        self._graph, self._task, self._socket, self._line = graph, task, socket, line
+        self._movers = _movers(graph, master)
+        self._influence: NDArray[np.float32] | None = None
+        self._is_over = False
+        self._stop = Event()
+
+    def watch(self, loop: Loop) -> bool:
+        """After each tick: whether the run in the world goes on."""
+        self._influence = loop.engine.influence
+        return not self._is_over
+
+    @contextmanager
+    def shown(self) -> Iterator[None]:
+        """Show how the run stands as long as this lasts."""
+        thread = Thread(target=self._show, name="dry_run", daemon=True)
+        thread.start()
+        try:
+            yield
+        finally:
+            self._stop.set()
+            thread.join()
+            self._line.clear()
+
+    def _show(self) -> None:
+        while not self._stop.wait(SHOW_SECONDS):
+            with suppress(DeviceError):  # it answers next time; the loop says where it does not at all
+                run = status(self._socket)
+                self._line.show(self.state(run))
+                self._is_over = bool(run["ended"])
+
+    def state(self, run: Mapping[str, Any]) -> str:
+        """The line for the status of a world: time, who acts, what has happened and been paid, and the commands.
+
+        What matters less comes last, where a narrow terminal cuts.
+        """
+        parts = [
+            f"{run['tick'] * self._graph.tick:.1f} s, tick {run['tick']:,} of {self._task.ticks:,}",
+            self._acting(),
+            *(f"{times} × {event}" for event, times in run["events"].items() if times),
+            f"score {sum(run['by_line'].values()):,.2f}",
+            *(f"{name} {value:.2f}" for name, value in run["commands"].items()),
+        ]
+        return "  ".join(part for part in parts if part)
+
+    def _acting(self) -> str:
+        """The skills that move the robot with the most influence."""
+        if self._influence is None:
+            return ""
+        influence = [(float(self._influence[index]), name) for name, index in self._movers.items()]
+        strongest = sorted(influence, key=lambda each: -each[0])
+        acting = [f"{name} {value:.2f}" for value, name in strongest if value >= LEAST_ACTING_INFLUENCE]
+        return ", ".join(acting[:MAX_ACTING_NAMED]) or "nobody acts"
+
+
+def _movers(graph: Graph, master: str) -> dict[str, int]:
+    """The skills below a master that drive something that moves the robot, or anything where nothing does."""
+    below = {skill.name: skill for skill in reachable(graph, master)}
+    every = range(len(graph.actuators))
+    moving = {i for i in every if graph.actuators[i].kind.moves_body} or {*every}
+    return {
+        skill.name: index
+        for index, skill in enumerate(graph.skills)
+        if skill.name in below and any(edge.to == "actuator" and edge.target in moving for edge in skill.edges)
+    }
+
+
+def outcome(task: Task, master: str, run: Mapping[str, Any]) -> list[str]:
+    """What came of a run, as `mindc run` says it: how it ended, what it counted, what each reward line paid."""
+    total = sum(run["by_line"].values())
+    facts = [("seed", str(run["seed"]))]
+    for number, (event, times) in enumerate(run["events"].items()):
+        facts.append(("" if number else "events", f"{times} × {event}"))
+    facts.append(("ticks", f"{run['tick']:,} of {task.ticks:,}, {_ending(run['ended'])}"))
+    paid = [(_number(value), text) for text, value in run["by_line"].items()]
+    return [f"{task.name} with {master} in charge", *_aligned(facts), "", *_aligned([*paid, (_number(total), "score")])]
+
+
+def _ending(ended: str | None) -> str:
+    match ended:
+        case None:
+            return "ended before it was over"
+        case "time":
+            return "lasted its time"
+        case event if event.startswith("success: "):
+            return f"ended by {event.removeprefix('success: ')}, a success"
+        case event:
+            return f"ended by {event}"
+
+
+def _number(value: float) -> str:
+    return f"{value:,.2f}" if isfinite(value) else "not a number"
+
+
+def _aligned(rows: Sequence[tuple[str, str]]) -> list[str]:
+    """A line per row, the first column to the right."""
+    width = max(len(first) for first, _ in rows)
+    return [f"{first:>{width}}  {second}" for first, second in rows]

@@ -1,0 +1,218 @@
+"""`mindrun --dry`: what it says before, while and after it drives, and that the robot waits for none of it."""
+
+import os
+import subprocess
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+from mindrun.engine import Engine
+from mindrun.graph import Graph, Task, Thing
+from mindrun.policy import Policy
+from mindrun.robot.dry_run import MAX_THINGS_NAMED, DryRun, beginning, outcome
+from mindrun.robot.recording import read
+from mindrun.sim.commanded_world import World
+from mindrun.sim.rollout import Rollout
+from mindrun.status_line import CLEAR, PLAIN_SECONDS, StatusLine
+
+from mindlang.compiler.compile import load
+from tests.calling import write_rules
+from tests.robot.driving import MINDRUN, PATIENCE
+
+STATUS = {
+    "seed": 3, "tick": 90, "events": {"reach of ball": 2, "collision": 0}, "ended": None,
+    "commands": {"left_wheel": 0.5, "right_wheel": 1.0},
+    "by_line": {"rewards 10 on reach of ball": 20.0, "rewards -5": -0.5},
+}  # fmt: skip
+
+
+@pytest.fixture
+def roam(tmp_path: Path) -> Graph:
+    graph = load(write_rules(tmp_path)).graph
+    assert graph
+    return graph
+
+
+def task_of(graph: Graph, name: str) -> Task:
+    return next(task for task in graph.tasks if task.name == name)
+
+
+# What is said before and after
+
+
+def test_it_begins_with_world_task_seed_and_how_to_end_it(roam: Graph) -> None:
+    assert beginning(roam, task_of(roam, "Roam"), "Roam", 7) == [
+        "dry run: Roam with Roam in charge, in a world of 40 x 40 with rock, ball, seed 7",
+        "no device is touched: the world is simulated, in real time",
+        "it ends with its run, after 600 ticks (10 s) at the latest; Ctrl-C ends it now",
+    ]
+    assert "in a world without walls with ball," in beginning(roam, task_of(roam, "Chase"), "Roam", 7)[0]
+
+
+def test_a_world_full_of_things_is_named_by_some(roam: Graph) -> None:
+    task = task_of(roam, "Roam")
+    things = tuple(Thing(f"thing_{number % 20}", task.things[-1].kind) for number in range(40))
+    first = beginning(roam, replace(task, things=things), "Roam", 7)[0]
+    assert first.count("thing_") == MAX_THINGS_NAMED
+    assert f"{20 - MAX_THINGS_NAMED} more" in first
+
+
+@pytest.mark.parametrize(
+    ("ended", "said"),
+    [
+        (None, "ended before it was over"),
+        ("time", "lasted its time"),
+        ("collision", "ended by collision"),
+        ("success: reach of ball", "ended by reach of ball, a success"),
+    ],
+)
+def test_it_ends_with_what_came_of_the_run(roam: Graph, ended: str | None, said: str) -> None:
+    assert outcome(task_of(roam, "Roam"), "Chase", STATUS | {"ended": ended}) == [
+        "Roam with Chase in charge",
+        "  seed  3",
+        "events  2 × reach of ball",
+        "        0 × collision",
+        f" ticks  90 of 600, {said}",
+        "",
+        "20.00  rewards 10 on reach of ball",
+        "-0.50  rewards -5",
+        "19.50  score",
+    ]
+
+
+def test_a_score_that_is_no_number_is_said(roam: Graph) -> None:
+    lines = outcome(task_of(roam, "Roam"), "Roam", STATUS | {"by_line": {"rewards 1": float("nan")}})
+    assert lines[-1] == "not a number  score"
+
+
+@pytest.mark.parametrize("task", ["Roam", "Chase"])
+def test_the_world_is_paid_as_the_same_run_of_mindc(roam: Graph, task: str) -> None:
+    """Every reward line to the last bit: before the end of the run, and after it."""
+    rollout = Rollout(Policy(roam, {}), task, roam.master)
+    world, engine = World(roam, task, 3), Engine(Policy(roam, {}))
+    while world.ended is None:
+        last = world.by_line
+        world.step(engine.tick(world.readings()))
+    scores = rollout.score(np.zeros((1, 0), np.float32), [3])
+    texts = [reward.text for reward in task_of(roam, task).rewards]
+    assert world.by_line == dict(zip(texts, scores.by_line[0, 0].tolist(), strict=True))
+    assert world.by_line != last
+    assert world.tick == scores.ticks[0, 0]
+    world.begin(4)
+    assert set(world.by_line.values()) == {0.0}
+
+
+# The line while it drives
+
+
+def test_the_line_has_time_who_acts_events_score_and_commands(roam: Graph) -> None:
+    run = DryRun(roam, task_of(roam, "Roam"), "Roam", "nowhere", StatusLine(print))
+    assert (
+        run.state(STATUS) == "1.5 s, tick 90 of 600  2 × reach of ball  score 19.50  left_wheel 0.50  right_wheel 1.00"
+    )
+
+    class Loop:
+        engine = Engine(Policy(roam, {}))
+
+    Loop.engine.tick(np.ones(roam.width, np.float32))
+    assert run.watch(Loop)  # type: ignore[arg-type]
+    assert "600  Chase 1.00, Turn 0.20  2 ×" in run.state(STATUS)
+    Loop.engine.influence[:] = 0.0
+    assert "  nobody acts  " in run.state(STATUS)
+
+
+class Terminal:
+    """What is drawn and said, of a terminal so wide."""
+
+    def __init__(self, monkeypatch: pytest.MonkeyPatch, columns: int | None, is_read: bool = True) -> None:
+        self.now, self.words, self.is_read = 0.0, list[str](), is_read
+        monkeypatch.setattr("mindrun.status_line.draw", lambda text: self.words.append(text))
+        monkeypatch.setattr("mindrun.status_line.is_error_read", lambda: self.is_read)
+        self.line = StatusLine(self.words.append, clock=lambda: self.now, columns=lambda: columns)
+
+
+def test_a_terminal_has_one_line_that_is_rewritten_below_what_stays(monkeypatch: pytest.MonkeyPatch) -> None:
+    terminal = Terminal(monkeypatch, 10)
+    terminal.line.show("one line that is too long")
+    terminal.line.show("two\x1b[2J")
+    terminal.line.tell("a sentence")
+    terminal.line.tell("another")
+    terminal.line.show("three")
+    terminal.line.clear()
+    terminal.line.clear()
+    assert terminal.words == [
+        f"{CLEAR}one line ", f"{CLEAR}two\\u001b", CLEAR, "a sentence", "another", f"{CLEAR}three", CLEAR,
+    ]  # fmt: skip
+
+
+def test_elsewhere_a_line_is_printed_now_and_then(monkeypatch: pytest.MonkeyPatch) -> None:
+    terminal = Terminal(monkeypatch, None)
+    for number in range(25):
+        terminal.now = float(number)
+        terminal.line.show(f"{number} s")
+    assert terminal.words == [f"{number} s" for number in range(0, 25, round(PLAIN_SECONDS))]
+
+
+def test_a_terminal_that_is_paused_gets_no_more_lines(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Else they would push the sentences out that wait to be read."""
+    terminal = Terminal(monkeypatch, 80, is_read=False)
+    terminal.line.show("one")
+    terminal.line.tell("a sentence")
+    terminal.is_read = True
+    terminal.line.show("two")
+    assert terminal.words == ["a sentence", f"{CLEAR}two"]
+
+
+@contextmanager
+def terminal() -> Iterator[tuple[int, int]]:
+    """Both ends of a terminal: what reads it, and what a program writes to."""
+    reading, writing = os.openpty()
+    try:
+        yield reading, writing
+    finally:
+        os.close(reading)
+
+
+def heard(reading: int) -> str:
+    """All that is written to a terminal until nobody has its other end any more."""
+    said = b""
+    with suppress(OSError):
+        while True:
+            said += os.read(reading, 4096)
+    return said.decode()
+
+
+def begun(bundle: Path, writing: int, *words: str) -> "subprocess.Popen[bytes]":
+    """A dry run on that terminal."""
+    words = (*MINDRUN, str(bundle), "--dry", "--arm", *words)
+    return subprocess.Popen(words, stderr=writing, env=os.environ | {"TERM": "xterm"})
+
+
+def test_on_a_terminal_the_line_is_rewritten_until_the_outcome(bundle: Path) -> None:
+    with terminal() as (reading, writing):
+        process = begun(bundle, writing)
+        os.close(writing)
+        states, _, result = heard(reading).rpartition(CLEAR)
+        assert process.wait(PATIENCE) == 0
+    assert states.count(f"{CLEAR}") >= 2
+    assert " of 100  Go " in states
+    assert "ticks  100 of 100, lasted its time\r\n" in result
+
+
+def test_a_robot_drives_on_where_its_terminal_is_paused(bundle: Path, tmp_path: Path) -> None:
+    """Nothing is read until it has ended: it ends all the same, with all its ticks."""
+    day = tmp_path / "day.rec"
+    with terminal() as (_reading, writing):
+        os.set_blocking(writing, False)
+        with suppress(BlockingIOError):
+            while True:
+                os.write(writing, b"x" * 1024)
+        os.set_blocking(writing, True)
+        process = begun(bundle, writing, "--ticks", "30", "--record", str(day))
+        assert process.wait(PATIENCE) == 0
+        os.close(writing)
+    _, (rows,) = read(day)
+    assert len(rows) == 30
