@@ -1,6 +1,7 @@
 /** The hierarchy as SVG: what acts now is lit, and edges are as thick as what they transmit. */
 
 import { Camera } from "./camera";
+import { EdgeCanvas } from "./edge_canvas";
 import { type Placed, place, type Size } from "./layout";
 import { percent, shown } from "./names";
 import { type About, type Column, columnOf } from "./protocol";
@@ -22,6 +23,8 @@ const NODE_WIDTH_MIN = 72;
 const LEVELS = 48; // so many widths and glows there are: what has not changed is not touched
 const EDGE_PIXELS_MAX = 9;
 const TAB_STOPS_MAX = 80; // with more than that, edges are not stops of the tab key
+const MANY_EDGES = 400; // then they are on a canvas, those that transmit nothing are not seen, and all are drawn less often
+const MANY_MILLISECONDS = 60;
 const LARGEST_SCALE_AT_FIRST = 1.25;
 
 interface Drawn {
@@ -33,14 +36,18 @@ interface Drawn {
 export class Hierarchy {
   private readonly camera: Camera;
   private readonly plane: SVGGElement;
+  private readonly canvas: EdgeCanvas;
   private readonly subtrees: Subtrees;
   private readonly nodes = new Map<number, Drawn>();
   private readonly edges = new Map<number, Drawn>();
   private placed: Placed = { centres: new Map(), lines: new Map(), width: 1, height: 1 };
   private selected: Selected = null;
+  private many: number[] = []; // the edges that are on the canvas
+  private drawnAt = -Infinity;
 
   constructor(
     private readonly svg: SVGSVGElement,
+    canvas: HTMLCanvasElement,
     private readonly about: About,
     private readonly listener: Shown,
     private readonly changed: () => void,
@@ -48,10 +55,11 @@ export class Hierarchy {
     this.plane = make("g", {}) as SVGGElement;
     svg.append(this.plane);
     this.camera = new Camera(svg, () => this.move());
+    this.canvas = new EdgeCanvas(canvas, this.camera);
     this.subtrees = new Subtrees(about);
-    svg.addEventListener("click", (event) => !this.camera.dragged && this.choose(this.at(event.target)));
+    svg.addEventListener("click", (event) => !this.camera.dragged && this.choose(this.under(event)));
     svg.addEventListener("dblclick", (event) => this.toggle(this.at(event.target)));
-    svg.addEventListener("pointermove", (event) => listener.over(this.at(event.target), event));
+    svg.addEventListener("pointermove", (event) => listener.over(this.under(event), event));
     svg.addEventListener("pointerleave", (event) => listener.over(null, event));
     svg.addEventListener("keydown", (event) => this.key(event));
     this.layout();
@@ -96,8 +104,12 @@ export class Hierarchy {
     this.listener.chosen(selected);
   }
 
-  /** Lights it as a row has it; what is as it was is not touched. */
-  draw(row: Row): void {
+  /** Lights it as a row has it, if it is time; what is as it was is not touched. Whether it did. */
+  draw(row: Row, now: number): boolean {
+    if (this.many.length && now - this.drawnAt < MANY_MILLISECONDS) return false;
+    this.drawnAt = now;
+    for (const edge of this.many) this.canvas.light(edge, valueAt(row, columnOf(this.about, "flow", edge)));
+    if (this.many.length) this.canvas.draw();
     for (const drawn of this.nodes.values()) {
       const level = levelOf(valueAt(row, drawn.column));
       if (level === drawn.level) continue;
@@ -113,10 +125,17 @@ export class Hierarchy {
       style.strokeWidth = `${1 + ((EDGE_PIXELS_MAX - 1) * level) / LEVELS}`;
       drawn.node.classList.toggle("lit", level > 0);
     }
+    return true;
   }
 
   private drawnOf(selected: Selected): Drawn | undefined {
     return selected ? (selected.kind === "node" ? this.nodes : this.edges).get(selected.number) : undefined;
+  }
+
+  private under(event: MouseEvent): Selected {
+    const { left, top } = this.svg.getBoundingClientRect();
+    const edge = this.canvas.at(event.clientX - left, event.clientY - top);
+    return this.at(event.target) ?? (edge === null ? null : { kind: "edge", number: edge });
   }
 
   private at(target: EventTarget | null): Selected {
@@ -156,21 +175,28 @@ export class Hierarchy {
 
   private layout(): void {
     const open = this.subtrees.open();
-    this.placed = place(open.nodes, open.edges, (edge) => this.about.edges[edge], (node) => this.size(node));
+    this.placed = place(open.nodes, open.edges, (edge) => this.about.edges[edge], (node) => this.size(node), this.aspect);
+    this.many = open.edges.length > MANY_EDGES ? open.edges : [];
+    this.canvas.set(new Map(this.many.map((edge) => [edge, ends(this.placed.lines.get(edge)!)])));
+    this.drawnAt = -Infinity;
     this.nodes.clear();
     this.edges.clear();
-    for (const edge of open.edges) this.edges.set(edge, this.edge(edge, open.edges.length <= TAB_STOPS_MAX));
+    for (const edge of this.many.length ? [] : open.edges) this.edges.set(edge, this.edge(edge, open.edges.length));
     for (const node of open.nodes) this.nodes.set(node, this.node(node));
     this.plane.replaceChildren(...[...this.edges.values(), ...this.nodes.values()].map(({ node }) => node));
     this.drawnOf(this.selected)?.node.classList.add("selected");
     this.changed();
   }
 
-  private edge(number: number, stops: boolean): Drawn {
+  private get aspect(): number {
+    return this.svg.clientWidth / this.svg.clientHeight || 1;
+  }
+
+  private edge(number: number, among: number): Drawn {
     const { from, to } = this.about.edges[number];
     const name = `${shown(this.about.nodes[from].name)} to ${shown(this.about.nodes[to].name)}`;
     const node = make("g", { class: "edge", "data-edge": number, role: "button", "aria-label": name });
-    if (stops) node.setAttribute("tabindex", "0");
+    if (among <= TAB_STOPS_MAX) node.setAttribute("tabindex", "0");
     const d = smooth(this.placed.lines.get(number)!);
     node.append(make("path", { class: "line", d }), make("path", { class: "touch", d }));
     return { node, level: -1, column: columnOf(this.about, "flow", number) };
@@ -206,7 +232,12 @@ export class Hierarchy {
     const { x, y, scale } = this.camera;
     this.plane.setAttribute("transform", `translate(${x} ${y}) scale(${scale})`);
     this.svg.classList.toggle("far", scale < 0.35);
+    if (this.many.length) this.canvas.draw();
   }
+}
+
+function ends(line: { x: number; y: number }[]): { x: number; y: number }[] {
+  return [line[0], line[line.length - 1]];
 }
 
 function levelOf(value: number): number {

@@ -19,16 +19,22 @@ type Ends = (edge: number) => { from: number; to: number };
 const DAGRE_NODES_MAX = 300;
 const NODE_GAP = 18;
 const LAYER_GAP = 56;
-const LAYER_NODES = 60; // of a plain layer, before it goes on in the next line
+const WIDE = 2; // so many times wider than where it is seen: then it runs from left to right, if that fits better
 
-/** Places for nodes of these sizes; edges are drawn from top to bottom. */
-export function place(nodes: number[], edges: number[], ends: Ends, size: (node: number) => Size): Placed {
-  return nodes.length <= DAGRE_NODES_MAX ? byDagre(nodes, edges, ends, size) : inLayers(nodes, edges, ends, size);
+/** Places for nodes of these sizes, for a pane of such a width by its height. */
+export function place(nodes: number[], edges: number[], ends: Ends, size: (node: number) => Size, aspect: number): Placed {
+  if (nodes.length > DAGRE_NODES_MAX) return inLayers(nodes, edges, ends, size, aspect);
+  const down = byDagre(nodes, edges, ends, size, "TB");
+  if (down.width / down.height < WIDE * aspect) return down;
+  const across = byDagre(nodes, edges, ends, size, "LR");
+  const fits = ({ width, height }: Placed) => Math.min(aspect / width, 1 / height);
+  return fits(across) > fits(down) ? across : down;
 }
 
-function byDagre(nodes: number[], edges: number[], ends: Ends, size: (node: number) => Size): Placed {
+function byDagre(nodes: number[], edges: number[], ends: Ends, size: (node: number) => Size, rankdir: string): Placed {
   const graph = new graphlib.Graph({ multigraph: true });
-  graph.setGraph({ rankdir: "TB", nodesep: NODE_GAP, ranksep: LAYER_GAP, marginx: 12, marginy: 12 });
+  const nodesep = rankdir === "TB" ? NODE_GAP : NODE_GAP / 2;
+  graph.setGraph({ rankdir, nodesep, ranksep: LAYER_GAP, marginx: 12, marginy: 12 });
   for (const node of nodes) graph.setNode(String(node), { ...size(node) });
   for (const edge of edges) {
     const { from, to } = ends(edge);
@@ -50,14 +56,15 @@ function byDagre(nodes: number[], edges: number[], ends: Ends, size: (node: numb
 }
 
 /** Layers by the longest way from the top, each in the order in which its nodes are met. */
-function inLayers(nodes: number[], edges: number[], ends: Ends, size: (node: number) => Size): Placed {
+function inLayers(nodes: number[], edges: number[], ends: Ends, size: (node: number) => Size, aspect: number): Placed {
   const layers: number[][] = [];
   const depths = depthsOf(nodes, edges, ends);
   for (const node of nodes) (layers[depths.get(node)!] ??= []).push(node);
-  const lines = layers.filter(Boolean).flatMap((layer) => wrapped(layer, LAYER_NODES));
-  const wide = Math.max(...nodes.map((node) => size(node).width)) + NODE_GAP;
+  const wide = nodes.reduce((most, node) => Math.max(most, size(node).width), 0) + NODE_GAP;
+  const high = nodes.reduce((most, node) => Math.max(most, size(node).height), 0) + LAYER_GAP;
+  const most = Math.ceil(Math.sqrt((nodes.length * aspect * high) / wide));
+  const lines = layers.filter(Boolean).flatMap((layer) => wrapped(layer, most));
   const width = wide * Math.max(...lines.map((line) => line.length));
-  const high = Math.max(...nodes.map((node) => size(node).height)) + LAYER_GAP;
   const centres = new Map<number, { x: number; y: number }>();
   lines.forEach((line, row) =>
     line.forEach((node, place) =>

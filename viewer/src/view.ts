@@ -50,7 +50,7 @@ export class View {
     this.world = about.world && new World(element<HTMLCanvasElement>("world"), about, about.world, theme(), redraw);
     element("no-world").hidden = !!about.world;
     const shows = { over: (at: Selected, event: PointerEvent) => this.tip(at, event), chosen: (at: Selected) => this.choose(at) };
-    this.hierarchy = new Hierarchy(svgElement("hierarchy"), about, shows, redraw);
+    this.hierarchy = new Hierarchy(svgElement("hierarchy"), element<HTMLCanvasElement>("edges"), about, shows, redraw);
     const search = element<HTMLInputElement>("search");
     this.active = new ActiveList(element("active"), search, element("count"), about, (node) => this.hierarchy.reveal(node));
     const curvesSearch = element<HTMLInputElement>("curves-search");
@@ -173,8 +173,8 @@ export class View {
     this.curves.move(tick);
     const row = this.rows.row(tick);
     if (!row) return;
-    this.dirty = !this.active.draw(row, now);
-    this.hierarchy.draw(row);
+    const drawn = [this.active.draw(row, now), this.hierarchy.draw(row, now)];
+    this.dirty = drawn.includes(false);
     this.world?.draw(row, this.rows, this.collisions.filter((each) => each <= tick));
     this.describe("chosen-text", this.selected);
     this.describe("tip", this.over);
