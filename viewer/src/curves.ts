@@ -190,7 +190,11 @@ export class Curves {
     box.type = "checkbox";
     box.checked = place >= 0;
     box.disabled = place < 0 && this.chosen.length >= CHOSEN_MAX;
-    box.addEventListener("change", () => this.toggle(number));
+    box.dataset.curve = String(number);
+    box.addEventListener("change", () => {
+      this.toggle(number);
+      this.list.querySelector<HTMLElement>(`[data-curve="${number}"]`)?.focus(); // the list is made anew
+    });
     if (place >= 0) box.style.accentColor = this.theme.skills[place % this.theme.skills.length];
     text.className = "name";
     text.textContent = shown(name, 80);

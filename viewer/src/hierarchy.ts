@@ -26,6 +26,7 @@ const TAB_STOPS_MAX = 80; // with more than that, edges are not stops of the tab
 const MANY_EDGES = 400; // then they are on a canvas, those that transmit nothing are not seen, and all are drawn less often
 const MANY_MILLISECONDS = 60;
 const LARGEST_SCALE_AT_FIRST = 1.25;
+const SMALLEST_SCALE_AT_FIRST = 0.7; // can be read; then it begins with the master, in the middle
 
 interface Drawn {
   node: SVGElement;
@@ -74,7 +75,10 @@ export class Hierarchy {
   }
 
   resize(): void {
-    if (!this.camera.touched) this.fit();
+    if (this.camera.touched) return;
+    this.fit();
+    if (this.camera.scale < SMALLEST_SCALE_AT_FIRST) this.camera.zoom(SMALLEST_SCALE_AT_FIRST / this.camera.scale);
+    this.camera.touched = false;
   }
 
   collapseAll(collapsed: boolean): void {

@@ -2,7 +2,7 @@
 
 import type { About } from "./protocol";
 
-const OPEN_AT_FIRST = 40; // skills: more than that begin collapsed
+const OPEN_AT_FIRST = 30; // skills: more than that begin collapsed
 
 export class Subtrees {
   readonly collapsed = new Set<number>();

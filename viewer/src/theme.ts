@@ -16,19 +16,14 @@ export interface Theme {
   glow: string;
   page: string;
   skills: string[];
-  things: Record<string, string[]>;
-  named: Record<string, string>;
 }
 
-const KINDS = ["item", "zone", "power", "box", "ball", "walker"];
-const NAMED = ["red", "orange", "yellow", "green", "blue", "purple", "pink", "brown"];
 const CHOICE = "mind-theme";
 
 /** The colours that hold now. */
 export function theme(): Theme {
   const style = getComputedStyle(document.documentElement);
   const colour = (name: string) => style.getPropertyValue(`--${name}`).trim();
-  const list = (name: string) => colour(name).split(/\s+/);
   return {
     floor: colour("floor"),
     grid: colour("grid"),
@@ -44,9 +39,7 @@ export function theme(): Theme {
     late: colour("late"),
     glow: colour("glow"),
     page: colour("page"),
-    skills: list("skills"),
-    things: Object.fromEntries(KINDS.map((kind) => [kind, list(kind)])),
-    named: Object.fromEntries(NAMED.map((name) => [name, colour(name)])),
+    skills: colour("skills").split(/\s+/),
   };
 }
 

@@ -1,0 +1,186 @@
+"""The page in a real browser: it shows the run, tick by tick, and nothing that is in it can do anything."""
+
+import json
+from collections.abc import Iterator
+from dataclasses import replace
+from itertools import cycle
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from mindlang.pictures.influence_flow import Flow
+from mindlang.run.recorded_run import record_run
+from tests.calling import write_rules
+from tests.view.browser import Opened, chromium
+from tests.view.serving import prepared, served, simulated
+
+LONG_NAME = 1_000_000
+HOSTILE = [
+    "<img src=x onerror=\"document.title='taken'\">",
+    "<script>document.title='taken'</script>",
+    "\u202egnp.exe",
+    "</text></svg><svg onload=\"document.title='taken'\">",
+    "javascript:document.title='taken'",
+    "a" * LONG_NAME,
+]
+
+
+@pytest.fixture(scope="module")
+def browser() -> Iterator[Any]:
+    with chromium() as found:
+        yield found
+
+
+@pytest.fixture(scope="module")
+def mind(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return write_rules(tmp_path_factory.mktemp("mind"))
+
+
+@pytest.fixture
+def opened(browser: Any, mind: Path) -> Iterator[Opened]:
+    with served(simulated(mind)) as view:
+        found = Opened(browser, f"http://{view.host}/#{view.token}")
+        yield found
+        found.close()
+
+
+def test_opens_with_the_hierarchy_and_asks_nobody_else(opened: Opened, mind: Path) -> None:
+    graph = prepared(mind, "Chase").ready.policy.graph
+    names = {opened.page.locator(f"#hierarchy [data-node='{i}']").count() for i in range(len(graph.sensors))}
+    assert names == {0}  # sensors are in the lists, not in the picture
+    shown = " ".join(opened.texts("#hierarchy .node text"))
+    assert all(skill.name in shown for skill in graph.skills if skill.name == graph.master)
+    assert all(actuator.name in shown for actuator in graph.actuators)
+    opened.page.click("#play")
+    opened.wait("Number(document.querySelector('#tick').value) > 5")
+    host = opened.page.url.split("/#")[0].removeprefix("http://")
+    assert opened.requests
+    for url in opened.requests:
+        assert url.startswith((f"http://{host}/", f"ws://{host}/rows", "data:,")), url
+
+
+def test_plays_pauses_steps_and_jumps(opened: Opened) -> None:
+    page = opened.page
+    page.keyboard.press("Space")
+    opened.wait("Number(document.querySelector('#tick').value) > 10")
+    page.keyboard.press("Space")
+    opened.wait("document.querySelector('#play').getAttribute('aria-label') === 'play'")
+    opened.jump(300)
+    for key, tick in (("ArrowRight", 301), ("Shift+ArrowRight", 311), ("ArrowLeft", 310), ("Shift+ArrowLeft", 300)):
+        page.keyboard.press(key)
+        opened.wait(f"document.querySelector('#timeline').getAttribute('aria-valuenow') === '{tick}'")
+    page.keyboard.press("Home")
+    opened.wait("document.querySelector('#timeline').getAttribute('aria-valuenow') === '0'")
+    page.keyboard.press("+")
+    opened.wait("document.querySelector('#rate').value === '2'")
+    box = page.locator("#timeline").bounding_box()
+    page.mouse.click(box["x"] + box["width"] / 2, box["y"] + box["height"] / 2)
+    opened.wait("Number(document.querySelector('#timeline').getAttribute('aria-valuenow')) > 400")
+
+
+def test_a_click_on_an_edge_shows_what_the_engine_says_it_transmits(opened: Opened, mind: Path) -> None:
+    setup = prepared(mind, "Chase")
+    flow = Flow(record_run(setup, setup.rollout(True), 3))
+    edges = [int(str(each.get_attribute("data-edge"))) for each in opened.page.locator("#hierarchy .edge").all()]
+    assert sorted(edges) == [*range(len(flow.links))]
+    found, engine = [], []
+    for tick in (1, 37, 640, 1100):
+        opened.jump(tick)
+        for edge, flowing in enumerate(flow.at(tick)):
+            opened.page.locator(f"#hierarchy [data-edge='{edge}']").focus()
+            opened.page.keyboard.press("Enter")
+            opened.wait(f"document.querySelector('#hierarchy .selected')?.dataset.edge === '{edge}'")
+            opened.page.evaluate("new Promise(requestAnimationFrame)")
+            found.append(float(str(opened.page.get_attribute("#chosen-text", "data-value"))))
+            engine.append(float(np.float32(flowing.transmitted)))
+    assert found == engine
+    assert any(value > 0 for value in engine)
+
+
+def test_a_curve_that_is_chosen_is_asked_for_and_drawn(opened: Opened) -> None:
+    opened.page.fill("#curves-search", "reward")
+    opened.page.locator("#curves-choice input:not(:checked)").first.click()
+    opened.wait("document.querySelectorAll('#curves-choice input:checked').length > 1")
+    opened.page.evaluate("new Promise(done => setTimeout(done, 1000))")
+    asked = [json.loads(said)["columns"] for said in opened.sent if '"columns"' in said]
+    about = simulated_columns(opened)
+    assert about in asked[-1]
+
+
+def simulated_columns(opened: Opened) -> list[int]:
+    """The address of the first reward line's column, as the server of this page has it."""
+    return list(opened.page.evaluate(ASK_ABOUT)["columns"]["rewards"][:2])
+
+
+ASK_ABOUT = """() => new Promise((done) => {
+  const socket = new WebSocket(`ws://${location.host}/rows`);
+  socket.onopen = () => socket.send(location.hash.slice(1));
+  socket.onmessage = ({ data }) => { socket.close(); done(JSON.parse(data)); };
+})"""
+
+
+def test_a_search_finds_what_is_listed_and_shows_where_it_is(opened: Opened) -> None:
+    name = opened.texts("#hierarchy .node.actuator text")[0]
+    opened.page.keyboard.press("/")
+    opened.page.keyboard.type(name)
+    opened.wait(f"document.querySelector('#active .name')?.textContent === {json.dumps(name)}")
+    opened.page.keyboard.press("Enter")
+    opened.wait("!!document.querySelector('#hierarchy .selected.actuator')")
+    assert name in opened.page.inner_text("#chosen-text")
+
+
+def test_a_subtree_is_collapsed_and_opened(opened: Opened) -> None:
+    before = opened.page.locator("#hierarchy .node").count()
+    opened.page.locator("#hierarchy .master .fold").click()
+    assert opened.page.locator("#hierarchy .node").count() == 1
+    opened.page.locator("#hierarchy .master .fold").click()
+    assert opened.page.locator("#hierarchy .node").count() == before
+
+
+def test_help_names_every_key(opened: Opened) -> None:
+    opened.page.keyboard.press("?")
+    assert opened.page.locator("#keys[open] tr").count() > 10
+    opened.page.click("#close-keys")
+    assert opened.page.locator("#keys[open]").count() == 0
+
+
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+def test_colours_are_the_systems_until_somebody_chooses(browser: Any, mind: Path, scheme: str) -> None:
+    with served(simulated(mind)) as view:
+        found = Opened(browser, f"http://{view.host}/#{view.token}", scheme)
+        assert found.page.get_attribute("html", "data-theme") == scheme
+        found.page.click("#theme")
+        found.page.reload()
+        found.wait("!!document.querySelector('#hierarchy .node')")
+        assert found.page.get_attribute("html", "data-theme") != scheme
+        found.close()
+
+
+def test_names_do_nothing_whatever_they_are(browser: Any, mind: Path) -> None:
+    viewed = simulated(mind)
+    with served(replace(viewed, about=renamed(dict(viewed.about), cycle(HOSTILE)))) as view:
+        found = Opened(browser, f"http://{view.host}/#{view.token}")
+        found.jump(100)
+        for node in found.page.locator("#hierarchy .node").all():
+            node.focus()
+            found.page.keyboard.press("Enter")
+        found.page.evaluate("new Promise(done => setTimeout(done, 500))")
+        assert found.page.title().endswith("mind view")  # the scripts would have set another
+        assert found.page.locator("body img, body script, foreignObject").count() == 0
+        assert "\u202e" not in found.page.inner_text("body")
+        assert len(found.page.inner_text("body")) < 20_000
+        found.close()
+
+
+def renamed(said: Any, names: Iterator[str], key: str = "") -> Any:
+    """What a server says, with hostile names and texts in all places."""
+    match said:
+        case dict():
+            return {name: renamed(each, names, name) for name, each in said.items()}
+        case list() | tuple():
+            return [renamed(each, names, key) for each in said]
+        case str() if key in ("name", "text", "says", "title", "task", "master", "rewards", "ends"):
+            return next(names)
+    return said
