@@ -70,9 +70,7 @@ def test_it_is_what_its_sources_make(tmp_path: Path) -> None:
     built = npm("run", "build", "--", str(tmp_path / "page"), folder=viewer)
     assert built.returncode == 0, built.stderr
     for name in FILES:
-        assert (tmp_path / "page" / name).read_bytes() == (PAGE / name).read_bytes(), (
-            f"npm run build: {name}"
-        )
+        assert (tmp_path / "page" / name).read_bytes() == (PAGE / name).read_bytes(), f"npm run build: {name}"
 
 
 def npm(*words: str, folder: Path) -> subprocess.CompletedProcess[str]:
