@@ -16,6 +16,7 @@ from mindrun.robot.dry_run import MAX_THINGS_NAMED, DryRun, beginning, outcome
 from mindrun.robot.recording import read
 from mindrun.sim.commanded_world import World
 from mindrun.sim.rollout import Rollout
+from mindrun.standard_streams import error_columns
 from mindrun.status_line import CLEAR, PLAIN_SECONDS, StatusLine
 
 from mindlang.compiler.compile import load
@@ -154,6 +155,19 @@ def test_elsewhere_a_line_is_printed_now_and_then(monkeypatch: pytest.MonkeyPatc
         terminal.now = float(number)
         terminal.line.show(f"{number} s")
     assert terminal.words == [f"{number} s" for number in range(0, 25, round(PLAIN_SECONDS))]
+
+
+@pytest.mark.parametrize(
+    ("is_terminal", "kind", "columns", "found"),
+    [(True, "xterm", 132, 132), (True, "xterm", 0, 80), (True, "dumb", 132, None), (False, "xterm", 132, None)],
+)
+def test_how_wide_the_terminal_is(
+    monkeypatch: pytest.MonkeyPatch, is_terminal: bool, kind: str, columns: int, found: int | None
+) -> None:
+    monkeypatch.setenv("TERM", kind)
+    monkeypatch.setattr("os.isatty", lambda number: is_terminal)
+    monkeypatch.setattr("os.get_terminal_size", lambda number: os.terminal_size((columns, 24)))
+    assert error_columns() == found
 
 
 def test_a_terminal_that_is_paused_gets_no_more_lines(monkeypatch: pytest.MonkeyPatch) -> None:
