@@ -26,12 +26,11 @@ class HierarchyData:
 
     def data(self, texts: Texts) -> dict[str, Any]:
         """`nodes`, `edges` and `reads`."""
-        nodes = [*self._nodes()]
-        numbers = {address: number for number, (address, _) in enumerate(nodes)}
+        numbers = node_numbers(self.graph, self.skills)
         places = {skill.name: ("skill", place) for place, skill in enumerate(self.graph.skills)}
         inputs = [*self._inputs()]
         return {
-            "nodes": [node for _, node in nodes],
+            "nodes": [self._node(noun, place) for noun, place in numbers],
             "edges": [
                 {
                     "from": numbers[places[skill.name]],
@@ -48,22 +47,23 @@ class HierarchyData:
             ],
         }
 
-    def _nodes(self) -> Iterator[tuple[tuple[str, int], dict[str, Any]]]:
-        """Each node, and what it is a node of: its noun and its place there."""
-        graph, reached = self.graph, {skill.name for skill in self.skills}
-        for place, sensor in enumerate(graph.sensors):
-            read = range(sensor.start, sensor.start + sensor.width)
-            yield ("sensor", place), self._node("sensor", sensor.name, sensor.kind, "readings", read)
-        for place, memory in enumerate(graph.memories):
-            read = range(memory.start, memory.start + 1)
-            yield ("memory", place), self._node("memory", memory.name, memory.kind, "readings", read)
-        for place, skill in enumerate(graph.skills):
-            if skill.name in reached:
-                yield ("skill", place), self._node("skill", skill.name, skill.function, "influence", [place])
-        for place, actuator in enumerate(graph.actuators):
-            yield ("actuator", place), self._node("actuator", actuator.name, actuator.kind, "commands", [place])
+    def _node(self, noun: str, place: int) -> dict[str, Any]:
+        graph = self.graph
+        match noun:
+            case "sensor":
+                sensor = graph.sensors[place]
+                read = range(sensor.start, sensor.start + sensor.width)
+                return self._told(noun, sensor.name, sensor.kind, "readings", read)
+            case "memory":
+                memory = graph.memories[place]
+                return self._told(noun, memory.name, memory.kind, "readings", [memory.start])
+            case "skill":
+                skill = graph.skills[place]
+                return self._told(noun, skill.name, skill.function, "influence", [place])
+        actuator = graph.actuators[place]
+        return self._told(noun, actuator.name, actuator.kind, "commands", [place])
 
-    def _node(self, noun: str, name: str, kind: object, group: str, places: Sequence[int]) -> dict[str, Any]:
+    def _told(self, noun: str, name: str, kind: object, group: str, places: Sequence[int]) -> dict[str, Any]:
         return {
             "name": shown(name),
             "kind": noun,
@@ -98,6 +98,18 @@ class HierarchyData:
             if of in self.columns.groups
             for place, name in each
         ]
+
+
+def node_numbers(graph: Graph, skills: Sequence[Skill]) -> dict[tuple[str, int], int]:
+    """The number of each node by its noun and its place there: sensors, memories, the skills reached, actuators."""
+    reached = {skill.name for skill in skills}
+    nodes = [
+        *(("sensor", place) for place in range(len(graph.sensors))),
+        *(("memory", place) for place in range(len(graph.memories))),
+        *(("skill", place) for place, skill in enumerate(graph.skills) if skill.name in reached),
+        *(("actuator", place) for place in range(len(graph.actuators))),
+    ]
+    return {node: number for number, node in enumerate(nodes)}
 
 
 def reading_names(graph: Graph) -> list[str]:

@@ -10,6 +10,7 @@ from typing import Any
 from mindrun.errors import MindError
 
 from mindlang.view.columns import DOUBLE_BLOCK, SINGLE_BLOCK
+from mindlang.view.command_shares import command_shares
 from mindlang.view.messages import MAX_FORKS, AskColumns, AskRows, Change, Message, RefusedError, Run, Why
 from mindlang.view.viewed import Fork, Viewed
 
@@ -97,7 +98,7 @@ class Session:
                 case AskColumns(fork, columns, first, below, every, ask):
                     return viewed.some_columns(fork, columns, first, below, every, ask)
                 case Why():
-                    raise RefusedError("this is not known yet")
+                    return command_shares(viewed, message)
         except MindError as error:
             raise RefusedError(f"{error}") from error
         raise RefusedError("that is no question")

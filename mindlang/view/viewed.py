@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence, Set
 from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
 from mindrun.errors import MindError
+from mindrun.graph import Skill
+from mindrun.policy import Policy
+from mindrun.think import Hierarchy, hierarchy
+from mindrun.weights import reachable
 from numpy.typing import NDArray
 
 from mindlang.view.columns import DOUBLE_BLOCK, FLOW, SINGLE_BLOCK, Columns
@@ -23,6 +27,32 @@ MAX_KEPT_BYTES = 2 << 30  # of rows
 Answer = dict[str, Any]
 
 
+@dataclass(frozen=True, slots=True)
+class SeenMind:
+    """The mind of a run: `sources` of its procedures, the `skills` that its master reaches, made ready.
+
+    `begins` are the ticks in which it was begun anew; of a recording they come with the rows.
+    """
+
+    policy: Policy
+    sources: Mapping[str, str]
+    master: str
+    skills: Sequence[Skill]
+    hierarchy: Hierarchy
+    begins: Set[int]
+
+    @classmethod
+    def of(cls, policy: Policy, sources: Mapping[str, str], master: str, begins: Set[int] = frozenset({1})) -> SeenMind:
+        """The mind with that master; WeightsError or ProcedureError where a skill cannot be made ready."""
+        skills = reachable(policy.graph, master)
+        return cls(policy, sources, master, skills, hierarchy(policy, sources, master), begins)
+
+    @property
+    def edges(self) -> int:
+        """How many edges its skills have."""
+        return sum(len(skill.edges) for skill in self.skills)
+
+
 @dataclass(slots=True)
 class Viewed:
     """`about` is what does not change, `chunks` what is still to come; the first chunk begins with tick 0.
@@ -34,7 +64,7 @@ class Viewed:
     about: Mapping[str, Any]
     columns: Columns
     chunks: Iterator[Chunk]
-    flow: Callable[[Viewed], EdgeFlow]
+    mind: SeenMind
     forked: Callable[[Change], Fork] | None = None
     blocks: RowBlocks = field(default_factory=RowBlocks)
     happened: list[tuple[int, int]] = field(default_factory=list)
@@ -98,7 +128,10 @@ class Viewed:
         return rows[:, group.first : group.first + group.count]
 
     def _flow(self) -> EdgeFlow:
-        self._edges = self._edges or self.flow(self)
+        def rows(ticks: Ticks) -> tuple[Singles, Singles]:
+            return self.group("readings", ticks), self.group("influence", ticks)
+
+        self._edges = self._edges or EdgeFlow(self.mind.hierarchy, rows, self.mind.begins)
         return self._edges
 
 

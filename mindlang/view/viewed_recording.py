@@ -10,17 +10,14 @@ import numpy as np
 from mindrun.bundle import Bundle, digest, read_bundle
 from mindrun.engine import Engine
 from mindrun.robot.recording import MAX_HEADER_BYTES, About, read
-from mindrun.think import hierarchy
 from mindrun.virtual_sensors import virtual_sensors
-from mindrun.weights import reachable
 from numpy.typing import NDArray
 
 from mindlang.view.about_hierarchy import HierarchyData
 from mindlang.view.columns import FLOW, Columns
-from mindlang.view.edge_flow import EdgeFlow
-from mindlang.view.row_blocks import Chunk, Singles, Ticks
+from mindlang.view.row_blocks import Chunk, Singles
 from mindlang.view.texts import shown
-from mindlang.view.viewed import Viewed
+from mindlang.view.viewed import SeenMind, Viewed
 
 CHUNK_TICKS = 1000
 BEGIN_COLUMN = 1  # of the events: stopped, began anew, and a fault of each sensor
@@ -32,13 +29,13 @@ def viewed_recording(path: Path, bundle: Path) -> Viewed:
 
     Runs the Python code of the bundle's procedures.
     """
-    mind = read_bundle(bundle)
+    found = read_bundle(bundle)
     of, parts = read(path)
-    of.refuse_another(digest(bundle), mind.graph)
-    skills = reachable(mind.graph, of.master)
-    columns = recording_columns(mind, of, sum(len(skill.edges) for skill in skills))
-    below = HierarchyData(mind.graph, of.master, skills, columns)
+    of.refuse_another(digest(bundle), found.graph)
     begins: set[int] = set()  # filled while the rows come
+    mind = SeenMind.of(found.policy, found.procedures, of.master, begins)
+    columns = recording_columns(found, of, mind.edges)
+    below = HierarchyData(found.graph, of.master, mind.skills, columns)
     about = {
         "title": shown(f"{path.name} with {of.master} in charge"),
         "task": None,
@@ -58,14 +55,7 @@ def viewed_recording(path: Path, bundle: Path) -> Viewed:
         "curves": below.curves(),
         **below.data({}),
     }
-
-    def flow(viewed: Viewed) -> EdgeFlow:
-        def rows(ticks: Ticks) -> tuple[Singles, Singles]:
-            return viewed.group("readings", ticks), viewed.group("influence", ticks)
-
-        return EdgeFlow(hierarchy(mind.policy, mind.procedures, of.master), rows, begins)
-
-    return Viewed(about, columns, recording_chunks(parts, mind, of, columns, begins), flow)
+    return Viewed(about, columns, recording_chunks(parts, found, of, columns, begins), mind)
 
 
 def recording_columns(mind: Bundle, of: About, edges: int) -> Columns:

@@ -12,8 +12,6 @@ from mindrun.sim.rollout import Rollout
 from mindrun.sim.task_rows import things_of
 from mindrun.sim.ticks import Ticks
 from mindrun.sim.trace import Trace, trace
-from mindrun.think import hierarchy
-from mindrun.weights import reachable
 from numpy.typing import NDArray
 
 from mindlang.run import outcome
@@ -21,13 +19,11 @@ from mindlang.run.setup import RunSetup
 from mindlang.view.about_hierarchy import HierarchyData, Texts
 from mindlang.view.about_world import world_data
 from mindlang.view.columns import FLOW, POSE_COLUMNS, THING_COLUMNS, Columns
-from mindlang.view.edge_flow import EdgeFlow
 from mindlang.view.messages import Change
 from mindlang.view.replacement import replacement, replacement_text
 from mindlang.view.row_blocks import Chunk, Doubles, Singles
-from mindlang.view.row_blocks import Ticks as Selected
 from mindlang.view.texts import shown
-from mindlang.view.viewed import Fork, Viewed
+from mindlang.view.viewed import Fork, SeenMind, Viewed
 
 NOTHING_HELD = -1
 TOUCH, COLLISION = "touch", "collision"  # kinds of events
@@ -38,10 +34,10 @@ def viewed_run(
 ) -> Viewed:
     """The run that `rollout` makes of a seed, with changes if there are any; `texts` are what its edges say."""
     graph = setup.ready.policy.graph
-    skills = reachable(graph, setup.master)
-    columns = run_columns(setup, sum(len(skill.edges) for skill in skills))
+    mind = SeenMind.of(setup.ready.policy, procedure_sources(graph, setup.folder, setup.master), setup.master)
+    columns = run_columns(setup, mind.edges)
     run = trace(rollout, seed, changes=made)
-    below = HierarchyData(graph, setup.master, skills, columns)
+    below = HierarchyData(graph, setup.master, mind.skills, columns)
     rewards = [reward.text for reward in setup.task.rewards]
     about = {
         "title": shown(f"{setup.task.name} with {setup.master} in charge, seed {seed}"),
@@ -64,7 +60,7 @@ def viewed_run(
         return Fork(viewed_run(setup, rollout, seed, texts, (*made, change)), replacement_text(graph, change))
 
     chunks = run_chunks(setup, run, columns)
-    return Viewed(about, columns, chunks, lambda viewed: run_flow(setup, viewed), forked)
+    return Viewed(about, columns, chunks, mind, forked)
 
 
 def run_columns(setup: RunSetup, edges: int) -> Columns:
@@ -89,16 +85,6 @@ def events_data(setup: RunSetup) -> list[dict[str, str]]:
     kinds = [names()[type(event)] for event in setup.task.events]
     found = [{"text": shown(text), "kind": kind} for text, kind in zip(outcome.events(setup.task), kinds, strict=True)]
     return found if COLLISION in kinds else [*found, {"text": "touch", "kind": TOUCH}]
-
-
-def run_flow(setup: RunSetup, viewed: Viewed) -> EdgeFlow:
-    """What the edges of a run transmit."""
-    sources = procedure_sources(setup.ready.policy.graph, setup.folder, setup.master)
-
-    def rows(ticks: Selected) -> tuple[Singles, Singles]:
-        return viewed.group("readings", ticks), viewed.group("influence", ticks)
-
-    return EdgeFlow(hierarchy(setup.ready.policy, sources, setup.master), rows)
 
 
 def run_chunks(setup: RunSetup, run: Trace, columns: Columns) -> Iterator[Chunk]:

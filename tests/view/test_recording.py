@@ -9,7 +9,9 @@ from mindrun.engine import Engine
 from mindrun.policy import Policy
 from mindrun.robot.recording import About, Recorder, RecordingError
 
+from mindlang.view.command_shares import command_shares
 from mindlang.view.frames import unpacked
+from mindlang.view.messages import Why
 from mindlang.view.viewed import Viewed
 from mindlang.view.viewed_recording import viewed_recording
 from tests.calling import Call
@@ -122,6 +124,15 @@ def test_flow_is_of_the_memory_that_the_robot_had(day: tuple[Path, Path, list[tu
     turn = viewed.group("influence", np.arange(1, TICKS + 1))[:, 1]
     assert to_turn.tobytes() == turn.tobytes()
     assert 0 < turn.max() <= 1
+
+
+def test_why_is_of_the_memory_that_the_robot_had(day: tuple[Path, Path, list[tuple[np.ndarray, np.ndarray]]]) -> None:
+    viewed = whole(viewed_recording(*day[:2]))
+    for tick in (TICKS, 4, BEGUN_ANEW + 2):
+        found = command_shares(viewed, Why(0, tick, 0))
+        assert np.float32(found["command"]) == day[2][tick - 1][1][0]
+        [to_turn] = [path for path in found["paths"] if len(path["path"]) == 3]
+        assert np.float32(to_turn["influence"]) == viewed.group("influence", np.array([tick]))[0, 1]
 
 
 def test_a_damaged_row_ends_it_with_a_sentence(day: tuple[Path, Path, object], tmp_path: Path) -> None:

@@ -1,0 +1,48 @@
+"""Why a wheel turned, as a page hears it: shares that add up to the command of the row, over paths of its nodes."""
+
+from math import fsum
+from typing import Any
+
+import numpy as np
+import pytest
+
+from mindlang.view.frames import unpacked
+from tests.view.serving import Served, ViewingClient
+
+TICKS = [1, 2, 77, 664, 1200]
+
+
+def why(viewer: ViewingClient, tick: int, actuator: int) -> dict[str, Any]:
+    """The answer about a tick."""
+    viewer.say(say="why", tick=tick, actuator=actuator)
+    return viewer.hear("why")
+
+
+@pytest.mark.parametrize("actuator", [0, 1])
+def test_shares_add_up_to_the_command_of_the_row(view: Served, actuator: int) -> None:
+    with view.viewer() as viewer:
+        about = viewer.hear("about")
+        viewer.run(1200)
+        answers = {tick: why(viewer, tick, actuator) for tick in TICKS}
+        data = viewer.frame(say="rows", **{"from": 0, "to": 1201})
+    singles = unpacked(data, about["doubles"], about["singles"])[4]
+    column = about["columns"]["commands"][1] + actuator
+    for tick, found in answers.items():
+        assert (found["tick"], found["actuator"]) == (tick, actuator)
+        assert np.float32(found["command"]) == singles[tick, column]
+        parts = [*(path["share"] for path in found["paths"]), found["rest"], found["neutral"], found["rounding"]]
+        assert abs(fsum(parts) - found["command"]) < 1e-12
+        assert abs(found["rounding"]) < 1e-6
+
+
+def test_paths_go_from_the_master_over_edges_to_the_actuator(view: Served) -> None:
+    with view.viewer() as viewer:
+        about = viewer.hear("about")
+        viewer.run(1200)
+        found = why(viewer, 77, 0)
+    edges = {(edge["from"], edge["to"]) for edge in about["edges"]}
+    names = [[about["nodes"][node]["name"] for node in path["path"]] for path in found["paths"]]
+    assert sorted(names) == [["Roam", "Chase", "left_wheel"], ["Roam", "Turn", "left_wheel"]]
+    for path in found["paths"]:
+        assert edges.issuperset(zip(path["path"], path["path"][1:], strict=False))
+        assert about["nodes"][path["path"][0]]["master"]
