@@ -53,17 +53,17 @@ class HierarchyData:
             case "sensor":
                 sensor = graph.sensors[place]
                 read = range(sensor.start, sensor.start + sensor.width)
-                return self._told(noun, sensor.name, sensor.kind, "readings", read)
+                return self._node_data(noun, sensor.name, sensor.kind, "readings", read)
             case "memory":
                 memory = graph.memories[place]
-                return self._told(noun, memory.name, memory.kind, "readings", [memory.start])
+                return self._node_data(noun, memory.name, memory.kind, "readings", [memory.start])
             case "skill":
                 skill = graph.skills[place]
-                return self._told(noun, skill.name, skill.function, "influence", [place])
+                return self._node_data(noun, skill.name, skill.function, "influence", [place])
         actuator = graph.actuators[place]
-        return self._told(noun, actuator.name, actuator.kind, "commands", [place])
+        return self._node_data(noun, actuator.name, actuator.kind, "commands", [place])
 
-    def _told(self, noun: str, name: str, kind: object, group: str, places: Sequence[int]) -> dict[str, Any]:
+    def _node_data(self, noun: str, name: str, kind: object, group: str, places: Sequence[int]) -> dict[str, Any]:
         return {
             "name": shown(name),
             "kind": noun,
