@@ -131,6 +131,23 @@ def test_a_search_finds_what_is_listed_and_shows_where_it_is(opened: Opened) -> 
     assert name in opened.page.inner_text("#chosen-text")
 
 
+def test_a_value_that_is_changed_makes_a_run_beside_this_one(opened: Opened, mind: Path) -> None:
+    graph = prepared(mind, "Chase").ready.policy.graph
+    skill = next(skill.name for skill in graph.skills if skill.name != graph.master)
+    opened.jump(100)
+    opened.page.fill("#search", skill)
+    opened.page.press("#search", "Enter")
+    opened.page.fill("#edit input[aria-label=value]", "0")
+    opened.page.click("#edit button")
+    opened.wait("document.querySelectorAll('#forks option').length === 2 && !document.querySelector('#forks').hidden")
+    assert skill in opened.texts("#forks option")[1]
+    [said] = [json.loads(said) for said in opened.sent if '"change"' in said]
+    assert (said["tick"], said["what"], said["value"]) == (100, "influence", 0)
+    opened.wait("document.querySelector('#forks').value === '1'")
+    opened.jump(400)
+    assert any(json.loads(said).get("fork") == 1 for said in opened.sent if '"rows"' in said)
+
+
 def test_a_subtree_is_collapsed_and_opened(opened: Opened) -> None:
     before = opened.page.locator("#hierarchy .node").count()
     opened.page.locator("#hierarchy .master .fold").click()

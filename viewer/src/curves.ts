@@ -2,6 +2,7 @@
 
 import uPlot from "uplot";
 import { digits, shown } from "./names";
+import type { Beside } from "./forks";
 import type { About, Curve } from "./protocol";
 import type { Rows, Series } from "./rows";
 import type { Theme } from "./theme";
@@ -17,6 +18,8 @@ export class Curves {
   private readonly chosen: number[];
   private plot: uPlot | undefined;
   private series: Series = { ticks: [], values: [] };
+  private other: Series = { ticks: [], values: [] }; // of the run beside it, at the same ticks
+  private beside: Beside | undefined;
   private readonly cursor = document.createElement("div");
   private tick = 0;
   private span: [number, number] | null = null; // the ticks that were zoomed into
@@ -61,6 +64,14 @@ export class Curves {
     }, REFRESH_MILLISECONDS);
   }
 
+  /** Shows the same curves of a run beside this one, dashed; or of none. */
+  compare(beside: Beside | undefined): void {
+    if (beside !== this.beside) {
+      this.beside = beside;
+      this.rebuild();
+    } else this.refresh();
+  }
+
   /** Puts the cursor on a tick. */
   move(tick: number): void {
     this.tick = tick;
@@ -92,20 +103,31 @@ export class Curves {
     const [from, to] = this.span ?? [0, this.rows.known];
     const most = Math.max(100, Math.round(this.place.clientWidth * POINTS_PER_PIXEL));
     const columns = chosen.map((curve) => this.about.curves[curve].column);
-    this.rows.series(columns, Math.max(0, Math.floor(from)), Math.min(this.rows.known, Math.ceil(to)), most, (series) => {
-      this.fetching = false;
-      if (chosen.join() !== this.chosen.join()) return this.refresh();
-      this.series = series;
-      this.show();
-      if (this.stale) this.refresh();
+    const span: [number, number] = [Math.max(0, Math.floor(from)), Math.min(this.rows.known, Math.ceil(to))];
+    const { beside } = this;
+    this.rows.series(columns, ...span, most, (series) => {
+      const done = (other: Series) => this.came(chosen, beside, series, other);
+      if (beside) beside.rows.series(columns, ...span, most, done);
+      else done({ ticks: [], values: [] });
     });
+  }
+
+  private came(chosen: number[], beside: Beside | undefined, series: Series, other: Series): void {
+    this.fetching = false;
+    if (chosen.join() !== this.chosen.join() || beside !== this.beside) return this.refresh();
+    this.series = series;
+    this.other = other;
+    this.show();
+    if (this.stale) this.refresh();
   }
 
   private show(): void {
     if (!this.plot) return;
-    const values = this.series.values.map((of) => of.map((value) => (Number.isFinite(value) ? value : null)));
+    const { ticks } = this.series;
+    const padded = (of: number[]) => ticks.map((_, place) => (Number.isFinite(of[place]) ? of[place] : null));
+    const values = [...this.series.values, ...(this.beside ? this.other.values : [])].map(padded);
     const seconds = this.about.tick;
-    this.plot.setData([this.series.ticks.map((tick) => tick * seconds), ...values], false);
+    this.plot.setData([ticks.map((tick) => tick * seconds), ...values], false);
     const [min, max] = this.span ?? [0, Math.max(1, this.rows.known)];
     this.plot.setScale("x", { min: min * seconds, max: max * seconds });
     this.move(this.tick);
@@ -130,10 +152,10 @@ export class Curves {
         { ...axis, scale: "unit", size: 40, gap: 3 },
         ...(sums ? [{ ...axis, scale: "sum", side: 1 as const, size: 52, gap: 3, grid: { show: false } }] : []),
       ],
-      series: [{}, ...this.chosen.map((curve, place) => this.line(this.about.curves[curve], place))],
+      series: [{}, ...this.lines(false), ...(this.beside ? this.lines(true) : [])],
       hooks: { setSelect: [(plot) => this.zoomed(plot)] },
     };
-    const empty = this.chosen.map(() => [] as number[]);
+    const empty = options.series.slice(1).map(() => [] as number[]);
     this.plot = new uPlot(options, [[], ...empty], this.place);
     this.plot.over.append(this.cursor);
     this.plot.over.addEventListener("click", (event) => this.clicked(event));
@@ -142,8 +164,13 @@ export class Curves {
     this.fetch();
   }
 
-  private line({ group }: Curve, place: number): uPlot.Series {
+  private lines(dashed: boolean): uPlot.Series[] {
+    return this.chosen.map((curve, place) => this.line(this.about.curves[curve], place, dashed));
+  }
+
+  private line({ group }: Curve, place: number, dashed: boolean): uPlot.Series {
     return {
+      ...(dashed ? { dash: [5, 4] } : {}),
       scale: SUMS.includes(group) ? "sum" : "unit",
       stroke: this.theme.skills[place % this.theme.skills.length],
       width: 1.5,

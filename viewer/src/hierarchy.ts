@@ -3,7 +3,7 @@
 import { Camera } from "./camera";
 import { EdgeCanvas } from "./edge_canvas";
 import { type Placed, place, type Size } from "./layout";
-import { percent, shown } from "./names";
+import { digits, percent, shown } from "./names";
 import { type About, type Column, columnOf } from "./protocol";
 import { type Row, valueAt } from "./rows";
 import { Subtrees } from "./subtrees";
@@ -26,6 +26,7 @@ const TAB_STOPS_MAX = 80; // with more than that, edges are not stops of the tab
 const MANY_EDGES = 400; // then they are on a canvas, those that transmit nothing are not seen, and all are drawn less often
 const MANY_MILLISECONDS = 60;
 const LARGEST_SCALE_AT_FIRST = 1.25;
+const READINGS_MAX = 24; // of one sensor
 const SMALLEST_SCALE_AT_FIRST = 0.7; // can be read; then it begins with the master, in the middle
 
 interface Drawn {
@@ -92,13 +93,18 @@ export class Hierarchy {
     this.subtrees.reveal(number);
     if (!this.nodes.has(number)) this.layout();
     const centre = this.placed.centres.get(number);
-    if (centre) {
+    if (centre && !this.sees(centre)) {
       this.camera.x = this.svg.clientWidth / 2 - centre.x * this.camera.scale;
       this.camera.y = this.svg.clientHeight / 2 - centre.y * this.camera.scale;
       this.camera.touched = true;
       this.move();
     }
     this.choose({ kind: "node", number });
+  }
+
+  private sees({ x, y }: { x: number; y: number }): boolean {
+    const [left, top] = [this.camera.x + x * this.camera.scale, this.camera.y + y * this.camera.scale];
+    return left > 0 && left < this.svg.clientWidth && top > 0 && top < this.svg.clientHeight;
   }
 
   choose(selected: Selected): void {
@@ -276,6 +282,7 @@ export function described(about: About, selected: NonNullable<Selected>, row: Ro
     return { text: `${name}: ${percent(value)}${text ? `\n${shown(text, 160)}` : ""}`, value };
   }
   const { name, kind, says, columns } = about.nodes[selected.number];
-  const value = row && columns.length ? valueAt(row, columns[0]) : NaN;
-  return { text: `${shown(name)} (${says ? `${kind}, ${says}` : kind}): ${percent(value)}`, value };
+  const values = row ? columns.map((column) => valueAt(row, column)) : [];
+  const several = values.length > 1 ? values.slice(0, READINGS_MAX).map(digits).join("  ") : percent(values[0] ?? NaN);
+  return { text: `${shown(name)} (${says ? `${kind}, ${says}` : kind}): ${several}`, value: values[0] ?? NaN };
 }

@@ -3,6 +3,8 @@
 import { ActiveList } from "./active";
 import { Curves } from "./curves";
 import { element, pressed, svgElement } from "./elements";
+import { Edit } from "./edit";
+import { Forks } from "./forks";
 import { described, Hierarchy, type Selected } from "./hierarchy";
 import { helpRows, listen } from "./keys";
 import { keysOf } from "./key_table";
@@ -28,6 +30,8 @@ export class View {
   private readonly curves: Curves;
   private readonly why: Why;
   private readonly transport: Transport;
+  private readonly forks: Forks;
+  private readonly edit: Edit;
   private readonly happened: Happened[] = [];
   private collisions: number[] = [];
   private readonly stops = new Map<number, string>();
@@ -57,6 +61,8 @@ export class View {
     this.curves = new Curves(element("curves"), element("curves-choice"), curvesSearch, about, this.rows, theme(), jump);
     this.timeline = new Timeline(element<HTMLCanvasElement>("timeline"), element("hint"), about, theme(), jump);
     this.why = new Why(element("why"), about, send);
+    this.edit = new Edit(element("edit"), about, send, () => this.playback.tick);
+    this.forks = new Forks(element<HTMLSelectElement>("forks"), about, send, () => this.beside());
     this.transport = new Transport(this.playback, this.timeline, about.tick);
     this.title();
     this.buttons();
@@ -71,12 +77,20 @@ export class View {
 
   said(message: Exclude<Said, About>): void {
     if (message.say === "ticks" && message.fork === 0) this.grown(message);
+    else if (message.say === "ticks") this.forks.ticks(message);
+    else if (message.say === "fork") this.forks.begun(message);
     else if (message.say === "why") this.why.show(message);
     else if (message.say === "refused") element("state").textContent = shown(message.why, 160);
   }
 
   frame(frame: Frame): void {
     if (frame.fork === 0) this.rows.add(frame);
+    else this.forks.frame(frame);
+  }
+
+  private beside(): void {
+    this.curves.compare(this.forks.chosen);
+    this.dirty = true;
   }
 
   private parts() {
@@ -113,6 +127,7 @@ export class View {
     if (this.playback?.over || to <= Math.max(this.asked, this.rows.known)) return;
     this.asked = to;
     this.send({ say: "run", to });
+    this.forks.want(to);
   }
 
   private grown({ known, over, ended_by, failed, happened, stops }: Ticks): void {
@@ -175,14 +190,18 @@ export class View {
     if (!row) return;
     const drawn = [this.active.draw(row, now), this.hierarchy.draw(row, now)];
     this.dirty = drawn.includes(false);
-    this.world?.draw(row, this.rows, this.collisions.filter((each) => each <= tick));
+    this.world?.draw(row, this.rows, this.collisions.filter((each) => each <= tick), this.forks.chosen);
+    this.edit.show(this.playback.playing, tick);
     this.describe("chosen-text", this.selected);
     this.describe("tip", this.over);
   }
 
   private choose(selected: Selected): void {
     this.selected = selected;
-    this.why.choose(selected?.kind === "node" ? selected.number : null);
+    const node = selected?.kind === "node" ? selected.number : null;
+    this.why.choose(node);
+    this.edit.choose(node, this.rows.row(this.playback.tick));
+    this.describe("chosen-text", selected);
     if (!selected) element("chosen-text").textContent = "Choose a skill, an edge or an actuator to see its value, and why.";
     this.dirty = true;
   }

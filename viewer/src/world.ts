@@ -3,6 +3,7 @@
 import { Camera } from "./camera";
 import { shown } from "./names";
 import { type About, columnOf, type Column, type Thing, type World as WorldData } from "./protocol";
+import type { Beside } from "./forks";
 import { drawRobot } from "./robot";
 import { type Row, type Rows, valueAt } from "./rows";
 import type { Theme } from "./theme";
@@ -64,8 +65,8 @@ export class World {
     if (!this.camera.touched) this.fit();
   }
 
-  /** Draws what was after a tick; `other` is the row of the run beside this one. */
-  draw(row: Row, rows: Rows, collisions: number[], other?: Row): void {
+  /** Draws what was after a tick, and where the robot of a run beside this one was. */
+  draw(row: Row, rows: Rows, collisions: number[], beside?: Beside): void {
     const { context, canvas, camera, theme } = this;
     const [x, y] = this.pose(row);
     if (this.follows) {
@@ -80,9 +81,11 @@ export class World {
     context.lineJoin = context.lineCap = "round";
     this.floor();
     this.things(row, true);
-    this.path(row, rows);
+    if (beside) this.path(row.tick, beside.rows, theme.lamp, beside.from);
+    this.path(row.tick, rows, theme.late);
     this.collisions(rows, collisions);
     this.things(row, false);
+    const other = beside?.rows.row(row.tick);
     if (other) this.ghost(other);
     drawRobot(context, this.world.robot, row, this.pose(row), theme, 1 / camera.scale);
     this.names(row);
@@ -172,12 +175,13 @@ export class World {
     }
   }
 
-  private path(row: Row, rows: Rows): void {
-    const { context, theme, camera } = this;
-    const points = [...rows.between(row.tick - PATH_TICKS, row.tick)].map((each) => this.pose(each));
+  private path(tick: number, rows: Rows, colour: string, from = 0): void {
+    const { context, camera } = this;
+    const points = [...rows.between(Math.max(from, tick - PATH_TICKS), tick)].map((each) => this.pose(each));
     const step = Math.ceil(points.length / PATH_PARTS) || 1;
-    context.strokeStyle = theme.late;
+    context.strokeStyle = colour;
     context.lineWidth = 2 / camera.scale;
+    context.lineCap = "butt"; // the parts would be seen twice where they meet
     for (let first = 0; first < points.length - 1; first += step) {
       context.beginPath();
       context.moveTo(points[first][0], points[first][1]);
@@ -186,6 +190,7 @@ export class World {
       context.stroke();
     }
     context.globalAlpha = 1;
+    context.lineCap = "round";
   }
 
   private collisions(rows: Rows, ticks: number[]): void {

@@ -1,0 +1,52 @@
+/** Runs beside the one that is seen, which began with a change: one of them is shown with it. */
+
+import { shown } from "./names";
+import type { About, Fork, Frame, Send, Ticks } from "./protocol";
+import { Rows } from "./rows";
+
+export interface Beside {
+  number: number;
+  from: number; // the tick of its change
+  rows: Rows;
+}
+
+export class Forks {
+  private readonly all = new Map<number, Beside>();
+
+  constructor(
+    private readonly select: HTMLSelectElement,
+    private readonly about: About,
+    private readonly send: Send,
+    private readonly changed: () => void,
+  ) {
+    select.add(new Option("the run alone", "0"));
+    select.addEventListener("change", changed);
+  }
+
+  /** The one that is shown beside the run. */
+  get chosen(): Beside | undefined {
+    return this.all.get(Number(this.select.value));
+  }
+
+  begun({ fork, tick, text }: Fork): void {
+    this.all.set(fork, { number: fork, from: tick, rows: new Rows(this.about, fork, this.send, this.changed) });
+    this.select.add(new Option(`beside: ${shown(text, 110)}`, String(fork), false, true));
+    this.select.hidden = false;
+    this.changed();
+  }
+
+  ticks({ fork, known }: Ticks): void {
+    const found = this.all.get(fork);
+    if (found) found.rows.known = known;
+    this.changed();
+  }
+
+  frame(frame: Frame): void {
+    this.all.get(frame.fork)?.rows.add(frame);
+  }
+
+  /** Lets them go on with the run. */
+  want(to: number): void {
+    for (const { number, rows } of this.all.values()) if (to > rows.known) this.send({ say: "run", fork: number, to });
+  }
+}
