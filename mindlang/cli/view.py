@@ -149,7 +149,7 @@ def _export(viewed: Viewed, path: Path, quiet: bool) -> None:
             progress.update(bar, completed=viewed.known)
     session = Session(viewed)
     try:
-        page = exported(session.about(edits=False), session.ticks(0, 0), viewed)
+        page = exported(session.about(edits=False), session.ticks(0), viewed)
     except MindError as error:
         fail(str(error), error.hint, MISUSE)
     write_file(path, page.encode())

@@ -16,8 +16,8 @@ Ticks = NDArray[np.int64]
 class Chunk:
     """Some ticks, one after the other: `doubles` [ticks, columns], `singles` [ticks, columns that are kept].
 
-    `happened` has pairs of a tick and the number of an event, `ended_by` what ended the run, where it
-    did in the last chunk of all.
+    `happened` has pairs of a tick and the number of an event, `stops` of a tick and the breakpoint that holds there;
+    `ended_by` is what ended the run, in the last chunk of all.
     """
 
     doubles: Doubles
@@ -25,6 +25,7 @@ class Chunk:
     happened: tuple[tuple[int, int], ...] = ()
     ended_by: str | None = None
     is_last: bool = False
+    stops: tuple[tuple[int, str], ...] = ()
 
 
 @dataclass(slots=True)

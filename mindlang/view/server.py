@@ -38,12 +38,12 @@ class BoundedConnection(ServerConnection):
 
 @dataclass(eq=False, slots=True)
 class Viewer:
-    """One who sees a session: whether it may change it, and how many events of each fork it has heard."""
+    """One who sees a session: whether it may change it, and how many events and stops of each fork it has heard."""
 
     connection: ServerConnection
     edits: bool
     changed: asyncio.Event = field(default_factory=asyncio.Event)
-    heard: dict[int, int] = field(default_factory=dict)
+    heard: dict[int, tuple[int, int]] = field(default_factory=dict)
 
     async def send(self, said: bytes | dict[str, Any]) -> None:
         """Send rows or a message; who does not read for long is dropped."""
@@ -151,11 +151,16 @@ class ViewServer:
                 for fork in range(len(self._session.forks)):
                     if fork and fork not in viewer.heard:
                         await viewer.send(self._session.forks_data[fork])
-                    ticks = self._session.ticks(fork, viewer.heard.get(fork, 0))
-                    viewer.heard[fork] = viewer.heard.get(fork, 0) + len(ticks["happened"])
-                    await viewer.send(ticks)
-                    if len(ticks["happened"]) == MAX_HAPPENED:  # there may be more
-                        viewer.changed.set()
+                    await self._tell_ticks(viewer, fork)
+
+    async def _tell_ticks(self, viewer: Viewer, fork: int) -> None:
+        happened, stops = viewer.heard.get(fork, (0, 0))
+        ticks = self._session.ticks(fork, happened, stops)
+        news = len(ticks["happened"]), len(ticks["stops"])
+        viewer.heard[fork] = happened + news[0], stops + news[1]
+        await viewer.send(ticks)
+        if MAX_HAPPENED in news:  # there may be more
+            viewer.changed.set()
 
     def _changed(self) -> None:
         for viewer in self._viewers:

@@ -14,7 +14,7 @@ from mindlang.view.command_shares import command_shares
 from mindlang.view.messages import MAX_FORKS, AskColumns, AskRows, Change, Message, RefusedError, Run, Why
 from mindlang.view.viewed import Fork, Viewed
 
-MAX_HAPPENED = 10_000  # events that are told at once
+MAX_HAPPENED = 10_000  # events, and stops, that are told at once
 
 
 class Session:
@@ -42,8 +42,8 @@ class Session:
             **viewed.about,
         }
 
-    def ticks(self, fork: int, heard: int) -> dict[str, Any]:
-        """How far a fork has come; of what happened, what comes behind the `heard` events."""
+    def ticks(self, fork: int, happened: int = 0, stops: int = 0) -> dict[str, Any]:
+        """How far a fork has come; of what happened and where it stops, what comes behind so many that are known."""
         viewed = self.forks[fork]
         over, known = viewed.over, viewed.known
         return {
@@ -53,8 +53,8 @@ class Session:
             "over": over,
             "ended_by": viewed.ended_by,
             "failed": viewed.failed,
-            "happened": viewed.happened[heard : heard + MAX_HAPPENED],
-            "stops": [],
+            "happened": viewed.happened[happened : happened + MAX_HAPPENED],
+            "stops": viewed.stops[stops : stops + MAX_HAPPENED],
         }
 
     async def answer(self, message: Message, edits: bool) -> bytes | dict[str, Any] | None:

@@ -68,6 +68,7 @@ class Viewed:
     forked: Callable[[Change], Fork] | None = None
     blocks: RowBlocks = field(default_factory=RowBlocks)
     happened: list[tuple[int, int]] = field(default_factory=list)
+    stops: list[tuple[int, str]] = field(default_factory=list)
     over: bool = False
     ended_by: str | None = None
     failed: str | None = None
@@ -92,6 +93,7 @@ class Viewed:
             self.over = True
             return
         self.happened.extend(chunk.happened)
+        self.stops.extend(chunk.stops)
         self.blocks.append(chunk)
         self.ended_by, self.over = chunk.ended_by, chunk.is_last
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 import numpy as np
 from mindrun import changes
@@ -14,6 +14,8 @@ from mindrun.sim.ticks import Ticks
 from mindrun.sim.trace import Trace, trace
 from numpy.typing import NDArray
 
+from mindlang.breakpoints.breakpoint import Breakpoint
+from mindlang.breakpoints.watch import Part, Watcher, watcher
 from mindlang.run import outcome
 from mindlang.run.setup import RunSetup
 from mindlang.view.about_hierarchy import HierarchyData, Texts
@@ -30,9 +32,17 @@ TOUCH, COLLISION = "touch", "collision"  # kinds of events
 
 
 def viewed_run(
-    setup: RunSetup, rollout: Rollout, seed: int, texts: Texts, made: tuple[changes.Change, ...] = ()
+    setup: RunSetup,
+    rollout: Rollout,
+    seed: int,
+    texts: Texts,
+    breakpoints: Sequence[Breakpoint] = (),
+    made: tuple[changes.Change, ...] = (),
 ) -> Viewed:
-    """The run that `rollout` makes of a seed, with changes if there are any; `texts` are what its edges say."""
+    """The run that `rollout` makes of a seed, with changes if there are any; `texts` are what its edges say.
+
+    `breakpoints` are of a setup that notices their events.
+    """
     graph = setup.ready.policy.graph
     mind = SeenMind.of(setup.ready.policy, procedure_sources(graph, setup.folder, setup.master), setup.master)
     columns = run_columns(setup, mind.edges)
@@ -57,9 +67,10 @@ def viewed_run(
 
     def forked(asked: Change) -> Fork:
         change = replacement(graph, setup.task, columns, asked)
-        return Fork(viewed_run(setup, rollout, seed, texts, (*made, change)), replacement_text(graph, change))
+        forked = viewed_run(setup, rollout, seed, texts, breakpoints, (*made, change))
+        return Fork(forked, replacement_text(graph, change))
 
-    chunks = run_chunks(setup, run, columns)
+    chunks = run_chunks(setup, run, columns, watcher(breakpoints, setup) if breakpoints else None)
     return Viewed(about, columns, chunks, mind, forked)
 
 
@@ -87,18 +98,20 @@ def events_data(setup: RunSetup) -> list[dict[str, str]]:
     return found if COLLISION in kinds else [*found, {"text": "touch", "kind": TOUCH}]
 
 
-def run_chunks(setup: RunSetup, run: Trace, columns: Columns) -> Iterator[Chunk]:
+def run_chunks(setup: RunSetup, run: Trace, columns: Columns, watching: Watcher | None = None) -> Iterator[Chunk]:
     """A run as it is made: the only place that knows where rows come from."""
     yield Chunk(_beginning(run, setup), _nothing_held(columns)[None])
     touched, number = False, 0
+    times = np.zeros(len(setup.task.events), np.int64)  # how often each event has happened
     for ticks in run.chunks:
         touching = np.concatenate([[touched], ticks.touching])
         touched = bool(touching[-1])
         happened, is_last = tuple(_happened(setup, ticks, number, touching)), run.jobs.lanes[0] == 0
         number += len(ticks)
-        yield Chunk(
-            _doubles(ticks), _singles(ticks), happened, _ended_by(setup, run) if is_last else None, bool(is_last)
-        )
+        so_far = times + np.cumsum(ticks.events, axis=0)
+        times = so_far[-1]
+        ended_by, stops = _ended_by(setup, run) if is_last else None, _stops(ticks, so_far, watching)
+        yield Chunk(_doubles(ticks), _singles(ticks), happened, ended_by, bool(is_last), tuple(stops))
 
 
 def _beginning(run: Trace, setup: RunSetup) -> Doubles:
@@ -129,6 +142,13 @@ def _happened(setup: RunSetup, ticks: Ticks, number: int, touching: NDArray[np.b
         happened.append((touching[1:] & ~touching[:-1])[:, None])
     for row, event in np.argwhere(np.concatenate(happened, axis=1)):
         yield number + 1 + int(row), int(event)
+
+
+def _stops(ticks: Ticks, events: NDArray[np.int64], watching: Watcher | None) -> Iterator[tuple[int, str]]:
+    """Where breakpoints stop a chunk, of which `events` says how often each has happened since the beginning."""
+    rows = Part(ticks.readings, ticks.influence, ticks.commands, events)
+    for stop in watching.feed(rows) if watching else ():
+        yield stop.tick, shown(f"line {stop.breakpoint.line}: {stop.breakpoint.text}")
 
 
 def _ended_by(setup: RunSetup, run: Trace) -> str | None:
