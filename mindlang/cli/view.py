@@ -81,13 +81,13 @@ def _simulated(
     from mindlang.cli._run_session import RunSession
     from mindlang.cli._terminal import load_compiled
     from mindlang.compiler.drawing import text_after_name
-    from mindlang.view.viewed_run import viewed_run
+    from mindlang.view.viewed_run import ViewedRun
 
     compiled = load_compiled(file)
     setup, rollout = RunSession(quiet).prepare_compiled(file, compiled, task, master, interrupt)
     skills = compiled.mind.skills if compiled.mind else ()
     texts = {(skill.name, edge.target): text_after_name(edge.fact) for skill in skills for edge in skill.edges}
-    return viewed_run(setup, rollout, secrets.randbits(31) if seed is None else seed, texts)
+    return ViewedRun(setup, rollout, secrets.randbits(31) if seed is None else seed, texts).begun()
 
 
 def _recorded(file: str, bundle: str) -> Viewed:

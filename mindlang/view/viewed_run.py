@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 from mindrun import changes
@@ -31,47 +33,52 @@ NOTHING_HELD = -1
 TOUCH, COLLISION = "touch", "collision"  # kinds of events
 
 
-def viewed_run(
-    setup: RunSetup,
-    rollout: Rollout,
-    seed: int,
-    texts: Texts,
-    breakpoints: Sequence[Breakpoint] = (),
-    made: tuple[changes.Change, ...] = (),
-) -> Viewed:
-    """The run that `rollout` makes of a seed, with changes if there are any; `texts` are what its edges say.
+@dataclass(frozen=True, slots=True)
+class ViewedRun:
+    """A run to be seen: `texts` are what its edges say, `breakpoints` are of a setup that notices their events."""
 
-    `breakpoints` are of a setup that notices their events.
-    """
-    graph = setup.ready.policy.graph
-    mind = SeenMind.of(setup.ready.policy, procedure_sources(graph, setup.folder, setup.master), setup.master)
-    columns = run_columns(setup, mind.edges)
-    run = trace(rollout, seed, changes=made)
-    below = HierarchyData(graph, setup.master, mind.skills, columns)
-    rewards = [reward.text for reward in setup.task.rewards]
-    about = {
-        "title": shown(f"{setup.task.name} with {setup.master} in charge, seed {seed}"),
-        "task": shown(setup.task.name),
-        "master": shown(setup.master),
-        "source": "simulation",
-        "seed": str(seed),
-        "tick": graph.tick,
-        "of_ticks": setup.task.ticks,
-        "events": events_data(setup),
-        "rewards": [shown(text) for text in rewards],
-        "ends": [shown(text) for text in outcome.ends(setup.task)],
-        "world": world_data(graph, setup.task, run.boxes, columns),
-        "curves": below.curves(rewards),
-        **below.data(texts),
-    }
+    setup: RunSetup
+    rollout: Rollout
+    seed: int
+    texts: Texts
+    breakpoints: Sequence[Breakpoint] = ()
+    changes: tuple[changes.Change, ...] = ()
 
-    def forked(asked: Change) -> Fork:
+    def begun(self) -> Viewed:
+        """The run that the rollout makes of the seed, with the changes."""
+        setup, graph = self.setup, self.setup.ready.policy.graph
+        mind = SeenMind.of(setup.ready.policy, procedure_sources(graph, setup.folder, setup.master), setup.master)
+        columns = run_columns(setup, mind.edges)
+        run = trace(self.rollout, self.seed, changes=self.changes)
+        watching = watcher(self.breakpoints, setup) if self.breakpoints else None
+        chunks = run_chunks(setup, run, columns, watching)
+        return Viewed(self._about(run, mind, columns), columns, chunks, mind, self._forked)
+
+    def _forked(self, asked: Change) -> Fork:
+        setup, graph = self.setup, self.setup.ready.policy.graph
+        columns = run_columns(setup, 0)
         change = replacement(graph, setup.task, columns, asked)
-        forked = viewed_run(setup, rollout, seed, texts, breakpoints, (*made, change))
-        return Fork(forked, replacement_text(graph, change))
+        return Fork(replace(self, changes=(*self.changes, change)).begun(), replacement_text(graph, change))
 
-    chunks = run_chunks(setup, run, columns, watcher(breakpoints, setup) if breakpoints else None)
-    return Viewed(about, columns, chunks, mind, forked)
+    def _about(self, run: Trace, mind: SeenMind, columns: Columns) -> dict[str, Any]:
+        setup, task, graph = self.setup, self.setup.task, self.setup.ready.policy.graph
+        below = HierarchyData(graph, setup.master, mind.skills, columns)
+        rewards = [reward.text for reward in task.rewards]
+        return {
+            "title": shown(f"{task.name} with {setup.master} in charge, seed {self.seed}"),
+            "task": shown(task.name),
+            "master": shown(setup.master),
+            "source": "simulation",
+            "seed": str(self.seed),
+            "tick": graph.tick,
+            "of_ticks": task.ticks,
+            "events": events_data(setup),
+            "rewards": [shown(text) for text in rewards],
+            "ends": [shown(text) for text in outcome.ends(task)],
+            "world": world_data(graph, task, run.boxes, columns),
+            "curves": below.curves(rewards),
+            **below.data(self.texts),
+        }
 
 
 def run_columns(setup: RunSetup, edges: int) -> Columns:

@@ -18,7 +18,7 @@ from mindlang.run.setup import RunSetup, set_up
 from mindlang.view.server import ViewServer
 from mindlang.view.session import Session
 from mindlang.view.viewed import Viewed
-from mindlang.view.viewed_run import viewed_run
+from mindlang.view.viewed_run import ViewedRun
 
 ANSWER_SECONDS = 120.0  # at which a test gives up: the simulator may have to be compiled
 ENTERS = "\r\n"
@@ -38,7 +38,7 @@ def prepared(path: Path, task: str) -> RunSetup:
 def simulated(path: Path, task: str = "Chase", seed: int = 3, interrupt: bool = True) -> Viewed:
     """A run that has not begun, but for its beginning."""
     setup = prepared(path, task)
-    viewed = viewed_run(setup, setup.rollout(interrupt), seed, {})
+    viewed = ViewedRun(setup, setup.rollout(interrupt), seed, {}).begun()
     viewed.grow()
     return viewed
 

@@ -9,7 +9,7 @@ from mindlang.compiler.compile import load
 from mindlang.compiler.source import Source
 from mindlang.run.recorded_run import record_run
 from mindlang.run.setup import set_up
-from mindlang.view.viewed_run import viewed_run
+from mindlang.view.viewed_run import ViewedRun
 from tests.view.serving import served
 
 BREAKS = """
@@ -33,7 +33,7 @@ def test_stops_are_those_of_the_whole_run(path: Path) -> None:
         [stop.tick, f"line {stop.breakpoint.line}: {stop.breakpoint.text}"]
         for stop in watcher(found.breakpoints, setup).feed(record_run(setup, rollout, 3))
     ]
-    viewed = viewed_run(setup, rollout, 3, {}, found.breakpoints)
+    viewed = ViewedRun(setup, rollout, 3, {}, found.breakpoints).begun()
     viewed.grow()
     heard = []
     with served(viewed) as view, view.viewer() as viewer:
