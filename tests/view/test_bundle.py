@@ -11,6 +11,7 @@ import pytest
 from mindlang.pictures.theme import NIGHT, PAPER, Colour, Theme
 from tests.project.sources import ROOT
 from tests.project.test_install import wheel
+from tests.project.test_style import FILE_LINES
 
 PAGE, VIEWER = ROOT / "mindlang" / "view" / "page", ROOT / "viewer"
 FILES = ("LICENSES.txt", "index.html", "view.css", "view.js")
@@ -21,6 +22,13 @@ SHARED = ("page", "floor", "grid", "wall", "rock", "rock_edge", "ink", "robot", 
 def test_it_is_small() -> None:
     assert sorted(path.name for path in PAGE.iterdir()) == sorted(FILES)
     assert sum((PAGE / name).stat().st_size for name in FILES) < BUNDLE_BYTES
+
+
+def test_its_sources_are_as_short_as_all_others() -> None:
+    for path in sorted((VIEWER / "src").glob("*.ts")):
+        lines = path.read_text(encoding="utf-8").splitlines()
+        assert len(lines) <= FILE_LINES, path.name
+        assert lines[0].startswith("/** "), f"{path.name} does not say what it is"
 
 
 @pytest.mark.slow

@@ -131,6 +131,18 @@ def test_a_search_finds_what_is_listed_and_shows_where_it_is(opened: Opened) -> 
     assert name in opened.page.inner_text("#chosen-text")
 
 
+def test_an_actuator_says_which_paths_its_command_comes_from(opened: Opened) -> None:
+    opened.jump(640)
+    opened.page.locator("#hierarchy .node.actuator").first.click()
+    opened.wait("document.querySelectorAll('#why .path').length > 0")
+    assert "tick 640" in opened.page.inner_text("#why .sum")
+    command = float(str(opened.page.get_attribute("#why .sum", "title")))
+    titles = [str(each.get_attribute("title")) for each in opened.page.locator("#why .numbers").all()]
+    shares = [float(title.rsplit("share ", 1)[1]) for title in titles]
+    assert sum(shares) == pytest.approx(command, abs=1e-6)
+    assert command == float(str(opened.page.get_attribute("#chosen-text", "data-value")))
+
+
 def test_a_value_that_is_changed_makes_a_run_beside_this_one(opened: Opened, mind: Path) -> None:
     graph = prepared(mind, "Chase").ready.policy.graph
     skill = next(skill.name for skill in graph.skills if skill.name != graph.master)

@@ -19,9 +19,9 @@ export class EdgeCanvas {
     this.context = canvas.getContext("2d")!;
   }
 
-  /** Takes the place of all edges there were. */
+  /** Takes the place of all edges there were; they are straight here. */
   set(lines: Map<number, Line>): void {
-    this.lines = lines;
+    this.lines = new Map([...lines].map(([edge, line]) => [edge, [line[0], line[line.length - 1]]]));
     this.values = new Map();
     this.draw();
   }

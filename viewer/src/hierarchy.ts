@@ -3,19 +3,18 @@
 import { Camera } from "./camera";
 import { EdgeCanvas } from "./edge_canvas";
 import { type Placed, place, type Size } from "./layout";
-import { digits, percent, shown } from "./names";
+import type { Selected } from "./description";
+import { make, smooth } from "./svg";
+import { shown } from "./names";
 import { type About, type Column, columnOf } from "./protocol";
 import { type Row, valueAt } from "./rows";
 import { Subtrees } from "./subtrees";
-
-export type Selected = { kind: "node" | "edge"; number: number } | null;
 
 export interface Shown {
   over(selected: Selected, event: PointerEvent): void;
   chosen(selected: Selected): void;
 }
 
-const SVG = "http://www.w3.org/2000/svg";
 const NODE_HEIGHT = 34;
 const CHARACTER_PIXELS = 7.4;
 const NODE_CHARACTERS = 26;
@@ -26,7 +25,6 @@ const TAB_STOPS_MAX = 80; // with more than that, edges are not stops of the tab
 const MANY_EDGES = 400; // then they are on a canvas, those that transmit nothing are not seen, and all are drawn less often
 const MANY_MILLISECONDS = 60;
 const LARGEST_SCALE_AT_FIRST = 1.25;
-const READINGS_MAX = 24; // of one sensor
 const SMALLEST_SCALE_AT_FIRST = 0.7; // can be read; then it begins with the master, in the middle
 
 interface Drawn {
@@ -187,7 +185,7 @@ export class Hierarchy {
     const open = this.subtrees.open();
     this.placed = place(open.nodes, open.edges, (edge) => this.about.edges[edge], (node) => this.size(node), this.aspect);
     this.many = open.edges.length > MANY_EDGES ? open.edges : [];
-    this.canvas.set(new Map(this.many.map((edge) => [edge, ends(this.placed.lines.get(edge)!)])));
+    this.canvas.set(new Map(this.many.map((edge) => [edge, this.placed.lines.get(edge)!])));
     this.drawnAt = -Infinity;
     this.nodes.clear();
     this.edges.clear();
@@ -246,43 +244,6 @@ export class Hierarchy {
   }
 }
 
-function ends(line: { x: number; y: number }[]): { x: number; y: number }[] {
-  return [line[0], line[line.length - 1]];
-}
-
 function levelOf(value: number): number {
   return value > 0 ? Math.max(1, Math.round(Math.min(1, value) * LEVELS)) : 0;
-}
-
-function make(name: string, attributes: Record<string, string | number>): SVGElement {
-  const element = document.createElementNS(SVG, name);
-  for (const [key, value] of Object.entries(attributes)) element.setAttribute(key, String(value));
-  return element;
-}
-
-/** A line through points, round where it bends. */
-function smooth(points: { x: number; y: number }[]): string {
-  const at = ({ x, y }: { x: number; y: number }) => `${x.toFixed(1)} ${y.toFixed(1)}`;
-  if (points.length < 3) return points.map((point, place) => (place ? "L" : "M") + at(point)).join("");
-  let line = `M${at(points[0])}`;
-  for (let place = 1; place < points.length - 1; place++) {
-    const [point, next] = [points[place], points[place + 1]];
-    const end = place === points.length - 2 ? next : { x: (point.x + next.x) / 2, y: (point.y + next.y) / 2 };
-    line += `Q${at(point)} ${at(end)}`;
-  }
-  return line;
-}
-
-/** What a node or an edge is, and its value in a row, in words. */
-export function described(about: About, selected: NonNullable<Selected>, row: Row | undefined): { text: string; value: number } {
-  if (selected.kind === "edge") {
-    const { from, to, text } = about.edges[selected.number];
-    const value = row ? valueAt(row, columnOf(about, "flow", selected.number)) : NaN;
-    const name = `${shown(about.nodes[from].name)} \u2192 ${shown(about.nodes[to].name)}`;
-    return { text: `${name}: ${percent(value)}${text ? `\n${shown(text, 160)}` : ""}`, value };
-  }
-  const { name, kind, says, columns } = about.nodes[selected.number];
-  const values = row ? columns.map((column) => valueAt(row, column)) : [];
-  const several = values.length > 1 ? values.slice(0, READINGS_MAX).map(digits).join("  ") : percent(values[0] ?? NaN);
-  return { text: `${shown(name)} (${says ? `${kind}, ${says}` : kind}): ${several}`, value: values[0] ?? NaN };
 }

@@ -19,6 +19,7 @@ export class Timeline {
   private happened: Happened[] = [];
   private tick = 0;
   private known = 0;
+  private over = false;
   private dragging = false;
 
   constructor(
@@ -48,9 +49,11 @@ export class Timeline {
   }
 
   /** Draws it anew where something has changed. */
-  show(tick: number, known: number, happened: Happened[]): void {
-    if (tick === this.tick && known === this.known && happened.length === this.happened.length) return;
+  show(tick: number, known: number, over: boolean, happened: Happened[]): void {
+    const same = tick === this.tick && known === this.known && over === this.over;
+    if (same && happened.length === this.happened.length) return;
     this.tick = tick;
+    this.over = over;
     this.known = known;
     this.happened = [...happened];
     this.canvas.setAttribute("aria-valuemax", String(known));
@@ -72,8 +75,8 @@ export class Timeline {
   }
 
   private get length(): number {
-    const all = this.about.of_ticks;
-    return Math.max(1, all && this.about.source === "simulation" ? Math.max(all, this.known) : this.known);
+    const goesOn = this.about.source === "simulation" && !this.over;
+    return Math.max(1, this.known, goesOn ? (this.about.of_ticks ?? 0) : 0);
   }
 
   private x(tick: number): number {

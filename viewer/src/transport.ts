@@ -26,7 +26,10 @@ export class Transport {
     pressed("event-after", () => to(1));
     for (const rate of RATES) this.rate.add(new Option(`${rate}\u00d7`, String(rate), rate === 1));
     this.rate.addEventListener("change", () => (playback.rate = Number(this.rate.value)));
-    this.tick.addEventListener("change", () => playback.jump(Number(this.tick.value) || 0));
+    this.tick.addEventListener("change", () => {
+      playback.jump(Number(this.tick.value) || 0);
+      this.tick.blur(); // keys are the player's again
+    });
   }
 
   show(): void {

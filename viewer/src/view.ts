@@ -5,7 +5,8 @@ import { Curves } from "./curves";
 import { element, pressed, svgElement } from "./elements";
 import { Edit } from "./edit";
 import { Forks } from "./forks";
-import { described, Hierarchy, type Selected } from "./hierarchy";
+import { described, type Selected } from "./description";
+import { Hierarchy } from "./hierarchy";
 import { helpRows, listen } from "./keys";
 import { keysOf } from "./key_table";
 import { shown } from "./names";
@@ -182,9 +183,9 @@ export class View {
   }
 
   private draw(now: number): void {
-    const { tick, known } = this.playback;
+    const { tick, known, over } = this.playback;
     this.transport.show();
-    this.timeline.show(tick, known, this.happened);
+    this.timeline.show(tick, known, over, this.happened);
     this.curves.move(tick);
     const row = this.rows.row(tick);
     if (!row) return;

@@ -14,6 +14,7 @@ const PATH_TICKS = 1500;
 const PATH_PARTS = 30; // each a little darker than the one before
 const COLLISION_MARKS = 60;
 const FREE_VIEW_UNITS = 60; // what is seen where there are no walls
+const NAME_PIXELS = 14;
 const THING_COLUMNS = 4; // x, y, size, turned
 
 export class World {
@@ -224,10 +225,14 @@ export class World {
     context.font = "12px system-ui, sans-serif";
     context.textAlign = "center";
     context.lineWidth = 3;
+    const taken: [left: number, top: number, half: number][] = []; // no name is written over another
     for (const [thing, [x, y, size], isHeld] of this.eachThing(row)) {
       const text = isHeld ? `${shown(thing.name, 24)} (held)` : shown(thing.name, 24);
       const left = camera.x + x * camera.scale;
       const top = camera.y - (y + size / 2) * camera.scale - 6;
+      const half = context.measureText(text).width / 2;
+      if (taken.some((one) => Math.abs(one[0] - left) < one[2] + half && Math.abs(one[1] - top) < NAME_PIXELS)) continue;
+      taken.push([left, top, half]);
       context.strokeStyle = theme.floor;
       context.strokeText(text, left, top);
       context.fillStyle = theme.ink;
