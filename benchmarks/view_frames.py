@@ -13,7 +13,7 @@ from tempfile import TemporaryDirectory
 from tests.view.browser import Opened, chromium
 from tests.view.serving import served, simulated
 
-BRANCHES, PULSES = 8, 7  # skills below a skill; sensors that change over time
+BRANCH_SKILLS, PULSE_SENSORS = 8, 7  # skills below a skill; sensors that change over time
 PLAYED_MILLISECONDS = 4000
 FRAMES = """milliseconds => new Promise((done) => {
   let frames = 0;
@@ -30,10 +30,10 @@ def tree(skills: int) -> str:
     """A mind of rules, each with eight others below it; what they transmit changes in every tick."""
     lines = ["tick 1/60 s", "master S0", "body Robot is disc"]
     lines += [f"actuator {side} is wheel side {side} neutral 0.5" for side in ("left", "right")]
-    lines += [f"sensor p{i} is sine period {i + 1} s" for i in range(PULSES)]
+    lines += [f"sensor p{i} is sine period {i + 1} s" for i in range(PULSE_SENSORS)]
     for skill in reversed(range(skills)):
-        below = range(BRANCHES * skill + 1, min(skills, BRANCHES * (skill + 1) + 1))
-        pulse = f"p{skill % PULSES}"
+        below = range(BRANCH_SKILLS * skill + 1, min(skills, BRANCH_SKILLS * (skill + 1) + 1))
+        pulse = f"p{skill % PULSE_SENSORS}"
         lines += ["", f"skill S{skill} is rule", f"  reads {pulse}"]
         lines += [f"  influences S{each} at {pulse}" for each in below]
         lines += [f"  drives {side} at {pulse}" for side in ("left", "right") if not below]
