@@ -1,6 +1,7 @@
 /** Which tick is shown, and how it goes on: at a multiple of real time, in steps, or by a jump. */
 
 export const RATES = [0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 50, 100];
+const AHEAD_SECONDS = 1; // so far before they are shown rows are fetched
 const FRAME_SECONDS_MAX = 0.1; // after a pause of the browser the run does not leap
 
 export class Playback {
@@ -13,7 +14,7 @@ export class Playback {
 
   constructor(
     private readonly tickSeconds: number,
-    private readonly ready: (tick: number) => boolean,
+    private readonly ready: (tick: number, ahead: number) => boolean,
     private readonly changed: () => void,
     private readonly wanted: (tick: number) => void,
     private readonly ofTicks: number | null,
@@ -28,7 +29,7 @@ export class Playback {
     if (!this.playing) return;
     const ticks = (Math.min(seconds, FRAME_SECONDS_MAX) * this.rate) / this.tickSeconds;
     const next = Math.min(this.position + ticks, this.known);
-    if (!this.ready(Math.floor(next))) return;
+    if (!this.ready(Math.floor(next), (AHEAD_SECONDS * this.rate) / this.tickSeconds)) return;
     this.position = next;
     this.wanted(Math.ceil(next + 2 * ticks + this.rate / this.tickSeconds));
     if (this.over && this.tick >= this.known) this.pause();

@@ -1,5 +1,6 @@
 /** Rows that were asked for and came: what the page shows of a tick stands in its row, and nowhere else. */
 
+import { Track } from "./track";
 import { type About, type Column, type Frame, HEADER_BYTES, type Send } from "./protocol";
 
 export interface Row {
@@ -30,16 +31,17 @@ interface Chunk {
 
 const CHUNK_BYTES = 1 << 20;
 const CHUNK_ROWS_MIN = 8;
-const CHUNK_ROWS_MAX = 1024;
-const KEPT_CHUNKS = 96;
-const KEPT_SINGLE_ROWS = 500;
+const CHUNK_ROWS_MAX = 128; // what flows is computed for each of them: a jump waits for one chunk
+const KEPT_BYTES = 96 << 20;
+const CHUNKS_AHEAD_MAX = 6;
 
 export class Rows {
+  readonly track: Track;
   private readonly chunks = new Map<number, Chunk>();
-  private readonly single = new Map<number, Row | null>(); // null: it was asked for
   private readonly awaited = new Set<number>(); // first ticks that were asked for
   private readonly answers = new Map<number, (frame: Frame) => void>();
   private readonly chunkRows: number;
+  private readonly keptChunks: number;
   private asked = 0;
   known = -1;
 
@@ -51,40 +53,18 @@ export class Rows {
   ) {
     const bytes = Math.max(1, 8 * about.doubles + 4 * about.singles);
     const rows = 2 ** Math.floor(Math.log2(CHUNK_BYTES / bytes));
+    this.track = new Track(about, this, changed);
     this.chunkRows = Math.min(CHUNK_ROWS_MAX, Math.max(CHUNK_ROWS_MIN, rows));
+    this.keptChunks = Math.max(2 * CHUNKS_AHEAD_MAX, Math.floor(KEPT_BYTES / (bytes * this.chunkRows)));
   }
 
-  /** The row of a tick, if it is here; else it is asked for, and so is what comes after it. */
-  row(tick: number): Row | undefined {
-    const chunk = this.chunk(Math.floor(tick / this.chunkRows));
-    this.chunk(Math.floor((tick + this.chunkRows / 2) / this.chunkRows));
+  /** The row of a tick, if it is here; else it is asked for, and so are so many ticks after it. */
+  row(tick: number, ahead = 0): Row | undefined {
+    const first = Math.floor(tick / this.chunkRows);
+    const last = Math.min(Math.floor((tick + ahead) / this.chunkRows), first + CHUNKS_AHEAD_MAX);
+    const chunk = this.chunk(first);
+    for (let place = first + 1; place <= last; place++) this.chunk(place);
     return chunk && tick - chunk.first < chunk.rows ? this.rowOf(chunk, tick - chunk.first) : undefined;
-  }
-
-  /** The row of a tick whose neighbours are not needed. */
-  alone(tick: number): Row | undefined {
-    const chunk = this.chunks.get(Math.floor(tick / this.chunkRows));
-    if (chunk && tick - chunk.first < chunk.rows) return this.rowOf(chunk, tick - chunk.first);
-    const found = this.single.get(tick);
-    if (found === undefined && tick <= this.known) {
-      if (this.single.size > KEPT_SINGLE_ROWS) this.single.clear();
-      this.single.set(tick, null);
-      this.ask({ say: "rows", from: tick, to: tick + 1, every: 1 }, (frame) => {
-        if (frame.rows) this.single.set(tick, this.rowOf(this.chunkOf(frame), 0));
-        this.changed();
-      });
-    }
-    return found ?? undefined;
-  }
-
-  /** The rows from one tick to another that are here, in order; what is missing is fetched. */
-  *between(from: number, to: number): Iterable<Row> {
-    let chunk: Chunk | undefined;
-    for (let tick = Math.max(0, from); tick <= to; tick++) {
-      if (!chunk || tick >= chunk.first + this.chunkRows) chunk = this.chunk(Math.floor(tick / this.chunkRows));
-      if (!chunk) tick += this.chunkRows - 1 - (tick % this.chunkRows);
-      else if (tick - chunk.first < chunk.rows) yield this.rowOf(chunk, tick - chunk.first);
-    }
   }
 
   /** Some columns from a tick to another, both included, no more than about `most` values of each. */
@@ -132,7 +112,7 @@ export class Rows {
     const came = this.chunkOf(frame);
     this.chunks.delete(place); // a Map keeps the order of setting: the oldest goes first
     this.chunks.set(place, found && found.first + found.rows === came.first ? joined(found, came) : came);
-    if (this.chunks.size > KEPT_CHUNKS) this.chunks.delete(this.chunks.keys().next().value!);
+    if (this.chunks.size > this.keptChunks) this.chunks.delete(this.chunks.keys().next().value!);
     this.changed();
   }
 

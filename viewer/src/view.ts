@@ -51,7 +51,7 @@ export class View {
     };
     const jump = (tick: number) => this.playback.jump(tick);
     this.rows = new Rows(about, 0, send, redraw);
-    this.playback = new Playback(about.tick, (tick) => !!this.rows.row(tick), redraw, (tick) => this.want(tick), about.of_ticks);
+    this.playback = new Playback(about.tick, (tick, ahead) => !!this.rows.row(tick, ahead), redraw, (tick) => this.want(tick), about.of_ticks);
     this.world = about.world && new World(element<HTMLCanvasElement>("world"), about, about.world, theme(), redraw);
     element("no-world").hidden = !!about.world;
     const shows = { over: (at: Selected, event: PointerEvent) => this.tip(at, event), chosen: (at: Selected) => this.choose(at) };

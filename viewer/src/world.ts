@@ -178,7 +178,7 @@ export class World {
 
   private path(tick: number, rows: Rows, colour: string, from = 0): void {
     const { context, camera } = this;
-    const points = [...rows.between(Math.max(from, tick - PATH_TICKS), tick)].map((each) => this.pose(each));
+    const points = rows.track.between(Math.max(from, tick - PATH_TICKS), tick);
     const step = Math.ceil(points.length / PATH_PARTS) || 1;
     context.strokeStyle = colour;
     context.lineWidth = 2 / camera.scale;
@@ -201,9 +201,9 @@ export class World {
     context.lineWidth = 2 / camera.scale;
     context.beginPath();
     for (const tick of ticks.slice(-COLLISION_MARKS)) {
-      const found = rows.alone(tick);
+      const found = rows.track.at(tick);
       if (!found) continue;
-      const [x, y] = this.pose(found);
+      const [x, y] = found;
       context.moveTo(x - arm, y - arm);
       context.lineTo(x + arm, y + arm);
       context.moveTo(x - arm, y + arm);
