@@ -10,7 +10,9 @@ from mindrun.measures import MeasureKind
 
 @dataclass(frozen=True, slots=True)
 class Transmission(MeasureKind):
-    """Which share of the influence that arrives at a target in a tick comes from a skill: 0 to 1, by their indices."""
+    """With what weight a skill counts in a target, by their indices: the influence that it sends to a skill, or its
+    share of the influence that arrives at an actuator or a memory.
+    """
 
     skill: int
     to: Receiver

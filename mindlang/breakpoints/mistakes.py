@@ -19,8 +19,10 @@ _EVENT_KINDS = "|".join(kinds("event"))
 _CODES_NOT_HERE = ("two-facts",)  # what a skill influences is part of a line here
 
 # fmt: off
-_OWN_MISTAKES = (
-    Mistake("when-given", r"^\s*stop\s+(?P<here>if|while|until|once|unless)\b", "A condition stands after when.",
+OWN_MISTAKES = (
+    Mistake("unfinished", r"^\s*(?P<here>stop(?:\s+(?:when|on|in(?:\s+tick)?))?)\s*$",
+        "After {here} the line ends too early.", f"Write for example {EXAMPLE}.", "stop when"),
+    Mistake("missing-when", r"^\s*stop\s+(?P<here>if|while|until|once|unless)\b", "A condition stands after when.",
         "Write when instead of {here}.", "stop if holding > 0.5"),
     Mistake("missing-on", rf"^\s*stop\s+(?P<here>when|at|after|if)\s+(?P<rest>(?:\d+\s+)?(?:{_EVENT_KINDS})\b[^<>]*)$",
         "An event stands after on.", "Write stop on {rest}.", "stop when collision"),
@@ -28,16 +30,17 @@ _OWN_MISTAKES = (
         "An event stands after on.", "Write stop on {here}.", "stop collision"),
     Mistake("missing-when", r"^\s*stop\s+(?P<here>on|at)\s+(?P<rest>.*[<>].*)$",
         "A condition stands after when.", "Write stop when {rest}.", "stop on holding > 0.5"),
-    Mistake("in-tick",
+    Mistake("which-tick",
         r"^\s*stop\s+(?P<here>(?:at|after|on|when|in)?\s*(?:tick\s*)?[<>=]*\s*(?P<rest>\d+)\s*(?:ticks)?)\s*$",
         "In which tick it stops, is said after in tick.", "Write stop in tick {rest}.", "stop at tick 812"),
-    Mistake("above", r"\binfluences\s+[\w.+]+\s+(?P<here>>=?|over|exceeds|with|by|at\s+least|more\s+than|at)\s*[\d.]",
+    Mistake("no-level",
+        r"\binfluences\s+[\w.+]+\s+(?P<here>>=?|over|exceeds|with|by|at\s+least|more\s+than|at)\s*[\d.]",
         "How much a skill influences, is compared with above or below.", "Write above instead of {here}.",
         "stop when Avoid influences left_wheel > 50%"),
-    Mistake("above", r"\binfluences\s+[\w.+]+\s+(?P<here><=?|under|less\s+than|at\s+most)\s*[\d.]",
+    Mistake("no-level", r"\binfluences\s+[\w.+]+\s+(?P<here><=?|under|less\s+than|at\s+most)\s*[\d.]",
         "How much a skill influences, is compared with above or below.", "Write below instead of {here}.",
         "stop when Avoid influences left_wheel < 50%"),
-    Mistake("above", r"\b(?P<here>influences\s+[\w.+]+)\s*(?:\d.*|$)",
+    Mistake("no-level", r"\b(?P<here>influences\s+[\w.+]+)\s*(?:\d.*|$)",
         "How much a skill influences, is compared with above or below.", "Write {here} above 50%.",
         "stop when Avoid influences left_wheel"),
     Mistake("capital-name", r"\bwhen\s+(?P<here>[a-z]\w*)\s+influences\b",
@@ -45,7 +48,7 @@ _OWN_MISTAKES = (
         "stop when avoid influences left_wheel above 50%"),
 )
 # fmt: on
-_MISTAKES_HERE = (*_OWN_MISTAKES, *(mistake for mistake in MISTAKES if mistake.code not in _CODES_NOT_HERE))
+_MISTAKES_HERE = (*OWN_MISTAKES, *(mistake for mistake in MISTAKES if mistake.code not in _CODES_NOT_HERE))
 
 
 def explain(error: "UnexpectedInput", code: str, line: Span) -> Diagnostic:

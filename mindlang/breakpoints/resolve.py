@@ -21,7 +21,7 @@ from mindlang.compiler.resolve.kinds import Scope
 from mindlang.compiler.resolve.quantities import convert
 from mindlang.compiler.resolve.tasks import MAX_RUN_TICKS, TIMES, World, event_in
 
-SHARE = Quantity("a share of the influence that arrives", {"": 1.0, "%": 0.01}, low=0, high=1)
+WEIGHT = Quantity("how much a skill influences", {"": 1.0, "%": 0.01}, low=0, high=1)
 WHICH_TICK = Quantity("the number of a tick", {"": 1.0}, low=1, high=MAX_RUN_TICKS, whole=True)
 
 
@@ -128,9 +128,9 @@ def _holds(when: syntax.When, subject: Subject, findings: Findings) -> Holds:
 
 
 def _transmits(written: Transmits, subject: Subject, findings: Findings) -> model.Comparison:
-    """`SKILL influences NAME above AMOUNT`, the share on the left."""
+    """`SKILL influences NAME above AMOUNT`, the weight on the left."""
     names = subject.mind.names
-    level = convert(written.amount, SHARE, findings)
+    level = convert(written.amount, WEIGHT, findings)
     skill = names.find(written.skill, ("skill",), findings)
     is_skill = written.to.text.rpartition(".")[2][:1].isupper()
     nouns: tuple[Receiver, ...] = ("skill",) if is_skill else ("actuator", "memory")
@@ -161,7 +161,7 @@ def _transmission(written: Transmits, to: Receiver, subject: Subject, findings: 
         return found
     if skill not in reached:
         hint = f"{subject.master} is in charge of the run, and influences it by no path."
-        findings.error("unreached-skill", written.skill.span, f"{skill} takes no part in this run.", hint)
+        findings.error("skill-not-in-run", written.skill.span, f"{skill} takes no part in this run.", hint)
         return None
     sends = "influences" if to == "skill" else "drives"
     hint = f"What {sends} {target} is {listed(senders, 'and')}." if senders else f"Nothing {sends} {target} here."

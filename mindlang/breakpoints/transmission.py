@@ -1,4 +1,4 @@
-"""Which share of the influence that arrives somewhere a skill transmits, computed by the engine's own functions."""
+"""With what weight a skill counts in what it influences or drives, computed by the engine's own functions."""
 
 from collections.abc import Iterator, Sequence
 from math import isfinite
@@ -14,7 +14,7 @@ NOTHING_SENT = np.float32(0.0)
 
 
 class Transmissions:
-    """The shares of some transmissions, row after row: a function with a memory needs every one that was before."""
+    """The weights of some transmissions, row after row: a function with a memory needs every one that was before."""
 
     def __init__(self, asked: Sequence[Transmission], mind: Hierarchy, actuators: int) -> None:
         """The hierarchy has so many actuators, and nothing else makes its skills compute."""
@@ -25,24 +25,28 @@ class Transmissions:
         ]
 
     def feed(self, readings: NDArray[np.float32], influence: NDArray[np.float32]) -> NDArray[np.float64]:
-        """The shares [transmissions, rows] over the next readings [rows, width] and influence [rows, skills].
+        """The weights [transmissions, rows] over the next readings [rows, width] and influence [rows, skills].
 
-        0 where a skill transmits nothing.
+        Toward a skill that is the influence sent to it, a summand of Eq. 2; toward what is driven, the share of the
+        influence that arrives there, a weight of the mean of Eq. 3. 0 where a skill transmits nothing.
         """
         found = np.zeros((len(self._asked), len(readings)))
         with np.errstate(all="ignore"):
             for row in range(len(readings) if self._asked else 0):
-                found[:, row] = self._shares(readings[row], influence[row])
+                found[:, row] = self._weights(readings[row], influence[row])
         return found
 
-    def _shares(self, readings: NDArray[np.float32], influence: NDArray[np.float32]) -> list[float]:
+    def _weights(self, readings: NDArray[np.float32], influence: NDArray[np.float32]) -> list[float]:
         sent: dict[tuple[int, Sink], np.float32] = {}
         arriving: dict[Sink, np.float32] = {}
         for skill in self._senders:
             for sink, passed in _sent(skill, readings, influence[skill.index]):
                 sent[skill.index, sink] = sent.get((skill.index, sink), NOTHING_SENT) + passed
                 arriving[sink] = arriving.get(sink, NOTHING_SENT) + passed
-        return [float(sent[each]) / float(arriving[each[1]]) if sent.get(each) else 0.0 for each in self._asked]
+        return [
+            float(sent[skill, sink]) / (float(arriving[sink]) if sink[0] else 1.0) if sent.get((skill, sink)) else 0.0
+            for skill, sink in self._asked
+        ]
 
 
 def _sink(transmission: Transmission, actuators: int) -> Sink:

@@ -93,19 +93,19 @@ class Watcher:
 
     def feed(self, rows: Rows) -> list[Stop]:
         """All stops in the rows that follow those of before, in the order of their ticks and then of their lines."""
-        shares = dict(zip(self._asked, self._transmissions.feed(rows.readings, rows.influence), strict=True))
-        found = [stop for place in range(len(self._breakpoints)) for stop in self._stops(place, rows, shares)]
+        weights = dict(zip(self._asked, self._transmissions.feed(rows.readings, rows.influence), strict=True))
+        found = [stop for place in range(len(self._breakpoints)) for stop in self._stops(place, rows, weights)]
         self.ticks += len(rows.readings)
         return sorted(found, key=lambda stop: stop.tick)
 
-    def _stops(self, place: int, rows: Rows, shares: Measured) -> list[Stop]:
+    def _stops(self, place: int, rows: Rows, weights: Measured) -> list[Stop]:
         each = self._breakpoints[place]
         match each.cause:
             case Reaches(tick):
                 return [Stop(tick, each, ())] if self.ticks < tick <= self.ticks + len(rows.readings) else []
             case Happens() as cause:
                 return self._happening(place, each, cause, rows)
-        leaf = _leaf(rows, [shares[transmission] for transmission in each.cause.transmissions])
+        leaf = _leaf(rows, [weights[transmission] for transmission in each.cause.transmissions])
         return self._beginning(place, each, each.cause, leaf, len(rows.readings))
 
     def _happening(self, place: int, each: Breakpoint, cause: Happens, rows: Rows) -> list[Stop]:

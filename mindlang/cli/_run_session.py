@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 from time import perf_counter
 
@@ -16,6 +18,16 @@ from mindlang.resource_limits import refuse_too_large, refuse_too_many
 from mindlang.run.layouts import NO_GENOME
 from mindlang.run.recorded_run import RecordedRun
 from mindlang.run.setup import RunSetup, SetupError, set_up
+
+
+@dataclass(frozen=True, slots=True)
+class RunChoice:
+    """Which run of a mind it is."""
+
+    task: str | None
+    seed: int
+    master: str | None
+    interrupt: bool
 
 
 @dataclass(frozen=True, slots=True)
@@ -42,24 +54,28 @@ class RunSession:
         workers: int = 1,
         runs: int = 1,
     ) -> tuple[RunSetup, Rollout]:
-        """The cast of a run of a file that is compiled."""
-        try:
+        """The cast of a run of a file that is compiled, in the simulator."""
+        found = self.cast(file, compiled, task, master)
+        return found, self.simulator(found, interrupt, workers, runs)
+
+    def cast(self, file: str, compiled: Compiled, task: str | None, master: str | None) -> RunSetup:
+        """Who plays what."""
+        with _refusing():
             found = set_up(file, compiled, task, master)
-            self.say(*(f"note: {note}" for note in (*found.ready.notes, found.note) if note))
-            refuse_too_many(found.task, runs)
-            rollout = found.rollout(interrupt, workers)
+        self.say(*(f"note: {note}" for note in (*found.ready.notes, found.note) if note))
+        return found
+
+    @procedures_talk()
+    def simulator(self, setup: RunSetup, interrupt: bool, workers: int = 1, runs: int = 1) -> Rollout:
+        """A cast in the simulator, which is compiled for it."""
+        with _refusing():
+            refuse_too_many(setup.task, runs)
+            rollout = setup.rollout(interrupt, workers)
             refuse_too_large(rollout, 1, runs)
             ensure_compiled(rollout, self.say)
-        except SetupError as error:
-            *first, last = str(error).split("\n")
-            for line in first:
-                say(line)
-            fail(last, error.hint, MISUSE if error.misuse else FINDINGS)
-        except MindError as error:
-            fail(str(error), error.hint, MISUSE)
         for skill, reason in rollout.procedures.slow.items():
             self.say(f"{skill} runs in Python, which is slow: {reason}")
-        return found, rollout
+        return rollout
 
     @procedures_talk()
     def score(self, rollout: Rollout, seeds: list[int]) -> tuple[Scores, float]:
@@ -87,3 +103,17 @@ class RunSession:
         columns = (TextColumn("{task.description}", markup=False), BarColumn(30), TaskProgressColumn())
         hidden = self.quiet or not talk.is_terminal
         return Progress(*columns, TimeRemainingColumn(), console=talk, transient=True, disable=hidden)
+
+
+@contextmanager
+def _refusing() -> Iterator[None]:
+    """End the program with one message where a run cannot begin."""
+    try:
+        yield
+    except SetupError as error:
+        *first, last = str(error).split("\n")
+        for line in first:
+            say(line)
+        fail(last, error.hint, MISUSE if error.misuse else FINDINGS)
+    except MindError as error:
+        fail(str(error), error.hint, MISUSE)

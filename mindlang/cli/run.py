@@ -3,10 +3,15 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import click
 
 from mindlang.cli._options import NewFile, NumberOption, WholeOption
+
+if TYPE_CHECKING:
+    from mindlang.cli._run_files import RunFiles
+    from mindlang.cli._run_session import RunChoice, RunSession
 
 EXAMPLES = """\b
 Examples:
@@ -16,6 +21,7 @@ Examples:
   mindc run collect.mind --task Collect --seed 3 --video run.mp4 --speed 4
   mindc run collect.mind --task Collect --seed 3 --video run.gif
   mindc run collect.mind --task Collect --seed 3 --trace run.csv
+  mindc run collect.mind --task Collect --seed 3 --break collect.break
   mindc run collect.mind --task Avoid --seed 3 --json
 """
 
@@ -43,6 +49,9 @@ Examples:
 @click.option(
     "--trace", type=NewFile(), metavar="PATH.csv", help="Write readings, influence, commands and rewards of every tick."
 )
+@click.option(
+    "--break", "breaks", type=click.Path(path_type=Path), metavar="PATH.break", help="Stop where a line of it says."
+)
 @click.option("--json", "as_json", is_flag=True, help="Print one JSON document instead.")
 @click.option("-q", "--quiet", is_flag=True, help="Print nothing but results and errors.")
 def command(
@@ -55,6 +64,7 @@ def command(
     video: Path | None,
     speed: float | None,
     trace: Path | None,
+    breaks: Path | None,
     as_json: bool,
     quiet: bool,
 ) -> None:
@@ -62,24 +72,41 @@ def command(
 
     With the weights that its skills were taught. Runs the Python code of the file's procedures. Refuses skills that
     have not been taught, or whose weights belong to another declaration.
+
+    With --break it ends in the first tick in which a line of that file holds, with 1, and says which; with 0 where none
+    does.
     """
     import secrets
 
     from mindlang.cli._run_files import RunFiles
-    from mindlang.cli._run_session import RunSession
+    from mindlang.cli._run_session import RunChoice, RunSession
+
+    session, files = RunSession(quiet), RunFiles(picture, video, speed, trace)
+    files.refuse_unwritable()
+    chosen = RunChoice(task, secrets.randbits(31) if seed is None else seed, master, not no_interruption)
+    if breaks:
+        from mindlang.cli._run_to_breakpoint import run_to_breakpoint
+
+        run_to_breakpoint(session, file, chosen, breaks, files, as_json)
+    _run_to_its_end(session, file, chosen, files, as_json)
+
+
+def _run_to_its_end(session: RunSession, file: str, chosen: RunChoice, files: RunFiles, as_json: bool) -> None:
     from mindlang.cli._terminal import console, print_json
     from mindlang.run import outcome
     from mindlang.run.summary import run_summary
 
-    session, files = RunSession(quiet), RunFiles(picture, video, speed, trace)
-    files.refuse_unwritable()
-    setup, rollout = session.prepare(file, task, master, interrupt=not no_interruption)
-    seed = secrets.randbits(31) if seed is None else seed
-    found = outcome.run_data(setup.task, session.score(rollout, [seed])[0])
-    found = {"task": setup.task.name, "master": setup.master, "seed": seed, "notes": [*setup.ready.notes]} | found
+    setup, rollout = session.prepare(file, chosen.task, chosen.master, chosen.interrupt)
+    found = outcome.run_data(setup.task, session.score(rollout, [chosen.seed])[0])
+    found = {
+        "task": setup.task.name,
+        "master": setup.master,
+        "seed": chosen.seed,
+        "notes": [*setup.ready.notes],
+    } | found
     if as_json:
         print_json(found)
     else:
         console().print(run_summary(found))
     if files.any():
-        files.write(session, session.record(setup, rollout, seed), found)
+        files.write(session, session.record(setup, rollout, chosen.seed), found)

@@ -15,6 +15,8 @@ from mindlang.compiler.drawing import phrase
 if TYPE_CHECKING:
     from mindrun.sim.rollout import Scores
 
+    from mindlang.run.recorded_run import RecordedRun
+
 TIME, FLIGHT = "time", "flight out of bounds"  # beyond 1e9 units, or nowhere
 
 
@@ -33,13 +35,10 @@ def ends(task: Task) -> list[str]:
 
 def run_data(task: Task, scores: Scores) -> dict[str, Any]:
     """The single run of `scores`; a sum that is not a finite number is None, `counts` is the sum of `by_event`."""
-    by_line: dict[str, float] = {}
-    for reward, paid in zip(task.rewards, scores.by_line[0, 0], strict=False):
-        by_line[reward.text] = by_line.get(reward.text, 0.0) + float(paid)
     ended = int(scores.ended_by[0, 0])
     return {
         "score": _number(scores.total[0, 0]),
-        "by_line": {text: _number(paid) for text, paid in by_line.items()},
+        "by_line": _by_line(task, scores.by_line[0, 0]),
         "counts": int(scores.counts[0, 0]),
         "counted": [events(task)[event] for event in task.counts],
         "by_event": {events(task)[event]: int(scores.by_event[0, 0, event]) for event in task.counts},
@@ -49,6 +48,30 @@ def run_data(task: Task, scores: Scores) -> dict[str, Any]:
         **({"succeeded": bool(_succeeded(task, scores)[0, 0])} if task.can_succeed else {}),
         "faults": int(scores.faults[0, 0]),
     }
+
+
+def data_so_far(run: RecordedRun) -> dict[str, Any]:
+    """The same of a run that has come to its last row, and may go on: nobody knows its faults, and nothing ended it."""
+    task, sums = run.task, run.lines[-1]
+    counts = dict(zip([events(task)[event] for event in task.counts], run.counts[-1].tolist(), strict=True))
+    return {
+        "score": _number(sums.sum()),
+        "by_line": _by_line(task, sums),
+        "counts": sum(counts.values()),
+        "counted": [*counts],
+        "by_event": counts,
+        "ticks": run.ticks,
+        "of_ticks": task.ticks,
+        "ended_by": None,
+    }
+
+
+def _by_line(task: Task, sums: NDArray[np.float64]) -> dict[str, float | None]:
+    """What each line has paid, by its text: two of one text together."""
+    by_line: dict[str, float] = {}
+    for reward, paid in zip(task.rewards, sums, strict=False):
+        by_line[reward.text] = by_line.get(reward.text, 0.0) + float(paid)
+    return {text: _number(paid) for text, paid in by_line.items()}
 
 
 def bench_data(task: Task, scores: Scores, seeds: Sequence[int], seconds: float) -> dict[str, Any]:

@@ -1,6 +1,6 @@
 """A run written down tick by tick, as arrays: what pictures, films, traces and answers are made from."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from mindrun.graph import Graph, Skill, Task, Thing
@@ -70,6 +70,13 @@ class RecordedRun:
     def collisions(self) -> NDArray[np.int64]:
         """The ticks in which the robot began to touch something."""
         return np.flatnonzero(self.touching & ~np.concatenate([[False], self.touching[:-1]])) + 1
+
+    def until(self, tick: int) -> "RecordedRun":
+        """The run as it was after a tick."""
+        with_beginning = ("body", "things", "turned", "held")
+        of_ticks = ("readings", "influence", "commands", "lines", "touching", "battery", "events")
+        cut = {name: getattr(self, name)[: tick + 1] for name in with_beginning}
+        return replace(self, **cut, **{name: getattr(self, name)[:tick] for name in of_ticks})
 
     def placements(self, thing: int) -> Floats:
         """Every place and size [n, 3] where a thing appeared; neither a claw nor its own speed makes a new place."""

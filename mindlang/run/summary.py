@@ -70,7 +70,7 @@ def _counted(counts: dict[str, str]) -> list[tuple[str, str]]:
 
 
 def _faults(found: dict[str, Any]) -> str:
-    faults = found["faults"]
+    faults = found.get("faults", 0)  # of a run that was stopped nobody knows them
     values = "value was not a finite number" if faults == 1 else "values were not finite numbers"
     return f"{faults:,} {values}: a division by zero?" if faults else ""
 

@@ -101,8 +101,8 @@ def test_rows_that_come_in_parts_stop_a_run_where_they_do_at_once(watched: Watch
 
 
 @given(random_case())
-def test_the_shares_that_arrive_are_what_thinking_adds_up(case: Case) -> None:
-    """Together they are all that arrives, and nothing where nothing does."""
+def test_all_weights_together_are_what_thinking_adds_up(case: Case) -> None:
+    """Toward a skill its influence; toward what is driven the whole, or nothing where nothing drives it."""
     graph = case.graph
     thinking, watching = (ready(case) for _ in range(2))  # each with the state of its own functions
     with np.errstate(all="ignore"):
@@ -112,13 +112,17 @@ def test_the_shares_that_arrive_are_what_thinking_adds_up(case: Case) -> None:
         for skill in watching.skills
         for to, target in {(edge.to, edge.target) for edge in graph.skills[skill.index].edges}
     ]
-    shares = Transmissions(asked, watching, len(graph.actuators)).feed(case.readings, influence)
+    weights = Transmissions(asked, watching, len(graph.actuators)).feed(case.readings, influence)
     for to, target in {(each.to, each.target) for each in asked}:
-        whole = sum(share for each, share in zip(asked, shares, strict=True) if (each.to, each.target) == (to, target))
+        arriving = [
+            weight for each, weight in zip(asked, weights, strict=True) if (each.to, each.target) == (to, target)
+        ]
+        whole = np.sum(arriving, axis=0)
         certain = np.isfinite(whole) & np.isfinite(influence).all(axis=1)
-        assert np.isin(np.round(whole[certain], 5), [0, 1]).all()
         if to == "skill":
-            assert ((whole > 0.5) == (influence[:, target] > 0))[certain].all()
+            assert np.allclose(whole[certain], influence[certain, target], rtol=1e-5)
+        else:
+            assert np.isin(np.round(whole[certain], 5), [0, 1]).all()
 
 
 def ready(case: Case) -> Hierarchy:

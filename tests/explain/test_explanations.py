@@ -5,9 +5,13 @@ from pathlib import Path
 
 import pytest
 
+from mindlang.breakpoints.file import breakpoints_of
 from mindlang.compiler.compile import load
+from mindlang.compiler.diagnostic import Diagnostic
 from mindlang.compiler.resolve.curricula import SWITCHES
+from mindlang.compiler.source import Source
 from mindlang.explaining.explanation import ERRORS, Explanation, errors, explanations
+from tests.breakpoints.subjects import subject
 from tests.explain.examples import write
 from tests.project.sources import COMPILER, RUNTIME, modules, tree
 
@@ -67,19 +71,27 @@ def test_an_explanation_begins_with_a_short_sentence_and_says_what_to_do(explana
     assert bool(explanation.bad and explanation.good) == (explanation.code not in WITHOUT_EXAMPLES)
 
 
+def diagnostics(explanation: Explanation, text: str, folder: Path) -> tuple[Diagnostic, ...]:
+    """What is said of an example: a mind, or breakpoints of the small one of tests/breakpoints."""
+    if explanation.chapter == "Breakpoints":
+        master = "Seek" if explanation.code == "skill-not-in-run" else "Go"
+        return breakpoints_of(Source("example", text), subject(master)).diagnostics
+    return load(write(explanation, text, folder)).diagnostics
+
+
 BAD = [(each, text) for each in ALL for text in each.bad]
 GOOD = [(each, text) for each in ALL for text in each.good]
 
 
 @pytest.mark.parametrize(("explanation", "text"), BAD, ids=lambda each: getattr(each, "code", ""))
 def test_a_wrong_example_gives_just_its_code(explanation: Explanation, text: str, tmp_path: Path) -> None:
-    found = load(write(explanation, text, tmp_path)).diagnostics
+    found = diagnostics(explanation, text, tmp_path)
     assert [diagnostic.code for diagnostic in found] == [explanation.code], [each.message for each in found]
 
 
 @pytest.mark.parametrize(("explanation", "text"), GOOD, ids=lambda each: getattr(each, "code", ""))
 def test_a_right_example_is_right(explanation: Explanation, text: str, tmp_path: Path) -> None:
-    found = load(write(explanation, text, tmp_path)).diagnostics
+    found = diagnostics(explanation, text, tmp_path)
     assert [(each.code, each.message) for each in found] == []
 
 

@@ -1,0 +1,59 @@
+"""What `mindc run --break` does: a run up to the first tick in which a line of a .break file stops it."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+from typing import NoReturn
+
+from mindlang.breakpoints.breakpoint import Breakpoint
+from mindlang.breakpoints.file import load_breakpoints
+from mindlang.breakpoints.report import stop_summary, stopped_data
+from mindlang.breakpoints.resolve import Subject
+from mindlang.breakpoints.watch import noticing, watcher
+from mindlang.cli._diagnostic_printer import print_report
+from mindlang.cli._run_files import RunFiles
+from mindlang.cli._run_session import RunChoice, RunSession
+from mindlang.cli._terminal import FINDINGS, MISUSE, OK, console, load_compiled, print_json, procedures_talk
+from mindlang.compiler.compile import Compiled
+from mindlang.run import outcome
+from mindlang.run.setup import RunSetup
+from mindlang.run.summary import run_summary
+
+
+def run_to_breakpoint(
+    session: RunSession, file: str, chosen: RunChoice, path: Path, files: RunFiles, as_json: bool
+) -> NoReturn:
+    """Run until a line of the file at `path` stops it, print where and what has come of it, and end the program."""
+    compiled = load_compiled(file)
+    cast = session.cast(file, compiled, chosen.task, chosen.master)
+    breakpoints = _breakpoints(path, compiled, cast)
+    setup = noticing(cast, breakpoints)
+    rollout = session.simulator(setup, chosen.interrupt)
+    run = session.record(setup, rollout, chosen.seed)
+    with procedures_talk():
+        stopped = stopped_data(watcher(breakpoints, setup).feed(run), str(path), run.graph.tick)
+    if stopped and stopped["tick"] < run.ticks:
+        run = run.until(stopped["tick"])
+        came = outcome.data_so_far(run) | {"ended_by": "a breakpoint"}
+    else:
+        came = outcome.run_data(setup.task, session.score(rollout, [chosen.seed])[0])
+    found = {"task": setup.task.name, "master": setup.master, "seed": chosen.seed, "notes": [*setup.ready.notes]}
+    found = found | came | {"stopped": stopped}
+    if as_json:
+        print_json(found)
+    else:
+        console().print(stop_summary(stopped), run_summary(found), sep="\n")
+    files.write(session, run, found)
+    sys.exit(FINDINGS if stopped else OK)
+
+
+def _breakpoints(path: Path, compiled: Compiled, setup: RunSetup) -> tuple[Breakpoint, ...]:
+    """The breakpoints of a file; a mistake in it ends the program."""
+    if compiled.mind is None:
+        sys.exit(FINDINGS)  # its report has been printed
+    found = load_breakpoints(path, Subject(compiled.mind, setup.ready.policy.graph, setup.master, setup.task))
+    print_report(found.diagnostics, console(stderr=True))
+    if found.diagnostics:
+        sys.exit(FINDINGS if all(each.span for each in found.diagnostics) else MISUSE)
+    return found.breakpoints
