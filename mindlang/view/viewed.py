@@ -22,6 +22,7 @@ from mindlang.view.row_blocks import Chunk, RowBlocks, Singles, Ticks
 from mindlang.view.texts import shown
 
 FLOW_ROWS = 1024  # of a curve of what an edge transmits
+MAX_COMPUTED_EDGES = 200_000  # in one answer, so that nobody waits long for another's
 MAX_KEPT_BYTES = 2 << 30  # of rows
 
 Answer = dict[str, Any]
@@ -100,7 +101,7 @@ class Viewed:
     def rows(self, fork: int, first: int, below: int, every: int, ask: int) -> bytes:
         """A frame of rows: as many as are known and fit."""
         fit = rows_that_fit(self.columns.width(DOUBLE_BLOCK), self.columns.width(SINGLE_BLOCK))
-        ticks = self.blocks.ticks(first, below, every, fit)
+        ticks = self.blocks.ticks(first, below, every, min(fit, self._computed_rows))
         return rows_frame(fork, ask, first, every, self.blocks.doubles(ticks), self.singles(ticks))
 
     def some_columns(
@@ -112,7 +113,7 @@ class Viewed:
                 raise RefusedError(f"there is no column {index} in block {block}")
         flows = any(block == SINGLE_BLOCK and index >= self.columns.kept_singles for block, index in asked)
         most = rows_that_fit(len(asked), 0)
-        ticks = self.blocks.ticks(first, below, every, min(most, FLOW_ROWS) if flows else most)
+        ticks = self.blocks.ticks(first, below, every, min(most, FLOW_ROWS, self._computed_rows) if flows else most)
         blocks = self.blocks.doubles(ticks), self.singles(ticks) if flows else self.blocks.singles(ticks)
         values = np.column_stack([blocks[block][:, index].astype(np.float64) for block, index in asked])
         return columns_frame(fork, ask, first, every, values)
@@ -128,6 +129,11 @@ class Viewed:
         is_double = group.block == DOUBLE_BLOCK
         rows: NDArray[Any] = self.blocks.doubles(ticks) if is_double else self.blocks.singles(ticks)
         return rows[:, group.first : group.first + group.count]
+
+    @property
+    def _computed_rows(self) -> int:
+        """Of how many rows it is computed at once what each edge transmits."""
+        return max(1, MAX_COMPUTED_EDGES // max(1, self.mind.edges))
 
     def _flow(self) -> EdgeFlow:
         def rows(ticks: Ticks) -> tuple[Singles, Singles]:

@@ -154,6 +154,19 @@ def test_a_frame_is_no_larger_than_it_may_be(path: Path, monkeypatch: pytest.Mon
         assert 9_000 < len(columns) <= 10_000
 
 
+def test_no_answer_computes_for_long(path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Six edges a row: of more rows, others come with another answer."""
+    monkeypatch.setattr("mindlang.view.viewed.MAX_COMPUTED_EDGES", 60)
+    with served(simulated(path)) as view, view.viewer() as viewer:
+        about = viewer.hear("about")
+        assert len(about["edges"]) == 6
+        viewer.run(1200)
+        data = viewer.frame(say="rows", **{"from": 0, "to": 1201})
+        assert len(unpacked(data, about["doubles"], about["singles"])[2]) == 10
+        flow = about["columns"]["flow"][1]
+        assert len(viewer.frame(say="columns", columns=[[1, flow]], **{"from": 0, "to": 99})) == 24 + 10 * 8
+
+
 def test_columns_are_those_of_the_rows(view: Served) -> None:
     with view.viewer() as viewer:
         about = viewer.hear("about")
