@@ -8,6 +8,7 @@ from pathlib import Path
 
 from mindrun.changes import ChangeError
 from mindrun.errors import MindError
+from mindrun.sim.rollout import Rollout
 
 from mindlang.cli._run_session import RunSession
 from mindlang.cli._simulator_compilation import ensure_stages_compiled
@@ -16,16 +17,21 @@ from mindlang.cli._terminal import (
     MISUSE,
     console,
     fail,
+    load_compiled,
     print_json,
     procedures_talk,
     refuse_unwritable,
     write_file,
 )
+from mindlang.run.setup import RunSetup
+from mindlang.whatif.another_mind import compare_minds
 from mindlang.whatif.changed_run import Compared, compare
-from mindlang.whatif.mind_version import from_bundle
+from mindlang.whatif.mind_version import BUNDLE_SUFFIX, MindVersion, from_bundle, from_source
 from mindlang.whatif.open_loop import OpenLoop, compare_recording
 from mindlang.whatif.report import comparison_data, comparison_summary, recording_data, recording_summary
 from mindlang.whatif.request import Request, changes_of
+
+Cast = tuple[RunSetup, Rollout]  # who plays what, in the simulator
 
 
 @dataclass(frozen=True, slots=True)
@@ -44,12 +50,11 @@ def compare_runs(file: str, played: Played, request: Request, as_json: bool, qui
     session = RunSession(quiet)
     _refuse_nothing(request)
     refuse_unwritable(played.picture, ".png")
-    setup, rollout = session.prepare(file, played.task, played.master, played.interrupt)
-    ensure_stages_compiled(rollout, session.say)
+    ours = session.prepare(file, played.task, played.master, played.interrupt)
+    theirs = _another(session, request.other, ours[0], played) if request.other else None
+    ensure_stages_compiled(ours[1], session.say)
     try:
-        changes = changes_of(request, setup.ready.policy.graph, setup.master)
-        with procedures_talk():
-            compared = compare(setup, rollout, played.seed, changes)
+        compared = _compared(ours, theirs, request, played.seed)
     except ChangeError as error:
         fail(str(error), error.hint, MISUSE)
     if as_json:
@@ -59,6 +64,21 @@ def compare_runs(file: str, played: Played, request: Request, as_json: bool, qui
     if played.picture:
         _draw(compared, request, played.picture)
         session.say(f"{played.picture}: both paths of the robot")
+
+
+@procedures_talk()
+def _compared(ours: Cast, theirs: Cast | None, request: Request, seed: int) -> Compared:
+    setup, _ = theirs or ours
+    changes = changes_of(request, setup.ready.policy.graph, setup.master)
+    return compare_minds(ours, theirs, seed, request.tick, changes) if theirs else compare(*ours, seed, changes)
+
+
+def _another(session: RunSession, file: str, ours: RunSetup, played: Played) -> Cast:
+    """The same task under another mind."""
+    setup, rollout = session.prepare(file, ours.task.name, played.master, played.interrupt)
+    if setup.task != ours.task:
+        session.say(f"note: task {setup.task.name} is another in {file}; one seed need not give one world")
+    return setup, rollout
 
 
 def _draw(compared: Compared, request: Request, path: Path) -> None:
@@ -71,8 +91,13 @@ def _draw(compared: Compared, request: Request, path: Path) -> None:
 
 @procedures_talk()
 def _recorded(path: Path, bundle: Path, request: Request) -> OpenLoop:
-    mind = from_bundle(bundle)
-    return compare_recording(path, bundle, mind, None, partial(changes_of, request), request.tick)
+    other = _version(request.other) if request.other else None
+    return compare_recording(path, bundle, from_bundle(bundle), other, partial(changes_of, request), request.tick)
+
+
+def _version(file: str) -> MindVersion:
+    """The mind of a bundle, or of a source."""
+    return from_bundle(Path(file)) if file.endswith(BUNDLE_SUFFIX) else from_source(file, load_compiled(file))
 
 
 def compare_recorded(path: Path, bundle: Path, request: Request, as_json: bool) -> None:
@@ -90,4 +115,8 @@ def compare_recorded(path: Path, bundle: Path, request: Request, as_json: bool) 
 
 def _refuse_nothing(request: Request) -> None:
     if request.is_empty:
-        fail("nothing is changed", "Say what: --without SKILL, --sensor NAME=0.5 or --set NAME=0.5", MISUSE)
+        fail(
+            "nothing is changed",
+            "Say what: --without SKILL, --sensor NAME=0.5, --set NAME=0.5 or --with OTHER.mind",
+            MISUSE,
+        )

@@ -14,6 +14,7 @@ Examples:
   mindc whatif collect.mind --task Collect --seed 3 --sensor proximity=1 --picture paths.png
   mindc whatif collect.mind --task Collect --seed 3 --tick 812 --set object_bearing=0.5 --ticks 60
   mindc whatif collect.mind --task Collect --seed 3 --tick 812 --without Avoid --json
+  mindc whatif collect.mind --task Collect --seed 3 --tick 812 --with other.mind
   mindc whatif day.rec ball.bundle --without Avoid
 """
 
@@ -34,6 +35,7 @@ Examples:
 @click.option(
     "--set", "settings", multiple=True, metavar="NAME=0.5", help="A reading, a memory or an influence, for one tick."
 )
+@click.option("--with", "other", metavar="OTHER.mind", help="Another mind takes over: other weights, another version.")
 @click.option("--picture", type=NewFile(), metavar="PATH.png", help="Draw both paths.")
 @click.option("--json", "as_json", is_flag=True, help="Print one JSON document instead.")
 @click.option("-q", "--quiet", is_flag=True, help="Print nothing but results and errors.")
@@ -49,6 +51,7 @@ def command(
     without: tuple[str, ...],
     sensor: tuple[str, ...],
     settings: tuple[str, ...],
+    other: str | None,
     picture: Path | None,
     as_json: bool,
     quiet: bool,
@@ -64,7 +67,9 @@ def command(
     from mindlang.cli._comparing import Played, compare_recorded, compare_runs
     from mindlang.whatif.request import Request
 
-    request = Request(tick, ticks, without, sensor, settings)
+    request = Request(tick, ticks, without, sensor, settings, other)
+    if other and ticks:
+        raise click.UsageError("A mind that takes over goes on to the end: leave out --ticks.")
     if bundle is None and file.endswith(".rec"):
         raise click.UsageError(f"{file} is a recording: say the bundle that was running after it.")
     if bundle is None:

@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 from mindrun.changes import Change, ChangeError
 from mindrun.sim.rollout import Rollout, scores_of
+from mindrun.sim.state import Jobs
 from mindrun.sim.trace import trace
 
 from mindlang.run.outcome import run_data
@@ -53,9 +54,13 @@ def refuse_late(was: Course, tick: int) -> None:
 def course(setup: RunSetup, rollout: Rollout, seed: int, changes: Sequence[Change] = ()) -> Course:
     """The run of a seed, with changes."""
     run = trace(rollout, seed, changes=changes)
-    written = recorded(setup, run)
-    outcome = run_data(setup.task, scores_of(run.jobs, setup.task))
-    return Course(written, {"task": setup.task.name, "master": setup.master, "seed": seed} | outcome)
+    return Course(recorded(setup, run), outcome(setup, run.jobs, seed))
+
+
+def outcome(setup: RunSetup, jobs: Jobs, seed: int) -> dict[str, Any]:
+    """What came of a run that is over."""
+    found = run_data(setup.task, scores_of(jobs, setup.task))
+    return {"task": setup.task.name, "master": setup.master, "seed": seed} | found
 
 
 def compared(was: Course, now: Course) -> Compared:

@@ -14,6 +14,7 @@ from mindlang.compiler.diagnostic import did_you_mean, listed
 class Request:
     """Skills to go `without`, `sensors` as `proximity=0.5`, `settings` as `battery=0.1`; from `tick` on, for `ticks`.
 
+    `other` is the file of another mind that takes over.
     Without `ticks`, a setting is for one tick and all else goes on to the end.
     """
 
@@ -22,6 +23,7 @@ class Request:
     without: tuple[str, ...] = ()
     sensors: tuple[str, ...] = ()
     settings: tuple[str, ...] = ()
+    other: str | None = None
 
     @property
     def is_empty(self) -> bool:
@@ -31,7 +33,8 @@ class Request:
     @property
     def parts(self) -> tuple[str, ...]:
         """Each change as it is said."""
-        return (*(f"without {skill}" for skill in self.without), *self.sensors, *self.settings)
+        other = (f"with {self.other}",) if self.other else ()
+        return (*other, *(f"without {skill}" for skill in self.without), *self.sensors, *self.settings)
 
     @property
     def words(self) -> str:
@@ -40,7 +43,7 @@ class Request:
 
     @property
     def _span(self) -> str:
-        ticks = self.ticks or (1 if self.settings and not (self.without or self.sensors) else None)
+        ticks = self.ticks or (1 if self.settings and not (self.without or self.sensors or self.other) else None)
         if ticks is None:
             return f"from tick {self.tick:,} on" if self.tick > 1 else "from the first tick on"
         return f"in tick {self.tick:,}" if ticks == 1 else f"in ticks {self.tick:,} to {self.tick + ticks - 1:,}"

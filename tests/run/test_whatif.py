@@ -86,6 +86,29 @@ def test_the_summary_is_for_people(mindc: Call, rules: Path) -> None:
     assert "as it was" in said.out
 
 
+def test_a_mind_without_the_line_takes_over_as_if_the_skill_were_silenced(mindc: Call, rules: Path) -> None:
+    other = rules.with_name("other.mind")
+    other.write_text(rules.read_text().replace("influences Turn at 0.2", "influences Turn at 0"))
+    silent, taken = (found(mindc, rules, "--tick", 30, *how) for how in (("--without", "Turn"), ("--with", other)))
+    assert taken["changes"] == [f"with {other}"]
+    assert {**taken, "changes": []} == {**silent, "changes": []}
+    from_first = found(mindc, rules, "--with", other)["changed"]
+    plain = json.loads(mindc("run", other, *PLAYED, "--json").out)
+    assert from_first == {name: plain[name] for name in from_first}
+
+
+def test_a_mind_that_does_not_fit_begins_the_run_or_not_at_all(mindc: Call, rules: Path) -> None:
+    other = rules.with_name("other.mind")
+    other.write_text(rules.read_text().replace("at 0 30 330 deg", "at 0 60 300 deg"))
+    answer = mindc("whatif", rules, *PLAYED, "--tick", 30, "--with", other)
+    assert answer.code == 2
+    assert "its sensors are others" in answer.err
+    assert found(mindc, rules, "--with", other)["tick"] == 1
+    other.write_text(rules.read_text().replace("task Roam", "task Stroll"))
+    assert "no task called Roam" in mindc("whatif", rules, *PLAYED, "--with", other).err
+    assert mindc("whatif", rules, *PLAYED, "--with", rules, "--ticks", 3).code == 2
+
+
 def test_both_paths_are_in_the_picture(mindc: Call, rules: Path, tmp_path: Path) -> None:
     path = tmp_path / "paths.png"
     said = mindc(

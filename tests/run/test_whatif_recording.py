@@ -115,6 +115,24 @@ def test_what_derives_from_a_replaced_sensor_sees_it(mindc: Call, day: tuple[Pat
     assert found(mindc, day, "--set", "mood=1", "--tick", 30)["differs"][0]["name"] == "mood"
 
 
+def test_another_mind_sends_what_it_would_for_the_same_readings(
+    mindc: Call, day: tuple[Path, Path], tmp_path: Path
+) -> None:
+    other = tmp_path / "other.mind"
+    other.write_text(MIND)
+    assert found(mindc, day, "--with", other)["differs"] == []
+    other.write_text(MIND.replace("drives left_wheel at 0.2 + mood", "drives left_wheel at 0.3 + mood"))
+    said = found(mindc, day, "--with", other, "--tick", 40)
+    assert said["differs"][0]["tick"] >= 40
+    assert (said["commands"]["left_wheel"]["ticks"] > 0, said["commands"]["right_wheel"]["ticks"]) == (True, 0)
+    mindc("build", other, "-o", tmp_path / "other.bundle")
+    assert found(mindc, day, "--with", tmp_path / "other.bundle", "--tick", 40)["commands"] == said["commands"]
+    other.write_text(MIND.replace("sensor glow", "sensor gleam").replace("glow", "gleam"))
+    answer = mindc("whatif", *day, "--with", other)
+    assert answer.code == 2
+    assert "has no gleam, which other.mind reads" in answer.err
+
+
 def test_it_says_that_the_loop_is_open(mindc: Call, day: tuple[Path, Path]) -> None:
     said = mindc("whatif", *day, "--without", "Wander")
     assert said.code == 0

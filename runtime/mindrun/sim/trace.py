@@ -1,6 +1,6 @@
 """One run, tick by tick: what the pictures, the videos and the tests look at."""
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from mindrun.arithmetic import ANGLE, BOX_COLUMNS, SIZE, THING_ROWS
 from mindrun.changes import Change
-from mindrun.sim.changed_ticks import changed
+from mindrun.sim.changed_ticks import Advance, changed
 from mindrun.sim.rollout import Rollout, Tile
 from mindrun.sim.state import Jobs
 from mindrun.sim.ticks import Ticks, turned, with_room, written
@@ -61,6 +61,11 @@ def trace(
     tile = rollout.tile(1)
     jobs = with_room(rollout.jobs(genomes, np.array([seed], np.uint64)), tile.state)
     rollout.fill(tile, jobs)
+    return traced(rollout, tile, jobs, advance)
+
+
+def traced(rollout: Rollout, tile: Tile, jobs: Jobs, advance: Advance) -> Trace:
+    """The run of a tile of one lane from where it is; its jobs have room to be written down."""
     world, things = tile.state.world, len(rollout.tables.things)
     chunks = _chunks(rollout, advance, tile, jobs)
     return Trace(
@@ -75,7 +80,7 @@ def trace(
     )
 
 
-def _chunks(rollout: Rollout, advance: Callable[[Tile, Jobs, int], int], tile: Tile, jobs: Jobs) -> Iterator[Ticks]:
+def _chunks(rollout: Rollout, advance: Advance, tile: Tile, jobs: Jobs) -> Iterator[Ticks]:
     working = 1
     while working:
         try:

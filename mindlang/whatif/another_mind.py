@@ -1,0 +1,60 @@
+"""The run of a seed under another mind: from its first tick on, or taken over in the middle."""
+
+from collections.abc import Sequence
+from dataclasses import fields, replace
+from typing import Any
+
+import numpy as np
+from mindrun.changes import Change
+from mindrun.sim.rollout import Rollout
+from mindrun.sim.takeover import take_over
+from numpy.typing import NDArray
+
+from mindlang.run.recorded_run import RecordedRun, recorded
+from mindlang.run.setup import RunSetup
+from mindlang.whatif.changed_run import Compared, Course, compared, course, outcome, refuse_late
+
+ROWS_BEFORE = ("body", "things", "turned", "held")  # which have a row for the beginning, too
+
+
+def compare_minds(
+    ours: tuple[RunSetup, Rollout], theirs: tuple[RunSetup, Rollout], seed: int, tick: int, changes: Sequence[Change]
+) -> Compared:
+    """The run of a seed as it is, and with another mind from a tick on; ChangeError where that one does not fit."""
+    was = course(*ours, seed)
+    refuse_late(was, tick)
+    if tick == 1:
+        return compared(was, course(*theirs, seed, changes))
+    setup, rollout = theirs
+    run = take_over(ours[1], seed, tick, rollout, changes)
+    rest = recorded(setup, run)
+    return compared(was, Course(continued(was.run, rest, tick - 1), outcome(setup, run.jobs, seed)))
+
+
+def continued(was: RecordedRun, rest: RecordedRun, ticks: int) -> RecordedRun:
+    """So many ticks of a run, and what came after them under another mind of the same sensors and actuators."""
+    rows = {field.name for field in fields(RecordedRun)} - {"setup", "boxes", "influence", "events"}
+    joined: dict[str, Any] = {
+        name: np.concatenate([getattr(was, name)[: ticks + (name in ROWS_BEFORE)], _after(rest, name)]) for name in rows
+    }
+    return replace(
+        rest,
+        **joined,
+        influence=np.concatenate([_influence(was, rest)[:ticks], rest.influence]),
+        events=np.concatenate([was.events[:ticks], rest.events + was.events[ticks - 1]]),
+    )
+
+
+def _after(rest: RecordedRun, name: str) -> NDArray[Any]:
+    rows: NDArray[Any] = getattr(rest, name)
+    return rows[1:] if name in ROWS_BEFORE else rows
+
+
+def _influence(was: RecordedRun, rest: RecordedRun) -> NDArray[np.float32]:
+    """The influence [ticks, skills] of a run in the columns of another mind: 0 of skills that it has alone."""
+    known = {skill.name: column for column, skill in enumerate(was.graph.skills)}
+    found = np.zeros((was.ticks, len(rest.graph.skills)), np.float32)
+    for column, skill in enumerate(rest.graph.skills):
+        if skill.name in known:
+            found[:, column] = was.influence[:, known[skill.name]]
+    return found
