@@ -27,7 +27,7 @@ def run_to_breakpoint(
     """Run until a line of the file at `path` stops it, print where and what has come of it, and end the program."""
     compiled = load_compiled(file)
     cast = session.cast(file, compiled, chosen.task, chosen.master)
-    breakpoints = _breakpoints(path, compiled, cast)
+    breakpoints = read_breakpoints(path, compiled, cast)
     setup = noticing(cast, breakpoints)
     rollout = session.simulator(setup, chosen.interrupt)
     run = session.record(setup, rollout, chosen.seed)
@@ -48,7 +48,7 @@ def run_to_breakpoint(
     sys.exit(FINDINGS if stopped else OK)
 
 
-def _breakpoints(path: Path, compiled: Compiled, setup: RunSetup) -> tuple[Breakpoint, ...]:
+def read_breakpoints(path: Path, compiled: Compiled, setup: RunSetup) -> tuple[Breakpoint, ...]:
     """The breakpoints of a file; a mistake in it ends the program."""
     if compiled.mind is None:
         sys.exit(FINDINGS)  # its report has been printed

@@ -10,6 +10,7 @@ import click
 from mindlang.cli._options import NewFile, WholeOption
 
 if TYPE_CHECKING:
+    from mindlang.breakpoints.breakpoint import Breakpoint
     from mindlang.view.viewed import Viewed
 
 EXAMPLES = """\b
@@ -17,10 +18,12 @@ Examples:
   mindc view collect.mind
   mindc view collect.mind --task Collect --seed 3
   mindc view day.rec ball.bundle                 what a robot has recorded
+  mindc view collect.mind --task Collect --break collect.break
   mindc view collect.mind --task Avoid --no-interruption --port 8123 --no-browser
   mindc view collect.mind --task Collect --export run.html
 """
 MAX_PORT = 65535
+PATH = click.Path(path_type=Path)
 
 
 @click.command(epilog=EXAMPLES)
@@ -30,6 +33,7 @@ MAX_PORT = 65535
 @click.option("--seed", type=WholeOption(0, 2**64 - 1), help="The same seed gives the same run. Default: drawn.")
 @click.option("--master", metavar="SKILL", help="Who is in charge. Default: the master of the task's first lesson.")
 @click.option("--no-interruption", is_flag=True, help="Go on to the last tick, whatever would end the run.")
+@click.option("--break", "breaks", type=PATH, metavar="PATH.break", help="Pause the page where a line of it says.")
 @click.option("--port", type=WholeOption(1, MAX_PORT), help="Of this machine. Default: any that is free.")
 @click.option("--no-browser", is_flag=True, help="Print the address, and open nothing.")
 @click.option("--export", type=NewFile(), metavar="PATH.html", help="Write the page with the run in it, and end.")
@@ -41,6 +45,7 @@ def command(
     seed: int | None,
     master: str | None,
     no_interruption: bool,
+    breaks: Path | None,
     port: int | None,
     no_browser: bool,
     export: Path | None,
@@ -57,11 +62,11 @@ def command(
     refuse_unwritable(export, ".html")
     if bundle is None:
         _refuse_recording(file)
-        viewed = _simulated(file, task, seed, master, not no_interruption, quiet)
-    elif (task, seed, master, no_interruption) == (None, None, None, False):
+        viewed = _simulated(file, task, seed, master, not no_interruption, breaks, quiet)
+    elif (task, seed, master, no_interruption, breaks) == (None, None, None, False, None):
         viewed = _recorded(file, bundle)
     else:
-        raise click.UsageError("A recording has its task, its master and its end: those options are for a .mind file.")
+        raise click.UsageError("A recording has its task, its master and its end: --port and --export are for it.")
     if export:
         _export(viewed, export, quiet)
     else:
@@ -74,7 +79,13 @@ def _refuse_recording(file: str) -> None:
 
 
 def _simulated(
-    file: str, task: str | None, seed: int | None, master: str | None, interrupt: bool, quiet: bool
+    file: str,
+    task: str | None,
+    seed: int | None,
+    master: str | None,
+    interrupt: bool,
+    breaks: Path | None,
+    quiet: bool,
 ) -> Viewed:
     import secrets
 
@@ -83,11 +94,19 @@ def _simulated(
     from mindlang.compiler.drawing import text_after_name
     from mindlang.view.viewed_run import ViewedRun
 
-    compiled = load_compiled(file)
-    setup, rollout = RunSession(quiet).prepare_compiled(file, compiled, task, master, interrupt)
+    compiled, session = load_compiled(file), RunSession(quiet)
+    breakpoints: tuple[Breakpoint, ...] = ()
+    setup = session.cast(file, compiled, task, master)
+    if breaks:
+        from mindlang.breakpoints.watch import noticing
+        from mindlang.cli._run_to_breakpoint import read_breakpoints
+
+        breakpoints = read_breakpoints(breaks, compiled, setup)
+        setup = noticing(setup, breakpoints)
+    rollout = session.simulator(setup, interrupt)
     skills = compiled.mind.skills if compiled.mind else ()
     texts = {(skill.name, edge.target): text_after_name(edge.fact) for skill in skills for edge in skill.edges}
-    return ViewedRun(setup, rollout, secrets.randbits(31) if seed is None else seed, texts).begun()
+    return ViewedRun(setup, rollout, secrets.randbits(31) if seed is None else seed, texts, breakpoints).begun()
 
 
 def _recorded(file: str, bundle: str) -> Viewed:

@@ -93,6 +93,20 @@ def test_a_browser_with_windows_is_opened_and_no_other(monkeypatch: pytest.Monke
 
 
 def test_what_edges_say_is_told(rules: Path) -> None:
-    viewed = view_command._simulated(str(rules), "Chase", 3, None, True, True)
+    viewed = view_command._simulated(str(rules), "Chase", 3, None, True, None, True)
     texts = {edge["text"] for edge in viewed.about["edges"]}
     assert {"at 1", "at 0.2", "at 3 * ball_bearing - 0.7"} <= texts
+
+
+def test_breakpoints_of_a_file_stop_the_run(rules: Path, mindc: Call) -> None:
+    breaks = rules.with_name("chase.break")
+    breaks.write_text("stop on 2 reach of ball\nstop in tick 9\n")
+    viewed = view_command._simulated(str(rules), "Chase", 3, None, True, breaks, True)
+    while not viewed.over:
+        viewed.grow()
+    reached = [tick for tick, event in viewed.happened if viewed.about["events"][event]["kind"] == "reach"]
+    assert viewed.stops == [(9, "line 2: stop in tick 9"), (reached[1], "line 1: stop on 2 reach of ball")]
+    breaks.write_text("stop at tick 9\n")
+    said = mindc("view", rules, "--task", "Chase", "--break", breaks, "--no-browser")
+    assert (said.code, said.out) == (1, "")
+    assert "Write stop in tick 9." in said.err
