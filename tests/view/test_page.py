@@ -213,3 +213,13 @@ def renamed(said: Any, names: Iterator[str], key: str = "") -> Any:
         case str() if key in ("name", "text", "says", "title", "task", "master", "rewards", "ends"):
             return next(names)
     return said
+
+
+def test_at_a_hundred_times_it_ends_where_the_run_ends(opened: Opened) -> None:
+    opened.page.select_option("#rate", "100")
+    opened.page.click("#play")
+    opened.wait("document.querySelector('#state').textContent.includes('1200 ticks')")
+    opened.wait("document.querySelector('#play').getAttribute('aria-label') === 'play'")
+    opened.wait("document.querySelector('#timeline').getAttribute('aria-valuenow') === '1200'")
+    opened.jump(613)  # between those that were shown
+    assert opened.tick == 613

@@ -1,6 +1,7 @@
 /** Which tick is shown, and how it goes on: at a multiple of real time, in steps, or by a jump. */
 
 export const RATES = [0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 50, 100];
+const PICTURES_PER_SECOND = 60;
 const AHEAD_SECONDS = 1; // so far before they are shown rows are fetched
 const FRAME_SECONDS_MAX = 0.1; // after a pause of the browser the run does not leap
 
@@ -14,14 +15,20 @@ export class Playback {
 
   constructor(
     private readonly tickSeconds: number,
-    private readonly ready: (tick: number, ahead: number) => boolean,
+    private readonly ready: (tick: number, ahead: number, every: number) => boolean,
     private readonly changed: () => void,
     private readonly wanted: (tick: number) => void,
     private readonly ofTicks: number | null,
   ) {}
 
   get tick(): number {
-    return Math.floor(this.position);
+    return Math.floor(this.position / this.every) * this.every;
+  }
+
+  /** Only every so many ticks are shown, a power of two: one, but where a picture comes later than the next tick. */
+  get every(): number {
+    const ticks = this.rate / this.tickSeconds / PICTURES_PER_SECOND;
+    return this.playing && this.position < this.known ? 2 ** Math.max(0, Math.floor(Math.log2(ticks))) : 1;
   }
 
   /** Goes on by the seconds since the last picture; waits where the next rows are not here yet. */
@@ -29,7 +36,8 @@ export class Playback {
     if (!this.playing) return;
     const ticks = (Math.min(seconds, FRAME_SECONDS_MAX) * this.rate) / this.tickSeconds;
     const next = Math.min(this.position + ticks, this.known);
-    if (!this.ready(Math.floor(next), (AHEAD_SECONDS * this.rate) / this.tickSeconds)) return;
+    const { every } = this;
+    if (!this.ready(Math.floor(next / every) * every, (AHEAD_SECONDS * this.rate) / this.tickSeconds, every)) return;
     this.position = next;
     this.wanted(Math.ceil(next + 2 * ticks + this.rate / this.tickSeconds));
     if (this.over && this.tick >= this.known) this.pause();
@@ -43,6 +51,7 @@ export class Playback {
   }
 
   pause(): void {
+    this.position = this.tick;
     this.playing = false;
     this.following = false;
     this.changed();

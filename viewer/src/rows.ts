@@ -37,8 +37,8 @@ const CHUNKS_AHEAD_MAX = 6;
 
 export class Rows {
   readonly track: Track;
-  private readonly chunks = new Map<number, Chunk>();
-  private readonly awaited = new Set<number>(); // first ticks that were asked for
+  private readonly chunks = new Map<string, Chunk>(); // by how many ticks are between rows, and their place
+  private readonly awaited = new Set<string>(); // chunks that were asked for
   private readonly answers = new Map<number, (frame: Frame) => void>();
   private readonly chunkRows: number;
   private readonly keptChunks: number;
@@ -58,13 +58,18 @@ export class Rows {
     this.keptChunks = Math.max(2 * CHUNKS_AHEAD_MAX, Math.floor(KEPT_BYTES / (bytes * this.chunkRows)));
   }
 
-  /** The row of a tick, if it is here; else it is asked for, and so are so many ticks after it. */
-  row(tick: number, ahead = 0): Row | undefined {
-    const first = Math.floor(tick / this.chunkRows);
-    const last = Math.min(Math.floor((tick + ahead) / this.chunkRows), first + CHUNKS_AHEAD_MAX);
-    const chunk = this.chunk(first);
-    for (let place = first + 1; place <= last; place++) this.chunk(place);
-    return chunk && tick - chunk.first < chunk.rows ? this.rowOf(chunk, tick - chunk.first) : undefined;
+  /**
+   * The row of a tick, if it is here; else it is asked for, and so are so many ticks after it. Who shows only every so
+   * many ticks asks for those alone.
+   */
+  row(tick: number, ahead = 0, every = 1): Row | undefined {
+    const ticks = this.chunkRows * every;
+    const first = Math.floor(tick / ticks);
+    const last = Math.min(Math.floor((tick + ahead) / ticks), first + CHUNKS_AHEAD_MAX);
+    const chunk = this.chunk(first, every);
+    for (let place = first + 1; place <= last; place++) this.chunk(place, every);
+    const row = chunk ? (tick - chunk.first) / every : 0;
+    return chunk && row < chunk.rows ? this.rowOf(chunk, row, tick) : undefined;
   }
 
   /** Some columns from a tick to another, both included, no more than about `most` values of each. */
@@ -95,23 +100,25 @@ export class Rows {
     this.send({ ...message, fork: this.fork, ask: this.asked });
   }
 
-  private chunk(place: number): Chunk | undefined {
-    const found = this.chunks.get(place);
-    const first = place * this.chunkRows;
-    const from = first + (found?.rows ?? 0);
-    if (from <= Math.min(this.known, first + this.chunkRows - 1) && !this.awaited.has(from)) {
-      this.awaited.add(from);
-      this.ask({ say: "rows", from, to: first + this.chunkRows, every: 1 }, (frame) => this.keep(place, frame));
+  private chunk(place: number, every: number): Chunk | undefined {
+    const key = `${every}/${place}`;
+    const found = this.chunks.get(key);
+    const first = place * this.chunkRows * every;
+    const to = first + this.chunkRows * every;
+    const from = first + (found?.rows ?? 0) * every;
+    if (from <= Math.min(this.known, to - 1) && !this.awaited.has(key)) {
+      this.awaited.add(key);
+      this.ask({ say: "rows", from, to, every }, (frame) => this.keep(key, frame));
     }
     return found;
   }
 
-  private keep(place: number, frame: Frame): void {
-    this.awaited.delete(frame.first);
-    const found = this.chunks.get(place);
+  private keep(key: string, frame: Frame): void {
+    this.awaited.delete(key);
+    const found = this.chunks.get(key);
     const came = this.chunkOf(frame);
-    this.chunks.delete(place); // a Map keeps the order of setting: the oldest goes first
-    this.chunks.set(place, found && found.first + found.rows === came.first ? joined(found, came) : came);
+    this.chunks.delete(key); // a Map keeps the order of setting: the oldest goes first
+    this.chunks.set(key, found ? joined(found, came) : came);
     if (this.chunks.size > this.keptChunks) this.chunks.delete(this.chunks.keys().next().value!);
     this.changed();
   }
@@ -126,10 +133,10 @@ export class Rows {
     };
   }
 
-  private rowOf(chunk: Chunk, place: number): Row {
+  private rowOf(chunk: Chunk, place: number, tick: number): Row {
     const { doubles, singles } = this.about;
     return {
-      tick: chunk.first + place,
+      tick,
       doubles: chunk.doubles.subarray(place * doubles, (place + 1) * doubles),
       singles: chunk.singles.subarray(place * singles, (place + 1) * singles),
     };

@@ -51,7 +51,7 @@ export class View {
     };
     const jump = (tick: number) => this.playback.jump(tick);
     this.rows = new Rows(about, 0, send, redraw);
-    this.playback = new Playback(about.tick, (tick, ahead) => !!this.rows.row(tick, ahead), redraw, (tick) => this.want(tick), about.of_ticks);
+    this.playback = new Playback(about.tick, (tick, ahead, every) => !!this.rows.row(tick, ahead, every), redraw, (tick) => this.want(tick), about.of_ticks);
     this.world = about.world && new World(element<HTMLCanvasElement>("world"), about, about.world, theme(), redraw);
     element("no-world").hidden = !!about.world;
     const shows = { over: (at: Selected, event: PointerEvent) => this.tip(at, event), chosen: (at: Selected) => this.choose(at) };
@@ -169,6 +169,11 @@ export class View {
     this.why.at(this.playback.tick, 0, now);
   }
 
+  /** The row of the tick that is shown, if it is here. */
+  private get row() {
+    return this.rows.row(this.playback.tick, 0, this.playback.every);
+  }
+
   /** Pauses where a breakpoint holds that was come by. */
   private stopBetween(before: number, now: number): void {
     if (!this.playback.playing || !this.stops.size) return;
@@ -187,7 +192,7 @@ export class View {
     this.transport.show();
     this.timeline.show(tick, known, over, this.happened);
     this.curves.move(tick);
-    const row = this.rows.row(tick);
+    const row = this.row;
     if (!row) return;
     const drawn = [this.active.draw(row, now), this.hierarchy.draw(row, now)];
     this.dirty = drawn.includes(false);
@@ -201,7 +206,7 @@ export class View {
     this.selected = selected;
     const node = selected?.kind === "node" ? selected.number : null;
     this.why.choose(node);
-    this.edit.choose(node, this.rows.row(this.playback.tick));
+    this.edit.choose(node, this.row);
     this.describe("chosen-text", selected);
     if (!selected) element("chosen-text").textContent = "Choose a skill, an edge or an actuator to see its value, and why.";
     this.dirty = true;
@@ -225,7 +230,7 @@ export class View {
 
   private describe(name: string, selected: Selected): void {
     if (!selected) return;
-    const { text, value } = described(this.about, selected, this.rows.row(this.playback.tick));
+    const { text, value } = described(this.about, selected, this.row);
     const place = element(name);
     place.textContent = text;
     place.title = String(value);
