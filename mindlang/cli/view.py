@@ -126,9 +126,8 @@ def _recorded(file: str, bundle: str) -> Viewed:
 
 def _serve(viewed: Viewed, port: int | None, opens: bool, quiet: bool) -> None:
     import asyncio
+    import os
     import sys
-
-    from mindrun.errors import reason
 
     from mindlang.cli._terminal import MISUSE, fail, procedures_talk, talk
     from mindlang.view.server import ViewServer
@@ -149,7 +148,7 @@ def _serve(viewed: Viewed, port: int | None, opens: bool, quiet: bool) -> None:
             asyncio.run(ViewServer(Session(viewed), port or 0).serve(ready))
     except OSError as error:
         hint = "Another program has that port: leave --port out, and one that is free is taken."
-        fail(f"port {port} of this machine cannot be opened: {reason(error)}", hint, MISUSE)
+        fail(f"port {port} of this machine cannot be opened: {os.strerror(error.errno or 0)}", hint, MISUSE)
 
 
 def _export(viewed: Viewed, path: Path, quiet: bool) -> None:

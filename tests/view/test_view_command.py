@@ -59,7 +59,7 @@ def test_a_port_that_is_taken_is_said(rules: Path, mindc: Call) -> None:
         port = taken.getsockname()[1]
         said = mindc("view", rules, "--seed", 3, "--port", port, "--no-browser", "-q")
     assert (said.code, said.out) == (2, "")
-    assert said.err.startswith(f"port {port} of this machine cannot be opened: ")
+    assert said.err.startswith(f"port {port} of this machine cannot be opened: Address already in use\n")
     assert "--port" in said.err
 
 
