@@ -27,9 +27,7 @@ Examples:
 @click.option("--master", metavar="SKILL", help="Who is in charge. Default: the master of the task's first lesson.")
 @click.option("--no-interruption", is_flag=True, help="Go on to the last tick, whatever would end the run.")
 @click.option("--tick", type=WholeOption(1, 2**53), default=1, help="The first tick that is changed. Default: 1.")
-@click.option(
-    "--ticks", type=WholeOption(1, 2**53), help="How many are. Default: all that follow; one with --set alone."
-)
+@click.option("--ticks", type=WholeOption(1, 2**53), help="How many are. Default: all that follow; one with --set.")
 @click.option("--without", multiple=True, metavar="SKILL", help="Silence a skill: it has no influence.")
 @click.option("--sensor", multiple=True, metavar="NAME=0.5", help="What a sensor reads; NAME=1,0.5,1 of a wide one.")
 @click.option(

@@ -33,17 +33,24 @@ class Request:
     @property
     def parts(self) -> tuple[str, ...]:
         """Each change as it is said."""
+        return (*self._lasting, *self.settings)
+
+    @property
+    def _lasting(self) -> tuple[str, ...]:
+        """Those that go on to the end, if nothing else is said."""
         other = (f"with {self.other}",) if self.other else ()
-        return (*other, *(f"without {skill}" for skill in self.without), *self.sensors, *self.settings)
+        return (*other, *(f"without {skill}" for skill in self.without), *self.sensors)
 
     @property
     def words(self) -> str:
-        """For reading: without Avoid, proximity=0.5, from tick 812 on."""
-        return f"{listed(self.parts, 'and')}, {self._span}"
+        """For reading: without Avoid and proximity=0.5, from tick 812 on."""
+        if self.ticks is not None:
+            groups: list[tuple[tuple[str, ...], int | None]] = [(self.parts, self.ticks)]
+        else:
+            groups = [(self._lasting, None), (self.settings, 1)]
+        return "; ".join(f"{listed(parts, 'and')}, {self._span(ticks)}" for parts, ticks in groups if parts)
 
-    @property
-    def _span(self) -> str:
-        ticks = self.ticks or (1 if self.settings and not (self.without or self.sensors or self.other) else None)
+    def _span(self, ticks: int | None) -> str:
         if ticks is None:
             return f"from tick {self.tick:,} on" if self.tick > 1 else "from the first tick on"
         return f"in tick {self.tick:,}" if ticks == 1 else f"in ticks {self.tick:,} to {self.tick + ticks - 1:,}"

@@ -165,4 +165,6 @@ def test_what_is_asked_is_said_as_it_is() -> None:
     assert Request(1, None, ("Avoid",)).words == "without Avoid, from the first tick on"
     assert Request(1000, 5, (), ("eyes=1",)).words == "eyes=1, in ticks 1,000 to 1,004"
     assert Request(7, None, (), (), ("mood=1",)).words == "mood=1, in tick 7"
+    assert Request(7, None, ("A",), (), ("mood=1",)).words == "without A, from tick 7 on; mood=1, in tick 7"
+    assert Request(7, 2, ("A",), (), ("mood=1",)).words == "without A and mood=1, in ticks 7 to 8"
     assert Request(1, None, ("A", "B"), ("c=1",)).words == "without A, without B and c=1, from the first tick on"
