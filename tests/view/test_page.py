@@ -223,3 +223,15 @@ def test_at_a_hundred_times_it_ends_where_the_run_ends(opened: Opened) -> None:
     opened.wait("document.querySelector('#timeline').getAttribute('aria-valuenow') === '1200'")
     opened.jump(613)  # between those that were shown
     assert opened.tick == 613
+
+
+def test_what_has_no_world_is_shown_without_one(browser: Any, mind: Path) -> None:
+    viewed = simulated(mind)
+    with served(replace(viewed, about={**viewed.about, "world": None})) as view:
+        found = Opened(browser, f"http://{view.host}/#{view.token}")
+        found.jump(100)
+        assert found.page.is_visible("#no-world")
+        assert found.page.locator("#hierarchy .node.lit").count() > 0
+        found.page.keyboard.press("0")
+        found.page.keyboard.press("f")
+        found.close()
