@@ -9,6 +9,7 @@ from typing import Any
 import click
 
 SHOWN_CHARACTERS = 20  # of what is refused
+MAX_TICK_DIGITS = 15
 
 
 class WholeOption(click.IntRange):
@@ -35,6 +36,24 @@ class NumberOption(click.FloatRange):
             return number
         low = f"above {self.min:g}, and at most" if self.min_open else f"from {self.min:g} to"
         return self.fail(f"{_shortened(value)} is not a number {low} {self.max:g}.", param, ctx)
+
+
+class TickSpan(click.ParamType[tuple[int, int]]):
+    """A tick, or the first and the last of several: 812 or 800..812."""
+
+    name = "ticks"
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> tuple[int, int]:
+        """The first tick and the last one."""
+        first, dots, last = str(value).partition("..")
+        words = [first, last] if dots else [first]
+        if all(word.isascii() and word.isdigit() and len(word) <= MAX_TICK_DIGITS for word in words):
+            ticks = [int(word) for word in words]
+            if 1 <= ticks[0] <= ticks[-1]:
+                return ticks[0], ticks[-1]
+        return self.fail(
+            f"{_shortened(value)} is no tick from 1 on, and no span of ticks: 812 or 800..812.", param, ctx
+        )
 
 
 class NewFile(click.Path):

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from math import isfinite
 from typing import Protocol
@@ -51,10 +51,14 @@ class EdgeFlow:
 class EdgeFlows:
     """The edges below a master, and what they carry in each row of a run.
 
-    A skill that remembers is computed from the first row on, so a row before the last that was asked for takes longer.
+    In the rows of `begins` the mind was begun anew. A skill that remembers is computed from there on, so a row before
+    the last that was asked for takes longer.
     """
 
-    def __init__(self, policy: Policy, sources: Mapping[str, str], master: str, rows: Rows) -> None:
+    def __init__(
+        self, policy: Policy, sources: Mapping[str, str], master: str, rows: Rows, begins: Sequence[int] = ()
+    ) -> None:
+        self._begins = begins
         self.graph, self.master, self.rows = policy.graph, master, rows
         self.mind = hierarchy(policy, sources, master)
         self.skills = [skill.index for skill in self.mind.skills]
@@ -78,8 +82,9 @@ class EdgeFlows:
         return self._last[1]
 
     def _remember_until(self, row: int) -> None:
-        if row < self._next:
-            self._next = 0
+        begin = max((each for each in self._begins if each <= row), default=0)
+        if row < self._next or self._next <= begin:
+            self._next = begin
             for skill in self._remembering:
                 skill.compute.reset()  # type: ignore[attr-defined]
         for earlier in range(self._next, row) if self._remembering else ():

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 Doubles = NDArray[np.float64]
+MAX_COUNTED_PATHS = 10**15
 Linked = tuple[()] | tuple[int, "Linked"]  # edges from an upper one down
 MAX_FOLLOWED_EDGES = 200_000  # after which the largest so far are the answer
 
@@ -76,7 +77,7 @@ def largest_paths(ends: Ways, into: Mapping[int, Ways], order: Sequence[int], li
 
 
 def path_count(ends: Ways, into: Mapping[int, Ways], order: Sequence[int]) -> int:
-    """How many paths there are over edges that carried something in any of the ticks."""
+    """How many paths there are over edges that carried something in any of the ticks, up to `MAX_COUNTED_PATHS`."""
     counts: dict[int, int] = {order[0]: 1}
     for skill in order[1:]:
         counts[skill] = _counted(into[skill], counts) if skill in into else 0
@@ -84,7 +85,8 @@ def path_count(ends: Ways, into: Mapping[int, Ways], order: Sequence[int]) -> in
 
 
 def _counted(ways: Ways, counts: Mapping[int, int]) -> int:
-    return sum(counts[ways.sources[number]] for number in np.flatnonzero(ways.fractions.any(axis=1)))
+    used = np.flatnonzero(ways.fractions.any(axis=1))
+    return min(MAX_COUNTED_PATHS, sum(counts[ways.sources[number]] for number in used))
 
 
 def _best(into: Mapping[int, Ways], order: Sequence[int], ticks: int) -> dict[int, Doubles]:

@@ -18,7 +18,7 @@ from mindrun.think import clamped
 from numpy.typing import NDArray
 
 from mindlang.run.edge_flow import EdgeFlow, EdgeFlows, Sink
-from mindlang.run.largest_paths import Doubles, FoundPath, Ways, largest_paths, path_count
+from mindlang.run.largest_paths import MAX_COUNTED_PATHS, Doubles, FoundPath, Ways, largest_paths, path_count
 
 NAMED_PATHS = 10
 NOT_SENT = np.float32(0.0)
@@ -41,7 +41,10 @@ class Contribution:
 
 @dataclass(frozen=True, slots=True)
 class Rest:
-    """The `paths` that are not named, together. Over several ticks some of these may have carried nothing."""
+    """The `paths` that are not named, together; 10^15 stands for more, too.
+
+    Over several ticks some of them may have carried nothing.
+    """
 
     paths: int
     part: float
@@ -56,6 +59,7 @@ class Shares:
     `neutral` is what an actuator has of it from the `undriven` rows, in which nothing influenced it (a memory that
     nothing drives is sent nothing: 0), and `rounding` what the engine's sums in float32 have added. For a skill
     `command` and `influence` are both its influence, and a share is the influence that came over that path.
+    `silent` are the skills that could have sent something and did not.
     Unless they `are_largest`, a path may be among the `rest` that is larger than those named.
     """
 
@@ -68,6 +72,7 @@ class Shares:
     rounding: float
     paths: tuple[Contribution, ...]
     rest: Rest
+    silent: tuple[int, ...]
     are_largest: bool
 
 
@@ -85,11 +90,12 @@ def shares(flows: EdgeFlows, target: Sink, rows: range, paths: int = NAMED_PATHS
     into = {skill: ways for skill in order if (ways := _into(flows, skill, carried)) is not None}
     weights = Ways(ends.edges, ends.sources, ends.parts)
     found = largest_paths(weights, into, order, paths)
-    named = tuple(_contribution(flows, ends, path) for path in found.paths)
+    named = tuple(sorted((_contribution(flows, ends, path) for path in found.paths), key=_size, reverse=True))
     command, neutral = _command(flows, ends), _neutral(flows, ends)
     every, part = _mean(ends.shares.sum(axis=0)), _mean(ends.parts.sum(axis=0))
+    count = path_count(weights, into, order)
     rest = Rest(
-        path_count(weights, into, order) - len(named),
+        count - len(named) * (count < MAX_COUNTED_PATHS),
         max(0.0, part - fsum(each.part for each in named)),
         max(0.0, every - fsum(each.share for each in named)),
     )
@@ -103,14 +109,19 @@ def shares(flows: EdgeFlows, target: Sink, rows: range, paths: int = NAMED_PATHS
         command - neutral - every,
         named,
         rest,
+        tuple(np.array(ends.sources, int)[~ends.behind.any(axis=1)].tolist()),
         found.are_largest,
     )
+
+
+def _size(contribution: Contribution) -> tuple[float, float]:
+    return contribution.part, contribution.share
 
 
 def _in_charge(flows: EdgeFlows, ticks: int) -> Shares:
     """The influence of the master, which is 1 by definition."""
     path = Contribution((flows.master,), 1.0, 1.0, 1.0, 1.0)
-    return Shares(("skill", flows.skills[0]), ticks, 1.0, 1.0, 0, 0.0, 0.0, (path,), Rest(0, 0.0, 0.0), True)
+    return Shares(("skill", flows.skills[0]), ticks, 1.0, 1.0, 0, 0.0, 0.0, (path,), Rest(0, 0.0, 0.0), (), True)
 
 
 @dataclass(frozen=True, slots=True)

@@ -8,6 +8,7 @@ from math import fsum
 import numpy as np
 import pytest
 from hypothesis import assume, given
+from hypothesis import strategies as st
 from mindrun.engine import Engine, procedure_sources
 from mindrun.graph import Graph
 from mindrun.policy import Policy
@@ -16,7 +17,8 @@ from numpy.typing import NDArray
 
 from mindlang.run.edge_flow import EdgeFlows, Sink, sink_named
 from mindlang.run.shares import Shares, shares
-from tests.hierarchies import PROCEDURES, Case, random_case
+from tests.hierarchies import PROCEDURES, Case, doubling, random_case
+from tests.minds import always, mind, rule
 
 HALF_ULP = Fraction(1, 2**24)  # relative error of a float32 operation
 LEAST = Fraction(1, 2**150)  # error of a quotient near 0
@@ -132,6 +134,65 @@ def test_shares_are_those_of_every_path_in_exact_fractions(case: Case) -> None:
                 assert each.share == pytest.approx(float(share), rel=DOUBLES)
             holds_what_the_engine_said(found, run, row)
             bounded(found, sum((share for _, share in expected.values()), Fraction(0)), len(tick.came.get(sink, [])))
+
+
+@given(random_case(), st.integers(1, 4))
+def test_the_largest_paths_come_first_and_the_rest_is_what_they_leave(case: Case, paths: int) -> None:
+    assume(len(case.graph.skills) <= MOST_SKILLS)
+    run = thought(case)
+    flows = flows_of(case, run)
+    for sink in sinks(flows):
+        for rows in (range(1), range(len(run.readings))):
+            found, whole = (shares(flows, sink, rows, number) for number in (paths, ALL))
+            sizes = [each.part for each in whole.paths]
+            assert found.are_largest
+            assert [each.part for each in found.paths] == pytest.approx(
+                sorted(sizes, reverse=True)[:paths], rel=DOUBLES
+            )
+            named = {each.path for each in found.paths}
+            others = [each.part for each in whole.paths if each.path not in named]
+            assert found.rest.part == pytest.approx(fsum(others), abs=DOUBLES * max(1.0, found.influence))
+            assert found.rest.paths == len(others) + whole.rest.paths
+
+
+@given(random_case())
+def test_a_span_is_the_mean_of_its_ticks(case: Case) -> None:
+    assume(len(case.graph.skills) <= MOST_SKILLS)
+    run = thought(case)
+    flows = flows_of(case, run)
+    count = len(run.readings)
+    for sink in sinks(flows):
+        single = [shares(flows, sink, range(row, row + 1), ALL) for row in range(count)]
+        found = shares(flows, sink, range(count), ALL)
+        assert found.undriven == sum(each.undriven for each in single)
+        for of in ("command", "influence", "neutral"):
+            mean = fsum(getattr(each, of) for each in single) / count
+            assert getattr(found, of) == pytest.approx(mean, rel=DOUBLES, abs=1e-300)
+        for each in found.paths:
+            same = [other for tick in single for other in tick.paths if other.path == each.path]
+            assert each.share == pytest.approx(fsum(other.share for other in same) / count, rel=DOUBLES)
+            assert each.part == pytest.approx(fsum(other.part for other in same) / count, rel=DOUBLES)
+
+
+def test_of_a_ladder_with_more_paths_than_anyone_can_count_the_largest_are_found() -> None:
+    skills = doubling(100, (always("actuator", 0, 1.0),))
+    case = Case(mind(*skills), {}, np.zeros((3, 1), np.float32))
+    flows = flows_of(case, thought(case))
+    for rows in (range(1), range(3)):
+        found = shares(flows, ("actuator", 0), rows, 5)
+        assert [each.part for each in found.paths] == [2.0**-100] * 5
+        assert (found.rest.paths, found.rest.share, found.command, found.are_largest) == (10**15, 1.0, 1.0, True)
+
+
+def test_of_ten_thousand_parents_the_first_are_those_with_the_most_influence() -> None:
+    parents = 10_000
+    top = rule("Top", *(always("skill", 1 + number, (1 + number) / parents) for number in range(parents)))
+    skills = [rule(f"S{number}", always("actuator", 0, 0.5)) for number in range(parents)]
+    case = Case(mind(top, *skills), {}, np.zeros((1, 1), np.float32))
+    found = shares(flows_of(case, thought(case)), ("actuator", 0), range(1), 2)
+    assert [each.path for each in found.paths] == [("Top", f"S{parents - n}", "left_wheel") for n in (1, 2)]
+    assert found.paths[0].part == pytest.approx(2 / (parents + 1), rel=1e-6)
+    assert (found.rest.paths, found.command) == (parents - 2, pytest.approx(0.5, rel=1e-3))
 
 
 def holds_what_the_engine_said(found: Shares, run: Thought, row: int) -> None:

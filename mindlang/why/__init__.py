@@ -1,0 +1,1 @@
+"""Why a run was as it was: who made a command, an influence or a reward."""

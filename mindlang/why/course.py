@@ -1,0 +1,84 @@
+"""What is asked about: the ticks of a run in the simulator, or of a robot's recording, and what acted in them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from mindrun.bundle import digest, read_bundle
+from mindrun.engine import Engine, procedure_sources
+from mindrun.robot.recording import RecordingError, read
+from numpy.typing import NDArray
+
+from mindlang.run.edge_flow import EdgeFlows, Singles
+from mindlang.run.recorded_run import RecordedRun
+
+
+@dataclass(frozen=True, slots=True)
+class Course:
+    """What flowed; `acted` [ticks, actuators] are the commands that reached the actuators, after delay or guardian.
+
+    `stopped` [ticks] says when a robot was. `about` says whose course it is, `run` has the rewards where there are any.
+    """
+
+    about: dict[str, Any]
+    flows: EdgeFlows
+    acted: Singles
+    stopped: NDArray[np.bool_]
+    run: RecordedRun | None = None
+
+    @property
+    def ticks(self) -> int:
+        """How many there are, the first of which is 1."""
+        return len(self.acted)
+
+
+@dataclass(frozen=True, slots=True)
+class Thoughts:
+    """What a robot has read and thought, computed again."""
+
+    readings: Singles
+    influence: Singles
+
+
+def course_of_run(run: RecordedRun, seed: int) -> Course:
+    """The course of a run in the simulator."""
+    setup = run.setup
+    sources = procedure_sources(run.graph, setup.folder, setup.master)
+    flows = EdgeFlows(setup.ready.policy, sources, setup.master, run)
+    about = {"task": run.task.name, "master": setup.master, "seed": seed}
+    return Course(about, flows, run.commands, np.zeros(len(run.commands), bool), run)
+
+
+def course_of_recording(path: Path, bundle: Path) -> Course:
+    """The course of a robot's recording, whose ticks are its rows; what it does not have is computed again.
+
+    RecordingError where it was made with another bundle, or is not what this one computes. Runs the Python code of the
+    bundle's procedures.
+    """
+    mind = read_bundle(bundle)
+    of, parts = read(path)
+    of.refuse_another(digest(bundle), mind.graph)
+    rows = np.concatenate([*parts, np.zeros(0, of.row)])
+    if not len(rows):
+        raise RecordingError(f"{path} has no tick in it")
+    thoughts = list(_thought(path, rows, Engine(mind.policy, mind.procedures, of.master)))
+    again = Thoughts(np.array([each[0] for each in thoughts]), np.array([each[1] for each in thoughts]))
+    begins = np.flatnonzero(rows["tick"] == 0).tolist()
+    flows = EdgeFlows(mind.policy, mind.procedures, of.master, again, begins)
+    about = {"recording": path.name, "master": of.master}
+    return Course(about, flows, rows["sent"], rows["stopped"] != 0)
+
+
+def _thought(path: Path, rows: NDArray[Any], engine: Engine) -> Iterator[tuple[Singles, Singles]]:
+    for number, row in enumerate(rows, 1):
+        if row["tick"] == 0:  # begun anew
+            engine.reset()
+        commands = engine.tick(row["readings"])
+        if commands.tobytes() != row["commands"].tobytes():
+            said = f"tick {number:,} of {path} is not what its bundle computes"
+            raise RecordingError(said, "mindrun replay says what differs")
+        yield engine.readings, engine.influence
