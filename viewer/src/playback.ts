@@ -8,6 +8,7 @@ const FRAME_SECONDS_MAX = 0.1; // after a pause of the browser the run does not 
 export class Playback {
   private position = 0; // ticks, with a fraction
   private following = false; // stays with the newest tick of a run that goes on
+  private target: number | null = null; // a jump to what is not known yet
   known = 0;
   over = false;
   playing = false;
@@ -44,6 +45,7 @@ export class Playback {
   }
 
   play(): void {
+    this.target = null;
     if (this.over && this.tick >= this.known) this.position = 0;
     this.playing = true;
     this.wanted(this.tick + 1);
@@ -70,12 +72,14 @@ export class Playback {
   jump(tick: number): void {
     this.following = false;
     this.wanted(tick);
+    this.target = tick > this.known && !this.over ? Math.round(tick) : null;
     this.position = Math.min(Math.max(0, Math.round(tick)), this.known);
     this.changed();
   }
 
   /** Goes to the newest tick, and stays with it while the run goes on. */
   end(): void {
+    this.target = null;
     this.wanted(this.ofTicks ?? this.known + 1);
     this.position = this.known;
     this.following = !this.over;
@@ -93,6 +97,8 @@ export class Playback {
     this.known = known;
     this.over = over;
     if (this.following) this.position = known;
+    if (this.target !== null) this.position = Math.min(this.target, known);
+    if (over || (this.target ?? 0) <= known) this.target = null;
     this.changed();
   }
 }
