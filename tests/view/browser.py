@@ -64,7 +64,7 @@ class Opened:
         self.page.fill("#tick", str(tick))
         self.page.press("#tick", "Enter")
         self.page.press("#tick", "Escape")
-        self.wait(f"document.querySelector('#timeline').getAttribute('aria-valuenow') === '{tick}'")
+        self.wait(f"document.body.dataset.tick === '{tick}'")
 
     def wait(self, condition: str) -> None:
         """Until a condition holds in the page. (Its policy forbids playwright's own waiting, which is an eval.)"""

@@ -200,6 +200,7 @@ export class View {
     this.edit.show(this.playback.playing, tick);
     this.describe("chosen-text", this.selected);
     this.describe("tip", this.over);
+    document.body.dataset.tick = String(tick); // the tick whose row is seen
   }
 
   private choose(selected: Selected): void {
