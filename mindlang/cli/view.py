@@ -19,6 +19,8 @@ Examples:
   mindc view collect.mind --task Collect --seed 3
   mindc view day.rec ball.bundle                 what a robot has recorded
   mindc view collect.mind --task Collect --break collect.break
+  mindc view day.rec ball.bundle --follow        and what it still records
+  mindc view robot.local:day.rec ball.bundle --follow    through ssh
   mindc view collect.mind --task Avoid --no-interruption --port 8123 --no-browser
   mindc view collect.mind --task Collect --export run.html
 """
@@ -34,6 +36,9 @@ PATH = click.Path(path_type=Path)
 @click.option("--master", metavar="SKILL", help="Who is in charge. Default: the master of the task's first lesson.")
 @click.option("--no-interruption", is_flag=True, help="Go on to the last tick, whatever would end the run.")
 @click.option("--break", "breaks", type=PATH, metavar="PATH.break", help="Pause the page where a line of it says.")
+@click.option(
+    "--follow", is_flag=True, help="Of a recording: show what is still written. HOST:FILE.rec is read by ssh."
+)
 @click.option("--port", type=WholeOption(1, MAX_PORT), help="Of this machine. Default: any that is free.")
 @click.option("--no-browser", is_flag=True, help="Print the address, and open nothing.")
 @click.option("--export", type=NewFile(), metavar="PATH.html", help="Write the page with the run in it, and end.")
@@ -46,6 +51,7 @@ def command(
     master: str | None,
     no_interruption: bool,
     breaks: Path | None,
+    follow: bool,
     port: int | None,
     no_browser: bool,
     export: Path | None,
@@ -60,10 +66,14 @@ def command(
     from mindlang.cli._terminal import refuse_unwritable
 
     refuse_unwritable(export, ".html")
+    is_run = (task, seed, master, no_interruption, breaks) != (None, None, None, False, None)
+    if follow:
+        _follow(file, None if export or is_run else bundle, port, not no_browser, quiet)
+        return
     if bundle is None:
         _refuse_recording(file)
         viewed = _simulated(file, task, seed, master, not no_interruption, breaks, quiet)
-    elif (task, seed, master, no_interruption, breaks) == (None, None, None, False, None):
+    elif not is_run:
         viewed = _recorded(file, bundle)
     else:
         raise click.UsageError("A recording has its task, its master and its end: --port and --export are for it.")
@@ -120,6 +130,23 @@ def _recorded(file: str, bundle: str) -> Viewed:
     try:
         with procedures_talk():
             return viewed_recording(Path(file), Path(bundle))
+    except MindError as error:
+        fail(str(error), error.hint, MISUSE)
+
+
+def _follow(file: str, bundle: str | None, port: int | None, opens: bool, quiet: bool) -> None:
+    from pathlib import Path
+
+    from mindrun.errors import MindError
+
+    from mindlang.cli._terminal import MISUSE, fail, procedures_talk
+    from mindlang.view.viewed_recording import followed_recording
+
+    if bundle is None:
+        raise click.UsageError("--follow is for a recording and its bundle: mindc view day.rec NAME.bundle --follow")
+    try:
+        with procedures_talk(), followed_recording(file, Path(bundle)) as viewed:
+            _serve(viewed, port, opens, quiet)
     except MindError as error:
         fail(str(error), error.hint, MISUSE)
 

@@ -12,6 +12,9 @@ Singles = NDArray[np.float32]
 Ticks = NDArray[np.int64]
 
 
+MERGED_ROWS = 256
+
+
 @dataclass(frozen=True, slots=True)
 class Chunk:
     """Some ticks, one after the other: `doubles` [ticks, columns], `singles` [ticks, columns that are kept].
@@ -38,9 +41,19 @@ class RowBlocks:
     kept_bytes: int = 0
 
     def append(self, chunk: Chunk) -> None:
-        """Put a chunk behind all others; its rows are there when `rows` counts them."""
-        self.chunks.append(chunk)
-        self.firsts.append(self.rows)
+        """Put a chunk behind all others; its rows are there when `rows` counts them.
+
+        Small ones become one: of what is seen live, each tick is a chunk.
+        """
+        if not len(chunk.doubles):
+            return
+        if self.chunks and len(self.chunks[-1].doubles) + len(chunk.doubles) <= MERGED_ROWS:
+            last = self.chunks[-1]
+            doubles, singles = ((last.doubles, chunk.doubles), (last.singles, chunk.singles))
+            self.chunks[-1] = Chunk(np.concatenate(doubles), np.concatenate(singles))
+        else:
+            self.chunks.append(chunk)
+            self.firsts.append(self.rows)
         self.kept_bytes += chunk.doubles.nbytes + chunk.singles.nbytes
         self.rows += len(chunk.doubles)
 

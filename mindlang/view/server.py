@@ -77,6 +77,7 @@ class ViewServer:
         self.port = server.sockets[0].getsockname()[1]
         self._answers = HttpAnswers(self.port)
         await server.start_serving()
+        self._session.begin()
         ready(self.address)
         try:
             await asyncio.get_running_loop().create_future()

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import sys
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from typing import Any
@@ -28,6 +29,11 @@ class Session:
         self._growing: dict[int, asyncio.Task[None]] = {}
         self._grower = ThreadPoolExecutor(1, "growing")
         self._answerer = ThreadPoolExecutor(1, "answering")
+
+    def begin(self) -> None:
+        """Let what is live grow from now on, in the loop that is running."""
+        if self.forks[0].is_live:
+            self._run(0, sys.maxsize)
 
     def about(self, edits: bool) -> dict[str, Any]:
         """What a viewer is told first."""

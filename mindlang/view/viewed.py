@@ -59,7 +59,7 @@ class Viewed:
     """`about` is what does not change, `chunks` what is still to come; the first chunk begins with tick 0.
 
     `forked` makes the same run with a change; RefusedError where that cannot be, None where nothing can be changed. One
-    thread lets it `grow`; others may ask at the same time.
+    thread lets it `grow`; others may ask at the same time. What `is_live` grows without being asked.
     """
 
     about: Mapping[str, Any]
@@ -67,6 +67,7 @@ class Viewed:
     chunks: Iterator[Chunk]
     mind: SeenMind
     forked: Callable[[Change], Fork] | None = None
+    is_live: bool = False
     blocks: RowBlocks = field(default_factory=RowBlocks)
     happened: list[tuple[int, int]] = field(default_factory=list)
     stops: list[tuple[int, str]] = field(default_factory=list)

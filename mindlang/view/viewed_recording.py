@@ -3,18 +3,21 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 from mindrun.bundle import Bundle, digest, read_bundle
 from mindrun.engine import Engine
+from mindrun.robot.growing_recording import read_growing
 from mindrun.robot.recording import MAX_HEADER_BYTES, About, read
 from mindrun.virtual_sensors import virtual_sensors
 from numpy.typing import NDArray
 
 from mindlang.view.about_hierarchy import HierarchyData
 from mindlang.view.columns import FLOW, Columns
+from mindlang.view.growing_bytes import growing_bytes
 from mindlang.view.row_blocks import Chunk, Singles
 from mindlang.view.texts import shown
 from mindlang.view.viewed import SeenMind, Viewed
@@ -29,21 +32,37 @@ def viewed_recording(path: Path, bundle: Path) -> Viewed:
 
     Runs the Python code of the bundle's procedures.
     """
-    found = read_bundle(bundle)
     of, parts = read(path)
+    return viewed_rows(path.name, of, parts, bundle, _row_count(path, of))
+
+
+@contextmanager
+def followed_recording(name: str, bundle: Path) -> Iterator[Viewed]:
+    """A recording that still grows, of this machine or as HOST:PATH, and the bundle that is running; as above."""
+    with growing_bytes(name) as parts:
+        path = Path(name)
+        yield viewed_rows(path.name, *read_growing(path, parts), bundle, None)
+
+
+def viewed_rows(name: str, of: About, parts: Iterator[Rows], bundle: Path, of_ticks: int | None) -> Viewed:
+    """The rows of a recording with its bundle; those of one that still grows come without being asked for.
+
+    `of_ticks` says how many there are, None that it still grows. MindError where both do not fit.
+    """
+    found = read_bundle(bundle)
     of.refuse_another(digest(bundle), found.graph)
     begins: set[int] = set()  # filled while the rows come
     mind = SeenMind.of(found.policy, found.procedures, of.master, begins)
     columns = recording_columns(found, of, mind.edges)
     below = HierarchyData(found.graph, of.master, mind.skills, columns)
     about = {
-        "title": shown(f"{path.name} with {of.master} in charge"),
+        "title": shown(f"{name} with {of.master} in charge"),
         "task": None,
         "master": shown(of.master),
-        "source": "recording",
+        "source": "robot" if of_ticks is None else "recording",
         "seed": None,
         "tick": of.tick,
-        "of_ticks": _row_count(path, of),
+        "of_ticks": of_ticks,
         "events": [
             {"text": "stopped", "kind": "stopped"},
             {"text": "began anew", "kind": "begin"},
@@ -55,7 +74,8 @@ def viewed_recording(path: Path, bundle: Path) -> Viewed:
         "curves": below.curves(),
         **below.data({}),
     }
-    return Viewed(about, columns, recording_chunks(parts, found, of, columns, begins), mind)
+    chunks = recording_chunks(parts, found, of, columns, begins)
+    return Viewed(about, columns, chunks, mind, is_live=of_ticks is None)
 
 
 def recording_columns(mind: Bundle, of: About, edges: int) -> Columns:
@@ -84,6 +104,8 @@ def recording_chunks(
     fill = _filler(mind, of)
     number, start, before = 0, 0.0, np.zeros(2 + len(of.sensors), bool)
     for part in parts:
+        if not len(part):  # nothing has come for a while
+            yield Chunk(np.zeros((0, 1)), np.zeros((0, columns.kept_singles), np.float32))
         for first in range(0, len(part), CHUNK_TICKS):
             rows = part[first : first + CHUNK_TICKS]
             start = start if number else float(rows["time"][0])

@@ -82,9 +82,12 @@ class About:
 
 
 class Recorder:
-    """Writes a recording; a context manager. OSError where the file is there already, or cannot be written."""
+    """Writes a recording; a context manager. OSError where the file is there already, or cannot be written.
 
-    def __init__(self, path: Path, about: About, every: float = 1.0) -> None:
+    Rows are brought to the disk `every` so many seconds; others see them after `flush_every` seconds, 0: each at once.
+    """
+
+    def __init__(self, path: Path, about: About, every: float = 1.0, flush_every: float | None = None) -> None:
         self._row = np.zeros(1, about.row)
         self._path = path
         self._file = path.open("xb")
@@ -92,7 +95,8 @@ class Recorder:
         self._syncing = Thread(target=self._sync, args=(every,), name="recording", daemon=True)
         self._syncing.start()
         self._file.write(_line(about))
-        self._every, self._flushed = every, 0.0
+        self._file.flush()  # somebody may follow it already
+        self._flush_every, self._flushed = every if flush_every is None else flush_every, 0.0
 
     def write(self, **columns: Any) -> None:
         """A row, which is on the disk a second or two later; RecordingError where it cannot be."""
@@ -103,7 +107,7 @@ class Recorder:
         time = float(self._row["time"][0])
         try:
             self._file.write(self._row.tobytes())
-            if time - self._flushed >= self._every:
+            if time - self._flushed >= self._flush_every:
                 self._file.flush()
                 self._flushed = time
         except OSError as error:
@@ -139,7 +143,7 @@ def read(path: Path) -> tuple[About, Iterator[NDArray[Any]]]:
     """What a recording is of, and its rows in parts; RecordingError where it is none, or a row is damaged."""
     try:
         with open(open_regular(path), "rb") as file:  # noqa: PTH123
-            about = _about(file.readline(MAX_HEADER_BYTES), path)
+            about = about_of_line(file.readline(MAX_HEADER_BYTES), path)
             return about, _rows(path, file.tell(), about)
     except OSError as error:
         raise RecordingError(f"cannot read {path}: {error.strerror}") from error
@@ -151,17 +155,22 @@ def _rows(path: Path, offset: int, about: About) -> Iterator[NDArray[Any]]:
         file.seek(offset)
         while data := file.read(size * max(1, READ_BYTES // size)):
             rows = np.frombuffer(data[: len(data) // size * size], about.row)
-            for row in rows:
-                _check(row, path, number)
-                number += 1
+            if not all(map(is_whole_row, rows)):
+                raise damaged(path, number + [*map(is_whole_row, rows)].index(False))
+            number += len(rows)
             yield rows
 
 
-def _check(row: Any, path: Path, number: int) -> None:
+def is_whole_row(row: Any) -> bool:
+    """Whether a row is what its checksum is of."""
     bare = row.copy()
     bare["check"] = 0
-    if zlib.crc32(bare.tobytes()) != row["check"]:
-        raise RecordingError(f"{path} is damaged at row {number}")
+    return bool(zlib.crc32(bare.tobytes()) == row["check"])
+
+
+def damaged(path: Path, row: int) -> RecordingError:
+    """The error that says in which row a recording is damaged."""
+    return RecordingError(f"{path} is damaged at row {row}")
 
 
 def _line(about: About) -> bytes:
@@ -169,7 +178,8 @@ def _line(about: About) -> bytes:
     return _sealed(said + CHECKSUM_FIELD)
 
 
-def _about(line: bytes, path: Path) -> About:
+def about_of_line(line: bytes, path: Path) -> About:
+    """What a first line says; RecordingError where it says nothing that a recording could be of."""
     try:
         plain = parsed(line, MAX_HEADER_BYTES)
         if not isinstance(plain, dict) or plain.get("format") not in (FORMAT, UNSEALED):
