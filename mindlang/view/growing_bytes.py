@@ -10,7 +10,7 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from select import select
-from time import monotonic, sleep
+from time import sleep
 
 from mindrun.regular_files import open_regular
 from mindrun.robot.recording import RecordingError
@@ -69,12 +69,13 @@ def _read_on(path: Path, descriptor: int) -> bytes:
 
 def _parts(read_on: Callable[[], bytes]) -> Iterator[bytes]:
     """Whatever comes, and an empty part where for a while nothing did."""
-    since = monotonic()
+    empty = 0
     while True:
         part = read_on()
-        if part or monotonic() - since >= IDLE_SECONDS:
+        empty = 0 if part else empty + 1
+        if part or empty * POLL_SECONDS >= IDLE_SECONDS:
             yield part
-            since = monotonic()
+            empty = 0
 
 
 def ssh_command(host: str, path: str) -> list[str]:
