@@ -135,6 +135,7 @@ def _recorded(file: str, bundle: str) -> Viewed:
 
 
 def _follow(file: str, bundle: str | None, port: int | None, opens: bool, quiet: bool) -> None:
+    from contextlib import ExitStack
     from pathlib import Path
 
     from mindrun.errors import MindError
@@ -145,7 +146,9 @@ def _follow(file: str, bundle: str | None, port: int | None, opens: bool, quiet:
     if bundle is None:
         raise click.UsageError("--follow is for a recording and its bundle: mindc view day.rec NAME.bundle --follow")
     try:
-        with procedures_talk(), followed_recording(file, Path(bundle)) as viewed:
+        with ExitStack() as stack:
+            with procedures_talk():
+                viewed = stack.enter_context(followed_recording(file, Path(bundle)))
             _serve(viewed, port, opens, quiet)
     except MindError as error:
         fail(str(error), error.hint, MISUSE)
