@@ -1,16 +1,15 @@
 """With what weight a skill counts in what it influences or drives, computed by the engine's own functions."""
 
 from collections.abc import Iterator, Sequence
-from math import isfinite
 
 import numpy as np
-from mindrun.think import Hierarchy, Ready, clamped, values
+from mindrun.think import Hierarchy, Ready, values
 from numpy.typing import NDArray
 
 from mindlang.breakpoints.breakpoint import Transmission
+from mindlang.run.edge_flow import NOTHING, transmitted
 
 Sink = tuple[bool, int]  # where an edge goes, as the engine has it: whether it drives, and the place
-NOTHING_SENT = np.float32(0.0)
 
 
 class Transmissions:
@@ -41,8 +40,8 @@ class Transmissions:
         arriving: dict[Sink, np.float32] = {}
         for skill in self._senders:
             for sink, passed in _sent(skill, readings, influence[skill.index]):
-                sent[skill.index, sink] = sent.get((skill.index, sink), NOTHING_SENT) + passed
-                arriving[sink] = arriving.get(sink, NOTHING_SENT) + passed
+                sent[skill.index, sink] = sent.get((skill.index, sink), NOTHING) + passed
+                arriving[sink] = arriving.get(sink, NOTHING) + passed
         return [
             float(sent[skill, sink]) / (float(arriving[sink]) if sink[0] else 1.0) if sent.get((skill, sink)) else 0.0
             for skill, sink in self._asked
@@ -54,12 +53,7 @@ def _sink(transmission: Transmission, actuators: int) -> Sink:
 
 
 def _sent(skill: Ready, readings: NDArray[np.float32], own: np.float32) -> Iterator[tuple[Sink, np.float32]]:
-    """The influence that goes over each edge: all of the skill's own with a command, or what it sends (Eq. 2)."""
-    if own == 0:
-        return
-    for edge, value in zip(skill.edges, values(skill, readings), strict=True):
-        if value is None or not isfinite(value):
-            continue
-        passed = own if edge.drives else clamped(value) * own
-        if edge.drives or not passed < edge.cuts:
-            yield (edge.drives, edge.to), passed
+    """The influence that goes over each edge of a skill."""
+    if own != 0:
+        for edge, value in zip(skill.edges, values(skill, readings), strict=True):
+            yield (edge.drives, edge.to), transmitted(edge, value, own)

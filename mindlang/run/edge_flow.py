@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 
 Singles = NDArray[np.float32]
 Sink = tuple[Receiver, int]  # which one of its kind
+NOTHING = np.float32(0.0)
 
 
 class Rows(Protocol):
@@ -112,7 +113,17 @@ class EdgeFlows:
 def _carried(edge: Sent, value: np.float32, own: np.float32) -> tuple[np.float32, np.float32, np.float32]:
     carried = value * own
     is_cut = not edge.drives and carried < edge.cuts
-    return value, own, np.float32(0.0) if is_cut else carried
+    return value, own, NOTHING if is_cut else carried
+
+
+def transmitted(edge: Sent, value: np.float32 | None, own: np.float32) -> np.float32:
+    """The influence over an edge of a skill that has `own`: all of it with a command, or what is sent (Eq. 2).
+
+    0 where nothing is sent, and where it is cut.
+    """
+    if value is None or not isfinite(value):
+        return NOTHING
+    return own if edge.drives else _carried(edge, clamped(value), own)[2]
 
 
 def sink_named(flows: EdgeFlows, name: str) -> Sink | None:

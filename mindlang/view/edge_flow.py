@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Container
-from math import isfinite
 
 import numpy as np
 from mindrun.functions.function import Stateful
 from mindrun.think import Hierarchy, Ready, values
 from numpy.typing import NDArray
 
+from mindlang.run.edge_flow import transmitted
 from mindlang.view.row_blocks import Singles, Ticks
 
 Sent = tuple[np.float32 | None, ...]
@@ -48,10 +48,7 @@ class EdgeFlow:
             if own != 0:
                 sent = self._sent(skill, tick, readings)
                 for number, (edge, value) in enumerate(zip(skill.edges, sent, strict=True), first):
-                    if value is None or not isfinite(value):
-                        continue
-                    passed = min(np.float32(1), max(np.float32(0), value)) * own
-                    flow[number] = own if edge.drives else passed * (not passed < edge.cuts)
+                    flow[number] = transmitted(edge, value, own)
             first += len(skill.edges)
 
     def _sent(self, skill: Ready, tick: int, readings: Singles) -> Sent:
