@@ -12,6 +12,7 @@ from mindlang.cli._options import NewFile, WholeOption
 if TYPE_CHECKING:
     from mindlang.breakpoints.breakpoint import Breakpoint
     from mindlang.view.viewed import Viewed
+    from mindlang.view.viewed_champion import Champions
 
 EXAMPLES = """\b
 Examples:
@@ -21,6 +22,7 @@ Examples:
   mindc view collect.mind --task Collect --break collect.break
   mindc view day.rec ball.bundle --follow        and what it still records
   mindc view robot.local:day.rec ball.bundle --follow    through ssh
+  mindc view runs/                               what is being learnt, and champions of any generation
   mindc view collect.mind --task Avoid --no-interruption --port 8123 --no-browser
   mindc view collect.mind --task Collect --export run.html
 """
@@ -59,7 +61,8 @@ def command(
 ) -> None:
     """See a run of FILE in a browser: the world, the hierarchy, and every value over time.
 
-    Or what a robot has recorded, with the BUNDLE that was running. Serves a page at an address of this machine, which
+    Or what a robot has recorded, with the BUNDLE that was running. Or a folder of trainings, while they go on: their
+    curves, and the champion of any generation in its world. Serves a page at an address of this machine, which
     nobody else can open, until Ctrl-C; a browser that is closed may open it again. With --export it is one file, which
     opens from a disk without a server. Runs the Python code of procedures.
     """
@@ -69,18 +72,34 @@ def command(
     is_run = (task, seed, master, no_interruption, breaks) != (None, None, None, False, None)
     if follow:
         _follow(file, None if export or is_run else bundle, port, not no_browser, quiet)
-        return
-    if bundle is None:
+    elif Path(file).is_dir():
+        other = bool(bundle or export or task or master or no_interruption or breaks)
+        _serve_training(file, seed, port, not no_browser, quiet, other)
+    elif bundle is None:
         _refuse_recording(file)
         viewed = _simulated(file, task, seed, master, not no_interruption, breaks, quiet)
+        _show(viewed, export, port, not no_browser, quiet)
     elif not is_run:
-        viewed = _recorded(file, bundle)
+        _show(_recorded(file, bundle), export, port, not no_browser, quiet)
     else:
         raise click.UsageError("A recording has its task, its master and its end: --port and --export are for it.")
+
+
+def _show(viewed: Viewed, export: Path | None, port: int | None, opens: bool, quiet: bool) -> None:
     if export:
         _export(viewed, export, quiet)
     else:
-        _serve(viewed, port, not no_browser, quiet)
+        viewed.grow()
+        _serve(viewed, None, port, opens, quiet)
+
+
+def _serve_training(folder: str, seed: int | None, port: int | None, opens: bool, quiet: bool, other: bool) -> None:
+    from mindlang.cli._training_view import training_view
+
+    if other:
+        raise click.UsageError("A training has its task, its master and its end, and is no single file to export.")
+    viewed, champions = training_view(Path(folder), seed, quiet)
+    _serve(viewed, champions, port, opens, quiet)
 
 
 def _refuse_recording(file: str) -> None:
@@ -149,12 +168,12 @@ def _follow(file: str, bundle: str | None, port: int | None, opens: bool, quiet:
         with ExitStack() as stack:
             with procedures_talk():
                 viewed = stack.enter_context(followed_recording(file, Path(bundle)))
-            _serve(viewed, port, opens, quiet)
+            _serve(viewed, None, port, opens, quiet)
     except MindError as error:
         fail(str(error), error.hint, MISUSE)
 
 
-def _serve(viewed: Viewed, port: int | None, opens: bool, quiet: bool) -> None:
+def _serve(viewed: Viewed, champions: Champions | None, port: int | None, opens: bool, quiet: bool) -> None:
     import asyncio
     import os
     import sys
@@ -172,10 +191,9 @@ def _serve(viewed: Viewed, port: int | None, opens: bool, quiet: bool) -> None:
         if opens:
             _open(address)
 
-    viewed.grow()
     try:
         with procedures_talk():
-            asyncio.run(ViewServer(Session(viewed), port or 0).serve(ready))
+            asyncio.run(ViewServer(Session(viewed, champions), port or 0).serve(ready))
     except OSError as error:
         hint = "Another program has that port: leave --port out, and one that is free is taken."
         fail(f"port {port} of this machine cannot be opened: {os.strerror(error.errno or 0)}", hint, MISUSE)

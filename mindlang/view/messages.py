@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any
@@ -14,6 +15,8 @@ MAX_MESSAGE_BYTES = 16 << 10
 MAX_NUMBER = (1 << 32) - 1  # as the header of a frame has it
 MAX_COLUMNS = 64  # that are asked for at once
 MAX_FORKS = 16
+MAX_SEED = (1 << 64) - 1
+SEED = re.compile("[0-9]{1,20}")
 REPLACED = "reading", "influence", "memory"
 
 
@@ -73,7 +76,18 @@ class Change:
     lasts: int
 
 
-Message = AskRows | AskColumns | Run | Why | Change
+@dataclass(frozen=True, slots=True)
+class PlayChampion:
+    """The champion of a generation of a training, instead of the run that is seen; `seed` None is the same world."""
+
+    run: int
+    attempt: int
+    generation: int
+    seed: int | None
+    fork: int = 0
+
+
+Message = AskRows | AskColumns | Run | Why | Change | PlayChampion
 
 
 def message(text: str) -> Message:
@@ -122,6 +136,14 @@ def _change(plain: Mapping[str, Any]) -> Change:
     return Change(_fork(plain), _whole(plain, "tick", 1), what, _column(plain.get("column")), float(value), lasts)
 
 
+def _champion(plain: Mapping[str, Any]) -> PlayChampion:
+    seed = plain.get("seed")
+    if seed is not None and not (isinstance(seed, str) and SEED.fullmatch(seed) and int(seed) <= MAX_SEED):
+        raise RefusedError(f"seed is a whole number from 0 to {MAX_SEED}, as text")
+    numbers = _whole(plain, "run"), _whole(plain, "attempt", 1), _whole(plain, "generation", 1)
+    return PlayChampion(*numbers, None if seed is None else int(seed))
+
+
 def _fork(plain: Mapping[str, Any]) -> int:
     return _whole(plain, "fork", 0, MAX_FORKS, default=0)
 
@@ -153,6 +175,7 @@ KEYS: Mapping[str, set[str]] = {
     "run": {"fork", "to"},
     "why": {"fork", "tick", "actuator"},
     "change": {"fork", "tick", "what", "column", "value", "lasts"},
+    "champion": {"run", "attempt", "generation", "seed"},
 }
 READERS: Mapping[str, Callable[[Mapping[str, Any]], Message]] = {
     "rows": _rows,
@@ -160,4 +183,5 @@ READERS: Mapping[str, Callable[[Mapping[str, Any]], Message]] = {
     "run": _run,
     "why": _why,
     "change": _change,
+    "champion": _champion,
 }

@@ -17,6 +17,7 @@ from websockets.exceptions import ConnectionClosed
 from websockets.frames import CloseCode
 
 from mindlang.view.http_answers import HttpAnswers
+from mindlang.view.learning import MAX_GENERATIONS
 from mindlang.view.messages import MAX_MESSAGE_BYTES, RefusedError, message
 from mindlang.view.session import MAX_HAPPENED, Session
 
@@ -38,12 +39,14 @@ class BoundedConnection(ServerConnection):
 
 @dataclass(eq=False, slots=True)
 class Viewer:
-    """One who sees a session: whether it may change it, and how many events and stops of each fork it has heard."""
+    """One who sees a session: whether it may change it, and how much of each fork and training it has heard."""
 
     connection: ServerConnection
     edits: bool
     changed: asyncio.Event = field(default_factory=asyncio.Event)
-    heard: dict[int, tuple[int, int]] = field(default_factory=dict)
+    heard: dict[int, tuple[int, int]] = field(default_factory=dict)  # of each fork: events and stops
+    number: int = -1  # of the run that it has been told about
+    learnt: dict[int, tuple[int, int]] = field(default_factory=dict)  # of each training: generations and version
 
     async def send(self, said: bytes | dict[str, Any]) -> None:
         """Send rows or a message; who does not read for long is dropped."""
@@ -78,10 +81,12 @@ class ViewServer:
         self._answers = HttpAnswers(self.port)
         await server.start_serving()
         self._session.begin()
+        watching = asyncio.create_task(self._session.watch())
         ready(self.address)
         try:
             await asyncio.get_running_loop().create_future()
         finally:
+            watching.cancel()
             server.close(close_connections=False)
             await self._say_goodbye()
 
@@ -145,23 +150,44 @@ class ViewServer:
         """Tell a viewer what this is about, and whenever the forks have come farther, how far: no step by itself."""
         viewer.changed.set()
         with suppress(ConnectionClosed, TimeoutError):
-            await viewer.send(self._session.about(viewer.edits))
             while True:
                 await viewer.changed.wait()
                 viewer.changed.clear()
-                for fork in range(len(self._session.forks)):
-                    if fork and fork not in viewer.heard:
-                        await viewer.send(self._session.forks_data[fork])
-                    await self._tell_ticks(viewer, fork)
+                if viewer.number != self._session.number:
+                    viewer.number, viewer.heard = self._session.number, {}
+                    await viewer.send(self._session.about(viewer.edits))
+                await self._tell_ticks(viewer)
+                await self._tell_learnt(viewer)
 
-    async def _tell_ticks(self, viewer: Viewer, fork: int) -> None:
-        happened, stops = viewer.heard.get(fork, (0, 0))
-        ticks = self._session.ticks(fork, happened, stops)
-        news = len(ticks["happened"]), len(ticks["stops"])
-        viewer.heard[fork] = happened + news[0], stops + news[1]
-        await viewer.send(ticks)
-        if MAX_HAPPENED in news:  # there may be more
-            viewer.changed.set()
+    async def _tell_ticks(self, viewer: Viewer) -> None:
+        fork = 0
+        while viewer.number == self._session.number and fork < len(self._session.forks):
+            if fork and fork not in viewer.heard:
+                viewer.heard[fork] = 0, 0
+                await viewer.send(self._session.forks_data[fork])
+                continue  # meanwhile another run may be seen
+            happened, stops = viewer.heard.get(fork, (0, 0))
+            ticks = self._session.ticks(fork, happened, stops)
+            news = len(ticks["happened"]), len(ticks["stops"])
+            viewer.heard[fork] = happened + news[0], stops + news[1]
+            await viewer.send(ticks)
+            if MAX_HAPPENED in news:  # there may be more
+                viewer.changed.set()
+            fork += 1
+
+    async def _tell_learnt(self, viewer: Viewer) -> None:
+        if self._session.champions is None:
+            return
+        learning = self._session.champions.learning
+        for number, run in enumerate(learning.runs):
+            heard, version = viewer.learnt.get(number, (0, 0))
+            if version == run.version and heard == len(run.generations):
+                continue
+            told = learning.news(number, heard)
+            viewer.learnt[number] = heard + len(told["generations"]), run.version
+            await viewer.send(told)
+            if len(told["generations"]) == MAX_GENERATIONS:  # there may be more
+                viewer.changed.set()
 
     def _changed(self) -> None:
         for viewer in self._viewers:

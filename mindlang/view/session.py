@@ -6,14 +6,18 @@ import asyncio
 import sys
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from mindrun.errors import MindError
 
 from mindlang.view.columns import DOUBLE_BLOCK, SINGLE_BLOCK
 from mindlang.view.command_shares import command_shares
-from mindlang.view.messages import MAX_FORKS, AskColumns, AskRows, Change, Message, RefusedError, Run, Why
+from mindlang.view.learning import WATCH_SECONDS
+from mindlang.view.messages import MAX_FORKS, AskColumns, AskRows, Change, Message, PlayChampion, RefusedError, Run, Why
 from mindlang.view.viewed import Fork, Viewed
+
+if TYPE_CHECKING:
+    from mindlang.view.viewed_champion import Champions
 
 MAX_HAPPENED = 10_000  # events, and stops, that are told at once
 
@@ -21,12 +25,12 @@ MAX_HAPPENED = 10_000  # events, and stops, that are told at once
 class Session:
     """Lives in one event loop. Runs grow in a thread of their own, and answers are computed in another."""
 
-    def __init__(self, viewed: Viewed, changed: Callable[[], None] = lambda: None) -> None:
-        self.forks = [viewed]
-        self.forks_data: list[dict[str, Any]] = [{}]  # how each has begun
-        self.changed = changed  # told whenever something has come
-        self._wanted = [0]
+    def __init__(self, viewed: Viewed, champions: Champions | None = None) -> None:
+        self.changed: Callable[[], None] = lambda: None  # told whenever something has come
+        self.champions = champions
+        self.number = 0  # how many runs have been seen before this one
         self._growing: dict[int, asyncio.Task[None]] = {}
+        self._see(viewed)
         self._grower = ThreadPoolExecutor(1, "growing")
         self._answerer = ThreadPoolExecutor(1, "answering")
 
@@ -34,6 +38,23 @@ class Session:
         """Let what is live grow from now on, in the loop that is running."""
         if self.forks[0].is_live:
             self._run(0, sys.maxsize)
+
+    def _see(self, viewed: Viewed) -> None:
+        """See a run, and nothing of those before it."""
+        for growing in self._growing.values():
+            growing.cancel()
+        self._growing = {}
+        self.forks = [viewed]
+        self.forks_data: list[dict[str, Any]] = [{}]  # how each has begun
+        self._wanted = [0]
+
+    async def watch(self) -> None:
+        """Look at trainings as long as somebody sees them."""
+        loop = asyncio.get_running_loop()
+        while self.champions:
+            await asyncio.sleep(WATCH_SECONDS)
+            if await loop.run_in_executor(self._answerer, self.champions.learning.read):
+                self.changed()
 
     def about(self, edits: bool) -> dict[str, Any]:
         """What a viewer is told first."""
@@ -72,13 +93,29 @@ class Session:
                 self._run(fork, to)
                 self.changed()  # said also where the run is there already
                 return None
-            case Change() if not edits:
+            case Change() | PlayChampion() if not edits:
                 raise RefusedError("somebody else may change this run: the first who opened it")
+            case PlayChampion():
+                await self._play(message)
+                return None
             case Change():
                 await self._fork(message)
                 return None
         loop = asyncio.get_running_loop()
         return await loop.run_in_executor(self._answerer, self._computed, message)
+
+    async def _play(self, asked: PlayChampion) -> None:
+        """See the champion of another generation."""
+        if self.champions is None or asked.run >= len(self.champions.learning.runs):
+            raise RefusedError(f"there is no training {asked.run}")
+        given = asked.run, asked.attempt, asked.generation, asked.seed
+        try:
+            viewed = await asyncio.get_running_loop().run_in_executor(self._grower, self.champions.begin, *given)
+        except MindError as error:
+            raise RefusedError(f"{error}") from error
+        self._see(viewed)
+        self.number += 1
+        self.changed()
 
     async def _fork(self, change: Change) -> None:
         """A run beside another, which goes on at once to where that is."""
@@ -88,6 +125,8 @@ class Session:
         if len(self.forks) > MAX_FORKS:
             raise RefusedError(f"there are {MAX_FORKS} forks already: open the run anew")
         fork = await asyncio.get_running_loop().run_in_executor(self._grower, _begun, of.forked, change)
+        if of not in self.forks:
+            raise RefusedError("another run is seen now")
         number = len(self.forks)
         told = {"say": "fork", "fork": number, "of": change.fork, "tick": change.tick, "text": fork.text}
         self.forks_data.append(told)

@@ -7,6 +7,7 @@ import sys
 from pathlib import Path
 from time import sleep
 
+from mindrun.train.champion_log import CHAMPION_ROWS
 from mindrun.train.manifest import Manifest
 from mindrun.train.progress import read_progress
 from mindrun.train.run_folder import RunFolder, create
@@ -22,11 +23,12 @@ def made(runs: Path) -> RunFolder:
     return create(runs, manifest(lesson(500, attempts=3)), {}, {})
 
 
-def end(run: RunFolder) -> tuple[bytes, bytes, list[dict[str, float | None]]]:
+def end(run: RunFolder) -> tuple[bytes, bytes, bytes, list[dict[str, float | None]]]:
     records = [
         {key: value for key, value in record.items() if key != "seconds"} for record in read_progress(run.folder)
     ]
-    return (run.folder / "weights.npy").read_bytes(), (run.folder / "champions.npy").read_bytes(), records
+    files = ((run.folder / name).read_bytes() for name in ("weights.npy", "champions.npy", CHAMPION_ROWS))
+    return *files, records
 
 
 def test_killed_at_twenty_random_moments_it_ends_in_the_same_bits(tmp_path: Path) -> None:

@@ -18,6 +18,7 @@ from mindlang.run.setup import RunSetup, set_up
 from mindlang.view.server import ViewServer
 from mindlang.view.session import Session
 from mindlang.view.viewed import Viewed
+from mindlang.view.viewed_champion import Champions
 from mindlang.view.viewed_run import ViewedRun
 
 ANSWER_SECONDS = 120.0  # at which a test gives up: the simulator may have to be compiled
@@ -110,10 +111,10 @@ class ViewingClient:
 
 
 @contextmanager
-def served(viewed: Viewed) -> Iterator[Served]:
+def served(viewed: Viewed, champions: Champions | None = None) -> Iterator[Served]:
     """A view served until the block ends."""
     loop, listening = asyncio.new_event_loop(), Event()
-    server = ViewServer(Session(viewed))
+    server = ViewServer(Session(viewed, champions))
 
     def ready(address: str) -> None:
         listening.set()

@@ -72,6 +72,13 @@ export class Curves {
     } else this.refresh();
   }
 
+  /** Another run of the same shape. */
+  restart(): void {
+    this.fetching = false;
+    this.span = null;
+    this.refresh();
+  }
+
   /** Puts the cursor on a tick. */
   move(tick: number): void {
     this.tick = tick;

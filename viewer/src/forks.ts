@@ -35,6 +35,14 @@ export class Forks {
     this.changed();
   }
 
+  /** Another run is seen, which nothing is beside. */
+  restart(): void {
+    this.all.clear();
+    this.select.length = 1;
+    this.select.hidden = true;
+    this.changed();
+  }
+
   ticks({ fork, known }: Ticks): void {
     const found = this.all.get(fork);
     if (found) found.rows.known = known;

@@ -10,7 +10,7 @@ export interface Key {
 const WRITING = "input:not([type=checkbox]), textarea, select, [contenteditable]";
 
 /** Listens to the whole page, but not where somebody writes; Escape leaves the field. */
-export function listen(keys: Key[]): void {
+export function listen(keys: Key[], signal: AbortSignal): void {
   document.addEventListener("keydown", (event) => {
     const target = event.target as HTMLElement;
     if (target.matches(WRITING)) {
@@ -24,7 +24,7 @@ export function listen(keys: Key[]): void {
     if (!found) return;
     event.preventDefault();
     found.act();
-  });
+  }, { signal });
 }
 
 /** The table of all keys, for the dialog of help. */

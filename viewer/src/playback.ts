@@ -32,6 +32,11 @@ export class Playback {
     return this.playing && this.position < this.known ? 2 ** Math.max(0, Math.floor(Math.log2(ticks))) : 1;
   }
 
+  /** Whether the run was seen to its end, or has not begun. */
+  get seen(): boolean {
+    return (this.over && this.tick >= this.known) || (!this.playing && this.tick === 0);
+  }
+
   /** Goes on by the seconds since the last picture; waits where the next rows are not here yet. */
   advance(seconds: number): void {
     if (!this.playing) return;
@@ -89,6 +94,16 @@ export class Playback {
   faster(steps: number): void {
     const place = RATES.indexOf(this.rate);
     this.rate = RATES[Math.min(RATES.length - 1, Math.max(0, place + steps))];
+    this.changed();
+  }
+
+  /** Another run, from its beginning. */
+  restart(): void {
+    this.position = 0;
+    this.target = null;
+    this.known = 0;
+    this.over = false;
+    this.following = false;
     this.changed();
   }
 

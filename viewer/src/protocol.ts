@@ -63,7 +63,8 @@ export interface About {
   title: string;
   task: string | null;
   master: string;
-  source: "simulation" | "recording" | "robot";
+  source: "simulation" | "recording" | "robot" | "training";
+  training?: Playing;
   seed: string | null;
   edits: boolean;
   tick: number; // seconds
@@ -79,6 +80,28 @@ export interface About {
   rewards: string[];
   ends: string[];
   world: World | null;
+}
+
+/** Whose champion plays: of a generation, found in generation `since`, with its score on fresh layouts. */
+export interface Playing {
+  run: number;
+  attempt: number;
+  generation: number;
+  since: number;
+  score: number | null;
+}
+
+export type Generation = [attempt: number, generation: number, best: number | null, reevaluated: number | null, verdict: number | null];
+
+export interface Learnt {
+  say: "learnt";
+  run: number;
+  name: string;
+  folder: string;
+  generations: Generation[]; // that have come since the last time
+  champions: [attempt: number, generation: number][];
+  keeps_all: boolean;
+  newest: [run: number, attempt: number, generation: number];
 }
 
 export interface Ticks {
@@ -116,7 +139,7 @@ export interface Refused {
   ask: number | null;
 }
 
-export type Said = About | Ticks | Why | Fork | Refused;
+export type Said = Learnt | About | Ticks | Why | Fork | Refused;
 
 /** What came as bytes: rows of both blocks, or some columns as doubles, every `every` ticks from `first` on. */
 export interface Frame {

@@ -35,6 +35,8 @@ const CHUNK_ROWS_MAX = 128; // what flows is computed for each of them: a jump w
 const KEPT_BYTES = 96 << 20;
 const CHUNKS_AHEAD_MAX = 6;
 
+let asked = 0; // over all runs that are seen one after the other: answers about the last are nobody's
+
 export class Rows {
   readonly track: Track;
   private readonly chunks = new Map<string, Chunk>(); // by how many ticks are between rows, and their place
@@ -42,7 +44,6 @@ export class Rows {
   private readonly answers = new Map<number, (frame: Frame) => void>();
   private readonly chunkRows: number;
   private readonly keptChunks: number;
-  private asked = 0;
   known = -1;
 
   constructor(
@@ -56,6 +57,13 @@ export class Rows {
     this.track = new Track(about, this, changed);
     this.chunkRows = Math.min(CHUNK_ROWS_MAX, Math.max(CHUNK_ROWS_MIN, rows));
     this.keptChunks = Math.max(2 * CHUNKS_AHEAD_MAX, Math.floor(KEPT_BYTES / (bytes * this.chunkRows)));
+  }
+
+  /** Another run of the same shape. */
+  restart(): void {
+    for (const kept of [this.chunks, this.awaited, this.answers]) kept.clear();
+    this.track.restart();
+    this.known = -1;
   }
 
   /**
@@ -96,8 +104,8 @@ export class Rows {
   }
 
   private ask(message: object, answer: (frame: Frame) => void): void {
-    this.answers.set(++this.asked, answer);
-    this.send({ ...message, fork: this.fork, ask: this.asked });
+    this.answers.set(++asked, answer);
+    this.send({ ...message, fork: this.fork, ask: asked });
   }
 
   private chunk(place: number, every: number): Chunk | undefined {

@@ -18,6 +18,12 @@ export class Track {
     private readonly changed: () => void,
   ) {}
 
+  /** Another run of the same shape. */
+  restart(): void {
+    this.blocks.clear();
+    this.awaited.clear();
+  }
+
   /** The poses from one tick to another that are here, in order; what is missing is fetched. */
   between(from: number, to: number): Pose[] {
     const found: Pose[] = [];

@@ -2,19 +2,24 @@
 
 import { ActiveList } from "./active";
 import { Curves } from "./curves";
-import { element, pressed, svgElement } from "./elements";
+import { element, svgElement } from "./elements";
 import { Edit } from "./edit";
 import { Forks } from "./forks";
+import { listenToButtons, showTitle } from "./header";
 import { described, type Selected } from "./description";
 import { Hierarchy } from "./hierarchy";
 import { helpRows, listen } from "./keys";
 import { keysOf } from "./key_table";
+import { Learning } from "./learning";
 import { shown } from "./names";
 import { Playback } from "./playback";
 import type { About, Frame, Said, Send, Ticks } from "./protocol";
 import { Rows } from "./rows";
+import { shapeOf } from "./shape";
+import { Stops } from "./stops";
 import { theme, themeSwitch } from "./theme";
 import { type Happened, Timeline } from "./timeline";
+import type { Trainings } from "./trainings";
 import { Transport } from "./transport";
 import { Why } from "./why";
 import { World } from "./world";
@@ -30,12 +35,14 @@ export class View {
   private readonly active: ActiveList;
   private readonly curves: Curves;
   private readonly why: Why;
+  private readonly learning: Learning | null;
+  private readonly left = new AbortController();
   private readonly transport: Transport;
   private readonly forks: Forks;
   private readonly edit: Edit;
   private readonly happened: Happened[] = [];
   private collisions: number[] = [];
-  private readonly stops = new Map<number, string>();
+  private readonly stops = new Stops();
   private selected: Selected = null;
   private over: Selected = null;
   private dirty = true;
@@ -45,6 +52,8 @@ export class View {
   constructor(
     private readonly about: About,
     private readonly send: Send,
+    trainings: Trainings,
+    follows: { newest: boolean },
   ) {
     const redraw = () => {
       this.dirty = true;
@@ -64,19 +73,46 @@ export class View {
     this.why = new Why(element("why"), about, send);
     this.edit = new Edit(element("edit"), about, send, () => this.playback.tick);
     this.forks = new Forks(element<HTMLSelectElement>("forks"), about, send, () => this.beside());
+    const followed = (newest: boolean) => (follows.newest = newest);
+    this.learning = about.training ? new Learning(about, trainings, send, theme(), follows.newest, followed) : null;
     this.transport = new Transport(this.playback, this.timeline, about.tick);
-    this.title();
-    this.buttons();
-    const keys = keysOf({ ...this.parts(), follow: () => this.follow() }, () => search.focus(), () => element<HTMLDialogElement>("keys").showModal());
-    listen(keys);
+    const parts = { ...this.parts(), follow: () => this.follow() };
+    showTitle(about);
+    listenToButtons(parts);
+    const keys = keysOf(parts, () => search.focus(), () => element<HTMLDialogElement>("keys").showModal());
+    listen(keys, this.left.signal);
     element("keys-table").replaceChildren(...helpRows(keys));
     themeSwitch(element("theme"), () => this.recolour());
-    new ResizeObserver(() => this.resize()).observe(document.body);
+    const sizes = new ResizeObserver(() => this.resize());
+    sizes.observe(document.body);
+    this.left.signal.addEventListener("abort", () => sizes.disconnect());
     this.want(FIRST_TICKS);
     requestAnimationFrame((now) => this.step(now));
   }
 
+  /** Goes on with another run that differs only in what it comes to; false where it is of another shape. */
+  restart(about: About): boolean {
+    if (shapeOf(about) !== shapeOf(this.about)) return false;
+    const plays = this.playback.playing || (this.playback.over && this.playback.tick >= this.playback.known);
+    if (about.world) Object.assign(this.about.world!, about.world);
+    Object.assign(this.about, about, { world: this.about.world });
+    this.happened.length = this.collisions.length = 0;
+    this.asked = -1;
+    for (const part of [this.rows, this.playback, this.forks, this.curves, this.stops]) part.restart();
+    this.learning?.restarted();
+    showTitle(about);
+    this.want(FIRST_TICKS);
+    if (plays) this.playback.play();
+    return true;
+  }
+
+  /** This page shows something else now. */
+  leave(): void {
+    this.left.abort();
+  }
+
   said(message: Exclude<Said, About>): void {
+    if (message.say === "learnt") this.learning?.show();
     if (message.say === "ticks" && message.fork === 0) this.grown(message);
     else if (message.say === "ticks") this.forks.ticks(message);
     else if (message.say === "fork") this.forks.begun(message);
@@ -99,24 +135,6 @@ export class View {
     return { playback, timeline, hierarchy, world };
   }
 
-  private title(): void {
-    const { source } = this.about;
-    const text = shown(this.about.title, 120);
-    element("title").textContent = text;
-    element("source").textContent = source === "robot" ? "live from the robot" : source;
-    document.title = `${text} \u2013 mind view`;
-  }
-
-  private buttons(): void {
-    pressed("help", () => element<HTMLDialogElement>("keys").showModal());
-    pressed("close-keys", () => element<HTMLDialogElement>("keys").close());
-    pressed("hierarchy-fit", () => this.hierarchy.fit());
-    pressed("open-all", () => this.hierarchy.collapseAll(false));
-    pressed("close-all", () => this.hierarchy.collapseAll(true));
-    pressed("world-fit", () => this.world?.fit());
-    pressed("world-follow", () => this.follow());
-  }
-
   follow(): void {
     if (this.world) element("world-follow").setAttribute("aria-pressed", String(this.world.follow()));
     this.dirty = true;
@@ -135,7 +153,7 @@ export class View {
     this.rows.known = known;
     for (const [tick, event] of happened) this.happened.push({ tick, event });
     this.collisions = this.happened.filter(({ event }) => this.about.events[event]?.kind === "collision").map(({ tick }) => tick);
-    for (const [tick, text] of stops) this.stops.set(tick, text);
+    this.stops.add(stops);
     this.playback.grown(known, over);
     this.curves.refresh();
     const end = over ? `${known} ticks${ended_by ? `, ended by ${shown(ended_by)}` : ""}` : "";
@@ -147,6 +165,7 @@ export class View {
     const colours = theme();
     this.world?.recolour(colours);
     this.curves.recolour(colours);
+    this.learning?.recolour(colours);
     this.timeline.recolour(colours);
     this.dirty = true;
   }
@@ -155,16 +174,19 @@ export class View {
     this.world?.resize();
     this.hierarchy.resize();
     this.curves.resize();
+    this.learning?.resize();
     this.timeline.resize();
     this.dirty = true;
   }
 
   private step(now: number): void {
+    if (this.left.signal.aborted) return;
     requestAnimationFrame((next) => this.step(next));
     const before = this.playback.tick;
     this.playback.advance((now - this.last) / 1000);
     this.last = now;
-    this.stopBetween(before, this.playback.tick);
+    this.stops.between(before, this.playback.tick, this.playback);
+    if (!this.forks.chosen) this.learning?.next(this.playback.seen, now);
     if (this.dirty || this.playback.tick !== before) this.draw(now);
     this.why.at(this.playback.tick, 0, now);
   }
@@ -172,19 +194,6 @@ export class View {
   /** The row of the tick that is shown, if it is here. */
   private get row() {
     return this.rows.row(this.playback.tick, 0, this.playback.every);
-  }
-
-  /** Pauses where a breakpoint holds that was come by. */
-  private stopBetween(before: number, now: number): void {
-    if (!this.playback.playing || !this.stops.size) return;
-    for (let tick = before + 1; tick <= now; tick++) {
-      const text = this.stops.get(tick);
-      if (text === undefined) continue;
-      this.playback.pause();
-      this.playback.jump(tick);
-      element("state").textContent = `stopped: ${shown(text, 120)}`;
-      return;
-    }
   }
 
   private draw(now: number): void {

@@ -15,6 +15,7 @@ from mindrun.train import RunError
 from mindrun.train.lesson_state import LessonState, Record
 
 LINES, TABLE = "progress.jsonl", "progress.csv"
+Position = tuple[int, int]  # attempt and generation, which count from 1
 Logged = dict[str, float | None]  # a generation: as Record, None where a score is not finite
 COUNT_COLUMNS = "attempt", "generation"
 COLUMNS = tuple(field.name for field in fields(Record))
@@ -36,8 +37,8 @@ class ProgressLog:
     def append(self, record: Record) -> None:
         """Add a generation."""
         plain = {name: _plain(value) for name, value in asdict(record).items()}
-        _write(self._lines, _line(plain))
-        _write(self._table, _row(list(plain.values())))
+        write(self._lines, _line(plain))
+        write(self._table, _row(list(plain.values())))
 
     def sync(self) -> None:
         """Bring the log to the disk, so that it is never behind a checkpoint."""
@@ -98,7 +99,8 @@ def _row(values: list[str] | list[float | None]) -> bytes:
     return ",".join("" if value is None else str(value) for value in values).encode() + b"\n"
 
 
-def _write(descriptor: int, data: bytes) -> None:
+def write(descriptor: int, data: bytes) -> None:
+    """Write all of the data."""
     # A full disk may take part of a line and fail only at the rest.
     while data:
         data = data[os.write(descriptor, data) :]

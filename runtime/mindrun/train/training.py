@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from mindrun.train import RunError, checkpoint
+from mindrun.train.champion_log import ChampionLog
 from mindrun.train.folder_lock import claim
 from mindrun.train.lesson import Clock, teach
 from mindrun.train.lesson_state import Course, LessonState, Record, begin, could_be
@@ -36,17 +37,18 @@ def train(run: RunFolder, scorer: Scorer, watch: Watch) -> LessonState:
     course = run.course(scorer.genome_length)
     with _disk(run.folder), claim(run.folder):
         now = _standing(run, course, watch)
-        with ProgressLog(run.folder, now) as progress:
+        with ProgressLog(run.folder, now) as progress, ChampionLog(run.folder, now) as champions:
             saved = watch.clock()
             for now, record in teach(course, scorer, now, watch.clock):  # noqa: B020 - it goes on from the first
                 progress.append(record)
+                champions.append(now, (record.attempt, record.generation))
                 watch.report(now, record)
                 if watch.stop():
                     break
                 if watch.clock() - saved >= watch.save_every:
-                    _save(run, now, progress)
+                    _save(run, now, progress, champions)
                     saved = watch.clock()
-            _save(run, now, progress)
+            _save(run, now, progress, champions)
         if len(genomes := best(now)):
             keep_weights(run.folder, genomes[0])
         if len(now.champions):
@@ -73,8 +75,9 @@ def _standing(run: RunFolder, course: Course, watch: Watch) -> LessonState:
     return found.state
 
 
-def _save(run: RunFolder, state: LessonState, progress: ProgressLog) -> None:
-    progress.sync()
+def _save(run: RunFolder, state: LessonState, *logs: ProgressLog | ChampionLog) -> None:
+    for log in logs:
+        log.sync()
     checkpoint.save(run.folder, state, run.manifest.identity)
 
 

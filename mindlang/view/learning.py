@@ -1,0 +1,170 @@
+"""Trainings while they are seen: what the logs of run folders have come to, read again whenever they have grown."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+from mindrun.train import NotFoundError, RunError, checkpoint
+from mindrun.train.champion_log import CHAMPION_ROWS, Champion, read_champions
+from mindrun.train.progress import LINES, Position, read_progress
+from mindrun.train.run_folder import MANIFEST, RunFolder, open_run
+
+from mindlang.view.messages import RefusedError
+from mindlang.view.texts import shown
+
+WATCH_SECONDS = 0.5  # between two looks at the files
+MAX_GENERATIONS = 10_000  # that are told at once
+RUN_HINT = "a run is a folder like runs/GoToObject/20260714T120000Z-1: mindc train MIND.mind begins one"
+GROWING = LINES, CHAMPION_ROWS, checkpoint.NAME  # files of a run that grow
+
+Generation = tuple[int, int, float | None, float | None, float | None]  # attempt, generation; the scores of SCORES
+SCORES = "best", "reevaluated", "verdict"
+Stamp = tuple[tuple[int, int] | None, ...]
+
+
+@dataclass(slots=True)
+class LearntRun:
+    """What is known of a run: its generations in the order in which they came, and whose champions can be played.
+
+    `keeps_all`: whether it has the champion of every generation; runs from before the trainer kept them have the last
+    of each attempt. `version` counts how often something has come.
+    """
+
+    run: RunFolder
+    generations: list[Generation] = field(default_factory=list)
+    champions: list[Champion] = field(default_factory=list)
+    keeps_all: bool = True
+    version: int = 0
+    _known: set[Position] = field(default_factory=set)
+    _stamp: Stamp = ()
+
+    def read(self) -> bool:
+        """Read what has come since the last time; whether there was something."""
+        stamp = tuple(map(_stamp, (self.run.folder / name for name in GROWING)))
+        if stamp == self._stamp:
+            return False
+        self._stamp = stamp
+        for record in read_progress(self.run.folder):
+            at = int(record["attempt"] or 0), int(record["generation"] or 0)
+            if at not in self._known:  # what is done again after a crash comes to the same
+                self._known.add(at)
+                best, reevaluated, verdict = (record[name] for name in SCORES)
+                self.generations.append((*at, best, reevaluated, verdict))
+        kept = [each for each in read_champions(self.run.folder) if each.position in self._known]
+        self.champions, self.keeps_all = (kept, True) if kept else (_last_champions(self.run), False)
+        self.version += 1
+        return True
+
+    @property
+    def grown(self) -> int:
+        """When its log grew last, in nanoseconds."""
+        return self._stamp[0][0] if self._stamp and self._stamp[0] else 0
+
+    def champion(self, attempt: int, generation: int) -> Champion:
+        """Who was champion of an attempt in a generation; RefusedError where that is not known."""
+        if (attempt, generation) not in self._known:
+            raise RefusedError(f"attempt {attempt} has no generation {generation} yet")
+        of_attempt = [each for each in self.champions if each.attempt == attempt]
+        found = [each for each in of_attempt if each.generation <= generation]
+        if found and (self.keeps_all or found[-1].generation == generation):
+            return found[-1]
+        if of_attempt:
+            last = of_attempt[-1].generation
+            raise RefusedError(f"this run has kept only the champion of generation {last} of attempt {attempt}")
+        raise RefusedError(f"this run has kept no champion of attempt {attempt}")
+
+    def score(self, attempt: int, generation: int) -> float | None:
+        """What the champion of a generation had when it was tried last, on layouts that it had not seen."""
+        tried = [row for row in self.generations if row[0] == attempt and row[1] <= generation and row[3] is not None]
+        return tried[-1][3] if tried else None
+
+    def news(self, number: int, heard: int) -> dict[str, Any]:
+        """What is said of it to one who has heard so many generations."""
+        return {
+            "say": "learnt",
+            "run": number,
+            "name": shown(self.run.manifest.name),
+            "folder": shown(self.run.folder.name),
+            "generations": self.generations[heard : heard + MAX_GENERATIONS],
+            "champions": [each.position for each in self.champions],
+            "keeps_all": self.keeps_all,
+        }
+
+
+@dataclass(slots=True)
+class Learning:
+    """The runs of a folder, in the order in which they were found."""
+
+    path: Path
+    runs: list[LearntRun] = field(default_factory=list)
+
+    def read(self) -> bool:
+        """Look for new runs, and at all of them; whether something has come."""
+        grown = [run.read() for run in self.runs]
+        known = {run.run.folder for run in self.runs}
+        found = [LearntRun(run) for run in _runs(self.path, known)]
+        new = [run for run in found if run.read() and run.generations]
+        self.runs.extend(new)
+        return any(grown) or bool(new)
+
+    def news(self, number: int, heard: int) -> dict[str, Any]:
+        """What is said of a run to one who has heard so many of its generations."""
+        return {**self.runs[number].news(number, heard), "newest": self.newest()}
+
+    def newest(self) -> tuple[int, int, int]:
+        """The run with the champion that was found last, its attempt and generation."""
+        playable = [number for number, run in enumerate(self.runs) if run.champions]
+        number = max(playable, key=lambda number: self.runs[number].grown)
+        return number, *self.runs[number].champions[-1].position
+
+
+def open_learning(path: Path) -> Learning:
+    """The run in a folder, or all beneath it; RunError where there is none of which a champion can be played."""
+    if (path / MANIFEST).exists() or (path / LINES).exists():
+        open_run(path)  # says what is damaged
+    elif not any(path.rglob(MANIFEST)):
+        raise NotFoundError(f"there is no run in {path}", RUN_HINT)
+    learning = Learning(path)
+    learning.read()
+    if not learning.runs:
+        hint = f"wait for the first one; where {LINES} is damaged, mindc train --resume writes it again"
+        raise NotFoundError(f"no run in {path} says of a generation yet", hint)
+    if not any(run.champions for run in learning.runs):
+        raise RunError(f"no run in {path} has kept a champion", "mindc plot draws its curves all the same")
+    return learning
+
+
+def _runs(path: Path, known: set[Path]) -> Iterator[RunFolder]:
+    """Those that are whole and not known."""
+    for manifest in sorted(each for each in path.rglob(MANIFEST) if each.parent not in known):
+        try:
+            yield open_run(manifest.parent)
+        except RunError:
+            continue
+
+
+def _last_champions(run: RunFolder) -> list[Champion]:
+    """Those of the attempts that have ended, and of the one that goes on, as its checkpoint has them."""
+    try:
+        found = checkpoint.load(run.folder, run.manifest.identity)
+    except RunError:
+        return []
+    if found is None:
+        return []
+    state = found.state
+    ended = zip(state.lengths, state.champions, strict=True)
+    champions = [Champion(number, int(length), genome) for number, (length, genome) in enumerate(ended, 1)]
+    generation = state.population.generation
+    now = [Champion(state.attempt + 1, generation, genome) for genome in state.champion if generation]
+    return champions + now
+
+
+def _stamp(path: Path) -> tuple[int, int] | None:
+    try:
+        found = path.stat()
+    except OSError:
+        return None
+    return found.st_mtime_ns, found.st_size

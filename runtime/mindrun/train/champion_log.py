@@ -1,0 +1,110 @@
+"""Who was champion when: the weights of each champion of each attempt, from the generation that found it.
+
+The file begins with a line that names the format, and the number of weights; a row has attempt, generation and the
+CRC-32 of the row, and the weights.
+"""
+
+import os
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+from struct import Struct
+from types import TracebackType
+from zlib import crc32
+
+import numpy as np
+
+from mindrun import atomic_write
+from mindrun.regular_files import read_whole
+from mindrun.train.lesson_state import LessonState
+from mindrun.train.progress import Position, write
+from mindrun.weights import Weights
+
+CHAMPION_ROWS = "champions.rows"
+MAGIC = b"mind champions 1\n"
+LENGTH, ROW = Struct("<I"), Struct("<III")  # how many weights; attempt, generation, checksum
+MAX_ROWS_BYTES = 1 << 30
+
+
+@dataclass(frozen=True, slots=True)
+class Champion:
+    """The best of an attempt from a generation on; both count from 1."""
+
+    attempt: int
+    generation: int
+    genome: Weights
+
+    @property
+    def position(self) -> Position:
+        """Where it was found."""
+        return self.attempt, self.generation
+
+
+class ChampionLog:
+    """The file, open to append, with only the champions that `state` has behind it."""
+
+    def __init__(self, folder: Path, state: LessonState) -> None:
+        path, count = folder / CHAMPION_ROWS, state.champion.shape[1]
+        here = state.attempt + 1, state.population.generation
+        kept = [each for each in read_champions(folder) if len(each.genome) == count and each.position <= here]
+        atomic_write.write(path, MAGIC + LENGTH.pack(count) + b"".join(map(_row, kept)))
+        self._rows = os.open(path, os.O_WRONLY | os.O_APPEND)
+        self._last = kept[-1] if kept else None
+
+    def append(self, state: LessonState, position: Position) -> None:
+        """Add the champion of the generation with which a state ends, unless it was that before."""
+        attempt, generation = position
+        genomes = state.champion if state.attempt < attempt else state.champions[-1:]
+        last = self._last
+        for genome in genomes:
+            if last is None or last.attempt != attempt or not np.array_equal(last.genome, genome):
+                self._last = Champion(attempt, generation, genome)
+                write(self._rows, _row(self._last))
+
+    def sync(self) -> None:
+        """Bring the file to the disk, so that it is never behind a checkpoint."""
+        os.fsync(self._rows)
+
+    def __enter__(self) -> "ChampionLog":
+        return self
+
+    def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, at: TracebackType | None) -> None:
+        os.close(self._rows)
+
+
+def read_champions(folder: Path) -> list[Champion]:
+    """The whole rows of a run's file; none where there is no such file, and none behind a row that is damaged."""
+    try:
+        data = read_whole(folder / CHAMPION_ROWS, MAX_ROWS_BYTES)
+    except OSError:
+        return []
+    return list(_champions(data))
+
+
+def _champions(data: bytes) -> Iterator[Champion]:
+    begin = len(MAGIC) + LENGTH.size
+    if not data.startswith(MAGIC) or len(data) < begin:
+        return
+    count = LENGTH.unpack_from(data, len(MAGIC))[0]
+    size = ROW.size + 4 * count
+    last = 0, 0
+    for at in range(begin, len(data) - size + 1, size):
+        attempt, generation, checksum = ROW.unpack_from(data, at)
+        genome = np.frombuffer(data, "<f4", count, at + ROW.size)
+        found = Champion(attempt, generation, genome)
+        if _checksum(found) != checksum or not last < found.position:
+            return
+        last = found.position
+        yield found
+
+
+def _row(champion: Champion) -> bytes:
+    return ROW.pack(*champion.position, _checksum(champion)) + _weights(champion)
+
+
+def _checksum(champion: Champion) -> int:
+    return crc32(_weights(champion), crc32(b"%d %d" % champion.position))
+
+
+def _weights(champion: Champion) -> bytes:
+    return np.ascontiguousarray(champion.genome, "<f4").tobytes()

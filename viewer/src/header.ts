@@ -1,0 +1,26 @@
+/** What stands above a run, and the buttons that show all of it. */
+
+import { element, pressed } from "./elements";
+import type { Hierarchy } from "./hierarchy";
+import { shown } from "./names";
+import type { About } from "./protocol";
+import type { World } from "./world";
+
+/** The title of a run, and where it comes from. */
+export function showTitle({ title, source }: About): void {
+  const text = shown(title, 120);
+  element("title").textContent = text;
+  element("source").textContent = source === "robot" ? "live from the robot" : source;
+  document.title = `${text} \u2013 mind view`;
+}
+
+/** The buttons of help, of the hierarchy and of the world. */
+export function listenToButtons({ hierarchy, world, follow }: { hierarchy: Hierarchy; world: World | null; follow(): void }): void {
+  pressed("help", () => element<HTMLDialogElement>("keys").showModal());
+  pressed("close-keys", () => element<HTMLDialogElement>("keys").close());
+  pressed("hierarchy-fit", () => hierarchy.fit());
+  pressed("open-all", () => hierarchy.collapseAll(false));
+  pressed("close-all", () => hierarchy.collapseAll(true));
+  pressed("world-fit", () => world?.fit());
+  pressed("world-follow", follow);
+}
