@@ -58,6 +58,7 @@ class RunSession:
         found = self.cast(file, compiled, task, master)
         return found, self.simulator(found, interrupt, workers, runs)
 
+    @procedures_talk()
     def cast(self, file: str, compiled: Compiled, task: str | None, master: str | None) -> RunSetup:
         """Who plays what."""
         with _refusing():

@@ -213,9 +213,12 @@ def _export(viewed: Viewed, path: Path, quiet: bool) -> None:
         while not viewed.over:
             viewed.grow()
             progress.update(bar, completed=viewed.known)
+    if viewed.failed:
+        fail(f"{viewed.failed}: nothing is written")
     session = Session(viewed)
+    everything = session.ticks(0) | {"happened": viewed.happened, "stops": viewed.stops}
     try:
-        page = exported(session.about(edits=False), session.ticks(0), viewed)
+        page = exported(session.about(edits=False), everything, viewed)
     except MindError as error:
         fail(str(error), error.hint, MISUSE)
     write_file(path, page.encode())

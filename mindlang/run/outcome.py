@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from math import isfinite, sqrt
 from typing import TYPE_CHECKING, Any
 
@@ -55,7 +55,7 @@ def data_so_far(run: RecordedRun) -> dict[str, Any]:
     task, sums = run.task, run.lines[-1]
     counts = dict(zip([events(task)[event] for event in task.counts], run.counts[-1].tolist(), strict=True))
     return {
-        "score": _number(sums.sum()),
+        "score": _number(total(sums)),
         "by_line": _by_line(task, sums),
         "counts": sum(counts.values()),
         "counted": [*counts],
@@ -64,6 +64,14 @@ def data_so_far(run: RecordedRun) -> dict[str, Any]:
         "of_ticks": task.ticks,
         "ended_by": None,
     }
+
+
+def total(sums: Iterable[float]) -> float:
+    """The sum of what the lines have paid, in the order of the source, as every executor adds it."""
+    found = 0.0
+    for paid in sums:
+        found += float(paid)
+    return found
 
 
 def _by_line(task: Task, sums: NDArray[np.float64]) -> dict[str, float | None]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from math import isfinite
 from typing import Any
 
 import numpy as np
@@ -39,7 +40,11 @@ def command_shares(viewed: Viewed, asked: Why) -> dict[str, Any]:
     rows = KeptRows(viewed.group("readings", ticks), viewed.group("influence", ticks))
     flows = EdgeFlows(mind.policy, mind.sources, mind.master, rows)
     row = asked.tick - first
+    if _is_replaced(flows, row):
+        raise RefusedError(f"the influence of tick {asked.tick} was replaced: nobody sent it")
     found = shares(flows, ("actuator", asked.actuator), range(row, row + 1))
+    if not all(isfinite(number) for each in found.paths for number in (each.influence, each.share)):
+        raise RefusedError(f"the influence of tick {asked.tick} is beyond all numbers")
     nodes = _nodes_by_name(mind)
     end = node_numbers(graph, mind.skills)["actuator", asked.actuator]
     return {
@@ -68,7 +73,20 @@ def _first(mind: SeenMind, tick: int) -> int:
     """The first tick that is needed: where a skill remembers, that in which the mind was begun."""
     if not any(isinstance(skill.compute, Stateful) for skill in mind.hierarchy.skills):
         return tick
-    return max((begin for begin in mind.begins if begin <= tick), default=1)
+    begins = tuple(mind.begins)  # to which another thread adds
+    return max((begin for begin in begins if begin <= tick), default=1)
+
+
+def _is_replaced(flows: EdgeFlows, row: int) -> bool:
+    """Whether a skill below the master has other influence than was sent to it, as in a run that was changed."""
+    carried = flows.at(row).carried
+    with np.errstate(all="ignore"):
+        sent = [
+            np.add.accumulate(carried[flows.links_to.get(("skill", skill), [])], dtype=np.float32)[-1:].sum()
+            for skill in flows.skills[1:]
+        ]
+    had = flows.rows.influence[row, flows.skills[1:]]
+    return not np.array_equal(np.array(sent, np.float32), had, equal_nan=True)
 
 
 def _nodes_by_name(mind: SeenMind) -> dict[str, int]:

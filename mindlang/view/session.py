@@ -124,7 +124,10 @@ class Session:
             raise RefusedError("a recording is what it is: nothing in it can be changed")
         if len(self.forks) > MAX_FORKS:
             raise RefusedError(f"there are {MAX_FORKS} forks already: open the run anew")
-        fork = await asyncio.get_running_loop().run_in_executor(self._grower, _begun, of.forked, change)
+        try:
+            fork = await asyncio.get_running_loop().run_in_executor(self._grower, _begun, of.forked, change)
+        except MindError as error:
+            raise RefusedError(f"{error}") from error
         if of not in self.forks:
             raise RefusedError("another run is seen now")
         number = len(self.forks)

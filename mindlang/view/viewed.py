@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
-from mindrun.errors import MindError
+from mindrun.errors import MindError, reason
 from mindrun.graph import Skill
 from mindrun.policy import Policy
 from mindrun.think import Hierarchy, hierarchy
@@ -91,6 +91,8 @@ class Viewed:
         except MindError as error:
             self.failed = shown(f"{error} {error.hint}".strip())
             chunk = None
+        except OSError as error:
+            self.failed, chunk = shown(reason(error)), None
         if chunk is None:
             self.over = True
             return

@@ -10,7 +10,7 @@ from mindrun.weights import reachable
 
 from mindlang.compiler.diagnostic import did_you_mean, listed
 from mindlang.run.edge_flow import Sink, sink_named
-from mindlang.run.outcome import events
+from mindlang.run.outcome import events, total
 from mindlang.run.recorded_run import RecordedRun
 from mindlang.run.setup import SetupError
 from mindlang.run.shares import Contribution, shares
@@ -121,11 +121,11 @@ def _rewards(run: RecordedRun, first: int, last: int) -> dict[str, Any]:
     lines: dict[str, list[float]] = {}
     for reward, value in zip(run.task.rewards, np.atleast_1d(paid).tolist(), strict=True):
         lines.setdefault(reward.text, []).append(value)
-    by_line = {text: fsum(values) for text, values in lines.items()}
+    by_line = {text: total(values) for text, values in lines.items()}
     return {
         "of": REWARD,
         "kind": REWARD,
-        "score": _number([*by_line.values()]),
+        "score": _number([total(np.atleast_1d(paid))]),
         "by_line": {text: _number([value]) for text, value in by_line.items()},
         "by_event": {name: int(times) for name, times in zip(events(run.task), happened, strict=True) if times},
     }

@@ -15,7 +15,7 @@ MAX_NAMED_SKILLS = 4  # of those that sent nothing
 MAX_NAMED_READINGS = 5  # of one sensor
 BAR_CHARACTERS = 5
 PATH_COLUMN = 35  # where paths begin
-GAIN_NOTED = 1e-6  # by which rounding changes a command, for it to be said
+GAIN_NOTED = 1e-6  # by which rounding or a delay changes a command, for it to be said
 
 
 def answer_text(found: dict[str, Any]) -> RenderableType:
@@ -133,7 +133,7 @@ def _notes(found: dict[str, Any]) -> Iterator[str]:
         more = len(silent) - MAX_NAMED_SKILLS
         names = silent if more <= 1 else [*silent[:MAX_NAMED_SKILLS], f"{more:,} more"]
         yield f"sent it nothing: {listed(names, 'and')}"
-    if "acted" in found and found["acted"] != found["command"]:
+    if "acted" in found and abs(found["acted"] - found["command"]) > GAIN_NOTED:
         yield _acted(found)
 
 

@@ -60,7 +60,7 @@ def in_tick(changes: Sequence[Change], tick: int) -> Changed | None:
 def calm_ticks(changes: Sequence[Change], tick: int, most: int) -> int:
     """How many ticks from this one on, at which nothing is changed, stay so; up to `most`."""
     coming = (change.first - tick for change in changes if change.first > tick)
-    return min(most, *coming, most)
+    return min([most, *coming])
 
 
 def change_of(

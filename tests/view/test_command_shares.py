@@ -46,3 +46,16 @@ def test_paths_go_from_the_master_over_edges_to_the_actuator(view: Served) -> No
     for path in found["paths"]:
         assert edges.issuperset(zip(path["path"], path["path"][1:], strict=False))
         assert about["nodes"][path["path"][0]]["master"]
+
+
+def test_influence_that_nobody_sent_is_not_explained(view: Served) -> None:
+    with view.viewer() as viewer:
+        about = viewer.hear("about")
+        viewer.run(1200)
+        turn = next(node for node in about["nodes"] if node["name"] == "Turn")
+        viewer.say(say="change", tick=77, what="influence", column=turn["columns"][0], value=0.25)
+        viewer.run(1200, fork=viewer.hear("fork")["fork"])
+        viewer.say(say="why", tick=77, actuator=0, fork=1)
+        assert "was replaced" in viewer.hear("refused")["why"]
+        viewer.say(say="why", tick=78, actuator=0, fork=1)
+        assert viewer.hear("why")["tick"] == 78

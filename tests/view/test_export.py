@@ -17,7 +17,7 @@ from hypothesis.extra.numpy import arrays
 from mindlang.compiler.compile import load
 from mindlang.run.recorded_run import record_run
 from mindlang.run.setup import set_up
-from mindlang.view import export
+from mindlang.view import export, session, viewed
 from tests.calling import Call
 
 
@@ -125,3 +125,24 @@ def test_what_no_page_can_hold_is_refused(
     assert said.code == 2
     assert "leave --export out" in said.err
     assert not (tmp_path / "run.html").exists()
+
+
+def test_a_run_that_broke_off_is_not_written(
+    mindc: Call, rules: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(viewed, "MAX_KEPT_BYTES", 1000)
+    said = mindc("view", rules, "--task", "Chase", "--seed", 3, "--export", tmp_path / "run.html")
+    assert said.code == 1
+    assert "nothing is written" in said.err
+    assert not (tmp_path / "run.html").exists()
+
+
+def test_all_that_happened_is_in_the_file(
+    mindc: Call, rules: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(session, "MAX_HAPPENED", 2)
+    data = json.loads(page_of(mindc, rules, tmp_path).scripts["recording"])
+    setup = set_up(str(rules), load(rules), "Chase", None)
+    run = record_run(setup, setup.rollout(), 3)
+    counted = sum(event < run.events.shape[1] for _, event in data["ticks"]["happened"])
+    assert counted == np.count_nonzero(np.diff(run.events, axis=0, prepend=0)) > 2
