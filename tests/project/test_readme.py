@@ -17,7 +17,8 @@ from tests.project.sources import ROOT
 README = (ROOT / "README.md").read_text(encoding="utf-8")
 ROADMAP = README.index("## Not there yet")
 STEPS = README[README.index("## First steps") : README.index("## In an editor")]
-LONG = ("cp ", "mindc prove ", "mindc train ", "mindc plot ")  # the test copies; the others take their time
+# the test copies; the others take their time, and a view does not end
+LONG = ("cp ", "mindc prove ", "mindc train ", "mindc plot ", "mindc view ")
 
 
 def shown() -> Iterator[tuple[str, str]]:
