@@ -59,7 +59,7 @@ def command(
     export: Path | None,
     quiet: bool,
 ) -> None:
-    """See a run of FILE in a browser: the world, the hierarchy, and every value over time.
+    """See a run of FILE in a browser: its world, its hierarchy, every value.
 
     Or what a robot has recorded, with the BUNDLE that was running. Or a folder of trainings, while they go on: their
     curves, and the champion of any generation in its world. Serves a page at an address of this machine, which

@@ -54,7 +54,7 @@ def command(
     as_json: bool,
     quiet: bool,
 ) -> None:
-    """Run a task of FILE as it is, and again with something changed from a tick on.
+    """Run a task of FILE as it is, and again with something changed.
 
     Both runs are the same to the bit until then. Says in which tick they differ first and in what, and what came of
     both. Runs the Python code of the file's procedures.
