@@ -59,12 +59,14 @@ def command(
     export: Path | None,
     quiet: bool,
 ) -> None:
-    """See a run of FILE in a browser: its world, its hierarchy, every value.
+    """See a run of FILE, or a robot's day, in a browser.
 
-    Or what a robot has recorded, with the BUNDLE that was running. Or a folder of trainings, while they go on: their
-    curves, and the champion of any generation in its world. Serves a page at an address of this machine, which
-    nobody else can open, until Ctrl-C; a browser that is closed may open it again. With --export it is one file, which
-    opens from a disk without a server. Runs the Python code of procedures.
+    The world, the hierarchy, and every value over time: of a run; of what a robot has recorded, with the BUNDLE that
+    was running; or of trainings in a folder, while they go on, with the champion of any generation in its world.
+
+    Serves a page at an address of this machine, which nobody else can open, until Ctrl-C; a browser that is closed may
+    open it again. With --export it is one file, which opens from a disk without a server. Runs the Python code of
+    procedures.
     """
     from mindlang.cli._terminal import refuse_unwritable
 

@@ -56,8 +56,8 @@ def command(
 ) -> None:
     """Run a task of FILE as it is, and again with something changed.
 
-    Both runs are the same to the bit until then. Says in which tick they differ first and in what, and what came of
-    both. Runs the Python code of the file's procedures.
+    Both runs are the same to the bit until the tick of the change. Says in which tick they differ first and in what,
+    and what came of both. Runs the Python code of the file's procedures.
 
     Where FILE is a robot's recording, BUNDLE is the one that was running: says what it would have sent for the same
     readings, in an open loop.

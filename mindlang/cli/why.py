@@ -37,7 +37,7 @@ def command(
     as_json: bool,
     quiet: bool,
 ) -> None:
-    """Say who made a command: what each path of influence has added to it.
+    """Say who made a command, and with which shares.
 
     WHAT is an actuator, a memory, a skill (who influenced it?) or `reward` (what each line paid). Shares add up to the
     command. Over several ticks all numbers are means. Runs the task of FILE as `mindc run` does; runs the Python code
