@@ -17,11 +17,10 @@ import numpy as np
 from mindrun.think import clamped
 from numpy.typing import NDArray
 
-from mindlang.run.edge_flow import EdgeFlow, EdgeFlows, Sink
+from mindlang.run.edge_flow import NOTHING, EdgeFlow, EdgeFlows, Sink
 from mindlang.run.largest_paths import MAX_COUNTED_PATHS, Doubles, FoundPath, Ways, largest_paths, path_count
 
 NAMED_PATHS = 10
-NOT_SENT = np.float32(0.0)
 
 
 @dataclass(frozen=True, slots=True)
@@ -158,7 +157,7 @@ def _ends(flows: EdgeFlows, target: Sink, carried: Sequence[EdgeFlow]) -> _Ends:
         total = np.where(driven, weight.sum(axis=0), 0.0)
         parts = np.where(driven, weight / total, 0.0)
         gain = np.where(driven, product / (1.0 if is_skill else total), 0.0)
-    commands = np.array([value if is_skill else clamped(value) for value in np.where(driven, engine, NOT_SENT)], float)
+    commands = np.array([value if is_skill else clamped(value) for value in np.where(driven, engine, NOTHING)], float)
     sources = tuple(flows.links[edge].source for edge in edges)
     return _Ends(target, edges, sources, values, behind, parts, gain, total, commands, driven)
 

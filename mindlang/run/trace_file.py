@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 from mindrun.errors import MindError
+from mindrun.named_readings import reading_names
 from numpy.typing import NDArray
 
 from mindlang.run.outcome import events
@@ -50,11 +51,8 @@ def _world(run: RecordedRun) -> Iterator[tuple[str, Column]]:
 
 def _mind(run: RecordedRun) -> Iterator[tuple[str, Column]]:
     graph = run.graph
-    for sensor in graph.sensors:
-        for k in range(sensor.width):
-            yield f"reading {sensor.name}", run.readings[:, sensor.start + k]
-    for memory in graph.memories:
-        yield f"reading {memory.name}", run.readings[:, memory.start]
+    for name, column in zip(reading_names(graph), run.readings.T[: graph.width], strict=True):
+        yield f"reading {name}", column
     for i, skill in enumerate(graph.skills):
         yield f"influence {skill.name}", run.influence[:, i]
     for i, actuator in enumerate(graph.actuators):

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from mindrun.graph import Graph, Skill
+from mindrun.named_readings import reading_names
 from mindrun.registry import names
 
 from mindlang.view.columns import Columns
@@ -110,13 +111,3 @@ def node_numbers(graph: Graph, skills: Sequence[Skill]) -> dict[tuple[str, int],
         *(("actuator", place) for place in range(len(graph.actuators))),
     ]
     return {node: number for number, node in enumerate(nodes)}
-
-
-def reading_names(graph: Graph) -> list[str]:
-    """The name of every reading: its sensor's or memory's, with a number where there are several."""
-    wide = (
-        f"{sensor.name} {place + 1}" if sensor.width > 1 else sensor.name
-        for sensor in graph.sensors
-        for place in range(sensor.width)
-    )
-    return [*wide, *(memory.name for memory in graph.memories)]

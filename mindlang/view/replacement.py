@@ -6,9 +6,9 @@ from typing import get_args
 
 from mindrun.changes import Change, What
 from mindrun.graph import Graph, Task
+from mindrun.named_readings import reading_names
 
 from mindlang.view import messages
-from mindlang.view.about_hierarchy import reading_names
 from mindlang.view.columns import Columns
 from mindlang.view.messages import RefusedError
 from mindlang.view.texts import shown

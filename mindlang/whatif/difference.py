@@ -1,11 +1,12 @@
 """Where two courses of the same begin to differ, and in what: the first tick, and the first of each kind of number."""
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import asdict, dataclass
 from typing import Any
 
 import numpy as np
 from mindrun.graph import Graph
+from mindrun.named_readings import reading_names
 from numpy.typing import NDArray
 
 Array = NDArray[Any]
@@ -61,14 +62,3 @@ def mind_columns(graph: Graph, readings: Array, influence: Array, commands: Arra
         "influence": dict(zip((skill.name for skill in graph.skills), influence.T, strict=True)),
         "command": dict(zip((actuator.name for actuator in graph.actuators), commands.T, strict=True)),
     }
-
-
-def reading_names(graph: Graph) -> Sequence[str]:
-    """The name of each reading: that of its sensor or memory, with a number from 1 where it has several."""
-    return [*_sensor_readings(graph), *(memory.name for memory in graph.memories)]
-
-
-def _sensor_readings(graph: Graph) -> Iterator[str]:
-    for sensor in graph.sensors:
-        for k in range(sensor.width):
-            yield f"{sensor.name} {k + 1}" if sensor.width > 1 else sensor.name

@@ -1,4 +1,4 @@
-"""Readings by sensor name, as people and other programs write them, to the vector that the engine takes."""
+"""Readings by name: what each is called, and what people and other programs write as the engine's vector."""
 
 from collections.abc import Container, Mapping
 from difflib import get_close_matches
@@ -15,6 +15,16 @@ from mindrun.sensors import Physical
 def physical(graph: Graph) -> dict[str, Sensor]:
     """The sensors that someone has to read; the engine computes the others."""
     return {sensor.name: sensor for sensor in graph.sensors if isinstance(sensor.kind, Physical)}
+
+
+def reading_names(graph: Graph) -> list[str]:
+    """The name of every reading: its sensor's or memory's, with a number from 1 where there are several."""
+    wide = (
+        f"{sensor.name} {place + 1}" if sensor.width > 1 else sensor.name
+        for sensor in graph.sensors
+        for place in range(sensor.width)
+    )
+    return [*wide, *(memory.name for memory in graph.memories)]
 
 
 def vector(
