@@ -5,10 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 from pathlib import Path
 
-from mindrun.errors import MindError
-
+from mindlang.cli._recordings import refusing_recordings
 from mindlang.cli._run_session import RunSession
-from mindlang.cli._terminal import FINDINGS, MISUSE, console, fail, print_json, procedures_talk
+from mindlang.cli._terminal import MISUSE, console, fail, print_json, procedures_talk
 from mindlang.why.answer import QuestionError, answer
 from mindlang.why.course import Course, course_of_recording, course_of_run
 from mindlang.why.report import answer_text
@@ -36,11 +35,8 @@ def explain_run(
 
 def explain_recording(recording: str, bundle: str, asked: Asked) -> None:
     """Compute a recording again, and print who made what is asked about."""
-    try:
-        with procedures_talk():
-            course = course_of_recording(Path(recording), Path(bundle))
-    except MindError as error:
-        fail(str(error), error.hint, FINDINGS)
+    with refusing_recordings():
+        course = course_of_recording(Path(recording), Path(bundle))
     _answer(course, asked)
 
 

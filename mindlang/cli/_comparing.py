@@ -7,13 +7,12 @@ from functools import partial
 from pathlib import Path
 
 from mindrun.changes import ChangeError
-from mindrun.errors import MindError
 from mindrun.sim.rollout import Rollout
 
+from mindlang.cli._recordings import refusing_recordings
 from mindlang.cli._run_session import RunSession
 from mindlang.cli._simulator_compilation import ensure_stages_compiled
 from mindlang.cli._terminal import (
-    FINDINGS,
     MISUSE,
     console,
     fail,
@@ -89,7 +88,6 @@ def _draw(compared: Compared, request: Request, path: Path) -> None:
     write_file(path, png(two_paths(both, request.words, request.tick)))
 
 
-@procedures_talk()
 def _recorded(path: Path, bundle: Path, request: Request) -> OpenLoop:
     other = _version(request.other) if request.other else None
     return compare_recording(path, bundle, from_bundle(bundle), other, partial(changes_of, request), request.tick)
@@ -103,10 +101,8 @@ def _version(file: str) -> MindVersion:
 def compare_recorded(path: Path, bundle: Path, request: Request, as_json: bool) -> None:
     """Compute a recording as it was and with changes, and print what differs."""
     _refuse_nothing(request)
-    try:
+    with refusing_recordings():
         found = _recorded(path, bundle, request)
-    except MindError as error:
-        fail(str(error), error.hint, MISUSE if isinstance(error, ChangeError) else FINDINGS)
     if as_json:
         print_json(recording_data(request, found))
     else:

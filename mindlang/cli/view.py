@@ -141,38 +141,25 @@ def _simulated(
 
 
 def _recorded(file: str, bundle: str) -> Viewed:
-    from pathlib import Path
-
-    from mindrun.errors import MindError
-
-    from mindlang.cli._terminal import MISUSE, fail, procedures_talk
+    from mindlang.cli._recordings import refusing_recordings
     from mindlang.view.viewed_recording import viewed_recording
 
-    try:
-        with procedures_talk():
-            return viewed_recording(Path(file), Path(bundle))
-    except MindError as error:
-        fail(str(error), error.hint, MISUSE)
+    with refusing_recordings():
+        return viewed_recording(Path(file), Path(bundle))
 
 
 def _follow(file: str, bundle: str | None, port: int | None, opens: bool, quiet: bool) -> None:
     from contextlib import ExitStack
-    from pathlib import Path
 
-    from mindrun.errors import MindError
-
-    from mindlang.cli._terminal import MISUSE, fail, procedures_talk
+    from mindlang.cli._recordings import refusing_recordings
     from mindlang.view.viewed_recording import followed_recording
 
     if bundle is None:
         raise click.UsageError("--follow is for a recording and its bundle: mindc view day.rec NAME.bundle --follow")
-    try:
-        with ExitStack() as stack:
-            with procedures_talk():
-                viewed = stack.enter_context(followed_recording(file, Path(bundle)))
-            _serve(viewed, None, port, opens, quiet)
-    except MindError as error:
-        fail(str(error), error.hint, MISUSE)
+    with ExitStack() as stack:
+        with refusing_recordings():
+            viewed = stack.enter_context(followed_recording(file, Path(bundle)))
+        _serve(viewed, None, port, opens, quiet)
 
 
 def _serve(viewed: Viewed, champions: Champions | None, port: int | None, opens: bool, quiet: bool) -> None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
@@ -12,6 +12,7 @@ from mindrun.bundle import Bundle, digest, read_bundle
 from mindrun.engine import Engine
 from mindrun.robot.growing_recording import read_growing
 from mindrun.robot.recording import MAX_HEADER_BYTES, About, read
+from mindrun.robot.replay import computed_again
 from mindrun.virtual_sensors import virtual_sensors
 from numpy.typing import NDArray
 
@@ -25,6 +26,7 @@ from mindlang.view.viewed import SeenMind, Viewed
 CHUNK_TICKS = 1000
 BEGIN_COLUMN = 1  # of the events: stopped, began anew, and a fault of each sensor
 Rows = NDArray[Any]
+Filled = tuple[Rows, Singles]  # rows, and their readings with those that a robot computes
 
 
 def viewed_recording(path: Path, bundle: Path) -> Viewed:
@@ -33,7 +35,7 @@ def viewed_recording(path: Path, bundle: Path) -> Viewed:
     Runs the Python code of the bundle's procedures.
     """
     of, parts = read(path)
-    return viewed_rows(path.name, of, parts, bundle, _row_count(path, of))
+    return viewed_rows(path, of, parts, bundle, _row_count(path, of))
 
 
 @contextmanager
@@ -41,10 +43,10 @@ def followed_recording(name: str, bundle: Path) -> Iterator[Viewed]:
     """A recording that still grows, of this machine or as HOST:PATH, and the bundle that is running; as above."""
     with growing_bytes(name) as parts:
         path = Path(name)
-        yield viewed_rows(path.name, *read_growing(path, parts), bundle, None)
+        yield viewed_rows(path, *read_growing(path, parts), bundle, None)
 
 
-def viewed_rows(name: str, of: About, parts: Iterator[Rows], bundle: Path, of_ticks: int | None) -> Viewed:
+def viewed_rows(path: Path, of: About, parts: Iterator[Rows], bundle: Path, of_ticks: int | None) -> Viewed:
     """The rows of a recording with its bundle; those of one that still grows come without being asked for.
 
     `of_ticks` says how many there are, None that it still grows. MindError where both do not fit.
@@ -56,7 +58,7 @@ def viewed_rows(name: str, of: About, parts: Iterator[Rows], bundle: Path, of_ti
     columns = recording_columns(found, of, mind.edges)
     below = HierarchyData(found.graph, of.master, mind.skills, columns)
     about = {
-        "title": shown(f"{name} with {of.master} in charge"),
+        "title": shown(f"{path.name} with {of.master} in charge"),
         "task": None,
         "master": shown(of.master),
         "source": "robot" if of_ticks is None else "recording",
@@ -74,7 +76,7 @@ def viewed_rows(name: str, of: About, parts: Iterator[Rows], bundle: Path, of_ti
         "curves": below.curves(),
         **below.data({}),
     }
-    chunks = recording_chunks(parts, found, of, columns, begins)
+    chunks = recording_chunks(_filled(path, of, parts, found), of, columns, begins)
     return Viewed(about, columns, chunks, mind, is_live=of_ticks is None)
 
 
@@ -96,53 +98,52 @@ def recording_columns(mind: Bundle, of: About, edges: int) -> Columns:
     )
 
 
-def recording_chunks(
-    parts: Iterator[Rows], mind: Bundle, of: About, columns: Columns, begins: set[int]
-) -> Iterator[Chunk]:
-    """Its rows; RecordingError where one is damaged. `begins` gets the ticks in which the mind was begun anew."""
+def recording_chunks(parts: Iterator[Filled], of: About, columns: Columns, begins: set[int]) -> Iterator[Chunk]:
+    """Its rows; `begins` gets the ticks in which the mind was begun anew."""
     yield Chunk(np.full((1, 1), np.nan), np.zeros((1, columns.kept_singles), np.float32))
-    fill = _filler(mind, of)
     number, start, before = 0, 0.0, np.zeros(2 + len(of.sensors), bool)
-    for part in parts:
-        if not len(part):  # nothing has come for a while
+    for rows, readings in parts:
+        if not len(rows):  # nothing has come for a while
             yield Chunk(np.zeros((0, 1)), np.zeros((0, columns.kept_singles), np.float32))
-        for first in range(0, len(part), CHUNK_TICKS):
+            continue
+        start = start if number else float(rows["time"][0])
+        begins |= {number + 1 + int(row) for row in np.flatnonzero(rows["tick"] == 0)}
+        facts = np.column_stack([rows["stopped"], rows["tick"] == 0, rows["faults"]]) != 0
+        facts[0, BEGIN_COLUMN] &= number > 0
+        happened = np.argwhere(facts & ~np.concatenate([before[None], facts[:-1]]))
+        yield Chunk(
+            (rows["time"] - start)[:, None],
+            _singles(rows, readings),
+            tuple((number + 1 + int(row), int(event)) for row, event in happened),
+        )
+        number, before = number + len(rows), facts[-1]
+
+
+def _filled(path: Path, of: About, parts: Iterator[Rows], mind: Bundle) -> Iterator[Filled]:
+    """Some rows at a time, with the readings that a robot computes and does not record filled in.
+
+    RecordingError where a row is damaged, or is not what the mind computes, behind all that are before it. Where there
+    is nothing to fill in nothing is computed again, which would take 30 times as long.
+    """
+    engine, number = Engine(mind.policy, mind.procedures, of.master), 1
+    nothing = not virtual_sensors(mind.graph) and not mind.graph.memories
+    for part in parts:
+        for first in range(0, max(1, len(part)), CHUNK_TICKS):
             rows = part[first : first + CHUNK_TICKS]
-            start = start if number else float(rows["time"][0])
-            begins |= {number + 1 + int(row) for row in np.flatnonzero(rows["tick"] == 0)}
-            facts = np.column_stack([rows["stopped"], rows["tick"] == 0, rows["faults"]]) != 0
-            facts[0, BEGIN_COLUMN] &= number > 0
-            happened = np.argwhere(facts & ~np.concatenate([before[None], facts[:-1]]))
-            yield Chunk(
-                (rows["time"] - start)[:, None],
-                _singles(rows, fill(rows)),
-                tuple((number + 1 + int(row), int(event)) for row, event in happened),
-            )
-            number, before = number + len(rows), facts[-1]
+            readings, known = rows["readings"].copy(), len(rows) if nothing else 0
+            try:
+                for row in () if nothing else computed_again(path, of, rows, engine, number):
+                    readings[known] = row.readings
+                    known += 1
+            finally:
+                yield rows[:known], readings[:known]
+            number += known
 
 
 def _singles(rows: Rows, readings: Singles) -> Singles:
     states = [rows[name][:, None] for name in ("stopped", "armed")]
     each = [readings, rows["influence"], rows["commands"], rows["sent"], *states, rows["faults"]]
     return np.concatenate(each, axis=1).astype(np.float32)
-
-
-def _filler(mind: Bundle, of: About) -> Callable[[Rows], Singles]:
-    """Fills in the readings that a robot computes, which are not recorded: those of virtual sensors and memories."""
-    if not virtual_sensors(mind.graph) and not mind.graph.memories:
-        return lambda rows: rows["readings"]
-    engine = Engine(mind.policy, mind.procedures, of.master)
-
-    def filled(rows: Rows) -> Singles:
-        found = np.empty_like(rows["readings"])
-        for place, row in enumerate(rows):
-            if row["tick"] == 0:
-                engine.reset()
-            engine.tick(row["readings"])
-            found[place] = engine.readings
-        return found
-
-    return filled
 
 
 def _row_count(path: Path, of: About) -> int:

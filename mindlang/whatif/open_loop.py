@@ -3,8 +3,9 @@
 Open loop: other commands would have led to other readings, and nobody knows which.
 """
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
+from itertools import chain
 from pathlib import Path
 from typing import Any
 
@@ -12,9 +13,11 @@ import numpy as np
 from mindrun.bundle import digest
 from mindrun.changed_engine import ChangedEngine
 from mindrun.changes import Change, ChangeError, in_tick
+from mindrun.engine import Engine
 from mindrun.graph import Graph
 from mindrun.named_readings import physical
-from mindrun.robot.recording import About, RecordingError, read
+from mindrun.robot.recording import About, read
+from mindrun.robot.replay import ComputedRow, computed_again
 from numpy.typing import NDArray
 
 from mindlang.compiler.diagnostic import listed
@@ -62,51 +65,39 @@ def compare_recording(
     about, parts = read(path)
     about.refuse_another(digest(bundle), mind.graph)
     theirs = other or replace(mind, master=about.master)
-    both = _Both(
-        path,
-        ChangedEngine(mind.policy, mind.procedures, about.master),
+    ours = Engine(mind.policy, mind.procedures, about.master)
+    changed = _Changed(
         ChangedEngine(theirs.policy, theirs.procedures, theirs.master),
         _places(about, mind.graph, theirs),
         changes(theirs.graph, theirs.master),
     )
-    ticks = [both.tick(number, row) for number, row in _numbered(parts)]
+    computed = computed_again(path, about, chain.from_iterable(parts), ours)
+    ticks = [(_thought(each), changed.tick(number, each.row)) for number, each in enumerate(computed, 1)]
     if len(ticks) < tick:
         raise ChangeError(f"{path} has {len(ticks):,} ticks: there is no tick {tick:,}", "say an earlier one")
     was, now = ([*map(np.array, zip(*(each[i] for each in ticks), strict=True))] for i in (0, 1))
     return _compared(about.master, mind_columns(mind.graph, *was), mind_columns(theirs.graph, *now), tick)
 
 
-def _numbered(parts: Iterator[NDArray[Any]]) -> Iterator[tuple[int, Any]]:
-    number = 0
-    for rows in parts:
-        for row in rows:
-            number += 1
-            yield number, row
+def _thought(row: ComputedRow) -> Thought:
+    return row.readings, row.influence, row.commands
 
 
 @dataclass(frozen=True, slots=True)
-class _Both:
-    """The mind that was running, and the one that is changed; `places` has where its readings stand in a row."""
+class _Changed:
+    """The mind that is changed; `places` has where its readings stand in a row."""
 
-    path: Path
-    ours: ChangedEngine
-    theirs: ChangedEngine
+    engine: ChangedEngine
     places: NDArray[np.intp]
     changes: Sequence[Change]
 
-    def tick(self, number: int, row: Any) -> tuple[Thought, Thought]:
-        """What both read, thought and sent; RecordingError where the first of them is not what was recorded."""
+    def tick(self, number: int, row: Any) -> Thought:
+        """What it reads, thinks and sends for what was measured."""
         if row["tick"] == 0:  # begun anew
-            self.ours.reset()
-            self.theirs.reset()
-        commands = self.ours.tick(row["readings"])
-        influence = self.ours.influence
-        if commands.tobytes() != row["commands"].tobytes() or influence.tobytes() != row["influence"].tobytes():
-            said = f"tick {number:,} of {self.path} is not what its bundle computes"
-            raise RecordingError(said, "mindrun replay says what differs")
+            self.engine.reset()
         given = np.append(row["readings"], np.float32(0.0))[self.places]
-        changed = self.theirs.tick_with(given, in_tick(self.changes, number))
-        return (self.ours.readings, influence, commands), (self.theirs.readings, self.theirs.influence, changed)
+        commands = self.engine.tick_with(given, in_tick(self.changes, number))
+        return self.engine.readings, self.engine.influence, commands
 
 
 def _places(about: About, graph: Graph, other: MindVersion) -> NDArray[np.intp]:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -11,6 +10,7 @@ import numpy as np
 from mindrun.bundle import digest, read_bundle
 from mindrun.engine import Engine, procedure_sources
 from mindrun.robot.recording import RecordingError, read
+from mindrun.robot.replay import computed_again
 from numpy.typing import NDArray
 
 from mindlang.run.edge_flow import EdgeFlows, Singles
@@ -65,20 +65,9 @@ def course_of_recording(path: Path, bundle: Path) -> Course:
     rows = np.concatenate([*parts, np.zeros(0, of.row)])
     if not len(rows):
         raise RecordingError(f"{path} has no tick in it")
-    thoughts = list(_thought(path, rows, Engine(mind.policy, mind.procedures, of.master)))
-    again = Thoughts(np.array([each[0] for each in thoughts]), np.array([each[1] for each in thoughts]))
+    computed = [*computed_again(path, of, rows, Engine(mind.policy, mind.procedures, of.master))]
+    again = Thoughts(np.array([each.readings for each in computed]), rows["influence"])
     begins = np.flatnonzero(rows["tick"] == 0).tolist()
     flows = EdgeFlows(mind.policy, mind.procedures, of.master, again, begins)
     about = {"recording": path.name, "master": of.master}
     return Course(about, flows, rows["sent"], rows["stopped"] != 0)
-
-
-def _thought(path: Path, rows: NDArray[Any], engine: Engine) -> Iterator[tuple[Singles, Singles]]:
-    for number, row in enumerate(rows, 1):
-        if row["tick"] == 0:  # begun anew
-            engine.reset()
-        commands = engine.tick(row["readings"])
-        if commands.tobytes() != row["commands"].tobytes():
-            said = f"tick {number:,} of {path} is not what its bundle computes"
-            raise RecordingError(said, "mindrun replay says what differs")
-        yield engine.readings, engine.influence

@@ -171,7 +171,7 @@ def test_another_bundle_and_what_it_does_not_compute_are_refused(
     other.write_text(MIND.replace("0.9 - mood", "0.8 - mood"))
     mindc("build", other, "-o", tmp_path / "other.bundle")
     answer = mindc("whatif", day[0], tmp_path / "other.bundle", "--without", "Seek")
-    assert answer.code == 1
+    assert answer.code == 2
     assert "recorded with another bundle" in answer.err
     path, bundle = tmp_path / "odd.rec", read_bundle(day[1])
     with Recorder(path, About.of(bundle.graph, digest(day[1]), "Go", ("eyes", "glow"))) as recorder:

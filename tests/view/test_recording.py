@@ -7,7 +7,7 @@ import pytest
 from mindrun.bundle import Bundle, digest, write_bundle
 from mindrun.engine import Engine
 from mindrun.policy import Policy
-from mindrun.robot.recording import About, Recorder, RecordingError
+from mindrun.robot.recording import About, Recorder, RecordingError, read
 
 from mindlang.view.command_shares import command_shares
 from mindlang.view.frames import unpacked
@@ -143,6 +143,23 @@ def test_a_damaged_row_ends_it_with_a_sentence(day: tuple[Path, Path, object], t
     viewed = whole(viewed_recording(tmp_path / "day.rec", bundle))
     assert viewed.failed is not None
     assert "damaged at row" in viewed.failed
+
+
+def test_a_row_that_the_mind_does_not_compute_ends_it_with_a_sentence(
+    day: tuple[Path, Path, object], tmp_path: Path
+) -> None:
+    rec, bundle, _ = day
+    about, parts = read(rec)
+    rows = np.concatenate([*parts])
+    rows["commands"][77, 1] = np.nextafter(rows["commands"][77, 1], np.float32(2))
+    with Recorder(tmp_path / "day.rec", about) as recorder:
+        for row in rows:
+            recorder.write(**{name: row[name] for name in rows.dtype.names or ()})
+    viewed = whole(viewed_recording(tmp_path / "day.rec", bundle))
+    assert viewed.failed is not None
+    assert "tick 78 of " in viewed.failed
+    assert "is not what its bundle computes: right_wheel is " in viewed.failed
+    assert viewed.known == 77
 
 
 def test_another_bundle_is_refused(day: tuple[Path, Path, object], tmp_path: Path) -> None:

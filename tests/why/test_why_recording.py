@@ -96,6 +96,6 @@ def test_another_bundle_or_no_recording_is_refused(mindc: Call, day: tuple[Path,
     (tmp_path / "other.mind").write_text(MIND.replace("0.2 + mood", "0.3 + mood"))
     assert mindc("build", tmp_path / "other.mind", "-o", tmp_path / "other.bundle").code == 0
     said = mindc("why", day[0], tmp_path / "other.bundle", "left_wheel")
-    assert (said.code, said.out) == (1, "")
+    assert (said.code, said.out) == (2, "")
     assert "this was recorded with another bundle" in said.err
-    assert mindc("why", tmp_path / "none.rec", day[1], "left_wheel").code == 1
+    assert mindc("why", tmp_path / "none.rec", day[1], "left_wheel").code == 2

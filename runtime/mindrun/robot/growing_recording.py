@@ -1,10 +1,10 @@
 """A recording while it is written: its bytes as they come, however they are cut, and the rows that are whole."""
 
 from collections.abc import Iterator
+from itertools import chain
 from pathlib import Path
 from typing import Any
 
-import numpy as np
 from numpy.typing import NDArray
 
 from mindrun.robot.recording import (
@@ -12,8 +12,7 @@ from mindrun.robot.recording import (
     About,
     RecordingError,
     about_of_line,
-    damaged,
-    is_whole_row,
+    whole_rows,
 )
 
 MAX_EMPTY_PARTS = 20  # in a row, before there is a first line
@@ -27,10 +26,10 @@ def read_growing(path: Path, parts: Iterator[bytes]) -> tuple[About, Iterator[ND
     """
     line, waiting = _first_line(path, parts)
     about = about_of_line(line, path)
-    return about, _rows(path, about, waiting, parts)
+    return about, whole_rows(path, about, chain([waiting], parts))
 
 
-def _first_line(path: Path, parts: Iterator[bytes]) -> tuple[bytes, bytearray]:
+def _first_line(path: Path, parts: Iterator[bytes]) -> tuple[bytes, bytes]:
     """The first line, and what has come behind it."""
     waiting, empty, end = bytearray(), 0, -1
     for part in parts:
@@ -43,22 +42,4 @@ def _first_line(path: Path, parts: Iterator[bytes]) -> tuple[bytes, bytearray]:
         if empty == MAX_EMPTY_PARTS:
             raise RecordingError(f"{path} has no first line yet", "is it still written?")
     end = min(end + 1 if end >= 0 else len(waiting), MAX_HEADER_BYTES)
-    return bytes(waiting[:end]), waiting[end:]
-
-
-def _rows(path: Path, about: About, waiting: bytearray, parts: Iterator[bytes]) -> Iterator[NDArray[Any]]:
-    size, number = about.row.itemsize, 0
-    while True:
-        whole = len(waiting) // size * size
-        rows = np.frombuffer(bytes(waiting[:whole]), about.row)
-        del waiting[:whole]
-        good = [is_whole_row(row) for row in rows]
-        if not all(good):
-            yield rows[: good.index(False)]
-            raise damaged(path, number + good.index(False))
-        number += len(rows)
-        yield rows
-        part = next(parts, None)
-        if part is None:
-            return
-        waiting += part
+    return bytes(waiting[:end]), bytes(waiting[end:])

@@ -8,7 +8,7 @@ import json
 import os
 import re
 import zlib
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
@@ -140,37 +140,46 @@ class Recorder:
 
 
 def read(path: Path) -> tuple[About, Iterator[NDArray[Any]]]:
-    """What a recording is of, and its rows in parts; RecordingError where it is none, or a row is damaged."""
+    """What a recording is of, and its rows in parts, as `whole_rows`; RecordingError where it is none."""
     try:
         with open(open_regular(path), "rb") as file:  # noqa: PTH123
             about = about_of_line(file.readline(MAX_HEADER_BYTES), path)
-            return about, _rows(path, file.tell(), about)
+            return about, whole_rows(path, about, _parts(path, file.tell(), about.row.itemsize))
     except OSError as error:
         raise RecordingError(f"cannot read {path}: {error.strerror}") from error
 
 
-def _rows(path: Path, offset: int, about: About) -> Iterator[NDArray[Any]]:
-    size, number = about.row.itemsize, 0
+def _parts(path: Path, offset: int, row_bytes: int) -> Iterator[bytes]:
     with open(open_regular(path), "rb") as file:  # noqa: PTH123
         file.seek(offset)
-        while data := file.read(size * max(1, READ_BYTES // size)):
-            rows = np.frombuffer(data[: len(data) // size * size], about.row)
-            if not all(map(is_whole_row, rows)):
-                raise damaged(path, number + [*map(is_whole_row, rows)].index(False))
-            number += len(rows)
-            yield rows
+        while data := file.read(row_bytes * max(1, READ_BYTES // row_bytes)):
+            yield data
 
 
-def is_whole_row(row: Any) -> bool:
+def whole_rows(path: Path, about: About, parts: Iterable[bytes]) -> Iterator[NDArray[Any]]:
+    """The rows of a recording whose bytes come in parts, however they are cut: those that are whole with each part.
+
+    RecordingError where one is damaged, behind all that are before it. A last row that is not whole is no row.
+    """
+    size, number, waiting = about.row.itemsize, 0, bytearray()
+    for part in parts:
+        waiting += part
+        whole = len(waiting) // size * size
+        rows = np.frombuffer(bytes(waiting[:whole]), about.row)
+        del waiting[:whole]
+        good = [_is_whole(row) for row in rows]
+        if not all(good):
+            yield rows[: good.index(False)]
+            raise RecordingError(f"{path} is damaged at row {number + good.index(False)}")
+        number += len(rows)
+        yield rows
+
+
+def _is_whole(row: Any) -> bool:
     """Whether a row is what its checksum is of."""
     bare = row.copy()
     bare["check"] = 0
     return bool(zlib.crc32(bare.tobytes()) == row["check"])
-
-
-def damaged(path: Path, row: int) -> RecordingError:
-    """The error that says in which row a recording is damaged."""
-    return RecordingError(f"{path} is damaged at row {row}")
 
 
 def _line(about: About) -> bytes:

@@ -1,12 +1,18 @@
 """A recording computed again: the same bits on any machine, or the first tick that differs."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
 
 from mindrun.bundle import digest, read_bundle
 from mindrun.engine import Engine
-from mindrun.robot.recording import RecordingError, read
+from mindrun.robot.recording import About, RecordingError, read
+
+Singles = NDArray[np.float32]
 
 
 @dataclass(frozen=True, slots=True)
@@ -34,28 +40,64 @@ def replay_recording(
 def replay(path: Path, bundle: str, engine: Engine, told: Callable[[int], None] = lambda ticks: None) -> Replayed:
     """Compute the ticks of a recording with the mind of a bundle of that SHA-256.
 
-    RecordingError where it was made with another. A recording that says its first tick again was begun anew there.
+    RecordingError where it was made with another.
     """
     about, parts = read(path)
     about.refuse_another(bundle, engine.graph)
     ticks = 0
-    for rows in parts:
-        for row in rows:
-            if row["tick"] == 0:
-                engine.reset()
-            commands = engine.tick(row["readings"])
-            if commands.tobytes() != row["commands"].tobytes():
-                return Replayed(ticks, (int(row["tick"]), _different(about.actuators, commands, row["commands"])))
-            if engine.influence.tobytes() != row["influence"].tobytes():
-                return Replayed(ticks, (int(row["tick"]), _different(about.skills, engine.influence, row["influence"])))
-            ticks += 1
-        told(ticks)
+    try:
+        for rows in parts:
+            for _ in computed_again(path, about, rows, engine, ticks + 1):
+                ticks += 1
+            told(ticks)
+    except DifferenceError as error:
+        return Replayed(ticks, (error.tick, error.what))
     if not ticks:
         raise RecordingError(f"{path} has no tick in it")
     return Replayed(ticks, None)
 
 
-def _different(names: tuple[str, ...], now: object, then: object) -> str:
-    pairs = zip(names, now, then, strict=True)  # type: ignore[call-overload]
+class DifferenceError(RecordingError):
+    """A recording that is not what its bundle computes: the tick that its row says, and what differs in it."""
+
+    def __init__(self, path: Path, row: int, tick: int, what: str) -> None:
+        super().__init__(f"tick {row:,} of {path} is not what its bundle computes: {what}")
+        self.tick, self.what = tick, what
+
+
+@dataclass(frozen=True, slots=True)
+class ComputedRow:
+    """A row of a recording, and what the mind read in it, with virtual sensors and memories, influenced and sent."""
+
+    row: Any
+    readings: Singles
+    influence: Singles
+    commands: Singles
+
+
+def computed_again(
+    path: Path, about: About, rows: Iterable[Any], engine: Engine, first: int = 1
+) -> Iterator[ComputedRow]:
+    """Rows of a recording, computed again by an engine that has computed those before; the first is number `first`.
+
+    Where a row says the first tick again, the mind was begun anew. DifferenceError where commands or influence are not
+    those that were recorded, to the bit.
+    """
+    for number, row in enumerate(rows, first):
+        if row["tick"] == 0:
+            engine.reset()
+        commands = engine.tick(row["readings"])
+        what = _difference(about.actuators, commands, row["commands"])
+        what = what or _difference(about.skills, engine.influence, row["influence"])
+        if what:
+            raise DifferenceError(path, number, int(row["tick"]), what)
+        yield ComputedRow(row, engine.readings, engine.influence, commands)
+
+
+def _difference(names: tuple[str, ...], now: Singles, then: Singles) -> str:
+    """What differs first, in words; nothing where all bits are the same."""
+    if now.tobytes() == then.tobytes():
+        return ""
+    pairs = zip(names, now, then, strict=True)
     name, a, b = next((name, a, b) for name, a, b in pairs if a.tobytes() != b.tobytes())
     return f"{name} is {a:.9g} and was {b:.9g}"
