@@ -7,6 +7,8 @@ from mindrun.expression import Program
 from mindrun.graph import Receiver
 from mindrun.measures import MeasureKind
 
+from mindlang.breakpoints.robot_events import RobotEvent
+
 
 @dataclass(frozen=True, slots=True)
 class Transmission(MeasureKind):
@@ -36,7 +38,7 @@ class Holds:
 class Happens:
     """An event happens: for the time number `times`, or whenever it does where that is 0."""
 
-    event: EventKind
+    event: EventKind | RobotEvent
     times: int
 
 

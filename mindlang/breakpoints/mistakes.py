@@ -5,6 +5,7 @@ from typing import TYPE_CHECKING
 
 from mindrun.registry import kinds
 
+from mindlang.breakpoints.robot_events import WORDS
 from mindlang.compiler.diagnostic import Diagnostic
 from mindlang.compiler.parse.explain import common_mistake, unexpected
 from mindlang.compiler.parse.mistakes import MISTAKES, OPENINGS, Mistake
@@ -15,7 +16,7 @@ if TYPE_CHECKING:
 
 EXAMPLE = "stop when holding > 0.5, stop on collision or stop in tick 812"
 _FIRST_WORD = re.compile(r"\s*(\S+)")
-_EVENT_KINDS = "|".join(kinds("event"))
+_EVENT_KINDS = "|".join((*kinds("event"), *WORDS))
 _CODES_NOT_HERE = ("two-facts",)  # what a skill influences is part of a line here
 
 # fmt: off

@@ -29,10 +29,15 @@ def parse(source: Source, findings: Findings) -> list[Line]:
         if is_too_deep(span, code, findings):
             continue
         try:
-            found.append(cast(Line, _Builder(source, span.start).transform(grammar().parse(code, start="line"))))
+            found.append(parse_line(code, source, span.start))
         except UnexpectedInput as error:
             findings.diagnostics.append(explain(error, code, span))
     return found
+
+
+def parse_line(code: str, source: Source, offset: int) -> Line:
+    """What the line `code` says that stands at `offset` of a source; lark.UnexpectedInput where it says nothing."""
+    return cast(Line, _Builder(source, offset).transform(grammar().parse(code, start="line")))
 
 
 @cache

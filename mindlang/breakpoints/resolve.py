@@ -1,68 +1,42 @@
 """Lines of a .break file → breakpoints of a run: names found, numbers converted, mistakes reported."""
 
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass, replace
-from functools import cached_property
+from dataclasses import replace
 
+from mindrun.events import EventKind
 from mindrun.expression import Program
-from mindrun.graph import Graph, Receiver, Task
+from mindrun.graph import Receiver
 from mindrun.quantity import Quantity
+from mindrun.registry import kinds
 from mindrun.weights import reachable
 
 from mindlang.breakpoints.breakpoint import Breakpoint, Happens, Holds, Reaches, Transmission
+from mindlang.breakpoints.robot_events import WORDS, RobotEvent, robot_event
+from mindlang.breakpoints.subject import Subject
 from mindlang.breakpoints.syntax import Line, Moment, Transmits
 from mindlang.compiler import lower, model, syntax
-from mindlang.compiler.diagnostic import Findings, listed
+from mindlang.compiler.diagnostic import Findings, did_you_mean, listed
 from mindlang.compiler.expand import numbers
 from mindlang.compiler.expand.amounts import writer
-from mindlang.compiler.names import things_of
 from mindlang.compiler.resolve import expressions
-from mindlang.compiler.resolve.kinds import Scope
 from mindlang.compiler.resolve.quantities import convert
-from mindlang.compiler.resolve.tasks import MAX_RUN_TICKS, TIMES, World, event_in
+from mindlang.compiler.resolve.tasks import MAX_RUN_TICKS, TIMES, event_in
 
 WEIGHT = Quantity("how much a skill influences", {"": 1.0, "%": 0.01}, low=0, high=1)
+NO_NUMBERS = "Write the number itself: a bundle has no names of numbers."
 WHICH_TICK = Quantity("the number of a tick", {"": 1.0}, low=1, high=MAX_RUN_TICKS, whole=True)
-
-
-@dataclass(frozen=True)
-class Subject:
-    """The run that breakpoints are about: a mind and its graph, who is in charge, and the task.
-
-    None is the task where a robot recorded what it read and thought.
-    """
-
-    mind: model.Mind
-    graph: Graph
-    master: str
-    task: Task | None
-
-    @cached_property
-    def places(self) -> lower.Places:
-        """Where the readings and the commands stand in a row."""
-        readings = {each.name: (each.start, each.width) for each in self.graph.sensors}
-        readings |= {each.name: (each.start, 1) for each in self.graph.memories}
-        return lower.Places(readings, {each.name: place for place, each in enumerate(self.graph.actuators)})
-
-    @cached_property
-    def world(self) -> World | None:
-        """What the task says of its world."""
-        if self.task is None:
-            return None
-        name = self.task.name
-        task = next(task for task in self.mind.tasks if task.name == name)
-        things = things_of(replace(task.declaration, facts=task.facts))
-        scope = Scope(self.mind.names, things, f"task {name}", root=self.mind.files[0].source.folder)
-        battery = any(sensor.kind.battery for sensor in self.mind.sensors)
-        return World(task.scene, task.things, scope, battery, self.task.can_succeed)
 
 
 def resolve(lines: Iterable[Line], subject: Subject, findings: Findings) -> tuple[Breakpoint, ...]:
     """The breakpoints of the lines; what is wrong with the others is reported."""
-    mind = subject.mind
-    findings.numbers = mind.names.numbers.keys()
-    written_out = writer(numbers(mind.names, Findings()), mind.tick)
-    return tuple(_breakpoints(map(written_out, lines), subject, findings))
+    findings.numbers = subject.names.numbers.keys()
+    written_out = writer(numbers(subject.names, Findings()), subject.graph.tick)
+    found = tuple(_breakpoints(map(written_out, lines), subject, findings))
+    if not subject.knows_numbers:
+        findings.diagnostics = [
+            replace(each, hint=NO_NUMBERS) if each.code == "unknown-number" else each for each in findings.diagnostics
+        ]
+    return found
 
 
 def _breakpoints(lines: Iterable[Line], subject: Subject, findings: Findings) -> Iterator[Breakpoint]:
@@ -87,19 +61,38 @@ def _cause(line: Line, subject: Subject, findings: Findings) -> Holds | Happens 
 def _happens(
     times: syntax.Amount | None, written: syntax.Phrase, subject: Subject, findings: Findings
 ) -> Happens | None:
-    """An event that the run's task notices, or could without becoming another world."""
-    if subject.task is None or subject.world is None:
-        hint = "Events are noticed by the simulator; write a condition, such as stop when holding > 0.5."
-        findings.error("impossible-event", written.span, "What a robot has recorded has no events.", hint)
-        return None
+    """An event that somebody notices in what is stopped."""
     count = convert(times, TIMES, findings) if times else 0
-    event = event_in(written, subject.world, findings)
+    event = _event(written, subject, findings)
+    return None if event is None or count is None else Happens(event, int(count))
+
+
+def _event(written: syntax.Phrase, subject: Subject, findings: Findings) -> EventKind | RobotEvent | None:
+    word = written.kind.text
+    if word in WORDS:
+        return robot_event(written, subject.sensors, findings)
+    near = did_you_mean(word, WORDS)
+    if subject.sensors is not None and word not in kinds("event") and (near or subject.task is None):
+        hint = near or "What happens to a robot is stopped, fault, and fault of SENSOR."
+        findings.error("unknown-kind", written.kind.span, f"There is no kind of event called {word}.", hint)
+        return None
+    return _world_event(written, subject, findings)
+
+
+def _world_event(written: syntax.Phrase, subject: Subject, findings: Findings) -> EventKind | None:
+    """An event that the task notices, or could without becoming another world."""
+    if subject.task is None or subject.world is None:
+        hint = "Write a condition, such as stop when holding > 0.5, or one of its own: stopped, fault, fault of SENSOR."
+        message = "A robot does not record what happens in the world around it."
+        findings.error("impossible-event", written.span, message, hint)
+        return None
+    event: EventKind | None = event_in(written, subject.world, findings)
     if event and event.outcome and event not in subject.task.events:
         message = f"No line of task {subject.task.name} speaks of this event, so nobody looks for it."
         hint = f"Add the line counts {' '.join(written.span.text.split())} to the task."
         findings.error("unnoticed-event", written.span, message, hint)
         return None
-    return None if event is None or count is None else Happens(event, int(count))
+    return event
 
 
 def _holds(when: syntax.When, subject: Subject, findings: Findings) -> Holds:
@@ -129,7 +122,7 @@ def _holds(when: syntax.When, subject: Subject, findings: Findings) -> Holds:
 
 def _transmits(written: Transmits, subject: Subject, findings: Findings) -> model.Comparison:
     """`SKILL influences NAME above AMOUNT`, the weight on the left."""
-    names = subject.mind.names
+    names = subject.names
     level = convert(written.amount, WEIGHT, findings)
     skill = names.find(written.skill, ("skill",), findings)
     is_skill = written.to.text.rpartition(".")[2][:1].isupper()

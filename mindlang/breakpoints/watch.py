@@ -14,6 +14,7 @@ from mindrun.think import Hierarchy, hierarchy
 from numpy.typing import NDArray
 
 from mindlang.breakpoints.breakpoint import Breakpoint, Happens, Holds, Reaches, Transmission
+from mindlang.breakpoints.robot_events import RobotEvent
 from mindlang.breakpoints.transmission import Transmissions
 from mindlang.run.setup import RunSetup
 
@@ -80,7 +81,11 @@ class Watcher:
     """Where breakpoints stop a run, of whose rows it has been fed the first `ticks`."""
 
     def __init__(
-        self, breakpoints: Sequence[Breakpoint], events: Sequence[EventKind], mind: Hierarchy, actuators: int
+        self,
+        breakpoints: Sequence[Breakpoint],
+        events: Sequence[EventKind | RobotEvent],
+        mind: Hierarchy,
+        actuators: int,
     ) -> None:
         self.ticks = 0
         self._breakpoints = breakpoints
@@ -132,8 +137,8 @@ class Watcher:
 
 def noticing(setup: RunSetup, breakpoints: Sequence[Breakpoint]) -> RunSetup:
     """The setup of the same run, whose task also notices the events of breakpoints that none of its lines is about."""
-    asked = [each.cause.event for each in breakpoints if isinstance(each.cause, Happens)]
-    missing = [event for event in dict.fromkeys(asked) if event not in setup.task.events]
+    asked = dict.fromkeys(each.cause.event for each in breakpoints if isinstance(each.cause, Happens))
+    missing = [event for event in asked if isinstance(event, EventKind) and event not in setup.task.events]
     if not missing:
         return setup
     policy, task = setup.ready.policy, replace(setup.task, events=(*setup.task.events, *missing))

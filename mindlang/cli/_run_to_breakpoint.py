@@ -9,7 +9,7 @@ from typing import NoReturn
 from mindlang.breakpoints.breakpoint import Breakpoint
 from mindlang.breakpoints.file import load_breakpoints
 from mindlang.breakpoints.report import stop_summary, stopped_data
-from mindlang.breakpoints.resolve import Subject
+from mindlang.breakpoints.subject import Subject
 from mindlang.breakpoints.watch import noticing, watcher
 from mindlang.cli._diagnostic_printer import print_report
 from mindlang.cli._run_files import RunFiles
@@ -52,7 +52,7 @@ def read_breakpoints(path: Path, compiled: Compiled, setup: RunSetup) -> tuple[B
     """The breakpoints of a file; a mistake in it ends the program."""
     if compiled.mind is None:
         sys.exit(FINDINGS)  # its report has been printed
-    found = load_breakpoints(path, Subject(compiled.mind, setup.ready.policy.graph, setup.master, setup.task))
+    found = load_breakpoints(path, Subject(compiled.mind.names, setup.ready.policy.graph, setup.master, setup.task))
     print_report(found.diagnostics, console(stderr=True))
     if found.diagnostics:
         sys.exit(FINDINGS if all(each.span for each in found.diagnostics) else MISUSE)

@@ -3,17 +3,20 @@
 from __future__ import annotations
 
 import sys
+from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import click
 
 if TYPE_CHECKING:
+    from mindlang.compiler.diagnostic import Findings
     from mindlang.compiler.source import Source
 
 EXAMPLES = """\b
 Examples:
   mindc fmt collect.mind
+  mindc fmt collect.mind collect.break
   mindc fmt *.mind --check
   mindc fmt collect.mind --diff
   cat collect.mind | mindc fmt - > tidy.mind
@@ -28,8 +31,8 @@ def command(files: tuple[str, ...], check: bool, diff: bool) -> None:
     """Write files in the one way of the language.
 
     Spaces and blank lines are set, nothing else is touched: nothing is reordered or aligned, no comment and no meaning
-    changes, and there are no options of taste. A file with lines that cannot be read is reported and left as it is. `-`
-    is standard input, and goes to standard output.
+    changes, and there are no options of taste. A file with lines that cannot be read is reported and left as it is. A
+    file of breakpoints is known by its name, NAME.break. `-` is standard input, a mind, and goes to standard output.
     """
     sys.exit(max(_tidy(file, check, diff) for file in files))
 
@@ -39,33 +42,43 @@ def _tidy(file: str, check: bool, diff: bool) -> int:
     from mindlang.cli._diagnostic_printer import print_report
     from mindlang.cli._terminal import FINDINGS, MISUSE, console, take_back
     from mindlang.compiler.compile import read_main
-    from mindlang.compiler.diagnostic import Findings
-    from mindlang.compiler.parse import parse
-    from mindlang.compiler.source import Source
+    from mindlang.compiler.diagnostic import Diagnostic, Findings
 
     take_back(file)
     source = read_main(file)
-    findings = Findings()
-    if isinstance(source, Source):
-        parse(source, findings)
-    else:
-        findings.diagnostics.append(source)
-    print_report(findings.diagnostics, console(stderr=True))
-    if not isinstance(source, Source):
+    if isinstance(source, Diagnostic):
+        print_report([source], console(stderr=True))
         return MISUSE
-    return FINDINGS if findings.diagnostics else _put(file, source, check, diff)
+    parse, formatted = _language(file)
+    findings = Findings()
+    parse(source, findings)
+    print_report(findings.diagnostics, console(stderr=True))
+    return FINDINGS if findings.diagnostics else _put(file, source, formatted(source.text), check, diff)
 
 
-def _put(file: str, source: Source, check: bool, diff: bool) -> int:
+def _language(file: str) -> tuple[Callable[[Source, Findings], object], Callable[[str], str]]:
+    """What reads a file of this name, and what writes its text as it should be."""
+    from mindlang.breakpoints import SUFFIX
+
+    if Path(file).suffix == SUFFIX:
+        from mindlang.breakpoints import format as of_breakpoints
+        from mindlang.breakpoints.parse import parse as parse_breakpoints
+
+        return parse_breakpoints, of_breakpoints.formatted
+    from mindlang.compiler import format as of_minds
+    from mindlang.compiler.parse import parse
+
+    return parse, of_minds.formatted
+
+
+def _put(file: str, source: Source, text: str, check: bool, diff: bool) -> int:
     """The tidy text put where it belongs."""
     from mindrun.atomic_write import rewrite
 
     from mindlang.cli._terminal import FINDINGS, OK, fail, print_document
-    from mindlang.compiler.format import formatted
     from mindlang.compiler.source import encoded
     from mindlang.unified_diff import unified
 
-    text = formatted(source.text)
     is_tidy = text == source.text
     match (diff, check, file):
         case True, _, _:

@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, fields, is_dataclass
 from functools import lru_cache
 from itertools import pairwise
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from mindlang.compiler import syntax
 from mindlang.compiler.parse import BLANKS, code_of
@@ -16,6 +16,9 @@ from mindlang.compiler.parse.shape import MAX_SHAPES, grammar, parse_line, piece
 from mindlang.compiler.source import Source
 from mindlang.compiler.splice import Splice
 from mindlang.compiler.syntax import NOUNS, SETTINGS
+
+if TYPE_CHECKING:
+    from lark import Lark
 
 INDENT = "  "
 Stretch = tuple[int, int]
@@ -114,10 +117,10 @@ def spaced(code: str) -> str:
     if plan is None:
         return code
     parts = pieces(code)
-    return "".join(_tight("".join(parts[first:end])) + after for first, end, after in plan)
+    return "".join(tight("".join(parts[first:end])) + after for first, end, after in plan)
 
 
-def _tight(word: str) -> str:
+def tight(word: str) -> str:
     """A word as it is; one of two, such as `least of`, with one space between."""
     return word if word.startswith('"') else " ".join(word.split())
 
@@ -134,20 +137,23 @@ def _plan(shape: str) -> Plan | None:
         line = parse_line(shape, Source("shape", shape), 0)
     except UnexpectedInput:
         return None
-    tokens = list(grammar().parse_interactive(shape, start="line").iter_parse())
     places: dict[int, int] = {}
     at = 0
     for number, piece in enumerate(pieces(shape)):
         places[at] = number
         at += len(piece)
     places[at] = len(places)
+    return tuple((places[start], places[end], after) for start, end, after in words(shape, line, grammar()))
+
+
+def words(code: str, line: Any, grammar: "Lark") -> Iterator[tuple[int, int, str]]:
+    """From where to where the words of a line go that its grammar reads as `line`, and what stands after each."""
+    tokens = list(grammar.parse_interactive(code, start="line").iter_parse())
     signs = set(_signs(line))
-    plan = []
     for token, following in zip(tokens, [*tokens[1:], None], strict=True):
-        glued = following is None or token == "(" or following in (")", "%") or token.start_pos in signs
-        first, end = (places[at or 0] for at in (token.start_pos, token.end_pos))
-        plan.append((first, end, "" if glued else " "))
-    return tuple(plan)
+        start = token.start_pos or 0
+        glued = following is None or token == "(" or following in (")", "%") or start in signs
+        yield start, token.end_pos or 0, "" if glued else " "
 
 
 def _signs(node: Any) -> Iterator[int]:

@@ -3,7 +3,9 @@
 from functools import cache
 from pathlib import Path
 
-from mindlang.breakpoints.resolve import Subject
+from mindrun.named_readings import physical
+
+from mindlang.breakpoints.subject import Subject
 from mindlang.compiler.compile import load
 
 RIGHT = Path(__file__).parents[1] / "language" / "right.mind"
@@ -11,8 +13,10 @@ RIGHT = Path(__file__).parents[1] / "language" / "right.mind"
 
 @cache
 def subject(master: str = "Go", has_task: bool = True) -> Subject:
-    """The run under a master; without a task it is that of a robot."""
+    """The run under a master; without a task it is what a robot has recorded."""
     compiled = load(RIGHT)
     assert compiled.mind
     assert compiled.graph
-    return Subject(compiled.mind, compiled.graph, master, compiled.graph.tasks[0] if has_task else None)
+    if not has_task:
+        return Subject.of_recording(compiled.graph, master, tuple(physical(compiled.graph)))
+    return Subject(compiled.mind.names, compiled.graph, master, compiled.graph.tasks[0])

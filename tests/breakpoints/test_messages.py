@@ -1,5 +1,7 @@
 """Every mistake gets one message: `wrong/NAME.break` has one, `wrong/NAME.txt` is what mindc says of it.
 
+Those in `wrong_recording/` are about what a robot has recorded.
+
 After a change of words: UPDATE=1 pytest tests/breakpoints/test_messages.py, and read the difference.
 """
 
@@ -12,13 +14,14 @@ from mindlang.breakpoints.breakpoint import Happens, Holds, Reaches
 from mindlang.breakpoints.file import BreakpointFile, breakpoints_of, load_breakpoints
 from mindlang.breakpoints.mistakes import OWN_MISTAKES
 from mindlang.breakpoints.parse import parse
+from mindlang.breakpoints.robot_events import Fault, Stopped
 from mindlang.cli._diagnostic_printer import plain
 from mindlang.compiler.diagnostic import Findings
 from mindlang.compiler.parse.mistakes import Mistake
 from mindlang.compiler.source import Source
 from tests.breakpoints.subjects import subject
 
-CASES = sorted((Path(__file__).parent / "wrong").glob("*.break"))
+CASES = sorted(Path(__file__).parent.glob("wrong*/*.break"))
 
 
 def read(text: str, has_task: bool = True) -> BreakpointFile:
@@ -28,7 +31,7 @@ def read(text: str, has_task: bool = True) -> BreakpointFile:
 @pytest.mark.parametrize("path", CASES, ids=lambda path: path.stem)
 def test_one_message_for_one_mistake(path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(path.parent)
-    found = load_breakpoints(path.name, subject())
+    found = load_breakpoints(path.name, subject(has_task=path.parent.name == "wrong"))
     said = "\n".join(plain(diagnostic) for diagnostic in found.diagnostics)
     expected = path.with_suffix(".txt")
     if os.environ.get("UPDATE"):
@@ -75,6 +78,16 @@ def test_of_a_recording_there_are_no_events() -> None:
     found = read("stop when holding > 0.5\nstop on collision\nstop in tick 100000", has_task=False)
     assert [each.code for each in found.diagnostics] == ["impossible-event"]
     assert len(found.breakpoints) == 2
+
+
+def test_of_a_recording_there_are_the_events_of_the_robot() -> None:
+    found = read("stop on stopped\nstop on 3 fault\nstop on fault of eyes", has_task=False)
+    assert found.diagnostics == ()
+    assert [each.cause for each in found.breakpoints] == [
+        Happens(Stopped(), 0),
+        Happens(Fault(), 3),
+        Happens(Fault("eyes"), 0),
+    ]
 
 
 @pytest.mark.parametrize("text", ["\x0b", "stop \u200bon collision", "stop when " + "(" * 99, "stop " + "x" * 9999])

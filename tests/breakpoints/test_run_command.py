@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from mindlang.breakpoints.file import breakpoints_of
-from mindlang.breakpoints.resolve import Subject
+from mindlang.breakpoints.subject import Subject
 from mindlang.breakpoints.watch import noticing, part, watcher
 from mindlang.compiler.compile import load
 from mindlang.compiler.source import Source
@@ -37,7 +37,7 @@ def recorded(rules: Path, task: str, text: str) -> tuple[RecordedRun, list[tuple
     compiled = load(rules)
     setup = set_up(str(rules), compiled, task, None)
     assert compiled.mind
-    subject = Subject(compiled.mind, setup.ready.policy.graph, setup.master, setup.task)
+    subject = Subject(compiled.mind.names, setup.ready.policy.graph, setup.master, setup.task)
     read = breakpoints_of(Source("a.break", text), subject)
     assert read.diagnostics == ()
     noticed = noticing(setup, read.breakpoints)

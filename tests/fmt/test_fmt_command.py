@@ -79,3 +79,15 @@ def test_a_link_is_followed(mindc: Call, file: Path, tmp_path: Path) -> None:
     assert mindc("fmt", link).code == 0
     assert link.is_symlink()
     assert file.read_text() == TIDY
+
+
+def test_breakpoints_are_known_by_their_name(mindc: Call, file: Path) -> None:
+    breaks = file.with_suffix(".break")
+    breaks.write_text("stop  on 2 reach of ball#both\n")
+    assert mindc("fmt", breaks, file).err == f"{breaks} is tidy now\n{file} is tidy now\n"
+    assert breaks.read_text() == "stop on 2 reach of ball  #both\n"
+    assert mindc("fmt", breaks, "--check") == (0, "", "")
+    breaks.write_text("stop  at collision\n")
+    said = mindc("fmt", breaks)
+    assert (said.code, breaks.read_text()) == (1, "stop  at collision\n")
+    assert "[missing-on]" in said.err

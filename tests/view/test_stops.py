@@ -3,7 +3,7 @@
 from pathlib import Path
 
 from mindlang.breakpoints.file import breakpoints_of
-from mindlang.breakpoints.resolve import Subject
+from mindlang.breakpoints.subject import Subject
 from mindlang.breakpoints.watch import noticing, watcher
 from mindlang.compiler.compile import load
 from mindlang.compiler.source import Source
@@ -24,7 +24,7 @@ def test_stops_are_those_of_the_whole_run(path: Path) -> None:
     compiled = load(path)
     setup = set_up(str(path), compiled, "Chase", None)
     assert compiled.mind is not None
-    subject = Subject(compiled.mind, setup.ready.policy.graph, setup.master, setup.task)
+    subject = Subject(compiled.mind.names, setup.ready.policy.graph, setup.master, setup.task)
     found = breakpoints_of(Source("chase.break", BREAKS), subject)
     assert found.diagnostics == ()
     setup = noticing(setup, found.breakpoints)

@@ -1,0 +1,75 @@
+"""What breakpoints are about: a run of the simulator, or what a robot has recorded."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+from mindrun.graph import Graph, Task
+from mindrun.registry import names as kind_names
+
+from mindlang.compiler import lower, model
+from mindlang.compiler.names import Names
+from mindlang.compiler.resolve.kinds import Scope
+from mindlang.compiler.resolve.tasks import World
+from mindlang.compiler.source import Source, Span
+from mindlang.compiler.syntax import Declaration, Header, Name
+
+NOWHERE = Span(Source("", ""), 0, 0)  # where what is in a graph was declared
+
+
+@dataclass(frozen=True)
+class Subject:
+    """The names of a mind and its graph, who is in charge, and the task, None where nobody noticed its events.
+
+    `sensors` are those that a robot has wired, which can be faulty; None where there was no robot. A bundle does not
+    know how its mind's numbers are called.
+    """
+
+    names: Names
+    graph: Graph
+    master: str
+    task: Task | None
+    sensors: tuple[str, ...] | None = None
+    knows_numbers: bool = True
+
+    @classmethod
+    def of_recording(cls, graph: Graph, master: str, sensors: tuple[str, ...]) -> Subject:
+        """What a robot with these wired sensors recorded with the graph of a bundle."""
+        return cls(names_in(graph), graph, master, None, sensors, knows_numbers=False)
+
+    @cached_property
+    def places(self) -> lower.Places:
+        """Where the readings and the commands stand in a row."""
+        readings = {each.name: (each.start, each.width) for each in self.graph.sensors}
+        readings |= {each.name: (each.start, 1) for each in self.graph.memories}
+        return lower.Places(readings, {each.name: place for place, each in enumerate(self.graph.actuators)})
+
+    @cached_property
+    def world(self) -> World | None:
+        """What the task says of its world."""
+        if self.task is None:
+            return None
+        things: dict[str, set[str]] = {}
+        for thing in self.task.things:
+            things.setdefault(thing.name, set()).add(kind_names()[type(thing.kind)])
+        parts = tuple(model.Part(thing.name, thing.kind, NOWHERE) for thing in self.task.things)
+        battery = any(sensor.kind.battery for sensor in self.graph.sensors)
+        scope = Scope(self.names, things, f"task {self.task.name}")
+        return World(self.task.scene, parts, scope, battery, self.task.can_succeed)
+
+
+def names_in(graph: Graph) -> Names:
+    """The names of a compiled mind, of which only the graph is there; those of its numbers are not known."""
+    nouns = {
+        "sensor": [each.name for each in graph.sensors],
+        "memory": [each.name for each in graph.memories],
+        "actuator": [each.name for each in graph.actuators],
+        "skill": [each.name for each in graph.skills],
+        "task": [each.name for each in graph.tasks],
+    }
+    return Names({noun: {name: _declared(noun, name) for name in names} for noun, names in nouns.items()})
+
+
+def _declared(noun: str, name: str) -> Declaration:
+    return Declaration(Header(Name(noun, NOWHERE), Name(name, NOWHERE), None, NOWHERE), ())
