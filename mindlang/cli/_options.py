@@ -1,4 +1,4 @@
-"""What options may be: numbers that say both of their bounds, and files that are to be written."""
+"""What options may be: numbers that say both of their bounds, files to be written, and none without effect."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Any
 
 import click
+from click.core import ParameterSource
 
 SHOWN_CHARACTERS = 20  # of what is refused
 MAX_TICK_DIGITS = 15
@@ -70,8 +71,23 @@ class NewFile(click.Path):
         return Path(text)
 
 
+def refuse_ineffective(what_they_are: str, *names: str) -> None:
+    """UsageError where one of these parameters of the command was said, since nothing would come of it."""
+    context = click.get_current_context()
+    all_of_them = [each for each in context.command.params if each.name in names]
+    if any(context.get_parameter_source(name) is ParameterSource.COMMANDLINE for name in names):
+        from mindlang.compiler.diagnostic import listed
+
+        words = [each.opts[0] if isinstance(each, click.Option) else each.human_readable_name for each in all_of_them]
+        verb = "is" if len(words) == 1 else "are"
+        raise click.UsageError(f"{listed(words, 'and')} {verb} {what_they_are}.")
+
+
 SEED = WholeOption(0, 2**63 - 1)
 WORKERS = WholeOption(1, 1024)
+OF_A_CAST = "task", "master", "no_interruption"  # who does what in a run
+OF_A_RUN = (*OF_A_CAST, "seed")
+OF_RUNS_ALONE = "of runs, not of recordings"
 
 
 def _shortened(value: object) -> str:

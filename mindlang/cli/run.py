@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from mindlang.cli._options import NewFile, NumberOption, WholeOption
+from mindlang.cli._options import NewFile, NumberOption, WholeOption, refuse_ineffective
 
 if TYPE_CHECKING:
     from mindlang.cli._run_files import RunFiles
@@ -83,6 +83,8 @@ def command(
 
     session, files = RunSession(quiet), RunFiles(picture, video, speed, trace)
     files.refuse_unwritable()
+    if video is None:
+        refuse_ineffective("of --video: say it, too", "speed")
     chosen = RunChoice(task, secrets.randbits(31) if seed is None else seed, master, not no_interruption)
     if breaks:
         from mindlang.cli._run_to_breakpoint import run_to_breakpoint

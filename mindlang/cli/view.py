@@ -7,12 +7,10 @@ from typing import TYPE_CHECKING
 
 import click
 
-from mindlang.cli._options import NewFile, WholeOption
+from mindlang.cli._options import OF_A_CAST, OF_A_RUN, OF_RUNS_ALONE, NewFile, WholeOption, refuse_ineffective
 
 if TYPE_CHECKING:
-    from mindlang.breakpoints.breakpoint import Breakpoint
-    from mindlang.view.viewed import Viewed
-    from mindlang.view.viewed_champion import Champions
+    from mindlang.cli._view_output import ViewOutput
 
 EXAMPLES = """\b
 Examples:
@@ -68,159 +66,55 @@ def command(
     open it again. With --export it is one file, which opens from a disk without a server. Runs the Python code of
     procedures.
     """
-    from mindlang.cli._terminal import refuse_unwritable
-
-    refuse_unwritable(export, ".html")
-    is_run = (task, seed, master, no_interruption, breaks) != (None, None, None, False, None)
+    output = _output(port, not no_browser, export, quiet)
     if follow:
-        _follow(file, None if export or is_run else bundle, port, not no_browser, quiet)
+        _follow(file, bundle, output)
     elif Path(file).is_dir():
-        other = bool(bundle or export or task or master or no_interruption or breaks)
-        _serve_training(file, seed, port, not no_browser, quiet, other)
-    elif bundle is None:
+        _show_training(file, seed, output)
+    elif bundle:
+        _show_recording(file, bundle, output)
+    else:
+        from mindlang.cli._run_view import ViewChoice, run_view
+
         _refuse_recording(file)
-        viewed = _simulated(file, task, seed, master, not no_interruption, breaks, quiet)
-        _show(viewed, export, port, not no_browser, quiet)
-    elif not is_run:
-        _show(_recorded(file, bundle), export, port, not no_browser, quiet)
-    else:
-        raise click.UsageError("A recording has its task, its master and its end: --port and --export are for it.")
+        output.show(run_view(file, ViewChoice(task, seed, master, not no_interruption, breaks), quiet))
 
 
-def _show(viewed: Viewed, export: Path | None, port: int | None, opens: bool, quiet: bool) -> None:
+def _output(port: int | None, opens_browser: bool, export: Path | None, quiet: bool) -> ViewOutput:
+    from mindlang.cli._terminal import refuse_unwritable
+    from mindlang.cli._view_output import ViewOutput
+
     if export:
-        _export(viewed, export, quiet)
-    else:
-        viewed.grow()
-        _serve(viewed, None, port, opens, quiet)
+        refuse_ineffective("of a page that is served, not of --export", "port", "no_browser")
+        refuse_unwritable(export, ".html")
+    return ViewOutput(port, opens_browser, export, quiet)
 
 
-def _serve_training(folder: str, seed: int | None, port: int | None, opens: bool, quiet: bool, other: bool) -> None:
+def _follow(file: str, bundle: str | None, output: ViewOutput) -> None:
+    if bundle is None:
+        raise click.UsageError("--follow is for a recording and its bundle: mindc view day.rec NAME.bundle --follow")
+    refuse_ineffective(OF_RUNS_ALONE, *OF_A_RUN, "breaks")
+    refuse_ineffective("of what has an end, not of --follow", "export")
+    from mindlang.cli._recording_view import followed_view
+
+    with followed_view(file, bundle) as viewed:
+        output.show(viewed)
+
+
+def _show_training(folder: str, seed: int | None, output: ViewOutput) -> None:
+    refuse_ineffective("of a run or a recording, not of trainings", "bundle", *OF_A_CAST, "breaks", "export")
     from mindlang.cli._training_view import training_view
 
-    if other:
-        raise click.UsageError("A training has its task, its master and its end, and is no single file to export.")
-    viewed, champions = training_view(Path(folder), seed, quiet)
-    _serve(viewed, champions, port, opens, quiet)
+    output.show(*training_view(Path(folder), seed, output.quiet))
+
+
+def _show_recording(file: str, bundle: str, output: ViewOutput) -> None:
+    refuse_ineffective(OF_RUNS_ALONE, *OF_A_RUN, "breaks")
+    from mindlang.cli._recording_view import recording_view
+
+    output.show(recording_view(file, bundle))
 
 
 def _refuse_recording(file: str) -> None:
     if file.endswith(".rec"):
         raise click.UsageError(f"A recording is seen with the bundle that was running: mindc view {file} NAME.bundle")
-
-
-def _simulated(
-    file: str,
-    task: str | None,
-    seed: int | None,
-    master: str | None,
-    interrupt: bool,
-    breaks: Path | None,
-    quiet: bool,
-) -> Viewed:
-    import secrets
-
-    from mindlang.cli._run_session import RunSession
-    from mindlang.cli._terminal import load_compiled
-    from mindlang.compiler.drawing import text_after_name
-    from mindlang.view.viewed_run import ViewedRun
-
-    compiled, session = load_compiled(file), RunSession(quiet)
-    breakpoints: tuple[Breakpoint, ...] = ()
-    setup = session.cast(file, compiled, task, master)
-    if breaks:
-        from mindlang.breakpoints.watch import noticing
-        from mindlang.cli._run_to_breakpoint import read_breakpoints
-
-        breakpoints = read_breakpoints(breaks, compiled, setup)
-        setup = noticing(setup, breakpoints)
-    rollout = session.simulator(setup, interrupt)
-    skills = compiled.mind.skills if compiled.mind else ()
-    texts = {(skill.name, edge.target): text_after_name(edge.fact) for skill in skills for edge in skill.edges}
-    return ViewedRun(setup, rollout, secrets.randbits(31) if seed is None else seed, texts, breakpoints).begun()
-
-
-def _recorded(file: str, bundle: str) -> Viewed:
-    from mindlang.cli._recordings import refusing_recordings
-    from mindlang.view.viewed_recording import viewed_recording
-
-    with refusing_recordings():
-        return viewed_recording(Path(file), Path(bundle))
-
-
-def _follow(file: str, bundle: str | None, port: int | None, opens: bool, quiet: bool) -> None:
-    from contextlib import ExitStack
-
-    from mindlang.cli._recordings import refusing_recordings
-    from mindlang.view.viewed_recording import followed_recording
-
-    if bundle is None:
-        raise click.UsageError("--follow is for a recording and its bundle: mindc view day.rec NAME.bundle --follow")
-    with ExitStack() as stack:
-        with refusing_recordings():
-            viewed = stack.enter_context(followed_recording(file, Path(bundle)))
-        _serve(viewed, None, port, opens, quiet)
-
-
-def _serve(viewed: Viewed, champions: Champions | None, port: int | None, opens: bool, quiet: bool) -> None:
-    import asyncio
-    import os
-    import sys
-
-    from mindlang.cli._terminal import MISUSE, fail, procedures_talk, talk
-    from mindlang.view.server import ViewServer
-    from mindlang.view.session import Session
-
-    out = sys.stdout
-
-    def ready(address: str) -> None:
-        click.echo(address, file=out)
-        if not quiet:
-            talk.print("Ctrl-C ends this; a browser that is closed does not.")
-        if opens:
-            _open(address)
-
-    try:
-        with procedures_talk():
-            asyncio.run(ViewServer(Session(viewed, champions), port or 0).serve(ready))
-    except OSError as error:
-        hint = "Another program has that port: leave --port out, and one that is free is taken."
-        fail(f"port {port} of this machine cannot be opened: {os.strerror(error.errno or 0)}", hint, MISUSE)
-
-
-def _export(viewed: Viewed, path: Path, quiet: bool) -> None:
-    from mindrun.errors import MindError
-
-    from mindlang.cli._run_session import RunSession
-    from mindlang.cli._terminal import MISUSE, fail, procedures_talk, write_file
-    from mindlang.view.export import exported
-    from mindlang.view.session import Session
-
-    said = RunSession(quiet)
-    with said.progress() as progress, procedures_talk():
-        bar = progress.add_task(path.name, total=viewed.about["of_ticks"])
-        while not viewed.over:
-            viewed.grow()
-            progress.update(bar, completed=viewed.known)
-    if viewed.failed:
-        fail(f"{viewed.failed}: nothing is written")
-    session = Session(viewed)
-    everything = session.ticks(0) | {"happened": viewed.happened, "stops": viewed.stops}
-    try:
-        page = exported(session.about(edits=False), everything, viewed)
-    except MindError as error:
-        fail(str(error), error.hint, MISUSE)
-    write_file(path, page.encode())
-    said.say(f"{path}: {viewed.known:,} ticks, {len(page) / 1e6:.1f} MB, opens in any browser")
-
-
-def _open(address: str) -> None:
-    """Open a browser with windows, if there is one: what runs in a terminal would take this one."""
-    import webbrowser
-    from contextlib import suppress
-    from threading import Thread
-
-    with suppress(webbrowser.Error):
-        browser = webbrowser.get()
-        if type(browser) is not webbrowser.GenericBrowser:
-            Thread(target=browser.open, args=(address,), daemon=True).start()

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import click
 
-from mindlang.cli._options import NewFile, WholeOption
+from mindlang.cli._options import OF_A_RUN, OF_RUNS_ALONE, NewFile, WholeOption, refuse_ineffective
 
 EXAMPLES = """\b
 Examples:
@@ -74,8 +74,5 @@ def command(
         played = Played(task, 1 if seed is None else seed, master, not no_interruption, picture)
         compare_runs(file, played, request, as_json, quiet)
         return
-    if any(option is not None for option in (task, seed, master, picture)) or no_interruption:
-        raise click.UsageError(
-            "--task, --seed, --master, --no-interruption and --picture are of runs, not of recordings."
-        )
+    refuse_ineffective(OF_RUNS_ALONE, *OF_A_RUN, "picture")
     compare_recorded(Path(file), bundle, request, as_json)

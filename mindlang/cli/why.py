@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import click
 
-from mindlang.cli._options import TickSpan, WholeOption
+from mindlang.cli._options import OF_A_RUN, OF_RUNS_ALONE, TickSpan, WholeOption, refuse_ineffective
 
 EXAMPLES = """\b
 Examples:
@@ -53,8 +53,7 @@ def command(
         case [file] if not file.endswith(".rec"):
             explain_run(file, task, 1 if seed is None else seed, master, not no_interruption, quiet, asked)
         case [recording, bundle]:
-            if any(option is not None for option in (task, seed, master)) or no_interruption:
-                raise click.UsageError("--task, --seed, --master and --no-interruption are of runs, not of recordings.")
+            refuse_ineffective(OF_RUNS_ALONE, *OF_A_RUN)
             explain_recording(recording, bundle, asked)
         case _:
             raise click.UsageError(

@@ -5,6 +5,7 @@ from __future__ import annotations
 import asyncio
 import hmac
 import json
+import os
 import secrets
 from asyncio import BaseTransport
 from collections.abc import Callable
@@ -12,6 +13,7 @@ from contextlib import suppress
 from dataclasses import dataclass, field
 from typing import Any
 
+from mindrun.errors import MindError
 from websockets.asyncio.server import Server, ServerConnection, serve
 from websockets.exceptions import ConnectionClosed
 from websockets.frames import CloseCode
@@ -25,6 +27,19 @@ LOOPBACK = "127.0.0.1"
 MAX_VIEWERS, MAX_CONNECTIONS = 16, 64
 MAX_QUEUED_FRAMES = 4  # of what one viewer has said and nobody has read
 OPEN_SECONDS, TOKEN_SECONDS, SEND_SECONDS, CLOSE_SECONDS = 5.0, 5.0, 10.0, 0.5
+
+
+class PortError(MindError):
+    """A port of this machine at which nothing can be served."""
+
+    @classmethod
+    def of(cls, port: int, error: OSError) -> PortError:
+        """What the system says of a port, 0 where any was asked for."""
+        why = os.strerror(error.errno or 0)
+        if not port:
+            return cls(f"no port of this machine can be opened: {why}")
+        hint = "Leave --port out, and one that is free is taken."
+        return cls(f"port {port} of this machine cannot be opened: {why}", hint)
 
 
 class BoundedConnection(ServerConnection):
@@ -75,8 +90,11 @@ class ViewServer:
         return f"http://{LOOPBACK}:{self.port}/#{self.token}"
 
     async def serve(self, ready: Callable[[str], None]) -> None:
-        """Serve until this is cancelled; OSError where the port is taken."""
-        server = await self._listening()
+        """Serve until this is cancelled; PortError where the port cannot be had."""
+        try:
+            server = await self._listening()
+        except OSError as error:
+            raise PortError.of(self.port, error) from error
         self.port = server.sockets[0].getsockname()[1]
         self._answers = HttpAnswers(self.port)
         await server.start_serving()

@@ -28,7 +28,6 @@ LONG_FILES = {
 LONG_FUNCTIONS = {
     "mindlang/cli/deploy.py: command": "a parameter in a line of its own for each option of the command",
     "mindlang/cli/train.py: command": "a parameter in a line of its own for each option of the command",
-    "mindlang/cli/whatif.py: command": "a parameter in a line of its own for each option of the command",
 }
 METAPHORS = {
     *(

@@ -147,6 +147,12 @@ def test_unknown_names_are_wrong_usage(
     assert mindc(command, rules, *options) == (2, "", f"{message}\n  {hint}\n")
 
 
+def test_the_speed_of_no_video_is_refused(mindc: Call, rules: Path) -> None:
+    said = mindc("run", rules, "--speed", 4)
+    assert (said.code, said.out) == (2, "")
+    assert "--speed is of --video: say it, too." in said.err
+
+
 def test_a_mind_without_a_task_says_so(mindc: Call, rules: Path) -> None:
     rules.write_text(RULES[: RULES.index("task ")].replace("sensor ball_bearing is bearing of ball\n", "").replace(
         "  reads ball_bearing\n  drives left_wheel at 3 * ball_bearing - 0.7\n"

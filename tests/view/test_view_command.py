@@ -1,5 +1,7 @@
 """`mindc view` from its command to its end."""
 
+import asyncio
+import errno
 import os
 import signal
 import socket
@@ -16,7 +18,10 @@ import pytest
 from websockets.sync.client import connect
 from websockets.typing import Origin
 
-from mindlang.cli import view as view_command
+from mindlang.cli._run_view import ViewChoice, run_view
+from mindlang.cli._view_output import open_browser
+from mindlang.view.server import ViewServer
+from mindlang.view.session import Session
 from tests.calling import Call
 from tests.view.serving import ANSWER_SECONDS, ViewingClient
 
@@ -63,6 +68,37 @@ def test_a_port_that_is_taken_is_said(rules: Path, mindc: Call) -> None:
     assert "--port" in said.err
 
 
+def test_an_error_that_is_no_port_s_says_nothing_about_ports(rules: Path) -> None:
+    def unready(address: str) -> None:
+        raise OSError(errno.EMFILE, "Too many open files")
+
+    viewed = run_view(str(rules), ViewChoice("Chase", 3, None, True, None), True)
+    with pytest.raises(OSError, match="Too many open files"):
+        asyncio.run(ViewServer(Session(viewed)).serve(unready))
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (["x.mind", "--export", "x.html", "--port", 8123], "--port and --no-browser are of a page that is served"),
+        (["day.rec", "ball.bundle", "--seed", 3], "and --break are of runs, not of recordings."),
+        (["day.rec", "ball.bundle", "--follow", "--master", "Go"], "and --break are of runs, not of recordings."),
+        (["day.rec", "ball.bundle", "--follow", "--export", "x.html"], "--export is of what has an end"),
+        (["x.mind", "--follow"], "--follow is for a recording and its bundle"),
+        ([".", "--export", "x.html"], "--break and --export are of a run or a recording, not of trainings."),
+        ([".", "ball.bundle"], "BUNDLE, --task, --master, --no-interruption, --break and --export are of a run"),
+    ],
+)
+def test_an_option_of_which_nothing_would_come_is_refused(
+    mindc: Call, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, words: list[object], said: str
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    found = mindc("view", *words)
+    assert (found.code, found.out) == (2, "")
+    assert said in found.err
+    assert not (tmp_path / "x.html").exists()
+
+
 @pytest.mark.parametrize("port", [0, -1, 65536, "http"])
 def test_what_is_no_port_is_refused(rules: Path, mindc: Call, port: object) -> None:
     assert mindc("view", rules, "--port", port).code == 2
@@ -79,21 +115,21 @@ def test_a_browser_with_windows_is_opened_and_no_other(monkeypatch: pytest.Monke
             return True
 
     monkeypatch.setattr(webbrowser, "get", Windows)
-    view_command._open("http://127.0.0.1:1/#token")
+    open_browser("http://127.0.0.1:1/#token")
     assert done.wait(ANSWER_SECONDS)
     monkeypatch.setattr(webbrowser, "get", lambda: webbrowser.GenericBrowser("true"))
-    view_command._open("http://127.0.0.1:2/#token")
+    open_browser("http://127.0.0.1:2/#token")
 
     def none() -> None:
         raise webbrowser.Error("there is none")
 
     monkeypatch.setattr(webbrowser, "get", none)
-    view_command._open("http://127.0.0.1:3/#token")
+    open_browser("http://127.0.0.1:3/#token")
     assert opened == ["http://127.0.0.1:1/#token"]
 
 
 def test_what_edges_say_is_told(rules: Path) -> None:
-    viewed = view_command._simulated(str(rules), "Chase", 3, None, True, None, True)
+    viewed = run_view(str(rules), ViewChoice("Chase", 3, None, True, None), True)
     texts = {edge["text"] for edge in viewed.about["edges"]}
     assert {"at 1", "at 0.2", "at 3 * ball_bearing - 0.7"} <= texts
 
@@ -101,7 +137,7 @@ def test_what_edges_say_is_told(rules: Path) -> None:
 def test_breakpoints_of_a_file_stop_the_run(rules: Path, mindc: Call) -> None:
     breaks = rules.with_name("chase.break")
     breaks.write_text("stop on 2 reach of ball\nstop in tick 9\n")
-    viewed = view_command._simulated(str(rules), "Chase", 3, None, True, breaks, True)
+    viewed = run_view(str(rules), ViewChoice("Chase", 3, None, True, breaks), True)
     while not viewed.over:
         viewed.grow()
     reached = [tick for tick, event in viewed.happened if viewed.about["events"][event]["kind"] == "reach"]
