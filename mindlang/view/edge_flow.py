@@ -10,10 +10,10 @@ from mindrun.think import Hierarchy, Ready, values
 from numpy.typing import NDArray
 
 from mindlang.run.edge_flow import transmitted
-from mindlang.view.row_blocks import Singles, Ticks
+from mindlang.view.row_blocks import Singles, TickNumbers
 
 Sent = tuple[np.float32 | None, ...]
-Rows = Callable[[Ticks], tuple[Singles, Singles]]  # the readings and the influence of ticks
+Rows = Callable[[TickNumbers], tuple[Singles, Singles]]  # the readings and the influence of ticks
 REPLAYED_TICKS = 1024  # that a skill with a memory is computed through at once
 
 
@@ -31,7 +31,7 @@ class EdgeFlow:
         }
         self.edges = sum(len(skill.edges) for skill in hierarchy.skills)
 
-    def at(self, ticks: Ticks) -> Singles:
+    def at(self, ticks: TickNumbers) -> Singles:
         """What each edge transmits [ticks, edges], 0 to 1; tick 0 is the beginning, when nothing flows."""
         found = np.zeros((len(ticks), self.edges), np.float32)
         readings, influence = self._rows(ticks)
@@ -60,7 +60,7 @@ class EdgeFlow:
             self._replay(skill, kept, np.arange(len(kept), min(tick + 1, len(kept) + REPLAYED_TICKS)))
         return kept[tick]
 
-    def _replay(self, skill: Ready, kept: list[Sent], ticks: Ticks) -> None:
+    def _replay(self, skill: Ready, kept: list[Sent], ticks: TickNumbers) -> None:
         """Go on with a function that remembers: like the engine, it computes only where it is influenced."""
         for tick, readings, influence in zip(ticks.tolist(), *self._rows(ticks), strict=True):
             if tick in self._begins and isinstance(skill.compute, Stateful):

@@ -6,7 +6,7 @@ import struct
 
 import numpy as np
 
-from mindlang.view.row_blocks import Doubles, Singles, Ticks
+from mindlang.view.row_blocks import Doubles, Singles, TickNumbers
 
 HEADER = struct.Struct("<6I")
 ROWS_KIND, COLUMNS_KIND = 1, 2
@@ -32,7 +32,7 @@ def columns_frame(fork: int, ask: int, first: int, every: int, values: Doubles) 
     return header + values.astype("<f8").tobytes(order="F")
 
 
-def unpacked(data: bytes, doubles: int, singles: int) -> tuple[int, int, Ticks, Doubles, Singles]:
+def unpacked(data: bytes, doubles: int, singles: int) -> tuple[int, int, TickNumbers, Doubles, Singles]:
     """The fork, what was asked, the ticks and both blocks of a frame of rows; ValueError where it is none."""
     if len(data) < HEADER.size or HEADER.unpack_from(data)[0] != ROWS_KIND:
         raise ValueError("this is no frame of rows")

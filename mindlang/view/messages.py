@@ -90,43 +90,62 @@ class PlayChampion:
 Message = AskRows | AskColumns | Run | Why | Change | PlayChampion
 
 
-def message(text: str) -> Message:
-    """The message in a text; RefusedError where it is none."""
+Plain = Mapping[str, Any]
+
+
+def plain_message(text: str) -> Plain:
+    """The object in a text; RefusedError where it is none."""
     try:
         plain = parsed(text, MAX_MESSAGE_BYTES)
     except ValueError as error:
         raise RefusedError(f"this is no JSON: {error}") from error
     if not isinstance(plain, dict):
         raise RefusedError("a message is an object")
-    read = READERS.get(says) if isinstance(says := plain.pop("say", None), str) else None
-    if read is None:
+    return plain
+
+
+def message(plain: Plain) -> Message:
+    """The message that an object is; RefusedError where it is none."""
+    says = _kind(plain)
+    if says is None:
         raise RefusedError(f"a message says one of: {', '.join(READERS)}")
-    found = read(plain)
-    if plain.keys() - KEYS[says]:
+    found = READERS[says](plain)
+    if plain.keys() - KEYS[says] - {"say"}:
         raise RefusedError(f"{says} knows only: {', '.join(sorted(KEYS[says]))}")
     return found
 
 
-def _rows(plain: Mapping[str, Any]) -> AskRows:
+def refusal(plain: Plain, why: str) -> dict[str, Any]:
+    """What is said instead of an answer: to which kind of message, and to which question, where it has said so."""
+    ask = plain.get("ask")
+    return {"say": "refused", "why": why, "of": _kind(plain), "ask": ask if is_whole(ask, 0, MAX_NUMBER) else None}
+
+
+def _kind(plain: Plain) -> str | None:
+    says = plain.get("say")
+    return says if isinstance(says, str) and says in READERS else None
+
+
+def _rows(plain: Plain) -> AskRows:
     return AskRows(_fork(plain), *_span(plain))
 
 
-def _columns(plain: Mapping[str, Any]) -> AskColumns:
+def _columns(plain: Plain) -> AskColumns:
     columns = plain.get("columns")
     if not isinstance(columns, list) or not 0 < len(columns) <= MAX_COLUMNS:
         raise RefusedError(f"columns is a list of 1 to {MAX_COLUMNS}")
     return AskColumns(_fork(plain), tuple(map(_column, columns)), *_span(plain))
 
 
-def _run(plain: Mapping[str, Any]) -> Run:
+def _run(plain: Plain) -> Run:
     return Run(_fork(plain), _whole(plain, "to"))
 
 
-def _why(plain: Mapping[str, Any]) -> Why:
+def _why(plain: Plain) -> Why:
     return Why(_fork(plain), _whole(plain, "tick", 1), _whole(plain, "actuator"))
 
 
-def _change(plain: Mapping[str, Any]) -> Change:
+def _change(plain: Plain) -> Change:
     what, value = plain.get("what"), plain.get("value")
     if what not in REPLACED:
         raise RefusedError(f"what is one of: {', '.join(REPLACED)}")
@@ -136,7 +155,7 @@ def _change(plain: Mapping[str, Any]) -> Change:
     return Change(_fork(plain), _whole(plain, "tick", 1), what, _column(plain.get("column")), float(value), lasts)
 
 
-def _champion(plain: Mapping[str, Any]) -> PlayChampion:
+def _champion(plain: Plain) -> PlayChampion:
     seed = plain.get("seed")
     if seed is not None and not (isinstance(seed, str) and SEED.fullmatch(seed) and int(seed) <= MAX_SEED):
         raise RefusedError(f"seed is a whole number from 0 to {MAX_SEED}, as text")
@@ -144,11 +163,11 @@ def _champion(plain: Mapping[str, Any]) -> PlayChampion:
     return PlayChampion(*numbers, None if seed is None else int(seed))
 
 
-def _fork(plain: Mapping[str, Any]) -> int:
+def _fork(plain: Plain) -> int:
     return _whole(plain, "fork", 0, MAX_FORKS, default=0)
 
 
-def _span(plain: Mapping[str, Any]) -> tuple[int, int, int, int]:
+def _span(plain: Plain) -> tuple[int, int, int, int]:
     """From, to, every and what is asked."""
     first, below = _whole(plain, "from"), _whole(plain, "to")
     return first, below, _whole(plain, "every", 1, default=1), _whole(plain, "ask", default=0)
@@ -161,7 +180,7 @@ def _column(plain: object) -> tuple[int, int]:
     raise RefusedError("a column is a block, 0 or 1, and a number")
 
 
-def _whole(plain: Mapping[str, Any], key: str, low: int = 0, high: int = MAX_NUMBER, default: int | None = None) -> int:
+def _whole(plain: Plain, key: str, low: int = 0, high: int = MAX_NUMBER, default: int | None = None) -> int:
     value = plain.get(key, default)
     if not is_whole(value, low, high):
         raise RefusedError(f"{key} is a whole number from {low} to {high}")
@@ -177,7 +196,7 @@ KEYS: Mapping[str, set[str]] = {
     "change": {"fork", "tick", "what", "column", "value", "lasts"},
     "champion": {"run", "attempt", "generation", "seed"},
 }
-READERS: Mapping[str, Callable[[Mapping[str, Any]], Message]] = {
+READERS: Mapping[str, Callable[[Plain], Message]] = {
     "rows": _rows,
     "columns": _columns,
     "run": _run,

@@ -2,15 +2,18 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field
+from itertools import pairwise
+from typing import TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
 Doubles = NDArray[np.float64]
 Singles = NDArray[np.float32]
-Ticks = NDArray[np.int64]
-
+TickNumbers = NDArray[np.int64]
+Number = TypeVar("Number", np.float64, np.float32)
 
 MERGED_ROWS = 256
 
@@ -57,22 +60,27 @@ class RowBlocks:
         self.kept_bytes += chunk.doubles.nbytes + chunk.singles.nbytes
         self.rows += len(chunk.doubles)
 
-    def ticks(self, first: int, below: int, every: int, most: int) -> Ticks:
+    def ticks(self, first: int, below: int, every: int, most: int) -> TickNumbers:
         """The ticks first, first + every … that are below `below` and known, and of these no more than `most`."""
         return np.arange(first, min(below, self.rows, first + every * most), every, dtype=np.int64)
 
-    def doubles(self, ticks: Ticks) -> Doubles:
-        """The doubles [ticks, columns] of ticks in rising order."""
-        parts = [self.chunks[chunk].doubles[rows] for chunk, rows in self._places(ticks)]
-        return np.concatenate(parts) if parts else self.chunks[0].doubles[:0]
+    def doubles(self, ticks: TickNumbers, columns: Sequence[int] | None = None) -> Doubles:
+        """The doubles [ticks, columns] of ticks in rising order; of `columns` alone, or of all."""
+        parts = [_part(self.chunks[chunk].doubles, rows, columns) for chunk, rows in self._places(ticks)]
+        return np.concatenate(parts) if parts else _part(self.chunks[0].doubles, ticks, columns)
 
-    def singles(self, ticks: Ticks) -> Singles:
-        """The singles [ticks, columns] that are kept, of ticks in rising order."""
-        parts = [self.chunks[chunk].singles[rows] for chunk, rows in self._places(ticks)]
-        return np.concatenate(parts) if parts else self.chunks[0].singles[:0]
+    def singles(self, ticks: TickNumbers, columns: Sequence[int] | None = None) -> Singles:
+        """The singles [ticks, columns] that are kept, in the same way."""
+        parts = [_part(self.chunks[chunk].singles, rows, columns) for chunk, rows in self._places(ticks)]
+        return np.concatenate(parts) if parts else _part(self.chunks[0].singles, ticks, columns)
 
-    def _places(self, ticks: Ticks) -> list[tuple[int, Ticks]]:
+    def _places(self, ticks: TickNumbers) -> list[tuple[int, TickNumbers]]:
         """For each chunk with some of the ticks: its number, and their rows in it."""
         firsts = np.array(self.firsts)
         of_chunk = np.searchsorted(firsts, ticks, side="right") - 1
-        return [(int(chunk), ticks[of_chunk == chunk] - firsts[chunk]) for chunk in np.unique(of_chunk)]
+        bounds = np.flatnonzero(np.diff(of_chunk, prepend=-1, append=len(firsts)))
+        return [(of_chunk[row], ticks[row:below] - firsts[of_chunk[row]]) for row, below in pairwise(bounds.tolist())]
+
+
+def _part(block: NDArray[Number], rows: TickNumbers, columns: Sequence[int] | None) -> NDArray[Number]:
+    return block[rows] if columns is None else block[np.ix_(rows, columns)]

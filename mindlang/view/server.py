@@ -20,7 +20,7 @@ from websockets.frames import CloseCode
 
 from mindlang.view.http_answers import HttpAnswers
 from mindlang.view.learning import MAX_GENERATIONS
-from mindlang.view.messages import MAX_MESSAGE_BYTES, RefusedError, message
+from mindlang.view.messages import MAX_MESSAGE_BYTES, Plain, RefusedError, message, plain_message, refusal
 from mindlang.view.session import MAX_HAPPENED, Session
 
 LOOPBACK = "127.0.0.1"
@@ -154,13 +154,12 @@ class ViewServer:
     async def _listen(self, viewer: Viewer) -> None:
         """Answer one message after the other."""
         async for text in viewer.connection:
-            ask = None
+            asked: Plain = {}
             try:
-                asked = message(_as_text(text))
-                ask = getattr(asked, "ask", None)
-                answer = await self._session.answer(asked, viewer.edits)
+                asked = plain_message(_as_text(text))
+                answer = await self._session.answer(message(asked), viewer.edits)
             except RefusedError as error:
-                answer = {"say": "refused", "why": str(error), "ask": ask}
+                answer = refusal(asked, str(error))
             if answer is not None:
                 await viewer.send(answer)
 

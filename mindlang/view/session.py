@@ -159,7 +159,8 @@ class Session:
     async def _grow(self, fork: int) -> None:
         viewed, loop = self.forks[fork], asyncio.get_running_loop()
         while not viewed.over and viewed.known < self._wanted[fork]:
-            await loop.run_in_executor(self._grower, viewed.grow)
+            elsewhere = sum(each.blocks.kept_bytes for each in self.forks if each is not viewed)
+            await loop.run_in_executor(self._grower, viewed.grow, elsewhere)
             self.changed()
 
 

@@ -18,12 +18,12 @@ from mindlang.view.columns import DOUBLE_BLOCK, FLOW, SINGLE_BLOCK, Columns
 from mindlang.view.edge_flow import EdgeFlow
 from mindlang.view.frames import columns_frame, rows_frame, rows_that_fit
 from mindlang.view.messages import Change, RefusedError
-from mindlang.view.row_blocks import Chunk, RowBlocks, Singles, Ticks
+from mindlang.view.row_blocks import Chunk, Doubles, RowBlocks, Singles, TickNumbers
 from mindlang.view.texts import shown
 
 FLOW_ROWS = 1024  # of a curve of what an edge transmits
 MAX_COMPUTED_EDGES = 200_000  # in one answer, so that nobody waits long for another's
-MAX_KEPT_BYTES = 2 << 30  # of rows
+MAX_KEPT_BYTES = 2 << 30  # of rows, of a run and of all that are beside it
 
 Answer = dict[str, Any]
 
@@ -81,10 +81,16 @@ class Viewed:
         """The last tick that can be asked for."""
         return self.blocks.rows - 1
 
-    def grow(self) -> None:
-        """One chunk more; where a procedure fails, or memory ends, the run is over and `failed` says why."""
-        if self.blocks.kept_bytes > MAX_KEPT_BYTES:
-            self.failed, self.over = f"more than {MAX_KEPT_BYTES >> 30} GiB of rows are not kept", True
+    def grow(self, bytes_elsewhere: int = 0) -> None:
+        """One chunk more; where a procedure fails, or memory ends, the run is over and `failed` says why.
+
+        `bytes_elsewhere` are those of other runs, whose rows are kept at the same time.
+        """
+        if bytes_elsewhere + self.blocks.kept_bytes > MAX_KEPT_BYTES:
+            self.failed, self.over = (
+                f"more than {MAX_KEPT_BYTES >> 30} GiB of rows, of a run and its forks together, are not kept",
+                True,
+            )
             return
         try:
             chunk = next(self.chunks, None)
@@ -117,21 +123,33 @@ class Viewed:
         flows = any(block == SINGLE_BLOCK and index >= self.columns.kept_singles for block, index in asked)
         most = rows_that_fit(len(asked), 0)
         ticks = self.blocks.ticks(first, below, every, min(most, FLOW_ROWS, self._computed_rows) if flows else most)
-        blocks = self.blocks.doubles(ticks), self.singles(ticks) if flows else self.blocks.singles(ticks)
-        values = np.column_stack([blocks[block][:, index].astype(np.float64) for block, index in asked])
-        return columns_frame(fork, ask, first, every, values)
+        return columns_frame(fork, ask, first, every, self._asked(asked, ticks))
 
-    def singles(self, ticks: Ticks) -> Singles:
+    def _asked(self, asked: Sequence[tuple[int, int]], ticks: TickNumbers) -> Doubles:
+        """Columns [ticks, asked] as doubles; nothing else is gathered."""
+        kept = self.columns.kept_singles
+        found = np.empty((len(ticks), len(asked)))
+        blocks, indices = np.array(asked).T
+        for chosen, read in (
+            (blocks == DOUBLE_BLOCK, lambda columns: self.blocks.doubles(ticks, columns)),
+            ((blocks == SINGLE_BLOCK) & (indices < kept), lambda columns: self.blocks.singles(ticks, columns)),
+            ((blocks == SINGLE_BLOCK) & (indices >= kept), lambda columns: self._flow().at(ticks)[:, columns - kept]),
+        ):
+            if chosen.any():
+                found[:, chosen] = read(indices[chosen])
+        return found
+
+    def singles(self, ticks: TickNumbers) -> Singles:
         """The singles [ticks, columns] with what each edge transmits."""
         kept = self.blocks.singles(ticks)
         return np.concatenate([kept, self._flow().at(ticks)], axis=1) if FLOW in self.columns.groups else kept
 
-    def group(self, name: str, ticks: Ticks) -> NDArray[Any]:
+    def group(self, name: str, ticks: TickNumbers) -> NDArray[Any]:
         """The columns [ticks, count] of a group that is kept."""
         group = self.columns[name]
+        columns = range(group.first, group.first + group.count)
         is_double = group.block == DOUBLE_BLOCK
-        rows: NDArray[Any] = self.blocks.doubles(ticks) if is_double else self.blocks.singles(ticks)
-        return rows[:, group.first : group.first + group.count]
+        return self.blocks.doubles(ticks, columns) if is_double else self.blocks.singles(ticks, columns)
 
     @property
     def _computed_rows(self) -> int:
@@ -139,7 +157,7 @@ class Viewed:
         return max(1, MAX_COMPUTED_EDGES // max(1, self.mind.edges))
 
     def _flow(self) -> EdgeFlow:
-        def rows(ticks: Ticks) -> tuple[Singles, Singles]:
+        def rows(ticks: TickNumbers) -> tuple[Singles, Singles]:
             return self.group("readings", ticks), self.group("influence", ticks)
 
         self._edges = self._edges or EdgeFlow(self.mind.hierarchy, rows, self.mind.begins)

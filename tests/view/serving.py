@@ -111,10 +111,10 @@ class ViewingClient:
 
 
 @contextmanager
-def served(viewed: Viewed, champions: Champions | None = None) -> Iterator[Served]:
-    """A view served until the block ends."""
+def served(viewed: Viewed, champions: Champions | None = None, session: Session | None = None) -> Iterator[Served]:
+    """A view served until the block ends, in a session of its own where none is given."""
     loop, listening = asyncio.new_event_loop(), Event()
-    server = ViewServer(Session(viewed, champions))
+    server = ViewServer(session or Session(viewed, champions))
 
     def ready(address: str) -> None:
         listening.set()

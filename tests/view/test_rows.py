@@ -3,10 +3,13 @@
 from pathlib import Path
 
 import numpy as np
+from hypothesis import given
+from hypothesis import strategies as st
 
 from mindlang.pictures.influence_flow import Flow
 from mindlang.run.recorded_run import record_run
 from mindlang.view.frames import unpacked
+from mindlang.view.row_blocks import Chunk, RowBlocks
 from tests.view.serving import Served, prepared
 
 
@@ -34,3 +37,19 @@ def test_rows_are_the_run(view: Served, path: Path) -> None:
         assert not group(name)[0].any()
     assert group("rewards")[1:].tobytes() == run.lines[ticks[1:] - 1].tobytes()
     assert np.array_equal(group("flow")[1:], np.float32([[f.transmitted for f in flow.at(t)] for t in ticks[1:]]))
+
+
+@given(st.lists(st.integers(1, 300), min_size=1, max_size=12), st.data())
+def test_rows_of_any_parts_are_those_of_the_whole(lengths: list[int], data: st.DataObject) -> None:
+    whole = np.arange(sum(lengths) * 3, dtype=np.float64).reshape(-1, 3)
+    blocks, first = RowBlocks(), 0
+    for length in lengths:
+        part = whole[first : first + length]
+        blocks.append(Chunk(part, part.astype(np.float32)))
+        first += length
+    drawn = data.draw(st.tuples(*[st.integers(0, first)] * 2, st.integers(1, 40), st.integers(1, 500)))
+    ticks = blocks.ticks(*drawn)
+    columns = data.draw(st.lists(st.integers(0, 2), min_size=1))
+    assert np.array_equal(blocks.doubles(ticks), whole[ticks])
+    assert np.array_equal(blocks.doubles(ticks, columns), whole[ticks][:, columns])
+    assert np.array_equal(blocks.singles(ticks, columns), whole[ticks][:, columns])

@@ -203,6 +203,42 @@ def test_forks_are_bounded(path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
         assert "forks" in viewer.hear("refused")["why"]
 
 
+def test_rows_are_bounded_over_a_run_and_its_forks(path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A fork as long as the run is more than may be kept, though neither is by itself."""
+    viewed = simulated(path)
+    while not viewed.over:
+        viewed.grow()
+    limit = viewed.blocks.kept_bytes * 5 // 4
+    monkeypatch.setattr("mindlang.view.viewed.MAX_KEPT_BYTES", limit)
+    session = Session(viewed)
+    with served(viewed, session=session) as view, view.viewer() as viewer:
+        assert viewer.hear("ticks")["failed"] is None
+        viewer.say(**CHANGE, column=viewed.about["nodes"][0]["columns"][0])
+        told = viewer.run(1200, fork=viewer.hear("fork")["fork"])
+    assert told["failed"].endswith("GiB of rows, of a run and its forks together, are not kept")
+    assert 0 < told["known"] < 1200
+    first, fork = session.forks
+    assert limit < first.blocks.kept_bytes + fork.blocks.kept_bytes < 2 * first.blocks.kept_bytes
+
+
+@pytest.mark.parametrize(
+    ("asked", "of", "ask"),
+    [
+        ({"say": "rows", "from": 0, "to": 5, "fork": 9, "ask": 7}, "rows", 7),
+        ({"say": "columns", "columns": [[0, 999]], "from": 0, "to": 5, "ask": 8}, "columns", 8),
+        ({"say": "columns", "columns": [], "from": 0, "to": 5, "ask": 9}, "columns", 9),
+        ({"say": "why", "tick": 99_999, "actuator": 0}, "why", None),
+        ({"say": "rows", "from": 0, "to": 5, "ask": -1}, "rows", None),
+        ({"say": "nothing", "ask": "x"}, None, None),
+    ],
+)
+def test_a_refusal_says_which_question_it_answers(view: Served, asked: Any, of: str | None, ask: int | None) -> None:
+    with view.viewer() as viewer:
+        viewer.say(**asked)
+        refused = viewer.hear("refused")
+    assert (refused["of"], refused["ask"]) == (of, ask)
+
+
 def test_hostile_texts_are_spelt_out_and_short(path: Path) -> None:
     viewed = simulated(path)
     viewed.about = {**viewed.about, "title": "<img src=x onerror=alert(1)>"}
