@@ -83,4 +83,4 @@ class RowBlocks:
 
 
 def _part(block: NDArray[Number], rows: TickNumbers, columns: Sequence[int] | None) -> NDArray[Number]:
-    return block[rows] if columns is None else block[np.ix_(rows, columns)]
+    return block[rows] if columns is None else block[rows[:, None], np.asarray(columns)]

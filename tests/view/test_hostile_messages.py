@@ -126,4 +126,4 @@ def test_a_message_that_is_none_is_refused(view: Served, said: str | bytes) -> N
     with view.viewer() as viewer:
         viewer.hear("about")
         viewer.connection.send(said)
-        assert set(viewer.hear("refused")) == {"say", "why", "ask"}
+        assert set(viewer.hear("refused")) == {"say", "why", "of", "ask"}
