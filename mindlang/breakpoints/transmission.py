@@ -1,8 +1,9 @@
 """With what weight a skill counts in what it influences or drives, computed by the engine's own functions."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Container, Iterator, Sequence
 
 import numpy as np
+from mindrun.functions.function import Stateful
 from mindrun.think import Hierarchy, Ready, values
 from numpy.typing import NDArray
 
@@ -23,17 +24,27 @@ class Transmissions:
             skill for skill in mind.skills if not sinks.isdisjoint((edge.drives, edge.to) for edge in skill.edges)
         ]
 
-    def feed(self, readings: NDArray[np.float32], influence: NDArray[np.float32]) -> NDArray[np.float64]:
+    def feed(
+        self, readings: NDArray[np.float32], influence: NDArray[np.float32], begins: Container[int] = ()
+    ) -> NDArray[np.float64]:
         """The weights [transmissions, rows] over the next readings [rows, width] and influence [rows, skills].
 
         Toward a skill that is the influence sent to it, a summand of Eq. 2; toward what is driven, the share of the
-        influence that arrives there, a weight of the mean of Eq. 3. 0 where a skill transmits nothing.
+        influence that arrives there, a weight of the mean of Eq. 3. 0 where a skill transmits nothing. In the rows of
+        `begins` the mind was begun anew.
         """
         found = np.zeros((len(self._asked), len(readings)))
         with np.errstate(all="ignore"):
             for row in range(len(readings) if self._asked else 0):
+                if row in begins:
+                    self._begin()
                 found[:, row] = self._weights(readings[row], influence[row])
         return found
+
+    def _begin(self) -> None:
+        for skill in self._senders:
+            if isinstance(skill.compute, Stateful):
+                skill.compute.reset()
 
     def _weights(self, readings: NDArray[np.float32], influence: NDArray[np.float32]) -> list[float]:
         sent: dict[tuple[int, Sink], np.float32] = {}

@@ -1,6 +1,6 @@
 """Where breakpoints stop a run, found in its rows; they may be fed as they come, in parts of any size."""
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Container, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import chain
 from operator import neg
@@ -96,12 +96,16 @@ class Watcher:
         self._asked = tuple(dict.fromkeys(asked))
         self._transmissions = Transmissions(self._asked, mind, actuators)
 
-    def feed(self, rows: Rows) -> list[Stop]:
-        """All stops in the rows that follow those of before, in the order of their ticks and then of their lines."""
-        weights = dict(zip(self._asked, self._transmissions.feed(rows.readings, rows.influence), strict=True))
-        found = [stop for place in range(len(self._breakpoints)) for stop in self._stops(place, rows, weights)]
+    def feed(self, rows: Rows, begins: Container[int] = ()) -> list[Stop]:
+        """All stops in the rows that follow those of before, in the order of their ticks and then of their lines.
+
+        In the rows of `begins`, counted from 0 among these, the mind was begun anew.
+        """
+        found = self._transmissions.feed(rows.readings, rows.influence, begins)
+        weights = dict(zip(self._asked, found, strict=True))
+        stops = [stop for place in range(len(self._breakpoints)) for stop in self._stops(place, rows, weights)]
         self.ticks += len(rows.readings)
-        return sorted(found, key=lambda stop: stop.tick)
+        return sorted(stops, key=lambda stop: stop.tick)
 
     def _stops(self, place: int, rows: Rows, weights: Measured) -> list[Stop]:
         each = self._breakpoints[place]

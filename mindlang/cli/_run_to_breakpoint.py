@@ -6,18 +6,13 @@ import sys
 from pathlib import Path
 from typing import NoReturn
 
-from mindlang.breakpoints.breakpoint import Breakpoint
-from mindlang.breakpoints.file import load_breakpoints
 from mindlang.breakpoints.report import stop_summary, stopped_data
-from mindlang.breakpoints.subject import Subject
 from mindlang.breakpoints.watch import noticing, watcher
-from mindlang.cli._diagnostic_printer import print_report
+from mindlang.cli._breakpoint_file import breakpoints_of_run
 from mindlang.cli._run_files import RunFiles
 from mindlang.cli._run_session import RunChoice, RunSession
-from mindlang.cli._terminal import FINDINGS, MISUSE, OK, console, load_compiled, print_json, procedures_talk
-from mindlang.compiler.compile import Compiled
+from mindlang.cli._terminal import FINDINGS, OK, console, load_compiled, print_json, procedures_talk
 from mindlang.run import outcome
-from mindlang.run.setup import RunSetup
 from mindlang.run.summary import run_summary
 
 
@@ -27,7 +22,7 @@ def run_to_breakpoint(
     """Run until a line of the file at `path` stops it, print where and what has come of it, and end the program."""
     compiled = load_compiled(file)
     cast = session.cast(file, compiled, chosen.task, chosen.master)
-    breakpoints = read_breakpoints(path, compiled, cast)
+    breakpoints = breakpoints_of_run(path, compiled, cast)
     setup = noticing(cast, breakpoints)
     rollout = session.simulator(setup, chosen.interrupt)
     run = session.record(setup, rollout, chosen.seed)
@@ -46,14 +41,3 @@ def run_to_breakpoint(
         console().print(stop_summary(stopped), run_summary(found), sep="\n")
     files.write(session, run, found)
     sys.exit(FINDINGS if stopped else OK)
-
-
-def read_breakpoints(path: Path, compiled: Compiled, setup: RunSetup) -> tuple[Breakpoint, ...]:
-    """The breakpoints of a file; a mistake in it ends the program."""
-    if compiled.mind is None:
-        sys.exit(FINDINGS)  # its report has been printed
-    found = load_breakpoints(path, Subject(compiled.mind.names, setup.ready.policy.graph, setup.master, setup.task))
-    print_report(found.diagnostics, console(stderr=True))
-    if found.diagnostics:
-        sys.exit(FINDINGS if all(each.span for each in found.diagnostics) else MISUSE)
-    return found.breakpoints

@@ -5,8 +5,8 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from mindlang.breakpoints.watch import noticing
+from mindlang.cli._breakpoint_file import breakpoints_of_run
 from mindlang.cli._run_session import RunSession
-from mindlang.cli._run_to_breakpoint import read_breakpoints
 from mindlang.cli._terminal import load_compiled
 from mindlang.compiler.drawing import text_after_name
 from mindlang.view.viewed import Viewed
@@ -28,7 +28,7 @@ def run_view(file: str, chosen: ViewChoice, quiet: bool) -> Viewed:
     """The run at its beginning; what cannot be run ends the program with one message."""
     compiled, session = load_compiled(file), RunSession(quiet)
     setup = session.cast(file, compiled, chosen.task, chosen.master)
-    breakpoints = read_breakpoints(chosen.breaks, compiled, setup) if chosen.breaks else ()
+    breakpoints = breakpoints_of_run(chosen.breaks, compiled, setup) if chosen.breaks else ()
     setup = noticing(setup, breakpoints)
     rollout = session.simulator(setup, chosen.interrupt)
     skills = compiled.mind.skills if compiled.mind else ()

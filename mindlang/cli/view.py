@@ -19,6 +19,7 @@ Examples:
   mindc view day.rec ball.bundle                 what a robot has recorded
   mindc view collect.mind --task Collect --break collect.break
   mindc view day.rec ball.bundle --follow        and what it still records
+  mindc view day.rec ball.bundle --break day.break   pauses where the robot had to stop, say
   mindc view robot.local:day.rec ball.bundle --follow    through ssh
   mindc view runs/                               what is being learnt, and champions of any generation
   mindc view collect.mind --task Avoid --no-interruption --port 8123 --no-browser
@@ -68,11 +69,11 @@ def command(
     """
     output = _output(port, not no_browser, export, quiet)
     if follow:
-        _follow(file, bundle, output)
+        _follow(file, bundle, breaks, output)
     elif Path(file).is_dir():
         _show_training(file, seed, output)
     elif bundle:
-        _show_recording(file, bundle, output)
+        _show_recording(file, bundle, breaks, output)
     else:
         from mindlang.cli._run_view import ViewChoice, run_view
 
@@ -90,14 +91,14 @@ def _output(port: int | None, opens_browser: bool, export: Path | None, quiet: b
     return ViewOutput(port, opens_browser, export, quiet)
 
 
-def _follow(file: str, bundle: str | None, output: ViewOutput) -> None:
+def _follow(file: str, bundle: str | None, breaks: Path | None, output: ViewOutput) -> None:
     if bundle is None:
         raise click.UsageError("--follow is for a recording and its bundle: mindc view day.rec NAME.bundle --follow")
-    refuse_ineffective(OF_RUNS_ALONE, *OF_A_RUN, "breaks")
+    refuse_ineffective(OF_RUNS_ALONE, *OF_A_RUN)
     refuse_ineffective("of what has an end, not of --follow", "export")
     from mindlang.cli._recording_view import followed_view
 
-    with followed_view(file, bundle) as viewed:
+    with followed_view(file, bundle, breaks) as viewed:
         output.show(viewed)
 
 
@@ -108,11 +109,11 @@ def _show_training(folder: str, seed: int | None, output: ViewOutput) -> None:
     output.show(*training_view(Path(folder), seed, output.quiet))
 
 
-def _show_recording(file: str, bundle: str, output: ViewOutput) -> None:
-    refuse_ineffective(OF_RUNS_ALONE, *OF_A_RUN, "breaks")
+def _show_recording(file: str, bundle: str, breaks: Path | None, output: ViewOutput) -> None:
+    refuse_ineffective(OF_RUNS_ALONE, *OF_A_RUN)
     from mindlang.cli._recording_view import recording_view
 
-    output.show(recording_view(file, bundle))
+    output.show(recording_view(file, bundle, breaks))
 
 
 def _refuse_recording(file: str) -> None:

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from mindrun.bundle import Bundle, digest, read_bundle
@@ -20,33 +20,40 @@ from mindlang.view.about_hierarchy import HierarchyData
 from mindlang.view.columns import FLOW, Columns
 from mindlang.view.growing_bytes import growing_bytes
 from mindlang.view.row_blocks import Chunk, Singles
+from mindlang.view.stop_texts import stop_texts
 from mindlang.view.texts import shown
 from mindlang.view.viewed import SeenMind, Viewed
+
+if TYPE_CHECKING:
+    from mindlang.breakpoints.recorded import RecordingWatcher
 
 CHUNK_TICKS = 1000
 BEGIN_COLUMN = 1  # of the events: stopped, began anew, and a fault of each sensor
 Rows = NDArray[Any]
+Watching = Callable[[About, Bundle], "RecordingWatcher"]
 Filled = tuple[Rows, Singles]  # rows, and their readings with those that a robot computes
 
 
-def viewed_recording(path: Path, bundle: Path) -> Viewed:
+def viewed_recording(path: Path, bundle: Path, watching: Watching | None = None) -> Viewed:
     """A recording and the bundle that was running; MindError where one cannot be read, or they do not fit.
 
-    Runs the Python code of the bundle's procedures.
+    `watching` makes what finds its stops. Runs the Python code of the bundle's procedures.
     """
     of, parts = read(path)
-    return viewed_rows(path, of, parts, bundle, _row_count(path, of))
+    return viewed_rows(path, of, parts, bundle, _row_count(path, of), watching)
 
 
 @contextmanager
-def followed_recording(name: str, bundle: Path) -> Iterator[Viewed]:
+def followed_recording(name: str, bundle: Path, watching: Watching | None = None) -> Iterator[Viewed]:
     """A recording that still grows, of this machine or as HOST:PATH, and the bundle that is running; as above."""
     with growing_bytes(name) as parts:
         path = Path(name)
-        yield viewed_rows(path, *read_growing(path, parts), bundle, None)
+        yield viewed_rows(path, *read_growing(path, parts), bundle, None, watching)
 
 
-def viewed_rows(path: Path, of: About, parts: Iterator[Rows], bundle: Path, of_ticks: int | None) -> Viewed:
+def viewed_rows(
+    path: Path, of: About, parts: Iterator[Rows], bundle: Path, of_ticks: int | None, watching: Watching | None = None
+) -> Viewed:
     """The rows of a recording with its bundle; those of one that still grows come without being asked for.
 
     `of_ticks` says how many there are, None that it still grows. MindError where both do not fit.
@@ -76,7 +83,8 @@ def viewed_rows(path: Path, of: About, parts: Iterator[Rows], bundle: Path, of_t
         "curves": below.curves(),
         **below.data({}),
     }
-    chunks = recording_chunks(_filled(path, of, parts, found), of, columns, begins)
+    watcher = watching(of, found) if watching else None
+    chunks = recording_chunks(_filled(path, of, parts, found), of, columns, begins, watcher)
     return Viewed(about, columns, chunks, mind, is_live=of_ticks is None)
 
 
@@ -98,7 +106,9 @@ def recording_columns(mind: Bundle, of: About, edges: int) -> Columns:
     )
 
 
-def recording_chunks(parts: Iterator[Filled], of: About, columns: Columns, begins: set[int]) -> Iterator[Chunk]:
+def recording_chunks(
+    parts: Iterator[Filled], of: About, columns: Columns, begins: set[int], watcher: RecordingWatcher | None = None
+) -> Iterator[Chunk]:
     """Its rows; `begins` gets the ticks in which the mind was begun anew."""
     yield Chunk(np.full((1, 1), np.nan), np.zeros((1, columns.kept_singles), np.float32))
     number, start, before = 0, 0.0, np.zeros(2 + len(of.sensors), bool)
@@ -115,6 +125,7 @@ def recording_chunks(parts: Iterator[Filled], of: About, columns: Columns, begin
             (rows["time"] - start)[:, None],
             _singles(rows, readings),
             tuple((number + 1 + int(row), int(event)) for row, event in happened),
+            stops=stop_texts(watcher.feed(rows, readings) if watcher else ()),
         )
         number, before = number + len(rows), facts[-1]
 

@@ -17,7 +17,7 @@ from mindrun.sim.trace import Trace, trace
 from numpy.typing import NDArray
 
 from mindlang.breakpoints.breakpoint import Breakpoint
-from mindlang.breakpoints.watch import Part, Watcher, watcher
+from mindlang.breakpoints.watch import Part, Stop, Watcher, watcher
 from mindlang.run import outcome
 from mindlang.run.setup import RunSetup
 from mindlang.view.about_hierarchy import HierarchyData, Texts
@@ -26,6 +26,7 @@ from mindlang.view.columns import FLOW, POSE_COLUMNS, THING_COLUMNS, Columns
 from mindlang.view.messages import Change
 from mindlang.view.replacement import replacement, replacement_text
 from mindlang.view.row_blocks import Chunk, Doubles, Singles
+from mindlang.view.stop_texts import stop_texts
 from mindlang.view.texts import shown
 from mindlang.view.viewed import Fork, SeenMind, Viewed
 
@@ -118,7 +119,7 @@ def run_chunks(setup: RunSetup, run: Trace, columns: Columns, watching: Watcher 
         so_far = times + np.cumsum(ticks.events, axis=0)
         times = so_far[-1]
         ended_by, stops = _ended_by(setup, run) if is_last else None, _stops(ticks, so_far, watching)
-        yield Chunk(_doubles(ticks), _singles(ticks), happened, ended_by, bool(is_last), tuple(stops))
+        yield Chunk(_doubles(ticks), _singles(ticks), happened, ended_by, bool(is_last), stop_texts(stops))
 
 
 def _beginning(run: Trace, setup: RunSetup) -> Doubles:
@@ -151,11 +152,9 @@ def _happened(setup: RunSetup, ticks: Ticks, number: int, touching: NDArray[np.b
         yield number + 1 + int(row), int(event)
 
 
-def _stops(ticks: Ticks, events: NDArray[np.int64], watching: Watcher | None) -> Iterator[tuple[int, str]]:
+def _stops(ticks: Ticks, events: NDArray[np.int64], watching: Watcher | None) -> list[Stop]:
     """Where breakpoints stop a chunk, of which `events` says how often each has happened since the beginning."""
-    rows = Part(ticks.readings, ticks.influence, ticks.commands, events)
-    for stop in watching.feed(rows) if watching else ():
-        yield stop.tick, shown(f"line {stop.breakpoint.line}: {stop.breakpoint.text}")
+    return watching.feed(Part(ticks.readings, ticks.influence, ticks.commands, events)) if watching else []
 
 
 def _ended_by(setup: RunSetup, run: Trace) -> str | None:

@@ -81,8 +81,8 @@ def test_an_error_that_is_no_port_s_says_nothing_about_ports(rules: Path) -> Non
     ("words", "said"),
     [
         (["x.mind", "--export", "x.html", "--port", 8123], "--port and --no-browser are of a page that is served"),
-        (["day.rec", "ball.bundle", "--seed", 3], "and --break are of runs, not of recordings."),
-        (["day.rec", "ball.bundle", "--follow", "--master", "Go"], "and --break are of runs, not of recordings."),
+        (["day.rec", "ball.bundle", "--seed", 3], "are of runs, not of recordings."),
+        (["day.rec", "ball.bundle", "--follow", "--master", "Go"], "are of runs, not of recordings."),
         (["day.rec", "ball.bundle", "--follow", "--export", "x.html"], "--export is of what has an end"),
         (["x.mind", "--follow"], "--follow is for a recording and its bundle"),
         ([".", "--export", "x.html"], "--break and --export are of a run or a recording, not of trainings."),
