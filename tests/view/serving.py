@@ -47,8 +47,9 @@ def simulated(path: Path, task: str = "Chase", seed: int = 3, interrupt: bool = 
 class Served:
     """A view at an address, of which the token is the last part."""
 
-    def __init__(self, server: ViewServer) -> None:
+    def __init__(self, server: ViewServer, loop: asyncio.AbstractEventLoop) -> None:
         self.port, self.token = server.port, server.token
+        self._server, self._loop = server, loop
         self.host = f"127.0.0.1:{self.port}"
 
     @contextmanager
@@ -58,6 +59,15 @@ class Served:
         with connect(f"ws://{self.host}/rows", origin=origin, compression=None, max_size=None) as client:
             client.send(self.token if token is None else token)
             yield ViewingClient(client)
+
+    def drop(self) -> None:
+        """Break every connection, as a net does that fails."""
+
+        def abort() -> None:
+            for viewer in self._server._viewers:
+                viewer.connection.transport.abort()
+
+        self._loop.call_soon_threadsafe(abort)
 
     def raw(self, data: bytes) -> bytes:
         """What the server says to bytes until it closes."""
@@ -132,7 +142,7 @@ def served(viewed: Viewed, champions: Champions | None = None, session: Session 
     thread.start()
     assert listening.wait(ANSWER_SECONDS)
     try:
-        yield Served(server)
+        yield Served(server, loop)
     finally:
         if tasks[0] is not None:
             loop.call_soon_threadsafe(tasks[0].cancel)

@@ -12,6 +12,8 @@ import pytest
 
 from mindlang.pictures.influence_flow import Flow
 from mindlang.run.recorded_run import record_run
+from mindlang.view.messages import RefusedError
+from mindlang.view.viewed import Viewed
 from tests.calling import write_rules
 from tests.view.browser import Opened, chromium
 from tests.view.serving import prepared, served, simulated
@@ -223,6 +225,93 @@ def test_at_a_hundred_times_it_ends_where_the_run_ends(opened: Opened) -> None:
     opened.wait("document.querySelector('#timeline').getAttribute('aria-valuenow') === '1200'")
     opened.jump(613)  # between those that were shown
     assert opened.tick == 613
+
+
+def test_a_connection_that_breaks_is_said_and_made_again_where_one_was(browser: Any, mind: Path) -> None:
+    with served(simulated(mind)) as view:
+        found = Opened(browser, f"http://{view.host}/#{view.token}")
+        found.jump(100)
+        view.drop()
+        found.wait("!document.querySelector('#notice').hidden")
+        assert "does not answer" in found.page.inner_text("#notice")
+        found.page.keyboard.press("ArrowRight")  # what is here is still shown
+        found.wait("document.body.dataset.tick === '101'")
+        found.wait("document.querySelector('#notice').hidden")
+        found.jump(900)
+        found.close()
+
+
+def test_a_view_that_has_ended_can_still_be_looked_at(browser: Any, mind: Path) -> None:
+    with served(simulated(mind)) as view:
+        found = Opened(browser, f"http://{view.host}/#{view.token}")
+        found.jump(100)
+    found.wait("!document.querySelector('#notice').hidden")
+    found.page.keyboard.press("ArrowLeft")
+    found.wait("document.body.dataset.tick === '99'")
+    found.context.close()  # what could not be fetched is an error of the browser's
+
+
+def test_another_token_is_told_what_to_do(browser: Any, mind: Path) -> None:
+    with served(simulated(mind)) as view:
+        page = browser.new_page()
+        page.goto(f"http://{view.host}/#{view.token[:-1]}")
+        page.wait_for_selector("#notice:not([hidden])")
+        assert "open the one that mindc view has printed last" in page.inner_text("#notice")
+        page.close()
+
+
+def test_what_was_refused_is_said_and_asked_again(browser: Any, mind: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    with served(simulated(mind)) as view:
+        found = Opened(browser, f"http://{view.host}/#{view.token}")
+        found.jump(100)
+
+        def refused(*_: object) -> bytes:
+            raise RefusedError("not today")
+
+        with monkeypatch.context() as patch:
+            patch.setattr(Viewed, "rows", refused)
+            patch.setattr(Viewed, "some_columns", refused)
+            found.page.fill("#tick", "1000")
+            found.page.press("#tick", "Enter")
+            found.page.press("#tick", "Escape")
+            found.wait("document.querySelector('#notice').textContent === 'not today'")
+            found.page.click("#curves-choice li:last-child input")
+        found.wait("document.body.dataset.tick === '1000'")
+        found.close()
+
+
+def test_why_says_why_it_cannot(opened: Opened, monkeypatch: pytest.MonkeyPatch) -> None:
+    def refused(*_: object) -> None:
+        raise RefusedError("nobody knows")
+
+    monkeypatch.setattr("mindlang.view.session.command_shares", refused)
+    opened.jump(640)
+    opened.page.locator("#hierarchy .node.actuator").first.click()
+    opened.wait("document.querySelector('#why').textContent === 'nobody knows'")
+
+
+def test_many_events_are_marked_and_gone_to(browser: Any, mind: Path) -> None:
+    viewed = simulated(mind)
+    while not viewed.over:
+        viewed.grow()
+    viewed.happened = [(tick, 0) for tick in range(1, 1200, 3) for _ in range(100)]
+    with served(viewed) as view:
+        found = Opened(browser, f"http://{view.host}/#{view.token}")
+        found.jump(600)
+        for key, tick in (("]", 601), ("]", 604), ("[", 601), ("[", 598)):
+            found.page.keyboard.press(key)
+            found.wait(f"document.body.dataset.tick === '{tick}'")
+        found.close()
+
+
+def test_a_window_that_gets_another_size_shows_all(opened: Opened) -> None:
+    for width, height in ((700, 900), (1600, 500), (1280, 720)):
+        opened.page.set_viewport_size({"width": width, "height": height})
+        opened.wait("document.querySelector('#world').width === document.querySelector('#world').clientWidth")
+        assert opened.page.evaluate("document.documentElement.scrollWidth <= innerWidth")
+        assert opened.page.is_visible("#play")
+    box, play = opened.page.locator("footer").bounding_box(), opened.page.locator("#play").bounding_box()
+    assert play["y"] + play["height"] <= box["y"] + box["height"] + 1
 
 
 def test_what_has_no_world_is_shown_without_one(browser: Any, mind: Path) -> None:

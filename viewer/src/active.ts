@@ -52,7 +52,7 @@ export class ActiveList {
     const nodes = searched
       ? [...this.about.nodes.keys()].filter((node) => this.about.nodes[node].name.toLowerCase().includes(searched))
       : this.skills.filter((node) => value(node) >= ACTIVE_INFLUENCE).sort((a, b) => value(b) - value(a));
-    this.count.textContent = searched ? `${nodes.length} found` : `${nodes.length} of ${this.skills.length} act`;
+    this.count.textContent = searched ? `${nodes.length} found` : `${nodes.length} of ${this.skills.length} skills act now`;
     const seen = nodes.slice(0, ROWS_MAX);
     while (this.lines.length < seen.length) this.lines.push(this.line());
     while (this.lines.length > seen.length) this.lines.pop()!.item.remove();

@@ -15,6 +15,7 @@ export class Camera {
 
   constructor(
     private readonly element: HTMLElement | SVGElement,
+    private readonly margin: { above: number; below: number }, // pixels, for titles and buttons
     private readonly changed: () => void,
   ) {
     element.addEventListener("wheel", (event) => this.wheel(event as WheelEvent), { passive: false });
@@ -30,12 +31,14 @@ export class Camera {
     return this.travelled > DRAG_PIXELS;
   }
 
-  /** Shows a rectangle of the drawing as large as it fits. */
+  /** Shows a rectangle of the drawing as large as it fits between what stands above it and below. */
   fit(left: number, top: number, width: number, height: number, largest = ZOOM_MAX): void {
     const { clientWidth, clientHeight } = this.element;
-    this.scale = Math.min(largest, clientWidth / width, clientHeight / height) || 1;
+    const { above, below } = this.margin;
+    const free = Math.max(1, clientHeight - above - below);
+    this.scale = Math.min(largest, clientWidth / width, free / height) || 1;
     this.x = clientWidth / 2 - (left + width / 2) * this.scale;
-    this.y = clientHeight / 2 - (top + height / 2) * this.scale;
+    this.y = above + free / 2 - (top + height / 2) * this.scale;
     this.touched = false;
     this.changed();
   }

@@ -27,7 +27,7 @@ export class Edit {
       if (column) send({ say: "change", fork: 0, tick: tick(), what: WHAT[this.node!.kind], column, value, lasts });
     });
     this.column.setAttribute("aria-label", "which of its readings");
-    form.append(this.column, "is", this.value, "for", this.lasts, "ticks", button);
+    form.append(this.column, "set to", this.value, "for", this.lasts, "ticks", button);
     this.lasts.value = "60";
   }
 

@@ -42,7 +42,7 @@ export function openFile(listener: Listener): Send | null {
     else if (question.say === "columns" && blocks) listener.frame(columnsFrame(blocks, question, recording.rows));
     else if (question.say !== "run") {
       const why = "a file cannot compute this: open the run with mindc view";
-      listener.said({ say: "refused", why, ask: question.ask ?? null });
+      listener.said({ say: "refused", why, of: question.say, ask: question.ask ?? null });
     }
   };
 }

@@ -1,6 +1,7 @@
 /** Runs beside the one that is seen, which began with a change: one of them is shown with it. */
 
 import { shown } from "./names";
+import { refusal } from "./notice";
 import type { About, Fork, Frame, Send, Ticks } from "./protocol";
 import { Rows } from "./rows";
 
@@ -43,14 +44,19 @@ export class Forks {
     this.changed();
   }
 
-  ticks({ fork, known }: Ticks): void {
+  ticks({ fork, known, failed }: Ticks): void {
     const found = this.all.get(fork);
     if (found) found.rows.known = known;
+    if (failed) refusal(`the run beside this one ended at tick ${known}: ${failed}`);
     this.changed();
   }
 
   frame(frame: Frame): void {
     this.all.get(frame.fork)?.rows.add(frame);
+  }
+
+  refused(ask: number): void {
+    for (const { rows } of this.all.values()) rows.refused(ask);
   }
 
   /** Lets them go on with the run. */

@@ -24,6 +24,7 @@ const EDGE_PIXELS_MAX = 9;
 const TAB_STOPS_MAX = 80; // with more than that, edges are not stops of the tab key
 const MANY_EDGES = 400; // then they are on a canvas, those that transmit nothing are not seen, and all are drawn less often
 const MANY_MILLISECONDS = 60;
+const MARGIN = { above: 36, below: 26 }; // for the title and the legend
 const LARGEST_SCALE_AT_FIRST = 1.25;
 const SMALLEST_SCALE_AT_FIRST = 0.7; // can be read; then it begins with the master, in the middle
 
@@ -54,7 +55,7 @@ export class Hierarchy {
   ) {
     this.plane = make("g", {}) as SVGGElement;
     svg.append(this.plane);
-    this.camera = new Camera(svg, () => this.move());
+    this.camera = new Camera(svg, MARGIN, () => this.move());
     this.canvas = new EdgeCanvas(canvas, this.camera);
     this.subtrees = new Subtrees(about);
     svg.addEventListener("click", (event) => !this.camera.dragged && this.choose(this.under(event)));

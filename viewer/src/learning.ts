@@ -9,6 +9,8 @@ import type { Training, Trainings } from "./trainings";
 
 const SHOWN_MILLISECONDS = 15_000; // at least, before the champion of a newer generation plays
 
+const BEGUN = /^\d{8}T(\d\d)(\d\d)(\d\d)Z.*/; // the name of a run's folder
+
 /** A point of a curve that can be clicked. */
 interface Point {
   attempt: number;
@@ -87,7 +89,7 @@ export class Learning {
     this.list();
     if (!training) return;
     const attempts = [...new Set(training.generations.map(([attempt]) => attempt))];
-    const last = Math.max(...training.generations.map(([, generation]) => generation));
+    const last = training.generations.reduce((most, [, generation]) => Math.max(most, generation), 0);
     const columns = attempts.flatMap((attempt) => columnsOf(training, attempt, last));
     const drawn = `${this.chosen}/${attempts.length}`;
     if (drawn !== this.drawn) this.rebuild(attempts);
@@ -124,6 +126,7 @@ export class Learning {
       cursor: { y: false, points: { show: false }, drag: { x: false, y: false } },
       scales: { x: { time: false } },
       axes: [{ ...axis, size: 26, gap: 3 }, { ...axis, size: 52, gap: 3 }],
+      hooks: { draw: [() => this.mark()] },
       series: [{}, ...attempts.flatMap((attempt) => this.lines(attempt))],
     };
     this.plot = new uPlot(options, [[], ...attempts.flatMap(() => [[], [], []])] as uPlot.AlignedData, this.place);
@@ -185,7 +188,7 @@ export class Learning {
     });
     text.className = "name";
     const alone = this.trainings.runs.filter((run) => run.name === name).length === 1;
-    text.textContent = shown(alone ? name : `${name} ${folder}`, 60);
+    text.textContent = shown(alone ? name : `${name} ${folder.replace(BEGUN, "$1:$2:$3")}`, 60);
     text.title = shown(`${name} ${folder}`, 200);
     kind.className = "kind";
     kind.textContent = String(generations.length);

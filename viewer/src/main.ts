@@ -1,13 +1,15 @@
 /** The page of mindc view: takes in what is said, and shows it. */
 
-import { type About, connect, type Frame, type Said, type Send } from "./protocol";
-import { element } from "./elements";
+import { connect } from "./connection";
 import { openFile } from "./file";
+import { noTrouble, trouble } from "./notice";
+import type { About, Frame, Said, Send } from "./protocol";
 import { Trainings } from "./trainings";
 import { View } from "./view";
 
 let view: View | undefined;
 let untouched: HTMLElement | undefined; // the page before anything was shown
+let isLost = false; // the connection: what is shown is what was here
 const trainings = new Trainings();
 const follows = { newest: true };
 
@@ -19,7 +21,13 @@ function said(message: Said, send: Send): void {
 
 /** Shows a run: in the place of one of the same shape, or in a new page. */
 function show(about: About, send: Send): void {
-  if (view?.restart(about)) return;
+  const tick = isLost ? view?.playback.tick : undefined;
+  isLost = false;
+  noTrouble();
+  if (view?.restart(about)) {
+    if (tick !== undefined) view.playback.jump(tick);
+    return;
+  }
   view?.leave();
   if (about.training) {
     const fresh = (untouched ??= document.body.cloneNode(true) as HTMLElement).cloneNode(true) as HTMLElement;
@@ -29,8 +37,8 @@ function show(about: About, send: Send): void {
 }
 
 function closed(reason: string): void {
-  element("state").textContent = view ? `disconnected: ${reason}` : `cannot connect: ${reason}`;
-  element("state").classList.add("alarm");
+  isLost = true;
+  trouble(reason);
 }
 
 const listener = { said: (message: Said) => said(message, send), frame: (frame: Frame) => view?.frame(frame), closed };

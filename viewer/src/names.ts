@@ -19,5 +19,5 @@ export function digits(value: number): string {
 }
 
 export function percent(value: number): string {
-  return Number.isFinite(value) ? `${(100 * value).toFixed(value > 0 && value < 0.1 ? 1 : 0)}\u2009%` : "none";
+  return Number.isFinite(value) ? `${(100 * value).toFixed(value > 0 && value < 0.1 ? 1 : 0)}\u202f%` : "none";
 }

@@ -136,6 +136,7 @@ export interface Fork {
 export interface Refused {
   say: "refused";
   why: string;
+  of: string | null; // what the message said
   ask: number | null;
 }
 
@@ -169,20 +170,6 @@ export const COLUMNS_KIND = 2;
 export function frameOf(bytes: ArrayBuffer): Frame {
   const [kind, fork, first, every, rows, ask] = new Uint32Array(bytes, 0, HEADER_WORDS);
   return { kind, fork, first, every, rows, ask, blocks: bytes };
-}
-
-/** The server of this page, which knows us by the token behind # in the address. */
-export function connect(listener: Listener): Send {
-  const scheme = location.protocol === "https:" ? "wss:" : "ws:";
-  const socket = new WebSocket(`${scheme}//${location.host}/rows`);
-  socket.binaryType = "arraybuffer";
-  socket.onopen = () => socket.send(location.hash.slice(1));
-  socket.onclose = (event) => listener.closed(event.reason || "the program behind this page has ended");
-  socket.onmessage = ({ data }) => {
-    if (typeof data === "string") listener.said(JSON.parse(data) as Said);
-    else listener.frame(frameOf(data as ArrayBuffer));
-  };
-  return (message) => socket.readyState === WebSocket.OPEN && socket.send(JSON.stringify(message));
 }
 
 /** The address of a column of a group, or null where this recording has none. */

@@ -35,13 +35,21 @@ const CHUNK_ROWS_MAX = 128; // what flows is computed for each of them: a jump w
 const KEPT_BYTES = 96 << 20;
 const CHUNKS_AHEAD_MAX = 6;
 
+const REFUSED_MILLISECONDS = 2000; // after which the same is asked again
+
+/** What is done with an answer, and instead of one that was refused. */
+interface Awaited {
+  came(frame: Frame): void;
+  again(): void;
+}
+
 let asked = 0; // over all runs that are seen one after the other: answers about the last are nobody's
 
 export class Rows {
   readonly track: Track;
   private readonly chunks = new Map<string, Chunk>(); // by how many ticks are between rows, and their place
   private readonly awaited = new Set<string>(); // chunks that were asked for
-  private readonly answers = new Map<number, (frame: Frame) => void>();
+  private readonly answers = new Map<number, Awaited>();
   private readonly chunkRows: number;
   private readonly keptChunks: number;
   known = -1;
@@ -84,15 +92,17 @@ export class Rows {
   series(columns: Column[], from: number, to: number, most: number, then: (series: Series) => void): void {
     const every = Math.max(1, Math.ceil((to - from + 1) / most));
     const found: Series = { ticks: [], values: columns.map(() => []) };
-    const next = (first: number) =>
-      this.ask({ say: "columns", columns, from: first, to: to + 1, every }, (frame) => {
+    const next = (first: number) => {
+      const came = (frame: Frame) => {
         const values = new Float64Array(frame.blocks, HEADER_BYTES);
         for (let row = 0; row < frame.rows; row++) found.ticks.push(first + row * every);
         found.values.forEach((of, place) => of.push(...values.subarray(place * frame.rows, (place + 1) * frame.rows)));
         const after = first + frame.rows * every;
         if (frame.rows && after <= to) next(after);
         else then(found);
-      });
+      };
+      this.ask({ say: "columns", columns, from: first, to: to + 1, every }, { came, again: () => next(first) });
+    };
     next(from);
   }
 
@@ -100,10 +110,20 @@ export class Rows {
   add(frame: Frame): void {
     const answer = this.answers.get(frame.ask);
     this.answers.delete(frame.ask);
-    answer?.(frame);
+    answer?.came(frame);
   }
 
-  private ask(message: object, answer: (frame: Frame) => void): void {
+  /** What was asked is not answered; it is asked again later, if it is still wanted then. */
+  refused(ask: number): void {
+    const { answers } = this;
+    const answer = answers.get(ask);
+    if (!answer) return;
+    setTimeout(() => {
+      if (answers.delete(ask)) answer.again(); // else another run is seen now
+    }, REFUSED_MILLISECONDS);
+  }
+
+  private ask(message: object, answer: Awaited): void {
     this.answers.set(++asked, answer);
     this.send({ ...message, fork: this.fork, ask: asked });
   }
@@ -116,7 +136,8 @@ export class Rows {
     const from = first + (found?.rows ?? 0) * every;
     if (from <= Math.min(this.known, to - 1) && !this.awaited.has(key)) {
       this.awaited.add(key);
-      this.ask({ say: "rows", from, to, every }, (frame) => this.keep(key, frame));
+      const again = () => this.awaited.delete(key) && this.changed();
+      this.ask({ say: "rows", from, to, every }, { came: (frame) => this.keep(key, frame), again });
     }
     return found;
   }

@@ -1,5 +1,6 @@
 /** The whole run as a strip: what is known of it, what happened when, and which tick is shown; clicked and dragged. */
 
+import type { Events, Happened } from "./events";
 import { shown } from "./names";
 import type { About } from "./protocol";
 import type { Theme } from "./theme";
@@ -7,16 +8,13 @@ import type { Theme } from "./theme";
 const EVENT_PIXELS = 4; // so near to the pointer an event is meant
 const TRACK_PIXELS = 6;
 const MARK_PIXELS = 14;
+const EDGE_PIXELS = 8; // on both sides, so that nothing at an end is cut
 const ALARMS = ["collision", "fault", "stopped", "touch"];
-
-export interface Happened {
-  tick: number;
-  event: number;
-}
 
 export class Timeline {
   private readonly context: CanvasRenderingContext2D;
-  private happened: Happened[] = [];
+  private marked = ""; // for what the marks were found
+  private marks = new Map<number, string>(); // at each pixel the one kind that is seen
   private tick = 0;
   private known = 0;
   private over = false;
@@ -27,6 +25,7 @@ export class Timeline {
     private readonly hint: HTMLElement,
     private readonly about: About,
     private theme: Theme,
+    private readonly happened: Events,
     private readonly jump: (tick: number) => void,
   ) {
     this.context = canvas.getContext("2d")!;
@@ -45,17 +44,16 @@ export class Timeline {
 
   recolour(theme: Theme): void {
     this.theme = theme;
+    this.marked = "";
     this.draw();
   }
 
   /** Draws it anew where something has changed. */
-  show(tick: number, known: number, over: boolean, happened: Happened[]): void {
-    const same = tick === this.tick && known === this.known && over === this.over;
-    if (same && happened.length === this.happened.length) return;
+  show(tick: number, known: number, over: boolean): void {
+    if (tick === this.tick && known === this.known && over === this.over && this.marked === this.wanted) return;
     this.tick = tick;
     this.over = over;
     this.known = known;
-    this.happened = [...happened];
     this.canvas.setAttribute("aria-valuemax", String(known));
     this.canvas.setAttribute("aria-valuenow", String(tick));
     this.canvas.setAttribute("aria-valuetext", `tick ${tick} of ${known}, ${(tick * this.about.tick).toFixed(2)} seconds`);
@@ -70,8 +68,7 @@ export class Timeline {
 
   /** The event after a tick, or before it. */
   next(from: number, direction: 1 | -1): Happened | undefined {
-    const found = this.happened.filter(({ tick }) => (tick - from) * direction > 0);
-    return direction > 0 ? found[0] : found[found.length - 1];
+    return this.happened.next(from, direction);
   }
 
   private get length(): number {
@@ -80,19 +77,17 @@ export class Timeline {
   }
 
   private x(tick: number): number {
-    return (tick / this.length) * this.canvas.clientWidth;
+    return EDGE_PIXELS + (tick / this.length) * (this.canvas.clientWidth - 2 * EDGE_PIXELS);
   }
 
   private tickAt(event: PointerEvent): number {
     const { left, width } = this.canvas.getBoundingClientRect();
-    return Math.round(((event.clientX - left) / width) * this.length);
+    const part = (event.clientX - left - EDGE_PIXELS) / (width - 2 * EDGE_PIXELS);
+    return Math.round(Math.min(1, Math.max(0, part)) * this.length);
   }
 
   private nearest(event: PointerEvent): Happened | undefined {
-    const { left } = this.canvas.getBoundingClientRect();
-    const apart = (one: Happened) => Math.abs(this.x(one.tick) - (event.clientX - left));
-    const near = this.happened.filter((one) => apart(one) <= EVENT_PIXELS);
-    return near.sort((one, other) => apart(one) - apart(other))[0];
+    return this.happened.nearest(this.tickAt(event), (EVENT_PIXELS * this.length) / this.canvas.clientWidth);
   }
 
   private say(event: PointerEvent): void {
@@ -115,18 +110,19 @@ export class Timeline {
     const bar = (right: number, colour: string) => {
       context.fillStyle = colour;
       context.beginPath();
-      context.roundRect(0, middle - TRACK_PIXELS / 2, Math.max(1, right), TRACK_PIXELS, TRACK_PIXELS / 2);
+      context.roundRect(EDGE_PIXELS, middle - TRACK_PIXELS / 2, Math.max(1, right - EDGE_PIXELS), TRACK_PIXELS, TRACK_PIXELS / 2);
       context.fill();
     };
-    bar(width, theme.grid);
+    bar(width - EDGE_PIXELS, theme.grid);
     bar(this.x(this.known), theme.rock);
     bar(this.x(this.tick), theme.late);
-    for (const { tick, event } of this.happened) {
-      context.fillStyle = this.colour(this.about.events[event]?.kind ?? "");
-      context.fillRect(Math.round(this.x(tick)) - 1, middle - MARK_PIXELS / 2, 2, MARK_PIXELS);
+    this.mark();
+    for (const [x, colour] of this.marks) {
+      context.fillStyle = colour;
+      context.fillRect(x - 1, middle - MARK_PIXELS / 2, 2, MARK_PIXELS);
     }
     context.beginPath();
-    context.arc(Math.min(width - 7, Math.max(7, this.x(this.tick))), middle, 7, 0, 2 * Math.PI);
+    context.arc(this.x(this.tick), middle, 7, 0, 2 * Math.PI);
     context.fillStyle = theme.late;
     context.strokeStyle = theme.page;
     context.lineWidth = 2;
@@ -134,8 +130,24 @@ export class Timeline {
     context.stroke();
   }
 
-  private colour(kind: string): string {
-    if (ALARMS.includes(kind)) return this.theme.crash;
-    return kind === "delivery" ? this.theme.glow : this.theme.lamp;
+  /** What the marks depend on. */
+  private get wanted(): string {
+    return [this.happened.length, this.length, this.canvas.clientWidth].join();
+  }
+
+  /** Finds the marks where they are others now: of several events at one pixel an alarm is seen, or else a delivery. */
+  private mark(): void {
+    if (this.marked === this.wanted) return;
+    this.marked = this.wanted;
+    this.marks = new Map();
+    const { crash, glow, lamp } = this.theme;
+    const ranks = [lamp, glow, crash];
+    const kinds = this.about.events.map(({ kind }) => (ALARMS.includes(kind) ? 2 : kind === "delivery" ? 1 : 0));
+    const seen = new Int8Array(this.canvas.clientWidth + 1).fill(-1);
+    for (const { tick, event } of this.happened.all) {
+      const x = Math.round(this.x(tick));
+      seen[x] = Math.max(seen[x], kinds[event] ?? 0);
+    }
+    seen.forEach((rank, x) => rank >= 0 && this.marks.set(x, ranks[rank]));
   }
 }

@@ -33,13 +33,14 @@ export class Transport {
   }
 
   show(): void {
-    const { tick, known, playing, rate } = this.playback;
+    const { tick, known, over, playing, rate } = this.playback;
     const play = element("play");
     play.classList.toggle("playing", playing);
     play.setAttribute("aria-label", playing ? "pause" : "play");
     if (document.activeElement !== this.tick) this.tick.value = String(tick);
     this.tick.max = String(known);
     this.rate.value = String(rate);
-    element("clock").textContent = `${(tick * this.tickSeconds).toFixed(2)} s of ${(known * this.tickSeconds).toFixed(2)} s`;
+    const seconds = (ticks: number) => `${(ticks * this.tickSeconds).toFixed(2)}\u202fs`;
+    element("clock").textContent = `${seconds(tick)} ${over ? "of" : "\u2013 made so far:"} ${seconds(known)}`;
   }
 }

@@ -4,21 +4,24 @@ import { ActiveList } from "./active";
 import { Curves } from "./curves";
 import { element, svgElement } from "./elements";
 import { Edit } from "./edit";
+import { Events } from "./events";
 import { Forks } from "./forks";
 import { listenToButtons, showTitle } from "./header";
-import { described, type Selected } from "./description";
+import type { Selected } from "./description";
 import { Hierarchy } from "./hierarchy";
 import { helpRows, listen } from "./keys";
 import { keysOf } from "./key_table";
 import { Learning } from "./learning";
 import { shown } from "./names";
+import { refusal } from "./notice";
 import { Playback } from "./playback";
-import type { About, Frame, Said, Send, Ticks } from "./protocol";
+import type { About, Frame, Refused, Said, Send, Ticks } from "./protocol";
 import { Rows } from "./rows";
+import { Selection } from "./selection";
 import { shapeOf } from "./shape";
 import { Stops } from "./stops";
 import { theme, themeSwitch } from "./theme";
-import { type Happened, Timeline } from "./timeline";
+import { Timeline } from "./timeline";
 import type { Trainings } from "./trainings";
 import { Transport } from "./transport";
 import { Why } from "./why";
@@ -40,11 +43,10 @@ export class View {
   private readonly transport: Transport;
   private readonly forks: Forks;
   private readonly edit: Edit;
-  private readonly happened: Happened[] = [];
-  private collisions: number[] = [];
+  private readonly selection: Selection;
+  private readonly happened = new Events();
+  private readonly collisions = new Events();
   private readonly stops = new Stops();
-  private selected: Selected = null;
-  private over: Selected = null;
   private dirty = true;
   private asked = -1;
   private last = performance.now();
@@ -63,15 +65,16 @@ export class View {
     this.playback = new Playback(about.tick, (tick, ahead, every) => !!this.rows.row(tick, ahead, every), redraw, (tick) => this.want(tick), about.of_ticks);
     this.world = about.world && new World(element<HTMLCanvasElement>("world"), about, about.world, theme(), redraw);
     element("no-world").hidden = !!about.world;
-    const shows = { over: (at: Selected, event: PointerEvent) => this.tip(at, event), chosen: (at: Selected) => this.choose(at) };
+    const shows = { over: (at: Selected, event: PointerEvent) => this.selection.point(at, event), chosen: (at: Selected) => this.choose(at) };
     this.hierarchy = new Hierarchy(svgElement("hierarchy"), element<HTMLCanvasElement>("edges"), about, shows, redraw);
     const search = element<HTMLInputElement>("search");
     this.active = new ActiveList(element("active"), search, element("count"), about, (node) => this.hierarchy.reveal(node));
     const curvesSearch = element<HTMLInputElement>("curves-search");
     this.curves = new Curves(element("curves"), element("curves-choice"), curvesSearch, about, this.rows, theme(), jump);
-    this.timeline = new Timeline(element<HTMLCanvasElement>("timeline"), element("hint"), about, theme(), jump);
+    this.timeline = new Timeline(element<HTMLCanvasElement>("timeline"), element("hint"), about, theme(), this.happened, jump);
     this.why = new Why(element("why"), about, send);
     this.edit = new Edit(element("edit"), about, send, () => this.playback.tick);
+    this.selection = new Selection(about, this.why, this.edit, () => this.row);
     this.forks = new Forks(element<HTMLSelectElement>("forks"), about, send, () => this.beside());
     const followed = (newest: boolean) => (follows.newest = newest);
     this.learning = about.training ? new Learning(about, trainings, send, theme(), follows.newest, followed) : null;
@@ -96,9 +99,8 @@ export class View {
     const plays = this.playback.playing || (this.playback.over && this.playback.tick >= this.playback.known);
     if (about.world) Object.assign(this.about.world!, about.world);
     Object.assign(this.about, about, { world: this.about.world });
-    this.happened.length = this.collisions.length = 0;
     this.asked = -1;
-    for (const part of [this.rows, this.playback, this.forks, this.curves, this.stops]) part.restart();
+    for (const part of [this.happened, this.collisions, this.rows, this.playback, this.forks, this.curves, this.stops]) part.restart();
     this.learning?.restarted();
     showTitle(about);
     this.want(FIRST_TICKS);
@@ -117,7 +119,13 @@ export class View {
     else if (message.say === "ticks") this.forks.ticks(message);
     else if (message.say === "fork") this.forks.begun(message);
     else if (message.say === "why") this.why.show(message);
-    else if (message.say === "refused") element("state").textContent = shown(message.why, 160);
+    else if (message.say === "refused") this.refused(message);
+  }
+
+  private refused({ why, of, ask }: Refused): void {
+    if (of === "why") return this.why.refused(why);
+    if (ask !== null) for (const rows of [this.rows, this.forks]) rows.refused(ask);
+    refusal(why);
   }
 
   frame(frame: Frame): void {
@@ -151,8 +159,8 @@ export class View {
 
   private grown({ known, over, ended_by, failed, happened, stops }: Ticks): void {
     this.rows.known = known;
-    for (const [tick, event] of happened) this.happened.push({ tick, event });
-    this.collisions = this.happened.filter(({ event }) => this.about.events[event]?.kind === "collision").map(({ tick }) => tick);
+    this.happened.add(happened);
+    this.collisions.add(happened.filter(([, event]) => this.about.events[event]?.kind === "collision"));
     this.stops.add(stops);
     this.playback.grown(known, over);
     this.curves.refresh();
@@ -199,51 +207,20 @@ export class View {
   private draw(now: number): void {
     const { tick, known, over } = this.playback;
     this.transport.show();
-    this.timeline.show(tick, known, over, this.happened);
+    this.timeline.show(tick, known, over);
     this.curves.move(tick);
     const row = this.row;
     if (!row) return;
     const drawn = [this.active.draw(row, now), this.hierarchy.draw(row, now)];
     this.dirty = drawn.includes(false);
-    this.world?.draw(row, this.rows, this.collisions.filter((each) => each <= tick), this.forks.chosen);
+    this.world?.draw(row, this.rows, this.collisions, this.forks.chosen);
     this.edit.show(this.playback.playing, tick);
-    this.describe("chosen-text", this.selected);
-    this.describe("tip", this.over);
+    this.selection.show();
     document.body.dataset.tick = String(tick); // the tick whose row is seen
   }
 
   private choose(selected: Selected): void {
-    this.selected = selected;
-    const node = selected?.kind === "node" ? selected.number : null;
-    this.why.choose(node);
-    this.edit.choose(node, this.row);
-    this.describe("chosen-text", selected);
-    if (!selected) element("chosen-text").textContent = "Choose a skill, an edge or an actuator to see its value, and why.";
+    this.selection.choose(selected);
     this.dirty = true;
-  }
-
-  private tip(at: Selected, event: PointerEvent): void {
-    const tip = element("tip");
-    const { left, top, width } = (event.currentTarget as Element).getBoundingClientRect();
-    tip.hidden = !at;
-    tip.style.left = `${Math.min(event.clientX - left + 14, width - 240)}px`;
-    tip.style.top = `${event.clientY - top + 16}px`;
-    if (at?.number !== this.over?.number || at?.kind !== this.over?.kind) this.hover(at);
-  }
-
-  private hover(at: Selected): void {
-    this.over = at;
-    const actuator = at?.kind === "node" && this.about.nodes[at.number].kind === "actuator";
-    if (actuator) this.why.choose(at.number);
-    this.describe("tip", at);
-  }
-
-  private describe(name: string, selected: Selected): void {
-    if (!selected) return;
-    const { text, value } = described(this.about, selected, this.row);
-    const place = element(name);
-    place.textContent = text;
-    place.title = String(value);
-    place.dataset.value = String(value);
   }
 }

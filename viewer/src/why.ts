@@ -8,6 +8,7 @@ const PATHS_MAX = 12;
 
 export class Why {
   private actuator: number | null = null; // its number among the commands
+  private name = "";
   private asked = "";
   private askedAt = -Infinity;
 
@@ -21,7 +22,9 @@ export class Why {
   choose(node: number | null): void {
     const actuators = [...this.about.nodes.keys()].filter((each) => this.about.nodes[each].kind === "actuator");
     const found = node === null ? -1 : actuators.indexOf(node);
+    if ((found < 0 ? null : found) === this.actuator) return;
     this.actuator = found < 0 ? null : found;
+    this.name = node === null ? "" : shown(this.about.nodes[node].name, 24);
     this.asked = "";
     if (this.actuator === null) this.place.replaceChildren();
   }
@@ -39,7 +42,7 @@ export class Why {
     if (answer.actuator !== this.actuator) return;
     const head = document.createElement("p");
     head.className = "sum";
-    head.textContent = `command ${digits(answer.command)} at tick ${answer.tick}`;
+    head.textContent = `why ${this.name} is ${digits(answer.command)} at tick ${answer.tick}`;
     head.title = String(answer.command);
     const paths = [...answer.paths].sort((one, other) => Math.abs(other.share) - Math.abs(one.share));
     const lines = paths.slice(0, PATHS_MAX).map((path) => this.path(path, answer.command));
@@ -49,6 +52,11 @@ export class Why {
     this.place.replaceChildren(head, ...lines);
   }
 
+  /** Says why there is no answer. */
+  refused(why: string): void {
+    if (this.actuator !== null) this.place.replaceChildren(text("p", "note", shown(why, 200)));
+  }
+
   private path({ path, value, influence, share }: Answer["paths"][number], command: number): HTMLElement {
     const line = document.createElement("div");
     line.className = "path";
@@ -56,7 +64,7 @@ export class Why {
     bar.style.transform = `scaleX(${Math.min(1, Math.abs(share / command)) || 0})`;
     const names = path.map((node) => shown(this.about.nodes[node]?.name ?? "?", 24));
     const ways = text("span", "way", names.slice(0, -1).join(" \u203a "));
-    const numbers = text("span", "numbers", `${digits(value)} with ${percent(influence)} influence: ${digits(share)} of the command`);
+    const numbers = text("span", "numbers", `value ${digits(value)} with ${percent(influence)} influence gives ${digits(share)}`);
     numbers.title = `value ${value}, influence ${influence}, share ${share}`;
     line.append(bar, ways, numbers);
     return line;

@@ -1,6 +1,8 @@
 /** The world on a canvas: arena, obstacles, things, the path behind the robot, and where it collided. */
 
 import { Camera } from "./camera";
+import type { Events } from "./events";
+import { drawFloor, WALL_UNITS } from "./floor";
 import { shown } from "./names";
 import { type About, columnOf, type Column, type Thing, type World as WorldData } from "./protocol";
 import type { Beside } from "./forks";
@@ -8,13 +10,15 @@ import { drawRobot } from "./robot";
 import { type Row, type Rows, valueAt } from "./rows";
 import type { Theme } from "./theme";
 
-const GRID_UNITS = 10;
-const WALL_UNITS = 0.8;
+const MARGIN = { above: 38, below: 4 };
 const PATH_TICKS = 1500;
 const PATH_PARTS = 30; // each a little darker than the one before
 const COLLISION_MARKS = 60;
 const FREE_VIEW_UNITS = 60; // what is seen where there are no walls
 const NAME_PIXELS = 14;
+const THING_PIXELS_MIN = 7; // smaller ones are drawn as large
+const ROBOT_PIXELS_MIN = 6; // of its radius: a smaller one has a ring around it
+const RING_PIXELS = 13;
 const THING_COLUMNS = 4; // x, y, size, turned
 
 export class World {
@@ -32,7 +36,7 @@ export class World {
   ) {
     this.context = canvas.getContext("2d")!;
     this.held = columnOf(about, "held");
-    this.camera = new Camera(canvas, changed);
+    this.camera = new Camera(canvas, MARGIN, changed);
     canvas.addEventListener("dblclick", () => this.fit());
     this.follows = world.arena === null;
   }
@@ -67,7 +71,7 @@ export class World {
   }
 
   /** Draws what was after a tick, and where the robot of a run beside this one was. */
-  draw(row: Row, rows: Rows, collisions: number[], beside?: Beside): void {
+  draw(row: Row, rows: Rows, collisions: Events, beside?: Beside): void {
     const { context, canvas, camera, theme } = this;
     const [x, y] = this.pose(row);
     if (this.follows) {
@@ -80,63 +84,22 @@ export class World {
     context.translate(camera.x, camera.y);
     context.scale(camera.scale, -camera.scale); // y points up
     context.lineJoin = context.lineCap = "round";
-    this.floor();
+    drawFloor(context, this.world, camera, theme);
     this.things(row, true);
     if (beside) this.path(row.tick, beside.rows, theme.lamp, beside.from);
     this.path(row.tick, rows, theme.late);
-    this.collisions(rows, collisions);
+    this.collisions(rows, collisions, row.tick);
     this.things(row, false);
     const other = beside?.rows.row(row.tick);
     if (other) this.ghost(other);
     drawRobot(context, this.world.robot, row, this.pose(row), theme, 1 / camera.scale);
+    this.ring(x, y);
     this.names(row);
   }
 
   private pose(row: Row): [number, number, number] {
     const first = this.about.columns.robot?.[1] ?? 0;
     return [row.doubles[first], row.doubles[first + 1], row.doubles[first + 2]];
-  }
-
-  private floor(): void {
-    const { context, theme, camera } = this;
-    const { arena, boxes } = this.world;
-    if (arena) {
-      const [x, y] = arena;
-      context.fillStyle = theme.wall;
-      context.fillRect(-x - WALL_UNITS, -y - WALL_UNITS, 2 * (x + WALL_UNITS), 2 * (y + WALL_UNITS));
-      context.fillStyle = theme.floor;
-      context.fillRect(-x, -y, 2 * x, 2 * y);
-    }
-    this.grid();
-    context.fillStyle = theme.rock;
-    context.strokeStyle = theme.rockEdge;
-    context.lineWidth = 1.2 / camera.scale;
-    for (const [x, y, halfX, halfY] of boxes) {
-      context.fillRect(x - halfX, y - halfY, 2 * halfX, 2 * halfY);
-      context.strokeRect(x - halfX, y - halfY, 2 * halfX, 2 * halfY);
-    }
-  }
-
-  private grid(): void {
-    const { context, camera, canvas } = this;
-    const { arena } = this.world;
-    const left = arena ? -arena[0] : -camera.x / camera.scale;
-    const right = arena ? arena[0] : (canvas.clientWidth - camera.x) / camera.scale;
-    const high = arena ? arena[1] : camera.y / camera.scale;
-    const low = arena ? -arena[1] : (camera.y - canvas.clientHeight) / camera.scale;
-    const apart = GRID_UNITS * Math.max(1, 10 ** Math.ceil(Math.log10(1 / camera.scale)));
-    context.beginPath();
-    for (let x = Math.ceil(left / apart) * apart; x <= right; x += apart) {
-      context.moveTo(x, low);
-      context.lineTo(x, high);
-    }
-    for (let y = Math.ceil(low / apart) * apart; y <= high; y += apart) {
-      context.moveTo(left, y);
-      context.lineTo(right, y);
-    }
-    context.strokeStyle = this.theme.grid;
-    context.lineWidth = 1 / camera.scale;
-    context.stroke();
   }
 
   private *eachThing(row: Row): Iterable<[Thing, number[], boolean]> {
@@ -155,8 +118,9 @@ export class World {
 
   private things(row: Row, areas: boolean): void {
     const { context, theme, camera } = this;
-    for (const [thing, [x, y, size, turned], isHeld] of this.eachThing(row)) {
+    for (const [thing, [x, y, width, turned], isHeld] of this.eachThing(row)) {
       if ((thing.shape === "area") !== areas) continue;
+      const size = Math.max(width, THING_PIXELS_MIN / camera.scale);
       context.save();
       context.translate(x, y);
       context.beginPath();
@@ -194,13 +158,14 @@ export class World {
     context.lineCap = "round";
   }
 
-  private collisions(rows: Rows, ticks: number[]): void {
+  private collisions(rows: Rows, collisions: Events, until: number): void {
     const { context, theme, camera } = this;
     const arm = 5 / camera.scale;
     context.strokeStyle = theme.crash;
     context.lineWidth = 2 / camera.scale;
     context.beginPath();
-    for (const tick of ticks.slice(-COLLISION_MARKS)) {
+    const last = collisions.before(until + 1);
+    for (const { tick } of collisions.all.slice(Math.max(0, last - COLLISION_MARKS), last)) {
       const found = rows.track.at(tick);
       if (!found) continue;
       const [x, y] = found;
@@ -209,6 +174,17 @@ export class World {
       context.moveTo(x - arm, y + arm);
       context.lineTo(x + arm, y - arm);
     }
+    context.stroke();
+  }
+
+  /** Where a robot is that is too small to be found. */
+  private ring(x: number, y: number): void {
+    const { context, camera, theme } = this;
+    if (this.world.robot.radius * camera.scale > ROBOT_PIXELS_MIN) return;
+    context.beginPath();
+    context.arc(x, y, RING_PIXELS / camera.scale, 0, 2 * Math.PI);
+    context.strokeStyle = theme.late;
+    context.lineWidth = 1.5 / camera.scale;
     context.stroke();
   }
 
