@@ -15,7 +15,7 @@ from time import sleep
 from mindrun.regular_files import open_regular
 from mindrun.robot.recording import RecordingError
 
-POLL_SECONDS = 0.02  # from one look at a file to the next
+POLL_SECONDS = 0.005  # from one look at a file to the next
 IDLE_SECONDS = 0.5  # after which an empty part says that nothing has come
 PART_BYTES = 1 << 20
 SSH_END_SECONDS = 2.0

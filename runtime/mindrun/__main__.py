@@ -25,11 +25,13 @@ from mindrun.wiring import read_by
 
 OK, FAILED, MISUSE, INTERRUPTED = 0, 1, 2, 130
 MAX_LINE_CHARACTERS = 1 << 20  # of one line of readings
+MAX_PORT = 65535
 MAX_TICK = 2**63 - 1  # tick
 
 EXAMPLES = """examples:
   mindrun ball.bundle                                       on its robot, nothing moves yet
   mindrun ball.bundle --arm --record day.rec                everything moves, and every tick is recorded
+  mindrun ball.bundle --arm --view                          and seen in a browser while it drives
   mindrun ball.bundle --dry --arm                           in a simulated world, without hardware
   mindrun ball.bundle --describe                            what it holds (a bundle without wiring does this anyway)
   mindrun collect.bundle --json                             the same as JSON
@@ -78,6 +80,7 @@ def guarded(command: Callable[[], int]) -> int:
 
 def run(options: argparse.Namespace) -> int:
     """Drive, describe or run the bundle; the exit code."""
+    _refuse_view_of_nothing(options)
     bundle = read_bundle(options.bundle)
     if options.readings:
         with redirect_stdout(sys.stderr):  # what a procedure prints is no command
@@ -85,13 +88,21 @@ def run(options: argparse.Namespace) -> int:
         _run(engine, options)
     elif options.dry or (bundle.wiring and not options.describe and not options.json):
         return drive(options)
-    elif options.arm or options.record or options.ticks:
+    elif options.arm or options.record or options.ticks or options.view:
         raise MindError("this bundle is wired to no robot", "mindc build … --robot robot.yaml, or try it with --dry")
     elif options.json:
         standard_streams.document(_json(contents(bundle), indent=2))
     else:
         print(describe(bundle))
     return OK
+
+
+def _refuse_view_of_nothing(options: argparse.Namespace) -> None:
+    """MindError where a view is asked for that would show no robot."""
+    if options.view and (options.readings or options.describe or options.json):
+        raise MindError("--view shows a robot that drives: with --readings, --describe or --json none does")
+    if options.view_port and not options.view:
+        raise MindError("--view-port is the port of --view, which was not asked for")
 
 
 def drive(options: argparse.Namespace) -> int:
@@ -117,6 +128,10 @@ def _options() -> argparse.Namespace:
     robot = parser.add_argument_group("on a robot")
     robot.add_argument("--arm", action="store_true", help="let the actuators move: without it they stay neutral")
     robot.add_argument("--record", type=new_file, metavar="FILE", help="every reading, influence and command, per tick")
+    robot.add_argument("--view", action="store_true", help="show it in a browser while it drives (needs mindlang)")
+    robot.add_argument(
+        "--view-port", type=whole(1, MAX_PORT), metavar="P", help="of that page (default: 8123, or any that is free)"
+    )
     robot.add_argument(
         "--ticks", type=whole(0, MAX_TICK), default=0, metavar="N", help="end after so many ticks (default: never)"
     )

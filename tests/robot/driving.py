@@ -65,5 +65,7 @@ def until(holds: Callable[[], object], process: "subprocess.Popen[str] | None" =
 
 def children(pid: int, what: str) -> list[int]:
     """The processes that a process has started, and whose command line has these words."""
-    said = subprocess.run(["ps", "-o", "pid=,args=", "--ppid", str(pid)], capture_output=True, text=True, check=False)
+    said = subprocess.run(
+        ["ps", "-ww", "-o", "pid=,args=", "--ppid", str(pid)], capture_output=True, text=True, check=False
+    )
     return [int(line.split()[0]) for line in said.stdout.splitlines() if what in line]

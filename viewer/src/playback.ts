@@ -3,15 +3,16 @@
 export const RATES = [0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 50, 100];
 const PICTURES_PER_SECOND = 60;
 const AHEAD_SECONDS = 1; // so far before they are shown rows are fetched
+const NEWEST_TICKS = 64; // that may come while the rows before them are fetched
 const FRAME_SECONDS_MAX = 0.1; // after a pause of the browser the run does not leap
 
 export class Playback {
   private position = 0; // ticks, with a fraction
-  private following = false; // stays with the newest tick of a run that goes on
   private target: number | null = null; // a jump to what is not known yet
   known = 0;
   over = false;
   playing = false;
+  following = false; // stays with the newest tick of a run that goes on
   rate = 1;
 
   constructor(
@@ -37,8 +38,14 @@ export class Playback {
     return (this.over && this.tick >= this.known) || (!this.playing && this.tick === 0);
   }
 
+  /** Whether other ticks are shown without being asked for. */
+  get moving(): boolean {
+    return this.playing || this.following;
+  }
+
   /** Goes on by the seconds since the last picture; waits where the next rows are not here yet. */
   advance(seconds: number): void {
+    if (this.following) this.position = this.newest();
     if (!this.playing) return;
     const ticks = (Math.min(seconds, FRAME_SECONDS_MAX) * this.rate) / this.tickSeconds;
     const next = Math.min(this.position + ticks, this.known);
@@ -49,8 +56,16 @@ export class Playback {
     if (this.over && this.tick >= this.known) this.pause();
   }
 
+  /** The newest tick whose row is here, if one of the last; what is newer is asked for. */
+  private newest(): number {
+    const least = Math.max(this.position, this.known - NEWEST_TICKS);
+    for (let tick = this.known; tick > least; tick--) if (this.ready(tick, 0, 1)) return tick;
+    return this.position;
+  }
+
   play(): void {
     this.target = null;
+    this.following = false;
     if (this.over && this.tick >= this.known) this.position = 0;
     this.playing = true;
     this.wanted(this.tick + 1);
@@ -65,7 +80,7 @@ export class Playback {
   }
 
   toggle(): void {
-    if (this.playing) this.pause();
+    if (this.moving) this.pause();
     else this.play();
   }
 
@@ -87,6 +102,7 @@ export class Playback {
     this.target = null;
     this.wanted(this.ofTicks ?? this.known + 1);
     this.position = this.known;
+    this.playing = false;
     this.following = !this.over;
     this.changed();
   }
@@ -111,7 +127,7 @@ export class Playback {
   grown(known: number, over: boolean): void {
     this.known = known;
     this.over = over;
-    if (this.following) this.position = known;
+    if (this.following && over) this.end();
     if (this.target !== null) this.position = Math.min(this.target, known);
     if (over || (this.target ?? 0) <= known) this.target = null;
     this.changed();

@@ -18,7 +18,7 @@ export class Stops {
 
   /** Pauses at the first that was come by. */
   between(before: number, now: number, playback: Playback): void {
-    if (!playback.playing || !this.texts.size) return;
+    if (!playback.moving || !this.texts.size) return;
     for (let tick = before + 1; tick <= now; tick++) {
       const text = this.texts.get(tick);
       if (text === undefined) continue;

@@ -12,6 +12,7 @@ export class Transport {
     private readonly playback: Playback,
     timeline: Timeline,
     private readonly tickSeconds: number,
+    isRobot: boolean,
   ) {
     const to = (direction: 1 | -1) => {
       const found = timeline.next(playback.tick, direction);
@@ -20,6 +21,9 @@ export class Transport {
     pressed("play", () => playback.toggle());
     pressed("to-begin", () => playback.jump(0));
     pressed("to-end", () => playback.end());
+    pressed("live", () => playback.end());
+    element("live").hidden = !isRobot;
+    if (isRobot) playback.end();
     element("back").addEventListener("click", ({ shiftKey }) => playback.step(shiftKey ? -10 : -1));
     element("on").addEventListener("click", ({ shiftKey }) => playback.step(shiftKey ? 10 : 1));
     pressed("event-before", () => to(-1));
@@ -33,10 +37,11 @@ export class Transport {
   }
 
   show(): void {
-    const { tick, known, over, playing, rate } = this.playback;
+    const { tick, known, over, moving, following, rate } = this.playback;
     const play = element("play");
-    play.classList.toggle("playing", playing);
-    play.setAttribute("aria-label", playing ? "pause" : "play");
+    play.classList.toggle("playing", moving);
+    element("live").setAttribute("aria-pressed", String(following));
+    play.setAttribute("aria-label", moving ? "pause" : "play");
     if (document.activeElement !== this.tick) this.tick.value = String(tick);
     this.tick.max = String(known);
     this.rate.value = String(rate);

@@ -78,7 +78,7 @@ export class View {
     this.forks = new Forks(element<HTMLSelectElement>("forks"), about, send, () => this.beside());
     const followed = (newest: boolean) => (follows.newest = newest);
     this.learning = about.training ? new Learning(about, trainings, send, theme(), follows.newest, followed) : null;
-    this.transport = new Transport(this.playback, this.timeline, about.tick);
+    this.transport = new Transport(this.playback, this.timeline, about.tick, about.source === "robot");
     const parts = { ...this.parts(), follow: () => this.follow() };
     showTitle(about);
     listenToButtons(parts);

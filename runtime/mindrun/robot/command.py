@@ -2,8 +2,10 @@
 
 import argparse
 import sys
-from contextlib import suppress
+from collections.abc import Callable, Iterator
+from contextlib import AbstractContextManager, contextmanager, nullcontext, suppress
 from dataclasses import replace
+from pathlib import Path
 
 from mindrun.bundle import Bundle, digest, read_bundle
 from mindrun.default_task import default_task
@@ -15,6 +17,7 @@ from mindrun.robot.drive import DriveOptions, drive
 from mindrun.robot.drivers.mock import MockActuator
 from mindrun.robot.dry_run import DryRun, beginning, outcome
 from mindrun.robot.identity import IdentityError, is_adopted
+from mindrun.robot.live_view import live_view, temporary_recording
 from mindrun.robot.loop import Loop
 from mindrun.status_line import StatusLine
 from mindrun.wiring import still
@@ -23,37 +26,48 @@ from mindrun.wiring import still
 def run(options: argparse.Namespace) -> int:
     """Drive until a signal comes; the exit code."""
     bundle = read_bundle(options.bundle)
-    drive_options = DriveOptions(options.arm, options.record, options.ticks, options.master)
-    tell = _quiet if options.quiet else _print_error
+    line = StatusLine(_quiet, columns=lambda: None) if options.quiet else StatusLine(_print_error)
     if not options.arm:
-        tell("nothing will move: --arm lets it")
-    loop = _dry(options, bundle, drive_options) if options.dry else _wired(options, bundle, drive_options)
-    tell(_summary(loop))
+        line.tell("nothing will move: --arm lets it")
+    with _seen(options, line.tell) as (record, view):
+        drive_options = DriveOptions(options.arm, record, options.ticks, options.master, view)
+        loop = (_dry if options.dry else _wired)(options, bundle, drive_options, line)
+    line.tell(_summary(loop))
     return 0
 
 
-def _wired(options: argparse.Namespace, bundle: Bundle, drive_options: DriveOptions) -> Loop:
+@contextmanager
+def _seen(
+    options: argparse.Namespace, tell: Callable[[str], None]
+) -> Iterator[tuple[Path | None, AbstractContextManager[None] | None]]:
+    """Where to record to, and the page of that recording, if one is asked for; its address is told in any case."""
+    if not options.view:
+        yield options.record, None
+        return
+    with nullcontext(options.record) if options.record else temporary_recording(tell) as record:
+        yield record, live_view(record, options.bundle, options.view_port, _print_error if options.quiet else tell)
+
+
+def _wired(options: argparse.Namespace, bundle: Bundle, drive_options: DriveOptions, line: StatusLine) -> Loop:
     if bundle.wiring is None:
         raise MindError("this bundle is wired to no robot", "mindc build … --robot robot.yaml, or try it with --dry")
-    tell = _quiet if options.quiet else _print_error
     wiring = bundle.wiring
     if not is_adopted(wiring, bundle.graph):
         remedy = f"if it is wired as this bundle has it: mindrun adopt {options.bundle}"
         if drive_options.armed:
             raise IdentityError("nothing may move yet: this robot has not said how it is wired", remedy)
-        tell("this robot has not said how it is wired: no actuator is opened")
+        line.tell("this robot has not said how it is wired: no actuator is opened")
         wiring = replace(wiring, actuators=tuple(replace(wire, driver=MockActuator()) for wire in wiring.actuators))
     if not drive_options.armed:
         wiring = replace(wiring, sensors=tuple(map(still, wiring.sensors)))
     with hold_devices(wiring) as held:
-        return drive(bundle, digest(options.bundle), wiring, drive_options, tell, held)
+        return drive(bundle, digest(options.bundle), wiring, drive_options, line.tell, held)
 
 
-def _dry(options: argparse.Namespace, bundle: Bundle, drive_options: DriveOptions) -> Loop:
+def _dry(options: argparse.Namespace, bundle: Bundle, drive_options: DriveOptions, line: StatusLine) -> Loop:
     from mindrun.robot.drivers.simulated import dry, status
     from mindrun.robot.simulated_world.process import simulated
 
-    line = StatusLine(_quiet, columns=lambda: None) if options.quiet else StatusLine(_print_error)
     task, why = _task(bundle.graph, options.task)
     if why:
         line.tell(why)

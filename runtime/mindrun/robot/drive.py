@@ -36,13 +36,15 @@ class DriveError(MindError):
 class DriveOptions:
     """What is asked for: whether anything may move, where to record to, after how many ticks to end (0: never).
 
-    `master` is another skill than the mind's own to be in charge.
+    `master` is another skill than the mind's own to be in charge. `view` is entered for as long as there is a
+    recording, of which it can read each tick at once.
     """
 
     armed: bool = False
     record: Path | None = None
     ticks: int = 0
     master: str | None = None
+    view: AbstractContextManager[None] | None = None
 
 
 def drive(
@@ -66,7 +68,8 @@ def drive(
     with ExitStack() as stack:
         stop = stack.enter_context(stopping(STOP_SECONDS * max(1.0, graph.tick)))
         about = About.of(graph, digest, options.master or graph.master, tuple(wire.sensor for wire in wiring.sensors))
-        recorder = stack.enter_context(_recorder(options.record, about))
+        recorder = stack.enter_context(_recorder(options, about))
+        stack.enter_context(options.view or nullcontext())
         samplers = stack.enter_context(_sampling(wiring))
         guardian = stack.enter_context(Guardian(plan_of(graph.tick, neutrals, wiring), inherited=held))
         loop = Loop(engine, ReadingFilter(graph, samplers), guardian, Rate(graph.tick), options.armed, recorder, tell)
@@ -80,12 +83,13 @@ def drive(
         return loop
 
 
-def _recorder(path: Path | None, about: About) -> AbstractContextManager[Recorder | None]:
+def _recorder(options: DriveOptions, about: About) -> AbstractContextManager[Recorder | None]:
     """The recorder that is wished for; DriveError where it would write over something, or cannot write."""
+    path = options.record
     if path is None:
         return nullcontext()
     try:
-        return Recorder(path, about)
+        return Recorder(path, about, flush_every=0.0 if options.view else None)
     except FileExistsError:
         raise DriveError(f"{path} exists already", "record to another file, or delete it") from None
     except OSError as error:

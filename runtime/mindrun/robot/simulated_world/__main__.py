@@ -4,26 +4,23 @@ It says `ready` on its standard output, or in one line what is wrong; `drivers/s
 """
 
 import argparse
-import ctypes
 import os
 import signal
 import sys
-from contextlib import suppress
 from importlib import import_module
 from math import isfinite
 from pathlib import Path
 
 from mindrun.errors import MindError
+from mindrun.robot.parent_process import end_with_parent
 from mindrun.robot.simulated_world.scene import SEED_COUNT, SimulatedScene, SimulatedWorld
 from mindrun.robot.simulated_world.server import Server, listening
-
-PARENT_DIED = 1  # PR_SET_PDEATHSIG
 
 
 def main() -> None:
     """Simulate a world until the parent process ends."""
     options = _options()
-    _end_with_parent()
+    end_with_parent(os.getppid(), signal.SIGTERM)
     try:
         _run(options)
     except MindError as error:
@@ -56,15 +53,6 @@ def _world(options: argparse.Namespace) -> SimulatedWorld:
     except MemoryError as error:
         raise MindError(f"this computer has too little memory for task {options.task}") from error
     return world
-
-
-def _end_with_parent() -> None:
-    """As far as the system can: be terminated when the parent dies."""
-    parent = os.getppid()
-    with suppress(OSError, AttributeError):
-        ctypes.CDLL(None).prctl(PARENT_DIED, signal.SIGTERM)
-    if os.getppid() != parent:
-        sys.exit(1)
 
 
 def _options() -> argparse.Namespace:

@@ -1,0 +1,123 @@
+"""The page of a robot that drives: another process reads the recording and serves it, and the robot waits for nothing.
+
+The viewer is `mindc view --follow` of mindlang, where that is installed; it is not imported here. It is of the lowest
+priority, inherits no device and no pipe of the guardian, and is killed when the robot, or what drives it, has ended.
+"""
+
+import os
+import socket
+import subprocess
+import sys
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from importlib.util import find_spec
+from pathlib import Path
+from shlex import quote
+from tempfile import TemporaryDirectory
+from threading import Event, Thread
+
+from mindrun.errors import reason
+
+PAGE_PORT = 8123  # tried first, so that the tunnel to a robot is the same each time
+MAX_LINE_CHARACTERS = 4096
+SERVER_ADDRESS = 2  # of the words of SSH_CONNECTION: client, its port, server, its port
+PROGRAM = "; ".join(
+    [
+        "import os, signal, sys",
+        "from mindrun.robot.parent_process import end_with_parent",
+        "end_with_parent(int(sys.argv.pop(1)), signal.SIGKILL)",
+        "os.nice(19)",
+        "from mindlang.cli import main",
+        "main()",
+    ]
+)
+
+
+@contextmanager
+def temporary_recording(tell: Callable[[str], None]) -> Iterator[Path]:
+    """A path for a recording that goes away at the end."""
+    with TemporaryDirectory(prefix="mind-") as folder:
+        tell("recorded for the view alone, and deleted at the end: --record FILE keeps it")
+        yield Path(folder) / "live.rec"
+
+
+@contextmanager
+def live_view(recording: Path, bundle: Path, port: int | None, tell: Callable[[str], None]) -> Iterator[None]:
+    """Serve a recording, which has begun, as long as this lasts; `tell` gets the address, or why there is none."""
+    if not find_spec("mindlang"):
+        tell("mindlang is not installed here, so the page is served elsewhere. On your desk, type:")
+        tell(f"mindc view {quote(f'{_host()}:{recording.absolute()}')} {quote(bundle.name)} --follow")
+        yield
+        return
+    try:
+        viewer = _begin(recording, bundle, port)
+    except OSError as error:
+        tell(f"there is no view, and the robot drives on: it cannot be started ({reason(error)})")
+        yield
+        return
+    ending = Event()
+    listening = Thread(target=_listen, args=(viewer, ending, tell), name="live_view", daemon=True)
+    listening.start()
+    try:
+        yield
+    finally:
+        ending.set()
+        viewer.kill()
+        viewer.wait()
+
+
+def _begin(recording: Path, bundle: Path, port: int | None) -> "subprocess.Popen[str]":
+    """The viewer. It ends with the thread that calls this."""
+    # -P: a file of the user's folder that is named like a module must not be imported.
+    words = [sys.executable, "-P", "-c", PROGRAM, str(os.getpid()), "view", "--follow", "--no-browser", "-q"]
+    if port or _is_free(PAGE_PORT):
+        words += ["--port", str(port or PAGE_PORT)]
+    return subprocess.Popen(
+        [*words, "--", str(recording.absolute()), str(bundle)],
+        stdin=subprocess.DEVNULL,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        text=True,
+        errors="replace",
+        process_group=0,  # Ctrl-C is the robot's. No session of its own: there, Linux would not compare its niceness
+    )
+
+
+def _listen(viewer: "subprocess.Popen[str]", ending: Event, tell: Callable[[str], None]) -> None:
+    """Tell the address, and when the viewer has ended before the robot; all else that it says is not the robot's."""
+    assert viewer.stdout
+    why = ""
+    with viewer.stdout as lines:
+        while line := lines.readline(MAX_LINE_CHARACTERS):
+            if line.startswith("http://"):
+                _tell_address(line.strip(), tell)
+            elif line.strip() and not line.startswith(" "):  # but hints, and where an exception came from
+                why = line.strip()
+    code = viewer.wait()
+    if not ending.is_set():
+        tell(f"the view has ended, and the robot drives on: {why or f'exit {code}'}")
+
+
+def _tell_address(address: str, tell: Callable[[str], None]) -> None:
+    tell(f"seen live at {address}")
+    if "SSH_CONNECTION" in os.environ:
+        port = address.removeprefix("http://127.0.0.1:").partition("/")[0]
+        tell(f"your browser gets there through: ssh -N -L {port}:127.0.0.1:{port} {_host()}")
+
+
+def _host() -> str:
+    """What this machine is called where somebody sits: as they have reached it by ssh, or by its name."""
+    words = os.environ.get("SSH_CONNECTION", "").split()
+    is_reached = len(words) > SERVER_ADDRESS and ":" not in words[SERVER_ADDRESS]  # HOST:FILE has no place for IPv6
+    user = os.environ.get("USER", "")
+    return f"{user}@" * bool(user) + (words[SERVER_ADDRESS] if is_reached else socket.gethostname())
+
+
+def _is_free(port: int) -> bool:
+    with socket.socket() as listener:
+        listener.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+        try:
+            listener.bind(("127.0.0.1", port))
+        except OSError:
+            return False
+        return True

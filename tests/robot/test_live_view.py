@@ -1,0 +1,240 @@
+"""`mindrun --view`: a page of a robot that drives, whatever becomes of the page."""
+
+import os
+import re
+import shlex
+import signal
+import socket
+import subprocess
+from contextlib import ExitStack, nullcontext, suppress
+from http.client import HTTPConnection
+from pathlib import Path
+
+import pytest
+from mindrun.bundle import Bundle, digest, read_bundle, write_bundle
+from mindrun.policy import Policy
+from mindrun.robot import live_view as live
+from mindrun.robot.drive import DriveOptions, drive
+from mindrun.robot.loop import Loop
+from mindrun.robot.recording import read
+
+from mindlang.view.growing_bytes import remote
+from tests.robot.driving import MINDRUN, PATIENCE, begun, children, mindrun, until, wiring
+from tests.robot.faults import graph
+
+ADDRESS = re.compile(r"seen live at http://127\.0\.0\.1:(\d+)/#\S{43}\n")
+VIEWER = "--follow"
+TICKS = 40
+
+
+def viewer_of(process: "subprocess.Popen[str]") -> int:
+    """The viewer of one that drives."""
+    until(lambda: children(process.pid, VIEWER), process)
+    (found,) = children(process.pid, VIEWER)
+    return found
+
+
+def is_gone(pid: int) -> bool:
+    """Whether a process has ended; nobody may have asked for how."""
+    try:
+        return "\nState:\tZ" in Path(f"/proc/{pid}/status").read_text(encoding="utf-8")
+    except (FileNotFoundError, ProcessLookupError):
+        return True
+
+
+def until_address(process: "subprocess.Popen[str]") -> int:
+    """The port of the page, as soon as it is told."""
+    assert process.stderr
+    for line in process.stderr:
+        if found := ADDRESS.search(line):
+            return int(found[1])
+    raise AssertionError("no address")
+
+
+def ticks(day: Path) -> list[int]:
+    """The ticks of a recording."""
+    return [int(row["tick"]) for rows in read(day)[1] for row in rows]
+
+
+@pytest.fixture
+def temporary(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """Where files that go away are."""
+    folder = tmp_path / "temporary"
+    folder.mkdir()
+    monkeypatch.setenv("TMPDIR", str(folder))
+    return folder
+
+
+def test_a_robot_is_seen_while_it_drives(bundle: Path, temporary: Path) -> None:
+    process = subprocess.Popen([*MINDRUN, bundle, "--view"], stderr=subprocess.PIPE, text=True)
+    port = until_address(process)
+    assert [path.name for path in temporary.rglob("*.rec")] == ["live.rec"]
+    client = HTTPConnection("127.0.0.1", port)
+    client.request("GET", "/")
+    assert client.getresponse().status == 200
+    viewer = viewer_of(process)
+    assert os.getpriority(os.PRIO_PROCESS, viewer) == 19
+    process.terminate()
+    _, err = process.communicate(timeout=PATIENCE)
+    assert (process.returncode, is_gone(viewer)) == (0, True), err
+    assert "drives on" not in err
+    assert list(temporary.iterdir()) == []
+
+
+@pytest.mark.parametrize("fault", [signal.SIGSTOP, signal.SIGKILL])
+def test_a_viewer_that_hangs_or_dies_is_not_the_robots_concern(bundle: Path, tmp_path: Path, fault: int) -> None:
+    day = tmp_path / "day.rec"
+    process = begun(bundle, day, "--view", "--ticks", TICKS, stderr=subprocess.PIPE)
+    viewer = viewer_of(process)
+    os.kill(viewer, fault)
+    _, err = process.communicate(timeout=PATIENCE)
+    assert (process.returncode, is_gone(viewer)) == (0, True), err
+    assert ticks(day) == list(range(TICKS))
+    assert ("the view has ended, and the robot drives on: exit -9" in err) == (fault == signal.SIGKILL)
+    assert "0 at neutral because of a fault" in err
+
+
+def test_a_port_that_is_taken_is_said_and_the_robot_drives_on(bundle: Path, tmp_path: Path) -> None:
+    day = tmp_path / "day.rec"
+    with socket.create_server(("127.0.0.1", 0)) as other:
+        port = other.getsockname()[1]
+        process = begun(bundle, day, "--view", "--view-port", port, "-q", stderr=subprocess.PIPE)
+        assert process.stderr
+        said = process.stderr.readline()
+        assert said.startswith(f"the view has ended, and the robot drives on: port {port} of this machine cannot be")
+        before = day.stat().st_size
+        until(lambda: day.stat().st_size > before, process)
+        process.terminate()
+        assert process.communicate(timeout=PATIENCE)[1] == ""
+        assert process.returncode == 0
+
+
+def test_where_the_usual_port_is_taken_another_one_serves(bundle: Path, temporary: Path) -> None:
+    with ExitStack() as stack:
+        with suppress(OSError):  # somebody has it already
+            stack.enter_context(socket.create_server(("127.0.0.1", live.PAGE_PORT)))
+        process = subprocess.Popen([*MINDRUN, bundle, "--view"], stderr=subprocess.PIPE, text=True)
+        assert until_address(process) != live.PAGE_PORT
+        process.terminate()
+        process.communicate(timeout=PATIENCE)
+
+
+@pytest.mark.parametrize("stopped", [False, True])
+def test_no_viewer_outlives_a_robot_that_is_killed(bundle: Path, tmp_path: Path, stopped: bool) -> None:
+    process = begun(bundle, tmp_path / "day.rec", "--view", stderr=subprocess.PIPE)
+    until_address(process)
+    viewer = viewer_of(process)
+    if stopped:
+        os.kill(viewer, signal.SIGSTOP)
+    process.kill()
+    process.communicate(timeout=PATIENCE)
+    until(lambda: is_gone(viewer))
+
+
+def test_the_viewer_has_nothing_of_what_the_robot_holds(bundle: Path, tmp_path: Path) -> None:
+    """Neither its device nor the guardian's pipes: the guardian hears at once when the controller is dead."""
+
+    def held(pid: int) -> set[str]:
+        found = {str(path.readlink()) for path in Path(f"/proc/{pid}/fd").iterdir()}
+        return {name for name in found if name.startswith(("pipe:", "socket:"))}
+
+    process = begun(bundle, tmp_path / "day.rec", "--view", stderr=subprocess.PIPE)
+    until_address(process)
+    viewer = viewer_of(process)
+    shared = held(process.pid) & held(viewer)
+    assert shared == {str(Path(f"/proc/{viewer}/fd/1").readlink())}, "what it says alone"
+    process.terminate()
+    process.communicate(timeout=PATIENCE)
+
+
+def test_each_tick_can_be_read_at_once(bundle: Path, tmp_path: Path) -> None:
+    found, day, sizes = read_bundle(bundle), tmp_path / "day.rec", list[int]()
+
+    def watch(loop: Loop) -> bool:
+        sizes.append(day.stat().st_size)
+        return True
+
+    options = DriveOptions(record=day, ticks=6, view=nullcontext())
+    drive(found, digest(bundle), wiring(), options, lambda sentence: None, watch=watch)
+    row = read(day)[0].row.itemsize
+    end = day.stat().st_size
+    assert sizes == [end - row * later for later in reversed(range(1, 6))]
+
+
+# Where no viewer can be started
+
+
+def heard(recording: Path, bundle: Path) -> list[str]:
+    """What is told of a view that ends at once."""
+    told: list[str] = []
+    with live.live_view(recording, bundle, None, told.append):
+        pass
+    return told
+
+
+@pytest.mark.parametrize(
+    ("connection", "host"),
+    [
+        ("10.0.0.2 50000 10.0.0.7 22", "pi@10.0.0.7"),
+        ("fe80::2 50000 fe80::7%wlan0 22", f"pi@{socket.gethostname()}"),
+        ("", f"pi@{socket.gethostname()}"),
+        ("nonsense", f"pi@{socket.gethostname()}"),
+    ],
+)
+def test_without_mindlang_it_says_what_to_type_elsewhere(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path, connection: str, host: str
+) -> None:
+    monkeypatch.setattr(live, "find_spec", lambda name: None)
+    monkeypatch.setenv("SSH_CONNECTION", connection)
+    monkeypatch.setenv("USER", "pi")
+    day = tmp_path / "a day.rec"
+    first, line = heard(day, tmp_path / "releases" / "ball.bundle")
+    assert "mindlang is not installed here" in first
+    mindc, view, recording, *words = shlex.split(line)
+    assert (mindc, view, words) == ("mindc", "view", ["ball.bundle", "--follow"])
+    assert remote(recording) == (host, str(day))
+
+
+def test_what_cannot_be_started_is_said(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    monkeypatch.setattr("sys.executable", str(tmp_path / "none"))
+    (said,) = heard(tmp_path / "day.rec", tmp_path / "ball.bundle")
+    assert said.startswith("there is no view, and the robot drives on: it cannot be started (")
+
+
+def test_through_ssh_the_tunnel_is_told_that_leads_to_the_page(
+    bundle: Path, temporary: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("SSH_CONNECTION", "10.0.0.2 50000 10.0.0.7 22")
+    monkeypatch.setenv("USER", "pi")
+    process = subprocess.Popen([*MINDRUN, bundle, "--view"], stderr=subprocess.PIPE, text=True)
+    port = until_address(process)
+    assert process.stderr
+    assert (
+        process.stderr.readline() == f"your browser gets there through: ssh -N -L {port}:127.0.0.1:{port} pi@10.0.0.7\n"
+    )
+    process.terminate()
+    process.communicate(timeout=PATIENCE)
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (("--view", "--describe"), "--view shows a robot that drives"),
+        (("--view", "--json"), "--view shows a robot that drives"),
+        (("--view", "--readings", "-"), "--view shows a robot that drives"),
+        (("--dry", "--view-port", 80), "--view-port is the port of --view"),
+        (("--view", "--view-port", 0), "0 is not a whole number from 1 to 65535"),
+    ],
+)
+def test_what_shows_no_robot_is_refused(bundle: Path, words: tuple[object, ...], said: str) -> None:
+    done = mindrun(bundle, *words)
+    assert (done.returncode, done.stdout) == (2, "")
+    assert said in done.stderr
+
+
+def test_without_wiring_there_is_no_robot_to_see(tmp_path: Path) -> None:
+    path = tmp_path / "mind.bundle"
+    write_bundle(path, Bundle(Policy(graph("bearing"), {}), {}))
+    done = mindrun(path, "--view")
+    assert done.returncode == 2
+    assert "this bundle is wired to no robot" in done.stderr
