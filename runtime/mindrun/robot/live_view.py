@@ -1,7 +1,7 @@
 """The page of a robot that drives: another process reads the recording and serves it, and the robot waits for nothing.
 
-The viewer is `mindc view --follow` of mindlang, where that is installed; it is not imported here. It is of the lowest
-priority, inherits no device and no pipe of the guardian, and is killed when the robot, or what drives it, has ended.
+The viewer is `mindc view --follow` of mindlang, where that is installed; it is not imported here. It gives way to
+all else, inherits no device and no pipe of the guardian, and is killed when the robot, or what drives it, has ended.
 """
 
 import os
@@ -21,15 +21,9 @@ from mindrun.errors import reason
 PAGE_PORT = 8123  # tried first, so that the tunnel to a robot is the same each time
 MAX_LINE_CHARACTERS = 4096
 SERVER_ADDRESS = 2  # of the words of SSH_CONNECTION: client, its port, server, its port
-PROGRAM = "; ".join(
-    [
-        "import os, signal, sys",
-        "from mindrun.robot.parent_process import end_with_parent",
-        "end_with_parent(int(sys.argv.pop(1)), signal.SIGKILL)",
-        "os.nice(19)",
-        "from mindlang.cli import main",
-        "main()",
-    ]
+PROGRAM = (
+    "import signal, sys; from mindrun.robot.background_process import end_with_parent, give_way; "
+    "end_with_parent(int(sys.argv.pop(1)), signal.SIGKILL); give_way(); from mindlang.cli import main; main()"
 )
 
 
@@ -79,7 +73,7 @@ def _begin(recording: Path, bundle: Path, port: int | None) -> "subprocess.Popen
         stderr=subprocess.STDOUT,
         text=True,
         errors="replace",
-        process_group=0,  # Ctrl-C is the robot's. No session of its own: there, Linux would not compare its niceness
+        start_new_session=True,  # Ctrl-C is the robot's
     )
 
 

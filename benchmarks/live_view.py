@@ -1,0 +1,128 @@
+"""What a robot's loop notices of being seen: python benchmarks/live_view.py [--rounds 3] [--ticks 900] [--json].
+
+The same dry run of Collect at real time, in turns: recorded alone, with `--view`, and with a page open in a Chromium
+without windows (where there is none: without). Late is how long after its time a tick began; pictures are the different
+ticks that the page has drawn, in a second. The browser stands for another machine: it has a session of its own.
+"""
+
+import argparse
+import json
+import os
+import re
+import subprocess
+import sys
+from contextlib import suppress
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import Any
+
+import numpy as np
+from mindrun.robot.recording import read
+from numpy.typing import NDArray
+
+COLLECT = Path(__file__).parents[1] / "examples" / "collect" / "collect.mind"
+MINDC = (sys.executable, "-c", "from mindlang.cli import main; main()")
+MINDRUN = (sys.executable, "-m", "mindrun")
+SITUATIONS = ("recorded alone", "--view", "--view, a page open")
+CLOCK_TICKS = 0.01  # by which the first tick may have been later than those after it
+PICTURES = """milliseconds => new Promise((done) => {
+  let [frames, drawn, last] = [0, 0, ""];
+  const begin = performance.now();
+  const count = (now) => {
+    frames++;
+    drawn += document.body.dataset.tick !== last;
+    last = document.body.dataset.tick;
+    if (now - begin < milliseconds) requestAnimationFrame(count);
+    else done([frames, drawn].map((times) => (1000 * times) / (now - begin)));
+  };
+  requestAnimationFrame(count);
+})"""
+
+
+def pictures(address: str, milliseconds: int) -> tuple[float, float]:
+    """Frames, and different ticks drawn, in a second of the page at an address."""
+    from tests.view.browser import Opened, chromium
+
+    with chromium() as browser:
+        page = Opened(browser, address).page
+        page.wait_for_timeout(1000)
+        frames, drawn = page.evaluate(PICTURES, milliseconds)
+    return frames, drawn
+
+
+def lateness(times: NDArray[np.float64], tick: float) -> tuple[NDArray[np.float64], int]:
+    """How late each tick has begun, in milliseconds, and how many were missed, as `robot/rate.py` counts them."""
+    since = times - times[0]
+    due = np.floor(since / tick + CLOCK_TICKS)
+    return np.maximum(0.0, since - due * tick) * 1e3, int(due[-1]) + 1 - len(times)
+
+
+def driven(bundle: Path, day: Path, situation: str, ticks: int) -> tuple[NDArray[np.float64], int, list[float]]:
+    """A run; how late its ticks were, how many it missed, and what its page has drawn."""
+    words = [*MINDRUN, str(bundle), "--dry", "--arm", "--ticks", str(ticks), "--record", str(day)]
+    words += ["--view"] * (situation != SITUATIONS[0])
+    drawn: list[float] = []
+    with subprocess.Popen(words, stderr=subprocess.PIPE, text=True) as process:
+        assert process.stderr
+        for line in process.stderr:
+            if situation == SITUATIONS[2] and (address := re.search(r"http://127\S+", line)):
+                page = [sys.executable, __file__, "--page", address[0], "--milliseconds", str(ticks * 5)]
+                browser = subprocess.run(page, stdout=subprocess.PIPE, text=True, check=False, start_new_session=True)
+                with suppress(ValueError):  # there is none
+                    drawn = json.loads(browser.stdout)
+    if process.returncode:
+        raise SystemExit(f"the robot has ended with {process.returncode}: this machine is too busy for a dry run")
+    about, parts = read(day)
+    late, missed = lateness(np.concatenate([rows["time"] for rows in parts]), about.tick)
+    return late, missed, drawn
+
+
+def measured(rounds: int, ticks: int) -> list[dict[str, Any]]:
+    """A row for each situation."""
+    found: dict[str, list[tuple[NDArray[np.float64], int, list[float]]]] = {name: [] for name in SITUATIONS}
+    with TemporaryDirectory() as folder:
+        bundle = Path(folder) / "collect.bundle"
+        subprocess.run([*MINDC, "build", str(COLLECT), "-o", str(bundle), "-q"], check=True)
+        for number in range(rounds):
+            for place, name in enumerate(SITUATIONS):
+                found[name].append(driven(bundle, Path(folder) / f"{number}-{place}.rec", name, ticks))
+    return [summed(name, runs) for name, runs in found.items()]
+
+
+def summed(name: str, runs: list[tuple[NDArray[np.float64], int, list[float]]]) -> dict[str, Any]:
+    """The figures of all runs of a situation."""
+    late = np.concatenate([run[0] for run in runs])
+    row: dict[str, Any] = {"loop": name, "ticks": len(late), "missed": sum(run[1] for run in runs)}
+    row |= {"late ms": np.median(late), "99 % ms": np.quantile(late, 0.99), "worst ms": late.max()}
+    seen = np.array([run[2] for run in runs if run[2]])
+    middle = np.median(seen, axis=0).tolist() if len(seen) else [None, None]
+    return row | {"frames/s": middle[0], "pictures/s": middle[1]}
+
+
+def main() -> None:
+    """Measure and print."""
+    parser = argparse.ArgumentParser(allow_abbrev=False, description=__doc__)
+    parser.add_argument("--rounds", type=int, default=3)
+    parser.add_argument("--ticks", type=int, default=900)
+    parser.add_argument("--page", help=argparse.SUPPRESS)
+    parser.add_argument("--milliseconds", type=int, help=argparse.SUPPRESS)
+    parser.add_argument("--json", action="store_true")
+    options = parser.parse_args()
+    if options.page:
+        print(json.dumps(pictures(options.page, options.milliseconds)))
+        return
+    rows = measured(options.rounds, options.ticks)
+    if options.json:
+        print(json.dumps(rows))
+        return
+    print(f"{os.cpu_count()} cores, load {os.getloadavg()[0]:.1f}")
+    for row in [{name: name for name in rows[0]}, *rows]:
+        print("  ".join(f"{_shown(value):>{20 if name == 'loop' else 10}}" for name, value in row.items()))
+
+
+def _shown(value: object) -> str:
+    return "" if value is None else f"{value:,.2f}" if isinstance(value, float) else f"{value}"
+
+
+if __name__ == "__main__":
+    main()
