@@ -7,7 +7,7 @@ from contextlib import suppress
 from pathlib import Path
 
 PARENT_DIED = 1  # PR_SET_PDEATHSIG
-NICENESS = 10  # a tenth of the processor where others want all of it
+BACKGROUND_NICENESS = 10  # a tenth of the processor where others want all of it
 
 
 def end_with_parent(parent: int, by: signal.Signals) -> None:
@@ -20,6 +20,6 @@ def end_with_parent(parent: int, by: signal.Signals) -> None:
 
 def give_way() -> None:
     """Let others go first. Linux may give each session an equal share: whoever calls this has begun one."""
-    os.nice(NICENESS)
+    os.nice(BACKGROUND_NICENESS)
     with suppress(OSError):
-        Path("/proc/self/autogroup").write_text(f"{NICENESS}", encoding="ascii")
+        Path("/proc/self/autogroup").write_text(f"{BACKGROUND_NICENESS}", encoding="ascii")
