@@ -18,11 +18,11 @@ PROGRAM = "from mindlang.cli import main; main()"
 PARSE = """
 import gc, sys, time
 from pathlib import Path
-from mindlang.cli import GARBAGE_COLLECTION_OBJECTS
+from mindlang.cli import GARBAGE_COLLECTION_OBJECTS, YOUNG_COLLECTIONS
 from mindlang.compiler.diagnostic import Findings
 from mindlang.compiler.parse import parse
 from mindlang.compiler.source import Source
-gc.set_threshold(GARBAGE_COLLECTION_OBJECTS)
+gc.set_threshold(GARBAGE_COLLECTION_OBJECTS, YOUNG_COLLECTIONS)
 text = Path(sys.argv[1]).read_text()
 parse(Source("warm", text[:2000]), Findings())
 begin = time.perf_counter()

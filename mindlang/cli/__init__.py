@@ -12,8 +12,9 @@ from mindrun import standard_streams
 
 from mindlang.cli._terminal import FINDINGS, INTERRUPTED, MISUSE, OK, say
 
-# Objects made before Python looks for garbage: a large mind is millions, and none of them garbage.
-GARBAGE_COLLECTION_OBJECTS = 200_000
+# Objects made before Python looks for garbage among them: a large mind is millions, and none of them garbage.
+GARBAGE_COLLECTION_OBJECTS = 1_000_000
+YOUNG_COLLECTIONS = 1  # before it looks among older ones, too
 
 
 class Suggesting(click.Group):
@@ -59,7 +60,7 @@ def commands() -> None:
 
 def main() -> None:
     """Run one command; whatever happens ends in one message and an exit code, never in a traceback."""
-    set_threshold(GARBAGE_COLLECTION_OBJECTS)
+    set_threshold(GARBAGE_COLLECTION_OBJECTS, YOUNG_COLLECTIONS)
     standard_streams.prepare()
     code = _run()
     if why := standard_streams.finish():

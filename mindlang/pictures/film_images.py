@@ -3,6 +3,7 @@
 from typing import Any
 
 import numpy as np
+from mindrun.reward_sums import score_of
 
 from mindlang.pictures.canvas import Canvas, Image, Viewport, blank, pasted, text_width
 from mindlang.pictures.ending import LEAST_WORLD_PIXELS, draw_banner, draw_end_mark, ending_colour, ending_words
@@ -116,7 +117,7 @@ class FilmImages:
         return [
             f"{tick * run.graph.tick:.1f} s",
             f"speed {self._speed:g}",
-            f"score {run.lines[tick - 1].sum():,.1f}",
+            f"score {score_of(run.lines[tick - 1]):,.1f}",
             *(f"{event} {times}" for event, times in zip(self._found["counted"], run.counts[tick - 1], strict=True)),
             f"seed {self._found['seed']}",
         ]

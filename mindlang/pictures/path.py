@@ -31,7 +31,7 @@ class Path:
     @classmethod
     def of(cls, run: RecordedRun, theme: Theme) -> "Path":
         """By skill, where several were in control."""
-        movers = [skill.name for skill in run.movers()]
+        movers = [*run.movers]
         places = run.body[:, :2]
         keys = run.in_control() if movers else np.zeros(run.ticks, np.int64)
         shares = np.bincount(keys, minlength=len(movers)) / max(1, run.ticks)

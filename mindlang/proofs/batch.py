@@ -25,7 +25,7 @@ class Thoughts:
 
 def think(graph: Graph, weights: Mapping[str, Weights], readings: Singles) -> Thoughts:
     """Equations 2 and 3 for readings [rows, graph.width], as `mindrun.think` has them; no procedures."""
-    places = {skill.name: number for number, skill in enumerate(graph.skills)}
+    places = graph.skill_numbers
     influence = np.zeros((len(readings), len(graph.skills)), np.float32)
     influence[:, places[graph.master]] = 1
     sums, totals = np.zeros((2, len(readings), len(graph.actuators)), np.float32)

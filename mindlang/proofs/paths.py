@@ -51,7 +51,7 @@ class Ways:
 
 def ways(graph: Graph) -> Ways:
     """Where influence can go, without any weights."""
-    place = {skill.name: number for number, skill in enumerate(graph.skills)}
+    place = graph.skill_numbers
     whole = Boxes(np.zeros((1, graph.width), np.float32), np.ones((1, graph.width), np.float32))
     onward = [
         tuple(way for edge in skill.edges if edge.to == "skill" for way in [_way(skill, edge, whole)] if way.most > 0)

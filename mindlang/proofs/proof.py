@@ -142,7 +142,7 @@ class _Rests:
                 into = {"skill": self._parents, "actuator": self._drivers}.get(edge.to)
                 if into is not None:
                     into.setdefault(edge.target, []).append((skill, edge, sends))
-        self._place = {skill.name: number for number, skill in enumerate(graph.skills)}
+        self._place = graph.skill_numbers
 
     def says(self, skill: Skill, edge: Edge, sends: EdgeRange) -> bool:
         """Whether an edge is learnt, and its weights narrow what it sends, or see to it that a command is a number."""

@@ -93,7 +93,7 @@ def flow(graph: Graph, boxes: int, sends: Callable[[str], SentBounds]) -> Influe
     """Influence from the master down to the actuators, in so many boxes, from what each skill sends in them."""
     low, high = np.zeros((2, boxes, len(graph.skills)), np.float32)
     total_low, total_high = np.zeros((2, boxes, len(graph.actuators)), np.float32)
-    places = {skill.name: place for place, skill in enumerate(graph.skills)}
+    places = graph.skill_numbers
     low[:, places[graph.master]] = high[:, places[graph.master]] = 1
     with np.errstate(all="ignore"):
         for skill in reachable(graph, graph.master):

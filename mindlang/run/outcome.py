@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from math import isfinite, sqrt
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from mindrun.graph import Task
+from mindrun.reward_sums import paid_by_text, score_of
 from numpy.typing import NDArray
 
 from mindlang.compiler.drawing import phrase
@@ -37,8 +38,7 @@ def run_data(task: Task, scores: Scores) -> dict[str, Any]:
     """The single run of `scores`; a sum that is not a finite number is None, `counts` is the sum of `by_event`."""
     ended = int(scores.ended_by[0, 0])
     return {
-        "score": _number(scores.total[0, 0]),
-        "by_line": _by_line(task, scores.by_line[0, 0]),
+        **rewards_data(task, scores.by_line[0, 0]),
         "counts": int(scores.counts[0, 0]),
         "counted": [events(task)[event] for event in task.counts],
         "by_event": {events(task)[event]: int(scores.by_event[0, 0, event]) for event in task.counts},
@@ -52,11 +52,10 @@ def run_data(task: Task, scores: Scores) -> dict[str, Any]:
 
 def data_so_far(run: RecordedRun) -> dict[str, Any]:
     """The same of a run that has come to its last row, and may go on: nobody knows its faults, and nothing ended it."""
-    task, sums = run.task, run.lines[-1]
+    task = run.task
     counts = dict(zip([events(task)[event] for event in task.counts], run.counts[-1].tolist(), strict=True))
     return {
-        "score": _number(total(sums)),
-        "by_line": _by_line(task, sums),
+        **rewards_data(task, run.lines[-1]),
         "counts": sum(counts.values()),
         "counted": [*counts],
         "by_event": counts,
@@ -66,20 +65,13 @@ def data_so_far(run: RecordedRun) -> dict[str, Any]:
     }
 
 
-def total(sums: Iterable[float]) -> float:
-    """The sum of what the lines have paid, in the order of the source, as every executor adds it."""
-    found = 0.0
-    for paid in sums:
-        found += float(paid)
-    return found
-
-
-def _by_line(task: Task, sums: NDArray[np.float64]) -> dict[str, float | None]:
-    """What each line has paid, by its text: two of one text together."""
-    by_line: dict[str, float] = {}
-    for reward, paid in zip(task.rewards, sums, strict=False):
-        by_line[reward.text] = by_line.get(reward.text, 0.0) + float(paid)
-    return {text: _number(paid) for text, paid in by_line.items()}
+def rewards_data(task: Task, paid: NDArray[np.float64]) -> dict[str, Any]:
+    """`score` and `by_line` of what each line has paid."""
+    by_line = paid_by_text(task.rewards, paid)
+    return {
+        "score": _number(score_of(paid)),
+        "by_line": {text: _number(value) for text, value in by_line.items()},
+    }
 
 
 def bench_data(task: Task, scores: Scores, seeds: Sequence[int], seconds: float) -> dict[str, Any]:

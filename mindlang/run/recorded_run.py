@@ -3,12 +3,12 @@
 from dataclasses import dataclass, replace
 
 import numpy as np
-from mindrun.graph import Graph, Skill, Task, Thing
+from mindrun.graph import Graph, Task, Thing
+from mindrun.movers import movers
 from mindrun.sim.rollout import Rollout
 from mindrun.sim.task_rows import things_of
 from mindrun.sim.ticks import joined
 from mindrun.sim.trace import Trace, trace
-from mindrun.weights import reachable
 from numpy.typing import NDArray
 
 from mindlang.run.setup import RunSetup
@@ -100,18 +100,14 @@ class RecordedRun:
         placed = self.placements(thing)
         return placed[:-1] if np.isfinite(self.things[-1, thing, 0]) else placed
 
-    def movers(self) -> list[Skill]:
-        """The skills under the master that move the robot."""
-        drives = {i for i, actuator in enumerate(self.graph.actuators) if actuator.kind.moves_body}
-        return [
-            skill
-            for skill in reachable(self.graph, self.setup.master)
-            if any(edge.to == "actuator" and edge.target in drives for edge in skill.edges)
-        ]
+    @property
+    def movers(self) -> dict[str, int]:
+        """The skills under the master that move the robot, with their columns in `influence`."""
+        return movers(self.graph, self.setup.master)
 
     def in_control(self) -> NDArray[np.int64]:
         """Per tick the mover with the most influence, as a place in `movers`."""
-        columns = [self.graph.skills.index(skill) for skill in self.movers()]
+        columns = [*self.movers.values()]
         chosen: NDArray[np.int64] = np.argmax(self.influence[:, columns], axis=1)
         return chosen
 

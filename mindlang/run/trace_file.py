@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterator
 from io import BytesIO
 from typing import Any
@@ -9,13 +10,13 @@ from typing import Any
 import numpy as np
 from mindrun.errors import MindError
 from mindrun.named_readings import reading_names
+from mindrun.reward_sums import score_of
 from numpy.typing import NDArray
 
 from mindlang.run.outcome import events
 from mindlang.run.recorded_run import RecordedRun
 
 Column = NDArray[Any]
-FEWEST_DECIMALS, MOST_DECIMALS = 6, 10  # a reading is one of 2^24 numbers: so many digits say which
 
 
 def trace_table(run: RecordedRun) -> dict[str, Column]:
@@ -63,20 +64,18 @@ def _task(run: RecordedRun) -> Iterator[tuple[str, Column]]:
     happened = np.diff(run.events, axis=0, prepend=0)
     for i, name in enumerate(events(run.task)):
         yield f"event {name}", happened[:, i]
-    total = np.zeros(run.ticks)
     for i, reward in enumerate(run.task.rewards):
-        total = total + run.lines[:, i]
         yield f"total {reward.text}", run.lines[:, i]
-    yield "total", total
+    yield "total", score_of(run.lines)
 
 
 def _numbered(columns: list[tuple[str, Column]]) -> tuple[list[str], list[Column]]:
-    names = [name for name, _ in columns]
-    seen: dict[str, int] = {}
+    times = Counter(name for name, _ in columns)
+    seen: Counter[str] = Counter()
     numbered = []
-    for name in names:
-        seen[name] = seen.get(name, 0) + 1
-        numbered.append(f"{name} {seen[name]}" if names.count(name) > 1 else name)
+    for name, _ in columns:
+        seen[name] += 1
+        numbered.append(f"{name} {seen[name]}" if times[name] > 1 else name)
     return numbered, [column for _, column in columns]
 
 
@@ -95,20 +94,12 @@ def _texts(column: Column) -> list[str]:
     if column.dtype.kind in "US":
         return list(map(_quoted, column.tolist()))
     if column.dtype == np.float32:
-        column = _shortest(column)
-    texts = list(map(repr, column.tolist()))
+        texts = [repr(float(text)) if "e" in text else text for text in map(str, column)]  # 1e6 is no 1e+06
+    else:
+        texts = list(map(repr, column.tolist()))
     for row in np.flatnonzero(~np.isfinite(column)):
         texts[row] = ""
     return texts
-
-
-def _shortest(column: NDArray[np.float32]) -> NDArray[np.float64]:
-    """Numbers in twice the precision that are written shorter and are the same in the single one."""
-    found = column.astype(np.float64)
-    for decimals in range(MOST_DECIMALS, FEWEST_DECIMALS - 1, -1):
-        shorter = np.round(column.astype(np.float64), decimals)
-        found = np.where(shorter.astype(np.float32) == column, shorter, found)
-    return found
 
 
 def _parquet(table: dict[str, Column]) -> bytes:

@@ -28,7 +28,7 @@ class HierarchyData:
     def data(self, texts: Texts) -> dict[str, Any]:
         """`nodes`, `edges` and `reads`."""
         numbers = node_numbers(self.graph, self.skills)
-        places = {skill.name: ("skill", place) for place, skill in enumerate(self.graph.skills)}
+        places = {name: ("skill", place) for name, place in self.graph.skill_numbers.items()}
         inputs = [*self._inputs()]
         return {
             "nodes": [self._node(noun, place) for noun, place in numbers],

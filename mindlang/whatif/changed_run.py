@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 from mindrun.changes import Change, ChangeError
+from mindrun.reward_sums import paid_by_text
 from mindrun.sim.rollout import Rollout, scores_of
 from mindrun.sim.state import Jobs
 from mindrun.sim.trace import trace
@@ -13,7 +14,7 @@ from mindrun.sim.trace import trace
 from mindlang.run.outcome import run_data
 from mindlang.run.recorded_run import RecordedRun, recorded
 from mindlang.run.setup import RunSetup
-from mindlang.whatif.difference import Array, Columns, Difference, first_differences, mind_columns
+from mindlang.whatif.difference import Columns, Difference, first_differences, mind_columns
 
 POSE = ("x", "y", "angle")
 
@@ -70,11 +71,8 @@ def compared(was: Course, now: Course) -> Compared:
 
 def _columns(run: RecordedRun) -> dict[str, Columns]:
     """All numbers of each tick by name, in the order in which one comes of the other."""
-    rewards: dict[str, Array] = {}
-    for i, reward in enumerate(run.task.rewards):
-        rewards[reward.text] = rewards.get(reward.text, 0.0) + run.lines[:, i]
     return {
         **mind_columns(run.graph, run.readings, run.influence, run.commands),
         "robot": {name: run.body[1:, i] for i, name in enumerate(POSE)} | {"holds": run.held[1:].astype(np.float64)},
-        "reward": rewards,
+        "reward": paid_by_text(run.task.rewards, run.lines),
     }

@@ -1,16 +1,14 @@
 """Answers as plain data: the contents of `--json`."""
 
-from collections.abc import Sequence
 from dataclasses import asdict
-from math import fsum, isfinite
+from math import isfinite
 from typing import Any
 
-import numpy as np
 from mindrun.weights import reachable
 
 from mindlang.compiler.diagnostic import did_you_mean, listed
 from mindlang.run.edge_flow import Sink, sink_named
-from mindlang.run.outcome import events, total
+from mindlang.run.outcome import events, rewards_data
 from mindlang.run.recorded_run import RecordedRun
 from mindlang.run.setup import SetupError
 from mindlang.run.shares import Contribution, shares
@@ -118,18 +116,9 @@ def _rewards(run: RecordedRun, first: int, last: int) -> dict[str, Any]:
     """What each line has paid in these ticks; lines of one text are one, as in the outcome of a run."""
     paid = run.lines[last - 1] - (run.lines[first - 2] if first > 1 else 0.0)
     happened = run.events[last - 1] - (run.events[first - 2] if first > 1 else 0)
-    lines: dict[str, list[float]] = {}
-    for reward, value in zip(run.task.rewards, np.atleast_1d(paid).tolist(), strict=True):
-        lines.setdefault(reward.text, []).append(value)
-    by_line = {text: total(values) for text, values in lines.items()}
     return {
         "of": REWARD,
         "kind": REWARD,
-        "score": _number([total(np.atleast_1d(paid))]),
-        "by_line": {text: _number([value]) for text, value in by_line.items()},
+        **rewards_data(run.task, paid),
         "by_event": {name: int(times) for name, times in zip(events(run.task), happened, strict=True) if times},
     }
-
-
-def _number(values: Sequence[float]) -> float | None:
-    return fsum(values) if all(map(isfinite, values)) else None

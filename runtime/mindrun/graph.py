@@ -248,6 +248,11 @@ class Graph:
         return sum(sensor.width for sensor in self.sensors) + len(self.memories)
 
     @property
+    def skill_numbers(self) -> dict[str, int]:
+        """The place of each skill in `skills`, by its name."""
+        return {skill.name: number for number, skill in enumerate(self.skills)}
+
+    @property
     def claw_reach(self) -> float:
         """How far ahead of the body things come into reach, with a claw or without."""
         return next((each.kind.reach for each in self.actuators if each.kind.reach is not None), REACH_UNITS)

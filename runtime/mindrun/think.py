@@ -65,7 +65,7 @@ class Thought:
 def hierarchy(policy: Policy, sources: Mapping[str, str], master: str) -> Hierarchy:
     """Make every skill ready that `master` reaches; WeightsError or ProcedureError where one cannot be."""
     graph = policy.graph
-    numbers = {skill.name: number for number, skill in enumerate(graph.skills)}
+    numbers = graph.skill_numbers
     return Hierarchy(
         tuple(
             Ready(

@@ -20,13 +20,13 @@ from mindrun.standard_streams import error_columns
 from mindrun.status_line import CLEAR, PLAIN_SECONDS, StatusLine
 
 from mindlang.compiler.compile import load
-from tests.calling import write_rules
+from tests.calling import RULES, write_rules
 from tests.robot.driving import MINDRUN, PATIENCE
 
 STATUS = {
     "seed": 3, "tick": 90, "events": {"reach of ball": 2, "collision": 0}, "ended": None,
     "commands": {"left_wheel": 0.5, "right_wheel": 1.0},
-    "by_line": {"rewards 10 on reach of ball": 20.0, "rewards -5": -0.5},
+    "by_line": {"rewards 10 on reach of ball": 20.0, "rewards -5": -0.5}, "score": 19.5,
 }  # fmt: skip
 
 
@@ -85,7 +85,8 @@ def test_it_ends_with_what_came_of_the_run(roam: Graph, ended: str | None, said:
 
 
 def test_a_score_that_is_no_number_is_said(roam: Graph) -> None:
-    lines = outcome(task_of(roam, "Roam"), "Roam", STATUS | {"by_line": {"rewards 1": float("nan")}})
+    broken = {"by_line": {"rewards 1": float("nan")}, "score": float("nan")}
+    lines = outcome(task_of(roam, "Roam"), "Roam", STATUS | broken)
     assert lines[-1] == "not a number  score"
 
 
@@ -100,10 +101,28 @@ def test_the_world_is_paid_as_the_same_run_of_mindc(roam: Graph, task: str) -> N
     scores = rollout.score(np.zeros((1, 0), np.float32), [3])
     texts = [reward.text for reward in task_of(roam, task).rewards]
     assert world.by_line == dict(zip(texts, scores.by_line[0, 0].tolist(), strict=True))
+    assert world.score == scores.total[0, 0]
     assert world.by_line != last
     assert world.tick == scores.ticks[0, 0]
     world.begin(4)
-    assert set(world.by_line.values()) == {0.0}
+    assert {*world.by_line.values(), world.score} == {0.0}
+
+
+def test_lines_of_one_text_come_to_the_score_of_mindc_in_their_order(tmp_path: Path) -> None:
+    large = "10000000000000000"
+    paid = ["0.1", large, f"-{large}", "0.1"]
+    lines = "\n".join(f"  rewards {amount} per tick" for amount in paid)
+    text = RULES.replace("  rewards -5 on collision", lines)
+    (tmp_path / "roam.mind").write_text(text, encoding="utf-8")
+    graph = load(tmp_path / "roam.mind").graph
+    assert graph
+    rollout = Rollout(Policy(graph, {}), "Roam", graph.master)
+    world, engine = World(graph, "Roam", 3), Engine(Policy(graph, {}))
+    while world.ended is None:
+        world.step(engine.tick(world.readings()))
+    assert world.score == rollout.score(np.zeros((1, 0), np.float32), [3]).total[0, 0]
+    assert world.score != sum(world.by_line.values())
+    assert len(world.by_line) == len(rollout.task.rewards) - 1
 
 
 # The line while it drives

@@ -173,6 +173,7 @@ class Counting:
     pose: tuple[float, float, float] = (1.0, 2.0, 3.0)
     events: dict[str, int] = field(default_factory=dict)
     by_line: dict[str, float] = field(default_factory=dict)
+    score: float = 0.0
     given: list[float] = field(default_factory=list)
 
     @property

@@ -2,8 +2,10 @@
 
 import csv
 import json
+from decimal import ROUND_CEILING, ROUND_FLOOR, Context, Decimal
 from io import BytesIO, StringIO
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -81,6 +83,19 @@ def test_a_number_that_is_written_is_read_again(precision: type, data: st.DataOb
         assert (text == "") == (not np.isfinite(number))
         assert text == "" or precision(text).tobytes() == precision(number).tobytes()
         assert precision is np.float64 or text == "" or len(text) <= len(repr(float(number)))
+        assert text == "" or not any(_says(shorter, number) for shorter in _shorter(text))
+
+
+def _says(text: str, number: np.floating[Any]) -> bool:
+    return type(number)(text).tobytes() == number.tobytes()
+
+
+def _shorter(text: str) -> list[str]:
+    """Both neighbours of a number that has one digit less."""
+    exact = Decimal(text)
+    digits = len(exact.normalize().as_tuple().digits) - 1
+    rounded = (Context(digits, mode).plus(exact) for mode in (ROUND_FLOOR, ROUND_CEILING)) if digits else ()
+    return [str(each) for each in rounded]
 
 
 @given(names=st.lists(st.text(min_size=1), min_size=1, max_size=5, unique=True))

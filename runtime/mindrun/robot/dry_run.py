@@ -11,10 +11,10 @@ from numpy.typing import NDArray
 
 from mindrun.driver import DeviceError
 from mindrun.graph import Graph, Task
+from mindrun.movers import driving, movers
 from mindrun.robot.drivers.simulated import status
 from mindrun.robot.loop import Loop
 from mindrun.status_line import StatusLine
-from mindrun.weights import reachable
 
 SHOW_SECONDS = 0.25  # from one state of the line to the next
 MAX_THINGS_NAMED = 6
@@ -52,7 +52,7 @@ class DryRun:
 
     def __init__(self, graph: Graph, task: Task, master: str, socket: str, line: StatusLine) -> None:
         self._graph, self._task, self._socket, self._line = graph, task, socket, line
-        self._movers = _movers(graph, master)
+        self._acting_skills = movers(graph, master) or driving(graph, master, range(len(graph.actuators)))
         self._influence: NDArray[np.float32] | None = None
         self._is_over = False
         self._stop = Event()
@@ -90,42 +90,29 @@ class DryRun:
             f"{run['tick'] * self._graph.tick:.1f} s, tick {run['tick']:,} of {self._task.ticks:,}",
             self._acting(),
             *(f"{times} × {event}" for event, times in run["events"].items() if times),
-            f"score {sum(run['by_line'].values()):,.2f}",
+            f"score {run['score']:,.2f}",
             *(f"{name} {value:.2f}" for name, value in run["commands"].items()),
         ]
         return "  ".join(part for part in parts if part)
 
     def _acting(self) -> str:
-        """The skills that move the robot with the most influence."""
+        """The skills with the most influence of those that move the robot, or drive anything where none does."""
         if self._influence is None:
             return ""
-        influence = [(float(self._influence[index]), name) for name, index in self._movers.items()]
+        influence = [(float(self._influence[index]), name) for name, index in self._acting_skills.items()]
         strongest = sorted(influence, key=lambda each: -each[0])
         acting = [f"{name} {value:.2f}" for value, name in strongest if value >= LEAST_ACTING_INFLUENCE]
         return ", ".join(acting[:MAX_ACTING_NAMED]) or "nobody acts"
 
 
-def _movers(graph: Graph, master: str) -> dict[str, int]:
-    """The skills below a master that drive something that moves the robot, or anything where nothing does."""
-    below = {skill.name: skill for skill in reachable(graph, master)}
-    every = range(len(graph.actuators))
-    moving = {i for i in every if graph.actuators[i].kind.moves_body} or {*every}
-    return {
-        skill.name: index
-        for index, skill in enumerate(graph.skills)
-        if skill.name in below and any(edge.to == "actuator" and edge.target in moving for edge in skill.edges)
-    }
-
-
 def outcome(task: Task, master: str, run: Mapping[str, Any]) -> list[str]:
     """What came of a run, as `mindc run` says it: how it ended, what it counted, what each reward line paid."""
-    total = sum(run["by_line"].values())
     facts = [("seed", str(run["seed"]))]
     for number, (event, times) in enumerate(run["events"].items()):
         facts.append(("" if number else "events", f"{times} × {event}"))
     facts.append(("ticks", f"{run['tick']:,} of {task.ticks:,}, {_ending(run['ended'])}"))
-    paid = [(_number(value), text) for text, value in run["by_line"].items()]
-    return [f"{task.name} with {master} in charge", *_aligned(facts), "", *_aligned([*paid, (_number(total), "score")])]
+    paid = [(_number(value), text) for text, value in [*run["by_line"].items(), ("score", run["score"])]]
+    return [f"{task.name} with {master} in charge", *_aligned(facts), "", *_aligned(paid)]
 
 
 def _ending(ended: str | None) -> str:

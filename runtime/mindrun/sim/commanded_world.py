@@ -14,6 +14,7 @@ from mindrun.functions import Rule
 from mindrun.graph import Graph
 from mindrun.policy import Policy
 from mindrun.registry import names
+from mindrun.reward_sums import paid_by_text, score_of
 from mindrun.sim.lanes.stages import after, before
 from mindrun.sim.rollout import Rollout
 from mindrun.sim.state import Jobs
@@ -94,11 +95,15 @@ class World:
     @property
     def by_line(self) -> dict[str, float]:
         """What each reward line has paid in this run, by its text."""
-        sums = self._state.judge.lines[:, 0] if self.ended is None else self._jobs.lines[0]
-        paid: dict[str, float] = {}
-        for reward, value in zip(self._rollout.task.rewards, sums.tolist(), strict=False):
-            paid[reward.text] = paid.get(reward.text, 0.0) + value
-        return paid
+        return {text: float(paid) for text, paid in paid_by_text(self._rollout.task.rewards, self._lines()).items()}
+
+    @property
+    def score(self) -> float:
+        """What all reward lines have paid in this run."""
+        return float(score_of(self._lines()))
+
+    def _lines(self) -> NDArray[np.float64]:
+        return self._state.judge.lines[:, 0] if self.ended is None else self._jobs.lines[0]
 
     @property
     def ended(self) -> str | None:

@@ -66,21 +66,22 @@ def skill_rows(
     """
     lengths = {skill.owner: genes(skill) for skill in reached}
     starts = dict(zip(learners, np.cumsum([0, *(lengths.get(name, 0) for name in learners)]), strict=False))
-    numbers = function_codes()
+    kinds, numbers = function_codes(), graph.skill_numbers
     rows: list[Row] = []
     edges: list[Row] = []
     inputs: list[int] = []
-    shared = np.zeros(0, np.float32)
+    shared = [np.zeros(0, np.float32)]
     places: dict[str, int] = {}
-    state = 0
+    length = state = 0  # of what is shared, of what is remembered
     for skill in reached:
         function, count, outputs = skill.function, len(skill.inputs), skill.outputs
         own = skill.owner in starts
         if not own and skill.owner not in places:
-            places[skill.owner] = len(shared)
-            shared = np.concatenate([shared, weights_of(skill, weights)])
+            places[skill.owner] = length
+            shared.append(weights_of(skill, weights))
+            length += len(shared[-1])
         rows.append({
-            "kind": numbers[names()[type(function)]], "index": graph.skills.index(skill),
+            "kind": kinds[names()[type(function)]], "index": numbers[skill.name],
             "input": len(inputs), "inputs": count, "outputs": outputs,
             "weights": int(starts[skill.owner]) if own else places[skill.owner], "own": own,
             "edge": len(edges), "edges": len(skill.edges), "address": addresses.get(skill.name, 0), "state": state,
@@ -89,8 +90,13 @@ def skill_rows(
         inputs.extend(skill.inputs)
         edges.extend(_edge(graph, edge, codes) for edge in skill.edges)
         state += function.state_length(count, outputs)
-    all_inputs = np.array(inputs, np.int64)
-    return Skills(rows=records(rows, SKILL), edges=records(edges, EDGE), inputs=all_inputs, weights=shared, state=state)
+    return Skills(
+        rows=records(rows, SKILL),
+        edges=records(edges, EDGE),
+        inputs=np.array(inputs, np.int64),
+        weights=np.concatenate(shared),
+        state=state,
+    )
 
 
 def _edge(graph: Graph, edge: Edge, codes: Programs) -> Row:

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from mindrun.graph import Task
 from mindrun.policy import Policy
+from mindrun.reward_sums import score_of
 from mindrun.sim import chipmunk_internals as chipmunk
 from mindrun.sim.allocation import empty_state
 from mindrun.sim.codes import ITEM
@@ -77,7 +78,8 @@ class Rollout:
         self.task = next(t for t in graph.tasks if t.name == task)
         self.procedures = Procedures(graph, master, procedures)
         self.interrupt, self.workers, self.lanes = interrupt, workers, lanes
-        self.learners = tuple(skill for skill in graph.skills if skill.name in learners)
+        learning = {*learners}
+        self.learners = tuple(skill for skill in graph.skills if skill.name in learning)
         self.genome_length = genome_length(graph, learners)
         self.tables: Tables
         self.sizes: Sizes
@@ -218,9 +220,7 @@ def _scores(parts: Sequence[Jobs], shares: Sequence[Array], shape: tuple[int, in
         return whole.reshape(*shape, *whole.shape[1:])
 
     lines, happened = joined("lines"), joined("counts")
-    total = np.zeros(shape)
-    for i in range(lines.shape[2]):  # in the order of the source, so that every executor adds alike
-        total = total + lines[:, :, i]
+    total = score_of(lines)
     broken = ~np.isfinite(total)
     return Scores(
         total=np.where(broken, -np.inf, total),

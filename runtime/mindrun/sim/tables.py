@@ -135,4 +135,5 @@ def build(
 
 def genome_length(graph: Graph, learners: Sequence[str]) -> int:
     """How many weights the learners have together."""
-    return sum(genes(skill) for skill in graph.skills if skill.name in learners)
+    learning = {*learners}
+    return sum(genes(skill) for skill in graph.skills if skill.name in learning)

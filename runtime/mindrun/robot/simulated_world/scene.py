@@ -31,6 +31,9 @@ class SimulatedWorld(Protocol):
     def by_line(self) -> dict[str, float]: ...
 
     @property
+    def score(self) -> float: ...
+
+    @property
     def ended(self) -> str | None: ...
 
     def readings(self) -> Any: ...
@@ -79,7 +82,8 @@ class SimulatedScene:
         world = self.world
         return {
             "seed": world.seed, "tick": world.tick, "pose": world.pose, "events": world.events, "ended": world.ended,
-            "by_line": world.by_line, "commands": self.commands, "past": self.past, "missed": self.missed,
+            "by_line": world.by_line, "score": world.score, "commands": self.commands, "past": self.past,
+            "missed": self.missed,
         }  # fmt: skip
 
     def _sense(self) -> None:
