@@ -1,24 +1,33 @@
 """How soon a run is seen, and how soon another tick of it.
 
-    python benchmarks/view.py [FILE TASK [ticks asked for]]
+    python benchmarks/view.py [--file FILE --task TASK] [--skills N] [--jumps N]
 
 From the command to its address, to what the run is about, to its first rows; how fast all ticks come; then jumps to
 random ticks, each a request for a single row with what every edge transmits, one after the other. The machine code has
-to be in the cache (`mindc warmup`). Default: examples/collect, Collect, 500 jumps.
+to be in the cache (`mindc warmup`). Default: examples/collect, Collect, 500 jumps; with --skills a generated mind of
+so many, that of benchmarks/view_frames.py.
 """
 
+import argparse
 import json
+import os
 import subprocess
 import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
+from pathlib import Path
+from struct import Struct
+from tempfile import TemporaryDirectory
 from time import perf_counter
 
 import numpy as np
 from websockets.sync.client import ClientConnection, connect
 from websockets.typing import Origin
 
+from benchmarks.view_frames import tree
+
 MINDC = (sys.executable, "-c", "from mindlang.cli import main; main()")
+HEADER, ROWS_PLACE = Struct("<6I"), 4  # of an answer with rows: how many there are
 FILE, TASK, JUMP_COUNT, FIRST_ROWS = "examples/collect/collect.mind", "Collect", 500, 256
 
 
@@ -64,26 +73,44 @@ def run_to(connection: ClientConnection, tick: int) -> int:
     return int(str(ticks["known"]))
 
 
-def main(file: str = FILE, task: str = TASK, jumps: str = str(JUMP_COUNT)) -> None:
+def measure(file: str, task: str, jumps: int) -> None:
     """Measure and print."""
     with viewing(file, task) as (connection, begin, listening):
         about = said(connection, "about")
         told = perf_counter() - begin
         run_to(connection, FIRST_ROWS)
-        rows(connection, 0, FIRST_ROWS)
+        came = HEADER.unpack_from(rows(connection, 0, FIRST_ROWS))[ROWS_PLACE]  # of many edges not all at once
         first = perf_counter() - begin
-        print(f"address {listening:.2f} s, about {told:.2f} s, first {FIRST_ROWS} rows {first:.2f} s after the command")
+        print(f"address {listening:.2f} s, about {told:.2f} s, first {came} rows {first:.2f} s after the command")
         begin = perf_counter()
         known = run_to(connection, int(str(about["of_ticks"])))
         print(f"{known:,} ticks known after {perf_counter() - begin:.2f} s")
         seconds = []
-        for tick in np.random.default_rng(1).integers(0, known + 1, int(jumps)).tolist():
+        for tick in np.random.default_rng(1).integers(0, known + 1, jumps).tolist():
             begin = perf_counter()
             rows(connection, tick, tick + 1)
             seconds.append(perf_counter() - begin)
         middle, worst = np.median(seconds) * 1000, max(seconds) * 1000
         print(f"{len(seconds)} jumps: {middle:.1f} ms in the middle, {worst:.1f} ms the slowest")
+        print(f"load {os.getloadavg()[0]:.1f} on {os.cpu_count()} cores")
+
+
+def main() -> None:
+    """Measure a file, or a mind that is generated."""
+    parser = argparse.ArgumentParser(allow_abbrev=False, description=__doc__)
+    parser.add_argument("--file", default=FILE)
+    parser.add_argument("--task", default=TASK)
+    parser.add_argument("--skills", type=int)
+    parser.add_argument("--jumps", type=int, default=JUMP_COUNT)
+    options = parser.parse_args()
+    if options.skills is None:
+        measure(options.file, options.task, options.jumps)
+        return
+    with TemporaryDirectory() as folder:
+        path = Path(folder, "tree.mind")
+        path.write_text(tree(options.skills), encoding="utf-8")
+        measure(str(path), "Go", options.jumps)
 
 
 if __name__ == "__main__":
-    main(*sys.argv[1:])
+    main()

@@ -13,7 +13,7 @@ from mindrun.sim.codes import ACTUATOR, ACTUATOR_CODES, EDGE, MEMORY, SKILL, fun
 from mindrun.sim.parameter_rows import SAME_IN_EVERY_RUN, Parameters
 from mindrun.sim.programs import Programs
 from mindrun.sim.records import Row, records
-from mindrun.weights import genes, weights_of
+from mindrun.weights import NO_WEIGHTS, genes, weights_of
 
 Array = NDArray[Any]
 Floats = NDArray[np.float32]
@@ -70,16 +70,11 @@ def skill_rows(
     rows: list[Row] = []
     edges: list[Row] = []
     inputs: list[int] = []
-    shared = [np.zeros(0, np.float32)]
-    places: dict[str, int] = {}
-    length = state = 0  # of what is shared, of what is remembered
+    shared, places = _shared_weights([skill for skill in reached if skill.owner not in starts], weights)
+    state = 0
     for skill in reached:
         function, count, outputs = skill.function, len(skill.inputs), skill.outputs
         own = skill.owner in starts
-        if not own and skill.owner not in places:
-            places[skill.owner] = length
-            shared.append(weights_of(skill, weights))
-            length += len(shared[-1])
         rows.append({
             "kind": kinds[names()[type(function)]], "index": numbers[skill.name],
             "input": len(inputs), "inputs": count, "outputs": outputs,
@@ -90,13 +85,18 @@ def skill_rows(
         inputs.extend(skill.inputs)
         edges.extend(_edge(graph, edge, codes) for edge in skill.edges)
         state += function.state_length(count, outputs)
-    return Skills(
-        rows=records(rows, SKILL),
-        edges=records(edges, EDGE),
-        inputs=np.array(inputs, np.int64),
-        weights=np.concatenate(shared),
-        state=state,
-    )
+    all_inputs = np.array(inputs, np.int64)
+    return Skills(rows=records(rows, SKILL), edges=records(edges, EDGE), inputs=all_inputs, weights=shared, state=state)
+
+
+def _shared_weights(skills: Sequence[Skill], weights: Mapping[str, Floats]) -> tuple[Floats, dict[str, int]]:
+    """The weights of these skills one after the other, and where those of each owner begin."""
+    first: dict[str, Skill] = {}
+    for skill in skills:
+        first.setdefault(skill.owner, skill)
+    each = [weights_of(skill, weights) for skill in first.values()]
+    begins = np.cumsum([0, *map(len, each)]).tolist()
+    return np.concatenate([NO_WEIGHTS, *each]), dict(zip(first, begins, strict=False))
 
 
 def _edge(graph: Graph, edge: Edge, codes: Programs) -> Row:
