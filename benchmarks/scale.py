@@ -3,16 +3,14 @@
 Each is a process of its own, from its start to its end; parse is timed inside one, by itself, in MB of source a second.
 """
 
-import argparse
-import json
 import os
 import subprocess
 import sys
 import time
 from pathlib import Path
-from tempfile import TemporaryDirectory
 
 from benchmarks.edits import tree
+from benchmarks.sizes import measure_sizes
 
 PROGRAM = "from mindlang.cli import main; main()"
 PARSE = """
@@ -59,21 +57,5 @@ def measured(skills: int, folder: Path) -> dict[str, float]:
     return found
 
 
-def main() -> None:
-    """Measure and print."""
-    parser = argparse.ArgumentParser(allow_abbrev=False, description=__doc__)
-    parser.add_argument("--skills", type=int, nargs="+", default=[1250, 2500, 5000, 10_000])
-    parser.add_argument("--json", action="store_true")
-    options = parser.parse_args()
-    with TemporaryDirectory() as folder:
-        rows = [measured(skills, Path(folder)) for skills in options.skills]
-    if options.json:
-        print(json.dumps(rows))
-        return
-    print("  ".join(f"{name:>10}" for name in rows[0]))
-    for row in rows:
-        print("  ".join(f"{value:>10.2f}" if value < 100 else f"{value:>10,.0f}" for value in row.values()))
-
-
 if __name__ == "__main__":
-    main()
+    measure_sizes(__doc__, [1250, 2500, 5000, 10_000], measured)

@@ -1,20 +1,21 @@
 """Frames a second of the page of mindc view, for hierarchies of any size: python benchmarks/view_frames.py [--json].
 
-Each is opened in a Chromium without windows, with all skills open, and plays; without a graphics card frames are drawn
-by the processor. Needs `pip install -e '.[browser]'` and a Chromium. "open s" is from the address to the first picture.
+Each is opened in a Chromium without windows and plays, then with all skills open, then with 100,000 events in its
+timeline; without a graphics card frames are drawn by the processor. Needs `pip install -e '.[browser]'` and a Chromium.
+"open s" is from the address to the first picture.
 """
 
-import argparse
-import json
 import time
 from pathlib import Path
-from tempfile import TemporaryDirectory
 
+from benchmarks.sizes import measure_sizes
+from mindlang.view.viewed import Viewed
 from tests.view.browser import Opened, chromium
 from tests.view.serving import served, simulated
 
 BRANCH_SKILLS, PULSE_SENSORS = 8, 7  # skills below a skill; sensors that change over time
 PLAYED_MILLISECONDS = 4000
+EVENTS, TICKS = 100_000, 3000  # of a run
 FRAMES = """milliseconds => new Promise((done) => {
   let frames = 0;
   const begin = performance.now();
@@ -37,7 +38,7 @@ def tree(skills: int) -> str:
         lines += ["", f"skill S{skill} is rule", f"  reads {pulse}"]
         lines += [f"  influences S{each} at {pulse}" for each in below]
         lines += [f"  drives {side} at {pulse}" for side in ("left", "right") if not below]
-    lines += ["", "task Go in arena size 60", "  lasts 3000 ticks", "  rewards 0.01 * forward per tick", ""]
+    lines += ["", "task Go in arena size 60", f"  lasts {TICKS} ticks", "  rewards 0.01 * forward per tick", ""]
     return "\n".join(lines)
 
 
@@ -45,33 +46,30 @@ def measured(skills: int, folder: Path) -> dict[str, float]:
     """All figures of one size."""
     path = folder / f"tree{skills}.mind"
     path.write_text(tree(skills), encoding="utf-8")
+    found: dict[str, float] = {"skills": skills}
     with served(simulated(path, "Go")) as view, chromium() as browser:
         begin = time.perf_counter()
         opened = Opened(browser, f"http://{view.host}/#{view.token}")
-        found: dict[str, float] = {"skills": skills, "open s": time.perf_counter() - begin}
+        found["open s"] = time.perf_counter() - begin
         opened.page.click("#play")
         found["frames/s"] = opened.page.evaluate(FRAMES, PLAYED_MILLISECONDS)
         opened.page.click("#open-all")
         found["all open, frames/s"] = opened.page.evaluate(FRAMES, PLAYED_MILLISECONDS)
         found["nodes"] = opened.page.locator("#hierarchy .node").count()
+    with served(eventful(simulated(path, "Go"))) as view, chromium() as browser:
+        opened = Opened(browser, f"http://{view.host}/#{view.token}")
+        opened.page.click("#play")
+        found["100,000 events, frames/s"] = opened.page.evaluate(FRAMES, PLAYED_MILLISECONDS)
     return found
 
 
-def main() -> None:
-    """Measure and print."""
-    parser = argparse.ArgumentParser(allow_abbrev=False, description=__doc__)
-    parser.add_argument("--skills", type=int, nargs="+", default=[10, 100, 1000, 10_000])
-    parser.add_argument("--json", action="store_true")
-    options = parser.parse_args()
-    with TemporaryDirectory() as folder:
-        rows = [measured(skills, Path(folder)) for skills in options.skills]
-    if options.json:
-        print(json.dumps(rows))
-        return
-    print("  ".join(f"{name:>18}" for name in rows[0]))
-    for row in rows:
-        print("  ".join(f"{value:>18,.2f}" for value in row.values()))
+def eventful(viewed: Viewed) -> Viewed:
+    """The run to its end, with events in every tick."""
+    while not viewed.over:
+        viewed.grow()
+    viewed.happened = [(1 + TICKS * number // EVENTS, 0) for number in range(EVENTS)]
+    return viewed
 
 
 if __name__ == "__main__":
-    main()
+    measure_sizes(__doc__, [10, 100, 1000, 10_000], measured)

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from mindrun.train import NotFoundError, RunError, checkpoint
-from mindrun.train.champion_log import CHAMPION_ROWS, Champion, read_champions
+from mindrun.train.champion_log import CHAMPION_ROWS, Champion, read_champions, rows_that_fit
 from mindrun.train.progress import LINES, Position, read_progress
 from mindrun.train.run_folder import MANIFEST, RunFolder, open_run
 
@@ -30,13 +30,15 @@ class LearntRun:
     """What is known of a run: its generations in the order in which they came, and whose champions can be played.
 
     `keeps_all`: whether it has the champion of every generation; runs from before the trainer kept them have the last
-    of each attempt. `version` counts how often something has come.
+    of each attempt. `is_full`: whether the last that was kept need not have stayed champion. `version` counts how often
+    something has come.
     """
 
     run: RunFolder
     generations: list[Generation] = field(default_factory=list)
     champions: list[Champion] = field(default_factory=list)
     keeps_all: bool = True
+    is_full: bool = False
     version: int = 0
     _known: set[Position] = field(default_factory=set)
     _stamp: Stamp = ()
@@ -55,6 +57,7 @@ class LearntRun:
                 self.generations.append((*at, best, reevaluated, verdict))
         kept = [each for each in read_champions(self.run.folder) if each.position in self._known]
         self.champions, self.keeps_all = (kept, True) if kept else (_last_champions(self.run), False)
+        self.is_full = bool(kept) and len(kept) >= rows_that_fit(len(kept[0].genome))
         self.version += 1
         return True
 
@@ -69,8 +72,13 @@ class LearntRun:
             raise RefusedError(f"attempt {attempt} has no generation {generation} yet")
         of_attempt = [each for each in self.champions if each.attempt == attempt]
         found = [each for each in of_attempt if each.generation <= generation]
-        if found and (self.keeps_all or found[-1].generation == generation):
+        stayed = self.keeps_all and not (self.is_full and found[-1:] == self.champions[-1:])
+        if found and (stayed or found[-1].generation == generation):
             return found[-1]
+        if self.is_full and self.champions[-1].position < (attempt, generation):
+            raise RefusedError(
+                f"{CHAMPION_ROWS} of this run was full before generation {generation} of attempt {attempt}"
+            )
         if of_attempt:
             last = of_attempt[-1].generation
             raise RefusedError(f"this run has kept only the champion of generation {last} of attempt {attempt}")

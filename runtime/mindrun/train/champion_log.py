@@ -1,11 +1,12 @@
 """Who was champion when: the weights of each champion of each attempt, from the generation that found it.
 
 The file begins with a line that names the format, and the number of weights; a row has attempt, generation and the
-CRC-32 of the row, and the weights.
+CRC-32 of the row, and the weights. Where it is full, no more champions are kept, and the training goes on: a new one
+comes about every ten generations, so that 1,600 weights (examples/collect) take some 400,000 of them.
 """
 
 import os
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 from struct import Struct
@@ -23,7 +24,7 @@ from mindrun.weights import Weights
 CHAMPION_ROWS = "champions.rows"
 MAGIC = b"mind champions 1\n"
 LENGTH, ROW = Struct("<I"), Struct("<III")  # how many weights; attempt, generation, checksum
-MAX_ROWS_BYTES = 1 << 30
+MAX_ROWS_BYTES = 1 << 28
 
 
 @dataclass(frozen=True, slots=True)
@@ -41,14 +42,15 @@ class Champion:
 
 
 class ChampionLog:
-    """The file, open to append, with only the champions that `state` has behind it."""
+    """The file, open to append, with only the champions that `state` has behind it; `warn` is told where it is full."""
 
-    def __init__(self, folder: Path, state: LessonState) -> None:
+    def __init__(self, folder: Path, state: LessonState, warn: Callable[[str], None]) -> None:
         path, count = folder / CHAMPION_ROWS, state.champion.shape[1]
         here = state.attempt + 1, state.population.generation
         kept = [each for each in read_champions(folder) if len(each.genome) == count and each.position <= here]
         atomic_write.write(path, MAGIC + LENGTH.pack(count) + b"".join(map(_row, kept)))
         self._rows = os.open(path, os.O_WRONLY | os.O_APPEND)
+        self._left, self._warn = rows_that_fit(count) - len(kept), warn
         self._last = kept[-1] if kept else None
 
     def append(self, state: LessonState, position: Position) -> None:
@@ -59,7 +61,14 @@ class ChampionLog:
         for genome in genomes:
             if last is None or last.attempt != attempt or not np.array_equal(last.genome, genome):
                 self._last = Champion(attempt, generation, genome)
-                write(self._rows, _row(self._last))
+                self._keep(self._last)
+
+    def _keep(self, champion: Champion) -> None:
+        self._left -= 1
+        if self._left >= 0:
+            write(self._rows, _row(champion))
+        elif self._left == -1:
+            self._warn(f"{CHAMPION_ROWS} is full: later champions are not kept by their generation")
 
     def sync(self) -> None:
         """Bring the file to the disk, so that it is never behind a checkpoint."""
@@ -70,6 +79,11 @@ class ChampionLog:
 
     def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, at: TracebackType | None) -> None:
         os.close(self._rows)
+
+
+def rows_that_fit(weights: int) -> int:
+    """How many champions of so many weights the file keeps."""
+    return (MAX_ROWS_BYTES - len(MAGIC) - LENGTH.size) // (ROW.size + 4 * weights)
 
 
 def read_champions(folder: Path) -> list[Champion]:

@@ -37,7 +37,7 @@ def train(run: RunFolder, scorer: Scorer, watch: Watch) -> LessonState:
     course = run.course(scorer.genome_length)
     with _disk(run.folder), claim(run.folder):
         now = _standing(run, course, watch)
-        with ProgressLog(run.folder, now) as progress, ChampionLog(run.folder, now) as champions:
+        with ProgressLog(run.folder, now) as progress, ChampionLog(run.folder, now, watch.warn) as champions:
             saved = watch.clock()
             for now, record in teach(course, scorer, now, watch.clock):  # noqa: B020 - it goes on from the first
                 progress.append(record)
