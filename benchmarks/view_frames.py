@@ -15,7 +15,7 @@ from tests.view.serving import served, simulated
 
 BRANCH_SKILLS, PULSE_SENSORS = 8, 7  # skills below a skill; sensors that change over time
 PLAYED_MILLISECONDS = 4000
-EVENTS, TICKS = 100_000, 3000  # of a run
+EVENT_COUNT, RUN_TICKS = 100_000, 3000
 FRAMES = """milliseconds => new Promise((done) => {
   let frames = 0;
   const begin = performance.now();
@@ -38,7 +38,7 @@ def tree(skills: int) -> str:
         lines += ["", f"skill S{skill} is rule", f"  reads {pulse}"]
         lines += [f"  influences S{each} at {pulse}" for each in below]
         lines += [f"  drives {side} at {pulse}" for side in ("left", "right") if not below]
-    lines += ["", "task Go in arena size 60", f"  lasts {TICKS} ticks", "  rewards 0.01 * forward per tick", ""]
+    lines += ["", "task Go in arena size 60", f"  lasts {RUN_TICKS} ticks", "  rewards 0.01 * forward per tick", ""]
     return "\n".join(lines)
 
 
@@ -67,7 +67,7 @@ def eventful(viewed: Viewed) -> Viewed:
     """The run to its end, with events in every tick."""
     while not viewed.over:
         viewed.grow()
-    viewed.happened = [(1 + TICKS * number // EVENTS, 0) for number in range(EVENTS)]
+    viewed.happened = [(1 + RUN_TICKS * number // EVENT_COUNT, 0) for number in range(EVENT_COUNT)]
     return viewed
 
 
