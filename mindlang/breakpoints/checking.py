@@ -5,9 +5,10 @@ from pathlib import Path
 
 from mindrun.named_readings import physical
 
-from mindlang.breakpoints.file import BreakpointFile, load_breakpoints
+from mindlang.breakpoints.file import BreakpointFile, breakpoints_of, load_breakpoints
 from mindlang.breakpoints.subject import Subject
 from mindlang.compiler.compile import Compiled, load
+from mindlang.compiler.source import Source
 from mindlang.run.setup import master_of, task_of
 
 
@@ -18,6 +19,11 @@ def check_breakpoints(path: str, mind: Compiled | None, task: str | None) -> Bre
     robot count both: a file may be for both.
     """
     return load_breakpoints(path, _subject(mind, task) if mind else None)
+
+
+def check_text(source: Source, mind: Compiled | None) -> BreakpointFile:
+    """The same of a text, and the task of a run by default."""
+    return breakpoints_of(source, _subject(mind, None) if mind else None)
 
 
 def mind_of(path: str, given: Mapping[str, Compiled]) -> Compiled | None:

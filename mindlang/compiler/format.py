@@ -4,7 +4,7 @@ Facts stand two spaces in, words one space apart, comments two spaces after what
 by a blank line. Nothing is reordered or aligned, and no comment changes.
 """
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, fields, is_dataclass
 from functools import lru_cache
 from itertools import pairwise
@@ -171,12 +171,12 @@ def _signs(node: Any) -> Iterator[int]:
                 yield from _signs(getattr(node, field.name))
 
 
-def format_splices(source: Source) -> list[Splice]:
+def format_splices(source: Source, tidied: Callable[[str], str] = formatted) -> list[Splice]:
     """The splices that format a text; they touch few lines, so that an editor's cursor and marks stay where they are.
 
     No line comes or goes but for blank ones, so each that says something is held against the one in its place.
     """
-    text = formatted(source.text)
+    text = tidied(source.text)
     before, after = [*_stretches(source.text)], [*_stretches(text)]
     if len(before) != len(after):
         return [Splice(source, 0, len(source.text), text)]

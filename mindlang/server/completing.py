@@ -12,6 +12,7 @@ from mindlang.file_search import files_below
 from mindlang.server.cursor_line import CursorLine
 from mindlang.server.facts import FACTS
 from mindlang.server.offers import Offer, arguments_of, functions, kinds_of, names, words
+from mindlang.server.stops import are_breakpoints, stop_offers
 from mindlang.server.view import MindView, declaration_at
 from mindlang.server.words import WORDS
 
@@ -36,13 +37,15 @@ def complete(view: MindView, path: Path, text: str, offset: int) -> Completion:
     if begun := _PATH.match(before):
         return Completion(offset - len(begun["path"]), tuple(_paths(path)))
     file = view.file(path)
-    if file is None or "#" in re.sub(r'"[^"]*"', "", before):
+    if not (file or are_breakpoints(path)) or "#" in re.sub(r'"[^"]*"', "", before):
         return Completion(offset, ())
     partial = _PARTIAL.search(before)
     length = len(partial[0]) if partial else 0
     code = before[: len(before) - length]
     if code and code[-1].isalnum():  # inside a number: nothing can be added to it
         return Completion(offset, ())
+    if file is None:
+        return Completion(offset - length, tuple(stop_offers(view, _PIECE.findall(code))))
     line = CursorLine(view, path.parent, _PIECE.findall(code), declaration_at(file, offset - len(before) - 1), offset)
     return Completion(offset - length, tuple(_offers(line)))
 

@@ -2,7 +2,9 @@
 
 from lsprotocol import types
 
+from mindlang.breakpoints.format import formatted as tidy_stops
 from mindlang.compiler.format import format_splices
+from mindlang.compiler.format import formatted as tidy_mind
 from mindlang.compiler.source import Source
 from mindlang.compiler.splice import Splice
 from mindlang.server.completing import complete
@@ -11,6 +13,7 @@ from mindlang.server.lsp_types import LspConverter
 from mindlang.server.navigating import Symbol, definitions, everything, highlights, references, symbols
 from mindlang.server.offers import Offer
 from mindlang.server.server import MindServer
+from mindlang.server.stops import are_breakpoints
 
 SYMBOLS = {
     "body": types.SymbolKind.Object,
@@ -140,4 +143,5 @@ def formatted(ls: MindServer, params: types.DocumentFormattingParams) -> list[ty
     """The file as it should be written."""
     path = ls.session.lsp.path(params.text_document.uri)
     source = Source(str(path), ls.session.workspace.text(path), path.parent)
-    return [ls.session.lsp.text_edit(splice) for splice in format_splices(source)]
+    splices = format_splices(source, tidy_stops if are_breakpoints(path) else tidy_mind)
+    return [ls.session.lsp.text_edit(splice) for splice in splices]

@@ -10,6 +10,7 @@ from mindrun.errors import MindError
 from mindlang.compiler.diagnostic import Diagnostic, listed
 from mindlang.server.lsp_types import LspConverter
 from mindlang.server.pending_renames import PendingRename, keep_up
+from mindlang.server.stops import are_breakpoints, stop_findings
 from mindlang.server.view import MindView
 from mindlang.server.workspace import Workspace
 
@@ -63,7 +64,11 @@ class Session:
                 path = each.span.source.path if each.span else main
                 place = (each.span.start, each.span.end) if each.span else (0, 0)
                 found.setdefault(path, {}).setdefault((*place, each.code, each.message), each)
-        return {path: _first(path, list(each.values())) for path, each in found.items()}
+        mistakes = {path: self._stop_findings(path) for path in self.workspace.texts if are_breakpoints(path)}
+        return {path: _first(path, mistakes.get(path, [*each.values()])) for path, each in found.items()}
+
+    def _stop_findings(self, path: Path) -> list[Diagnostic]:
+        return [*stop_findings(path, self.workspace.text(path), self.workspace.view(path))]
 
     def follow(self, following: PendingRename | None) -> None:
         """Let locks follow an edit once its files are saved."""

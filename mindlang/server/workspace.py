@@ -10,6 +10,7 @@ from mindlang.compiler.compile import Compiled, load
 from mindlang.compiler.resolve.maps import map_paths
 from mindlang.compiler.source import within
 from mindlang.file_search import files_beside, folders_above, text_of, within_read_limits
+from mindlang.server.stops import are_breakpoints, mind_beside
 from mindlang.server.view import MindView, view
 
 _MASTER = re.compile(r"^[ \t]*master\b", re.MULTILINE)
@@ -52,10 +53,12 @@ class Workspace:
 
     def mains(self) -> list[Path]:
         """The main files of all minds of which a file is open."""
-        return list(dict.fromkeys(self.main_of(path) for path in self.texts))
+        return list(dict.fromkeys(self.main_of(path) for path in self.texts if not are_breakpoints(path)))
 
     def main_of(self, path: Path) -> Path:
         """The main file of the mind to which a file belongs: of one without a master, a mind that uses it."""
+        if are_breakpoints(path):
+            return mind_beside(path)
         if _MASTER.search(self.text(path)):
             return path
         known = self._mains.get(path)

@@ -5,8 +5,9 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
-from lark import Token, Tree, UnexpectedInput
+from lark import Lark, Token, Tree, UnexpectedInput
 
+from mindlang.breakpoints.parse import grammar as breakpoints
 from mindlang.compiler.parse.shape import grammar
 from mindlang.server.words import NOUNS, SETTINGS, VERBS
 from tests.language.examples import EXAMPLES
@@ -26,7 +27,7 @@ TOKENS = {
     "TEXT": "string.quoted.double",
     **dict.fromkeys(("COMPUTED", "READING"), KIND),
     **dict.fromkeys(("FROM", "TO", "FACING"), KEY),
-    **dict.fromkeys(("EXTREME", "AND", "OR", "TICK"), WORD),
+    **dict.fromkeys(("EXTREME", "AND", "OR", "TICK", "LEVEL"), WORD),
     **dict.fromkeys(("SIGN", "MINUS", "SCALE", "COMPARE", "PLUS"), "keyword.operator"),
 }
 NAMES = {  # by the rule in which they stand, and there by their place among the names
@@ -50,9 +51,9 @@ def code_of(line: str) -> str:
     return found[0].rstrip() if found else ""
 
 
-def expected(code: str) -> dict[int, str]:
+def expected(code: str, grammar: Lark) -> dict[int, str]:
     """The scope of each character that the grammar makes a token of, by offset; words that it filters out as well."""
-    tree = grammar().parse(code, start="line")
+    tree = grammar.parse(code, start="line")
     found = {at: scope for token, scope in _tokens(tree, "") for at in range(token.start_pos, token.end_pos)}
     kept = set(found)
     for word in _words(code):
@@ -69,7 +70,7 @@ def _words(code: str) -> Iterator[re.Match[str]]:
 def _tokens(tree: Tree[Token], event: str) -> Iterator[tuple[Token, str]]:
     """The tokens with their scopes; in an event even a bare name is a function."""
     names = 0
-    is_about_event = tree.data in ("ends", "succeeds", "counts", "rewards")
+    is_about_event = tree.data in ("ends", "succeeds", "counts", "rewards", "happening")
     for number, child in enumerate(tree.children):
         if isinstance(child, Tree):
             is_event = is_about_event and child.data == "call" and number >= (tree.data == "rewards")
@@ -141,11 +142,23 @@ teaches A on B for few from C population 3
 lasts long"""
 
 
-def check(line: str) -> int:
+STOPS = """\
+stop on collision
+stop on 3 delivery of red to home  # the third
+  stop on fault of front_eye
+stop on visit of patch size 4
+stop when holding > 0.5 and Avoid influences left_wheel above 70%
+stop when walls.A+B influences Go below limit or -(a - b) * c < least of a 1 (1 - c)
+stop when a.b >= 1/2 and Go influences walls.mood above 5 %
+stop in tick 812
+stop in tick late"""
+
+
+def check(line: str, grammar: Lark) -> int:
     """Hold a line against the grammar; how many of its characters are of a token. UnexpectedInput where it is none."""
     code = code_of(line)
     scopes = COLOURS.scopes(line)
-    wanted = expected(code) if code else {}
+    wanted = expected(code, grammar) if code else {}
     for at, scope in wanted.items():
         assert f"{scopes[at]}.".startswith(f"{scope}."), (line, line[at:], scopes[at], scope)
     for at in range(len(code), len(line)):
@@ -156,19 +169,26 @@ def check(line: str) -> int:
 @pytest.mark.parametrize("path", EXAMPLES, ids=lambda path: path.stem)
 def test_every_token_of_every_example(path: Path) -> None:
     lines = path.read_text(encoding="utf-8").splitlines()
-    assert sum(map(check, lines)) > sum(len(code_of(line).replace(" ", "")) for line in lines) * 0.9
+    assert (
+        sum(check(line, grammar()) for line in lines) > sum(len(code_of(line).replace(" ", "")) for line in lines) * 0.9
+    )
 
 
 @pytest.mark.parametrize("line", ODD.split("\n"))
 def test_odd_lines(line: str) -> None:
-    assert check(line)
+    assert check(line, grammar())
+
+
+@pytest.mark.parametrize("line", STOPS.split("\n"))
+def test_breakpoints(line: str) -> None:
+    assert check(line, breakpoints())
 
 
 def test_every_readable_line_of_the_tests() -> None:
     read = 0
     for line in dict.fromkeys(line for path in OTHERS for line in path.read_text(encoding="utf-8").split("\n")):
         try:
-            read += bool(check(line.rstrip("\r")))
+            read += bool(check(line.rstrip("\r"), grammar()))
         except UnexpectedInput:
             continue
     assert read > 150
@@ -182,7 +202,7 @@ def test_a_wrong_colour_is_found() -> None:
 
 
 def test_a_line_that_is_being_written_has_its_colours() -> None:
-    for word in (*NOUNS, *SETTINGS, *VERBS):
+    for word in (*NOUNS, *SETTINGS, *VERBS, "stop"):
         assert COLOURS.scopes(f"  {word}")[2].split(".")[0] in ("storage", "keyword"), word
         assert COLOURS.scopes(f"  {word} ")[2]
 

@@ -1,0 +1,84 @@
+"""Files of breakpoints in an editor: what is wrong with one, and what may be written in it, by the mind beside it."""
+
+from collections.abc import Sequence
+from itertools import takewhile
+from pathlib import Path
+
+from mindlang.breakpoints import SUFFIX
+from mindlang.breakpoints.checking import check_text
+from mindlang.breakpoints.robot_events import FAULT, OF, WORDS
+from mindlang.compiler.diagnostic import Diagnostic
+from mindlang.compiler.references import READABLE_NOUNS
+from mindlang.compiler.source import Source
+from mindlang.server.expressions import condition_words, takes_value, values
+from mindlang.server.offers import NUMBER, Offer, arguments_of, kinds_of, names, numbers, units, words
+from mindlang.server.view import MindView
+
+JOINTS = ("when", "and", "or")
+
+
+def are_breakpoints(path: Path) -> bool:
+    """Whether a file of this name has breakpoints, and no mind."""
+    return path.suffix == SUFFIX
+
+
+def mind_beside(path: Path) -> Path:
+    """Where the mind of a file of breakpoints is."""
+    return path.with_suffix(".mind")
+
+
+def stop_findings(path: Path, text: str, mind: MindView) -> tuple[Diagnostic, ...]:
+    """What is wrong with the text of a file of breakpoints; no names are looked for in a mind that does not compile."""
+    compiled = mind.compiled if mind.compiled.graph else None
+    return check_text(Source(str(path), text, path.parent), compiled).diagnostics
+
+
+def stop_offers(view: MindView, line: Sequence[str]) -> list[Offer]:
+    """What may be written behind these words of a line."""
+    match line:
+        case []:
+            return [Offer("stop", "word")]
+        case ["stop"]:
+            return words("on", "when", "in")
+        case ["stop", "in"]:
+            return words("tick")
+        case ["stop", "when", *_]:
+            return _condition(view, line[1:])
+        case ["stop", "on", times, *event] if times[0] in NUMBER:
+            return _event(view, event)
+        case ["stop", "on", *event]:
+            return _event(view, event)
+    return []
+
+
+def _event(view: MindView, rest: Sequence[str]) -> list[Offer]:
+    match rest:
+        case []:
+            return [*kinds_of("event"), *words(*WORDS)]
+        case [word] if word == FAULT:
+            return words(OF)
+        case [word, of] if (word, of) == (FAULT, OF):
+            return names(view, "sensor")
+    return arguments_of(view, "event", rest[0], rest[1:], None)
+
+
+def _condition(view: MindView, rest: Sequence[str]) -> list[Offer]:
+    """Behind `when`, `and` or `or`: an expression that is compared, or what a skill influences."""
+    match [*takewhile(lambda word: word not in JOINTS, reversed(rest))][::-1]:
+        case [skill] if skill[:1].isupper():
+            return words("influences")
+        case [_, "influences"]:
+            return names(view, "skill", "actuator", "memory")
+        case [_, "influences", _]:
+            return words("above", "below")
+        case [_, "influences", _, _]:
+            return numbers(view)
+        case [_, "influences", *said]:
+            return [*([] if said[-1] == "%" else units("%")), *words("and", "or")]
+        case []:
+            found = names(view, "skill")
+        case _:
+            found = []
+    if takes_value(rest):
+        found += values(view, rest, names(view, *READABLE_NOUNS, "actuator"))
+    return [*found, *condition_words(rest)]
