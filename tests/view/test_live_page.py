@@ -3,11 +3,16 @@
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
+from time import sleep
 from typing import Any
 
 import pytest
-from mindrun.robot.recording import Recorder
+from mindrun.bundle import Bundle
+from mindrun.robot.recording import About, Recorder
 
+from mindlang.breakpoints.file import breakpoints_of
+from mindlang.breakpoints.recorded import RecordingWatcher, recording_subject
+from mindlang.compiler.source import Source
 from mindlang.view.viewed_recording import followed_recording
 from tests.view.browser import Opened, chromium
 from tests.view.serving import served
@@ -40,17 +45,24 @@ class LivePage:
 
 
 @contextmanager
-def live_page(folder: Path, browser: Any) -> Iterator[LivePage]:
-    """A page that is open on a robot that has recorded nothing yet."""
+def live_page(folder: Path, browser: Any, breaks: str = "", ticks: int = 0) -> Iterator[LivePage]:
+    """A page that is open on a robot that has recorded so many ticks, and pauses where lines of a .break file say."""
     day = Growing(folder)
-    with (
-        Recorder(day.rec, day.about, flush_every=0) as recorder,
-        followed_recording(str(day.rec), day.bundle) as viewed,
-        served(viewed) as view,
-    ):
-        page = Opened(browser, f"http://{view.host}/#{view.token}")
-        yield LivePage(day, recorder, page)
-        page.close()
+
+    def watching(of: About, mind: Bundle) -> RecordingWatcher:
+        found = breakpoints_of(Source("day.break", breaks), recording_subject(of, mind))
+        return RecordingWatcher(found.breakpoints, of, mind)
+
+    with Recorder(day.rec, day.about, flush_every=0) as recorder:
+        write_rows(recorder, day.engine, 0, ticks)
+        with followed_recording(str(day.rec), day.bundle, watching) as viewed, served(viewed) as view:
+            while viewed.known < ticks:
+                sleep(0.01)
+            page = Opened(browser, f"http://{view.host}/#{view.token}")
+            live = LivePage(day, recorder, page)
+            live.ticks = ticks
+            yield live
+            page.close()
 
 
 def test_it_stays_at_the_newest_tick_without_being_asked(tmp_path: Path, browser: Any) -> None:
@@ -82,6 +94,26 @@ def test_who_looks_at_another_tick_stays_there_until_it_is_live_again(tmp_path: 
         live.wait(59, is_live=False)
         keys.press("Space")  # on from there, to the newest
         live.wait(70, is_live=False)
+
+
+def test_it_pauses_where_a_breakpoint_says_and_the_robot_drives_on(tmp_path: Path, browser: Any) -> None:
+    """Those of before somebody looked are marked, and do not hold the page up."""
+    breaks = "stop in tick 3\nstop in tick 34\nstop in tick 90\n"
+    with live_page(tmp_path, browser, breaks, ticks=20) as live:
+        live.wait(20, is_live=True)
+        live.record(10)
+        live.wait(30, is_live=True)
+        live.record(10)
+        live.wait(34, is_live=False)
+        live.record(10)
+        live.wait(34, is_live=False)
+        assert live.page.page.inner_text("#state") == "stopped: line 2: stop in tick 34"
+        live.page.page.click("#event-before")
+        live.wait(3, is_live=False)
+        assert live.page.page.inner_text("#state") == "stopped: line 1: stop in tick 3"
+        live.page.page.click("#live")
+        live.record(50)
+        live.wait(90, is_live=False)
 
 
 def test_what_is_over_has_nothing_to_stay_with(browser: Any, tmp_path: Path) -> None:

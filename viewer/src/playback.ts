@@ -4,6 +4,7 @@ export const RATES = [0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 50, 100];
 const PICTURES_PER_SECOND = 60;
 const AHEAD_SECONDS = 1; // so far before they are shown rows are fetched
 const NEWEST_TICKS = 64; // that may come while the rows before them are fetched
+const HISTORY_TICKS = 500; // of what goes on no more come at once: those were there before anybody looked
 const FRAME_SECONDS_MAX = 0.1; // after a pause of the browser the run does not leap
 
 export class Playback {
@@ -125,6 +126,8 @@ export class Playback {
 
   /** More is known of the run. */
   grown(known: number, over: boolean): void {
+    const isHistory = !this.known || known - this.known > HISTORY_TICKS;
+    if (this.following && isHistory) this.position = known;
     this.known = known;
     this.over = over;
     if (this.following && over) this.end();

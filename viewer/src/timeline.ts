@@ -3,6 +3,7 @@
 import type { Events, Happened } from "./events";
 import { shown } from "./names";
 import type { About } from "./protocol";
+import type { Stops } from "./stops";
 import type { Theme } from "./theme";
 
 const EVENT_PIXELS = 4; // so near to the pointer an event is meant
@@ -26,6 +27,7 @@ export class Timeline {
     private readonly about: About,
     private theme: Theme,
     private readonly happened: Events,
+    private readonly stops: Stops,
     private readonly jump: (tick: number) => void,
   ) {
     this.context = canvas.getContext("2d")!;
@@ -66,9 +68,9 @@ export class Timeline {
     this.draw();
   }
 
-  /** The event after a tick, or before it. */
+  /** The event or the breakpoint after a tick, or before it. */
   next(from: number, direction: 1 | -1): Happened | undefined {
-    return this.happened.next(from, direction);
+    return this.closest(from, (each) => each.next(from, direction));
   }
 
   private get length(): number {
@@ -87,13 +89,19 @@ export class Timeline {
   }
 
   private nearest(event: PointerEvent): Happened | undefined {
-    return this.happened.nearest(this.tickAt(event), (EVENT_PIXELS * this.length) / this.canvas.clientWidth);
+    const tick = this.tickAt(event);
+    return this.closest(tick, (each) => each.nearest(tick, (EVENT_PIXELS * this.length) / this.canvas.clientWidth));
+  }
+
+  private closest(tick: number, found: (each: Events) => Happened | undefined): Happened | undefined {
+    const both = [found(this.stops.events), found(this.happened)].filter((one) => one !== undefined);
+    return both.sort((one, other) => Math.abs(one.tick - tick) - Math.abs(other.tick - tick))[0];
   }
 
   private say(event: PointerEvent): void {
     const near = this.nearest(event);
     const tick = near?.tick ?? this.tickAt(event);
-    const text = near ? `${shown(this.about.events[near.event]?.text ?? "event")}, ` : "";
+    const text = near ? `${this.stops.at(tick) ?? shown(this.about.events[near.event]?.text ?? "event")}, ` : "";
     this.hint.hidden = false;
     this.hint.textContent = `${text}tick ${tick}, ${(tick * this.about.tick).toFixed(2)} s`;
     const { left, width } = this.canvas.getBoundingClientRect();
@@ -132,22 +140,23 @@ export class Timeline {
 
   /** What the marks depend on. */
   private get wanted(): string {
-    return [this.happened.length, this.length, this.canvas.clientWidth].join();
+    return [this.happened.length, this.stops.events.length, this.length, this.canvas.clientWidth].join();
   }
 
-  /** Finds the marks where they are others now: of several events at one pixel an alarm is seen, or else a delivery. */
+  /** Finds the marks where they are others now: of several at one pixel a breakpoint is seen, or else an alarm, a delivery. */
   private mark(): void {
     if (this.marked === this.wanted) return;
     this.marked = this.wanted;
     this.marks = new Map();
-    const { crash, glow, lamp } = this.theme;
-    const ranks = [lamp, glow, crash];
+    const { crash, glow, ink, lamp } = this.theme;
+    const ranks = [lamp, glow, crash, ink];
     const kinds = this.about.events.map(({ kind }) => (ALARMS.includes(kind) ? 2 : kind === "delivery" ? 1 : 0));
     const seen = new Int8Array(this.canvas.clientWidth + 1).fill(-1);
     for (const { tick, event } of this.happened.all) {
       const x = Math.round(this.x(tick));
       seen[x] = Math.max(seen[x], kinds[event] ?? 0);
     }
+    for (const { tick } of this.stops.events.all) seen[Math.round(this.x(tick))] = ranks.length - 1;
     seen.forEach((rank, x) => rank >= 0 && this.marks.set(x, ranks[rank]));
   }
 }

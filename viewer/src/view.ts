@@ -47,6 +47,8 @@ export class View {
   private readonly happened = new Events();
   private readonly collisions = new Events();
   private readonly stops = new Stops();
+  private end = ""; // how it ended, or why it failed
+  private failed = "";
   private dirty = true;
   private asked = -1;
   private last = performance.now();
@@ -71,7 +73,7 @@ export class View {
     this.active = new ActiveList(element("active"), search, element("count"), about, (node) => this.hierarchy.reveal(node));
     const curvesSearch = element<HTMLInputElement>("curves-search");
     this.curves = new Curves(element("curves"), element("curves-choice"), curvesSearch, about, this.rows, theme(), jump);
-    this.timeline = new Timeline(element<HTMLCanvasElement>("timeline"), element("hint"), about, theme(), this.happened, jump);
+    this.timeline = new Timeline(element<HTMLCanvasElement>("timeline"), element("hint"), about, theme(), this.happened, this.stops, jump);
     this.why = new Why(element("why"), about, send);
     this.edit = new Edit(element("edit"), about, send, () => this.playback.tick);
     this.selection = new Selection(about, this.why, this.edit, () => this.row);
@@ -164,8 +166,8 @@ export class View {
     this.stops.add(stops);
     this.playback.grown(known, over);
     this.curves.refresh();
-    const end = over ? `${known} ticks${ended_by ? `, ended by ${shown(ended_by)}` : ""}` : "";
-    element("state").textContent = failed ? shown(failed, 200) : end;
+    this.end = over ? `${known} ticks${ended_by ? `, ended by ${shown(ended_by)}` : ""}` : "";
+    this.failed = failed ? shown(failed, 200) : "";
     element("state").classList.toggle("alarm", !!failed);
   }
 
@@ -208,6 +210,8 @@ export class View {
     const { tick, known, over } = this.playback;
     this.transport.show();
     this.timeline.show(tick, known, over);
+    const stop = this.playback.moving ? undefined : this.stops.at(tick);
+    element("state").textContent = this.failed || (stop ? `stopped: ${stop}` : this.end);
     this.curves.move(tick);
     const row = this.row;
     if (!row) return;
