@@ -19,7 +19,7 @@ class Asked:
 
     what: str
     ticks: tuple[int, int] | None
-    paths: int
+    paths: int | None
     as_json: bool
 
 

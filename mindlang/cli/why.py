@@ -23,7 +23,7 @@ Examples:
 @click.option("--master", metavar="SKILL", help="Who is in charge. Default: the master of the task's first lesson.")
 @click.option("--no-interruption", is_flag=True, help="Go on to the last tick, whatever would end the run.")
 @click.option("--tick", type=TickSpan(), metavar="T or T..U", help="Which ticks, from 1. Default: all of them.")
-@click.option("--paths", type=WholeOption(1, 1000), default=10, help="How many are named. Default: 10.")
+@click.option("--paths", type=WholeOption(1, 1000), help="How many are named. Default: 10.")
 @click.option("--json", "as_json", is_flag=True, help="Print one JSON document instead.")
 @click.option("-q", "--quiet", is_flag=True, help="Print nothing but results and errors.")
 def command(
@@ -33,7 +33,7 @@ def command(
     master: str | None,
     no_interruption: bool,
     tick: tuple[int, int] | None,
-    paths: int,
+    paths: int | None,
     as_json: bool,
     quiet: bool,
 ) -> None:

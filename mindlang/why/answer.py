@@ -15,6 +15,7 @@ from mindlang.run.shares import Contribution, shares
 from mindlang.why.course import Course
 
 REWARD = "reward"  # asks for the score, where nothing has that name
+PATH_COUNT = 10  # that are named, where nobody says how many
 MAX_EDGE_TICKS = 10_000_000  # edges times ticks of one answer
 
 
@@ -25,17 +26,19 @@ class QuestionError(SetupError):
         super().__init__(message, hint, misuse=True)
 
 
-def answer(course: Course, what: str, span: tuple[int, int] | None, paths: int) -> dict[str, Any]:
+def answer(course: Course, what: str, span: tuple[int, int] | None, paths: int | None) -> dict[str, Any]:
     """Who made what is asked about in the ticks of a span, the first of which is 1; without one in all of them."""
     first, last = _within(course, span)
     about = course.about | {"ticks": [first, last], "seconds_per_tick": course.flows.graph.tick}
     target = sink_named(course.flows, what)
     if target is not None:
-        return about | _shares(course, target, range(first - 1, last), paths)
+        return about | _shares(course, target, range(first - 1, last), paths or PATH_COUNT)
     if what != REWARD:
         raise _unknown(course, what)
     if course.run is None:
         raise QuestionError("a robot's recording has no rewards", "Ask for an actuator, a memory or a skill.")
+    if paths is not None:
+        raise QuestionError("a reward comes along no paths", "Leave --paths out: all of its lines are said.")
     return about | _rewards(course.run, first, last)
 
 

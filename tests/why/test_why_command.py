@@ -101,6 +101,7 @@ def test_nothing_influences_what_is_sent_its_neutral(mindc: Call, rules: Path) -
     ("words", "message", "hint"),
     [
         (["left_whel"], "there is no actuator, memory or skill called left_whel", "Did you mean left_wheel?"),
+        (["reward", "--paths", 3], "a reward comes along no paths", "Leave --paths out: all of its lines are said."),
         (
             ["left_wheel", "--tick", 1300],
             "there is no tick 1,300: it was over after 1,200 ticks",

@@ -10,7 +10,7 @@ const TOO_MANY = 1013;
 function reason(code: number): string {
   if (code === NO_TOKEN) return "this address is of a view that has ended: open the one that mindc view has printed last";
   if (code === TOO_MANY) return "as many as can see this run do so already: this page waits for one to leave";
-  return "mindc view does not answer: what is here can still be looked at, and this page calls it again";
+  return "mindc view does not answer: this page calls it again, and shows what it has";
 }
 
 export function connect(listener: Listener): Send {

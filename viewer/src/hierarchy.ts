@@ -26,7 +26,7 @@ const MANY_EDGES = 400; // then they are on a canvas, those that transmit nothin
 const MANY_MILLISECONDS = 60;
 const MARGIN = { above: 36, below: 26 }; // for the title and the legend
 const LARGEST_SCALE_AT_FIRST = 1.25;
-const SMALLEST_SCALE_AT_FIRST = 0.7; // can be read; then it begins with the master, in the middle
+const SMALLEST_SCALE_AT_FIRST = 0.7; // can be read; then the master stays in sight, and the rest is moved into it
 
 interface Drawn {
   node: SVGElement;
@@ -77,7 +77,7 @@ export class Hierarchy {
   resize(): void {
     if (this.camera.touched) return;
     this.fit();
-    if (this.camera.scale < SMALLEST_SCALE_AT_FIRST) this.camera.zoom(SMALLEST_SCALE_AT_FIRST / this.camera.scale);
+    this.camera.zoom(Math.max(1, SMALLEST_SCALE_AT_FIRST / this.camera.scale), this.svg.clientWidth / 2, MARGIN.above);
     this.camera.touched = false;
   }
 
