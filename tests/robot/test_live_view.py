@@ -73,7 +73,9 @@ def test_a_robot_is_seen_while_it_drives(bundle: Path, temporary: Path) -> None:
     client.request("GET", "/")
     assert client.getresponse().status == 200
     viewer = viewer_of(process)
-    assert os.getpriority(os.PRIO_PROCESS, viewer) == 10 + os.getpriority(os.PRIO_PROCESS, process.pid)
+    assert os.getpriority(os.PRIO_PROCESS, viewer) == live.VIEWER_NICENESS + os.getpriority(
+        os.PRIO_PROCESS, process.pid
+    )
     process.terminate()
     _, err = process.communicate(timeout=PATIENCE)
     assert (process.returncode, is_gone(viewer)) == (0, True), err

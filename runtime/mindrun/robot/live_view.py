@@ -21,9 +21,11 @@ from mindrun.errors import reason
 PAGE_PORT = 8123  # tried first, so that the tunnel to a robot is the same each time
 MAX_LINE_CHARACTERS = 4096
 SERVER_ADDRESS = 2  # of the words of SSH_CONNECTION: client, its port, server, its port
+VIEWER_NICENESS = 10
 PROGRAM = (
-    "import signal, sys; from mindrun.robot.background_process import end_with_parent, give_way; "
-    "end_with_parent(int(sys.argv.pop(1)), signal.SIGKILL); give_way(); from mindlang.cli import main; main()"
+    "import os, signal, sys; from mindrun.robot.parent_process import end_with_parent; "
+    f"end_with_parent(int(sys.argv.pop(1)), signal.SIGKILL); os.nice({VIEWER_NICENESS}); "
+    "from mindlang.cli import main; main()"
 )
 
 
@@ -73,7 +75,7 @@ def _begin(recording: Path, bundle: Path, port: int | None) -> "subprocess.Popen
         stderr=subprocess.STDOUT,
         text=True,
         errors="replace",
-        start_new_session=True,  # Ctrl-C is the robot's
+        start_new_session=True,  # Ctrl-C is the robot's, and so is its share of the processor
     )
 
 

@@ -12,7 +12,7 @@ from math import isfinite
 from pathlib import Path
 
 from mindrun.errors import MindError
-from mindrun.robot.background_process import end_with_parent
+from mindrun.robot.parent_process import end_with_parent
 from mindrun.robot.simulated_world.scene import SEED_COUNT, SimulatedScene, SimulatedWorld
 from mindrun.robot.simulated_world.server import Server, listening
 
