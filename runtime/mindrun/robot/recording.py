@@ -11,6 +11,7 @@ import zlib
 from collections.abc import Iterable, Iterator
 from contextlib import suppress
 from dataclasses import dataclass
+from math import inf
 from pathlib import Path
 from threading import Event, Thread
 from types import TracebackType
@@ -23,6 +24,7 @@ from mindrun.errors import MindError
 from mindrun.graph import Graph
 from mindrun.named_readings import physical
 from mindrun.regular_files import open_regular
+from mindrun.robot.background_file import BackgroundFile
 from mindrun.strict_json import are_names, is_whole, parsed
 from mindrun.validate import MAX_TICK_SECONDS, MIN_TICK_SECONDS
 
@@ -84,19 +86,20 @@ class About:
 class Recorder:
     """Writes a recording; a context manager. OSError where the file is there already, or cannot be written.
 
-    Rows are brought to the disk `every` so many seconds; others see them after `flush_every` seconds, 0: each at once.
+    Rows are brought to the disk `every` so many seconds. Others see them as late, or `at_once`, which a thread does.
     """
 
-    def __init__(self, path: Path, about: About, every: float = 1.0, flush_every: float | None = None) -> None:
+    def __init__(self, path: Path, about: About, every: float = 1.0, at_once: bool = False) -> None:
         self._row = np.zeros(1, about.row)
         self._path = path
-        self._file = path.open("xb")
+        file = path.open("xb")
+        self._file = BackgroundFile(file) if at_once else file
         self._ending = Event()
         self._syncing = Thread(target=self._sync, args=(every,), name="recording", daemon=True)
         self._syncing.start()
         self._file.write(_line(about))
         self._file.flush()  # somebody may follow it already
-        self._flush_every, self._flushed = every if flush_every is None else flush_every, 0.0
+        self._flush_every, self._flushed = inf if at_once else every, 0.0
 
     def write(self, **columns: Any) -> None:
         """A row, which is on the disk a second or two later; RecordingError where it cannot be."""
