@@ -3,7 +3,7 @@
 The same dry run of Collect at real time, in turns: recorded alone, with `--view`, and with a page open in a Chromium
 without windows (where there is none: without). Late is how long after its time a tick began; pictures are the different
 ticks that the page has drawn, in a second. Where others use the machine, the simulated wheels may be too slow for the
-guardian, which ends a run: then it has fewer ticks. The browser stands for another machine: it has a session of its own.
+guardian, which ends a run: then it has fewer ticks. The browser stands for another machine, in a session of its own.
 """
 
 import argparse
@@ -68,8 +68,8 @@ def driven(bundle: Path, day: Path, situation: str, ticks: int) -> tuple[NDArray
         for line in process.stderr:
             if situation == SITUATIONS[2] and (address := re.search(r"http://127\S+", line)):
                 page = [sys.executable, __file__, "--page", address[0], "--milliseconds", str(ticks * 5)]
-                browser = subprocess.run(page, stdout=subprocess.PIPE, text=True, check=False, start_new_session=True)
-                with suppress(ValueError):  # there is none
+                browser = subprocess.run(page, capture_output=True, text=True, check=False, start_new_session=True)
+                with suppress(ValueError):  # there is none, or the run has ended
                     drawn = json.loads(browser.stdout)
     about, parts = read(day)
     late, missed = lateness(np.concatenate([rows["time"] for rows in parts]), about.tick)
