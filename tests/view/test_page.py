@@ -280,6 +280,32 @@ def test_what_was_refused_is_said_and_asked_again(browser: Any, mind: Path, monk
         found.close()
 
 
+def test_a_second_page_says_that_another_may_change_the_run(opened: Opened, browser: Any) -> None:
+    second = Opened(browser, opened.page.url)
+    assert opened.page.inner_text("#source") == "simulation"
+    assert second.page.inner_text("#source") == "simulation, another page may change it"
+    second.close()
+
+
+def test_why_is_asked_again_after_a_connection_that_broke(browser: Any, mind: Path) -> None:
+    with served(simulated(mind)) as view:
+        found = Opened(browser, f"http://{view.host}/#{view.token}")
+        found.jump(640)
+        found.page.locator("#hierarchy .node.actuator").first.click()
+        found.wait("document.querySelectorAll('#why .path').length > 0")
+        asked = sum('"why"' in said for said in found.sent)
+        view.drop()
+        found.wait("!document.querySelector('#notice').hidden")
+        found.wait("document.querySelector('#notice').hidden")
+        found.wait("document.body.dataset.tick === '640'")
+        for _ in range(100):
+            if sum('"why"' in said for said in found.sent) > asked:
+                break
+            found.page.wait_for_timeout(50)
+        assert sum('"why"' in said for said in found.sent) > asked
+        found.close()
+
+
 def test_why_says_why_it_cannot(opened: Opened, monkeypatch: pytest.MonkeyPatch) -> None:
     def refused(*_: object) -> None:
         raise RefusedError("nobody knows")

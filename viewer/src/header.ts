@@ -6,11 +6,14 @@ import { shown } from "./names";
 import type { About } from "./protocol";
 import type { World } from "./world";
 
+const CHANGED: About["source"][] = ["simulation", "training"]; // by one page; a file is changed by none
+
 /** The title of a run, and where it comes from. */
-export function showTitle({ title, source }: About): void {
+export function showTitle({ title, source, edits }: About): void {
   const text = shown(title, 120);
+  const others = !edits && CHANGED.includes(source) && !document.getElementById("recording");
   element("title").textContent = text;
-  element("source").textContent = source === "robot" ? "live from the robot" : source;
+  element("source").textContent = (source === "robot" ? "live from the robot" : source) + (others ? ", another page may change it" : "");
   document.title = `${text} \u2013 mind view`;
 }
 

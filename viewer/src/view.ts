@@ -102,7 +102,7 @@ export class View {
     if (about.world) Object.assign(this.about.world!, about.world);
     Object.assign(this.about, about, { world: this.about.world });
     this.asked = -1;
-    for (const part of [this.happened, this.collisions, this.rows, this.playback, this.forks, this.curves, this.stops]) part.restart();
+    for (const part of [this.happened, this.collisions, this.rows, this.playback, this.forks, this.curves, this.stops, this.why]) part.restart();
     this.learning?.restarted();
     showTitle(about);
     this.want(FIRST_TICKS);

@@ -29,6 +29,11 @@ export class Why {
     if (this.actuator === null) this.place.replaceChildren();
   }
 
+  /** Another run is seen, or the same through another connection. */
+  restart(): void {
+    this.asked = "";
+  }
+
   /** Asks for a tick, if that has not been asked. */
   at(tick: number, fork: number, now: number): void {
     const question = `${fork}/${tick}/${this.actuator}`;
