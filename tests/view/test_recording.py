@@ -103,6 +103,16 @@ def test_rows_are_what_the_robot_read_and_thought(day: tuple[Path, Path, list[tu
         assert singles[1:, first : first + count].tobytes() == expected.tobytes()
 
 
+def test_who_asks_for_its_last_tick_hears_that_it_is_over(day: tuple[Path, Path, object]) -> None:
+    viewed = viewed_recording(day[0], day[1])
+    viewed.grow()
+    with served(viewed) as view, view.viewer() as viewer:
+        viewer.say(say="run", to=TICKS)
+        while not (told := viewer.hear("ticks"))["over"]:
+            assert told["known"] <= TICKS
+        assert (told["known"], told["failed"]) == (TICKS, None)
+
+
 def test_what_happened_is_said(day: tuple[Path, Path, list[tuple[np.ndarray, np.ndarray]]]) -> None:
     viewed = whole(viewed_recording(*day[:2]))
     names = [event["text"] for event in viewed.about["events"]]

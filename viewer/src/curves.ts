@@ -3,7 +3,7 @@
 import uPlot from "uplot";
 import { digits, shown } from "./names";
 import type { Beside } from "./forks";
-import type { About, Curve } from "./protocol";
+import type { About, Column, Curve } from "./protocol";
 import type { Rows, Series } from "./rows";
 import type { Theme } from "./theme";
 
@@ -37,7 +37,10 @@ export class Curves {
     private readonly jump: (tick: number) => void,
   ) {
     this.cursor.className = "cursor";
-    const first = (group: string) => [...about.curves.keys()].filter((curve) => about.curves[curve].group === group);
+    const [block, from, count] = about.columns.sent ?? [0, 0, 0]; // the commands again, but where the robot was stopped
+    const isSent = ([of, index]: Column) => of === block && index >= from && index < from + count;
+    const begins = ({ group, column }: Curve, wanted: string) => group === wanted && !isSent(column);
+    const first = (group: string) => [...about.curves.keys()].filter((curve) => begins(about.curves[curve], group));
     this.chosen = [...first("command"), ...first("influence")].slice(0, CHOSEN_AT_FIRST);
     search.addEventListener("input", () => this.fill());
     this.fill();

@@ -46,6 +46,6 @@ export class Transport {
     this.tick.max = String(known);
     this.rate.value = String(rate);
     const seconds = (ticks: number) => `${(ticks * this.tickSeconds).toFixed(2)}\u202fs`;
-    element("clock").textContent = `${seconds(tick)} ${over ? "of" : "\u2013 made so far:"} ${seconds(known)}`;
+    element("clock").textContent = `${seconds(tick)} of ${seconds(known)}${over ? "" : " so far"}`;
   }
 }
