@@ -2,7 +2,8 @@
 
 The same dry run of Collect at real time, in turns: recorded alone, with `--view`, and with a page open in a Chromium
 without windows (where there is none: without). Late is how long after its time a tick began; pictures are the different
-ticks that the page has drawn, in a second. Where others use the machine, the simulated wheels may be too slow for the
+ticks that the page has drawn, in a second; row µs is what the loop's recorder takes for a row, handed out each second,
+or at once. Where others use the machine, the simulated wheels may be too slow for the
 guardian, which ends a run: then it has fewer ticks. The browser stands for another machine, in a session of its own.
 """
 
@@ -15,10 +16,13 @@ import sys
 from contextlib import suppress
 from pathlib import Path
 from tempfile import TemporaryDirectory
+from time import perf_counter, sleep
 from typing import Any
 
 import numpy as np
-from mindrun.robot.recording import read
+from mindrun.bundle import read_bundle
+from mindrun.named_readings import physical
+from mindrun.robot.recording import About, Recorder, read
 from numpy.typing import NDArray
 
 COLLECT = Path(__file__).parents[1] / "examples" / "collect" / "collect.mind"
@@ -76,6 +80,21 @@ def driven(bundle: Path, day: Path, situation: str, ticks: int) -> tuple[NDArray
     return late, missed, drawn
 
 
+def row_microseconds(bundle: Path, day: Path, at_once: bool, rows: int) -> float:
+    """The median time that the loop gives away for a row, at the rate of its ticks."""
+    graph = read_bundle(bundle).graph
+    about = About.of(graph, "0" * 64, graph.master, tuple(physical(graph)))
+    row = {"readings": np.ones(graph.width), "influence": np.ones(len(graph.skills)), "stopped": 0, "armed": 1}
+    taken = []
+    with Recorder(day, about, at_once=at_once) as recorder:
+        for tick in range(rows):
+            sleep(graph.tick)
+            begin = perf_counter()
+            recorder.write(tick=tick, time=tick * graph.tick, **row)
+            taken.append(perf_counter() - begin)
+    return float(np.median(taken)) * 1e6
+
+
 def measured(rounds: int, ticks: int) -> list[dict[str, Any]]:
     """A row for each situation."""
     found: dict[str, list[tuple[NDArray[np.float64], int, list[float]]]] = {name: [] for name in SITUATIONS}
@@ -85,7 +104,9 @@ def measured(rounds: int, ticks: int) -> list[dict[str, Any]]:
         for number in range(rounds):
             for place, name in enumerate(SITUATIONS):
                 found[name].append(driven(bundle, Path(folder) / f"{number}-{place}.rec", name, ticks))
-    return [summed(name, runs) for name, runs in found.items()]
+        costs = [row_microseconds(bundle, Path(folder) / f"{at_once}.rec", at_once, ticks) for at_once in (False, True)]
+    rows = [summed(name, runs) for name, runs in found.items()]
+    return [row | {"row µs": cost} for row, cost in zip(rows, [*costs, costs[1]], strict=True)]
 
 
 def summed(name: str, runs: list[tuple[NDArray[np.float64], int, list[float]]]) -> dict[str, Any]:

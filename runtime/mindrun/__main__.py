@@ -140,7 +140,7 @@ def _options() -> argparse.Namespace:
     )
     robot.add_argument("--task", metavar="TASK", help="with --dry: the task of that world (default: the master's)")
     robot.add_argument("--seed", type=whole(0, MAX_SEED), default=1, help="with --dry: the layout of that world")
-    robot.add_argument("-q", "--quiet", action="store_true", help="say nothing but errors")
+    robot.add_argument("-q", "--quiet", action="store_true", help="say nothing but errors, and where a view is")
     return parser.parse_args()
 
 
