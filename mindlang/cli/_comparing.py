@@ -90,7 +90,7 @@ def _draw(compared: Compared, request: Request, path: Path) -> None:
 
 def _recorded(path: Path, bundle: Path, request: Request) -> OpenLoop:
     other = _version(request.other) if request.other else None
-    return compare_recording(path, bundle, from_bundle(bundle), other, partial(changes_of, request), request.tick)
+    return compare_recording(path, bundle, other, partial(changes_of, request), request.tick)
 
 
 def _version(file: str) -> MindVersion:

@@ -11,6 +11,7 @@ from mindrun.errors import MindError
 from mindlang.cli._run_session import RunSession
 from mindlang.cli._terminal import MISUSE, fail, refuse_unwritable, write_file
 from mindlang.run.recorded_run import RecordedRun
+from mindlang.run.setup import RunSetup
 
 
 @dataclass(frozen=True, slots=True)
@@ -21,25 +22,29 @@ class RunFiles:
     video: Path | None
     speed: float | None
     trace: Path | None
+    record: Path | None
 
     def refuse_unwritable(self) -> None:
         """End the program where one cannot be written, before any work is done."""
         refuse_unwritable(self.picture, ".png")
         refuse_unwritable(self.video, ".mp4", ".gif")
         refuse_unwritable(self.trace, ".csv", ".parquet")
+        refuse_unwritable(self.record, ".rec")
 
     def any(self) -> bool:
         """Whether there is something to write."""
-        return bool(self.picture or self.video or self.trace)
+        return bool(self.picture or self.video or self.trace or self.record)
 
-    def write(self, session: RunSession, run: RecordedRun, found: dict[str, Any]) -> None:
-        """Write what was asked for, and say so."""
+    def write(self, session: RunSession, run: RecordedRun, setup: RunSetup, found: dict[str, Any]) -> None:
+        """Write what was asked for of a run of the setup, and say so."""
         if self.picture:
             _draw(session, run, found, self.picture)
         if self.video:
             _film(session, run, found, self.video, self.speed)
         if self.trace:
             _tabulate(session, run, self.trace)
+        if self.record:
+            _record(session, run, setup, found["seed"], self.record)
 
 
 def _draw(session: RunSession, run: RecordedRun, found: dict[str, Any], path: Path) -> None:
@@ -74,3 +79,14 @@ def _tabulate(session: RunSession, run: RecordedRun, path: Path) -> None:
         fail(str(error), error.hint, MISUSE)
     write_file(path, data)
     session.say(f"{path}: a row for each of {run.ticks:,} ticks")
+
+
+def _record(session: RunSession, run: RecordedRun, setup: RunSetup, seed: int, path: Path) -> None:
+    from mindlang.run.run_recording import run_bytes
+
+    try:
+        data = run_bytes(run, setup, seed)
+    except MindError as error:
+        fail(str(error), error.hint, MISUSE)
+    write_file(path, data)
+    session.say(f"{path}: {run.ticks:,} ticks, to be seen with its source or a bundle of it that has no robot")

@@ -39,5 +39,5 @@ def run_to_breakpoint(
         print_json(found)
     else:
         console().print(stop_summary(stopped), run_summary(found), sep="\n")
-    files.write(session, run, found)
+    files.write(session, run, cast, found)
     sys.exit(FINDINGS if stopped else OK)

@@ -21,6 +21,7 @@ Examples:
   mindc run collect.mind --task Collect --seed 3 --video run.mp4 --speed 4
   mindc run collect.mind --task Collect --seed 3 --video run.gif
   mindc run collect.mind --task Collect --seed 3 --trace run.csv
+  mindc run collect.mind --task Collect --seed 3 --record run.rec
   mindc run collect.mind --task Collect --seed 3 --break collect.break
   mindc run collect.mind --task Avoid --seed 3 --json
 """
@@ -49,6 +50,7 @@ Examples:
 @click.option(
     "--trace", type=NewFile(), metavar="PATH.csv", help="Write readings, influence, commands and rewards of every tick."
 )
+@click.option("--record", type=NewFile(), metavar="PATH.rec", help="Write a recording, for mindc view, why and whatif.")
 @click.option(
     "--break", "breaks", type=click.Path(path_type=Path), metavar="PATH.break", help="Stop where a line of it says."
 )
@@ -64,6 +66,7 @@ def command(
     video: Path | None,
     speed: float | None,
     trace: Path | None,
+    record: Path | None,
     breaks: Path | None,
     as_json: bool,
     quiet: bool,
@@ -81,7 +84,7 @@ def command(
     from mindlang.cli._run_files import RunFiles
     from mindlang.cli._run_session import RunChoice, RunSession
 
-    session, files = RunSession(quiet), RunFiles(picture, video, speed, trace)
+    session, files = RunSession(quiet), RunFiles(picture, video, speed, trace, record)
     files.refuse_unwritable()
     if video is None:
         refuse_ineffective("of --video: say it, too", "speed")
@@ -111,4 +114,4 @@ def _run_to_its_end(session: RunSession, file: str, chosen: RunChoice, files: Ru
     else:
         console().print(run_summary(found))
     if files.any():
-        files.write(session, session.record(setup, rollout, chosen.seed), found)
+        files.write(session, session.record(setup, rollout, chosen.seed), setup, found)

@@ -34,9 +34,13 @@ def ends(task: Task) -> list[str]:
     ]
 
 
+def ended_by(task: Task, number: int) -> str | None:
+    """What ended a run, by its number there; None where it lasted its time, or goes on."""
+    return [*ends(task), FLIGHT, None][number] if -2 <= number < len(task.ends) else None
+
+
 def run_data(task: Task, scores: Scores) -> dict[str, Any]:
     """The single run of `scores`; a sum that is not a finite number is None, `counts` is the sum of `by_event`."""
-    ended = int(scores.ended_by[0, 0])
     return {
         **rewards_data(task, scores.by_line[0, 0]),
         "counts": int(scores.counts[0, 0]),
@@ -44,7 +48,7 @@ def run_data(task: Task, scores: Scores) -> dict[str, Any]:
         "by_event": {events(task)[event]: int(scores.by_event[0, 0, event]) for event in task.counts},
         "ticks": int(scores.ticks[0, 0]),
         "of_ticks": task.ticks,
-        "ended_by": [*ends(task), FLIGHT, None][ended],
+        "ended_by": ended_by(task, int(scores.ended_by[0, 0])),
         **({"succeeded": bool(_succeeded(task, scores)[0, 0])} if task.can_succeed else {}),
         "faults": int(scores.faults[0, 0]),
     }

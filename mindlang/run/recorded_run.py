@@ -5,6 +5,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from mindrun.graph import Graph, Task, Thing
 from mindrun.movers import movers
+from mindrun.robot.recording_header import GOES_ON
 from mindrun.sim.rollout import Rollout
 from mindrun.sim.task_rows import things_of
 from mindrun.sim.ticks import joined
@@ -24,7 +25,7 @@ class RecordedRun:
 
     `readings` as its skills read them, `influence`, `commands` before the noise of their actuators, `lines` (the sum of
     each reward line so far), `touching`, `battery`, `events` (how often each has happened so far) and `counts` (of the
-    counted ones) have a row per tick.
+    counted ones) have a row per tick. `ended` is what ended it, as in a recording.
     """
 
     setup: RunSetup
@@ -40,6 +41,7 @@ class RecordedRun:
     touching: NDArray[np.bool_]
     battery: Floats
     events: NDArray[np.int64]
+    ended: int
 
     @property
     def graph(self) -> Graph:
@@ -76,7 +78,8 @@ class RecordedRun:
         with_beginning = ("body", "things", "turned", "held")
         of_ticks = ("readings", "influence", "commands", "lines", "touching", "battery", "events")
         cut = {name: getattr(self, name)[: tick + 1] for name in with_beginning}
-        return replace(self, **cut, **{name: getattr(self, name)[:tick] for name in of_ticks})
+        ended = self.ended if tick >= self.ticks else GOES_ON
+        return replace(self, ended=ended, **cut, **{name: getattr(self, name)[:tick] for name in of_ticks})
 
     def placements(self, thing: int) -> Floats:
         """Every place and size [n, 3] where a thing appeared; neither a claw nor its own speed makes a new place."""
@@ -134,4 +137,5 @@ def recorded(setup: RunSetup, run: Trace) -> RecordedRun:
         ticks.touching,
         ticks.battery,
         np.cumsum(ticks.events, axis=0),
+        int(run.jobs.ended[0]),
     )

@@ -11,9 +11,21 @@ from mindrun.things import ThingKind
 
 from mindlang.pictures.scene import half_sides, thing_colours
 from mindlang.pictures.theme import NIGHT, PAPER, Colour
+from mindlang.run import outcome
 from mindlang.view.columns import Columns
 from mindlang.view.row_blocks import Doubles
 from mindlang.view.texts import shown
+
+
+def run_data(graph: Graph, task: Task, seed: int, boxes: Doubles, columns: Columns) -> dict[str, Any]:
+    """The task of a run, its seed, its rewards and ends, and its world."""
+    return {
+        "task": shown(task.name),
+        "seed": str(seed),
+        "rewards": [shown(reward.text) for reward in task.rewards],
+        "ends": [shown(text) for text in outcome.ends(task)],
+        "world": world_data(graph, task, boxes, columns),
+    }
 
 
 def world_data(graph: Graph, task: Task, boxes: Doubles, columns: Columns) -> dict[str, Any]:

@@ -6,7 +6,6 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 DOUBLE_BLOCK, SINGLE_BLOCK = 0, 1  # blocks
-POSE_COLUMNS, THING_COLUMNS = 3, 4  # x, y, angle of the robot; x, y, size, turned of a thing
 FLOW = "flow"  # the last group of singles: it is not kept, but computed for the rows that are asked for
 
 

@@ -1,4 +1,4 @@
-"""What a robot has recorded, seen: what was read, thought and sent, and nothing of the world that it was in."""
+"""A recording, seen: what was read, thought and sent, and the world where there was a simulated one."""
 
 from __future__ import annotations
 
@@ -8,21 +8,28 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from mindrun.bundle import Bundle, digest, read_bundle
+from mindrun.bundle import Bundle
 from mindrun.engine import Engine
+from mindrun.graph import Graph, Task
 from mindrun.robot.growing_recording import read_growing
-from mindrun.robot.recording import MAX_HEADER_BYTES, About, read
+from mindrun.robot.recording import read
+from mindrun.robot.recording_header import BOX_COLUMNS, MAX_HEADER_BYTES, About, RecordedWorld
 from mindrun.robot.replay import computed_again
 from mindrun.virtual_sensors import virtual_sensors
 from numpy.typing import NDArray
 
+from mindlang.run import outcome
+from mindlang.run.running_bundle import running_bundle
 from mindlang.view.about_hierarchy import HierarchyData
+from mindlang.view.about_world import run_data
 from mindlang.view.columns import FLOW, Columns
 from mindlang.view.growing_bytes import growing_bytes
+from mindlang.view.recorded_columns import beginning, blocks, world_columns
 from mindlang.view.row_blocks import Chunk, Singles
 from mindlang.view.stop_texts import stop_texts
 from mindlang.view.texts import shown
 from mindlang.view.viewed import SeenMind, Viewed
+from mindlang.view.world_events import WorldEvents
 
 if TYPE_CHECKING:
     from mindlang.breakpoints.recorded import RecordingWatcher
@@ -58,42 +65,42 @@ def viewed_rows(
 
     `of_ticks` says how many there are, None that it still grows. MindError where both do not fit.
     """
-    found = read_bundle(bundle)
-    of.refuse_another(digest(bundle), found.graph)
+    found = running_bundle(bundle, of)
+    task = next((task for task in found.graph.tasks if of.world and task.name == of.world.task), None)
     begins: set[int] = set()  # filled while the rows come
     mind = SeenMind.of(found.policy, found.procedures, of.master, begins)
     columns = recording_columns(found, of, mind.edges)
     below = HierarchyData(found.graph, of.master, mind.skills, columns)
     about = {
         "title": shown(f"{path.name} with {of.master} in charge"),
-        "task": None,
         "master": shown(of.master),
         "source": "robot" if of_ticks is None else "recording",
-        "seed": None,
         "tick": of.tick,
         "of_ticks": of_ticks,
-        "events": [
-            {"text": "stopped", "kind": "stopped"},
-            {"text": "began anew", "kind": "begin"},
-            *({"text": shown(f"fault of {name}"), "kind": "fault"} for name in of.sensors),
-        ],
-        "rewards": [],
-        "ends": [],
-        "world": None,
-        "curves": below.curves(),
+        "events": [*_robot_events(of), *(WorldEvents(task).data() if task else [])],
+        **_run_data(found.graph, of.world, task, columns),
+        "curves": below.curves([reward.text for reward in task.rewards] if task else []),
         **below.data({}),
     }
     watcher = watching(of, found) if watching else None
-    chunks = recording_chunks(_filled(path, of, parts, found), of, columns, begins, watcher)
+    chunks = recording_chunks(_filled(path, of, parts, found), of, task, columns, begins, watcher)
     return Viewed(about, columns, chunks, mind, is_live=of_ticks is None)
+
+
+def _run_data(graph: Graph, world: RecordedWorld | None, task: Task | None, columns: Columns) -> dict[str, Any]:
+    if world is None or task is None:
+        return {"task": None, "seed": None, "rewards": [], "ends": [], "world": None}
+    return run_data(graph, task, world.seed, np.array(world.boxes).reshape(-1, BOX_COLUMNS), columns)
 
 
 def recording_columns(mind: Bundle, of: About, edges: int) -> Columns:
     """The columns of a recording."""
+    doubles, singles = world_columns(of.world.things, of.world.rewards) if of.world else ({}, {})
     commands = len(of.actuators)
     return Columns.of(
-        {"time": 1},
+        {"time": 1, **doubles},
         {
+            **singles,
             "readings": mind.graph.width,
             "influence": len(of.skills),
             "commands": commands,
@@ -106,25 +113,45 @@ def recording_columns(mind: Bundle, of: About, edges: int) -> Columns:
     )
 
 
+def _robot_events(of: About) -> list[dict[str, str]]:
+    return [
+        {"text": "stopped", "kind": "stopped"},
+        {"text": "began anew", "kind": "begin"},
+        *({"text": shown(f"fault of {name}"), "kind": "fault"} for name in of.sensors),
+    ]
+
+
 def recording_chunks(
-    parts: Iterator[Filled], of: About, columns: Columns, begins: set[int], watcher: RecordingWatcher | None = None
+    parts: Iterator[Filled],
+    of: About,
+    task: Task | None,
+    columns: Columns,
+    begins: set[int],
+    watcher: RecordingWatcher | None = None,
 ) -> Iterator[Chunk]:
-    """Its rows; `begins` gets the ticks in which the mind was begun anew."""
-    yield Chunk(np.full((1, 1), np.nan), np.zeros((1, columns.kept_singles), np.float32))
+    """Its rows, with the world of the task if it has one; `begins` gets the ticks in which the mind was begun anew."""
+    yield beginning(columns, of.world)
+    world = WorldEvents(task) if task else None
     number, start, before = 0, 0.0, np.zeros(2 + len(of.sensors), bool)
     for rows, readings in parts:
         if not len(rows):  # nothing has come for a while
-            yield Chunk(np.zeros((0, 1)), np.zeros((0, columns.kept_singles), np.float32))
+            yield Chunk(*blocks(rows, columns, readings))
             continue
         start = start if number else float(rows["time"][0])
         begins |= {number + 1 + int(row) for row in np.flatnonzero(rows["tick"] == 0)}
         facts = np.column_stack([rows["stopped"], rows["tick"] == 0, rows["faults"]]) != 0
         facts[0, BEGIN_COLUMN] &= number > 0
-        happened = np.argwhere(facts & ~np.concatenate([before[None], facts[:-1]]))
+        happened = facts & ~np.concatenate([before[None], facts[:-1]])
+        if world:
+            happened = np.concatenate([happened, world.in_rows(rows)], axis=1)
+        doubles, singles = blocks(rows, columns, readings)
+        doubles[:, columns["time"].first] -= start
+        ended = outcome.ended_by(task, int(rows["world"]["ended"][-1])) if task else None
         yield Chunk(
-            (rows["time"] - start)[:, None],
-            _singles(rows, readings),
-            tuple((number + 1 + int(row), int(event)) for row, event in happened),
+            doubles,
+            singles,
+            tuple((number + 1 + int(row), int(event)) for row, event in np.argwhere(happened)),
+            ended and shown(ended),
             stops=stop_texts(watcher.feed(rows, readings) if watcher else ()),
         )
         number, before = number + len(rows), facts[-1]
@@ -137,7 +164,7 @@ def _filled(path: Path, of: About, parts: Iterator[Rows], mind: Bundle) -> Itera
     is nothing to fill in nothing is computed again, which would take 30 times as long.
     """
     engine, number = Engine(mind.policy, mind.procedures, of.master), 1
-    nothing = not virtual_sensors(mind.graph) and not mind.graph.memories
+    nothing = not of.lacks_readings or (not virtual_sensors(mind.graph) and not mind.graph.memories)
     for part in parts:
         for first in range(0, max(1, len(part)), CHUNK_TICKS):
             rows = part[first : first + CHUNK_TICKS]
@@ -149,12 +176,6 @@ def _filled(path: Path, of: About, parts: Iterator[Rows], mind: Bundle) -> Itera
             finally:
                 yield rows[:known], readings[:known]
             number += known
-
-
-def _singles(rows: Rows, readings: Singles) -> Singles:
-    states = [rows[name][:, None] for name in ("stopped", "armed")]
-    each = [readings, rows["influence"], rows["commands"], rows["sent"], *states, rows["faults"]]
-    return np.concatenate(each, axis=1).astype(np.float32)
 
 
 def _row_count(path: Path, of: About) -> int:

@@ -10,7 +10,6 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from mindrun.bundle import digest
 from mindrun.changed_engine import ChangedEngine
 from mindrun.changes import Change, ChangeError, in_tick
 from mindrun.engine import Engine
@@ -21,6 +20,7 @@ from mindrun.robot.replay import ComputedRow, computed_again
 from numpy.typing import NDArray
 
 from mindlang.compiler.diagnostic import listed
+from mindlang.run.running_bundle import running_bundle
 from mindlang.whatif.difference import Columns, Difference, first_differences, mind_columns
 from mindlang.whatif.mind_version import MindVersion
 
@@ -52,7 +52,6 @@ class OpenLoop:
 def compare_recording(
     path: Path,
     bundle: Path,
-    mind: MindVersion,
     other: MindVersion | None,
     changes: Callable[[Graph, str], Sequence[Change]],
     tick: int,
@@ -63,8 +62,9 @@ def compare_recording(
     it ends before the tick. Runs the Python code of both minds' procedures.
     """
     about, parts = read(path)
-    about.refuse_another(digest(bundle), mind.graph)
-    theirs = other or replace(mind, master=about.master)
+    running = running_bundle(bundle, about)
+    mind = MindVersion(bundle.name, running.policy, running.procedures, about.master)
+    theirs = other or mind
     ours = Engine(mind.policy, mind.procedures, about.master)
     changed = _Changed(
         ChangedEngine(theirs.policy, theirs.procedures, theirs.master),

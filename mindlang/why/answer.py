@@ -71,7 +71,7 @@ def _unknown(course: Course, what: str) -> QuestionError:
 
 def _instead(course: Course, skill: str) -> str:
     """Who is above a skill that the master does not reach."""
-    if course.run is None:
+    if "recording" in course.about:
         return "It had no influence while this was recorded."
     graph = course.flows.graph
     above = (each.name for each in graph.skills if skill in {below.name for below in reachable(graph, each.name)})

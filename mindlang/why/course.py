@@ -7,7 +7,6 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from mindrun.bundle import digest, read_bundle
 from mindrun.engine import Engine, procedure_sources
 from mindrun.robot.recording import RecordingError, read
 from mindrun.robot.replay import computed_again
@@ -15,6 +14,8 @@ from numpy.typing import NDArray
 
 from mindlang.run.edge_flow import EdgeFlows, Singles
 from mindlang.run.recorded_run import RecordedRun
+from mindlang.run.run_recording import run_of
+from mindlang.run.running_bundle import running_bundle
 
 
 @dataclass(frozen=True, slots=True)
@@ -59,9 +60,8 @@ def course_of_recording(path: Path, bundle: Path) -> Course:
     RecordingError where it was made with another bundle, or is not what this one computes. Runs the Python code of the
     bundle's procedures.
     """
-    mind = read_bundle(bundle)
     of, parts = read(path)
-    of.refuse_another(digest(bundle), mind.graph)
+    mind = running_bundle(bundle, of)
     rows = np.concatenate([*parts, np.zeros(0, of.row)])
     if not len(rows):
         raise RecordingError(f"{path} has no tick in it")
@@ -70,4 +70,5 @@ def course_of_recording(path: Path, bundle: Path) -> Course:
     begins = np.flatnonzero(rows["tick"] == 0).tolist()
     flows = EdgeFlows(mind.policy, mind.procedures, of.master, again, begins)
     about = {"recording": path.name, "master": of.master}
-    return Course(about, flows, rows["sent"], rows["stopped"] != 0)
+    run = run_of(of, rows, mind, bundle.parent) if of.world else None
+    return Course(about, flows, rows["sent"], rows["stopped"] != 0, run)

@@ -111,6 +111,13 @@ def resealed(row: np.ndarray) -> bytes:
     return row.tobytes()
 
 
+def unsealed(line: bytes, **said: object) -> bytes:
+    """The first line as the first version wrote it, which says something else."""
+    plain = json.loads(line)
+    del plain["check"]
+    return json.dumps(plain | {"format": "mind recording 1"} | said).encode() + b"\n"
+
+
 def test_another_bundle_is_refused(day: Path) -> None:
     with pytest.raises(RecordingError, match="another bundle"):
         replay(day, "cd" * 32, Engine(Policy(graph("range_finder"), {})))
@@ -153,9 +160,7 @@ def test_no_bit_of_the_first_line_can_flip(day: Path) -> None:
 
 def test_a_recording_of_an_older_version_is_read(day: Path) -> None:
     line, _, rows = day.read_bytes().partition(b"\n")
-    said = json.loads(line)
-    del said["check"]
-    day.write_bytes(json.dumps(said | {"format": "mind recording 1"}).encode() + b"\n" + rows)
+    day.write_bytes(unsealed(line) + rows)
     assert replay(day, BUNDLE, Engine(Policy(graph("range_finder"), {}))).ticks == TICKS
 
 
@@ -169,8 +174,7 @@ def test_a_recording_of_an_older_version_is_read(day: Path) -> None:
 )  # fmt: skip
 def test_what_a_first_line_cannot_say(day: Path, name: str, value: object) -> None:
     line, _, rows = day.read_bytes().partition(b"\n")
-    said = json.loads(line) | {"format": "mind recording 1", name: value}
-    day.write_bytes(json.dumps(said).encode() + b"\n" + rows)
+    day.write_bytes(unsealed(line, **{name: value}) + rows)
     with pytest.raises(RecordingError, match="is no recording"):
         read(day)
 
@@ -181,8 +185,7 @@ def test_what_a_first_line_cannot_say(day: Path, name: str, value: object) -> No
 )
 def test_other_columns_than_those_of_the_bundle_are_refused(day: Path, name: str, value: object) -> None:
     line, _, rows = day.read_bytes().partition(b"\n")
-    said = json.loads(line) | {"format": "mind recording 1", name: value}
-    day.write_bytes(json.dumps(said).encode() + b"\n" + rows)
+    day.write_bytes(unsealed(line, **{name: value}) + rows)
     for refuses in (lambda: replay(day, BUNDLE, Engine(Policy(graph("range_finder"), {}))), lambda: _reported(day)):
         with pytest.raises(RecordingError, match="other columns"):
             refuses()
@@ -292,8 +295,7 @@ def test_what_cannot_be_brought_to_the_disk_in_the_end_is_told(day: Path, monkey
     ],
 )  # fmt: skip
 def test_the_bounds_of_a_first_line(day: Path, name: str, value: object, fine: bool) -> None:
-    said = json.loads(day.read_bytes().partition(b"\n")[0]) | {"format": "mind recording 1", name: value}
-    day.write_bytes(json.dumps(said).encode() + b"\n")
+    day.write_bytes(unsealed(day.read_bytes().partition(b"\n")[0], **{name: value}))
     if fine:
         assert getattr(read(day)[0], name) == (tuple(value) if isinstance(value, list) else value)
     else:

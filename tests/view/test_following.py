@@ -35,7 +35,7 @@ def write_rows(recorder: Recorder, engine: Engine, first: int, below: int) -> No
         readings[:3] = rng.random(3)
         commands = engine.tick(readings)
         recorder.write(
-            tick=tick, time=5 + tick / 20, stopped=0, armed=1, faults=[0], ages=[0.0], readings=readings,
+            tick=tick, time=5 + tick / 20, stopped=0, armed=1, faults=[0], ages=[0.0], readings=engine.readings,
             influence=engine.influence, commands=commands, sent=commands,
         )  # fmt: skip
 

@@ -19,6 +19,7 @@ from mindrun.robot.dry_run import DryRun, beginning, outcome
 from mindrun.robot.identity import IdentityError, is_adopted
 from mindrun.robot.live_view import live_view, temporary_recording
 from mindrun.robot.loop import Loop
+from mindrun.robot.seen_world import SeenWorld
 from mindrun.status_line import StatusLine
 from mindrun.wiring import still
 
@@ -77,12 +78,23 @@ def _dry(options: argparse.Namespace, bundle: Bundle, drive_options: DriveOption
     with simulated(options.bundle, task.name, options.seed, master=options.master or "") as socket:
         wiring = dry(bundle.graph, socket)
         run = DryRun(bundle.graph, task, master, socket, line)
-        with run.shown():
-            loop = drive(bundle, digest(options.bundle), wiring, drive_options, line.tell, watch=run.watch)
+        with run.shown(), _watched(task, options.seed, socket, drive_options, bundle.graph.tick) as watched:
+            loop = drive(bundle, digest(options.bundle), wiring, watched, line.tell, watch=run.watch)
         with suppress(DeviceError):  # the run was as good without it
             for sentence in outcome(task, master, status(socket)):
                 line.tell(sentence)
         return loop
+
+
+@contextmanager
+def _watched(task: Task, seed: int, socket: str, options: DriveOptions, tick: float) -> Iterator[DriveOptions]:
+    """The same options with the world at a socket, where there is a recording for it."""
+    if options.record is None:
+        yield options
+        return
+    world = SeenWorld(task, seed, socket)
+    with world.watched(tick):
+        yield replace(options, world=world)
 
 
 def _task(graph: Graph, name: str | None) -> tuple[Task, str]:

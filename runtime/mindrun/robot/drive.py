@@ -4,7 +4,7 @@ import os
 import socket
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import AbstractContextManager, ExitStack, contextmanager, nullcontext, suppress
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from time import monotonic, sleep
 
@@ -20,6 +20,7 @@ from mindrun.robot.rate import Rate
 from mindrun.robot.reading_filter import ReadingFilter
 from mindrun.robot.recording import About, Recorder
 from mindrun.robot.sampling import Sampler
+from mindrun.robot.seen_world import SeenWorld
 from mindrun.robot.stop_signals import Stop, stopping
 from mindrun.wiring import Wiring, read_by
 
@@ -37,7 +38,7 @@ class DriveOptions:
     """What is asked for: whether anything may move, where to record to, after how many ticks to end (0: never).
 
     `master` is another skill than the mind's own to be in charge. `view` is entered for as long as there is a
-    recording, of which it can read each tick at once.
+    recording, of which it can read each tick at once; `world` is that of a dry run, to be recorded.
     """
 
     armed: bool = False
@@ -45,6 +46,7 @@ class DriveOptions:
     ticks: int = 0
     master: str | None = None
     view: AbstractContextManager[None] | None = None
+    world: SeenWorld | None = None
 
 
 def drive(
@@ -85,11 +87,14 @@ def drive(
 
 def _recorder(options: DriveOptions, about: About) -> AbstractContextManager[Recorder | None]:
     """The recorder that is wished for; DriveError where it would write over something, or cannot write."""
-    path = options.record
+    path, world = options.record, options.world
     if path is None:
         return nullcontext()
+    at_once = options.view is not None
     try:
-        return Recorder(path, about, at_once=options.view is not None)
+        if world is None:
+            return Recorder(path, about, at_once=at_once)
+        return Recorder(path, replace(about, world=world.about), at_once=at_once, world=world.latest)
     except FileExistsError:
         raise DriveError(f"{path} exists already", "record to another file, or delete it") from None
     except OSError as error:

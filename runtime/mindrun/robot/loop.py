@@ -91,6 +91,6 @@ class Loop:
         if self.recorder:
             self.recorder.write(
                 tick=done.number, time=done.time, stopped=done.stopped, armed=self.armed, faults=done.sensed.faults,
-                ages=done.sensed.ages, readings=done.sensed.readings, influence=self.engine.influence,
+                ages=done.sensed.ages, readings=self.engine.readings, influence=self.engine.influence,
                 commands=done.commands, sent=done.sent,
             )  # fmt: skip

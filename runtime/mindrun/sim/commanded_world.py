@@ -3,21 +3,24 @@
 from collections import Counter
 from collections.abc import Sequence
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from mindrun.arithmetic import ANGLE
+from mindrun.arithmetic import ANGLE, BOX_COLUMNS, SIZE, THING_ROWS
 from mindrun.errors import MindError
 from mindrun.events import EventKind
 from mindrun.functions import Rule
-from mindrun.graph import Graph
+from mindrun.graph import Graph, Task
 from mindrun.policy import Policy
 from mindrun.registry import names
 from mindrun.reward_sums import paid_by_text, score_of
+from mindrun.robot.recording_header import GOES_ON
 from mindrun.sim.lanes.stages import after, before
 from mindrun.sim.rollout import Rollout
 from mindrun.sim.state import Jobs
+from mindrun.sim.ticks import turned
 
 TIME = "time"  # what ends a run that nothing else has ended
 
@@ -91,6 +94,33 @@ class World:
         for event, happened in zip(self._rollout.task.events, self._happened.tolist(), strict=True):
             counts[_written(event)] += happened
         return dict(counts)
+
+    @property
+    def task(self) -> Task:
+        """What the world is of."""
+        return self._rollout.task
+
+    @property
+    def boxes(self) -> NDArray[np.float64]:
+        """The obstacles [boxes, 4] as x, y and half of both sides."""
+        standing: NDArray[np.float64] = self._state.world.boxes[0].reshape(-1, BOX_COLUMNS)
+        return standing.copy()
+
+    def columns(self) -> dict[str, Any]:
+        """The world after the last tick, by the columns that a recording has of it."""
+        world, things = self._state.world, len(self._tables.things)
+        places = world.things[: THING_ROWS * things, 0].reshape(-1, THING_ROWS)[:, : SIZE + 1]
+        angles = turned(self._rollout, world.loose[:, :1].T, world.direction[:, :1].T)[0]
+        return {
+            "pose": self.pose,
+            "things": np.column_stack([places, angles]),
+            "battery": world.battery[0],
+            "rewards": self._lines()[: len(self.task.rewards)],
+            "events": self._happened,
+            "held": world.held[0],
+            "touching": self._state.contact.touching[0] & 1,
+            "ended": GOES_ON if self.ended is None else self._state.run.ended[0],
+        }
 
     @property
     def by_line(self) -> dict[str, float]:

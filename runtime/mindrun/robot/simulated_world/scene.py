@@ -6,8 +6,11 @@ from collections.abc import Sequence
 from time import monotonic
 from typing import Any, Protocol
 
-from mindrun.graph import Graph
-from mindrun.robot.simulated_world.protocol import ANSWER, READ, STATUS
+import numpy as np
+
+from mindrun.graph import Graph, Task
+from mindrun.robot.recording_header import world_row_of
+from mindrun.robot.simulated_world.protocol import ANSWER, BOXES, READ, STATUS, WORLD
 
 SEED_COUNT = 1 << 64
 
@@ -35,6 +38,14 @@ class SimulatedWorld(Protocol):
 
     @property
     def ended(self) -> str | None: ...
+
+    @property
+    def task(self) -> Task: ...
+
+    @property
+    def boxes(self) -> Any: ...
+
+    def columns(self) -> dict[str, Any]: ...
 
     def readings(self) -> Any: ...
 
@@ -66,6 +77,10 @@ class SimulatedScene:
         """The answer to a request."""
         if what == STATUS:
             return self._packed(json.dumps(self.status()).encode())
+        if what == WORLD:
+            return self._packed(self._row())
+        if what == BOXES:
+            return self._packed(self.world.boxes.astype("<f8").tobytes())
         if what == READ and name in self._places:
             return self._packed(self._readings[self._places[name]].tobytes())
         if what == READ:
@@ -85,6 +100,12 @@ class SimulatedScene:
             "by_line": world.by_line, "score": world.score, "commands": self.commands, "past": self.past,
             "missed": self.missed,
         }  # fmt: skip
+
+    def _row(self) -> bytes:
+        row = np.zeros(1, world_row_of(self.world.task))
+        for name, value in self.world.columns().items():
+            row[name][0] = value
+        return row.tobytes()
 
     def _sense(self) -> None:
         self._readings, self._time = self.world.readings().astype("<f8"), monotonic()

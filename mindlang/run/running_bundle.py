@@ -1,0 +1,53 @@
+"""The bundle that was running when a recording was made: read from its file, or built in memory from its source."""
+
+from __future__ import annotations
+
+from hashlib import sha256
+from pathlib import Path
+
+from mindrun.bundle import Bundle, digest, pack, read_bundle
+from mindrun.engine import procedure_sources
+from mindrun.robot.recording_header import About, RecordingError
+
+from mindlang.compiler.compile import load
+from mindlang.lock.ready import ReadyMind, make_ready
+
+SOURCE_SUFFIX = ".mind"
+
+
+def running_bundle(path: Path, of: About) -> Bundle:
+    """The bundle of a recording, which `path` names, or the source that it is built from.
+
+    MindError where it cannot be read or built, or the recording was made with another.
+    """
+    found, sha = _built(path, of) if path.suffix == SOURCE_SUFFIX else (read_bundle(path), digest(path))
+    of.refuse_another(sha, found.graph)
+    return found
+
+
+def bundle_digest(ready: ReadyMind, folder: Path) -> str:
+    """The SHA-256 of the bundle that `mindc build` writes of a mind, which has no robot."""
+    return sha256(pack(_unwired(ready, folder))).hexdigest()
+
+
+def _unwired(ready: ReadyMind, folder: Path) -> Bundle:
+    return Bundle(ready.policy, procedure_sources(ready.policy.graph, folder))
+
+
+def _built(path: Path, of: About) -> tuple[Bundle, str]:
+    """The bundle of a source, under the master of the recording or, where that is not the one, under its own."""
+    compiled = load(path)
+    if compiled.graph is None:
+        raise RecordingError(f"{path} has mistakes, or cannot be read", f"mindc check {path} says them")
+    names = {skill.name for skill in compiled.graph.skills}
+    found, sha = None, ""
+    for master in dict.fromkeys([compiled.graph.master, *({of.master} & names)]):
+        ready = make_ready(compiled.graph, compiled.sources, master)
+        if ready.refusals and found:
+            continue
+        found = _unwired(ready, compiled.sources[0].folder)
+        sha = sha256(pack(found)).hexdigest()
+        if sha == of.bundle:
+            break
+    assert found is not None
+    return found, sha

@@ -1,0 +1,56 @@
+"""How a simulated world stands, for the recording of a dry run: asked for beside the loop, which waits for nobody."""
+
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
+from threading import Event, Thread
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mindrun.driver import DeviceError
+from mindrun.graph import Task
+from mindrun.robot.drivers.simulated import WorldConnection
+from mindrun.robot.recording_header import BOX_COLUMNS, RecordedWorld, world_row_of
+from mindrun.robot.simulated_world.protocol import BOXES, WORLD
+
+ASKS_PER_TICK = 2  # as each sensor is read
+
+
+class SeenWorld:
+    """The world at a socket: `about` as it was first, `latest` as it was when a thread asked last."""
+
+    def __init__(self, task: Task, seed: int, socket: str) -> None:
+        self._row, self._link = world_row_of(task), WorldConnection(socket)
+        self._latest = self._asked()
+        boxes = np.frombuffer(self._link.ask(BOXES), "<f8").reshape(-1, BOX_COLUMNS)
+        begin = [*self._latest["pose"][0], *self._latest["things"][0].ravel()]
+        self.about = RecordedWorld.of(task, seed, boxes, begin)
+
+    def latest(self) -> NDArray[Any]:
+        """The row of it that was answered last [1]."""
+        return self._latest
+
+    @contextmanager
+    def watched(self, tick: float) -> Iterator[None]:
+        """Ask for it twice a tick as long as this lasts."""
+        stop = Event()
+        thread = Thread(target=self._watch, args=(tick / ASKS_PER_TICK, stop), name="seen_world", daemon=True)
+        thread.start()
+        try:
+            yield
+        finally:
+            stop.set()
+            thread.join()
+            self._link.close()
+
+    def _watch(self, every: float, stop: Event) -> None:
+        while not stop.wait(every):
+            with suppress(DeviceError):  # it answers next time; the loop says where it does not at all
+                self._latest = self._asked()
+
+    def _asked(self) -> NDArray[Any]:
+        held = self._link.ask(WORLD)
+        if len(held) != self._row.itemsize:
+            raise DeviceError(f"the simulated world has {len(held)} bytes to be recorded, not {self._row.itemsize}")
+        return np.frombuffer(held, self._row)
