@@ -128,13 +128,13 @@ class About:
         ])  # fmt: skip
 
 
-NAMES = ("sensors", "actuators", "skills")
-SAID = ("bundle", "master", "tick", *NAMES, "readings")
+NAME_LISTS = ("sensors", "actuators", "skills")
+SAID_FIELDS = ("bundle", "master", "tick", *NAME_LISTS, "readings")
 
 
 def line_of(about: About) -> bytes:
     """The first line; RecordingError where it would be longer than one that is read."""
-    said = {"format": FORMAT, **{name: getattr(about, name) for name in SAID}}
+    said = {"format": FORMAT, **{name: getattr(about, name) for name in SAID_FIELDS}}
     world = {"world": asdict(about.world)} if about.world else {}
     line = _sealed(json.dumps(said | world, allow_nan=False).encode()[:-1] + CHECKSUM_FIELD)
     if len(line) > MAX_HEADER_BYTES:
@@ -151,7 +151,7 @@ def about_of_line(line: bytes, path: Path) -> About:
         is_sealed = plain["format"] != UNSEALED or "check" in plain  # a bit is enough to make a 1 of a 3
         if is_sealed and line != _sealed(line):
             raise RecordingError(f"{path} is damaged in its first line")
-        found = _typed({name: plain.get(name) for name in SAID})
+        found = _typed({name: plain.get(name) for name in SAID_FIELDS})
         if plain["format"] != FORMAT:
             return replace(found, lacks_readings=True)
         return replace(found, world=_world(plain["world"])) if "world" in plain else found
@@ -167,7 +167,7 @@ def _sealed(line: bytes) -> bytes:
 
 def _typed(plain: dict[str, Any]) -> About:
     """What a recording is of, from plain data; ValueError where that is none."""
-    if not all(are_names(plain[name]) for name in NAMES) or not are_names([plain["master"]]):
+    if not all(are_names(plain[name]) for name in NAME_LISTS) or not are_names([plain["master"]]):
         raise ValueError("its columns have no names")
     if not isinstance(plain["bundle"], str) or not SHA256.fullmatch(plain["bundle"]):
         raise ValueError("it does not say of which bundle it is")
@@ -175,7 +175,7 @@ def _typed(plain: dict[str, Any]) -> About:
         raise ValueError("it does not say how long a tick is")
     if not is_whole(plain["readings"], high=MAX_HEADER_BYTES):
         raise ValueError("it does not say how many readings there are")
-    return About(**plain | {name: tuple(plain[name]) for name in NAMES})
+    return About(**plain | {name: tuple(plain[name]) for name in NAME_LISTS})
 
 
 def _world(plain: object) -> RecordedWorld:
