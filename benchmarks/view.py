@@ -32,21 +32,27 @@ FILE, TASK, JUMP_COUNT, FIRST_ROWS = "examples/collect/collect.mind", "Collect",
 
 
 @contextmanager
-def viewing(file: str, task: str) -> Iterator[tuple[ClientConnection, float, float]]:
-    """A viewer that has said its token, when the command was given, and the seconds until its address was there."""
+def viewing(file: str, task: str) -> Iterator[tuple[ClientConnection, float, str]]:
+    """A viewer that has said its token, when the command was given, and how long its address took."""
     begin = perf_counter()
     command = [*MINDC, "view", file, "--task", task, "--seed", "3", "--no-interruption", "--no-browser", "-q"]
     with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as process:
         try:
             assert process.stdout
             address, token = process.stdout.readline().strip().split("#")
-            listening = perf_counter() - begin
+            listening = f"{perf_counter() - begin:.2f} s ({cpu_seconds(process.pid):.2f} s of CPU time)"
             origin = Origin(address.rstrip("/"))
             with connect(f"ws{address.removeprefix('http')}rows", origin=origin, max_size=None) as connection:
                 connection.send(token)
                 yield connection, begin, listening
         finally:
             process.kill()
+
+
+def cpu_seconds(process: int) -> float:
+    """The CPU time that a process has taken so far: on a busy machine what it would take on one that is not."""
+    user, system = Path(f"/proc/{process}/stat").read_text(encoding="ascii").rpartition(")")[2].split()[11:13]
+    return (int(user) + int(system)) / os.sysconf("SC_CLK_TCK")
 
 
 def said(connection: ClientConnection, says: str) -> dict[str, object]:
@@ -81,7 +87,7 @@ def measure(file: str, task: str, jumps: int) -> None:
         run_to(connection, FIRST_ROWS)
         came = HEADER.unpack_from(rows(connection, 0, FIRST_ROWS))[ROWS_PLACE]  # of many edges not all at once
         first = perf_counter() - begin
-        print(f"address {listening:.2f} s, about {told:.2f} s, first {came} rows {first:.2f} s after the command")
+        print(f"address {listening}, about {told:.2f} s, first {came} rows {first:.2f} s after the command")
         begin = perf_counter()
         known = run_to(connection, int(str(about["of_ticks"])))
         print(f"{known:,} ticks known after {perf_counter() - begin:.2f} s")
