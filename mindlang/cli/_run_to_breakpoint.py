@@ -13,6 +13,7 @@ from mindlang.cli._run_files import RunFiles
 from mindlang.cli._run_session import RunChoice, RunSession
 from mindlang.cli._terminal import FINDINGS, OK, console, load_compiled, print_json, procedures_talk
 from mindlang.run import outcome
+from mindlang.run.course import course
 from mindlang.run.summary import run_summary
 
 
@@ -25,14 +26,13 @@ def run_to_breakpoint(
     breakpoints = breakpoints_of_run(path, compiled, cast)
     setup = noticing(cast, breakpoints)
     rollout = session.simulator(setup, chosen.interrupt)
-    run = session.record(setup, rollout, chosen.seed)
     with procedures_talk():
-        stopped = stopped_data(watcher(breakpoints, setup).feed(run), str(path), run.graph.tick)
+        made = course(setup, rollout, chosen.seed)
+        stops = watcher(breakpoints, setup).feed(made.run)
+    run, came, stopped = made.run, made.found, stopped_data(stops, str(path), made.run.graph.tick)
     if stopped and stopped["tick"] < run.ticks:
         run = run.until(stopped["tick"])
         came = outcome.data_so_far(run) | {"ended_by": "a breakpoint"}
-    else:
-        came = outcome.run_data(setup.task, session.score(rollout, [chosen.seed])[0])
     found = {"task": setup.task.name, "master": setup.master, "seed": chosen.seed, "notes": [*setup.ready.notes]}
     found = found | came | {"stopped": stopped}
     if as_json:

@@ -10,6 +10,7 @@ import numpy as np
 from mindlang.number_format import score
 from mindlang.pictures.canvas import Canvas, Image, Viewport, blank, pasted, text_width
 from mindlang.pictures.caption import SMALL_PIXELS, draw_scale
+from mindlang.pictures.ending import ending_words
 from mindlang.pictures.names import draw_names
 from mindlang.pictures.path import draw_collisions, draw_start
 from mindlang.pictures.picture import (
@@ -99,10 +100,13 @@ def _mark(canvas: Canvas, x: float, y: float, pixel: float) -> None:
 def _outcome(canvas: Canvas, way: Way, x: float, y: float, right: float) -> None:
     """The colour of a path, and what came of it."""
     canvas.line([(x, y - 4), (x + 20, y - 4)], way.colour, 3.0)
-    counted = [f"{times} × {event}" for event, times in way.found["by_event"].items()]
-    ended = f"ended by {way.found['ended_by']}" if way.found["ended_by"] else "lasted its time"
-    facts = [f"score {score(way.found['score'], 1)}", *counted, f"{way.found['ticks']:,} ticks", ended]
-    _fitting(canvas, x + 30, y, f"{way.name}: {', '.join(facts)}", SMALL_PIXELS, right)
+    _fitting(canvas, x + 30, y, f"{way.name}: {outcome_words(way.found)}", SMALL_PIXELS, right)
+
+
+def outcome_words(found: dict[str, Any]) -> str:
+    """What came of a run, in a line."""
+    counted = [f"{times} × {event}" for event, times in found["by_event"].items()]
+    return ", ".join([f"score {score(found['score'], 1)}", *counted, f"{found['ticks']:,} ticks", ending_words(found)])
 
 
 def _fitting(canvas: Canvas, x: float, y: float, text: str, size: float, right: float) -> None:

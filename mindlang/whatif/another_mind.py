@@ -10,9 +10,10 @@ from mindrun.sim.rollout import Rollout
 from mindrun.sim.takeover import take_over
 from numpy.typing import NDArray
 
-from mindlang.run.recorded_run import RecordedRun, recorded
+from mindlang.run.course import Course, course, course_of
+from mindlang.run.recorded_run import RecordedRun
 from mindlang.run.setup import RunSetup
-from mindlang.whatif.changed_run import Compared, Course, compared, course, outcome, refuse_late
+from mindlang.whatif.changed_run import Compared, compared, refuse_late
 
 ROWS_BEFORE = ("body", "things", "turned", "held")  # which have a row for the beginning, too
 
@@ -26,9 +27,8 @@ def compare_minds(
     if tick == 1:
         return compared(was, course(*theirs, seed, changes))
     setup, rollout = theirs
-    run = take_over(ours[1], seed, tick, rollout, changes)
-    rest = recorded(setup, run)
-    return compared(was, Course(continued(was.run, rest, tick - 1), outcome(setup, run.jobs, seed)))
+    rest = course_of(setup, take_over(ours[1], seed, tick, rollout, changes), seed)
+    return compared(was, Course(continued(was.run, rest.run, tick - 1), rest.found))
 
 
 def continued(was: RecordedRun, rest: RecordedRun, ticks: int) -> RecordedRun:

@@ -2,29 +2,18 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 from mindrun.changes import Change, ChangeError
 from mindrun.reward_sums import paid_by_text
-from mindrun.sim.rollout import Rollout, scores_of
-from mindrun.sim.state import Jobs
-from mindrun.sim.trace import trace
+from mindrun.sim.rollout import Rollout
 
-from mindlang.run.outcome import run_data
-from mindlang.run.recorded_run import RecordedRun, recorded
+from mindlang.run.course import Course, course
+from mindlang.run.recorded_run import RecordedRun
 from mindlang.run.setup import RunSetup
 from mindlang.whatif.difference import Columns, Difference, first_differences, mind_columns
 
 POSE = ("x", "y", "angle")
-
-
-@dataclass(frozen=True, slots=True)
-class Course:
-    """A run written down, and what came of it (`mindlang.run.outcome.run_data`)."""
-
-    run: RecordedRun
-    found: dict[str, Any]
 
 
 @dataclass(frozen=True, slots=True)
@@ -50,18 +39,6 @@ def refuse_late(was: Course, tick: int) -> None:
         raise ChangeError(
             f"the run is over after tick {was.run.ticks:,}: there is no tick {tick:,}", "say an earlier one"
         )
-
-
-def course(setup: RunSetup, rollout: Rollout, seed: int, changes: Sequence[Change] = ()) -> Course:
-    """The run of a seed, with changes."""
-    run = trace(rollout, seed, changes=changes)
-    return Course(recorded(setup, run), outcome(setup, run.jobs, seed))
-
-
-def outcome(setup: RunSetup, jobs: Jobs, seed: int) -> dict[str, Any]:
-    """What came of a run that is over."""
-    found = run_data(setup.task, scores_of(jobs, setup.task))
-    return {"task": setup.task.name, "master": setup.master, "seed": seed} | found
 
 
 def compared(was: Course, now: Course) -> Compared:

@@ -76,12 +76,13 @@ def change_of(
     `values` [ticks][1] is one number for each tick from the first on, or [ticks][width] one for each of a sensor's
     readings; the last stay.
     """
-    start, width = _place(graph, what, name)
+    noun, start, width = _place(graph, what, name)
     if not 1 <= first <= (first if last is None else last):
         raise ChangeError(f"{name} cannot be changed from tick {first} to {last}", "the first tick of a run is 1")
     if any(len(row) not in {1, width} for row in values) or not values:
-        many = f"{width} reading{'s' * (width > 1)}"
-        raise ChangeError(f"sensor {name} has {many}", f"write one number for all, or {width}: {name}=0.5")
+        number = "influence" if what == "influence" else "number" if what == "memory" else "reading"
+        hint = f"write one number{f' for all, or {width}' * (width > 1)}: {name}=0.5"
+        raise ChangeError(f"{noun} {name} has {width} {number}{'s' * (width > 1)}", hint)
     most = None if what == "influence" else 1.0
     for row in values:
         for value in row:
@@ -97,8 +98,8 @@ def silenced(graph: Graph, skill: str, first: int = 1, last: int | None = None) 
     return change_of(graph, "influence", skill, [[0.0]], first, last)
 
 
-def _place(graph: Graph, what: What, name: str) -> tuple[int, int]:
-    """Where the numbers of that name begin, and how many they are."""
+def _place(graph: Graph, what: What, name: str) -> tuple[str, int, int]:
+    """What has that name, where its numbers begin, and how many they are."""
     match what:
         case "reading":
             noun, places = "sensor", {sensor.name: (sensor.start, sensor.width) for sensor in graph.sensors}
@@ -109,7 +110,7 @@ def _place(graph: Graph, what: What, name: str) -> tuple[int, int]:
     if name not in places:
         near = get_close_matches(name, places, 1) or sorted(places)
         raise ChangeError(f"there is no {noun} called {name}", f"there is {', '.join(near)}" if near else "")
-    return places[name]
+    return noun, *places[name]
 
 
 def _allowed(what: What) -> str:

@@ -57,6 +57,15 @@ def test_what_a_procedure_prints_is_talk(mindc: Call, calling: Path, tmp_path: P
     assert "turns\n" in said.err
 
 
+def test_a_run_to_a_breakpoint_is_made_once(mindc: Call, calling: Path, tmp_path: Path) -> None:
+    """So a procedure is called once a tick of the run that was there."""
+    (tmp_path / "turning.py").write_text(SLOW.replace("    ", "    print('turns')\n    "))
+    breaks = tmp_path / "a.break"
+    breaks.write_text("stop when left_wheel > 2")
+    said = mindc("run", calling, "--task", "Roam", "--seed", 3, "--break", breaks, "--json")
+    assert said.err.split("\n").count("turns") == json.loads(said.out)["ticks"] > 10
+
+
 def test_a_missing_procedure_is_unreadable_input(mindc: Call, calling: Path) -> None:
     said = mindc("run", calling)
     assert said.code == 2

@@ -12,8 +12,10 @@ from mindrun.changes import change_of, silenced
 from mindlang.compiler.compile import load
 from mindlang.pictures.picture import view_of
 from mindlang.pictures.theme import PAPER
+from mindlang.pictures.two_paths import outcome_words
+from mindlang.run.course import course
 from mindlang.run.setup import RunSetup, set_up
-from mindlang.whatif.changed_run import compare, course
+from mindlang.whatif.changed_run import compare
 from mindlang.whatif.difference import Difference, first_differences
 from mindlang.whatif.request import Request, changes_of
 from tests.calling import Call
@@ -120,6 +122,12 @@ def test_both_paths_are_in_the_picture(mindc: Call, rules: Path, tmp_path: Path)
     for colour in PAPER.skills[:2]:
         assert (np.abs(image[100:-80] - colour).max(axis=2) < 30).sum() > 300
     assert mindc("whatif", rules, "--without", "Turn", "--picture", tmp_path / "paths.jpg").code == 2
+
+
+def test_a_success_is_said_as_one_in_the_picture() -> None:
+    found = {"score": 12.34, "by_event": {"reach of ball": 2}, "ticks": 1200, "ended_by": "2 reach of ball"}
+    assert outcome_words(found) == "score 12.3, 2 × reach of ball, 1,200 ticks, ended by 2 reach of ball"
+    assert outcome_words(found | {"succeeded": True}).endswith("1,200 ticks, success: 2 reach of ball")
 
 
 def test_the_picture_of_a_plain_scene_has_room_for_both(rules: Path) -> None:

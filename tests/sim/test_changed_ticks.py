@@ -190,6 +190,8 @@ def test_a_memory_goes_on_from_what_it_is_made() -> None:
         ("reading", "eyes", [[0.5, 0.5]], "sensor eyes has 1 reading"),
         ("reading", "eyes", [], "sensor eyes has 1 reading"),
         ("influence", "eyes", [[0.5]], "there is no skill called eyes"),
+        ("influence", "Go", [[0.5, 0.5]], "skill Go has 1 influence$"),
+        ("memory", "mood", [[0.5, 0.5]], "memory mood has 1 number$"),
         ("influence", "Go", [[-1.0]], "Go cannot be -1"),
         ("memory", "mod", [[0.5]], "there is no memory called mod"),
     ],

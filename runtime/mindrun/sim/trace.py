@@ -16,7 +16,7 @@ from mindrun.sim.ticks import Ticks, turned, with_room, written
 
 @dataclass(frozen=True, slots=True)
 class Moment:
-    """The world and the mind after one tick, as a row of `Ticks`; `tick` counts from 1."""
+    """The world and the mind after one tick, as a row of `Ticks`; `tick` counts from 1, from the beginning of the run."""
 
     tick: int
     body: NDArray[np.float64]
@@ -75,7 +75,7 @@ def traced(rollout: Rollout, tile: Tile, jobs: Jobs, advance: Advance) -> Trace:
         turned=turned(rollout, world.loose[:, :1].T, world.direction[:, :1].T)[0],
         drawn=world.numbers[: len(rollout.task.varies) + len(rollout.task.fails), 0].copy(),
         chunks=chunks,
-        moments=_moments(chunks),
+        moments=_moments(chunks, int(world.tick[0])),
         jobs=jobs,
     )
 
@@ -90,8 +90,8 @@ def _chunks(rollout: Rollout, advance: Advance, tile: Tile, jobs: Jobs) -> Itera
                 yield written(rollout, tile.state, jobs)
 
 
-def _moments(chunks: Iterator[Ticks]) -> Iterator[Moment]:
-    number = 0
+def _moments(chunks: Iterator[Ticks], number: int) -> Iterator[Moment]:
+    """The ticks after tick `number`, one by one."""
     for ticks in chunks:
         for i in range(len(ticks)):
             number += 1
