@@ -1,16 +1,26 @@
 """With what weight a skill counts in what it influences or drives, computed by the engine's own functions."""
 
-from collections.abc import Container, Iterator, Sequence
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
-from mindrun.functions.function import Stateful
-from mindrun.think import Hierarchy, Ready, values
+from mindrun.think import Hierarchy
 from numpy.typing import NDArray
 
 from mindlang.breakpoints.breakpoint import Transmission
-from mindlang.run.edge_flow import NOTHING, transmitted
+from mindlang.run.edge_flow import EdgeFlow, FlowWalker, accumulated
+from mindlang.run.sent_values import Places, Singles
 
 Sink = tuple[bool, int]  # where an edge goes, as the engine has it: whether it drives, and the place
+
+
+@dataclass(frozen=True, slots=True)
+class _Asked:
+    """A transmission, by the places of its edges, and of all to the same: whether that is driven."""
+
+    own: tuple[int, ...]
+    all: tuple[int, ...]
+    is_driven: bool
 
 
 class Transmissions:
@@ -18,53 +28,54 @@ class Transmissions:
 
     def __init__(self, asked: Sequence[Transmission], mind: Hierarchy, actuators: int) -> None:
         """The hierarchy has so many actuators, and nothing else makes its skills compute."""
-        self._asked = [(each.skill, _sink(each, actuators)) for each in asked]
-        sinks = {sink for _, sink in self._asked}
-        self._senders = [
+        sinks = {_sink(each, actuators) for each in asked}
+        senders = [
             skill for skill in mind.skills if not sinks.isdisjoint((edge.drives, edge.to) for edge in skill.edges)
         ]
+        edges: dict[Sink, list[tuple[int, int]]] = {}  # the places of the edges to each, and their skills
+        for place, (sender, edge) in enumerate((skill.index, edge) for skill in senders for edge in skill.edges):
+            edges.setdefault((edge.drives, edge.to), []).append((place, sender))
+        self._asked = [_asked(edges.get(_sink(each, actuators), []), each) for each in asked]
+        self._begins: set[int] = set()
+        self._walker = FlowWalker(replace(mind, skills=tuple(senders)), self._rows, self._begins)
+        self._fed = 0  # rows, before those of now
+        self._now: tuple[Singles, Singles] = np.zeros((0, 0), np.float32), np.zeros((0, mind.count), np.float32)
 
-    def feed(
-        self, readings: NDArray[np.float32], influence: NDArray[np.float32], begins: Container[int] = ()
-    ) -> NDArray[np.float64]:
+    def feed(self, readings: Singles, influence: Singles, begins: Iterable[int] = ()) -> NDArray[np.float64]:
         """The weights [transmissions, rows] over the next readings [rows, width] and influence [rows, skills].
 
         Toward a skill that is the influence sent to it, a summand of Eq. 2; toward what is driven, the share of the
         influence that arrives there, a weight of the mean of Eq. 3. 0 where a skill transmits nothing. In the rows of
         `begins` the mind was begun anew.
         """
+        self._now = readings, influence
+        self._begins.update(self._fed + int(row) for row in begins)
         found = np.zeros((len(self._asked), len(readings)))
-        with np.errstate(all="ignore"):
-            for row in range(len(readings) if self._asked else 0):
-                if row in begins:
-                    self._begin()
-                found[:, row] = self._weights(readings[row], influence[row])
+        end = self._fed + len(readings)
+        if self._asked:
+            for part, flow in self._walker.parts(np.arange(self._fed, end)):
+                found[:, part] = [_weights(flow, each) for each in self._asked]
+            self._walker.go_on(end)
+        self._fed = end
         return found
 
-    def _begin(self) -> None:
-        for skill in self._senders:
-            if isinstance(skill.compute, Stateful):
-                skill.compute.reset()
+    def _rows(self, rows: Places) -> tuple[Singles, Singles]:
+        readings, influence = self._now
+        return readings[rows - self._fed], influence[rows - self._fed]
 
-    def _weights(self, readings: NDArray[np.float32], influence: NDArray[np.float32]) -> list[float]:
-        sent: dict[tuple[int, Sink], np.float32] = {}
-        arriving: dict[Sink, np.float32] = {}
-        for skill in self._senders:
-            for sink, passed in _sent(skill, readings, influence[skill.index]):
-                sent[skill.index, sink] = sent.get((skill.index, sink), NOTHING) + passed
-                arriving[sink] = arriving.get(sink, NOTHING) + passed
-        return [
-            float(sent[skill, sink]) / (float(arriving[sink]) if sink[0] else 1.0) if sent.get((skill, sink)) else 0.0
-            for skill, sink in self._asked
-        ]
+
+def _asked(edges: Sequence[tuple[int, int]], transmission: Transmission) -> _Asked:
+    own = tuple(place for place, skill in edges if skill == transmission.skill)
+    return _Asked(own, tuple(place for place, _ in edges), transmission.to != "skill")
+
+
+def _weights(flow: EdgeFlow, asked: _Asked) -> NDArray[np.float64]:
+    sent = accumulated(flow.transmitted[:, asked.own]).astype(np.float64)
+    if not asked.is_driven:
+        return sent
+    with np.errstate(all="ignore"):
+        return np.where(sent == 0, 0.0, sent / accumulated(flow.transmitted[:, asked.all]).astype(np.float64))
 
 
 def _sink(transmission: Transmission, actuators: int) -> Sink:
     return transmission.to != "skill", transmission.target + actuators * (transmission.to == "memory")
-
-
-def _sent(skill: Ready, readings: NDArray[np.float32], own: np.float32) -> Iterator[tuple[Sink, np.float32]]:
-    """The influence that goes over each edge of a skill."""
-    if own != 0:
-        for edge, value in zip(skill.edges, values(skill, readings), strict=True):
-            yield (edge.drives, edge.to), transmitted(edge, value, own)

@@ -1,6 +1,6 @@
 """Where breakpoints stop a run, found in its rows; they may be fed as they come, in parts of any size."""
 
-from collections.abc import Callable, Container, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import chain
 from operator import neg
@@ -96,7 +96,7 @@ class Watcher:
         self._asked = tuple(dict.fromkeys(asked))
         self._transmissions = Transmissions(self._asked, mind, actuators)
 
-    def feed(self, rows: Rows, begins: Container[int] = ()) -> list[Stop]:
+    def feed(self, rows: Rows, begins: Iterable[int] = ()) -> list[Stop]:
         """All stops in the rows that follow those of before, in the order of their ticks and then of their lines.
 
         In the rows of `begins`, counted from 0 among these, the mind was begun anew.

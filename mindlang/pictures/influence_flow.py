@@ -2,12 +2,11 @@
 
 from dataclasses import dataclass
 
-import numpy as np
 from mindrun.engine import procedure_sources
 
-from mindlang.run.edge_flow import EdgeFlows
 from mindlang.run.edge_flow import Link as Link
 from mindlang.run.edge_flow import Sink as Sink
+from mindlang.run.edge_flow import edge_flows
 from mindlang.run.recorded_run import RecordedRun
 
 
@@ -24,12 +23,10 @@ class Flow:
 
     def __init__(self, run: RecordedRun) -> None:
         sources = procedure_sources(run.graph, run.setup.folder, run.setup.master)
-        self._flows = EdgeFlows(run.setup.ready.policy, sources, run.setup.master, run)
+        self._flows = edge_flows(run.setup.ready.policy, sources, run.setup.master, run)
         self.skills, self.links = self._flows.skills, self._flows.links
-        self._drives = np.array([link.target[0] != "skill" for link in self.links], bool)
 
     def at(self, tick: int) -> list[Flowing]:
         """What each link carried in a tick, in the order of `links`."""
-        found = self._flows.at(tick - 1)
-        transmitted = np.where(self._drives, found.behind, found.carried)
-        return [Flowing(*both) for both in zip(found.value.tolist(), transmitted.tolist(), strict=True)]
+        found = self._flows.over(range(tick - 1, tick))
+        return [Flowing(*both) for both in zip(found.value[0].tolist(), found.transmitted[0].tolist(), strict=True)]

@@ -2,25 +2,27 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Container, Iterator, Mapping
 from dataclasses import dataclass
-from math import isfinite
+from functools import cached_property
+from threading import Lock
 from typing import Protocol
 
 import numpy as np
-from mindrun.functions.function import Stateful
-from mindrun.graph import Receiver
+from mindrun.graph import Graph, Receiver
 from mindrun.policy import Policy
-from mindrun.think import Ready, Sent, clamped, hierarchy, values
+from mindrun.think import Hierarchy, hierarchy
 from numpy.typing import NDArray
 
-Singles = NDArray[np.float32]
+from mindlang.run.sent_values import Places, Rows, SentValues, Singles
+
 Sink = tuple[Receiver, int]  # which one of its kind
 NOTHING = np.float32(0.0)
+PART_EDGES = 1_000_000  # edges times rows that are computed at once, a few dozen bytes each
 
 
-class Rows(Protocol):
-    """What was read [ticks, graph.width] and the influence that it made [ticks, skills]; there may be more later."""
+class Thought(Protocol):
+    """What was read [ticks, graph.width] and the influence that it made [ticks, skills]."""
 
     @property
     def readings(self) -> Singles: ...
@@ -38,92 +40,110 @@ class Link:
 
 @dataclass(frozen=True, slots=True)
 class EdgeFlow:
-    """What the edges carried in one tick, each [edges].
+    """What the edges carried in some rows, each [rows, edges].
 
     `value` is what its skill sent, clamped; `behind` the influence of that skill; `carried` their product, as the
-    engine adds it up. All are 0 where nothing was sent, and `carried` where it was cut.
+    engine adds it up. All are 0 where nothing was sent, and `carried` where it was cut. `transmitted` is the influence
+    that came over the edge: all that is behind a command (Eq. 3), or what was carried (Eq. 2). `influence` [rows,
+    skills] is what they had.
     """
 
     value: Singles
     behind: Singles
     carried: Singles
+    transmitted: Singles
+    influence: Singles
+
+
+class FlowWalker:
+    """What the edges of the skills of a hierarchy carry in any rows of a run, in their order.
+
+    Rows may be asked for in any order, and by several threads; a hierarchy belongs to one walker. In the rows of
+    `begins` the mind was begun anew; they are looked up when their rows are.
+    """
+
+    def __init__(self, mind: Hierarchy, rows: Rows, begins: Container[int] = ()) -> None:
+        self.mind, self.rows = mind, rows
+        edges = [(skill.index, edge) for skill in mind.skills for edge in skill.edges]
+        self._sources = np.array([index for index, _ in edges], np.intp)
+        self._drives = np.array([edge.drives for _, edge in edges], bool)
+        self._cuts = np.array([-np.inf if edge.drives else edge.cuts for _, edge in edges], np.float32)
+        self._values = SentValues(mind, rows, begins)
+        self._walking = Lock()
+
+    def over(self, rows: Places) -> EdgeFlow:
+        """What the edges carried in rows in rising order; all at once."""
+        with self._walking, np.errstate(all="ignore"):
+            readings, influence = self.rows(rows)
+            sent = self._values.over(rows, readings, influence)
+            is_sent = np.isfinite(sent)
+            behind = np.where(is_sent, influence[:, self._sources], NOTHING)
+            value = np.where(is_sent & (sent > NOTHING), np.minimum(sent, np.float32(1.0)), NOTHING)
+            product = value * behind
+            carried = np.where(product < self._cuts, NOTHING, product)
+            return EdgeFlow(value, behind, carried, np.where(self._drives, behind, carried), influence)
+
+    def parts(self, rows: Places) -> Iterator[tuple[slice, EdgeFlow]]:
+        """The same of as many rows at a time as fit into memory, with their places among these."""
+        most = max(1, PART_EDGES // max(1, len(self._sources)))
+        for first in range(0, len(rows), most):
+            part = slice(first, first + most)
+            yield part, self.over(rows[part])
+
+    def transmitted(self, rows: Places) -> Singles:
+        """The influence over each edge [rows, edges], 0 to 1."""
+        found = np.zeros((len(rows), len(self._sources)), np.float32)
+        for part, flow in self.parts(rows):
+            found[part] = flow.transmitted
+        return found
+
+    def go_on(self, end: int) -> None:
+        """Compute what remembers up to the row `end`: no row before it will be asked of `rows` any more."""
+        with self._walking, np.errstate(all="ignore"):
+            self._values.go_on(end)
 
 
 class EdgeFlows:
-    """The edges below a master, and what they carry in each row of a run.
+    """The edges below a master, by where they lead, and what they carry in each row of a run."""
 
-    In the rows of `begins` the mind was begun anew. A skill that remembers is computed from there on, so a row before
-    the last that was asked for takes longer.
-    """
+    def __init__(self, graph: Graph, walker: FlowWalker) -> None:
+        self.graph, self.walker = graph, walker
+        self.master = graph.skills[walker.mind.master].name
+        self.skills = [skill.index for skill in walker.mind.skills]
 
-    def __init__(
-        self, policy: Policy, sources: Mapping[str, str], master: str, rows: Rows, begins: Sequence[int] = ()
-    ) -> None:
-        self._begins = begins
-        self.graph, self.master, self.rows = policy.graph, master, rows
-        self.mind = hierarchy(policy, sources, master)
-        self.skills = [skill.index for skill in self.mind.skills]
-        self.links = [
-            Link(index, (edge.to, edge.target)) for index in self.skills for edge in self.graph.skills[index].edges
-        ]
-        self.links_to: dict[Sink, list[int]] = {}  # the places of the links to each
+    @cached_property
+    def links(self) -> list[Link]:
+        """All edges."""
+        return [Link(index, (edge.to, edge.target)) for index in self.skills for edge in self.graph.skills[index].edges]
+
+    @cached_property
+    def links_to(self) -> Mapping[Sink, list[int]]:
+        """The places of the links to each."""
+        found: dict[Sink, list[int]] = {}
         for place, link in enumerate(self.links):
-            self.links_to.setdefault(link.target, []).append(place)
-        self._remembering = [skill for skill in self.mind.skills if isinstance(skill.compute, Stateful)]
-        self._next = 0  # the row before which the state of these is
-        self._last: tuple[int, EdgeFlow] | None = None
+            found.setdefault(link.target, []).append(place)
+        return found
 
-    def at(self, row: int) -> EdgeFlow:
-        """What each of `links` carried in a row, the first of which is 0."""
-        if self._last is None or self._last[0] != row:
-            with np.errstate(all="ignore"):
-                self._remember_until(row)
-                self._last = row, self._flow(row)
-            self._next = row + 1
-        return self._last[1]
-
-    def _remember_until(self, row: int) -> None:
-        begin = max((each for each in self._begins if each <= row), default=0)
-        if row < self._next or self._next <= begin:
-            self._next = begin
-            for skill in self._remembering:
-                skill.compute.reset()  # type: ignore[attr-defined]
-        for earlier in range(self._next, row) if self._remembering else ():
-            for skill in self._remembering:
-                if self.rows.influence[earlier, skill.index] != 0:
-                    values(skill, self.rows.readings[earlier])
-
-    def _flow(self, row: int) -> EdgeFlow:
-        readings, influence = self.rows.readings[row], self.rows.influence[row]
-        found = np.zeros((3, len(self.links)), np.float32)
-        place = 0
-        for skill in self.mind.skills:
-            if influence[skill.index] != 0:
-                self._send(skill, readings, influence[skill.index], found[:, place:])
-            place += len(skill.edges)
-        return EdgeFlow(*found)
-
-    def _send(self, skill: Ready, readings: Singles, own: np.float32, found: Singles) -> None:
-        """Write what a skill's edges carry into the first columns of [3, edges]."""
-        for column, (edge, value) in enumerate(zip(skill.edges, values(skill, readings), strict=True)):
-            if value is not None and isfinite(value):
-                found[:, column] = _carried(edge, clamped(value), own)
+    def over(self, rows: range) -> EdgeFlow:
+        """What each of `links` carried in some rows, the first of which is 0; IndexError where one is not there."""
+        return self.walker.over(np.array(rows, np.int64))
 
 
-def _carried(edge: Sent, value: np.float32, own: np.float32) -> tuple[np.float32, np.float32, np.float32]:
-    carried = value * own
-    is_cut = not edge.drives and carried < edge.cuts
-    return value, own, NOTHING if is_cut else carried
+def edge_flows(
+    policy: Policy, sources: Mapping[str, str], master: str, run: Thought, begins: Container[int] = ()
+) -> EdgeFlows:
+    """The flows of a run that is over; WeightsError or ProcedureError where a skill cannot be made ready."""
+
+    def rows(places: Places) -> tuple[Singles, Singles]:
+        return run.readings[places], run.influence[places]
+
+    return EdgeFlows(policy.graph, FlowWalker(hierarchy(policy, sources, master), rows, begins))
 
 
-def transmitted(edge: Sent, value: np.float32 | None, own: np.float32) -> np.float32:
-    """The influence over an edge of a skill that has `own`: all of it with a command, or what is sent (Eq. 2).
-
-    0 where nothing is sent, and where it is cut.
-    """
-    if value is None or not isfinite(value):
-        return NOTHING
-    return own if edge.drives else _carried(edge, clamped(value), own)[2]
+def accumulated(edges: NDArray[np.floating]) -> Singles:
+    """The sums [rows] over edges [rows, edges], as the engine adds them up: one after the other, in float32."""
+    sums: NDArray[np.float32] = np.add.accumulate(edges, axis=1, dtype=np.float32)
+    return sums[:, -1] if sums.shape[1] else np.zeros(len(edges), np.float32)
 
 
 def sink_named(flows: EdgeFlows, name: str) -> Sink | None:

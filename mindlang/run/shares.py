@@ -1,6 +1,6 @@
 """Why a command was what it was: what each path of influence from the master down has contributed, exactly.
 
-    flows = EdgeFlows(policy, procedure_sources(graph, folder, master), master, run)  # a RecordedRun, or any Rows
+    flows = edge_flows(policy, procedure_sources(graph, folder, master), master, run)  # a RecordedRun, or any Thought
     found = shares(flows, sink_named(flows, "left_wheel"), range(811, 812))  # rows from 0: tick 812 of a simulation
 
 A command is a mean that influence weighs, command = Σ I·v / Σ I (Eq. 3), where the influence I of a skill is a sum over
@@ -14,13 +14,18 @@ from dataclasses import dataclass
 from math import fsum
 
 import numpy as np
+from mindrun.errors import MindError
 from mindrun.think import clamped
 from numpy.typing import NDArray
 
-from mindlang.run.edge_flow import NOTHING, EdgeFlow, EdgeFlows, Sink
+from mindlang.run.edge_flow import NOTHING, EdgeFlow, EdgeFlows, Sink, accumulated
 from mindlang.run.largest_paths import MAX_COUNTED_PATHS, Doubles, FoundPath, Ways, largest_paths, path_count
 
 NAMED_PATHS = 10
+
+
+class ReplacedInfluenceError(MindError):
+    """Influence that is other than what was sent, in a run that was changed: no path has made it."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -78,14 +83,15 @@ class Shares:
 def shares(flows: EdgeFlows, target: Sink, rows: range, paths: int = NAMED_PATHS) -> Shares:
     """Who made the command to `target`, or the influence on it, in these rows, one at least; the `paths` largest parts.
 
-    IndexError where a row is not there. It takes as long as thinking these rows does, and for so many paths as long as
-    they are, however many there are in all.
+    IndexError where a row is not there, ReplacedInfluenceError where influence that comes to the target was replaced.
+    It takes as long as thinking these rows does, and for so many paths as long as they are, however many there are in
+    all.
     """
+    carried, order = flows.over(rows), _above(flows, target)
+    _refuse_replaced(flows, carried, [*order, *([target[1]] if target[0] == "skill" else [])])
     if target == ("skill", flows.skills[0]):
         return _in_charge(flows, len(rows))
-    carried = [flows.at(row) for row in rows]
     ends = _ends(flows, target, carried)
-    order = _above(flows, target)
     into = {skill: ways for skill in order if (ways := _into(flows, skill, carried)) is not None}
     weights = Ways(ends.edges, ends.sources, ends.parts)
     found = largest_paths(weights, into, order, paths)
@@ -142,16 +148,28 @@ class _Ends:
     driven: NDArray[np.bool_]
 
 
-def _ends(flows: EdgeFlows, target: Sink, carried: Sequence[EdgeFlow]) -> _Ends:
+def _refuse_replaced(flows: EdgeFlows, flow: EdgeFlow, skills: Sequence[int]) -> None:
+    """ReplacedInfluenceError where one of the skills has other influence than all above it have sent, and the master 1.
+
+    Asked of every answer about influence: a run says in its rows that it was changed, and nowhere else.
+    """
+    for skill in skills:
+        sent = accumulated(flow.carried[:, flows.links_to.get(("skill", skill), [])])
+        expected = np.ones_like(sent) if skill == flows.skills[0] else sent
+        if not np.array_equal(expected, flow.influence[:, skill], equal_nan=True):
+            name = flows.graph.skills[skill].name
+            raise ReplacedInfluenceError(
+                f"the influence of {name} was replaced: nobody sent it", "Ask about the run as it is without that."
+            )
+
+
+def _ends(flows: EdgeFlows, target: Sink, carried: EdgeFlow) -> _Ends:
     edges = tuple(flows.links_to.get(target, ()))
-    values, behind, product = (
-        np.array([[getattr(flow, of)[edge] for flow in carried] for edge in edges], float).reshape(-1, len(carried))
-        for of in ("value", "behind", "carried")
-    )
+    values, behind, product = (of[:, edges].T.astype(float) for of in (carried.value, carried.behind, carried.carried))
     is_skill = target[0] == "skill"
     weight = product if is_skill else behind
     with np.errstate(all="ignore"):
-        sums = [np.add.accumulate(each, axis=0, dtype=np.float32)[-1:].sum(axis=0) for each in (product, weight)]
+        sums = [accumulated(each.T) for each in (product, weight)]
         engine = sums[0] if is_skill else sums[0] / sums[1]
         driven = (sums[1] > 0) & np.isfinite(engine)
         total = np.where(driven, weight.sum(axis=0), 0.0)
@@ -196,11 +214,11 @@ def _above(flows: EdgeFlows, target: Sink) -> list[int]:
     return [skill for skill in flows.skills if skill in found]
 
 
-def _into(flows: EdgeFlows, skill: int, carried: Sequence[EdgeFlow]) -> Ways | None:
+def _into(flows: EdgeFlows, skill: int, carried: EdgeFlow) -> Ways | None:
     edges = tuple(flows.links_to.get(("skill", skill), ()))
     if not edges:
         return None
-    arrived = np.array([[flow.carried[edge] for flow in carried] for edge in edges], float)
+    arrived = carried.carried[:, edges].T.astype(float)
     # influence beyond float32 is no number: where some of it is none, that is all of it
     arrived = np.where(np.isfinite(arrived).all(axis=0), arrived, ~np.isfinite(arrived))
     total = arrived.sum(axis=0)

@@ -14,8 +14,8 @@ from mindrun.think import Hierarchy, hierarchy
 from mindrun.weights import reachable
 from numpy.typing import NDArray
 
+from mindlang.run.edge_flow import EdgeFlows, FlowWalker
 from mindlang.view.columns import DOUBLE_BLOCK, FLOW, SINGLE_BLOCK, Columns
-from mindlang.view.edge_flow import EdgeFlow
 from mindlang.view.frames import columns_frame, rows_frame, rows_that_fit
 from mindlang.view.messages import Change, RefusedError
 from mindlang.view.row_blocks import Chunk, Doubles, RowBlocks, Singles, TickNumbers
@@ -30,13 +30,12 @@ Answer = dict[str, Any]
 
 @dataclass(frozen=True, slots=True)
 class SeenMind:
-    """The mind of a run: `sources` of its procedures, the `skills` that its master reaches, made ready.
+    """The mind of a run: the `skills` that its master reaches, made ready with the sources of their procedures.
 
     `begins` are the ticks in which it was begun anew; of a recording they come with the rows.
     """
 
     policy: Policy
-    sources: Mapping[str, str]
     master: str
     skills: Sequence[Skill]
     hierarchy: Hierarchy
@@ -46,7 +45,7 @@ class SeenMind:
     def of(cls, policy: Policy, sources: Mapping[str, str], master: str, begins: Set[int] = frozenset({1})) -> SeenMind:
         """The mind with that master; WeightsError or ProcedureError where a skill cannot be made ready."""
         skills = reachable(policy.graph, master)
-        return cls(policy, sources, master, skills, hierarchy(policy, sources, master), begins)
+        return cls(policy, master, skills, hierarchy(policy, sources, master), begins)
 
     @property
     def edges(self) -> int:
@@ -74,7 +73,15 @@ class Viewed:
     over: bool = False
     ended_by: str | None = None
     failed: str | None = None
-    _edges: EdgeFlow | None = None
+    flows: EdgeFlows = field(init=False)
+
+    def __post_init__(self) -> None:
+        """One walker of what flows, for all who ask; rows are ticks, and in the first of them nothing flows."""
+
+        def rows(ticks: TickNumbers) -> tuple[Singles, Singles]:
+            return self.group("readings", ticks), self.group("influence", ticks)
+
+        self.flows = EdgeFlows(self.mind.policy.graph, FlowWalker(self.mind.hierarchy, rows, self.mind.begins))
 
     @property
     def known(self) -> int:
@@ -133,7 +140,10 @@ class Viewed:
         for chosen, read in (
             (blocks == DOUBLE_BLOCK, lambda columns: self.blocks.doubles(ticks, columns)),
             ((blocks == SINGLE_BLOCK) & (indices < kept), lambda columns: self.blocks.singles(ticks, columns)),
-            ((blocks == SINGLE_BLOCK) & (indices >= kept), lambda columns: self._flow().at(ticks)[:, columns - kept]),
+            (
+                (blocks == SINGLE_BLOCK) & (indices >= kept),
+                lambda columns: self._flow(ticks)[:, columns - kept],
+            ),
         ):
             if chosen.any():
                 found[:, chosen] = read(indices[chosen])
@@ -142,7 +152,10 @@ class Viewed:
     def singles(self, ticks: TickNumbers) -> Singles:
         """The singles [ticks, columns] with what each edge transmits."""
         kept = self.blocks.singles(ticks)
-        return np.concatenate([kept, self._flow().at(ticks)], axis=1) if FLOW in self.columns.groups else kept
+        return np.concatenate([kept, self._flow(ticks)], axis=1) if FLOW in self.columns.groups else kept
+
+    def _flow(self, ticks: TickNumbers) -> Singles:
+        return self.flows.walker.transmitted(ticks)
 
     def group(self, name: str, ticks: TickNumbers) -> NDArray[Any]:
         """The columns [ticks, count] of a group that is kept."""
@@ -155,13 +168,6 @@ class Viewed:
     def _computed_rows(self) -> int:
         """Of how many rows it is computed at once what each edge transmits."""
         return max(1, MAX_COMPUTED_EDGES // max(1, self.mind.edges))
-
-    def _flow(self) -> EdgeFlow:
-        def rows(ticks: TickNumbers) -> tuple[Singles, Singles]:
-            return self.group("readings", ticks), self.group("influence", ticks)
-
-        self._edges = self._edges or EdgeFlow(self.mind.hierarchy, rows, self.mind.begins)
-        return self._edges
 
 
 @dataclass(frozen=True, slots=True)

@@ -4,6 +4,7 @@ from dataclasses import asdict
 from math import isfinite
 from typing import Any
 
+import numpy as np
 from mindrun.weights import reachable
 
 from mindlang.compiler.diagnostic import did_you_mean, listed
@@ -96,7 +97,7 @@ def _reads(course: Course, of: Contribution, rows: range) -> dict[str, list[floa
     graph = course.flows.graph
     name = of.path[-2] if len(of.path) > 1 else of.path[0]
     inputs = next(skill.inputs for skill in graph.skills if skill.name == name)
-    means = course.flows.rows.readings[rows.start : rows.stop].astype(float)[:, list(inputs)].mean(axis=0).tolist()
+    means = course.flows.walker.rows(np.array(rows))[0][:, list(inputs)].astype(float).mean(axis=0).tolist()
     owners = {place: each.name for each in graph.sensors for place in range(each.start, each.start + each.width)}
     owners |= {each.start: each.name for each in graph.memories}
     found: dict[str, list[float | None]] = {}

@@ -12,10 +12,11 @@ from mindrun.robot.recording import RecordingError, read
 from mindrun.robot.replay import computed_again
 from numpy.typing import NDArray
 
-from mindlang.run.edge_flow import EdgeFlows, Singles
+from mindlang.run.edge_flow import EdgeFlows, edge_flows
 from mindlang.run.recorded_run import RecordedRun
 from mindlang.run.run_recording import run_of
 from mindlang.run.running_bundle import running_bundle
+from mindlang.run.sent_values import Singles
 
 
 @dataclass(frozen=True, slots=True)
@@ -49,7 +50,7 @@ def course_of_run(run: RecordedRun, seed: int) -> Course:
     """The course of a run in the simulator."""
     setup = run.setup
     sources = procedure_sources(run.graph, setup.folder, setup.master)
-    flows = EdgeFlows(setup.ready.policy, sources, setup.master, run)
+    flows = edge_flows(setup.ready.policy, sources, setup.master, run)
     about = {"task": run.task.name, "master": setup.master, "seed": seed}
     return Course(about, flows, run.commands, np.zeros(len(run.commands), bool), run)
 
@@ -68,7 +69,7 @@ def course_of_recording(path: Path, bundle: Path) -> Course:
     computed = [*computed_again(path, of, rows, Engine(mind.policy, mind.procedures, of.master))]
     again = Thoughts(np.array([each.readings for each in computed]), rows["influence"])
     begins = np.flatnonzero(rows["tick"] == 0).tolist()
-    flows = EdgeFlows(mind.policy, mind.procedures, of.master, again, begins)
+    flows = edge_flows(mind.policy, mind.procedures, of.master, again, begins)
     about = {"recording": path.name, "master": of.master}
     run = run_of(of, rows, mind, bundle.parent) if of.world else None
     return Course(about, flows, rows["sent"], rows["stopped"] != 0, run)

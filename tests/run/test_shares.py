@@ -15,7 +15,7 @@ from mindrun.policy import Policy
 from mindrun.think import Hierarchy, hierarchy, values
 from numpy.typing import NDArray
 
-from mindlang.run.edge_flow import EdgeFlows, Sink, sink_named
+from mindlang.run.edge_flow import EdgeFlows, Sink, edge_flows, sink_named
 from mindlang.run.shares import Shares, shares
 from tests.hierarchies import PROCEDURES, Case, doubling, random_case
 from tests.minds import always, mind, rule
@@ -46,7 +46,7 @@ def thought(case: Case) -> Thought:
 def flows_of(case: Case, run: Thought) -> EdgeFlows:
     """The flows of that run."""
     graph = case.graph
-    return EdgeFlows(Policy(graph, case.weights), procedure_sources(graph, PROCEDURES), graph.master, run)
+    return edge_flows(Policy(graph, case.weights), procedure_sources(graph, PROCEDURES), graph.master, run)
 
 
 def sinks(flows: EdgeFlows) -> list[Sink]:

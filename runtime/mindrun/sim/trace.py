@@ -16,7 +16,7 @@ from mindrun.sim.ticks import Ticks, turned, with_room, written
 
 @dataclass(frozen=True, slots=True)
 class Moment:
-    """The world and the mind after one tick, as a row of `Ticks`; `tick` counts from 1, from the beginning of the run."""
+    """The world and the mind after one tick, as a row of `Ticks`; `tick` counts from 1 since the run began."""
 
     tick: int
     body: NDArray[np.float64]
