@@ -78,7 +78,7 @@ def _dry(options: argparse.Namespace, bundle: Bundle, drive_options: DriveOption
     with simulated(options.bundle, task.name, options.seed, master=options.master or "") as socket:
         wiring = dry(bundle.graph, socket)
         run = DryRun(bundle.graph, task, master, socket, line)
-        with run.shown(), _watched(task, options.seed, socket, drive_options, bundle.graph.tick) as watched:
+        with run.shown(), _watched(task, options.seed, socket, drive_options) as watched:
             loop = drive(bundle, digest(options.bundle), wiring, watched, line.tell, watch=run.watch)
         with suppress(DeviceError):  # the run was as good without it
             for sentence in outcome(task, master, status(socket)):
@@ -87,13 +87,13 @@ def _dry(options: argparse.Namespace, bundle: Bundle, drive_options: DriveOption
 
 
 @contextmanager
-def _watched(task: Task, seed: int, socket: str, options: DriveOptions, tick: float) -> Iterator[DriveOptions]:
+def _watched(task: Task, seed: int, socket: str, options: DriveOptions) -> Iterator[DriveOptions]:
     """The same options with the world at a socket, where there is a recording for it."""
     if options.record is None:
         yield options
         return
     world = SeenWorld(task, seed, socket)
-    with world.watched(tick):
+    with world.watched():
         yield replace(options, world=world)
 
 

@@ -14,8 +14,6 @@ from mindrun.robot.drivers.simulated import WorldConnection
 from mindrun.robot.recording_header import BOX_COLUMNS, RecordedWorld, world_row_of
 from mindrun.robot.simulated_world.protocol import BOXES, WORLD
 
-ASKS_PER_TICK = 2  # as each sensor is read
-
 
 class SeenWorld:
     """The world at a socket: `about` as it was first, `latest` as it was when a thread asked last."""
@@ -23,29 +21,35 @@ class SeenWorld:
     def __init__(self, task: Task, seed: int, socket: str) -> None:
         self._row, self._link = world_row_of(task), WorldConnection(socket)
         self._latest = self._asked()
+        self._wanted, self._is_over = Event(), False
         boxes = np.frombuffer(self._link.ask(BOXES), "<f8").reshape(-1, BOX_COLUMNS)
         begin = [*self._latest["pose"][0], *self._latest["things"][0].ravel()]
         self.about = RecordedWorld.of(task, seed, boxes, begin)
 
     def latest(self) -> NDArray[Any]:
-        """The row of it that was answered last [1]."""
+        """The row of it [1] that was asked for when this was called last: a tick ago. Never waits.
+
+        The thread asks anew at once, while the loop has nothing to do until its next tick.
+        """
+        self._wanted.set()
         return self._latest
 
     @contextmanager
-    def watched(self, tick: float) -> Iterator[None]:
-        """Ask for it twice a tick as long as this lasts."""
-        stop = Event()
-        thread = Thread(target=self._watch, args=(tick / ASKS_PER_TICK, stop), name="seen_world", daemon=True)
+    def watched(self) -> Iterator[None]:
+        """Let the thread ask as long as this lasts."""
+        thread = Thread(target=self._watch, name="seen_world", daemon=True)
         thread.start()
         try:
             yield
         finally:
-            stop.set()
+            self._is_over = True
+            self._wanted.set()
             thread.join()
             self._link.close()
 
-    def _watch(self, every: float, stop: Event) -> None:
-        while not stop.wait(every):
+    def _watch(self) -> None:
+        while self._wanted.wait() and not self._is_over:
+            self._wanted.clear()
             with suppress(DeviceError):  # it answers next time; the loop says where it does not at all
                 self._latest = self._asked()
 

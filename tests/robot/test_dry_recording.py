@@ -1,0 +1,125 @@
+"""The recording of a dry run: it has the world, and the robot waits for none of it."""
+
+import subprocess
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from threading import Event, Thread
+from time import monotonic, sleep
+
+import numpy as np
+from mindrun.bundle import Bundle, write_bundle
+from mindrun.policy import Policy
+from mindrun.robot.recording import read
+from mindrun.robot.replay import replay_recording
+from mindrun.robot.seen_world import SeenWorld
+from mindrun.robot.simulated_world.scene import SimulatedScene
+from mindrun.robot.simulated_world.server import Server, listening
+from mindrun.sim.commanded_world import World
+
+from mindlang.compiler.compile import load
+from mindlang.view.viewed_recording import viewed_recording
+from tests.robot.driving import MINDRUN, PATIENCE
+
+NEVER_SECONDS = 1e6  # no tick of the world but those of the test
+
+
+class Hesitant(SimulatedScene):
+    """A world that answers while it is let."""
+
+    def __init__(self, world: World) -> None:
+        super().__init__(world)
+        self.answers = Event()
+        self.answers.set()
+
+    def answer(self, what: bytes, name: str, value: float) -> bytes:
+        """As any other, later."""
+        self.answers.wait(PATIENCE)
+        return super().answer(what, name, value)
+
+
+@contextmanager
+def served(scene: SimulatedScene) -> Iterator[str]:
+    """The socket of a world that stands still by itself."""
+    server = Server(scene)
+    with TemporaryDirectory() as folder, listening(Path(folder, "world")) as listener:
+        thread = Thread(target=server.serve, args=(listener, NEVER_SECONDS))
+        thread.start()
+        try:
+            yield str(Path(folder, "world"))
+        finally:
+            server.end()
+            thread.join(PATIENCE)
+
+
+def test_it_has_where_the_robot_was_what_was_paid_and_how_it_ended(rules: Path, tmp_path: Path) -> None:
+    day, bundle = tmp_path / "day.rec", tmp_path / "rules.bundle"
+    graph = load(rules).graph
+    assert graph
+    write_bundle(bundle, Bundle(Policy(graph, {}), {}))
+    words = [*MINDRUN, bundle, "--dry", "--arm", "--task", "Roam", "--seed", "5", "--record", day]
+    assert subprocess.run([*map(str, words)], timeout=PATIENCE * 3, check=False).returncode == 0
+    about, parts = read(day)
+    rows = np.concatenate([*parts])
+    assert about.world
+    assert (about.world.task, about.world.seed, len(about.world.boxes)) == ("Roam", 5, 9)
+    assert len(set(rows["world"]["pose"][:, 0].tolist())) > 5
+    assert (rows["world"]["ended"][0], rows["world"]["ended"][-1]) == (-3, 0)  # a collision ends it
+    assert rows["world"]["rewards"][-1, 0] == -5
+    assert replay_recording(day, bundle).differs is None
+    for mind in (bundle, rules):
+        viewed = viewed_recording(day, mind)
+        while not viewed.over:
+            viewed.grow()
+        assert (viewed.failed, viewed.ended_by) == (None, "collision")
+        ticks = np.arange(1, len(rows) + 1)
+        assert viewed.group("robot", ticks).tobytes() == rows["world"]["pose"].tobytes()
+        assert (viewed.about["task"], viewed.about["seed"]) == ("Roam", "5")
+
+
+def test_a_recorder_waits_for_no_world(rules: Path) -> None:
+    """What was answered last is recorded, however long the world is silent, and what it answers then a row later."""
+    graph = load(rules).graph
+    assert graph
+    world = World(graph, "Roam", 3)
+    scene = Hesitant(world)
+    with served(scene) as path:
+        seen = SeenWorld(world.task, 3, path)
+        first = list(world.pose)
+        assert (seen.about.begin[:3], seen.about.things) == (tuple(first), 1)
+        with seen.watched():
+            scene.answers.clear()
+            assert all(seen.latest()["pose"][0].tolist() == first for _ in range(1000))
+            for _ in range(10):
+                world.step([1.0, 0.0])
+            scene.answers.set()
+            end = monotonic() + PATIENCE
+            while seen.latest()["pose"][0].tolist() != list(world.pose):
+                assert monotonic() < end
+                sleep(0.01)
+    assert list(world.pose) != first
+
+
+def test_a_world_is_the_run_of_mindc_column_by_column(rules: Path) -> None:
+    """Under the commands of the same mind each row is that of `mindc run --record`."""
+    from mindrun.engine import Engine
+
+    from mindlang.run.recorded_run import record_run
+    from mindlang.run.setup import set_up
+
+    setup = set_up(str(rules), load(rules), "Roam", None)
+    run = record_run(setup, setup.rollout(), 3)
+    graph = setup.ready.policy.graph
+    world, engine = World(graph, "Roam", 3), Engine(Policy(graph, {}))
+    for tick in range(run.ticks):
+        now = world.columns()
+        assert np.array_equal(now["pose"], run.body[tick])
+        assert np.array_equal(now["things"][:, :3], run.things[tick], equal_nan=True)
+        assert (int(now["held"]), now["ended"]) == (run.held[tick], -3)
+        world.step(engine.tick(world.readings()))
+    last = world.columns()
+    assert np.array_equal(last["pose"], run.body[-1])
+    assert np.array_equal(last["rewards"], run.lines[-1])
+    assert np.array_equal(last["events"], run.events[-1])
+    assert (bool(last["touching"]), int(last["ended"])) == (bool(run.touching[-1]), run.ended)
