@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 
-from mindrun.changes import ChangeError
+from mindrun.changes import Change, ChangeError
+from mindrun.errors import BundleError
+from mindrun.robot.recording_header import RecordingError
 from mindrun.sim.rollout import Rollout
 
 from mindlang.cli._recordings import refusing_recordings
@@ -53,9 +56,11 @@ def compare_runs(file: str, played: Played, request: Request, as_json: bool, qui
     theirs = _another(session, request.other, ours[0], played) if request.other else None
     ensure_stages_compiled(ours[1], session.say)
     try:
-        compared = _compared(ours, theirs, request, played.seed)
-    except ChangeError as error:
+        changes = _changes(Path(file), (theirs or ours)[0], request)
+        compared = _compared(ours, theirs, request.tick, changes, played.seed)
+    except (ChangeError, RecordingError, BundleError) as error:
         fail(str(error), error.hint, MISUSE)
+    _say_where_recordings_end(session, request, changes, compared)
     if as_json:
         print_json(comparison_data(request, compared))
     else:
@@ -66,10 +71,23 @@ def compare_runs(file: str, played: Played, request: Request, as_json: bool, qui
 
 
 @procedures_talk()
-def _compared(ours: Cast, theirs: Cast | None, request: Request, seed: int) -> Compared:
-    setup, _ = theirs or ours
-    changes = changes_of(request, setup.ready.policy.graph, setup.master)
-    return compare_minds(ours, theirs, seed, request.tick, changes) if theirs else compare(*ours, seed, changes)
+def _changes(file: Path, setup: RunSetup, request: Request) -> Sequence[Change]:
+    return changes_of(request, setup.ready.policy.graph, setup.master, file)
+
+
+@procedures_talk()
+def _compared(ours: Cast, theirs: Cast | None, tick: int, changes: Sequence[Change], seed: int) -> Compared:
+    return compare_minds(ours, theirs, seed, tick, changes) if theirs else compare(*ours, seed, changes)
+
+
+def _say_where_recordings_end(
+    session: RunSession, request: Request, changes: Sequence[Change], compared: Compared
+) -> None:
+    """A sensor that was replaced for as long as a recording lasts reads what it measures after that."""
+    ends = {change.last for change in changes if request.ticks is None and change.last and len(change.values) > 1}
+    for end in sorted(ends):
+        if end < compared.now.run.ticks:
+            session.say(f"note: a recording ends with tick {end:,}: from then on its sensor reads what it measures")
 
 
 def _another(session: RunSession, file: str, ours: RunSetup, played: Played) -> Cast:
@@ -90,7 +108,7 @@ def _draw(compared: Compared, request: Request, path: Path) -> None:
 
 def _recorded(path: Path, bundle: Path, request: Request) -> OpenLoop:
     other = _version(request.other) if request.other else None
-    return compare_recording(path, bundle, other, partial(changes_of, request), request.tick)
+    return compare_recording(path, bundle, other, partial(changes_of, request, own=bundle), request.tick)
 
 
 def _version(file: str) -> MindVersion:

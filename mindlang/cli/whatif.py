@@ -15,6 +15,7 @@ Examples:
   mindc whatif collect.mind --task Collect --seed 3 --tick 812 --set object_bearing=0.5 --ticks 60
   mindc whatif collect.mind --task Collect --seed 3 --tick 812 --without Avoid --json
   mindc whatif collect.mind --task Collect --seed 3 --tick 812 --with other.mind
+  mindc whatif collect.mind --task Collect --seed 3 --sensor proximity=other.rec
   mindc whatif day.rec ball.bundle --without Avoid
 """
 
@@ -29,7 +30,9 @@ Examples:
 @click.option("--tick", type=WholeOption(1, 2**53), default=1, help="The first tick that is changed. Default: 1.")
 @click.option("--ticks", type=WholeOption(1, 2**53), help="How many are. Default: all that follow; one with --set.")
 @click.option("--without", multiple=True, metavar="SKILL", help="Silence a skill: it has no influence.")
-@click.option("--sensor", multiple=True, metavar="NAME=0.5", help="What a sensor reads; NAME=1,0.5,1 of a wide one.")
+@click.option(
+    "--sensor", multiple=True, metavar="NAME=0.5", help="What a sensor reads: NAME=0.5, NAME=1,0.5,1, NAME=day.rec"
+)
 @click.option(
     "--set", "settings", multiple=True, metavar="NAME=0.5", help="A reading, a memory or an influence, for one tick."
 )

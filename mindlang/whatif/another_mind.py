@@ -33,7 +33,7 @@ def compare_minds(
 
 def continued(was: RecordedRun, rest: RecordedRun, ticks: int) -> RecordedRun:
     """So many ticks of a run, and what came after them under another mind of the same sensors and actuators."""
-    rows = {field.name for field in fields(RecordedRun)} - {"setup", "boxes", "influence", "events"}
+    rows = {field.name for field in fields(RecordedRun)} - {"setup", "boxes", "influence", "events", "ended"}
     joined: dict[str, Any] = {
         name: np.concatenate([getattr(was, name)[: ticks + (name in ROWS_BEFORE)], _after(rest, name)]) for name in rows
     }

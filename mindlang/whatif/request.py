@@ -2,18 +2,21 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from pathlib import Path
 
 from mindrun.changes import Change, ChangeError, What, change_of, silenced
 from mindrun.graph import Graph
 from mindrun.weights import reachable
 
 from mindlang.compiler.diagnostic import did_you_mean, listed
+from mindlang.whatif.recorded_readings import is_recording, recorded_readings
 
 
 @dataclass(frozen=True, slots=True)
 class Request:
     """Skills to go `without`, `sensors` as `proximity=0.5`, `settings` as `battery=0.1`; from `tick` on, for `ticks`.
 
+    A sensor may also read what it read in a recording: `proximity=day.rec`, or `proximity=day.rec,ball.bundle`.
     `other` is the file of another mind that takes over.
     Without `ticks`, a setting is for one tick and all else goes on to the end.
     """
@@ -56,15 +59,22 @@ class Request:
         return f"in tick {self.tick:,}" if ticks == 1 else f"in ticks {self.tick:,} to {self.tick + ticks - 1:,}"
 
 
-def changes_of(request: Request, graph: Graph, master: str) -> tuple[Change, ...]:
-    """The changes of a mind under a master; ChangeError where one cannot be made."""
+def changes_of(request: Request, graph: Graph, master: str, own: Path | None = None) -> tuple[Change, ...]:
+    """The changes of a mind under a master; MindError where one cannot be made.
+
+    `own` is its source or bundle, with which a recording was made where nothing else is said.
+    """
     last = None if request.ticks is None else request.tick + request.ticks - 1
     found: list[Change] = []
     for skill in request.without:
         _refuse_unreached(graph, master, skill)
         found += silenced(graph, skill, request.tick, last)
     for words in request.sensors:
-        name, values = _assignment(words, "--sensor")
+        name, said = _parts(words)
+        if is_recording(said):
+            found += recorded_readings(graph, name, said, own, request.tick, last)
+            continue
+        _, values = _assignment(words, "--sensor")
         found += change_of(graph, "reading", name, [values], request.tick, last)
     for words in request.settings:
         name, values = _assignment(words, "--set")
@@ -77,12 +87,17 @@ def changes_of(request: Request, graph: Graph, master: str) -> tuple[Change, ...
 
 def _assignment(words: str, option: str) -> tuple[str, list[float]]:
     """The name and the numbers of `proximity=0.5` or `proximity=1,0.5,1`."""
-    name, _, said = words.partition("=")
+    name, said = _parts(words)
     try:
         values = [float(value) for value in said.split(",")]
     except ValueError:
         raise ChangeError(f"{option} {words} does not say a number", f"write {option} {name or 'NAME'}=0.5") from None
-    return name.strip(), values
+    return name, values
+
+
+def _parts(words: str) -> tuple[str, str]:
+    name, _, said = words.partition("=")
+    return name.strip(), said.strip()
 
 
 def _what(graph: Graph, name: str) -> What:

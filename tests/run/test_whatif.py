@@ -8,6 +8,7 @@ import cv2
 import numpy as np
 import pytest
 from mindrun.changes import change_of, silenced
+from mindrun.robot.recording import read
 
 from mindlang.compiler.compile import load
 from mindlang.pictures.picture import view_of
@@ -77,6 +78,85 @@ def test_a_setting_is_for_one_tick_and_a_sensor_for_all_that_follow(rules: Path)
     ]
     assert read[0].nonzero()[0].tolist() == [9]
     assert read[1].nonzero()[0].tolist() == [*range(9, len(read[1]))]
+
+
+@pytest.fixture
+def other(mindc: Call, rules: Path, tmp_path: Path) -> Path:
+    """A run of another seed, recorded."""
+    path = tmp_path / "other.rec"
+    assert mindc("run", rules, "--task", "Roam", "--seed", 4, "--record", path).code == 0
+    return path
+
+
+def test_a_sensor_reads_what_was_recorded_tick_by_tick_and_then_its_own(
+    mindc: Call, rules: Path, other: Path, tmp_path: Path
+) -> None:
+    """Its own recording changes nothing; that of another run is read in its own ticks, and no longer than it lasts."""
+    mine = tmp_path / "mine.rec"
+    assert mindc("run", rules, *PLAYED, "--record", mine).code == 0
+    assert found(mindc, rules, "--sensor", f"feeler={mine}", "--sensor", f"ball_bearing={mine}")["differs"] == []
+    setup = setup_of(rules)
+    graph = setup.ready.policy.graph
+    sensor = next(each for each in graph.sensors if each.name == "feeler")
+    columns = slice(sensor.start, sensor.start + sensor.width)
+    of, parts = read(other)
+    recorded = np.concatenate([*parts])["readings"][:, columns]
+    short = tmp_path / "short.rec"
+    short.write_bytes(other.read_bytes()[: -(len(recorded) - 40) * of.row.itemsize])
+    changes = changes_of(Request(30, sensors=(f"feeler={short}",)), graph, setup.master, rules)
+    assert [each.last for each in changes] == [40, 40, 40]
+    now, own = (course(setup, setup.rollout(), 3, made).run.readings[:, columns] for made in (changes, ()))
+    assert np.array_equal(now[:29], own[:29])
+    assert np.array_equal(now[29:40], recorded[29:40])
+    assert not np.array_equal(now[40:60], recorded[40:60])
+    said = mindc("whatif", rules, *PLAYED, "--sensor", f"feeler={short}")
+    assert "note: a recording ends with tick 40" in said.err
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        ("eye={rec}", "there is no sensor called eye"),
+        ("feeler=no.rec", "cannot read no.rec"),
+        ("feeler={mind}.rec", "is no recording of this mindrun"),
+        ("feeler={rec},{other}", "this was recorded with another bundle"),
+    ],
+)
+def test_a_recording_that_does_not_fit_is_refused_in_a_sentence(
+    mindc: Call, rules: Path, other: Path, words: str, said: str
+) -> None:
+    without = rules.with_name("without.mind")
+    without.write_text(rules.read_text().replace("feeler", "felt"))
+    rules.with_name("rules.mind.rec").write_text("no recording\n")
+    words = words.format(rec=other, mind=rules, other=without)
+    answer = mindc("whatif", rules, *PLAYED, "--sensor", words)
+    assert (answer.code, answer.out) == (2, "")
+    assert said in answer.err
+
+
+@pytest.mark.parametrize(
+    ("before", "after", "said"),
+    [
+        ("at 0 30 330 deg", "at 0 deg", "feeler has 3 readings in {rec}, and 1 here"),
+        ("tick 1/60 s", "tick 1/50 s", "a tick of {rec} is 0.0166667 s, and one of this run 0.02 s"),
+        ("feeler", "feelers", "{rec} has no readings of feelers"),
+    ],
+)
+def test_a_recording_of_an_older_version_needs_its_bundle_and_the_same_sensor(
+    mindc: Call, rules: Path, other: Path, before: str, after: str, said: str
+) -> None:
+    old = rules.with_name("old.mind")
+    old.write_text(rules.read_text())
+    assert before in rules.read_text()
+    rules.write_text(rules.read_text().replace(before, after))
+    name = after if before == "feeler" else "feeler"
+    alone = mindc("whatif", rules, *PLAYED, "--sensor", f"{name}={other}")
+    assert alone.code == 2
+    assert f"is of another mind than {rules}" in alone.err
+    assert f"--sensor {name}={other},NAME.bundle" in alone.err
+    answer = mindc("whatif", rules, *PLAYED, "--sensor", f"{name}={other},{old}")
+    assert answer.code == 2
+    assert said.format(rec=other) in answer.err
 
 
 def test_the_summary_is_for_people(mindc: Call, rules: Path) -> None:

@@ -115,6 +115,20 @@ def test_what_derives_from_a_replaced_sensor_sees_it(mindc: Call, day: tuple[Pat
     assert found(mindc, day, "--set", "mood=1", "--tick", 30)["differs"][0]["name"] == "mood"
 
 
+def test_a_sensor_reads_what_another_day_had(mindc: Call, day: tuple[Path, Path], tmp_path: Path) -> None:
+    path, bundle = tmp_path / "other.rec", day[1]
+    graph = read_bundle(bundle).graph
+    readings = noise(graph)
+    glow = next(sensor for sensor in graph.sensors if sensor.name == "glow").start
+    readings[19:, glow] = 0.75
+    record(path, bundle, readings)
+    said, constant = (found(mindc, day, "--sensor", f"glow={what}", "--tick", 20) for what in (path, 0.75))
+    assert said | {"changes": []} == constant | {"changes": []}
+    assert found(mindc, day, "--sensor", f"eyes={path}")["differs"] == []
+    late = mindc("whatif", *day, "--sensor", f"glow={path}", "--tick", 201)
+    assert (late.code, "there is no tick 201" in late.err) == (2, True)
+
+
 def test_another_mind_sends_what_it_would_for_the_same_readings(
     mindc: Call, day: tuple[Path, Path], tmp_path: Path
 ) -> None:

@@ -1,0 +1,74 @@
+"""What a sensor has read in a recording, tick by tick, as changes of another run."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+from mindrun.bundle import Bundle
+from mindrun.changes import Change, ChangeError, change_of
+from mindrun.graph import Graph, Sensor
+from mindrun.named_readings import physical
+from mindrun.robot.recording import read
+from mindrun.robot.recording_header import About, RecordingError
+
+from mindlang.run.running_bundle import running_bundle
+
+RECORDING_SUFFIX = ".rec"
+
+
+def is_recording(said: str) -> bool:
+    """Whether this is `day.rec`, or `day.rec,ball.bundle`, and no numbers."""
+    return said.partition(",")[0].endswith(RECORDING_SUFFIX)
+
+
+def recorded_readings(
+    graph: Graph, name: str, said: str, own: Path | None, first: int, last: int | None
+) -> tuple[Change, ...]:
+    """A sensor that reads in each tick from `first` on what it has read in this tick of a recording, while that lasts.
+
+    `said` is the recording and, behind a comma, the bundle or source that was running, without which that is `own`.
+    MindError where one cannot be read, the recording is of another bundle, or the sensor is another there.
+    """
+    file, _, bundle = said.partition(",")
+    path = Path(file)
+    [begin, *_] = change_of(graph, "reading", name, [[0.0]], first, last)  # or it says what is wrong
+    about, parts = read(path)
+    sensor = _sensor(path, about, _bundle(path, about, Path(bundle) if bundle else own, name, bool(bundle)), name)
+    ours = next(each for each in graph.sensors if each.name == name)
+    if sensor.width != ours.width:
+        many = "1 reading" if sensor.width == 1 else f"{sensor.width} readings"
+        raise ChangeError(f"{name} has {many} in {path}, and {ours.width} here", "take a recording of the same sensor")
+    if about.tick != graph.tick:
+        raise ChangeError(
+            f"a tick of {path} is {about.tick:g} s, and one of this run {graph.tick:g} s",
+            "take a recording of a mind with the same tick",
+        )
+    rows = np.concatenate([part["readings"][:, sensor.start : sensor.start + sensor.width] for part in parts])
+    if len(rows) < first:
+        raise ChangeError(f"{path} has {len(rows):,} ticks: there is no tick {first:,}", "say an earlier one")
+    end = len(rows) if last is None else min(last, len(rows))
+    columns = rows[first - 1 : end].astype(float).T.tolist()
+    return tuple(Change("reading", begin.row + k, tuple(column), first, end) for k, column in enumerate(columns))
+
+
+def _bundle(path: Path, about: About, running: Path | None, name: str, is_said: bool) -> Bundle:
+    """The bundle of a recording, which knows where the readings of each sensor stand in a row."""
+    hint = f"say the bundle that was running behind it: --sensor {name}={path},NAME.bundle"
+    if running is None:
+        raise ChangeError(f"nobody says which bundle was running when {path} was recorded", hint)
+    try:
+        return running_bundle(running, about)
+    except RecordingError as error:
+        if is_said:
+            raise
+        raise ChangeError(f"{path} is of another mind than {running}: {error}", hint) from error
+
+
+def _sensor(path: Path, about: About, mind: Bundle, name: str) -> Sensor:
+    """A sensor whose readings are in a recording."""
+    is_physical = name in physical(mind.graph)
+    found = next((sensor for sensor in mind.graph.sensors if sensor.name == name), None)
+    if found is None or (name not in about.sensors if is_physical else about.lacks_readings):
+        raise ChangeError(f"{path} has no readings of {name}", f"it has those of {', '.join(about.sensors)}")
+    return found
