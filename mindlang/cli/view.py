@@ -17,6 +17,7 @@ Examples:
   mindc view collect.mind
   mindc view collect.mind --task Collect --seed 3
   mindc view day.rec ball.bundle                 what a robot has recorded
+  mindc view run.rec collect.mind                what mindc run --record has written
   mindc view collect.mind --task Collect --break collect.break
   mindc view day.rec ball.bundle --follow        and what it still records
   mindc view day.rec ball.bundle --break day.break   pauses where the robot had to stop, say
@@ -60,8 +61,9 @@ def command(
 ) -> None:
     """See a run of FILE, or a robot's day, in a browser.
 
-    The world, the hierarchy, and every value over time: of a run; of what a robot has recorded, with the BUNDLE that
-    was running; or of trainings in a folder, while they go on, with the champion of any generation in its world.
+    The world, the hierarchy, and every value over time: of a run; of a recording, with the BUNDLE that was running or
+    the .mind file that it is built from; or of trainings in a folder, while they go on, with the champion of any
+    generation in its world.
 
     Serves a page at an address of this machine, which nobody else can open, until Ctrl-C; a browser that is closed may
     open it again. With --export it is one file, which opens from a disk without a server. Runs the Python code of

@@ -62,8 +62,8 @@ def command(
     Both runs are the same to the bit until the tick of the change. Says in which tick they differ first and in what,
     and what came of both. Runs the Python code of the file's procedures.
 
-    Where FILE is a robot's recording, BUNDLE is the one that was running: says what it would have sent for the same
-    readings, in an open loop.
+    Where FILE is a recording, BUNDLE is the one that was running, or the .mind file that it is built from: says what it
+    would have sent for the same readings, in an open loop.
     """
     from mindlang.cli._comparing import Played, compare_recorded, compare_runs
     from mindlang.whatif.request import Request

@@ -13,6 +13,7 @@ Examples:
   mindc why collect.mind --task Collect --seed 3 --tick 800..812 reward
   mindc why collect.mind --task Collect --seed 3 claw --json
   mindc why day.rec ball.bundle --tick 812 left_wheel
+  mindc why run.rec collect.mind --tick 812 left_wheel      of mindc run --record
 """
 
 
@@ -43,7 +44,8 @@ def command(
     command. Over several ticks all numbers are means. Runs the task of FILE as `mindc run` does; runs the Python code
     of its procedures.
 
-    Where FILE is a robot's recording, BUNDLE is the one that was running, and ticks are the rows of the recording.
+    Where FILE is a recording, BUNDLE is the one that was running, or the .mind file that it is built from, and ticks
+    are the rows of the recording.
     """
     from mindlang.cli._asking import Asked, explain_recording, explain_run
 

@@ -20,7 +20,13 @@ def running_bundle(path: Path, of: About) -> Bundle:
 
     MindError where it cannot be read or built, or the recording was made with another.
     """
-    found, sha = _built(path, of) if path.suffix == SOURCE_SUFFIX else (read_bundle(path), digest(path))
+    is_source = path.suffix == SOURCE_SUFFIX
+    found, sha = _built(path, of) if is_source else (read_bundle(path), digest(path))
+    if is_source and sha != of.bundle:
+        raise RecordingError(
+            f"{path} is not what was recorded: its bundle would be {sha[:8]}…, not {of.bundle[:8]}…",
+            "take the bundle that was running (one with --robot is another), or the source and the lock as they were",
+        )
     of.refuse_another(sha, found.graph)
     return found
 

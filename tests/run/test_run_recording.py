@@ -145,7 +145,7 @@ def test_another_source_is_refused(mindc: Call, taken: tuple[Path, Path], rules:
     broken = tmp_path / "broken.mind"
     broken.write_text("master\n")
     for words, said in (
-        (("why", taken[0], other, "left_wheel"), "recorded with another bundle"),
+        (("why", taken[0], other, "left_wheel"), "other.mind is not what was recorded: its bundle"),
         (("view", taken[0], broken, "--no-browser"), "broken.mind has mistakes"),
         (("whatif", taken[0], tmp_path / "none.mind", "--without", "Chase"), "none.mind"),
     ):
