@@ -30,6 +30,7 @@ class Session:
         self.champions = champions
         self.number = 0  # how many runs have been seen before this one
         self._growing: dict[int, asyncio.Task[None]] = {}
+        self._waits: str | None = None  # what a change waits for
         self._see(viewed)
         self._grower = ThreadPoolExecutor(1, "growing")
         self._answerer = ThreadPoolExecutor(1, "answering")
@@ -80,6 +81,7 @@ class Session:
             "over": over,
             "ended_by": viewed.ended_by,
             "failed": viewed.failed,
+            "waits": self._waits,
             "happened": viewed.happened[happened : happened + MAX_HAPPENED],
             "stops": viewed.stops[stops : stops + MAX_HAPPENED],
         }
@@ -124,10 +126,14 @@ class Session:
             raise RefusedError("a recording is what it is: nothing in it can be changed")
         if len(self.forks) > MAX_FORKS:
             raise RefusedError(f"there are {MAX_FORKS} forks already: open the run anew")
+        loop = asyncio.get_running_loop()
+        self._wait(await loop.run_in_executor(self._answerer, of.delay))
         try:
-            fork = await asyncio.get_running_loop().run_in_executor(self._grower, _begun, of.forked, change)
+            fork = await loop.run_in_executor(self._grower, _begun, of.forked, change)
         except MindError as error:
             raise RefusedError(f"{error}") from error
+        finally:
+            self._wait(None)
         if of not in self.forks:
             raise RefusedError("another run is seen now")
         number = len(self.forks)
@@ -136,6 +142,12 @@ class Session:
         self._wanted.append(0)
         self.forks.append(fork.viewed)
         self._run(number, max(of.known, change.tick))
+
+    def _wait(self, what: str | None) -> None:
+        """Tell all viewers what is waited for, or that nothing is any more."""
+        if what != self._waits:
+            self._waits = what
+            self.changed()
 
     def _computed(self, message: Message) -> bytes | dict[str, Any]:
         viewed = self.forks[message.fork]

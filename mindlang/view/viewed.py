@@ -57,7 +57,8 @@ class SeenMind:
 class Viewed:
     """`about` is what does not change, `chunks` what is still to come; the first chunk begins with tick 0.
 
-    `forked` makes the same run with a change; RefusedError where that cannot be, None where nothing can be changed. One
+    `forked` makes the same run with a change; RefusedError where that cannot be, None where nothing can be changed.
+    `delay` says, where it is so, what has to be done first and takes a while. One
     thread lets it `grow`; others may ask at the same time. What `is_live` grows without being asked.
     """
 
@@ -66,6 +67,7 @@ class Viewed:
     chunks: Iterator[Chunk]
     mind: SeenMind
     forked: Callable[[Change], Fork] | None = None
+    delay: Callable[[], str | None] = lambda: None
     is_live: bool = False
     blocks: RowBlocks = field(default_factory=RowBlocks)
     happened: list[tuple[int, int]] = field(default_factory=list)

@@ -14,6 +14,7 @@ from mindrun.sim.rollout import Rollout
 from mindrun.sim.task_rows import things_of
 from mindrun.sim.ticks import Ticks
 from mindrun.sim.trace import Trace, trace
+from mindrun.sim.warmup import code_of_stages
 from numpy.typing import NDArray
 
 from mindlang.breakpoints.breakpoint import Breakpoint
@@ -32,6 +33,8 @@ from mindlang.view.stop_texts import stop_texts
 from mindlang.view.texts import shown
 from mindlang.view.viewed import Fork, SeenMind, Viewed
 from mindlang.view.world_events import WorldEvents
+
+COMPILING = "compiling what a changed run takes, once: about a minute…"
 
 
 @dataclass(frozen=True, slots=True)
@@ -53,7 +56,7 @@ class ViewedRun:
         run = trace(self.rollout, self.seed, changes=self.changes)
         watching = watcher(self.breakpoints, setup) if self.breakpoints else None
         chunks = run_chunks(setup, run, self.seed, columns, watching)
-        return Viewed(self._about(run, mind, columns), columns, chunks, mind, self._forked)
+        return Viewed(self._about(run, mind, columns), columns, chunks, mind, self._forked, _compilation)
 
     def _forked(self, asked: Change) -> Fork:
         setup, graph = self.setup, self.setup.ready.policy.graph
@@ -75,6 +78,10 @@ class ViewedRun:
             "curves": below.curves([reward.text for reward in task.rewards]),
             **below.data(self.texts),
         }
+
+
+def _compilation() -> str | None:
+    return None if code_of_stages().is_there() else COMPILING
 
 
 def run_columns(setup: RunSetup, edges: int) -> Columns:

@@ -5,6 +5,7 @@ from collections.abc import Iterator
 from dataclasses import replace
 from itertools import cycle
 from pathlib import Path
+from threading import Event
 from typing import Any
 
 import numpy as np
@@ -12,8 +13,9 @@ import pytest
 
 from mindlang.pictures.influence_flow import Flow
 from mindlang.run.recorded_run import record_run
-from mindlang.view.messages import RefusedError
-from mindlang.view.viewed import Viewed
+from mindlang.view.command_shares import command_shares
+from mindlang.view.messages import Change, RefusedError, Why
+from mindlang.view.viewed import Fork, Viewed
 from tests.calling import write_rules
 from tests.view.browser import Opened, chromium
 from tests.view.serving import prepared, served, simulated
@@ -160,6 +162,45 @@ def test_a_value_that_is_changed_makes_a_run_beside_this_one(opened: Opened, min
     opened.wait("document.querySelector('#forks').value === '1'")
     opened.jump(400)
     assert any(json.loads(said).get("fork") == 1 for said in opened.sent if '"rows"' in said)
+
+
+def test_what_a_change_waits_for_stands_there_until_it_has_come(browser: Any, mind: Path) -> None:
+    viewed, compiled = simulated(mind), Event()
+    forked = viewed.forked
+
+    def slow(change: Change) -> Fork:
+        assert forked
+        assert compiled.wait(60)
+        return forked(change)
+
+    viewed.forked, viewed.delay = slow, lambda: "compiling…"
+    with served(viewed) as view:
+        opened = Opened(browser, f"http://{view.host}/#{view.token}")
+        opened.jump(100)
+        opened.page.fill("#search", "Turn")
+        opened.page.press("#search", "Enter")
+        opened.page.fill("#edit input[aria-label=value]", "0")
+        opened.page.click("#edit button")
+        opened.wait("!document.querySelector('#notice').hidden")
+        assert opened.page.inner_text("#notice") == "compiling…"
+        compiled.set()
+        opened.wait("document.querySelector('#notice').hidden && !document.querySelector('#forks').hidden")
+        opened.close()
+
+
+def test_what_no_path_has_made_of_a_command_is_said(opened: Opened, monkeypatch: pytest.MonkeyPatch) -> None:
+    def answered(viewed: Viewed, asked: Why) -> dict[str, Any]:
+        more = {"rest": 0.125, "rest_paths": 7, "rounding": -2e-5}
+        return command_shares(viewed, asked) | more | ({"paths": [], "neutral": 0.5} if asked.tick == 641 else {})
+
+    monkeypatch.setattr("mindlang.view.session.command_shares", answered)
+    opened.jump(640)
+    opened.page.locator("#hierarchy .node.actuator").first.click()
+    opened.wait("document.querySelectorAll('#why .note').length === 2")
+    assert "0.125 over 7 other paths" in opened.page.inner_text("#why")
+    assert "rounding" in opened.page.inner_text("#why")
+    opened.jump(641)
+    opened.wait("document.querySelector('#why').innerText.includes('nothing influences it: its neutral, 0.5')")
 
 
 def test_a_subtree_is_collapsed_and_opened(opened: Opened) -> None:

@@ -4,6 +4,7 @@ import json
 import socket
 from contextlib import suppress
 from pathlib import Path
+from threading import Event
 from typing import Any
 
 import numpy as np
@@ -15,7 +16,9 @@ from websockets.exceptions import ConnectionClosed
 from mindlang.view import server
 from mindlang.view.frames import MAX_FRAME_BYTES, unpacked
 from mindlang.view.http_answers import SECURITY
+from mindlang.view.messages import Change
 from mindlang.view.session import Session
+from mindlang.view.viewed import Fork
 from tests.view.serving import ANSWER_SECONDS, UPGRADE, Served, ViewingClient, prepared, request, served, simulated
 from tests.view.test_hostile_messages import frame
 
@@ -59,6 +62,28 @@ def test_a_fork_is_the_run_with_that_change(view: Served, path: Path) -> None:
     change = change_of(setup.ready.policy.graph, "reading", "ball_bearing", [[0.25]], 200, 499)
     moments = [*trace(setup.rollout(), 3, changes=change).moments]
     assert seen.tobytes() == np.array([moment.body[:3] for moment in moments]).tobytes()
+
+
+def test_what_a_change_waits_for_is_said_until_it_has_come(path: Path) -> None:
+    viewed, compiled = simulated(path), Event()
+    forked = viewed.forked
+
+    def slow(change: Change) -> Fork:
+        assert forked
+        assert compiled.wait(ANSWER_SECONDS)
+        return forked(change)
+
+    viewed.forked, viewed.delay = slow, lambda: "compiling…"
+    with served(viewed) as view, view.viewer() as viewer:
+        about = viewer.hear("about")
+        viewer.say(**CHANGE, column=about["nodes"][0]["columns"][0])
+        while (told := viewer.hear("ticks"))["waits"] is None:
+            pass
+        assert (told["fork"], told["waits"]) == (0, "compiling…")
+        compiled.set()
+        assert viewer.hear("fork")["fork"] == 1
+        while viewer.hear("ticks")["waits"]:
+            pass
 
 
 def test_who_comes_when_the_first_has_left_may_change(path: Path) -> None:

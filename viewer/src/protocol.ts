@@ -111,6 +111,7 @@ export interface Ticks {
   over: boolean;
   ended_by: string | null;
   failed: string | null;
+  waits: string | null; // what a change waits for
   happened: [tick: number, event: number][];
   stops: [tick: number, text: string][];
 }
@@ -121,8 +122,11 @@ export interface Why {
   tick: number;
   actuator: number;
   command: number;
-  paths: { path: number[]; value: number; influence: number; share: number }[];
-  rest: number;
+  paths: { path: number[]; value: number; influence: number; share: number }[]; // the ten largest
+  rest: number; // the share of so many others
+  rest_paths: number;
+  neutral: number;
+  rounding: number;
 }
 
 export interface Fork {

@@ -4,7 +4,8 @@ import { digits, percent, shown } from "./names";
 import type { About, Send, Why as Answer } from "./protocol";
 
 const ASK_MILLISECONDS = 120; // not more often, while it plays
-const PATHS_MAX = 12;
+const COUNTED_PATHS_MAX = 1e15; // which stands for more, too
+const ROUNDING_NOTED = 1e-6; // below it shares add up for everybody
 
 export class Why {
   private actuator: number | null = null; // its number among the commands
@@ -50,11 +51,7 @@ export class Why {
     head.textContent = `why ${this.name} is ${digits(answer.command)} at tick ${answer.tick}`;
     head.title = String(answer.command);
     const paths = [...answer.paths].sort((one, other) => Math.abs(other.share) - Math.abs(one.share));
-    const lines = paths.slice(0, PATHS_MAX).map((path) => this.path(path, answer.command));
-    if (!paths.length) lines.push(text("p", "note", "nobody influences it: it is at its neutral"));
-    if (paths.length > PATHS_MAX) lines.push(text("p", "note", `and ${paths.length - PATHS_MAX} paths with smaller shares`));
-    if (answer.rest) lines.push(text("p", "note", `rest ${digits(answer.rest)}`));
-    this.place.replaceChildren(head, ...lines);
+    this.place.replaceChildren(head, ...paths.map((path) => this.path(path, answer.command)), ...others(answer));
   }
 
   /** Says why there is no answer. */
@@ -74,6 +71,15 @@ export class Why {
     line.append(bar, ways, numbers);
     return line;
   }
+}
+
+/** What of the command no named path has made. */
+function others({ paths, rest, rest_paths: many, neutral, rounding }: Answer): HTMLElement[] {
+  const said: string[] = [];
+  if (!paths.length) said.push(`nothing influences it: its neutral, ${digits(neutral)}`);
+  if (many) said.push(`${digits(rest)} over ${many >= COUNTED_PATHS_MAX ? "10^15 or more" : many} other path${many === 1 ? "" : "s"}`);
+  if (Math.abs(rounding) > ROUNDING_NOTED) said.push(`${digits(rounding)} by rounding of the engine's sums`);
+  return said.map((line) => text("p", "note", line));
 }
 
 function text(name: string, kind: string, content: string): HTMLElement {
