@@ -62,7 +62,7 @@ def _bundle(path: Path, about: About, running: Path | None, name: str, is_said: 
     except RecordingError as error:
         if is_said:
             raise
-        raise ChangeError(f"{path} is of another mind than {running}: {error}", hint) from error
+        raise ChangeError(f"{path}: {error}", hint) from error
 
 
 def _sensor(path: Path, about: About, mind: Bundle, name: str) -> Sensor:

@@ -119,7 +119,7 @@ def test_a_sensor_reads_what_was_recorded_tick_by_tick_and_then_its_own(
         ("eye={rec}", "there is no sensor called eye"),
         ("feeler=no.rec", "cannot read no.rec"),
         ("feeler={mind}.rec", "is no recording of this mindrun"),
-        ("feeler={rec},{other}", "this was recorded with another bundle"),
+        ("feeler={rec},{other}", "is not what was recorded"),
     ],
 )
 def test_a_recording_that_does_not_fit_is_refused_in_a_sentence(
@@ -152,7 +152,7 @@ def test_a_recording_of_an_older_version_needs_its_bundle_and_the_same_sensor(
     name = after if before == "feeler" else "feeler"
     alone = mindc("whatif", rules, *PLAYED, "--sensor", f"{name}={other}")
     assert alone.code == 2
-    assert f"is of another mind than {rules}" in alone.err
+    assert f"{other}: {rules} is not what was recorded" in alone.err
     assert f"--sensor {name}={other},NAME.bundle" in alone.err
     answer = mindc("whatif", rules, *PLAYED, "--sensor", f"{name}={other},{old}")
     assert answer.code == 2
