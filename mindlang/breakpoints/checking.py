@@ -1,29 +1,14 @@
-"""A .break file held against a mind before anything runs, or where there is none, read line by line."""
+"""A .break file held against a mind or a bundle before anything runs, or where there is none, read line by line."""
 
 from collections.abc import Mapping
 from pathlib import Path
 
+from mindrun.bundle import Bundle
 from mindrun.named_readings import physical
 
-from mindlang.breakpoints.file import BreakpointFile, breakpoints_of, load_breakpoints
 from mindlang.breakpoints.subject import Subject
 from mindlang.compiler.compile import Compiled, load
-from mindlang.compiler.source import Source
 from mindlang.run.setup import master_of, task_of
-
-
-def check_breakpoints(path: str, mind: Compiled | None, task: str | None) -> BreakpointFile:
-    """What is wrong with the lines of the file at `path`, of which no more than their words are known without a mind.
-
-    The task is that of a run by default; SetupError where the mind has none of that name. Events of the task and of a
-    robot count both: a file may be for both.
-    """
-    return load_breakpoints(path, _subject(mind, task) if mind else None)
-
-
-def check_text(source: Source, mind: Compiled | None) -> BreakpointFile:
-    """The same of a text, and the task of a run by default."""
-    return breakpoints_of(source, _subject(mind, None) if mind else None)
 
 
 def mind_of(path: str, given: Mapping[str, Compiled]) -> Compiled | None:
@@ -37,11 +22,21 @@ def mind_of(path: str, given: Mapping[str, Compiled]) -> Compiled | None:
     return found if found and found.graph else None
 
 
-def _subject(compiled: Compiled, name: str | None) -> Subject:
+def subject_of_mind(compiled: Compiled, task: str | None = None, master: str | None = None) -> Subject:
+    """A run of a mind, with the task and the master of these names or those of a run by default.
+
+    Events of the task and of a robot count both: a file may be for both. SetupError where there is none of that name.
+    """
     assert compiled.mind
     assert compiled.graph
     graph, sensors = compiled.graph, tuple(physical(compiled.graph))
-    if not graph.tasks and name is None:
-        return Subject(compiled.mind.names, graph, graph.master, None, sensors)
-    task, _ = task_of(graph, name)
-    return Subject(compiled.mind.names, graph, master_of(graph, task, None), task, sensors)
+    chosen = task_of(graph, task)[0] if graph.tasks or task else None
+    return Subject(compiled.mind.names, graph, master_of(graph, chosen, master), chosen, sensors)
+
+
+def subject_of_bundle(bundle: Bundle, task: str | None = None, master: str | None = None) -> Subject:
+    """What a robot with this bundle will record; with a task, what a dry run of it will. SetupError as above."""
+    graph = bundle.graph
+    wired = [wire.sensor for wire in bundle.wiring.sensors] if bundle.wiring and not task else physical(graph)
+    chosen = task_of(graph, task)[0] if task else None
+    return Subject.of_recording(graph, master_of(graph, None, master), tuple(wired), chosen)

@@ -32,7 +32,7 @@ def resolve(lines: Iterable[Line], subject: Subject, findings: Findings) -> tupl
     findings.numbers = subject.names.numbers.keys()
     written_out = writer(numbers(subject.names, Findings()), subject.graph.tick)
     found = tuple(_breakpoints(map(written_out, lines), subject, findings))
-    if not subject.knows_numbers:
+    if subject.is_recorded:
         findings.diagnostics = [
             replace(each, hint=NO_NUMBERS) if each.code == "unknown-number" else each for each in findings.diagnostics
         ]
@@ -87,6 +87,10 @@ def _world_event(written: syntax.Phrase, subject: Subject, findings: Findings) -
         findings.error("impossible-event", written.span, message, hint)
         return None
     event: EventKind | None = event_in(written, subject.world, findings)
+    if event and subject.is_recorded and event not in subject.task.events:
+        hint = "Write a condition instead; only events of which a line of the task speaks are recorded."
+        findings.error("unnoticed-event", written.span, f"Task {subject.task.name} did not notice this event.", hint)
+        return None
     if event and event.outcome and event not in subject.task.events:
         message = f"No line of task {subject.task.name} speaks of this event, so nobody looks for it."
         hint = f"Add the line counts {' '.join(written.span.text.split())} to the task."

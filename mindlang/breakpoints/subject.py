@@ -22,8 +22,8 @@ NOWHERE = Span(Source("", ""), 0, 0)  # where what is in a graph was declared
 class Subject:
     """The names of a mind and its graph, who is in charge, and the task, None where nobody noticed its events.
 
-    `sensors` are those that a robot has wired, which can be faulty; None where there was no robot. A bundle does not
-    know how its mind's numbers are called.
+    `sensors` are those that a robot has wired, which can be faulty; None where there was no robot. What `is_recorded`
+    has no other events than those that were noticed, and no names of numbers: it is known by its bundle.
     """
 
     names: Names
@@ -31,12 +31,12 @@ class Subject:
     master: str
     task: Task | None
     sensors: tuple[str, ...] | None = None
-    knows_numbers: bool = True
+    is_recorded: bool = False
 
     @classmethod
-    def of_recording(cls, graph: Graph, master: str, sensors: tuple[str, ...]) -> Subject:
-        """What a robot with these wired sensors recorded with the graph of a bundle."""
-        return cls(names_in(graph), graph, master, None, sensors, knows_numbers=False)
+    def of_recording(cls, graph: Graph, master: str, sensors: tuple[str, ...], task: Task | None = None) -> Subject:
+        """What a robot with these wired sensors recorded with the graph of a bundle, in the world of a task if any."""
+        return cls(names_in(graph), graph, master, task, sensors, is_recorded=True)
 
     @cached_property
     def places(self) -> lower.Places:

@@ -20,6 +20,7 @@ Examples:
   mindc check examples/*.mind --json
   mindc check collect.break                        against collect.mind beside it
   mindc check collect.mind wheels.break --task Collect
+  mindc check day.break ball.bundle                on the robot that it drives
   cat collect.mind | mindc check -
 """
 
@@ -36,14 +37,16 @@ class _Checked:
 
 @click.command(epilog=EXAMPLES)
 @click.argument("files", nargs=-1, required=True, metavar="FILE…")
-@click.option("--task", metavar="TASK", help="What .break files are about. Default: the task of mindc run.")
+@click.option("--task", metavar="TASK", help="What .break files are about. Default: as of mindc run.")
+@click.option("--master", metavar="SKILL", help="Who is in charge then. Default: as of mindc run.")
 @click.option("--json", "as_json", is_flag=True, help="One JSON document instead: mindc check collect.mind --json")
-def command(files: tuple[str, ...], task: str | None, as_json: bool) -> None:
+def command(files: tuple[str, ...], task: str | None, master: str | None, as_json: bool) -> None:
     """Read files, and report everything that is wrong in them.
 
     A file that is no whole mind is read with those that use it, where they are given as well.
     Of procedures the text is read, and nothing is run.
-    Breakpoints, NAME.break, are held against the mind that is given with them, or else against NAME.mind beside them.
+    Breakpoints, NAME.break, are held against the mind that is given with them, or else against NAME.mind beside them;
+    with the BUNDLE that drives a robot, against what it will record (with --task in a dry run).
     Ends with 0 when nothing is wrong, with 1 when something is, with 2 when a file cannot be read.
     """
     from mindlang.breakpoints import SUFFIX
@@ -54,10 +57,11 @@ def command(files: tuple[str, ...], task: str | None, as_json: bool) -> None:
     for file in files:
         take_back(file)
     breaks = [file for file in files if Path(file).suffix == SUFFIX]
-    if task and not breaks:
-        raise click.UsageError("--task is for files of breakpoints, and none is given.")
-    compiled = minds(file for file in files if file not in breaks)
-    checked = [*_minds(compiled), *_breakpoints(breaks, compiled, task)]
+    if (task or master) and not breaks:
+        raise click.UsageError("--task and --master are for files of breakpoints, and none is given.")
+    bundles = [file for file in files if breaks and Path(file).suffix == ".bundle"]
+    compiled = minds(file for file in files if file not in (*breaks, *bundles))
+    checked = [*_minds(compiled), *_breakpoints(breaks, bundles, compiled, task, master)]
     found = [diagnostic for each in checked for diagnostic in each.diagnostics]
     if as_json:
         files_data = [{"file": each.file, "ok": each.is_whole and not each.diagnostics} for each in checked]
@@ -77,21 +81,29 @@ def _minds(compiled: Mapping[str, Compiled]) -> Iterator[_Checked]:
         yield _Checked(file, (*each.diagnostics, *mistakes(each)), each.readable, bool(each.graph))
 
 
-def _breakpoints(files: Sequence[str], given: Mapping[str, Compiled], task: str | None) -> Iterator[_Checked]:
-    """The files of breakpoints; it is said where one is held against no mind."""
+def _breakpoints(
+    files: Sequence[str], bundles: Sequence[str], given: Mapping[str, Compiled], task: str | None, master: str | None
+) -> Iterator[_Checked]:
+    """The files of breakpoints, each against every bundle, or else a mind; it is said where there is neither."""
     if not files:
         return
-    from mindlang.breakpoints.checking import check_breakpoints, mind_of
+    from mindrun.bundle import read_bundle
+    from mindrun.errors import MindError
+
+    from mindlang.breakpoints.checking import mind_of, subject_of_bundle, subject_of_mind
+    from mindlang.breakpoints.file import load_breakpoints
     from mindlang.cli._terminal import MISUSE, fail, talk
-    from mindlang.run.setup import SetupError
 
     for file in dict.fromkeys(files):
-        mind = mind_of(file, given)
-        if mind is None:
+        mind = None if bundles else mind_of(file, given)
+        try:
+            subjects = [subject_of_bundle(read_bundle(Path(bundle)), task, master) for bundle in bundles]
+            subjects += [subject_of_mind(mind, task, master)] if mind else []
+        except MindError as error:
+            fail(str(error), error.hint, MISUSE)
+        if not subjects:
             hint = f"mindc check NAME.mind {file} looks for the names in it, too"
             talk.print(f"note: {file} is read without a mind that compiles, line by line; {hint}", markup=False)
-        try:
-            found = check_breakpoints(file, mind, task)
-        except SetupError as error:
-            fail(str(error), error.hint, MISUSE)
-        yield _Checked(file, found.diagnostics, all(each.span for each in found.diagnostics))
+        for subject in subjects or (None,):
+            found = load_breakpoints(file, subject).diagnostics
+            yield _Checked(file, found, all(each.span for each in found))

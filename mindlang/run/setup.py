@@ -73,13 +73,13 @@ def task_of(graph: Graph, name: str | None) -> tuple[Task, str]:
     return found or unknown("task", name, [task.name for task in graph.tasks]), ""
 
 
-def master_of(graph: Graph, task: Task, name: str | None) -> str:
+def master_of(graph: Graph, task: Task | None, name: str | None) -> str:
     """Who is in charge of a task: the skill of that name; without one, the master of the task's first lesson.
 
-    Where no lesson is on the task, the mind's own master.
+    Where no lesson is on the task, or there is none, the mind's own master.
     """
     if name is None:
-        return next((lesson.master for lesson in graph.lessons if lesson.task == task.name), graph.master)
+        return next((lesson.master for lesson in graph.lessons if task and lesson.task == task.name), graph.master)
     skills = [skill.name for skill in graph.skills]
     return name if name in skills else unknown("skill", name, skills)
 

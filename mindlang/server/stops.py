@@ -5,7 +5,8 @@ from itertools import takewhile
 from pathlib import Path
 
 from mindlang.breakpoints import SUFFIX
-from mindlang.breakpoints.checking import check_text
+from mindlang.breakpoints.checking import subject_of_mind
+from mindlang.breakpoints.file import breakpoints_of
 from mindlang.breakpoints.robot_events import FAULT, OF, WORDS
 from mindlang.compiler.diagnostic import Diagnostic
 from mindlang.compiler.references import READABLE_NOUNS
@@ -29,8 +30,8 @@ def mind_beside(path: Path) -> Path:
 
 def stop_findings(path: Path, text: str, mind: MindView) -> tuple[Diagnostic, ...]:
     """What is wrong with the text of a file of breakpoints; no names are looked for in a mind that does not compile."""
-    compiled = mind.compiled if mind.compiled.graph else None
-    return check_text(Source(str(path), text, path.parent), compiled).diagnostics
+    subject = subject_of_mind(mind.compiled) if mind.compiled.graph else None
+    return breakpoints_of(Source(str(path), text, path.parent), subject).diagnostics
 
 
 def stop_offers(view: MindView, line: Sequence[str]) -> list[Offer]:

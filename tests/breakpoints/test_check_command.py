@@ -48,7 +48,7 @@ def test_it_is_about_a_task(mindc: Call, breaks: Path) -> None:
 def test_a_task_is_for_breakpoints_alone(mindc: Call, rules: Path) -> None:
     said = mindc("check", rules, "--task", "Chase")
     assert said.code == 2
-    assert "--task is for files of breakpoints" in said.err
+    assert "--task and --master are for files of breakpoints" in said.err
 
 
 def test_without_a_mind_that_compiles_its_lines_are_read(mindc: Call, rules: Path, breaks: Path) -> None:
@@ -63,3 +63,20 @@ def test_without_a_mind_that_compiles_its_lines_are_read(mindc: Call, rules: Pat
 
 def test_what_cannot_be_read(mindc: Call, breaks: Path) -> None:
     assert mindc("check", breaks).code == 2
+
+
+def test_with_a_bundle_it_is_held_against_what_its_robot_records(mindc: Call, rules: Path, breaks: Path) -> None:
+    bundle = rules.with_suffix(".bundle")
+    assert mindc("build", rules, "-o", bundle).code == 0
+    breaks.write_text("stop on stopped\nstop on fault of feeler\nstop when Turn influences left_wheel above 1%\n")
+    assert mindc("check", breaks, bundle) == (0, "", "nothing wrong\n")
+    said = mindc("check", breaks, bundle, "--master", "Chase")
+    assert (said.code, said.err.count("[skill-not-in-run]")) == (1, 1)
+    breaks.write_text("stop on reach of ball\nstop on visit of patch size 4\n")
+    said = mindc("check", breaks, bundle)
+    assert (said.code, said.err.count("[impossible-event]")) == (1, 2)
+    said = mindc("check", breaks, bundle, "--task", "Roam")
+    assert (said.code, said.err.count("[unnoticed-event]")) == (1, 1)
+    assert f"{breaks}:2:9: error: Task Roam did not notice this event." in said.err
+    assert mindc("check", breaks, bundle, "--master", "Chas").code == 2
+    assert mindc("check", breaks, bundle.with_name("none.bundle")).code == 2
