@@ -32,6 +32,7 @@ EXAMPLES = """examples:
   mindrun ball.bundle                                       on its robot, nothing moves yet
   mindrun ball.bundle --arm --record day.rec                everything moves, and every tick is recorded
   mindrun ball.bundle --arm --view                          and seen in a browser while it drives
+  mindrun ball.bundle --arm --view --break day.break        the page pauses where a line holds, the robot never
   mindrun ball.bundle --dry --arm                           in a simulated world, without hardware
   mindrun ball.bundle --describe                            what it holds (a bundle without wiring does this anyway)
   mindrun collect.bundle --json                             the same as JSON
@@ -103,6 +104,8 @@ def _refuse_view_of_nothing(options: argparse.Namespace) -> None:
         raise MindError("--view shows a robot that drives: with --readings, --describe or --json none does")
     if options.view_port and not options.view:
         raise MindError("--view-port is the port of --view, which was not asked for")
+    if options.breaks and not options.view:
+        raise MindError("--break pauses the page of --view, which was not asked for; nothing pauses the robot")
 
 
 def drive(options: argparse.Namespace) -> int:
@@ -131,6 +134,9 @@ def _options() -> argparse.Namespace:
     robot.add_argument("--view", action="store_true", help="show it in a browser while it drives (needs mindlang)")
     robot.add_argument(
         "--view-port", type=whole(1, MAX_PORT), metavar="P", help="of that page (default: 8123, or any that is free)"
+    )
+    robot.add_argument(
+        "--break", dest="breaks", type=Path, metavar="FILE", help="pause that page where a line of FILE.break says"
     )
     robot.add_argument(
         "--ticks", type=whole(0, MAX_TICK), default=0, metavar="N", help="end after so many ticks (default: never)"

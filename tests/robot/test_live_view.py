@@ -83,6 +83,30 @@ def test_a_robot_is_seen_while_it_drives(bundle: Path, temporary: Path) -> None:
     assert list(temporary.iterdir()) == []
 
 
+def test_the_page_pauses_where_a_file_says(bundle: Path, tmp_path: Path) -> None:
+    breaks = tmp_path / "day.break"
+    breaks.write_text("stop on stopped\n", encoding="utf-8")
+    process = begun(bundle, tmp_path / "day.rec", "--view", "--break", breaks, stderr=subprocess.PIPE)
+    until_address(process)
+    words = Path(f"/proc/{viewer_of(process)}/cmdline").read_bytes().split(b"\0")
+    assert words[words.index(b"--break") + 1] == str(breaks).encode()
+    process.terminate()
+    _, err = process.communicate(timeout=PATIENCE)
+    assert process.returncode == 0
+    assert "drives on" not in err
+
+
+def test_a_mistake_in_the_file_is_said_before_anything_moves(bundle: Path, tmp_path: Path) -> None:
+    breaks, day = tmp_path / "day.break", tmp_path / "day.rec"
+    breaks.write_text("stop on stopped\nstop on collision\n", encoding="utf-8")
+    done = mindrun(bundle, "--view", "--break", breaks, "--record", day)
+    assert done.returncode == 2
+    assert f"{breaks}:2:9: error: A robot does not record what happens in the world around it." in done.stderr
+    assert "nothing moves" in done.stderr
+    assert not day.exists()
+    assert mindrun(bundle, "--view", "--break", tmp_path / "none.break", "--record", day).returncode == 2
+
+
 @pytest.mark.parametrize("fault", [signal.SIGSTOP, signal.SIGKILL])
 def test_a_viewer_that_hangs_or_dies_is_not_the_robots_concern(bundle: Path, tmp_path: Path, fault: int) -> None:
     day = tmp_path / "day.rec"
@@ -164,10 +188,10 @@ def test_each_tick_can_be_read_before_the_next(bundle: Path, tmp_path: Path) -> 
 # Where no viewer can be started
 
 
-def heard(recording: Path, bundle: Path) -> list[str]:
+def heard(recording: Path, bundle: Path, breaks: Path | None = None) -> list[str]:
     """What is told of a view that ends at once."""
     told: list[str] = []
-    with live.live_view(recording, bundle, None, told.append):
+    with live.live_view(recording, bundle, None, told.append, breaks):
         pass
     return told
 
@@ -193,6 +217,8 @@ def test_without_mindlang_it_says_what_to_type_elsewhere(
     mindc, view, recording, *words = shlex.split(line)
     assert (mindc, view, words) == ("mindc", "view", ["ball.bundle", "--follow"])
     assert remote(recording) == (host, str(day))
+    _, line = heard(day, tmp_path / "ball.bundle", tmp_path / "a day.break")
+    assert shlex.split(line)[-2:] == ["--break", "a day.break"]
 
 
 def test_what_cannot_be_started_is_said(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
@@ -223,6 +249,7 @@ def test_through_ssh_the_tunnel_is_told_that_leads_to_the_page(
         (("--view", "--json"), "--view shows a robot that drives"),
         (("--view", "--readings", "-"), "--view shows a robot that drives"),
         (("--dry", "--view-port", 80), "--view-port is the port of --view"),
+        (("--dry", "--break", "day.break"), "--break pauses the page of --view"),
         (("--view", "--view-port", 0), "0 is not a whole number from 1 to 65535"),
     ],
 )

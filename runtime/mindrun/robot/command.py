@@ -20,6 +20,7 @@ from mindrun.robot.identity import IdentityError, is_adopted
 from mindrun.robot.live_view import live_view, temporary_recording
 from mindrun.robot.loop import Loop
 from mindrun.robot.seen_world import SeenWorld
+from mindrun.robot.view_breakpoints import mistakes
 from mindrun.status_line import StatusLine
 from mindrun.wiring import still
 
@@ -28,6 +29,7 @@ def run(options: argparse.Namespace) -> int:
     """Drive until a signal comes; the exit code."""
     bundle = read_bundle(options.bundle)
     line = StatusLine(_quiet, columns=lambda: None) if options.quiet else StatusLine(_print_error)
+    _refuse_wrong_breakpoints(options, bundle.graph)
     if not options.arm:
         line.tell("nothing will move: --arm lets it")
     with _seen(options, line.tell) as (record, view):
@@ -35,6 +37,17 @@ def run(options: argparse.Namespace) -> int:
         loop = (_dry if options.dry else _wired)(options, bundle, drive_options, line)
     line.tell(_summary(loop))
     return 0
+
+
+def _refuse_wrong_breakpoints(options: argparse.Namespace, graph: Graph) -> None:
+    """MindError where a line of the file of --break is wrong, before anything moves; the mistakes have been printed."""
+    if options.breaks is None:
+        return
+    task = _task(graph, options.task)[0].name if options.dry else None
+    if found := mistakes(options.breaks, options.bundle, task, options.master):
+        for sentence in found:
+            _print_error(sentence)
+        raise MindError("nothing moves: the page cannot pause where that file says", "mend it, or leave --break out")
 
 
 @contextmanager
@@ -46,7 +59,12 @@ def _seen(
         yield options.record, None
         return
     with nullcontext(options.record) if options.record else temporary_recording(tell) as record:
-        yield record, live_view(record, options.bundle, options.view_port, _print_error if options.quiet else tell)
+        yield (
+            record,
+            live_view(
+                record, options.bundle, options.view_port, _print_error if options.quiet else tell, options.breaks
+            ),
+        )
 
 
 def _wired(options: argparse.Namespace, bundle: Bundle, drive_options: DriveOptions, line: StatusLine) -> Loop:

@@ -38,15 +38,21 @@ def temporary_recording(tell: Callable[[str], None]) -> Iterator[Path]:
 
 
 @contextmanager
-def live_view(recording: Path, bundle: Path, port: int | None, tell: Callable[[str], None]) -> Iterator[None]:
-    """Serve a recording, which has begun, as long as this lasts; `tell` gets the address, or why there is none."""
+def live_view(
+    recording: Path, bundle: Path, port: int | None, tell: Callable[[str], None], breaks: Path | None = None
+) -> Iterator[None]:
+    """Serve a recording, which has begun, as long as this lasts; `tell` gets the address, or why there is none.
+
+    The page pauses where a line of the file `breaks` says.
+    """
     if not find_spec("mindlang"):
         tell("mindlang is not installed here, so the page is served elsewhere. On your desk, type:")
-        tell(f"mindc view {quote(f'{_host()}:{recording.absolute()}')} {quote(bundle.name)} --follow")
+        pausing = f" --break {quote(breaks.name)}" if breaks else ""
+        tell(f"mindc view {quote(f'{_host()}:{recording.absolute()}')} {quote(bundle.name)} --follow{pausing}")
         yield
         return
     try:
-        viewer = _begin(recording, bundle, port)
+        viewer = _begin(recording, bundle, port, breaks)
     except OSError as error:
         tell(f"there is no view, and the robot drives on: it cannot be started ({reason(error)})")
         yield
@@ -62,12 +68,14 @@ def live_view(recording: Path, bundle: Path, port: int | None, tell: Callable[[s
         viewer.wait()
 
 
-def _begin(recording: Path, bundle: Path, port: int | None) -> "subprocess.Popen[str]":
+def _begin(recording: Path, bundle: Path, port: int | None, breaks: Path | None) -> "subprocess.Popen[str]":
     """The viewer. It ends with the thread that calls this."""
     # -P: a file of the user's folder that is named like a module must not be imported.
     words = [sys.executable, "-P", "-c", PROGRAM, str(os.getpid()), "view", "--follow", "--no-browser", "-q"]
     if port or _is_free(PAGE_PORT):
         words += ["--port", str(port or PAGE_PORT)]
+    if breaks:
+        words += ["--break", str(breaks)]
     return subprocess.Popen(
         [*words, "--", str(recording.absolute()), str(bundle)],
         stdin=subprocess.DEVNULL,
