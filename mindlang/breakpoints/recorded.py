@@ -7,7 +7,8 @@ from typing import Any
 
 import numpy as np
 from mindrun.bundle import Bundle
-from mindrun.robot.recording import About
+from mindrun.graph import Task
+from mindrun.robot.recording_header import About
 from mindrun.think import hierarchy
 from numpy.typing import NDArray
 
@@ -22,8 +23,9 @@ class RecordingWatcher:
 
     def __init__(self, breakpoints: Sequence[Breakpoint], of: About, mind: Bundle) -> None:
         """WeightsError or ProcedureError where a skill of the bundle cannot be made ready."""
-        ready = hierarchy(mind.policy, mind.procedures, of.master)
-        self._watcher = Watcher(breakpoints, robot_events(of.sensors), ready, len(of.actuators))
+        ready, task = hierarchy(mind.policy, mind.procedures, of.master), task_of(of, mind)
+        events = (*robot_events(of.sensors), *(task.events if task else ()))
+        self._watcher = Watcher(breakpoints, events, ready, len(of.actuators))
         self._before = np.zeros((1, 1 + len(of.sensors)), bool)  # whether it had to stop, and the faults
         self._times = np.zeros((1, 2 + len(of.sensors)), np.int64)
 
@@ -32,10 +34,17 @@ class RecordingWatcher:
         facts = np.concatenate([self._before, np.column_stack([rows["stopped"], rows["faults"]]) != 0])
         happened = self._times + np.cumsum(times(facts[:, 0], facts[:, 1:]), axis=0)
         self._before, self._times = facts[-1:], np.concatenate([self._times, happened])[-1:]
+        if "world" in (rows.dtype.names or ()):
+            happened = np.concatenate([happened, rows["world"]["events"].astype(np.int64)], axis=1)
         part = Part(readings, rows["influence"], rows["commands"], happened)
         return self._watcher.feed(part, np.flatnonzero(rows["tick"] == 0))
 
 
 def recording_subject(of: About, mind: Bundle) -> Subject:
     """What the breakpoints of a recording are about, made with the mind of this bundle."""
-    return Subject.of_recording(mind.graph, of.master, of.sensors)
+    return Subject.of_recording(mind.graph, of.master, of.sensors, task_of(of, mind))
+
+
+def task_of(of: About, mind: Bundle) -> Task | None:
+    """The task in whose world it was recorded; None of a robot's."""
+    return next((task for task in mind.graph.tasks if of.world and task.name == of.world.task), None)

@@ -11,18 +11,14 @@ from mindrun.bundle import Bundle, digest, read_bundle, write_bundle
 from mindrun.engine import Engine
 from mindrun.policy import Policy
 from mindrun.robot.recording import About, Recorder, read
-from mindrun.virtual_sensors import virtual_sensors
 
 from mindlang.breakpoints.breakpoint import Breakpoint
 from mindlang.breakpoints.file import breakpoints_of
 from mindlang.breakpoints.recorded import RecordingWatcher, recording_subject
-from mindlang.breakpoints.watch import Stop, noticing, watcher
-from mindlang.compiler.compile import load
+from mindlang.breakpoints.watch import Stop
 from mindlang.compiler.source import Source
-from mindlang.run.recorded_run import record_run
-from mindlang.run.setup import set_up
 from mindlang.view.viewed_recording import followed_recording, viewed_recording
-from tests.calling import Call, write_rules
+from tests.calling import Call
 from tests.view.serving import served
 from tests.view.test_following import Growing, write_rows
 from tests.view.test_recording import BEGUN_ANEW, MIND, TICKS, mind, whole
@@ -64,7 +60,7 @@ def day(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, Path, list[list
             stopped, fault = number % 20 < 3, number % 15 < 2
             recorder.write(
                 tick=tick, time=number / 20, stopped=stopped, armed=1, faults=[2 * fault], ages=[0.0],
-                readings=readings, influence=engine.influence, commands=commands, sent=commands,
+                readings=engine.readings, influence=engine.influence, commands=commands, sent=commands,
             )  # fmt: skip
             mood, pulse = (engine.readings[place[name]] for name in ("mood", "pulse"))
             held.append((bool(mood > 0.5 and pulse < 0.3), bool(engine.influence[turn] > 0.073)))
@@ -126,28 +122,6 @@ def test_rows_in_parts_of_any_size_stop_where_the_whole_does(
         found += part_by_part.feed(rows[part], readings[part])
     assert found == watching(about, bundle).feed(rows, readings)
     assert found
-
-
-def test_the_recording_of_a_run_stops_where_the_run_does(tmp_path: Path) -> None:
-    text = "stop when ball_bearing > 0.6\nstop when Turn influences left_wheel above 16%\nstop in tick 8\n"
-    path, rec, bundle = write_rules(tmp_path), tmp_path / "day.rec", tmp_path / "rules.bundle"
-    compiled = load(path)
-    setup = set_up(str(path), compiled, "Chase", None)
-    run = record_run(setup, setup.rollout(), 3)
-    assert not virtual_sensors(run.graph)
-    write_bundle(bundle, Bundle(setup.ready.policy, {}))
-    with Recorder(rec, About.of(run.graph, digest(bundle), setup.master, ("feeler",))) as recorder:
-        for tick in range(run.ticks):
-            recorder.write(
-                tick=tick, time=tick / 60, stopped=0, armed=1, faults=[0], ages=[0.0], readings=run.readings[tick],
-                influence=run.influence[tick], commands=run.commands[tick], sent=run.commands[tick],
-            )  # fmt: skip
-    of, parts = read(rec)
-    found = breakpoints(text, of, read_bundle(bundle))
-    (rows,) = parts
-    recorded = RecordingWatcher(found, of, read_bundle(bundle)).feed(rows, rows["readings"])
-    assert recorded == watcher(found, noticing(setup, found)).feed(run)
-    assert {stop.breakpoint.line for stop in recorded} == {1, 2, 3}
 
 
 def test_what_grows_stops_the_page_as_it_comes(tmp_path: Path) -> None:

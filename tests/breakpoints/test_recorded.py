@@ -1,0 +1,86 @@
+"""The recording of a run stops where the run does, whatever world it is of, in parts of any size."""
+
+from collections.abc import Iterator
+from pathlib import Path
+
+import numpy as np
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+from mindrun.bundle import Bundle
+from mindrun.engine import procedure_sources
+from mindrun.graph import Graph
+from mindrun.policy import Policy
+from mindrun.robot.recording import whole_rows
+from mindrun.robot.recording_header import about_of_line
+from mindrun.weights import reachable
+
+from mindlang.breakpoints.breakpoint import Breakpoint, Happens, Holds, Reaches, Transmission
+from mindlang.breakpoints.file import breakpoints_of
+from mindlang.breakpoints.recorded import RecordingWatcher, recording_subject
+from mindlang.breakpoints.watch import watcher
+from mindlang.compiler.source import Source
+from mindlang.lock.ready import ReadyMind
+from mindlang.run.recorded_run import record_run
+from mindlang.run.run_recording import run_bytes
+from mindlang.run.setup import RunSetup
+from tests.calling import Call
+from tests.hierarchies import PROCEDURES, SCALES
+from tests.sim.test_random_worlds import weights_for
+from tests.sim.worlds import random_world
+
+SLOW = [HealthCheck.too_slow, HealthCheck.data_too_large, HealthCheck.large_base_example]
+LEVEL = (("number", 0.4), (">", 0))
+
+
+def breakpoints(graph: Graph, actuators: int) -> Iterator[Breakpoint]:
+    """Every event, the first readings, so many commands, and all that a skill sends, above 0.4."""
+    causes: list[Holds | Happens | Reaches] = [Reaches(3)]
+    causes += [Happens(event, times) for event in graph.tasks[0].events for times in (0, 2)]
+    causes += [Holds((("reading", place), *LEVEL), (), ()) for place in range(min(4, graph.width))]
+    causes += [Holds((("command", place), *LEVEL), (), ()) for place in range(actuators)]
+    names = [skill.name for skill in graph.skills]
+    for skill in reachable(graph, graph.master):
+        for edge in skill.edges:
+            sent = Transmission(names.index(skill.name), edge.to, edge.target)
+            causes.append(Holds((("measure", 0), *LEVEL), (sent,), ()))
+    for line, cause in enumerate(causes, 1):
+        yield Breakpoint(line, "", cause)
+
+
+@settings(max_examples=20, suppress_health_check=SLOW)
+@given(random_world(), st.sampled_from(SCALES), st.integers(0, 2**64 - 1), st.lists(st.floats(0, 1), max_size=4))
+def test_the_recording_of_a_run_stops_where_the_run_does(
+    graph: Graph, scale: float, seed: int, cuts: list[float]
+) -> None:
+    policy = Policy(graph, weights_for(graph, scale, np.random.default_rng(seed % 1000)))
+    setup = RunSetup(graph.tasks[0], graph.master, ReadyMind(policy, (), ()), PROCEDURES)
+    run = record_run(setup, setup.rollout(), seed)
+    line, _, written = run_bytes(run, setup, seed).partition(b"\n")
+    about = about_of_line(line + b"\n", Path("run.rec"))
+    rows = np.concatenate([*whole_rows(Path("run.rec"), about, [written])])
+    is_late = not np.array_equal(rows["commands"], run.commands)  # a run has what reaches an actuator with a delay
+    asked = [*breakpoints(graph, 0 if is_late else len(graph.actuators))]
+    bundle = Bundle(policy, procedure_sources(graph, PROCEDURES))
+    watching, stops = RecordingWatcher(asked, about, bundle), []
+    for part in np.split(rows, sorted(int(cut * len(rows)) for cut in cuts)):
+        stops += watching.feed(part, part["readings"])
+    found = [(stop.tick, stop.breakpoint.line) for stop in stops]
+    assert found == [(stop.tick, stop.breakpoint.line) for stop in watcher(asked, setup).feed(run)]
+
+
+def test_events_of_its_task_are_found_in_a_recording_with_a_world(mindc: Call, rules: Path, tmp_path: Path) -> None:
+    from mindrun.robot.recording import read
+
+    from mindlang.run.running_bundle import running_bundle
+
+    rec = tmp_path / "run.rec"
+    assert mindc("run", rules, "--task", "Roam", "--seed", 3, "--record", rec).code == 0
+    about, (rows,) = read(rec)
+    bundle = running_bundle(rules, about)
+    text = "stop on collision\nstop on stopped\nstop when Turn influences left_wheel above 16%\n"
+    found = breakpoints_of(Source("a.break", text), recording_subject(about, bundle))
+    assert found.diagnostics == ()
+    stops = RecordingWatcher(found.breakpoints, about, bundle).feed(rows, rows["readings"])
+    assert [(stop.tick, stop.breakpoint.line) for stop in stops] == [(1, 3), (len(rows), 1)]
+    other = breakpoints_of(Source("a.break", "stop on visit of patch size 4"), recording_subject(about, bundle))
+    assert [each.code for each in other.diagnostics] == ["unnoticed-event"]
