@@ -82,7 +82,7 @@ def _event(written: syntax.Phrase, subject: Subject, findings: Findings) -> Even
 def _world_event(written: syntax.Phrase, subject: Subject, findings: Findings) -> EventKind | None:
     """An event that the task notices, or could without becoming another world."""
     if subject.task is None or subject.world is None:
-        hint = "Write a condition, such as stop when holding > 0.5, or one of its own: stopped, fault, fault of SENSOR."
+        hint = "Write a condition, such as stop when holding > 0.5, or what it does record: stopped, fault of SENSOR."
         message = "A robot does not record what happens in the world around it."
         findings.error("impossible-event", written.span, message, hint)
         return None
