@@ -35,12 +35,12 @@ def beginning(columns: Columns, world: RecordedWorld | None) -> Chunk:
 
 def blocks(rows: Rows, columns: Columns, readings: Singles) -> tuple[Doubles, Singles]:
     """Both blocks [ticks, columns] of rows whose readings are these; `flow` is not kept."""
-    names = [name for name in columns.groups if name != FLOW]
-    values = {name: _value(name, rows, readings).reshape(len(rows), columns[name].count) for name in names}
-    doubles, singles = (
-        [values[name] for name in names if columns[name].block == block] for block in (DOUBLE_BLOCK, SINGLE_BLOCK)
-    )
-    return np.concatenate(doubles, axis=1), np.concatenate(singles, axis=1).astype(np.float32)
+    values: dict[int, list[NDArray[Any]]] = {DOUBLE_BLOCK: [], SINGLE_BLOCK: []}
+    for name, group in columns.groups.items():
+        if name != FLOW:
+            values[group.block].append(_value(name, rows, readings).reshape(len(rows), group.count))
+    singles = [each.astype(np.float32) for each in values[SINGLE_BLOCK]]  # bits of readings stay what they are
+    return np.concatenate(values[DOUBLE_BLOCK], axis=1), np.concatenate(singles, axis=1)
 
 
 def _value(name: str, rows: Rows, readings: Singles) -> NDArray[Any]:

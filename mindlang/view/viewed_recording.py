@@ -145,7 +145,8 @@ def recording_chunks(
         if world:
             happened = np.concatenate([happened, world.in_rows(rows)], axis=1)
         doubles, singles = blocks(rows, columns, readings)
-        doubles[:, columns["time"].first] -= start
+        with np.errstate(invalid="ignore", over="ignore"):  # a recording may hold any number
+            doubles[:, columns["time"].first] -= start
         ended = outcome.ended_by(task, int(rows["world"]["ended"][-1])) if task else None
         yield Chunk(
             doubles,

@@ -3,7 +3,7 @@
 import json
 import zlib
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cache
 from hashlib import sha256
 from pathlib import Path
@@ -22,6 +22,7 @@ from mindrun.npy import to_npy
 from mindrun.policy import Policy
 from mindrun.robot.guardian import plan
 from mindrun.robot.recording import CHECKSUM_FIELD, About, Recorder
+from mindrun.robot.recording_header import RecordedWorld, world_row_of
 from mindrun.robot.replay import replay
 from mindrun.robot.timing_report import report
 from mindrun.sim.commanded_world import World
@@ -138,12 +139,16 @@ def use_plan(folder: Path) -> object:
 
 
 @cache
-def recorded() -> tuple[Graph, bytes]:
-    """A short recording, and the graph that it is of."""
+def recorded() -> tuple[Graph, About, bytes]:
+    """A short recording in a world, what it is of, and its graph."""
     graph = robot_graph("range_finder")
+    [task] = graph.tasks
+    row = world_row_of(task)["things"]
+    world = RecordedWorld.of(task, 7, np.ones((2, 4)), [1.0] * (3 + row.shape[0] * row.shape[1]))
+    about = replace(About.of(graph, BUNDLE, graph.master, ("sense",)), world=world)
     with TemporaryDirectory() as folder:
         path = Path(folder) / "day.rec"
-        with Recorder(path, About.of(graph, BUNDLE, graph.master, ("sense",))) as recorder:
+        with Recorder(path, about) as recorder:
             engine = Engine(Policy(graph, {}))
             for tick in range(5):
                 readings = np.full(graph.width, tick / 5, np.float32)
@@ -155,15 +160,15 @@ def recorded() -> tuple[Graph, bytes]:
                     commands=commands,
                     influence=engine.influence,
                 )
-        return graph, path.read_bytes()
+        return graph, about, path.read_bytes()
 
 
 def tampered_recording(rng: Random) -> dict[str, bytes]:
     """A recording with its first line changed, or rows of any bytes; the checksums are right."""
-    graph, data = recorded()
+    _, about, data = recorded()
     line, _, rest = data.partition(b"\n")
     if rng.random() < 0.3:
-        row = About.of(graph, BUNDLE, graph.master, ("sense",)).row
+        row = about.row
         noise = np.frombuffer(
             rng.choice((rng.randbytes(row.itemsize), b"\xff" * row.itemsize, bytes(row.itemsize))), row
         ).copy()

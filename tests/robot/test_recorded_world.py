@@ -88,6 +88,15 @@ def test_a_world_that_is_written_is_read_again(
     assert about_of_line(line_of(about), REC) == about
 
 
+def test_a_master_that_the_bundle_does_not_have_is_refused(mindc: Call, tmp_path: Path) -> None:
+    path = tmp_path / "day.rec"
+    path.write_bytes(recording_bytes(replace(read(REC)[0], master="Nobody"), np.concatenate([*read(REC)[1]])))
+    for words in (("view", path, BUNDLE, "--no-browser"), ("why", path, BUNDLE, "left_wheel")):
+        said = mindc(*words)
+        assert said.code == 2
+        assert "other columns than its bundle" in said.err
+
+
 def test_a_world_that_is_too_large_leaves_no_file(tmp_path: Path) -> None:
     about = read(REC)[0]
     assert about.world

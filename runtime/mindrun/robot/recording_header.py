@@ -111,6 +111,7 @@ class About:
         expected = replace(expected, world=self.world, lacks_readings=self.lacks_readings)
         if (
             self != expected
+            or self.master not in self.skills
             or not set(self.sensors) <= physical(graph).keys()
             or (self.world and (self.world.task, self.world.row) not in worlds)
         ):
