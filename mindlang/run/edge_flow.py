@@ -97,6 +97,11 @@ class FlowWalker:
             found[part] = flow.transmitted
         return found
 
+    @property
+    def kept_bytes(self) -> int:
+        """Of what is kept for rows that have been asked for."""
+        return self._values.kept_bytes
+
     def go_on(self, end: int) -> None:
         """Compute what remembers up to the row `end`: no row before it will be asked of `rows` any more."""
         with self._walking, np.errstate(all="ignore"):

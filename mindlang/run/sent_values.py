@@ -44,6 +44,11 @@ class SentValues:
         found[is_computed] = sent
         return found
 
+    @property
+    def kept_bytes(self) -> int:
+        """Of what was sent by functions that remember."""
+        return sum(kept.bytes for kept in self._kept.values())
+
     def go_on(self, end: int) -> None:
         """Compute what remembers up to the row `end`, so that no row before it is needed any more."""
         for kept in self._kept.values():
@@ -57,6 +62,11 @@ class _Kept:
         self._skill, self._rows, self._begins = skill, rows, begins
         self._blocks: list[Singles] = []  # [BLOCK_ROWS, edges] each
         self._known = 0  # how many rows are computed
+
+    @property
+    def bytes(self) -> int:
+        """Of the blocks so far."""
+        return sum(block.nbytes for block in self._blocks)
 
     def at(self, row: int) -> list[np.float32]:
         """What it sent in a row."""

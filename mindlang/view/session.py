@@ -172,7 +172,7 @@ class Session:
         viewed, loop = self.forks[fork], asyncio.get_running_loop()
         # Behind its last row a recording still has to say that it ends there, or that it is damaged.
         while not viewed.over and (viewed.known < self._wanted[fork] or viewed.known == viewed.about["of_ticks"]):
-            elsewhere = sum(each.blocks.kept_bytes for each in self.forks if each is not viewed)
+            elsewhere = sum(each.kept_bytes for each in self.forks if each is not viewed)
             await loop.run_in_executor(self._grower, viewed.grow, elsewhere)
             self.changed()
 

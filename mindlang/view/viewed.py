@@ -90,12 +90,17 @@ class Viewed:
         """The last tick that can be asked for."""
         return self.blocks.rows - 1
 
+    @property
+    def kept_bytes(self) -> int:
+        """Of its rows, and of what flowed in them."""
+        return self.blocks.kept_bytes + self.flows.walker.kept_bytes
+
     def grow(self, bytes_elsewhere: int = 0) -> None:
         """One chunk more; where a procedure fails, or memory ends, the run is over and `failed` says why.
 
         `bytes_elsewhere` are those of other runs, whose rows are kept at the same time.
         """
-        if bytes_elsewhere + self.blocks.kept_bytes > MAX_KEPT_BYTES:
+        if bytes_elsewhere + self.kept_bytes > MAX_KEPT_BYTES:
             self.failed, self.over = (
                 f"more than {MAX_KEPT_BYTES >> 30} GiB of rows, of a run and its forks together, are not kept",
                 True,

@@ -9,6 +9,7 @@ from mindrun.engine import Engine
 from mindrun.policy import Policy
 from mindrun.robot.recording import About, Recorder, RecordingError, read
 
+from mindlang.run.sent_values import BLOCK_ROWS
 from mindlang.view.command_shares import command_shares
 from mindlang.view.frames import unpacked
 from mindlang.view.messages import Why
@@ -135,6 +136,15 @@ def test_flow_is_of_the_memory_that_the_robot_had(day: tuple[Path, Path, list[tu
     turn = viewed.group("influence", np.arange(1, TICKS + 1))[:, 1]
     assert to_turn.tobytes() == turn.tobytes()
     assert 0 < turn.max() <= 1
+
+
+def test_what_a_network_that_remembers_has_sent_counts_as_kept(day: tuple[Path, Path, list[object]]) -> None:
+    viewed = whole(viewed_recording(*day[:2]))
+    before = viewed.kept_bytes
+    viewed.singles(np.array([TICKS]))
+    assert viewed.kept_bytes == before + 4 * 3 * BLOCK_ROWS
+    viewed.singles(np.arange(TICKS))
+    assert viewed.kept_bytes == before + 4 * 3 * BLOCK_ROWS
 
 
 def test_why_is_of_the_memory_that_the_robot_had(day: tuple[Path, Path, list[tuple[np.ndarray, np.ndarray]]]) -> None:
