@@ -105,6 +105,8 @@ def test_a_mistake_in_the_file_is_said_before_anything_moves(bundle: Path, tmp_p
     assert "nothing moves" in done.stderr
     assert not day.exists()
     assert mindrun(bundle, "--view", "--break", tmp_path / "none.break", "--record", day).returncode == 2
+    done = mindrun(bundle, "--view", "--break", breaks.rename(tmp_path / "day.txt"), "--record", day)
+    assert (done.returncode, "day.txt must end in .break" in done.stderr) == (2, True)
 
 
 @pytest.mark.parametrize("fault", [signal.SIGSTOP, signal.SIGKILL])

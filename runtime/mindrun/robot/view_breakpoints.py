@@ -13,6 +13,9 @@ def mistakes(breaks: Path, bundle: Path, task: str | None, master: str | None) -
     """
     if not find_spec("mindlang"):
         return []
+    for path, suffix in ((breaks, ".break"), (bundle, ".bundle")):
+        if path.suffix != suffix:
+            return [f"{path} must end in {suffix}: mindc knows by that what it is"]
     options = [*(("--task", task) if task else ()), *(("--master", master) if master else ())]
     # -P: a file of the user's folder that is named like a module must not be imported.
     command = [sys.executable, "-P", "-c", "from mindlang.cli import main; main()", "check", *options]
