@@ -1,10 +1,10 @@
 """What a robot's loop notices of being seen: python benchmarks/live_view.py [--rounds 3] [--ticks 900] [--json].
 
-The same dry run of Collect at real time, in turns: recorded alone, with `--view`, and with a page open in a Chromium
-without windows (where there is none: without). Late is how long after its time a tick began; pictures are the different
-ticks that the page has drawn, in a second; row µs is what the loop's recorder takes for a row, handed out each second,
-or at once. Where others use the machine, the simulated wheels may be too slow for the
-guardian, which ends a run: then it has fewer ticks. The browser stands for another machine, in a session of its own.
+The same dry run of Collect at real time, in turns: recorded alone; with `--view`; with a page elsewhere, of which only
+the questions are here; with a page in a Chromium on this machine (where there is none: without). Late is how long after
+its time a tick began; pictures are the different ticks that the page has drawn, or whose rows have come, in a second;
+row µs is what the loop's recorder takes for a row, handed out each second, or at once. Where others use the machine
+the simulated wheels may be too slow for the guardian, which ends a run: then it has fewer ticks.
 """
 
 import argparse
@@ -13,6 +13,7 @@ import os
 import re
 import subprocess
 import sys
+from collections.abc import Callable
 from contextlib import suppress
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -24,11 +25,14 @@ from mindrun.bundle import read_bundle
 from mindrun.named_readings import physical
 from mindrun.robot.recording import About, Recorder, read
 from numpy.typing import NDArray
+from websockets.sync.client import connect
+from websockets.typing import Origin
 
 COLLECT = Path(__file__).parents[1] / "examples" / "collect" / "collect.mind"
 MINDC = (sys.executable, "-c", "from mindlang.cli import main; main()")
 MINDRUN = (sys.executable, "-m", "mindrun")
-SITUATIONS = ("recorded alone", "--view", "--view, a page open")
+SITUATIONS = ("recorded alone", "--view", "page elsewhere", "page here")
+MILLISECONDS_OF_TICK = 8  # in which it is counted what is seen
 CLOCK_TICKS = 0.01  # by which the first tick may have been later than those after it
 PICTURES = """milliseconds => new Promise((done) => {
   let [frames, drawn, last] = [0, 0, ""];
@@ -55,6 +59,26 @@ def pictures(address: str, milliseconds: int) -> tuple[float, float]:
     return frames, drawn
 
 
+def questions(address: str, milliseconds: int) -> tuple[float, float]:
+    """What a page at an address asks for: each newest row. No frames, and how many rows have come in a second."""
+    page, _, token = address.partition("#")
+    origin = Origin(page.rstrip("/"))
+    rows, end = 0, perf_counter() + milliseconds / 1e3
+    with connect(f"ws{page.removeprefix('http')}rows", origin=origin, compression=None, max_size=None) as connection:
+        connection.send(token)
+        while perf_counter() < end:
+            said = connection.recv()
+            if isinstance(said, bytes):
+                rows += 1
+            elif (message := json.loads(said))["say"] == "ticks":
+                asked = {"say": "rows", "from": message["known"], "to": message["known"] + 1}
+                connection.send(json.dumps(asked))
+    return 0.0, 1e3 * rows / milliseconds
+
+
+SEEN: dict[str, Callable[[str, int], tuple[float, float]]] = {"page elsewhere": questions, "page here": pictures}
+
+
 def lateness(times: NDArray[np.float64], tick: float) -> tuple[NDArray[np.float64], int]:
     """How late each tick has begun, in milliseconds, and how many were missed, as `robot/rate.py` counts them."""
     since = times - times[0]
@@ -70,9 +94,9 @@ def driven(bundle: Path, day: Path, situation: str, ticks: int) -> tuple[NDArray
     with subprocess.Popen(words, stderr=subprocess.PIPE, text=True) as process:
         assert process.stderr
         for line in process.stderr:
-            if situation == SITUATIONS[2] and (address := re.search(r"http://127\S+", line)):
-                page = [sys.executable, __file__, "--page", address[0], "--milliseconds", str(ticks * 5)]
-                browser = subprocess.run(page, capture_output=True, text=True, check=False, start_new_session=True)
+            if situation in SEEN and (address := re.search(r"http://127\S+", line)):
+                see = [sys.executable, __file__, "--see", situation, address[0], str(ticks * MILLISECONDS_OF_TICK)]
+                browser = subprocess.run(see, capture_output=True, text=True, check=False, start_new_session=True)
                 with suppress(ValueError):  # there is none, or the run has ended
                     drawn = json.loads(browser.stdout)
     about, parts = read(day)
@@ -106,7 +130,7 @@ def measured(rounds: int, ticks: int) -> list[dict[str, Any]]:
                 found[name].append(driven(bundle, Path(folder) / f"{number}-{place}.rec", name, ticks))
         costs = [row_microseconds(bundle, Path(folder) / f"{at_once}.rec", at_once, ticks) for at_once in (False, True)]
     rows = [summed(name, runs) for name, runs in found.items()]
-    return [row | {"row µs": cost} for row, cost in zip(rows, [*costs, costs[1]], strict=True)]
+    return [row | {"row µs": cost} for row, cost in zip(rows, [costs[0], *[costs[1]] * len(SITUATIONS)], strict=False)]
 
 
 def summed(name: str, runs: list[tuple[NDArray[np.float64], int, list[float]]]) -> dict[str, Any]:
@@ -124,12 +148,12 @@ def main() -> None:
     parser = argparse.ArgumentParser(allow_abbrev=False, description=__doc__)
     parser.add_argument("--rounds", type=int, default=3)
     parser.add_argument("--ticks", type=int, default=900)
-    parser.add_argument("--page", help=argparse.SUPPRESS)
-    parser.add_argument("--milliseconds", type=int, help=argparse.SUPPRESS)
+    parser.add_argument("--see", nargs=3, help=argparse.SUPPRESS)
     parser.add_argument("--json", action="store_true")
     options = parser.parse_args()
-    if options.page:
-        print(json.dumps(pictures(options.page, options.milliseconds)))
+    if options.see:
+        situation, address, milliseconds = options.see
+        print(json.dumps(SEEN[situation](address, int(milliseconds))))
         return
     rows = measured(options.rounds, options.ticks)
     if options.json:
