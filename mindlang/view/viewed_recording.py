@@ -18,6 +18,7 @@ from mindrun.robot.replay import computed_again
 from mindrun.virtual_sensors import virtual_sensors
 from numpy.typing import NDArray
 
+from mindlang.breakpoints.recorded import task_of
 from mindlang.run import outcome
 from mindlang.run.running_bundle import running_bundle
 from mindlang.view.about_hierarchy import HierarchyData
@@ -66,7 +67,7 @@ def viewed_rows(
     `of_ticks` says how many there are, None that it still grows. MindError where both do not fit.
     """
     found = running_bundle(bundle, of)
-    task = next((task for task in found.graph.tasks if of.world and task.name == of.world.task), None)
+    task = task_of(of, found)
     begins: set[int] = set()  # filled while the rows come
     mind = SeenMind.of(found.policy, found.procedures, of.master, begins)
     columns = recording_columns(found, of, mind.edges)
