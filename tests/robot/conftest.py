@@ -1,21 +1,37 @@
 """A robot that has said how it is wired."""
 
+import os
+import signal
+from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
 from mindrun.bundle import Bundle, write_bundle
 from mindrun.policy import Policy
+from mindrun.robot.device_locks import DrivenError, hold_devices
 from mindrun.robot.identity import adopt
 
-from tests.robot.driving import wiring
+from tests.robot.driving import children, until, wiring
 from tests.robot.faults import graph
 
 
 @pytest.fixture
-def bundle(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """A bundle that this robot is wired for."""
+def bundle(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Path]:
+    """A bundle that this robot is wired for. Nobody drives it any more when the test ends, even where that fails."""
     monkeypatch.setenv("MIND_ROBOT", str(tmp_path / "robot" / "identity"))
     path = tmp_path / "mind.bundle"
     write_bundle(path, Bundle(Policy(graph("bearing"), {}), {}, wiring()))
     adopt(wiring(), graph("bearing"))
-    return path
+    yield path
+    for pid in children(os.getpid(), str(path)):
+        os.kill(pid, signal.SIGKILL)
+    until(is_free)
+
+
+def is_free() -> bool:
+    """Whether nobody drives the robot: a guardian that was left lets it go once all is at neutral."""
+    try:
+        with hold_devices(wiring()):
+            return True
+    except DrivenError:
+        return False
