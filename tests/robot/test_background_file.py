@@ -4,11 +4,14 @@ import os
 from io import BytesIO
 from pathlib import Path
 from threading import Event
+from threading import enumerate as enumerate_threads
 from typing import Any
 
 import pytest
+from mindrun.robot import background_file
 from mindrun.robot.background_file import BackgroundFile
 from mindrun.robot.recording import About, Recorder, RecordingError, read
+from mindrun.robot.temporary_recording import TemporaryRecorder
 
 from tests.robot.driving import until
 from tests.robot.faults import graph
@@ -43,6 +46,51 @@ def test_nobody_waits_for_a_slow_card_until_the_end() -> None:
     assert card.getvalue() == b"".join(rows)
     file.close()
     assert card.closed
+
+
+def test_a_card_that_takes_nothing_any_more_fails_before_memory_is_full(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(background_file, "MAX_WAITING_BYTES", 1000)
+    card = SlowCard()
+    file = BackgroundFile(card)
+    for _ in range(11):
+        file.write(bytes(100))
+    with pytest.raises(TimeoutError):
+        file.write(bytes(100))
+    card.ready.set()
+    file.flush()
+    file.write(bytes(100))  # it was only slow
+    file.close()
+
+
+def test_a_recording_that_cannot_begin_leaves_nothing_open(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    full = tmp_path / "full"
+    full.symlink_to("/dev/full")
+    monkeypatch.setattr(Path, "open", lambda path, mode: open(path, "wb"))  # noqa: PTH123, SIM115  "x" refuses it
+    before = {thread.name for thread in enumerate_threads()}, len(os.listdir("/proc/self/fd"))  # noqa: PTH208
+    for at_once in (False, True):
+        with pytest.raises(OSError, match="No space left"):
+            Recorder(full, about(), at_once=at_once)
+    assert ({thread.name for thread in enumerate_threads()}, len(os.listdir("/proc/self/fd"))) == before  # noqa: PTH208
+
+
+def test_what_is_recorded_for_a_viewer_alone_is_given_up_where_there_is_no_room(tmp_path: Path) -> None:
+    day, told = tmp_path / "day.rec", list[str]()
+    with TemporaryRecorder(day, about(), told.append, at_once=True) as recorder:
+        recorder.write(tick=0)
+        recorder._file.flush()
+        full = os.open("/dev/full", os.O_WRONLY)
+        os.dup2(full, recorder._file.fileno())
+        os.close(full)
+
+        def is_told() -> bool:
+            recorder.write(tick=1)
+            return bool(told)
+
+        until(is_told)
+        for tick in range(2, 20):
+            recorder.write(tick=tick)
+    assert told == [f"nothing more is seen, and the robot drives on: {day} cannot be written: No space left on device"]
+    assert [int(row["tick"]) for rows in read(day)[1] for row in rows] == [0]
 
 
 def test_each_row_is_seen_without_another_one_after_it(tmp_path: Path) -> None:

@@ -17,9 +17,10 @@ from mindrun.robot.drive import DriveOptions, drive
 from mindrun.robot.drivers.mock import MockActuator
 from mindrun.robot.dry_run import DryRun, beginning, outcome
 from mindrun.robot.identity import IdentityError, is_adopted
-from mindrun.robot.live_view import live_view, temporary_recording
+from mindrun.robot.live_view import live_view
 from mindrun.robot.loop import Loop
 from mindrun.robot.seen_world import SeenWorld
+from mindrun.robot.temporary_recording import temporary_recording
 from mindrun.robot.view_breakpoints import mistakes
 from mindrun.status_line import StatusLine
 from mindrun.wiring import still
@@ -33,7 +34,9 @@ def run(options: argparse.Namespace) -> int:
     if not options.arm:
         line.tell("nothing will move: --arm lets it")
     with _seen(options, line.tell) as (record, view):
-        drive_options = DriveOptions(options.arm, record, options.ticks, options.master, view)
+        drive_options = DriveOptions(
+            options.arm, record, options.ticks, options.master, view, is_kept=bool(options.record)
+        )
         loop = (_dry if options.dry else _wired)(options, bundle, drive_options, line)
     line.tell(_summary(loop))
     return 0

@@ -22,6 +22,7 @@ from mindrun.robot.recording import About, Recorder
 from mindrun.robot.sampling import Sampler
 from mindrun.robot.seen_world import SeenWorld
 from mindrun.robot.stop_signals import Stop, stopping
+from mindrun.robot.temporary_recording import TemporaryRecorder
 from mindrun.wiring import Wiring, read_by
 
 FIRST_READING_SECONDS = 10.0  # for every sensor to have been measured once
@@ -38,7 +39,8 @@ class DriveOptions:
     """What is asked for: whether anything may move, where to record to, after how many ticks to end (0: never).
 
     `master` is another skill than the mind's own to be in charge. `view` is entered for as long as there is a
-    recording, of which it can read each tick at once; `world` is that of a dry run, to be recorded.
+    recording, of which it can read each tick at once; `world` is that of a dry run, to be recorded. The robot stops
+    where a recording that `is_kept` cannot be written; one that is not is given up.
     """
 
     armed: bool = False
@@ -47,6 +49,7 @@ class DriveOptions:
     master: str | None = None
     view: AbstractContextManager[None] | None = None
     world: SeenWorld | None = None
+    is_kept: bool = True
 
 
 def drive(
@@ -70,7 +73,7 @@ def drive(
     with ExitStack() as stack:
         stop = stack.enter_context(stopping(STOP_SECONDS * max(1.0, graph.tick)))
         about = About.of(graph, digest, options.master or graph.master, tuple(wire.sensor for wire in wiring.sensors))
-        recorder = stack.enter_context(_recorder(options, about))
+        recorder = stack.enter_context(_recorder(options, about, tell))
         stack.enter_context(options.view or nullcontext())
         samplers = stack.enter_context(_sampling(wiring))
         guardian = stack.enter_context(Guardian(plan_of(graph.tick, neutrals, wiring), inherited=held))
@@ -85,16 +88,19 @@ def drive(
         return loop
 
 
-def _recorder(options: DriveOptions, about: About) -> AbstractContextManager[Recorder | None]:
+def _recorder(
+    options: DriveOptions, about: About, tell: Callable[[str], None]
+) -> AbstractContextManager[Recorder | None]:
     """The recorder that is wished for; DriveError where it would write over something, or cannot write."""
-    path, world = options.record, options.world
+    path, world, latest = options.record, options.world, None
     if path is None:
         return nullcontext()
-    at_once = options.view is not None
+    if world is not None:
+        about, latest = replace(about, world=world.about), world.latest
     try:
-        if world is None:
-            return Recorder(path, about, at_once=at_once)
-        return Recorder(path, replace(about, world=world.about), at_once=at_once, world=world.latest)
+        if not options.is_kept:
+            return TemporaryRecorder(path, about, tell, at_once=True, world=latest)
+        return Recorder(path, about, at_once=options.view is not None, world=latest)
     except FileExistsError:
         raise DriveError(f"{path} exists already", "record to another file, or delete it") from None
     except OSError as error:

@@ -13,7 +13,6 @@ from contextlib import contextmanager
 from importlib.util import find_spec
 from pathlib import Path
 from shlex import quote
-from tempfile import TemporaryDirectory
 from threading import Event, Thread
 
 from mindrun.errors import reason
@@ -27,14 +26,6 @@ PROGRAM = (
     f"end_with_parent(int(sys.argv.pop(1)), signal.SIGKILL); os.nice({VIEWER_NICENESS}); "
     "from mindlang.cli import main; main()"
 )
-
-
-@contextmanager
-def temporary_recording(tell: Callable[[str], None]) -> Iterator[Path]:
-    """A path for a recording that goes away at the end."""
-    with TemporaryDirectory(prefix="mind-") as folder:
-        tell("recorded for the view alone, and deleted at the end: --record FILE keeps it")
-        yield Path(folder) / "live.rec"
 
 
 @contextmanager

@@ -49,11 +49,16 @@ class Recorder:
         self._path = path
         file = path.open("xb")
         self._file = BackgroundFile(file) if at_once else file
+        try:
+            self._file.write(line)
+            self._file.flush()  # somebody may follow it already
+        except OSError:
+            with suppress(OSError):  # it would say the same again
+                self._file.close()
+            raise
         self._ending = Event()
         self._syncing = Thread(target=self._sync, args=(every,), name="recording", daemon=True)
         self._syncing.start()
-        self._file.write(line)
-        self._file.flush()  # somebody may follow it already
         self._flush_every, self._flushed = inf if at_once else every, 0.0
 
     def write(self, **columns: Any) -> None:
