@@ -103,8 +103,8 @@ class Session:
             case Change():
                 await self._fork(message)
                 return None
-        loop = asyncio.get_running_loop()
-        return await loop.run_in_executor(self._answerer, self._computed, message)
+        viewed = self.forks[message.fork]  # another run may be seen when it is this question's turn
+        return await asyncio.get_running_loop().run_in_executor(self._answerer, _computed, viewed, message)
 
     async def _play(self, asked: PlayChampion) -> None:
         """See the champion of another generation."""
@@ -149,20 +149,6 @@ class Session:
             self._waits = what
             self.changed()
 
-    def _computed(self, message: Message) -> bytes | dict[str, Any]:
-        viewed = self.forks[message.fork]
-        try:
-            match message:
-                case AskRows(fork, first, below, every, ask):
-                    return viewed.rows(fork, first, below, every, ask)
-                case AskColumns(fork, columns, first, below, every, ask):
-                    return viewed.some_columns(fork, columns, first, below, every, ask)
-                case Why():
-                    return command_shares(viewed, message)
-        except MindError as error:
-            raise RefusedError(f"{error}") from error
-        raise RefusedError("that is no question")
-
     def _run(self, fork: int, to: int) -> None:
         self._wanted[fork] = max(self._wanted[fork], to)
         if fork not in self._growing or self._growing[fork].done():
@@ -175,6 +161,20 @@ class Session:
             elsewhere = sum(each.kept_bytes for each in self.forks if each is not viewed)
             await loop.run_in_executor(self._grower, viewed.grow, elsewhere)
             self.changed()
+
+
+def _computed(viewed: Viewed, message: Message) -> bytes | dict[str, Any]:
+    try:
+        match message:
+            case AskRows(fork, first, below, every, ask):
+                return viewed.rows(fork, first, below, every, ask)
+            case AskColumns(fork, columns, first, below, every, ask):
+                return viewed.some_columns(fork, columns, first, below, every, ask)
+            case Why():
+                return command_shares(viewed, message)
+    except MindError as error:
+        raise RefusedError(f"{error}") from error
+    raise RefusedError("that is no question")
 
 
 def _begun(forked: Callable[[Change], Fork], change: Change) -> Fork:

@@ -53,7 +53,7 @@ class SeenMind:
         return sum(len(skill.edges) for skill in self.skills)
 
 
-@dataclass(slots=True)
+@dataclass(eq=False, slots=True)
 class Viewed:
     """`about` is what does not change, `chunks` what is still to come; the first chunk begins with tick 0.
 

@@ -1,5 +1,6 @@
 """Several who see the same run: who may change it, what they hear, and how one who does not listen is dropped."""
 
+import asyncio
 import json
 import socket
 from contextlib import suppress
@@ -16,7 +17,7 @@ from websockets.exceptions import ConnectionClosed
 from mindlang.view import server
 from mindlang.view.frames import MAX_FRAME_BYTES, unpacked
 from mindlang.view.http_answers import SECURITY
-from mindlang.view.messages import Change
+from mindlang.view.messages import AskRows, Change
 from mindlang.view.session import Session
 from mindlang.view.viewed import Fork
 from tests.view.serving import ANSWER_SECONDS, UPGRADE, Served, ViewingClient, prepared, request, served, simulated
@@ -244,6 +245,24 @@ def test_rows_are_bounded_over_a_run_and_its_forks(path: Path, monkeypatch: pyte
     assert 0 < told["known"] < 1200
     first, fork = session.forks
     assert limit < first.blocks.kept_bytes + fork.blocks.kept_bytes < 2 * first.blocks.kept_bytes
+
+
+def test_a_question_is_about_the_run_that_was_seen_when_it_was_asked(path: Path) -> None:
+    """Another run is seen before it is its turn: that one has no fork."""
+    session, held = Session(simulated(path)), Event()
+    session.forks.append(simulated(path))
+
+    async def asked() -> bytes | dict[str, Any] | None:
+        session._answerer.submit(held.wait)
+        asking = asyncio.create_task(session.answer(AskRows(1, 0, 10, 1, 7), edits=False))
+        await asyncio.sleep(0)
+        session._see(simulated(path))
+        held.set()
+        return await asking
+
+    answer, columns = asyncio.run(asked()), session.forks[0].columns
+    assert isinstance(answer, bytes)
+    assert unpacked(answer, columns.width(0), columns.width(1))[:2] == (1, 7)
 
 
 @pytest.mark.parametrize(
