@@ -15,7 +15,7 @@ from mindlang.breakpoints.recorded import RecordingWatcher, recording_subject
 from mindlang.compiler.source import Source
 from mindlang.view.viewed_recording import followed_recording
 from tests.view.browser import Opened, chromium
-from tests.view.serving import served
+from tests.view.serving import Served, served
 from tests.view.test_following import Growing, write_rows
 
 
@@ -28,8 +28,8 @@ def browser() -> Iterator[Any]:
 class LivePage:
     """A page, and the robot that records for it."""
 
-    def __init__(self, day: Growing, recorder: Recorder, page: Opened) -> None:
-        self.page, self._day, self._recorder = page, day, recorder
+    def __init__(self, day: Growing, recorder: Recorder, view: Served, page: Opened) -> None:
+        self.view, self.page, self._day, self._recorder = view, page, day, recorder
         self.ticks = 0
 
     def record(self, ticks: int) -> None:
@@ -59,7 +59,7 @@ def live_page(folder: Path, browser: Any, breaks: str = "", ticks: int = 0) -> I
             while viewed.known < ticks:
                 sleep(0.01)
             page = Opened(browser, f"http://{view.host}/#{view.token}")
-            live = LivePage(day, recorder, page)
+            live = LivePage(day, recorder, view, page)
             live.ticks = ticks
             yield live
             page.close()
@@ -114,6 +114,19 @@ def test_it_pauses_where_a_breakpoint_says_and_the_robot_drives_on(tmp_path: Pat
         live.page.page.click("#live")
         live.record(50)
         live.wait(90, is_live=False)
+
+
+@pytest.mark.parametrize("is_live", [True, False])
+def test_a_connection_that_breaks_leaves_it_where_it_was(tmp_path: Path, browser: Any, is_live: bool) -> None:
+    with live_page(tmp_path, browser) as live:
+        live.record(30)
+        live.wait(30, is_live=True)
+        if not is_live:
+            live.page.jump(7)
+        live.view.drop()
+        live.page.wait("!document.querySelector('#notice').hidden")
+        live.record(10)
+        live.wait(40 if is_live else 7, is_live)
 
 
 def test_what_is_over_has_nothing_to_stay_with(browser: Any, tmp_path: Path) -> None:

@@ -207,3 +207,17 @@ def test_the_page_plays_the_champion_that_is_clicked(taught: Path) -> None:
         page.click("#show-values")
         assert page.is_visible("#curves .u-over")
         opened.close()
+
+
+def test_what_was_learnt_is_told_again_through_another_connection_and_counted_once(taught: Path) -> None:
+    champions, viewed = begun(taught / "runs")
+    with chromium() as browser, served(viewed, champions) as view:
+        opened = Opened(browser, f"http://{view.host}/#{view.token}")
+        told = "document.querySelector('#learning-runs .kind')?.textContent"
+        opened.wait(f"{told} > 0")
+        generations = opened.page.inner_text("#learning-runs .kind")
+        view.drop()
+        opened.wait("!document.querySelector('#notice').hidden")
+        opened.wait(f"document.querySelector('#notice').hidden && {told} > 0")
+        assert opened.page.inner_text("#learning-runs .kind") == generations
+        opened.close()

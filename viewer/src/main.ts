@@ -21,11 +21,14 @@ function said(message: Said, send: Send): void {
 
 /** Shows a run: in the place of one of the same shape, or in a new page. */
 function show(about: About, send: Send): void {
-  const tick = isLost ? view?.playback.tick : undefined;
+  const { tick, following } = view?.playback ?? { tick: 0, following: false };
+  const wasLost = isLost;
+  if (wasLost) trainings.restart();
   isLost = false;
   noTrouble();
   if (view?.restart(about)) {
-    if (tick !== undefined) view.playback.jump(tick);
+    if (wasLost && following) view.playback.end();
+    else if (wasLost) view.playback.jump(tick);
     return;
   }
   view?.leave();

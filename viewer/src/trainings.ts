@@ -14,6 +14,11 @@ export class Trainings {
   readonly runs: Training[] = [];
   newest: [run: number, attempt: number, generation: number] = [0, 0, 0];
 
+  /** All is told once more, through another connection. */
+  restart(): void {
+    this.runs.length = 0;
+  }
+
   hear(said: Learnt): void {
     const before = this.runs[said.run]?.generations ?? [];
     this.runs[said.run] = {
