@@ -8,8 +8,6 @@ from functools import partial
 from pathlib import Path
 
 from mindrun.changes import Change, ChangeError
-from mindrun.errors import BundleError
-from mindrun.robot.recording_header import RecordingError
 from mindrun.sim.rollout import Rollout
 
 from mindlang.cli._recordings import refusing_recordings
@@ -58,7 +56,7 @@ def compare_runs(file: str, played: Played, request: Request, as_json: bool, qui
     try:
         changes = _changes(Path(file), (theirs or ours)[0], request)
         compared = _compared(ours, theirs, request.tick, changes, played.seed)
-    except (ChangeError, RecordingError, BundleError) as error:
+    except ChangeError as error:
         fail(str(error), error.hint, MISUSE)
     _say_where_recordings_end(session, request, changes, compared)
     if as_json:
@@ -70,7 +68,7 @@ def compare_runs(file: str, played: Played, request: Request, as_json: bool, qui
         session.say(f"{played.picture}: both paths of the robot")
 
 
-@procedures_talk()
+@refusing_recordings()
 def _changes(file: Path, setup: RunSetup, request: Request) -> Sequence[Change]:
     return changes_of(request, setup.ready.policy.graph, setup.master, file)
 

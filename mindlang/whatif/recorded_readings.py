@@ -44,12 +44,14 @@ def recorded_readings(
             f"a tick of {path} is {about.tick:g} s, and one of this run {graph.tick:g} s",
             "take a recording of a mind with the same tick",
         )
-    rows = np.concatenate([part["readings"][:, sensor.start : sensor.start + sensor.width] for part in parts])
+    columns = slice(sensor.start, sensor.start + sensor.width)
+    nothing = np.zeros((0, sensor.width), np.float32)  # a recording may have no row
+    rows = np.concatenate([nothing, *(part["readings"][:, columns] for part in parts)])
     if len(rows) < first:
         raise ChangeError(f"{path} has {len(rows):,} ticks: there is no tick {first:,}", "say an earlier one")
     end = len(rows) if last is None else min(last, len(rows))
-    columns = rows[first - 1 : end].astype(float).T.tolist()
-    return tuple(Change("reading", begin.row + k, tuple(column), first, end) for k, column in enumerate(columns))
+    read_then = rows[first - 1 : end].astype(float).T.tolist()
+    return tuple(Change("reading", begin.row + k, tuple(column), first, end) for k, column in enumerate(read_then))
 
 
 def _bundle(path: Path, about: About, running: Path | None, name: str, is_said: bool) -> Bundle:

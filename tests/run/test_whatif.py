@@ -120,6 +120,8 @@ def test_a_sensor_reads_what_was_recorded_tick_by_tick_and_then_its_own(
         ("feeler=no.rec", "cannot read no.rec"),
         ("feeler={mind}.rec", "is no recording of this mindrun"),
         ("feeler={rec},{other}", "is not what was recorded"),
+        ("feeler={folder}/empty.rec", "has 0 ticks: there is no tick 1"),
+        ("feeler={rec},{folder}/damaged.mind", "damaged.lock is damaged"),
     ],
 )
 def test_a_recording_that_does_not_fit_is_refused_in_a_sentence(
@@ -128,7 +130,10 @@ def test_a_recording_that_does_not_fit_is_refused_in_a_sentence(
     without = rules.with_name("without.mind")
     without.write_text(rules.read_text().replace("feeler", "felt"))
     rules.with_name("rules.mind.rec").write_text("no recording\n")
-    words = words.format(rec=other, mind=rules, other=without)
+    rules.with_name("empty.rec").write_bytes(other.read_bytes().partition(b"\n")[0] + b"\n")
+    rules.with_name("damaged.mind").write_text(rules.read_text())
+    rules.with_name("damaged.lock").write_text("no lock\n")
+    words = words.format(rec=other, mind=rules, other=without, folder=rules.parent)
     answer = mindc("whatif", rules, *PLAYED, "--sensor", words)
     assert (answer.code, answer.out) == (2, "")
     assert said in answer.err
