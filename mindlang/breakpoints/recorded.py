@@ -7,7 +7,6 @@ from typing import Any
 
 import numpy as np
 from mindrun.bundle import Bundle
-from mindrun.graph import Task
 from mindrun.robot.recording_header import About
 from mindrun.think import hierarchy
 from numpy.typing import NDArray
@@ -16,6 +15,7 @@ from mindlang.breakpoints.breakpoint import Breakpoint
 from mindlang.breakpoints.robot_events import robot_events, times
 from mindlang.breakpoints.subject import Subject
 from mindlang.breakpoints.watch import Part, Stop, Watcher
+from mindlang.run.running_bundle import task_of
 
 
 class RecordingWatcher:
@@ -43,8 +43,3 @@ class RecordingWatcher:
 def recording_subject(of: About, mind: Bundle) -> Subject:
     """What the breakpoints of a recording are about, made with the mind of this bundle."""
     return Subject.of_recording(mind.graph, of.master, of.sensors, task_of(of, mind))
-
-
-def task_of(of: About, mind: Bundle) -> Task | None:
-    """The task in whose world it was recorded; None of a robot's."""
-    return next((task for task in mind.graph.tasks if of.world and task.name == of.world.task), None)

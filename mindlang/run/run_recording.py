@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 from mindlang.lock.ready import ReadyMind
 from mindlang.run.recorded_run import Floats, RecordedRun
-from mindlang.run.running_bundle import bundle_digest
+from mindlang.run.running_bundle import bundle_digest, task_of
 from mindlang.run.setup import RunSetup
 
 Rows = NDArray[Any]
@@ -105,9 +105,9 @@ def recorded_rows(about: About, first: int, written: Written, events: NDArray[np
 
 def run_of(about: About, rows: Rows, mind: Bundle, folder: Path) -> RecordedRun:
     """The run whose recording this is; of a dry run, as its world was seen tick by tick."""
-    assert about.world
-    world, said = rows["world"], about.world
-    task = next(task for task in mind.graph.tasks if task.name == said.task)
+    task, world, said = task_of(about, mind), rows["world"], about.world
+    assert said
+    assert task
     begin = np.array(said.begin, np.float64)
     things = np.concatenate([begin[POSE_COLUMNS:].reshape(1, -1, THING_COLUMNS), world["things"]])
     return RecordedRun(

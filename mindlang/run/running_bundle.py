@@ -1,4 +1,4 @@
-"""The bundle that was running when a recording was made: read from its file, or built in memory from its source."""
+"""What was running when a recording was made: the bundle, read or built in memory from its source, and the task."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ from pathlib import Path
 
 from mindrun.bundle import Bundle, digest, pack, read_bundle
 from mindrun.engine import procedure_sources
+from mindrun.graph import Task
 from mindrun.robot.recording_header import About, RecordingError
 
 from mindlang.compiler.compile import load
@@ -29,6 +30,11 @@ def running_bundle(path: Path, of: About) -> Bundle:
         )
     of.refuse_another(sha, found.graph)
     return found
+
+
+def task_of(of: About, mind: Bundle) -> Task | None:
+    """The task in whose world a recording was made, with the mind of this bundle; None of a robot's."""
+    return next((task for task in mind.graph.tasks if of.world and task.name == of.world.task), None)
 
 
 def bundle_digest(ready: ReadyMind, folder: Path) -> str:

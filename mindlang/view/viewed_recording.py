@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 
 from mindlang.breakpoints.recorded import task_of
 from mindlang.run import outcome
-from mindlang.run.running_bundle import running_bundle
+from mindlang.run.running_bundle import running_bundle, task_of
 from mindlang.view.about_hierarchy import HierarchyData
 from mindlang.view.about_world import run_data
 from mindlang.view.columns import FLOW, Columns
