@@ -18,9 +18,9 @@ EXAMPLES = """\b
 Examples:
   mindc check collect.mind
   mindc check examples/*.mind --json
-  mindc check collect.break                        against collect.mind beside it
+  mindc check collect.break                    against collect.mind beside it
   mindc check collect.mind wheels.break --task Collect
-  mindc check day.break ball.bundle                on the robot that it drives
+  mindc check day.break ball.bundle            on the robot that it drives
   cat collect.mind | mindc check -
 """
 

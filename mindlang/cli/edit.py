@@ -14,7 +14,8 @@ if TYPE_CHECKING:
 EXAMPLES = """\b
 Examples:
   mindc edit rename Avoid Dodge --noun skill collect.mind
-  mindc edit encapsulate Collect CarefulCollect --with Avoid --reads proximity collect.mind --write
+  mindc edit encapsulate Collect CarefulCollect --with Avoid \\
+    --reads proximity collect.mind --write
 """
 
 

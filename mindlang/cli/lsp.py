@@ -6,7 +6,7 @@ import click
 
 EXAMPLES = """\b
 Examples:
-  mindc lsp            as an editor starts it: docs/editors.md says how to set it up
+  mindc lsp  as an editor starts it: docs/editors.md says how to set it up
 """
 
 

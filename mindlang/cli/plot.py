@@ -18,7 +18,7 @@ EXAMPLES = """\b
 Examples:
   mindc plot runs/GoToObject/20260714T120000Z-1
   mindc plot runs/GoToObject runs/Avoid -o curves.png
-  mindc plot runs                               every run beneath it, side by side
+  mindc plot runs                           every run beneath it, side by side
   mindc plot GoToObject.csv.gz --json
 """
 PATH = click.Path(path_type=Path)

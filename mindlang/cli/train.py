@@ -12,9 +12,10 @@ from mindlang.cli._terminal import INTERRUPTED, MISUSE, OK, fail
 
 EXAMPLES = """\b
 Examples:
-  mindc train collect.mind                      every lesson that has no weights or stale ones
+  mindc train collect.mind    every lesson that has no weights or stale ones
   mindc train collect.mind GoToObject --generations 50 --seed 1
-  mindc train on_the_job.mind --scale 0.1 --attempts 3       a tenth of the generations, the best of three
+  mindc train on_the_job.mind --scale 0.1      a tenth of the generations
+  mindc train on_the_job.mind --attempts 3     the best of three
   mindc train --resume runs/GoToObject/20260714T120000Z-1
 """
 

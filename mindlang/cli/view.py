@@ -16,14 +16,14 @@ EXAMPLES = """\b
 Examples:
   mindc view collect.mind
   mindc view collect.mind --task Collect --seed 3
-  mindc view day.rec ball.bundle                 what a robot has recorded
-  mindc view run.rec collect.mind                what mindc run --record has written
+  mindc view day.rec ball.bundle           what a robot has recorded
+  mindc view run.rec collect.mind          what mindc run --record has written
   mindc view collect.mind --task Collect --break collect.break
-  mindc view day.rec ball.bundle --follow        and what it still records
-  mindc view day.rec ball.bundle --break day.break   pauses where the robot had to stop, say
-  mindc view robot.local:day.rec ball.bundle --follow    through ssh
-  mindc view runs/                               what is being learnt, and champions of any generation
-  mindc view collect.mind --task Avoid --no-interruption --port 8123 --no-browser
+  mindc view day.rec ball.bundle --follow  and what it still records
+  mindc view day.rec ball.bundle --break day.break  where it had to stop, say
+  mindc view robot.local:day.rec ball.bundle --follow  through ssh
+  mindc view runs/                         what is being learnt, and champions
+  mindc view collect.mind --no-interruption --port 8123 --no-browser
   mindc view collect.mind --task Collect --export run.html
 """
 MAX_PORT = 65535

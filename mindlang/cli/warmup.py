@@ -6,7 +6,7 @@ import click
 
 EXAMPLES = """\b
 Examples:
-  mindc warmup                  in an image, or on each kind of machine of a cluster
+  mindc warmup          in an image, or on each kind of machine of a cluster
   mindc warmup --json
 """
 

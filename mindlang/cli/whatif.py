@@ -11,11 +11,11 @@ from mindlang.cli._options import OF_A_RUN, OF_RUNS_ALONE, NewFile, WholeOption,
 EXAMPLES = """\b
 Examples:
   mindc whatif collect.mind --task Collect --seed 3 --tick 812 --without Avoid
-  mindc whatif collect.mind --task Collect --seed 3 --sensor proximity=1 --picture paths.png
-  mindc whatif collect.mind --task Collect --seed 3 --tick 812 --set object_bearing=0.5 --ticks 60
-  mindc whatif collect.mind --task Collect --seed 3 --tick 812 --without Avoid --json
-  mindc whatif collect.mind --task Collect --seed 3 --tick 812 --with other.mind
-  mindc whatif collect.mind --task Collect --seed 3 --sensor proximity=other.rec
+  mindc whatif collect.mind --seed 3 --sensor proximity=1 --picture paths.png
+  mindc whatif collect.mind --tick 812 --set object_bearing=0.5 --ticks 60
+  mindc whatif collect.mind --seed 3 --tick 812 --without Avoid --json
+  mindc whatif collect.mind --seed 3 --tick 812 --with other.mind
+  mindc whatif collect.mind --seed 3 --sensor proximity=other.rec
   mindc whatif day.rec ball.bundle --without Avoid
 """
 

@@ -13,7 +13,7 @@ Examples:
   mindc why collect.mind --task Collect --seed 3 --tick 800..812 reward
   mindc why collect.mind --task Collect --seed 3 claw --json
   mindc why day.rec ball.bundle --tick 812 left_wheel
-  mindc why run.rec collect.mind --tick 812 left_wheel      of mindc run --record
+  mindc why run.rec collect.mind --tick 812 left_wheel   of mindc run --record
 """
 
 

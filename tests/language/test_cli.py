@@ -9,6 +9,7 @@ from pathlib import Path
 import click
 import pytest
 
+from mindlang.cli import commands
 from tests.calling import Call
 from tests.language.examples import COLLECT, EXAMPLES, RIGHT, TOUR
 
@@ -138,6 +139,14 @@ def test_the_quick_commands_import_nothing_heavy(arguments: list[str]) -> None:
 
 def test_colours_only_on_a_terminal() -> None:
     assert "\x1b" not in process("check", WRONG, NO_COLOR="", FORCE_COLOR="").stderr
+
+
+@pytest.mark.parametrize("command", ["", *commands.list_commands(click.Context(commands))])
+def test_help_fits_into_80_columns(mindc: Call, monkeypatch: pytest.MonkeyPatch, command: str) -> None:
+    monkeypatch.setenv("COLUMNS", "80")
+    said = mindc(*command.split(), "--help")
+    assert said.code == 0
+    assert [line for line in said.out.splitlines() if len(line) > 80] == []
 
 
 @pytest.mark.parametrize("group", ["", "edit"])
