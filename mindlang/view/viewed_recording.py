@@ -18,7 +18,6 @@ from mindrun.robot.replay import computed_again
 from mindrun.virtual_sensors import virtual_sensors
 from numpy.typing import NDArray
 
-from mindlang.breakpoints.recorded import task_of
 from mindlang.run import outcome
 from mindlang.run.running_bundle import running_bundle, task_of
 from mindlang.view.about_hierarchy import HierarchyData
