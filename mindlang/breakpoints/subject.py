@@ -14,6 +14,7 @@ from mindlang.compiler.resolve.kinds import Scope
 from mindlang.compiler.resolve.tasks import World
 from mindlang.compiler.source import Source, Span
 from mindlang.compiler.syntax import Declaration, Header, Name
+from mindlang.run.setup import RunSetup
 
 NOWHERE = Span(Source("", ""), 0, 0)  # where what is in a graph was declared
 
@@ -32,6 +33,11 @@ class Subject:
     task: Task | None
     sensors: tuple[str, ...] | None = None
     is_recorded: bool = False
+
+    @classmethod
+    def of_run(cls, names: Names, setup: RunSetup) -> Subject:
+        """A run that is set up: its skills and readings stand where its lock has them, not where they are declared."""
+        return cls(names, setup.ready.policy.graph, setup.master, setup.task)
 
     @classmethod
     def of_recording(cls, graph: Graph, master: str, sensors: tuple[str, ...], task: Task | None = None) -> Subject:

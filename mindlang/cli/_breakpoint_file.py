@@ -22,7 +22,7 @@ from mindlang.run.setup import RunSetup
 def breakpoints_of_run(path: Path, compiled: Compiled, setup: RunSetup) -> tuple[Breakpoint, ...]:
     """The breakpoints of a run that is set up."""
     assert compiled.mind
-    return _read(path, Subject(compiled.mind.names, setup.ready.policy.graph, setup.master, setup.task))
+    return _read(path, Subject.of_run(compiled.mind.names, setup))
 
 
 def watching_recordings(path: Path) -> Callable[[About, Bundle], RecordingWatcher]:

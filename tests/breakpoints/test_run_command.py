@@ -2,6 +2,7 @@
 
 import json
 from pathlib import Path
+from textwrap import dedent
 from typing import Any
 
 import numpy as np
@@ -15,6 +16,7 @@ from mindlang.compiler.source import Source
 from mindlang.run.recorded_run import RecordedRun, record_run
 from mindlang.run.setup import set_up
 from tests.calling import Call
+from tests.language.examples import COLLECT, ROOT
 
 CHASE = ("--task", "Chase", "--seed", 3)
 
@@ -37,7 +39,7 @@ def recorded(rules: Path, task: str, text: str) -> tuple[RecordedRun, list[tuple
     compiled = load(rules)
     setup = set_up(str(rules), compiled, task, None)
     assert compiled.mind
-    subject = Subject(compiled.mind.names, setup.ready.policy.graph, setup.master, setup.task)
+    subject = Subject.of_run(compiled.mind.names, setup)
     read = breakpoints_of(Source("a.break", text), subject)
     assert read.diagnostics == ()
     noticed = noticing(setup, read.breakpoints)
@@ -45,6 +47,25 @@ def recorded(rules: Path, task: str, text: str) -> tuple[RecordedRun, list[tuple
     watching = watcher(read.breakpoints, noticed)
     stops = [stop for first in range(0, run.ticks, 50) for stop in watching.feed(part(run, first, first + 50))]
     return run, [(stop.tick, stop.breakpoint.line) for stop in stops]
+
+
+def test_the_document_in_python_stops_where_the_command_does(
+    mindc: Call, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Of a mind whose lock has its skills in another order than they are declared in."""
+    code = (
+        (ROOT / "docs" / "breakpoints.md").read_text().partition("## From Python\n")[2].partition("\nOf a recording")[0]
+    )
+    path, text = tmp_path / "collect.break", "stop when Avoid influences left_wheel above 70% and holding > 0.5\n"
+    monkeypatch.chdir(tmp_path)
+    data = found(mindc, COLLECT, path, text, "--task", "Collect", "--seed", 3)
+    compiled = load(COLLECT)
+    setup = set_up(str(COLLECT), compiled, "Collect", None)
+    assert compiled.graph
+    assert compiled.graph.skills != setup.ready.policy.graph.skills
+    scope = {"compiled": compiled, "setup": setup, "rows": record_run(setup, setup.rollout(), 3)}
+    exec(dedent(code), scope)
+    assert scope["stops"][0].tick == data["stopped"]["tick"]  # type: ignore[attr-defined]
 
 
 def test_it_says_where_why_and_what_has_come_of_the_run(mindc: Call, rules: Path, breaks: Path) -> None:

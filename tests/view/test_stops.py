@@ -24,7 +24,7 @@ def test_stops_are_those_of_the_whole_run(path: Path) -> None:
     compiled = load(path)
     setup = set_up(str(path), compiled, "Chase", None)
     assert compiled.mind is not None
-    subject = Subject(compiled.mind.names, setup.ready.policy.graph, setup.master, setup.task)
+    subject = Subject.of_run(compiled.mind.names, setup)
     found = breakpoints_of(Source("chase.break", BREAKS), subject)
     assert found.diagnostics == ()
     setup = noticing(setup, found.breakpoints)
