@@ -74,7 +74,7 @@ def command(
         _follow(file, bundle, breaks, output)
     elif Path(file).is_dir():
         _show_training(file, seed, output)
-    elif bundle:
+    elif bundle is not None:
         _show_recording(file, bundle, breaks, output)
     else:
         from mindlang.cli._run_view import ViewChoice, run_view

@@ -64,6 +64,7 @@ def _still(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     monkeypatch.setenv("PATH", "")
     monkeypatch.setattr("mindlang.cli._run_session.RunSession.score", stopped)
     monkeypatch.setattr("mindlang.cli._trainer.train", stopped)
+    monkeypatch.setattr("mindlang.view.server.ViewServer.serve", stopped)
     write_rules(tmp_path)
     (tmp_path / "log.csv").write_text(LOG)
 

@@ -104,6 +104,12 @@ def test_what_is_no_port_is_refused(rules: Path, mindc: Call, port: object) -> N
     assert mindc("view", rules, "--port", port).code == 2
 
 
+def test_a_bundle_without_a_name_is_no_run(rules: Path, mindc: Call) -> None:
+    said = mindc("view", rules, "", "--no-browser")
+    assert said.code == 2
+    assert "is no recording" in said.err
+
+
 def test_a_browser_with_windows_is_opened_and_no_other(monkeypatch: pytest.MonkeyPatch) -> None:
     """One that runs in a terminal would take the one that the command runs in."""
     opened, done = [], Event()
