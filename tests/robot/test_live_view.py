@@ -90,6 +90,7 @@ def test_a_robot_is_seen_while_it_drives(bundle: Path, temporary: Path) -> None:
     assert os.getpriority(os.PRIO_PROCESS, viewer) == live.VIEWER_NICENESS + os.getpriority(
         os.PRIO_PROCESS, process.pid
     )
+    assert Path(f"/proc/{viewer}/oom_score_adj").read_text(encoding="ascii") == "1000\n"
     process.terminate()
     _, err = process.communicate(timeout=PATIENCE)
     assert (process.returncode, is_gone(viewer)) == (0, True), err
@@ -160,6 +161,19 @@ def test_where_the_usual_port_is_taken_another_one_serves(bundle: Path, temporar
         assert until_address(process) != live.PAGE_PORT
         process.terminate()
         process.communicate(timeout=PATIENCE)
+
+
+def test_of_robots_that_begin_together_one_has_the_usual_port(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The other's viewer takes another, however long this one takes to open it."""
+    with socket.create_server(("127.0.0.1", 0)) as somebody:
+        port = somebody.getsockname()[1]
+        monkeypatch.setattr(live, "PAGE_PORT", port)
+        with live._usual_port() as taken:
+            assert taken is None
+    with live._usual_port() as first, live._usual_port() as second:
+        assert (first, second) == (port, None)
+    with live._usual_port() as again:
+        assert again == port
 
 
 @pytest.mark.parametrize("stopped", [False, True])

@@ -34,7 +34,7 @@ def hold_devices(wiring: Wiring) -> Iterator[tuple[int, ...]]:
     DrivenError where one does already.
     """
     with ExitStack() as stack:
-        yield tuple(stack.enter_context(_bound_address(what)) for what in claims(wiring))
+        yield tuple(stack.enter_context(bound_address(what)) for what in claims(wiring))
 
 
 def claims(wiring: Wiring) -> tuple[str, ...]:
@@ -45,7 +45,8 @@ def claims(wiring: Wiring) -> tuple[str, ...]:
 
 
 @contextmanager
-def _bound_address(what: str) -> Iterator[int]:
+def bound_address(what: str) -> Iterator[int]:
+    """Hold what has this name; a descriptor that goes on holding it. DrivenError where another process does."""
     address = PREFIX + sha256(what.encode()).hexdigest().encode()
     with socket.socket(socket.AF_UNIX) as listener:
         try:

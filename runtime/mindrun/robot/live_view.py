@@ -9,21 +9,24 @@ import socket
 import subprocess
 import sys
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import ExitStack, contextmanager, suppress
 from importlib.util import find_spec
 from pathlib import Path
 from shlex import quote
 from threading import Event, Thread
 
 from mindrun.errors import reason
+from mindrun.robot.device_locks import DrivenError, bound_address
 
 PAGE_PORT = 8123  # tried first, so that the tunnel to a robot is the same each time
 MAX_LINE_CHARACTERS = 4096
 SERVER_ADDRESS = 2  # of the words of SSH_CONNECTION: client, its port, server, its port
 VIEWER_NICENESS = 10
+END_SECONDS = 1.0  # for a viewer that was killed: one that waits for a disk ends later, by itself
 PROGRAM = (
-    "import os, signal, sys; from mindrun.robot.parent_process import end_with_parent; "
-    f"end_with_parent(int(sys.argv.pop(1)), signal.SIGKILL); os.nice({VIEWER_NICENESS}); "
+    "import signal, sys; from mindrun.robot.parent_process import end_with_parent; "
+    "from mindrun.robot.low_priority import give_way; "
+    f"end_with_parent(int(sys.argv.pop(1)), signal.SIGKILL); give_way({VIEWER_NICENESS}); "
     "from mindlang.cli import main; main()"
 )
 
@@ -42,12 +45,31 @@ def live_view(
         tell(f"mindc view {quote(f'{_host()}:{recording.absolute()}')} {quote(bundle.name)} --follow{pausing}")
         yield
         return
-    try:
-        viewer = _begin(recording, bundle, port, breaks)
-    except OSError as error:
-        tell(f"there is no view, and the robot drives on: it cannot be started ({reason(error)})")
+    with ExitStack() as stack:
+        try:
+            viewer = _begin(recording, bundle, port or stack.enter_context(_usual_port()), breaks)
+        except OSError as error:
+            tell(f"there is no view, and the robot drives on: it cannot be started ({reason(error)})")
+        else:
+            stack.enter_context(_heard(viewer, tell))
         yield
-        return
+
+
+@contextmanager
+def _usual_port() -> Iterator[int | None]:
+    """PAGE_PORT, which no other robot takes before its viewer has; None where it is taken."""
+    with ExitStack() as stack:
+        try:
+            stack.enter_context(bound_address(f"port {PAGE_PORT}"))
+        except (DrivenError, OSError):
+            yield None
+        else:
+            yield PAGE_PORT if _is_free(PAGE_PORT) else None
+
+
+@contextmanager
+def _heard(viewer: "subprocess.Popen[str]", tell: Callable[[str], None]) -> Iterator[None]:
+    """Listen to a viewer, and end it in the end."""
     ending = Event()
     listening = Thread(target=_listen, args=(viewer, ending, tell), name="live_view", daemon=True)
     listening.start()
@@ -56,15 +78,16 @@ def live_view(
     finally:
         ending.set()
         viewer.kill()
-        viewer.wait()
+        with suppress(subprocess.TimeoutExpired):
+            viewer.wait(END_SECONDS)
 
 
 def _begin(recording: Path, bundle: Path, port: int | None, breaks: Path | None) -> "subprocess.Popen[str]":
     """The viewer. It ends with the thread that calls this."""
     # -P: a file of the user's folder that is named like a module must not be imported.
     words = [sys.executable, "-P", "-c", PROGRAM, str(os.getpid()), "view", "--follow", "--no-browser", "-q"]
-    if port or _is_free(PAGE_PORT):
-        words += ["--port", str(port or PAGE_PORT)]
+    if port:
+        words += ["--port", str(port)]
     if breaks:
         words += ["--break", str(breaks)]
     return subprocess.Popen(
