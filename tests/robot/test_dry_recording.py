@@ -9,6 +9,7 @@ from threading import Event, Thread
 from time import monotonic, sleep
 
 import numpy as np
+import pytest
 from mindrun.bundle import Bundle, write_bundle
 from mindrun.policy import Policy
 from mindrun.robot.recording import read
@@ -20,6 +21,7 @@ from mindrun.sim.commanded_world import World
 
 from mindlang.compiler.compile import load
 from mindlang.view.viewed_recording import viewed_recording
+from tests.calling import RULES
 from tests.robot.driving import MINDRUN, PATIENCE
 
 NEVER_SECONDS = 1e6  # no tick of the world but those of the test
@@ -78,8 +80,25 @@ def test_it_has_where_the_robot_was_what_was_paid_and_how_it_ended(rules: Path, 
         assert (viewed.about["task"], viewed.about["seed"]) == ("Roam", "5")
 
 
-def test_a_recorder_waits_for_no_world(rules: Path) -> None:
+def test_it_has_its_end_however_long_a_tick_is(tmp_path: Path) -> None:
+    """A row is a tick late: the loop goes on until the end is in one."""
+    text = RULES.replace("tick 1/60 s", "tick 1/5 s").replace("lasts 600 ticks", "lasts 4 ticks")
+    (tmp_path / "rules.mind").write_text(text, encoding="utf-8")
+    graph = load(tmp_path / "rules.mind").graph
+    assert graph
+    bundle = tmp_path / "rules.bundle"
+    write_bundle(bundle, Bundle(Policy(graph, {}), {}))
+    for number in range(3):
+        day = tmp_path / f"{number}.rec"
+        words = [*MINDRUN, bundle, "--dry", "--arm", "--task", "Roam", "--record", day]
+        assert subprocess.run([*map(str, words)], timeout=PATIENCE * 3, check=False).returncode == 0
+        rows = np.concatenate([*read(day)[1]])
+        assert (rows["world"]["ended"][0], rows["world"]["ended"][-1]) == (-3, -1)
+
+
+def test_a_recorder_waits_for_no_world(rules: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """What was answered last is recorded, however long the world is silent, and what it answers then a row later."""
+    monkeypatch.setattr("mindrun.robot.drivers.simulated.EXCHANGE_SECONDS", PATIENCE)
     graph = load(rules).graph
     assert graph
     world = World(graph, "Roam", 3)
@@ -97,6 +116,13 @@ def test_a_recorder_waits_for_no_world(rules: Path) -> None:
             end = monotonic() + PATIENCE
             while seen.latest()["pose"][0].tolist() != list(world.pose):
                 assert monotonic() < end
+                sleep(0.01)
+            assert not seen.has_ended
+            while world.ended is None:
+                world.step([1.0, 0.0])
+            while not seen.has_ended:
+                assert monotonic() < end
+                seen.latest()
                 sleep(0.01)
     assert list(world.pose) != first
 

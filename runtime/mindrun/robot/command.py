@@ -5,6 +5,7 @@ import sys
 from collections.abc import Callable, Iterator
 from contextlib import AbstractContextManager, contextmanager, nullcontext, suppress
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 
 from mindrun.bundle import Bundle, digest, read_bundle
@@ -100,11 +101,17 @@ def _dry(options: argparse.Namespace, bundle: Bundle, drive_options: DriveOption
         wiring = dry(bundle.graph, socket)
         run = DryRun(bundle.graph, task, master, socket, line)
         with run.shown(), _watched(task, options.seed, socket, drive_options) as watched:
-            loop = drive(bundle, digest(options.bundle), wiring, watched, line.tell, watch=run.watch)
+            watch = partial(_goes_on, run, watched.world)
+            loop = drive(bundle, digest(options.bundle), wiring, watched, line.tell, watch=watch)
         with suppress(DeviceError):  # the run was as good without it
             for sentence in outcome(task, master, status(socket)):
                 line.tell(sentence)
         return loop
+
+
+def _goes_on(run: DryRun, world: SeenWorld | None, loop: Loop) -> bool:
+    """After each tick: until the run is over, and a recording has its end."""
+    return run.watch(loop) or (world is not None and not world.has_ended)
 
 
 @contextmanager

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from mindrun.driver import DeviceError
 from mindrun.graph import Task
 from mindrun.robot.drivers.simulated import WorldConnection
-from mindrun.robot.recording_header import BOX_COLUMNS, RecordedWorld, world_row_of
+from mindrun.robot.recording_header import BOX_COLUMNS, GOES_ON, RecordedWorld, world_row_of
 from mindrun.robot.simulated_world.protocol import BOXES, WORLD
 
 
@@ -20,7 +20,7 @@ class SeenWorld:
 
     def __init__(self, task: Task, seed: int, socket: str) -> None:
         self._row, self._link = world_row_of(task), WorldConnection(socket)
-        self._latest = self._asked()
+        self._latest = self._recorded = self._asked()
         self._wanted, self._is_over = Event(), False
         boxes = np.frombuffer(self._link.ask(BOXES), "<f8").reshape(-1, BOX_COLUMNS)
         begin = [*self._latest["pose"][0], *self._latest["things"][0].ravel()]
@@ -32,7 +32,13 @@ class SeenWorld:
         The thread asks anew at once, while the loop has nothing to do until its next tick.
         """
         self._wanted.set()
-        return self._latest
+        self._recorded = self._latest
+        return self._recorded
+
+    @property
+    def has_ended(self) -> bool:
+        """Whether the row that `latest` returned last says how the run has ended."""
+        return bool(self._recorded["ended"][0] != GOES_ON)
 
     @contextmanager
     def watched(self) -> Iterator[None]:
