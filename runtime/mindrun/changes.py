@@ -104,7 +104,7 @@ def _place(graph: Graph, what: What, name: str) -> tuple[str, int, int]:
         case "reading":
             noun, places = "sensor", {sensor.name: (sensor.start, sensor.width) for sensor in graph.sensors}
         case "influence":
-            noun, places = "skill", {skill.name: (number, 1) for number, skill in enumerate(graph.skills)}
+            noun, places = "skill", {name: (number, 1) for name, number in graph.skill_numbers.items()}
         case "memory":
             noun, places = "memory", {memory.name: (memory.start, 1) for memory in graph.memories}
     if name not in places:
