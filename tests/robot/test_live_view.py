@@ -14,10 +14,12 @@ from threading import Timer
 import pytest
 from mindrun.bundle import Bundle, digest, read_bundle, write_bundle
 from mindrun.policy import Policy
+from mindrun.printable import visible
 from mindrun.robot import live_view as live
 from mindrun.robot.drive import DriveOptions, drive
 from mindrun.robot.loop import Loop
 from mindrun.robot.recording import read
+from mindrun.robot.view_breakpoints import mistakes
 
 from mindlang.view.growing_bytes import remote
 from tests.robot.driving import MINDRUN, PATIENCE, begun, children, mindrun, until, wiring
@@ -257,6 +259,21 @@ def test_what_cannot_be_started_is_said(monkeypatch: pytest.MonkeyPatch, tmp_pat
     monkeypatch.setattr("sys.executable", str(tmp_path / "none"))
     (said,) = heard(tmp_path / "day.rec", tmp_path / "ball.bundle")
     assert said.startswith("there is no view, and the robot drives on: it cannot be started (")
+
+
+def test_what_a_viewer_says_last_moves_no_cursor(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    monkeypatch.setattr(live, "PROGRAM", "print('mind: \\x1b[2Jfrog')")
+    told: list[str] = []
+    with live.live_view(tmp_path / "day.rec", tmp_path / "ball.bundle", None, told.append):
+        until(lambda: told)
+    assert told == ["the view has ended, and the robot drives on: " + visible("mind: \x1b[2Jfrog")]
+    assert told[0].isprintable()
+
+
+def test_where_mindc_dies_the_breakpoints_are_not_called_right(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    monkeypatch.setattr("sys.executable", "false")
+    said = mistakes(tmp_path / "day.break", tmp_path / "ball.bundle", None, None)
+    assert said == [f"{tmp_path / 'day.break'} cannot be looked at: mindc ended with 1"]
 
 
 def test_through_ssh_the_tunnel_is_told_that_leads_to_the_page(

@@ -16,6 +16,7 @@ from shlex import quote
 from threading import Event, Thread
 
 from mindrun.errors import reason
+from mindrun.printable import visible
 from mindrun.robot.device_locks import DrivenError, bound_address
 
 PAGE_PORT = 8123  # tried first, so that the tunnel to a robot is the same each time
@@ -113,7 +114,7 @@ def _listen(viewer: "subprocess.Popen[str]", ending: Event, tell: Callable[[str]
                 why = line.strip()
     code = viewer.wait()
     if not ending.is_set():
-        tell(f"the view has ended, and the robot drives on: {why or f'exit {code}'}")
+        tell(f"the view has ended, and the robot drives on: {visible(why) or f'exit {code}'}")
 
 
 def _tell_address(address: str, tell: Callable[[str], None]) -> None:

@@ -27,4 +27,6 @@ def mistakes(breaks: Path, bundle: Path, task: str | None, master: str | None) -
         errors="replace",
         check=False,
     )
-    return done.stderr.rstrip().split("\n") if done.returncode else []
+    if not done.returncode:
+        return []
+    return (done.stderr.rstrip() or f"{breaks} cannot be looked at: mindc ended with {done.returncode}").split("\n")
