@@ -62,7 +62,8 @@ class ViewedRun:
         setup, graph = self.setup, self.setup.ready.policy.graph
         columns = run_columns(setup, 0)
         change = replacement(graph, setup.task, columns, asked)
-        return Fork(replace(self, changes=(*self.changes, change)).begun(), replacement_text(graph, change))
+        beside = replace(self, changes=(*self.changes, change), breakpoints=())  # the page pauses where the run does
+        return Fork(beside.begun(), replacement_text(graph, change))
 
     def _about(self, run: Trace, mind: SeenMind, columns: Columns) -> dict[str, Any]:
         setup, task, graph = self.setup, self.setup.task, self.setup.ready.policy.graph

@@ -41,5 +41,11 @@ def test_stops_are_those_of_the_whole_run(path: Path) -> None:
         while not (told := viewer.hear("ticks"))["over"]:
             heard += told["stops"]
         heard += told["stops"]
+        column = viewed.about["nodes"][0]["columns"][0]
+        viewer.say(say="change", tick=5, what="reading", value=0.9, lasts=1, column=column)
+        beside = viewer.hear("fork")["fork"]
+        while (told := viewer.hear("ticks"))["fork"] != beside or not told["over"]:
+            assert not told["stops"]
+        assert not told["stops"]
     assert heard == expected
     assert {text.split(":")[0] for _, text in heard} == {"line 2", "line 3", "line 4", "line 5"}
