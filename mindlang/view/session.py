@@ -14,6 +14,7 @@ from mindlang.view.columns import DOUBLE_BLOCK, SINGLE_BLOCK
 from mindlang.view.command_shares import command_shares
 from mindlang.view.learning import WATCH_SECONDS
 from mindlang.view.messages import MAX_FORKS, AskColumns, AskRows, Change, Message, PlayChampion, RefusedError, Run, Why
+from mindlang.view.texts import error_text
 from mindlang.view.viewed import Fork, Viewed
 
 if TYPE_CHECKING:
@@ -114,7 +115,7 @@ class Session:
         try:
             viewed = await asyncio.get_running_loop().run_in_executor(self._grower, self.champions.begin, *given)
         except MindError as error:
-            raise RefusedError(f"{error}") from error
+            raise RefusedError(error_text(error)) from error
         self._see(viewed)
         self.number += 1
         self.changed()
@@ -131,7 +132,7 @@ class Session:
         try:
             fork = await loop.run_in_executor(self._grower, _begun, of.forked, change)
         except MindError as error:
-            raise RefusedError(f"{error}") from error
+            raise RefusedError(error_text(error)) from error
         finally:
             self._wait(None)
         if of not in self.forks:
@@ -173,7 +174,7 @@ def _computed(viewed: Viewed, message: Message) -> bytes | dict[str, Any]:
             case Why():
                 return command_shares(viewed, message)
     except MindError as error:
-        raise RefusedError(f"{error}") from error
+        raise RefusedError(error_text(error)) from error
     raise RefusedError("that is no question")
 
 

@@ -19,7 +19,7 @@ from mindlang.view.columns import DOUBLE_BLOCK, FLOW, SINGLE_BLOCK, Columns
 from mindlang.view.frames import columns_frame, rows_frame, rows_that_fit
 from mindlang.view.messages import Change, RefusedError
 from mindlang.view.row_blocks import Chunk, Doubles, RowBlocks, Singles, TickNumbers
-from mindlang.view.texts import shown
+from mindlang.view.texts import error_text, shown
 
 FLOW_ROWS = 1024  # of a curve of what an edge transmits
 MAX_COMPUTED_EDGES = 200_000  # in one answer, so that nobody waits long for another's
@@ -109,7 +109,7 @@ class Viewed:
         try:
             chunk = next(self.chunks, None)
         except MindError as error:
-            self.failed = shown(f"{error} {error.hint}".strip())
+            self.failed = error_text(error)
             chunk = None
         except OSError as error:
             self.failed, chunk = shown(reason(error)), None

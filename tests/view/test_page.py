@@ -339,7 +339,7 @@ def test_why_is_asked_again_after_a_connection_that_broke(browser: Any, mind: Pa
         found.wait("!document.querySelector('#notice').hidden")
         found.wait("document.querySelector('#notice').hidden")
         found.wait("document.body.dataset.tick === '640'")
-        for _ in range(100):
+        for _ in range(400):
             if sum('"why"' in said for said in found.sent) > asked:
                 break
             found.page.wait_for_timeout(50)

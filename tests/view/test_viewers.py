@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 import pytest
 from mindrun.changes import change_of
+from mindrun.errors import MindError
 from mindrun.sim.trace import trace
 from websockets.exceptions import ConnectionClosed
 
@@ -85,6 +86,18 @@ def test_what_a_change_waits_for_is_said_until_it_has_come(path: Path) -> None:
         assert viewer.hear("fork")["fork"] == 1
         while viewer.hear("ticks")["waits"]:
             pass
+
+
+def test_a_change_that_cannot_be_made_is_refused_with_what_to_do(path: Path) -> None:
+    viewed = simulated(path)
+
+    def failing(change: Change) -> Fork:
+        raise MindError("this cannot be", "do that")
+
+    viewed.forked = failing
+    with served(viewed) as view, view.viewer() as viewer:
+        viewer.say(**CHANGE, column=viewer.hear("about")["nodes"][0]["columns"][0])
+        assert viewer.hear("refused")["why"] == "this cannot be; do that"
 
 
 def test_who_comes_when_the_first_has_left_may_change(path: Path) -> None:
