@@ -29,6 +29,7 @@ ADDRESS = re.compile(r"seen live at http://127\.0\.0\.1:(\d+)/#\S{43}\n")
 VIEWER = "--follow"
 VIEWER_PATIENCE = 300.0  # it gives way to all else, so that on a busy machine it takes long to begin
 TICKS = 40
+MOST_NICENESS = 19  # that the system knows
 
 
 def viewer_of(process: "subprocess.Popen[str]") -> int:
@@ -89,9 +90,8 @@ def test_a_robot_is_seen_while_it_drives(bundle: Path, temporary: Path) -> None:
     client.request("GET", "/")
     assert client.getresponse().status == 200
     viewer = viewer_of(process)
-    assert os.getpriority(os.PRIO_PROCESS, viewer) == live.VIEWER_NICENESS + os.getpriority(
-        os.PRIO_PROCESS, process.pid
-    )
+    own = os.getpriority(os.PRIO_PROCESS, process.pid)
+    assert os.getpriority(os.PRIO_PROCESS, viewer) == min(MOST_NICENESS, live.VIEWER_NICENESS + own)
     assert Path(f"/proc/{viewer}/oom_score_adj").read_text(encoding="ascii") == "1000\n"
     process.terminate()
     _, err = process.communicate(timeout=PATIENCE)
