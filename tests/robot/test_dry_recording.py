@@ -7,17 +7,22 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from threading import Event, Thread
 from time import monotonic, sleep
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 from mindrun.bundle import Bundle, write_bundle
+from mindrun.engine import Engine
 from mindrun.policy import Policy
+from mindrun.robot.command import _goes_on
+from mindrun.robot.dry_run import DryRun
 from mindrun.robot.recording import read
 from mindrun.robot.replay import replay_recording
 from mindrun.robot.seen_world import SeenWorld
 from mindrun.robot.simulated_world.scene import SimulatedScene
 from mindrun.robot.simulated_world.server import Server, listening
 from mindrun.sim.commanded_world import World
+from mindrun.status_line import StatusLine
 
 from mindlang.compiler.compile import load
 from mindlang.view.viewed_recording import viewed_recording
@@ -96,6 +101,22 @@ def test_it_has_its_end_however_long_a_tick_is(tmp_path: Path) -> None:
         assert (rows["world"]["ended"][0], rows["world"]["ended"][-1]) == (-3, -1)
 
 
+def test_a_run_whose_recording_never_gets_the_end_ends(rules: Path) -> None:
+    """So it is where a recording for a viewer alone was given up."""
+    graph = load(rules).graph
+    assert graph
+    world = World(graph, "Roam", 3)
+    with served(SimulatedScene(world)) as path:
+        seen = SeenWorld(world.task, 3, path)
+        run = DryRun(graph, world.task, "Roam", path, StatusLine(lambda sentence: None))
+        run._is_over = True
+        loop, more = SimpleNamespace(engine=Engine(Policy(graph, {}))), iter(range(3))
+        assert [_goes_on(run, seen, more, loop) for _ in range(5)] == [True, True, True, False, False]  # type: ignore[arg-type]
+        assert not _goes_on(run, None, iter(range(3)), loop)  # type: ignore[arg-type]
+        with seen.watched():
+            pass
+
+
 def test_a_recorder_waits_for_no_world(rules: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """What was answered last is recorded, however long the world is silent, and what it answers then a row later."""
     monkeypatch.setattr("mindrun.robot.drivers.simulated.EXCHANGE_SECONDS", PATIENCE)
@@ -129,8 +150,6 @@ def test_a_recorder_waits_for_no_world(rules: Path, monkeypatch: pytest.MonkeyPa
 
 def test_a_world_is_the_run_of_mindc_column_by_column(rules: Path) -> None:
     """Under the commands of the same mind each row is that of `mindc run --record`."""
-    from mindrun.engine import Engine
-
     from mindlang.run.recorded_run import record_run
     from mindlang.run.setup import set_up
 

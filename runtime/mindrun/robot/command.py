@@ -26,6 +26,8 @@ from mindrun.robot.view_breakpoints import mistakes
 from mindrun.status_line import StatusLine
 from mindrun.wiring import still
 
+MAX_END_TICKS = 20  # in which a recording gets the end of its run; one that cannot be written gets none
+
 
 def run(options: argparse.Namespace) -> int:
     """Drive until a signal comes; the exit code."""
@@ -101,7 +103,7 @@ def _dry(options: argparse.Namespace, bundle: Bundle, drive_options: DriveOption
         wiring = dry(bundle.graph, socket)
         run = DryRun(bundle.graph, task, master, socket, line)
         with run.shown(), _watched(task, options.seed, socket, drive_options) as watched:
-            watch = partial(_goes_on, run, watched.world)
+            watch = partial(_goes_on, run, watched.world, iter(range(MAX_END_TICKS)))
             loop = drive(bundle, digest(options.bundle), wiring, watched, line.tell, watch=watch)
         with suppress(DeviceError):  # the run was as good without it
             for sentence in outcome(task, master, status(socket)):
@@ -109,9 +111,9 @@ def _dry(options: argparse.Namespace, bundle: Bundle, drive_options: DriveOption
         return loop
 
 
-def _goes_on(run: DryRun, world: SeenWorld | None, loop: Loop) -> bool:
-    """After each tick: until the run is over, and a recording has its end."""
-    return run.watch(loop) or (world is not None and not world.has_ended)
+def _goes_on(run: DryRun, world: SeenWorld | None, more: Iterator[int], loop: Loop) -> bool:
+    """After each tick: until the run is over, and a recording has its end, or after so many ticks `more` could not."""
+    return run.watch(loop) or (world is not None and not world.has_ended and next(more, None) is not None)
 
 
 @contextmanager
