@@ -109,10 +109,9 @@ def _refuse_other_names(network: Network, names: Sequence[str], tensors: Tensors
 
 def _in_order(network: Network, tensors: Tensors, genome: Weights) -> Weights:
     """The genome of a file that says what it reads and sends in the order in which the skill does."""
-    known = [key for key in KEYS if key in tensors.metadata]
-    if not known:
+    if not any(key in tensors.metadata for key in KEYS):
         return genome
-    if len(known) < len(KEYS):
+    if not all(tensors.metadata.get(key, "").strip() for key in KEYS):
         raise WeightsError("its __metadata__ says some of mind.function, mind.reads and mind.sends, but not all")
     function, reads, sends = (tensors.metadata[key] for key in KEYS)
     its, own = Signature(function, tuple(reads.split()), tuple(sends.split())), network.signature

@@ -1,7 +1,7 @@
 """The form of safetensors: a header of JSON that says where each tensor lies, and the tensors.
 
-Own code of a page, so that a robot's workstation needs no other package for it. Of the form, what weights are: matrices of
-float32, little-endian, row by row, without holes between them. https://huggingface.co/docs/safetensors
+Own code of a page, so that nothing else has to be installed. Of the form it takes what weights are: float32, row by
+row, one tensor behind the other. https://huggingface.co/docs/safetensors
 """
 
 import json
