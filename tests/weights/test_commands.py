@@ -168,7 +168,7 @@ def test_a_frozen_skill_stays_as_it_is(mindc: Call, path: Path) -> None:
 
 
 def test_a_skill_that_is_like_another_has_none_of_its_own(mindc: Call, path: Path) -> None:
-    follow = "skill Follow is like Go\n  reads charge\n  drives left_wheel\n  drives right_wheel\n\n"
+    follow = "skill Follow is like Go\n  reads charge for ball_bearing\n\n"
     path.write_text(path.read_text().replace("skill Grab is rule", f"{follow}skill Grab is rule"))
     for words in (("export", path, "Follow", "a.safetensors"), ("import", path, "Follow", "drive.mind")):
         said = mindc("weights", *words)
