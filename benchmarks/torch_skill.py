@@ -15,15 +15,15 @@ import mindlang
 from mindlang.torch.skill import Skill
 
 COLLECT = Path(__file__).parents[1] / "examples" / "collect" / "collect.mind"
-READINGS, ROUNDS, STEPS = 512, 15, 20
+BATCH_READINGS, COMPARED_ROUNDS, ROUND_STEPS = 512, 15, 20
 
 
 def seconds(module: Any, inputs: int) -> float:
     """The time of one step: forward, and backward."""
-    rows, began = torch.rand(READINGS, inputs), perf_counter()
-    for _ in range(STEPS):
+    rows, began = torch.rand(BATCH_READINGS, inputs), perf_counter()
+    for _ in range(ROUND_STEPS):
         module(rows).square().sum().backward()
-    return (perf_counter() - began) / STEPS
+    return (perf_counter() - began) / ROUND_STEPS
 
 
 def main() -> None:
@@ -35,7 +35,9 @@ def main() -> None:
         for before, after in skill.network.shapes:
             layers += [nn.Linear(before, after, bias=False), nn.Sigmoid()]
         plain = nn.Sequential(*layers)
-        found = [(seconds(skill, skill.network.inputs), seconds(plain, skill.network.inputs)) for _ in range(ROUNDS)]
+        found = [
+            (seconds(skill, skill.network.inputs), seconds(plain, skill.network.inputs)) for _ in range(COMPARED_ROUNDS)
+        ]
         ours, theirs = (median(times) for times in zip(*found, strict=True))
         ratio = median(a / b for a, b in found)
         print(f"{name}: {ours * 1e3:.2f} ms, nn.Sequential {theirs * 1e3:.2f} ms, {ratio:.1f} times")

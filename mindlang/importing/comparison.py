@@ -56,7 +56,7 @@ def _reference(network: Network, genome: Weights) -> tuple[str, Compute]:
     try:
         import torch
     except ImportError:
-        return "float64", partial(_as_in_a_book, network, genome)
+        return "float64", partial(_in_float64, network, genome)
     return f"PyTorch {torch.__version__}", partial(_in_torch, network, genome)
 
 
@@ -76,7 +76,7 @@ def _in_torch(network: Network, genome: Weights, inputs: Rows) -> Rows:
     return np.array(found, np.float32).reshape(len(inputs), network.outputs)
 
 
-def _as_in_a_book(network: Network, genome: Weights, inputs: Rows) -> Rows:
+def _in_float64(network: Network, genome: Weights, inputs: Rows) -> Rows:
     """Products of matrices and 1/(1 + e^−x), in float64."""
     *hidden, last = (matrix.astype(np.float64) for matrix in matrices_of(network, genome))
     values: NDArray[np.floating] = inputs.astype(np.float64)
