@@ -35,9 +35,8 @@ def main() -> None:
         for before, after in skill.network.shapes:
             layers += [nn.Linear(before, after, bias=False), nn.Sigmoid()]
         plain = nn.Sequential(*layers)
-        found = [
-            (seconds(skill, skill.network.inputs), seconds(plain, skill.network.inputs)) for _ in range(COMPARED_ROUNDS)
-        ]
+        inputs = skill.network.inputs
+        found = [(seconds(skill, inputs), seconds(plain, inputs)) for _ in range(COMPARED_ROUNDS)]
         ours, theirs = (median(times) for times in zip(*found, strict=True))
         ratio = median(a / b for a, b in found)
         print(f"{name}: {ours * 1e3:.2f} ms, nn.Sequential {theirs * 1e3:.2f} ms, {ratio:.1f} times")
