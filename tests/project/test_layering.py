@@ -16,7 +16,12 @@ from tests.project.sources import COMPILER, ROOT, RUNTIME, arrows, imported, mod
 
 OUR_OWN = {"mindlang", "mindrun"}
 # whose names differ from what is imported
-MODULES = {"opencv-python-headless": "cv2", "pillow": "PIL", "pyyaml": "yaml"}
+MODULES = {
+    "opencv-python-headless": "cv2",
+    "pillow": "PIL",
+    "pyyaml": "yaml",
+    "stable-baselines3": "stable_baselines3",
+}
 WORKSTATION = {"numba", "llvmlite", "pymunk", "cv2"}
 SIM = RUNTIME / "sim"
 
@@ -96,7 +101,8 @@ def test_weights_are_put_beside_a_graph_in_few_places() -> None:
         "mindlang/view/viewed_champion.py": "a run has those of its mind, which is arranged",
         "runtime/mindrun/bundle.py": "a bundle has both, sealed",
         "runtime/mindrun/sim/warmup.py": "none",
-        "runtime/mindrun/sim/commanded_world.py": "none",
+        "runtime/mindrun/sim/commanded_lanes.py": "none",
+        "mindlang/environments/agent.py": "none",
     }
     made = {
         path.relative_to(ROOT).as_posix()
