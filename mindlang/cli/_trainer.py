@@ -123,7 +123,7 @@ class Trainer:
             self._say(f"finishing this generation; Ctrl-C again stops at once, to go on then: {_command(run)}")
 
         def report(state: LessonState, record: Record) -> None:
-            done = state.attempt * lesson.generations + state.population.generation
+            done = state.attempt * lesson.generations + state.now.population.generation
             watcher.report(record, done, perf_counter())
 
         try:

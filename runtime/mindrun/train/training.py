@@ -14,6 +14,7 @@ from mindrun.train.population import Genomes
 from mindrun.train.progress import ProgressLog
 from mindrun.train.run_folder import RunFolder, keep_champions, keep_weights
 from mindrun.train.scoring import Scorer
+from mindrun.weights import Weights
 
 CHECKPOINT_SECONDS = 2.0  # between two checkpoints
 
@@ -41,7 +42,7 @@ def train(run: RunFolder, scorer: Scorer, watch: Watch) -> LessonState:
             saved = watch.clock()
             for now, record in teach(course, scorer, now, watch.clock):  # noqa: B020 - it goes on from the first
                 progress.append(record)
-                champions.append(now, (record.attempt, record.generation))
+                champions.append(champion_of(now, record), (record.attempt, record.generation))
                 watch.report(now, record)
                 if watch.stop():
                     break
@@ -58,7 +59,14 @@ def train(run: RunFolder, scorer: Scorer, watch: Watch) -> LessonState:
 
 def best(state: LessonState) -> Genomes:
     """The best weights so far [0 or 1, weights]: of the attempts that have ended, else of this one."""
-    return state.kept if len(state.kept) else state.champion
+    return state.kept if len(state.kept) else state.now.champion
+
+
+def champion_of(state: LessonState, record: Record) -> Weights:
+    """The champion with which a generation ends, after which the run is in this state."""
+    ended = state.attempt == record.attempt
+    champion: Weights = (state.champions if ended else state.now.champion)[-1]
+    return champion
 
 
 def _standing(run: RunFolder, course: Course, watch: Watch) -> LessonState:
