@@ -5,7 +5,8 @@ import secrets
 import shlex
 import signal
 import sys
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass
 from datetime import UTC, datetime
 from pathlib import Path
@@ -18,24 +19,30 @@ from mindrun.train import RunError
 from mindrun.train.lesson_state import LessonState, Record
 from mindrun.train.run_folder import RunFolder, open_run, read_result
 from mindrun.train.training import Watch, train
+from mindrun.work.executor import StretchExecutor
 
 from mindlang.cli._simulator_compilation import ensure_compiled
 from mindlang.cli._terminal import load_compiled, procedures_talk, talk
 from mindlang.cli._training_progress import PrintedLines, ProgressBarLine, Silent, TimeLeft, Watcher
+from mindlang.executors import Where
 from mindlang.lock import LockError
 from mindlang.training.lesson_choice import TrainOptions, chosen_lessons, is_due
 from mindlang.training.results import Result, opening, outcome
 from mindlang.training.subject import Subject, begin_run, open_subject, refuse_changed, refuse_frozen
-from mindlang.training.teaching import TeachingResult, finish, has_ended, rollout_of
+from mindlang.training.teaching import TeachingResult, assignment_of, finish, has_ended, rollout_of
 
 
 @dataclass(frozen=True, slots=True)
 class Trainer:
-    """Teaches on so many cores (all where None); talks on stderr and, with `as_json`, prints results on stdout."""
+    """Teaches on so many cores (all where None); talks on stderr and, with `as_json`, prints results on stdout.
+
+    Where `where` says of workers elsewhere, they do the attempts of each lesson.
+    """
 
     workers: int | None
     as_json: bool
     quiet: bool
+    where: Where | None = None
 
     def teach_file(
         self,
@@ -87,7 +94,8 @@ class Trainer:
             self._print(result)
             return True
         rollout = self._rollout(run, subject)
-        state = self._watched(run, rollout)
+        with self._executor(run, subject, rollout) as executor:
+            state = self._watched(run, rollout, executor)
         if not has_ended(run, state):
             talk.print(f"saved; to go on: {_command(run)}", markup=False)
             return False
@@ -113,8 +121,20 @@ class Trainer:
         ensure_compiled(rollout, self._say)  # before the clock of the lesson starts
         return rollout
 
+    @contextmanager
+    def _executor(self, run: RunFolder, subject: Subject, rollout: Rollout) -> Iterator[StretchExecutor | None]:
+        """Those who do the attempts of a run elsewhere; they are sent away in the end, whatever they do."""
+        if self.where is None:
+            yield None
+            return
+        jobs = self.where.begin(assignment_of(run, subject))
+        try:
+            yield StretchExecutor(run.course(rollout.genome_length), jobs)
+        finally:
+            jobs.close()
+
     @procedures_talk()
-    def _watched(self, run: RunFolder, rollout: Rollout) -> LessonState:
+    def _watched(self, run: RunFolder, rollout: Rollout, executor: StretchExecutor | None) -> LessonState:
         lesson = run.manifest.lesson
         watcher = self._watcher(run)
 
@@ -123,12 +143,14 @@ class Trainer:
             self._say(f"finishing this generation; Ctrl-C again stops at once, to go on then: {_command(run)}")
 
         def report(state: LessonState, record: Record) -> None:
-            done = state.attempt * lesson.generations + state.now.population.generation
+            before = record.attempt if record.verdict is not None else record.attempt - 1
+            done = before * lesson.generations + (record.generation if record.verdict is None else 0)
             watcher.report(record, done, perf_counter())
 
         try:
             with Interruption(asked) as interruption:
-                return train(run, rollout, Watch(report, self._say, lambda: interruption.asked, perf_counter))
+                watch = Watch(report, self._say, lambda: interruption.asked, perf_counter)
+                return train(run, rollout, watch, executor)
         finally:
             watcher.close()
 
