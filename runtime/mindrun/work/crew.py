@@ -117,10 +117,10 @@ class Crew:
         self.assignment = assignment
         self._jobs: PriorityQueue[Job] = PriorityQueue()
         self._answers: Queue[tuple[int, Any] | WorkError] = Queue()
-        self._children = [Child(place) for place in places]
+        self.children = [Child(place) for place in places]
         self._lock = Lock()
         self._open, self._left, self._ended = 0, len(places), False
-        self._threads = [Thread(target=self._work, args=(child,), daemon=True) for child in self._children]
+        self._threads = [Thread(target=self._work, args=(child,), daemon=True) for child in self.children]
         for thread in self._threads:
             thread.start()
 
@@ -147,7 +147,7 @@ class Crew:
     def close(self) -> None:
         """End all workers, whatever they do."""
         self._ended = True
-        for child in self._children:
+        for child in self.children:
             child.end()
         for _ in self._threads:
             self._jobs.put(Job((-1, 0), -1, b"", str))

@@ -13,7 +13,7 @@ from dataclasses import dataclass, field
 from hashlib import sha256
 from math import prod
 from struct import Struct
-from typing import Any, BinaryIO
+from typing import IO, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -68,7 +68,7 @@ def unpack(data: bytes) -> Frame:
     return _frame(data[PREFIX_BYTES : PREFIX_BYTES + header], data[PREFIX_BYTES + header : -DIGEST_BYTES])
 
 
-def read(stream: BinaryIO) -> bytes | None:
+def read(stream: IO[bytes]) -> bytes | None:
     """The bytes of the next frame of a stream, None where it ends before one; FrameError where something else comes."""
     prefix = _exactly(stream, PREFIX_BYTES)
     if not prefix:
@@ -80,7 +80,7 @@ def read(stream: BinaryIO) -> bytes | None:
     return data
 
 
-def _exactly(stream: BinaryIO, size: int) -> bytes:
+def _exactly(stream: IO[bytes], size: int) -> bytes:
     """So many bytes, or fewer where the stream ends."""
     parts, left = list[bytes](), size
     while left and (part := stream.read(min(left, 1 << 20))):  # a length that lies takes no memory

@@ -39,7 +39,7 @@ def score_frame(genomes: Genomes, seeds: Seeds, about: Mapping[str, Any]) -> Fra
 def work_of(frame: Frame) -> tuple[Genomes, Seeds]:
     """The genomes and seeds of a frame; FrameError where it has none."""
     genomes, seeds = frame.arrays.get("genomes"), frame.arrays.get("seeds")
-    if genomes is None or seeds is None or (genomes.dtype, seeds.dtype) != (np.float32, np.uint64):
+    if genomes is None or seeds is None or genomes.dtype != np.float32 or seeds.dtype != np.uint64:
         raise FrameError("it has no genomes, or no seeds")
     if (genomes.ndim, seeds.ndim) != (2, 1) or not np.isfinite(genomes).all():
         raise FrameError("its genomes are not whole, or its seeds")

@@ -24,7 +24,6 @@ from mindrun.work.frame import Arrays, Frame, FrameError
 
 ADVANCE, SEGMENT = "advance", "segment"
 RECORD_NUMBERS = 9  # of a record, in the order of its fields; NaN for None
-NONE_COLUMNS = (4, 5)  # re-evaluated, verdict
 MAX_COUNT = 2**53
 
 STATE = {  # the arrays of an attempt's state: their numbers, and how many dimensions each has
@@ -70,7 +69,7 @@ def segment_frame(number: int, segment: Segment) -> Frame:
     rows = [[nan if value is None else float(value) for value in astuple(record)] for record in segment.records]
     verdict = segment.verdict
     ends = [] if verdict is None else [[*verdict.scores.tolist(), float(verdict.ticks), float(verdict.faults)]]
-    more = {
+    more: dict[str, NDArray[Any]] = {
         "champions": segment.champions,
         "records": np.array(rows, np.float64).reshape(-1, RECORD_NUMBERS),
         "verdict": np.array(ends, np.float64).reshape(-1, 4),
@@ -147,8 +146,8 @@ def _record(row: list[float], number: int, generation: int) -> Record:
     scores = best, mean, *(value for value in (reevaluated, verdict) if not isnan(value))
     if (attempt, place) != (number + 1, generation) or any(map(isnan, (*scores, seconds))) or not seconds >= 0:
         raise FrameError("its records are not those of its generations")
-    tried = [None if isnan(value) else value for value in (reevaluated, verdict)]
-    return Record(number + 1, generation, best, mean, *tried, _count(ticks), seconds, _count(faults))
+    tried, judged = (None if isnan(value) else value for value in (reevaluated, verdict))
+    return Record(number + 1, generation, best, mean, tried, judged, _count(ticks), seconds, _count(faults))
 
 
 def _count(value: float) -> int:

@@ -2,7 +2,7 @@
 
 from collections import OrderedDict
 from collections.abc import Callable
-from typing import Any, BinaryIO
+from typing import IO, Any
 
 from mindrun.errors import MindError
 from mindrun.train.attempts import advance
@@ -67,7 +67,7 @@ class Worker:
         raise FrameError(f"nobody knows what {frame.kind!r:.40} is")
 
 
-def serve(worker: Worker, requests: BinaryIO, answers: BinaryIO) -> None:
+def serve(worker: Worker, requests: IO[bytes], answers: IO[bytes]) -> None:
     """Answer frame after frame until no more come; FrameError where something else comes."""
     while (data := read(requests)) is not None:
         answers.write(worker.answer(data))
