@@ -21,7 +21,6 @@ from mindrun.work.worker import Worker, serve
 
 MAX_THREADS = 1024
 BEGUN_BY = "it is begun by: mindc train FILE --on ssh:HOST"
-DONE, MISUSE = 0, 2
 
 
 def options(parser: argparse.ArgumentParser) -> None:
@@ -45,5 +44,5 @@ def run(options: argparse.Namespace) -> int:
             f"standard input is no frame: {error}", "it is begun by mindc train FILE --on ssh:a,b"
         ) from error
     except BrokenPipeError:
-        return DONE  # nobody waits for the answer any more
-    return DONE
+        return 0  # nobody waits for the answer any more
+    return 0

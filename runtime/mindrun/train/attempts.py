@@ -1,7 +1,7 @@
-"""The attempts of a lesson at work side by side: whatever order they end in, the lesson goes as if it were one by one.
+"""The attempts of a lesson side by side: whatever order they end in, the lesson goes as if it were one by one.
 
-An attempt asks no other but at a rung. There it is decided in the order of attempts: one that has run ahead of its turn
-is cut in retrospect, at the state that it had at the rung.
+An attempt asks no other but at a rung. There it is decided in the order of attempts: one ahead of its turn is cut in
+retrospect, where it stood at the rung.
 """
 
 from collections import deque
@@ -87,10 +87,9 @@ def is_over(lesson: Lesson, state: AttemptState, records: list[Record], seconds:
     """Whether a segment ends here, of which there are these records after so many seconds."""
     if not records:
         return False
-    here = state.population.generation
     return (
         ends_by_itself(lesson, state)
-        or rung_at(lesson, here) is not None
+        or rung_at(lesson, state.population.generation) is not None
         or seconds >= SEGMENT_SECONDS
         or len(records) == SEGMENT_GENERATIONS
     )

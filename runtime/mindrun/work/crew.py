@@ -13,6 +13,7 @@ from queue import Empty, PriorityQueue, Queue
 from threading import Lock, Thread
 from typing import IO, Any
 
+from mindrun.errors import MindError
 from mindrun.work import WorkError
 from mindrun.work.assignment import Assignment
 from mindrun.work.executor import Read
@@ -45,7 +46,7 @@ class Job:
     losses: int = field(compare=False, default=0)
 
 
-class LostError(Exception):
+class LostError(MindError):
     """A worker has ended, or answers nonsense."""
 
 
@@ -83,8 +84,8 @@ class Child:
         if process is not None:
             with suppress(OSError):
                 process.kill()
-            for stream in (process.stdin, process.stdout):
-                with suppress(OSError):
+            for stream in (process.stdin, process.stdout, self._said):
+                with suppress(OSError):  # what is left to be written has nobody to go to
                     stream.close()  # type: ignore[union-attr]
             process.wait()
 
@@ -100,7 +101,7 @@ class Child:
 
     def _last_words(self) -> str:
         """The last line that it wrote on standard error."""
-        if self._said is None:
+        if self._said is None or self._said.closed:
             return ""
         with suppress(OSError, subprocess.TimeoutExpired):
             if self.process is not None:
@@ -164,6 +165,9 @@ class Crew:
                 child.end()
                 if self._ended or not self._goes_on(child.place, job, str(why), false_starts):
                     return
+            except Exception as error:  # nobody would hear of it in a thread, and wait for ever
+                self._answers.put(WorkError(f"a worker's thread failed: {type(error).__name__}: {error}"))
+                return
 
     def _asked(self, child: Child, job: Job) -> tuple[int, Any] | WorkError:
         """What came of a job, from a worker that may have to be told the assignment first."""

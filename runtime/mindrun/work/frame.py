@@ -28,7 +28,6 @@ MAX_HEADER_BYTES = 1 << 20
 MAX_ARRAYS_BYTES = 1 << 30
 MAX_ARRAYS, MAX_DIMENSIONS = 64, 4
 DTYPES = ("<f4", "<f8", "<i8", "<u8", "|u1")
-SHOWN_BYTES = 60  # of what is no frame
 
 Arrays = Mapping[str, NDArray[Any]]
 
@@ -70,9 +69,11 @@ def unpack(data: bytes) -> Frame:
 
 def read(stream: IO[bytes]) -> bytes | None:
     """The bytes of the next frame of a stream, None where it ends before one; FrameError where something else comes."""
-    prefix = _exactly(stream, PREFIX_BYTES)
+    prefix = _exactly(stream, len(MAGIC))
     if not prefix:
         return None
+    if prefix == MAGIC:  # else who speaks may say no more, and wait
+        prefix += _exactly(stream, LENGTHS.size)
     rest = sum(_lengths(prefix)) + DIGEST_BYTES
     data = prefix + _exactly(stream, rest)
     if len(data) < PREFIX_BYTES + rest:
@@ -91,7 +92,7 @@ def _exactly(stream: IO[bytes], size: int) -> bytes:
 
 def _lengths(prefix: bytes) -> tuple[int, int]:
     if len(prefix) < PREFIX_BYTES or not prefix.startswith(MAGIC):
-        raise FrameError(f"it begins with {prefix[:SHOWN_BYTES]!r}")
+        raise FrameError(f"it begins with {prefix[: len(MAGIC)]!r}")
     header, body = LENGTHS.unpack_from(prefix, len(MAGIC))
     if header > MAX_HEADER_BYTES or body > MAX_ARRAYS_BYTES:
         raise FrameError(f"it is larger than a frame can be ({MAX_ARRAYS_BYTES >> 20} MiB)")
