@@ -137,7 +137,7 @@ def test_a_worker_of_another_build_refuses_in_words() -> None:
         about = {"build": {"numpy": "1.0"}, "assignment": ASSIGNMENT.name}
         workers.submit(1, pack(Frame("advance", about)), lambda answer: answer)
         with pytest.raises(WorkError, match="the worker at a place is of another build: mindrun is") as error:
-            next(iter(workers.take, not None))
+            next(filter(None, iter(workers.take, 0)))
     assert "install the same" in error.value.hint
 
 
