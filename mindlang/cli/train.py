@@ -18,6 +18,7 @@ Examples:
   mindc train on_the_job.mind --attempts 3     the best of three
   mindc train collect.mind --on ssh:a,b        attempts side by side, on two machines
   mindc train --resume runs/GoToObject/20260714T120000Z-1
+  mindc train collect.mind GoToObject --tensorboard          then, beside it: tensorboard --logdir runs
 """
 
 
@@ -36,6 +37,7 @@ Examples:
 @click.option("--on", "where", type=ON, metavar="WHERE", help="Who does the attempts: processes:N, ssh:HOST,HOST …")
 @click.option("--runs", type=click.Path(path_type=Path), default="runs", show_default=True, help="Where runs are kept.")
 @click.option("--resume", type=click.Path(path_type=Path), metavar="RUN", help="Go on with a run that was stopped.")
+@click.option("--tensorboard", "event_files", is_flag=True, help="Write event files for TensorBoard into the run, too.")
 @click.option("--json", "as_json", is_flag=True, help="Print one line of JSON per lesson.")
 @click.option("-q", "--quiet", is_flag=True, help="Print nothing but errors.")
 def command(
@@ -50,6 +52,7 @@ def command(
     force: bool,
     workers: int | None,
     where: Any,
+    event_files: bool,
     as_json: bool,
     quiet: bool,
     **choice: Any,
@@ -62,8 +65,10 @@ def command(
 
     Runs the Python code of the file's procedures. Every lesson gets a folder under runs/, from which it can go on after
     Ctrl-C, a crash or a power cut: with --resume, or by itself when the very same lesson is asked for with the same
-    --seed. The weights go to the lock of the file in which the lesson stands, or to the one that says them now.
+    --seed. Its progress.csv has a row for each generation as it ends. The weights go to the lock of the file in which the lesson stands, or to the one that says them now.
     """
+    from importlib.util import find_spec
+
     from mindrun.errors import MindError
     from mindrun.train import NotFoundError
 
@@ -74,7 +79,13 @@ def command(
         fail("Standard input cannot be taught: what is learnt is kept beside a file.", "Save it as a file.", MISUSE)
     if (file is None) == (resume is None):
         fail("Say what to train: a file, or --resume and a run.", "mindc train --help has examples.", MISUSE)
-    trainer = Trainer(workers, as_json, quiet, where)
+    if event_files and find_spec("tensorboardX") is None:
+        fail(
+            "Event files are written with tensorboardX, which is not installed.",
+            "In the folder of mind: pip install '.[tensorboard]'",
+            MISUSE,
+        )
+    trainer = Trainer(workers, as_json, quiet, where, event_files)
     options = TrainOptions(generations, scale, population, attempts, from_scratch=from_scratch)
     try:
         if resume:
