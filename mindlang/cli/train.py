@@ -65,7 +65,8 @@ def command(
 
     Runs the Python code of the file's procedures. Every lesson gets a folder under runs/, from which it can go on after
     Ctrl-C, a crash or a power cut: with --resume, or by itself when the very same lesson is asked for with the same
-    --seed. Its progress.csv has a row for each generation as it ends. The weights go to the lock of the file in which the lesson stands, or to the one that says them now.
+    --seed. Its progress.csv has a row for each generation. The weights go to the lock of the file in which the lesson
+    stands, or to the one that says them now.
     """
     from importlib.util import find_spec
 

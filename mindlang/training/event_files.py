@@ -42,7 +42,8 @@ class EventFiles:
         self.folder = run.folder / FOLDER
         self._run = run
         self._writer: RecordWriter | None = None
-        self._attempt, self._time, self._flushed = 0, 0.0, 0.0
+        self._attempt: float | None = None
+        self._time, self._flushed = 0.0, 0.0
 
     def report(self, record: Record, done: int, now: float) -> None:
         """A generation has ended, and is in the log: write it, and at first all before it."""
@@ -70,30 +71,39 @@ class EventFiles:
             self._writer = None
 
     def _write_all(self) -> None:
-        self._attempt, self._time = 0, datetime.fromisoformat(self._run.manifest.started).timestamp()
-        for record in read_progress(self._run.folder):
+        self._attempt, self._time = None, datetime.fromisoformat(self._run.manifest.started).timestamp()
+        records = read_progress(self._run.folder)
+        known = {_folder(record) for record in records}
+        for path in self.folder.glob(f"*/{FILE}"):
+            if path.parent.name not in known:  # an attempt that a crash took back
+                path.unlink()
+        for record in records:
             self._write(record)
 
     def _write(self, record: Logged) -> None:
         from tensorboardX.proto.event_pb2 import Event
 
         if record["attempt"] != self._attempt:
-            self._begin(int(record["attempt"] or 0))
+            self._begin(record)
         assert self._writer
         self._time += record["seconds"] or 0.0
         event = Event(wall_time=self._time, step=int(record["generation"] or 0), summary=_summary(record))
         self._writer.write(event.SerializeToString())
 
-    def _begin(self, attempt: int) -> None:
+    def _begin(self, record: Logged) -> None:
         """The file of an attempt, with what each begins with."""
         from tensorboardX import RecordWriter
         from tensorboardX.proto.event_pb2 import Event
 
         self.close()
-        folder = self.folder / f"attempt {attempt}"
+        folder = self.folder / _folder(record)
         folder.mkdir(parents=True, exist_ok=True)
-        self._attempt, self._writer = attempt, RecordWriter(str(folder / FILE))
+        self._attempt, self._writer = record["attempt"], RecordWriter(str(folder / FILE))
         self._writer.write(Event(wall_time=self._time, file_version=FILE_VERSION).SerializeToString())
+
+
+def _folder(record: Logged) -> str:
+    return f"attempt {record['attempt']}"
 
 
 def _summary(record: Logged) -> Summary:
@@ -116,6 +126,5 @@ def _disk(folder: Path) -> Iterator[None]:
     try:
         yield
     except OSError as error:
-        raise RunError(
-            f"cannot write to {folder}: {error.strerror}", "make room, or go on without --tensorboard"
-        ) from error
+        hint = "make room, or go on without --tensorboard"
+        raise RunError(f"cannot write to {folder}: {error.strerror}", hint) from error
