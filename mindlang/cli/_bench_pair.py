@@ -46,7 +46,7 @@ def contenders(files: Sequence[str], masters: Sequence[str]) -> list[Contender]:
     if len(files) > MAX_COMPARED or len(masters) > MAX_COMPARED:
         fail("Two are compared, not more.", "mindc bench A.mind B.mind, or one FILE with --master X --master Y", MISUSE)
     count = max(len(files), len(masters))
-    asked = masters or [None]
+    asked: Sequence[str | None] = masters or [None]
     both = [(files[i % len(files)], asked[i % len(asked)]) for i in range(count)]
     names = [_name(file, master, files, masters) for file, master in both]
     if len({*names}) < count:

@@ -13,11 +13,11 @@ from mindlang.pictures.curves import ATTEMPTS, CURVE_STYLES, STYLE, frame, grid,
 from mindlang.pictures.mean_curves import MeanCurve
 
 COLOURS = {"best": ATTEMPTS[2], "reevaluated": ATTEMPTS[0], "verdict": ATTEMPTS[1]}
-BAND = {"alpha": 0.22, "linewidth": 0}
+BAND: dict[str, Any] = {"alpha": 0.22, "linewidth": 0}
 MEANINGS = {
-    "best": "mean of the best of the generation",
-    "reevaluated": "mean of the champions, tried again on fresh layouts",
-    "verdict": "mean of the champions in the end, on layouts that chose nothing",
+    "best": "best of the generation, mean",
+    "reevaluated": "champion, tried again on fresh layouts, mean",
+    "verdict": "champion in the end, mean",
 }
 
 
