@@ -28,7 +28,7 @@ PAIRS = {  # task: two minds, each with its master
     "Avoid": (("collect.mind", "Avoid"), ("best.mind", "Avoid")),
 }
 RUNS_COMPARED = 20, 50, 200
-COMPARISONS, RESAMPLES = 2000, 1000
+COMPARISONS_DRAWN, RESAMPLED_MEANS = 2000, 1000
 LAYOUT_SEED = 17
 
 
@@ -52,7 +52,7 @@ def scores(file: str, master: str, task: str, runs: int) -> Floats:
 def coverage(first: Floats, second: Floats, runs: int) -> list[str]:
     """Of each kind of interval, how often it contains the mean difference, and how wide it is."""
     rng = np.random.default_rng(runs)
-    drawn = rng.integers(len(first), size=(COMPARISONS, runs))
+    drawn = rng.integers(len(first), size=(COMPARISONS_DRAWN, runs))
     truth = (second - first).mean()
     found = {name: of(first[drawn], second[drawn], rng) for name, of in KINDS.items()}
     width = np.mean(np.subtract(*found["Student"][::-1]))
@@ -74,7 +74,9 @@ def _unpaired(first: Floats, second: Floats, rng: np.random.Generator) -> tuple[
 def _bootstrap(first: Floats, second: Floats, rng: np.random.Generator) -> tuple[Floats, Floats]:
     """Percentiles of the means of resampled differences."""
     each, runs = second - first, first.shape[1]
-    bounds = [np.percentile(row[rng.integers(runs, size=(RESAMPLES, runs))].mean(axis=1), [2.5, 97.5]) for row in each]
+    bounds = [
+        np.percentile(row[rng.integers(runs, size=(RESAMPLED_MEANS, runs))].mean(axis=1), [2.5, 97.5]) for row in each
+    ]
     return np.array(bounds)[:, 0], np.array(bounds)[:, 1]
 
 

@@ -41,20 +41,13 @@ def command(runs: tuple[Path, ...], output: Path, mean: bool, as_json: bool, qui
     With --mean, runs of one lesson of the same mind, begun with different seeds, become one panel: the mean over all
     their attempts, and a band of its standard error. An attempt that has ended or was given up keeps what it had last.
     """
-    from importlib.util import find_spec
-
     from mindrun.errors import MindError
     from mindrun.train import NotFoundError
 
     from mindlang.cli._terminal import MISUSE, fail, print_json, refuse_unwritable, write_file
     from mindlang.pictures.learning_log import load_curves
 
-    if find_spec("matplotlib") is None:
-        fail(
-            "Curves are drawn with matplotlib, which is not installed.",
-            "In the folder of mind: pip install '.[plot]'",
-            MISUSE,
-        )
+    _refuse_without_matplotlib()
     refuse_unwritable(output, ".svg", ".png")
     try:
         curves = load_curves(runs)
@@ -74,6 +67,19 @@ def command(runs: tuple[Path, ...], output: Path, mean: bool, as_json: bool, qui
     if not quiet:
         shown = curves[0].name if len(curves) == 1 else f"{len(curves)} runs"
         click.echo(f"{output}: how {shown} {'was' if len(curves) == 1 else 'were'} learnt", err=True)
+
+
+def _refuse_without_matplotlib() -> None:
+    from importlib.util import find_spec
+
+    from mindlang.cli._terminal import MISUSE, fail
+
+    if find_spec("matplotlib") is None:
+        fail(
+            "Curves are drawn with matplotlib, which is not installed.",
+            "In the folder of mind: pip install '.[plot]'",
+            MISUSE,
+        )
 
 
 def _data(curves: Sequence[Curve]) -> list[dict[str, object]]:

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from mindlang.run.conclusion import SCORE, SUCCESS, conclusion
 from mindlang.run.outcome import events, succeeded
-from mindlang.run.paired_difference import CONFIDENCE, Difference, difference
+from mindlang.run.paired_difference import CONFIDENCE_LEVEL, Difference, difference
 
 if TYPE_CHECKING:
     from mindrun.sim.rollout import Scores
@@ -52,7 +52,11 @@ class Comparison:
         """What `mindc bench --json` says of two minds beside what it says of each."""
         plain = {name: found.data() for name, found in self.differences.items()}
         by_event = {name: plain.pop(name) for name in list(plain) if name not in (SCORE, SUCCESS)}
-        return {"confidence": CONFIDENCE, "differences": {**plain, "by_event": by_event}, "conclusion": self.conclusion}
+        return {
+            "confidence": CONFIDENCE_LEVEL,
+            "differences": {**plain, "by_event": by_event},
+            "conclusion": self.conclusion,
+        }
 
 
 def compare(first: Benched, second: Benched) -> Comparison:

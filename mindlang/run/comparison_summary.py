@@ -58,7 +58,7 @@ def _facts(name: str, found: Difference) -> list[str]:
     more = {SCORE: "B scores more", SUCCESS: "B alone succeeds"}.get(name, f"B has more ({name})")
     less = {SUCCESS: "A alone"}.get(name, "less")
     lines = [f"{more} in {found.more:,} runs, {less} in {found.less:,}, as much in {found.equal:,}"]
-    if found.detectable is not None and found.mean is not None and not found.is_told:
+    if found.detectable is not None and found.mean is not None and not found.leaves_zero_out:
         needed = f"about {found.runs_to_tell:,} runs" if found.runs_to_tell else f"more than {MAX_RUNS:,} runs"
         lines.append(
             f"{found.runs:,} runs tell a difference of {amount(name, found.detectable, found)} four times in five; "

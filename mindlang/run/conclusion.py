@@ -4,10 +4,10 @@ from collections.abc import Mapping
 from math import floor, log10
 
 from mindlang.number_format import score
-from mindlang.run.paired_difference import CONFIDENCE, MIN_DIFFERING_RUNS, Difference
+from mindlang.run.paired_difference import CONFIDENCE_LEVEL, MIN_DIFFERING_RUNS, Difference
 
 SCORE, SUCCESS = "score", "success"  # the figures that are no events
-PERCENT = f"{CONFIDENCE:.0%}".replace("%", " %")
+PERCENT = f"{CONFIDENCE_LEVEL:.0%}".replace("%", " %")
 MIN_DIGITS = 2  # behind the point
 
 
@@ -28,8 +28,8 @@ def conclusion(first: str, second: str, task: str, differences: Mapping[str, Dif
             f"Only {found.differing} of {_runs(found.runs)} differ in {name}, which is too few to say more: "
             f"{MIN_DIFFERING_RUNS} have to."
         )
-    if found.is_told:
-        return _told(first, second, task, name, found, (found.low, found.high))
+    if found.leaves_zero_out:
+        return _which_does_more(first, second, task, name, found, (found.low, found.high))
     low, high = amount(name, -found.low, found), amount(name, found.high, found)
     verb, of_what = _words(name)
     return (
@@ -46,7 +46,9 @@ def amount(name: str, value: float, found: Difference) -> str:
     return score(value, max(MIN_DIGITS, 1 - floor(log10(error))) if error else MIN_DIGITS)
 
 
-def _told(first: str, second: str, task: str, name: str, found: Difference, bounds: tuple[float, float]) -> str:
+def _which_does_more(
+    first: str, second: str, task: str, name: str, found: Difference, bounds: tuple[float, float]
+) -> str:
     """The one that does more comes first."""
     better, worse = second, first
     if bounds[1] < 0:

@@ -10,11 +10,11 @@ from math import atan, ceil, exp, isfinite, lgamma, pi, sqrt
 import numpy as np
 from numpy.typing import NDArray
 
-CONFIDENCE = 0.95  # of intervals: so many of them, of so many comparisons, contain the difference
+CONFIDENCE_LEVEL = 0.95  # of intervals: so many of them, of so many comparisons, contain the difference
 NORMAL_TWO_SIDED, NORMAL_POWER = 1.9600, 0.8416  # quantiles of the normal distribution: 97.5 %, and 80 %
 MIN_DIFFERING_RUNS = 10  # runs: with fewer, the mean of the differences is far from normal
 MAX_RUNS = 10_000_000  # that `mindc bench` takes
-MAX_QUANTILE, QUADRATURE_NODES, BISECTIONS = 13.0, 64, 60
+MAX_QUANTILE, QUADRATURE_NODES, MAX_BISECTIONS = 13.0, 64, 60
 
 
 @dataclass(frozen=True, slots=True)
@@ -46,14 +46,14 @@ class Difference:
         return self.more + self.less
 
     @property
-    def is_told(self) -> bool:
+    def leaves_zero_out(self) -> bool:
         """Whether the interval leaves 0 out."""
         return self.low is not None and self.high is not None and not self.low <= 0 <= self.high
 
     @property
     def most_that_differ(self) -> float:
         """Where no run differs: the largest share of layouts on which they could, with 95 % confidence."""
-        return float(1 - (1 - CONFIDENCE) ** (1 / self.runs))
+        return float(1 - (1 - CONFIDENCE_LEVEL) ** (1 / self.runs))
 
     def data(self) -> dict[str, float | int | None]:
         """As plain data."""
@@ -90,11 +90,11 @@ def t_quantile(degrees: int) -> float:
     nodes, weights = np.polynomial.legendre.leggauss(QUADRATURE_NODES)
     scale = 2 * exp(lgamma((degrees + 1) / 2) - lgamma(degrees / 2)) / sqrt(pi)
     low, high = 0.0, MAX_QUANTILE
-    for _ in range(BISECTIONS):
+    for _ in range(MAX_BISECTIONS):
         middle = (low + high) / 2
         half = atan(middle / sqrt(degrees)) / 2
         within = scale * half * float(weights @ np.cos(half * (nodes + 1)) ** (degrees - 1))
-        low, high = (middle, high) if within < CONFIDENCE else (low, middle)
+        low, high = (middle, high) if within < CONFIDENCE_LEVEL else (low, middle)
     return (low + high) / 2
 
 

@@ -30,7 +30,7 @@ def test_every_pair_is_counted_and_the_other_way_round_the_signs_change(pairs: l
     if found.low is not None:
         assert turned.high == pytest.approx(-found.low)
         assert found.low <= found.mean <= (found.high or 0)
-        assert found.is_told == turned.is_told == (found.low > 0 or (found.high or 0) < 0)
+        assert found.leaves_zero_out == turned.leaves_zero_out == (found.low > 0 or (found.high or 0) < 0)
 
 
 def test_the_interval_contains_the_truth_as_often_as_it_says() -> None:
@@ -52,7 +52,7 @@ def test_so_many_runs_as_it_says_tell_four_times_in_five() -> None:
     assert pilot.std
     assert pilot.runs_to_tell
     told = [
-        difference(np.zeros(pilot.runs_to_tell), rng.normal(pilot.mean, pilot.std, pilot.runs_to_tell)).is_told
+        difference(np.zeros(pilot.runs_to_tell), rng.normal(pilot.mean, pilot.std, pilot.runs_to_tell)).leaves_zero_out
         for _ in range(2000)
     ]
     assert 0.76 < np.mean(told) < 0.84
@@ -71,7 +71,7 @@ def test_what_is_not_finite_is_compared_with_nothing(broken: float) -> None:
     first, second = np.arange(20.0), np.arange(20.0)[::-1].copy()
     first[3] = second[3] = second[5] = broken
     found = difference(first, second)
-    assert (found.not_finite, found.mean, found.low, found.is_told) == (2, None, None, False)
+    assert (found.not_finite, found.mean, found.low, found.leaves_zero_out) == (2, None, None, False)
     assert "In 2 runs the score is not a finite number" in conclusion("A", "B", "Go", {SCORE: found})
 
 
