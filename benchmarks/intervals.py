@@ -74,9 +74,8 @@ def _unpaired(first: Floats, second: Floats, rng: np.random.Generator) -> tuple[
 def _bootstrap(first: Floats, second: Floats, rng: np.random.Generator) -> tuple[Floats, Floats]:
     """Percentiles of the means of resampled differences."""
     each, runs = second - first, first.shape[1]
-    bounds = [
-        np.percentile(row[rng.integers(runs, size=(RESAMPLED_MEANS, runs))].mean(axis=1), [2.5, 97.5]) for row in each
-    ]
+    means = (row[rng.integers(runs, size=(RESAMPLED_MEANS, runs))].mean(axis=1) for row in each)
+    bounds = [np.percentile(mean, [2.5, 97.5]) for mean in means]
     return np.array(bounds)[:, 0], np.array(bounds)[:, 1]
 
 

@@ -52,11 +52,8 @@ class Comparison:
         """What `mindc bench --json` says of two minds beside what it says of each."""
         plain = {name: found.data() for name, found in self.differences.items()}
         by_event = {name: plain.pop(name) for name in list(plain) if name not in (SCORE, SUCCESS)}
-        return {
-            "confidence": CONFIDENCE_LEVEL,
-            "differences": {**plain, "by_event": by_event},
-            "conclusion": self.conclusion,
-        }
+        differences = {**plain, "by_event": by_event}
+        return {"confidence": CONFIDENCE_LEVEL, "differences": differences, "conclusion": self.conclusion}
 
 
 def compare(first: Benched, second: Benched) -> Comparison:

@@ -29,7 +29,7 @@ def conclusion(first: str, second: str, task: str, differences: Mapping[str, Dif
             f"{MIN_DIFFERING_RUNS} have to."
         )
     if found.leaves_zero_out:
-        return _which_does_more(first, second, task, name, found, (found.low, found.high))
+        return _which_does_more(first, second, task, name, found, found.low, found.high)
     low, high = amount(name, -found.low, found), amount(name, found.high, found)
     verb, of_what = _words(name)
     return (
@@ -46,18 +46,16 @@ def amount(name: str, value: float, found: Difference) -> str:
     return score(value, max(MIN_DIGITS, 1 - floor(log10(error))) if error else MIN_DIGITS)
 
 
-def _which_does_more(
-    first: str, second: str, task: str, name: str, found: Difference, bounds: tuple[float, float]
-) -> str:
+def _which_does_more(first: str, second: str, task: str, name: str, found: Difference, low: float, high: float) -> str:
     """The one that does more comes first."""
-    better, worse = second, first
-    if bounds[1] < 0:
-        better, worse, bounds = first, second, (-bounds[1], -bounds[0])
+    better, worse, bounds = second, first, (low, high)
+    if high < 0:
+        better, worse, bounds = first, second, (-high, -low)
     verb, of_what = _words(name)
-    mean, low, high = (amount(name, value, found) for value in (sum(bounds) / 2, *bounds))
+    mean, least, most = (amount(name, value, found) for value in (sum(bounds) / 2, *bounds))
     return (
         f"On layouts of {task}, {better} {verb} {mean} more{of_what} than {worse} on average, and with {PERCENT} "
-        f"confidence {low} to {high} more."
+        f"confidence {least} to {most} more."
     )
 
 
