@@ -46,7 +46,8 @@ def main() -> None:
 def scores(file: str, master: str, task: str, runs: int) -> Floats:
     """What a mind scores on each layout [runs]."""
     setup = set_up(file, load(COLLECT / file), task, master)
-    return setup.rollout(workers=cores()).score(NO_GENOME, layouts(LAYOUT_SEED, runs)).total[0]
+    found: Floats = setup.rollout(workers=cores()).score(NO_GENOME, layouts(LAYOUT_SEED, runs)).total[0]
+    return found
 
 
 def coverage(first: Floats, second: Floats, runs: int) -> list[str]:
