@@ -15,6 +15,8 @@ from mindlang import environments
 def test_an_extra_that_is_missing(monkeypatch: pytest.MonkeyPatch, name: str, module: str, package: str) -> None:
     if package != "gymnasium":
         pytest.importorskip("gymnasium")
+    for inner in [each for each in sys.modules if each.startswith(f"{package}.")]:
+        monkeypatch.delitem(sys.modules, inner)
     monkeypatch.setitem(sys.modules, package, None)
     monkeypatch.delitem(sys.modules, f"mindlang.environments.{module}", raising=False)
     with pytest.raises(MindError, match=f"{name} needs {package}") as raised:
