@@ -29,6 +29,7 @@ class ActuatorKind:
 
     varying: tuple[str, ...] = ("delay",)  # the arguments that can differ from run to run
     drive: Drive | None = None  # what it does to a body, where it can move one
+    is_outside = False  # whether it acts in an environment, and in no simulated world
     is_light = False  # whether it shines with its command
 
     @property

@@ -91,6 +91,7 @@ class SensorKind(AboutThing):
     __slots__ = ()
 
     varying: tuple[str, ...] = ()  # the arguments that can differ from run to run
+    is_outside = False  # whether an environment says what it reads, and no simulated world
     circular = False  # whether the readings 0 and 1 are neighbours
     scaled = False  # whether its values mean something by themselves, so that they need no calibration
     near: int | None = None  # the reading of what is near
