@@ -134,9 +134,11 @@ def _check_environment(
     try:
         observed, acted = making.spaces(name)
     except MindError as error:
-        findings.error("unknown-environment", header.phrase.span if header.phrase else header.span, str(error), error.hint)
+        findings.error(
+            "unknown-environment", header.phrase.span if header.phrase else header.span, str(error), error.hint
+        )
         return
     spans = {part.name: part.span for part in (*sensors, *actuators)} | {"": header.span}
-    ours = ({part.name: part.kind for part in parts if part.kind.is_outside} for parts in (sensors, actuators))
+    ours = ({part.name: slot for part in parts if (slot := part.kind.slot)} for parts in (sensors, actuators))
     for found in fitting.misfits(observed, acted, *ours):
         findings.error(found.code, spans[found.name], found.message, found.hint)

@@ -6,6 +6,7 @@ from typing import Annotated
 from mindrun.actuators.actuator import ActuatorKind
 from mindrun.quantity import INDEX, NUMBER, RATIO, SLOT, TICKS, UNSAID, Span
 from mindrun.registry import kind
+from mindrun.slot import Slot
 
 
 @kind("actuator", "action")
@@ -23,4 +24,7 @@ class Action(ActuatorKind):
     part: Annotated[str, SLOT] = ""
     delay: Annotated[int, TICKS] = 0
 
-    is_outside = True
+    @property
+    def slot(self) -> Slot:
+        """That number."""
+        return Slot(self.part, self.action, None if self.range == UNSAID else self.range)

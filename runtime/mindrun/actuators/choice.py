@@ -6,6 +6,7 @@ from typing import Annotated
 from mindrun.actuators.actuator import ActuatorKind
 from mindrun.quantity import INDEX, RATIO, SLOT, TICKS
 from mindrun.registry import kind
+from mindrun.slot import Slot
 
 
 @kind("actuator", "choice")
@@ -22,4 +23,7 @@ class Choice(ActuatorKind):
     part: Annotated[str, SLOT] = ""
     delay: Annotated[int, TICKS] = 0
 
-    is_outside = True
+    @property
+    def slot(self) -> Slot:
+        """The place at which it is chosen: the only one, where none is said."""
+        return Slot(self.part, self.choice[:-1] or (0,), chosen=self.choice[-1])

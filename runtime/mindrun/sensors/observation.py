@@ -7,6 +7,7 @@ from typing import Annotated, Any
 from mindrun.quantity import INDEX, NUMBER, SLOT, Span
 from mindrun.registry import kind
 from mindrun.sensors.sensor import Flaw, Physical
+from mindrun.slot import Slot
 
 
 @kind("sensor", "observation")
@@ -22,12 +23,16 @@ class Observation(Physical):
     range: Annotated[Span, NUMBER]
     part: Annotated[str, SLOT] = ""
 
-    is_outside = True
     scaled = True
+
+    @property
+    def slot(self) -> Slot:
+        """That number."""
+        return Slot(self.part, self.observation, self.range)
 
     def flaw(self, widths: Mapping[str, int]) -> Flaw | None:
         """Its range has two ends."""
-        if self.range.by is None and self.range.first < self.range.last:
+        if self.slot.has_two_ends:
             return None
         hint = "Write the least and the greatest number that it will be: range -0.5 to 2."
         return Flaw("no-range", "range", "An observation has a range with two ends.", hint)

@@ -36,6 +36,9 @@ class World:
         master = master or graph.master
         _check("task", task, [known.name for known in graph.tasks])
         _check("skill", master, [skill.name for skill in graph.skills])
+        if next(each for each in graph.tasks if each.name == task).scene.environment:
+            message = f"the task {task} is in an environment of Gymnasium, which the simulator is not"
+            raise MindError(message, f"Run it with mindc run --task {task}, or bench.")
         # No skill runs in here, so none needs its weights or its procedure: what they read is all that counts.
         silent = replace(graph, skills=tuple(replace(skill, function=Rule()) for skill in graph.skills))
         self.graph = graph

@@ -41,7 +41,9 @@ def make(name: str) -> Any:
             warnings.simplefilter("ignore")
             return gymnasium.make(name, max_episode_steps=NO_TIME_LIMIT, disable_env_checker=True)
     except (gymnasium.error.UnregisteredEnv, ModuleNotFoundError) as error:
-        raise EnvironmentFault(f"Gymnasium has no environment called {name}.", _instead(gymnasium, name, error)) from None
+        raise EnvironmentFault(
+            f"Gymnasium has no environment called {name}.", _instead(gymnasium, name, error)
+        ) from None
     except Exception as error:
         raise EnvironmentFault(f"The environment {name} cannot be made.", first_line(error)) from None
 

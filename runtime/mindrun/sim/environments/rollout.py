@@ -1,16 +1,13 @@
 """Rollouts whose worlds are environments: these are stepped one by one, and the skills think in lanes between."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from collections.abc import Sequence
-
 import numpy as np
 from numpy.typing import NDArray
 
-from mindrun.events.its_end import ItsEnd
-from mindrun.measures.its_reward import ItsReward
 from mindrun.policy import Policy
 from mindrun.sim.codes import BROKEN_OFF
 from mindrun.sim.environments.episode import Episode
@@ -54,8 +51,8 @@ class EnvironmentRollout(Rollout):
         self.observed, self.clipped = 0, np.zeros(len(self.wiring.rows), np.int64)
         self._idle: list[Episode] = []
         self._rough = np.array([bool(row["is_rough"]) for row in self.tables.actuators], bool)
-        self._rewards = [i for i, measure in enumerate(self.task.measures) if isinstance(measure, ItsReward)]
-        self._ends = [i for i, event in enumerate(self.task.events) if isinstance(event, ItsEnd)]
+        self._rewards = [i for i, measure in enumerate(self.task.measures) if measure.is_outside]
+        self._ends = [i for i, event in enumerate(self.task.events) if event.is_outside]
 
     def compile(self) -> None:
         """Compile the stages where no cache has them."""

@@ -7,15 +7,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from mindrun.actuators.action import Action
-from mindrun.actuators.choice import Choice
 from mindrun.errors import MindError
 from mindrun.graph import Graph
-from mindrun.quantity import UNSAID
-from mindrun.sensors.observation import Observation
 from mindrun.sim.environments import making
 from mindrun.sim.environments.fitting import misfits
 from mindrun.sim.environments.parts import Part, parts_of
+from mindrun.slot import Slot
 
 Floats = NDArray[np.float64]
 Commands = NDArray[np.float32]  # [actuators, lanes]
@@ -93,51 +90,46 @@ class Wiring:
 def wiring_of(graph: Graph, environment: str) -> Wiring:
     """How a mind is wired to an environment; MindError where it does not fit."""
     observed, acted = making.spaces(environment)
-    sensors = {s.name: s.kind for s in graph.sensors if isinstance(s.kind, Observation)}
-    actuators = {a.name: a.kind for a in graph.actuators if isinstance(a.kind, Action | Choice)}
+    sensors = {sensor.name: slot for sensor in graph.sensors if (slot := sensor.kind.slot)}
+    actuators = {actuator.name: slot for actuator in graph.actuators if (slot := actuator.kind.slot)}
     for found in misfits(observed, acted, sensors, actuators):
         raise MindError(f"{found.name}: {found.message}".removeprefix(": "), found.hint)
     rows = [sensor.start for sensor in graph.sensors if sensor.name in sensors]
-    ranges = [kind.range for kind in sensors.values()]
+    ends = np.array([_ends(slot) for slot in sensors.values()], np.float64).reshape(-1, 2)
+    driven = [(row, actuators[each.name]) for row, each in enumerate(graph.actuators) if each.name in actuators]
     return Wiring(
         environment,
         np.array(rows, np.int64),
         tuple(sensors),
-        np.array([each.first for each in ranges], np.float64),
-        np.array([each.last for each in ranges], np.float64),
+        ends[:, 0],
+        ends[:, 1],
         _sources(parts_of(observed), list(sensors.values())),
-        _sinks(parts_of(acted), [(row, a.kind) for row, a in enumerate(graph.actuators) if a.name in actuators]),
+        tuple(_sink(name, part, driven) for name, part in parts_of(acted).items()),
     )
 
 
-def _sources(parts: Mapping[str, Part], sensors: Sequence[Observation]) -> tuple[Source, ...]:
+def _sources(parts: Mapping[str, Part], slots: Sequence[Slot]) -> tuple[Source, ...]:
     found = []
-    for name in dict.fromkeys(sensor.part for sensor in sensors):
-        mine = [(slot, sensor) for slot, sensor in enumerate(sensors) if sensor.part == name]
-        places = [parts[name].place(sensor.observation) for _, sensor in mine]
-        slots = [slot for slot, _ in mine]
-        found.append(Source(name, parts[name].shape, np.array(places, np.int64), np.array(slots, np.int64)))
+    for name in dict.fromkeys(slot.part for slot in slots):
+        to = [number for number, slot in enumerate(slots) if slot.part == name]
+        places = [parts[name].place(slots[number].index) for number in to]
+        found.append(Source(name, parts[name].shape, np.array(places, np.int64), np.array(to, np.int64)))
     return tuple(found)
 
 
-def _sinks(parts: Mapping[str, Part], actuators: Sequence[tuple[int, Any]]) -> tuple[Sink, ...]:
-    found = []
-    for name, part in parts.items():
-        mine = [(row, kind) for row, kind in actuators if kind.part == name]
-        index = [kind.action if isinstance(kind, Action) else kind.choice[:-1] or (0,) for _, kind in mine]
-        places = np.array([part.place(each) for each in index], np.int64)
-        ends = [_ends(kind, part, place) for (_, kind), place in zip(mine, places.tolist(), strict=True)]
-        low, high = np.array(ends, np.float64).reshape(-1, 2).T
-        numbers = [kind.choice[-1] if isinstance(kind, Choice) else 0 for _, kind in mine]
-        rows = np.array([row for row, _ in mine], np.int64)
-        found.append(Sink(name, part, rows, places, low, high, np.array(numbers, np.int64)))
-    return tuple(found)
+def _sink(name: str, part: Part, driven: Sequence[tuple[int, Slot]]) -> Sink:
+    mine = [(row, slot) for row, slot in driven if slot.part == name]
+    rows, slots = [row for row, _ in mine], [slot for _, slot in mine]
+    places = np.array([part.place(slot.index) for slot in slots], np.int64)
+    said = [_ends(slot) if slot.range else (part.low[i], part.high[i]) for slot, i in zip(slots, places, strict=True)]
+    low, high = np.array(said, np.float64).reshape(-1, 2).T
+    numbers = np.array([slot.chosen or 0 for slot in slots], np.int64)
+    return Sink(name, part, np.array(rows, np.int64), places, low, high, numbers)
 
 
-def _ends(kind: Any, part: Part, place: int) -> tuple[float, float]:
-    if isinstance(kind, Action) and kind.range != UNSAID:
-        return kind.range.first, kind.range.last
-    return float(part.low[place]), float(part.high[place])
+def _ends(slot: Slot) -> tuple[float, float]:
+    assert slot.range is not None
+    return slot.range.first, slot.range.last
 
 
 def _inside(observation: Any, name: str) -> Any:
