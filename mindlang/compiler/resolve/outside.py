@@ -1,4 +1,4 @@
-"""Minds whose tasks are environments of somebody else: what makes sense there, and whether parts fit the environment."""
+"""Minds whose tasks are environments of somebody else: what makes sense there, and whether parts fit them."""
 
 from collections.abc import Iterator, Sequence
 from typing import Any
@@ -39,7 +39,7 @@ def body_outside(names: Names, findings: Findings) -> Part[BodyKind]:
 def check_outside(
     tasks: Sequence[model.Task], sensors: Sequence[Part[Any]], actuators: Sequence[Part[Any]], findings: Findings
 ) -> None:
-    """Report what means nothing in the worlds of the tasks: an environment's in others, and others' in an environment."""
+    """Report what means nothing in the worlds of the tasks: an environment's in others, others' in an environment."""
     known = [task for task in tasks if task.scene is not None]
     outside = [task for task in known if task.scene.environment]
     with findings.each_once():

@@ -13,7 +13,7 @@ ENVIRONMENT = Reference("environment")
 @kind("task", "gymnasium")
 @dataclass(frozen=True, slots=True)
 class Gymnasium(SceneKind):
-    """The environment of Gymnasium with that name: each tick is one of its steps, and it says what a run begins with."""
+    """The environment of Gymnasium with that name: each tick is one of its steps, and it says how a run begins."""
 
     gymnasium: Annotated[str, ENVIRONMENT]
 

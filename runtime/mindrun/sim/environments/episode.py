@@ -6,7 +6,7 @@ from typing import Any, TypeVar
 import numpy as np
 
 from mindrun.sim.environments import making
-from mindrun.sim.environments.making import EnvironmentFault
+from mindrun.sim.environments.making import BrokenEnvironmentError
 from mindrun.sim.environments.wiring import Wiring
 
 T = TypeVar("T")
@@ -16,7 +16,7 @@ SEED_LIMIT = 1 << 31  # some environments take no larger ones
 class Episode:
     """An environment in a run. After each step: what is `observed` [slots], the reward, how it stands.
 
-    EnvironmentFault where it raises, or says what none may say.
+    BrokenEnvironmentError where it raises, or says what none may say.
     """
 
     def __init__(self, wiring: Wiring) -> None:
@@ -61,4 +61,4 @@ class Episode:
         except Exception as error:
             name, where = self._wiring.environment, f"step {self._steps} of the run of seed {self._seed}"
             hint = f"It was in {where}, and the fault is the environment's: {making.first_line(error)}."
-            raise EnvironmentFault(f"the environment {name} failed", hint.replace("..", ".")) from error
+            raise BrokenEnvironmentError(f"the environment {name} failed", hint.replace("..", ".")) from error

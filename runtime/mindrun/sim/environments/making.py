@@ -12,7 +12,7 @@ from mindrun.errors import MindError
 NO_TIME_LIMIT = -1  # of steps: how long a run is, the task says
 
 
-class EnvironmentFault(MindError):
+class BrokenEnvironmentError(MindError):
     """An environment that there is not, or that does what none may do."""
 
 
@@ -34,18 +34,18 @@ def is_there() -> bool:
 
 
 def make(name: str) -> Any:
-    """A new environment without the time limit that it is registered with; EnvironmentFault where it cannot be made."""
+    """A new environment without the time limit that it is registered with; BrokenEnvironmentError where none is."""
     gymnasium = library()
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")
             return gymnasium.make(name, max_episode_steps=NO_TIME_LIMIT, disable_env_checker=True)
     except (gymnasium.error.UnregisteredEnv, ModuleNotFoundError) as error:
-        raise EnvironmentFault(
+        raise BrokenEnvironmentError(
             f"Gymnasium has no environment called {name}.", _instead(gymnasium, name, error)
         ) from None
     except Exception as error:
-        raise EnvironmentFault(f"The environment {name} cannot be made.", first_line(error)) from None
+        raise BrokenEnvironmentError(f"The environment {name} cannot be made.", first_line(error)) from None
 
 
 @cache

@@ -32,8 +32,8 @@ class Source:
 class Sink:
     """What the commands `rows` make of one part of an action.
 
-    Of numbers: low + command · (high − low) at `places`. Of choices: at each of the `places` that of the `numbers` whose
-    command is the largest.
+    Of numbers: low + command · (high − low) at `places`. Of choices: at each of the `places` that of the `numbers` of
+    which the command is the largest.
     """
 
     name: str
