@@ -61,7 +61,7 @@ def command(
     seeds = layouts(seed, runs)
     scores, seconds = session.score(rollout, seeds)
     found = {"task": setup.task.name, "master": setup.master, "seed": seed, "workers": workers}
-    found |= outcome.bench_data(setup.task, scores, seeds, seconds) | {"notes": [*setup.ready.notes]}
+    found |= outcome.bench_data(setup.task, scores, seeds, seconds) | {"notes": [*setup.ready.notes, *rollout.notes]}
     if as_json:
         print_json(found)
     else:

@@ -162,6 +162,11 @@ class Rollout:
         self._explain(tile)
         return int(jobs.lanes[0])
 
+    @property
+    def notes(self) -> tuple[str, ...]:
+        """What somebody should know of the runs so far."""
+        return ()
+
     def observe(self, tile: Tile, jobs: Jobs) -> None:
         """What comes from outside of the lanes, before a tick: nothing here."""
 

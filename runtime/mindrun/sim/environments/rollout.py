@@ -54,6 +54,16 @@ class EnvironmentRollout(Rollout):
         self._rewards = [i for i, measure in enumerate(self.task.measures) if measure.is_outside]
         self._ends = [i for i, event in enumerate(self.task.events) if event.is_outside]
 
+    @property
+    def notes(self) -> tuple[str, ...]:
+        """Which sensors were beyond their ranges, and how often."""
+        shares = self.clipped / max(1, self.observed)
+        return tuple(
+            f"{name} was beyond its range in {share:.1%} of the ticks"
+            for name, share in zip(self.wiring.names, shares.tolist(), strict=True)
+            if share > 0
+        )
+
     def compile(self) -> None:
         """Compile the stages where no cache has them."""
         jobs = self.jobs(np.zeros((0, self.genome_length), np.float32), np.zeros(0, np.uint64))
