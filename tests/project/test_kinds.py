@@ -32,7 +32,7 @@ OUTCOMES = {"reached", "delivered"}
 GENERATORS = [
     ROOT / "tests" / "sim" / "worlds.py",
     ROOT / "tests" / "hierarchies.py",
-    ROOT / "tests" / "environments" / "minds.py",
+    ROOT / "tests" / "outside" / "minds.py",
 ]
 
 # Where a module asks for the class of a kind outside of the room of its kinds, and why.

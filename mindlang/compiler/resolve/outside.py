@@ -126,7 +126,7 @@ def _check_environment(
 
     One that has its module before it is not asked either: that would run the text of the module.
     """
-    from mindrun.sim.environments import fitting, making
+    from mindrun.sim.outside import fitting, making
 
     name, header = task.scene.environment, task.declaration.header
     if ":" in name or not making.is_there():

@@ -23,6 +23,6 @@ def rollout_for(
     """
     if not next(each for each in policy.graph.tasks if each.name == task).scene.environment:
         return Rollout(policy, task, master, learners, procedures=procedures, interrupt=interrupt, workers=workers)
-    from mindrun.sim.environments.rollout import EnvironmentRollout
+    from mindrun.sim.outside.rollout import EnvironmentRollout
 
     return EnvironmentRollout(policy, task, master, learners, procedures=procedures, interrupt=interrupt)

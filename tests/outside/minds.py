@@ -10,11 +10,11 @@ from mindrun.graph import Graph
 from mindrun.measures.its_reward import ItsReward
 from mindrun.policy import Policy
 from mindrun.scenes import Gymnasium
-from mindrun.sim.environments.rollout import EnvironmentRollout
+from mindrun.sim.outside.rollout import EnvironmentRollout
 
 from mindlang.compiler.compile import Compiled, compile_source
 from mindlang.compiler.source import Source
-from tests.environments.worlds import Line, name, register
+from tests.outside.worlds import Line, name, register
 
 KINDS = (Action, Choice, Gymnasium, ItsEnd, ItsReward)  # which these minds have
 PLACE = "sensor place is observation 0 range -2 to 2\nsensor speed is observation 1 range -1 to 1"

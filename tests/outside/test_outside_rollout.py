@@ -17,7 +17,7 @@ from mindrun.sim.rollouts import rollout_for
 from mindrun.sim.takeover import take_over
 from mindrun.sim.trace import trace
 
-from tests.environments import minds, worlds
+from tests.outside import minds, worlds
 
 PARTS = "sensor place is observation point.at 0 0 range -2 to 2\nsensor late is observation late 0 range 0 to 1"
 FOUR = "\n".join(f"actuator push{i} is choice {i + 1} neutral 0.5" for i in range(4))

@@ -9,9 +9,9 @@ from numpy.typing import NDArray
 
 from mindrun.errors import MindError
 from mindrun.graph import Graph
-from mindrun.sim.environments import making
-from mindrun.sim.environments.fitting import misfits
-from mindrun.sim.environments.parts import Part, parts_of
+from mindrun.sim.outside import making
+from mindrun.sim.outside.fitting import misfits
+from mindrun.sim.outside.parts import Part, parts_of
 from mindrun.slot import Slot
 
 Floats = NDArray[np.float64]

@@ -10,8 +10,8 @@ from numpy.typing import NDArray
 
 from mindrun.policy import Policy
 from mindrun.sim.codes import BROKEN_OFF
-from mindrun.sim.environments.episode import Episode
-from mindrun.sim.environments.wiring import Wiring, wiring_of
+from mindrun.sim.outside.episode import Episode
+from mindrun.sim.outside.wiring import Wiring, wiring_of
 from mindrun.sim.lanes.stages import act, before, conclude, run_skills
 from mindrun.sim.rollout import SLOW_SLICE_TICKS, Rollout, Tile
 from mindrun.sim.state import Jobs, State

@@ -5,9 +5,9 @@ import pytest
 pytest.importorskip("gymnasium")
 
 from mindrun.errors import MindError
-from mindrun.sim.environments import making
+from mindrun.sim.outside import making
 
-from tests.environments import minds, worlds
+from tests.outside import minds, worlds
 
 PARTS = worlds.name(worlds.Parts)
 FOUR = "\n".join(f"actuator push{i} is choice {i + 1} neutral 0.5" for i in range(4))
@@ -17,8 +17,8 @@ LATE = "sensor late is observation late 0 range 0 to 1"
 @pytest.mark.parametrize(
     ("source", "where", "message", "hint"),
     [
-        (minds.text(scene="tests/Lime-v0"), "gymnasium tests/Lime-v0", "Gymnasium has no environment called tests/Lime-v0.",
-         "Did you mean tests/Line-v0?"),
+        (minds.text(scene="tests/Lime-v0"), "gymnasium tests/Lime-v0",
+         "Gymnasium has no environment called tests/Lime-v0.", "Did you mean tests/Line-v0?"),
         (minds.text("sensor place is observation 2 range 0 to 1"), "place", "The environment has no observation 2.",
          "It has 2 numbers: 0 to 1."),
         (minds.text("sensor place is observation 0 0 range 0 to 1"), "place", "The environment has no observation 0 0.",

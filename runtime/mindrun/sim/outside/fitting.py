@@ -5,7 +5,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from mindrun.sim.environments.parts import Part, parts_of
+from mindrun.sim.outside.parts import Part, parts_of
 from mindrun.slot import Slot
 
 

@@ -5,9 +5,9 @@ from typing import Any, TypeVar
 
 import numpy as np
 
-from mindrun.sim.environments import making
-from mindrun.sim.environments.making import BrokenEnvironmentError
-from mindrun.sim.environments.wiring import Wiring
+from mindrun.sim.outside import making
+from mindrun.sim.outside.making import BrokenEnvironmentError
+from mindrun.sim.outside.wiring import Wiring
 
 T = TypeVar("T")
 SEED_LIMIT = 1 << 31  # some environments take no larger ones
