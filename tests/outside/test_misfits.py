@@ -27,7 +27,7 @@ LATE = "sensor late is observation late 0 range 0 to 1"
          "The observation of the environment has no part called image.", "Write observation 0."),
         (minds.text("sensor place is observation 0 range 0 to 1", FOUR, PARTS), "place",
          "The observation of the environment has several parts.",
-         "Its parts are point.at, late: write observation point.at 0."),
+         "Its parts are late, point.at: write observation late 0."),
         (minds.text(LATE, scene=PARTS), "push", "The environment takes one of a few actions, and no numbers.",
          "Write one actuator for each that is to be chosen: choice 1."),
         (minds.text(LATE, f"{FOUR}\nactuator more is choice 5 neutral 0", PARTS), "more",

@@ -113,7 +113,7 @@ def _making(node: Any, places: dict[int, int]) -> Maker:
     match node:
         case Span(_, start, end):
             return _spanning(places[start], places[end])
-        case syntax.Name(text, span) if text != span.text:
+        case syntax.Name(text, span) if text != span.text or " " in text:  # blanks of a shape are one
             return _calling(text, places[span.start], places[span.end])
         case syntax.Name(_, span):
             return _naming(places[span.start], places[span.end])
