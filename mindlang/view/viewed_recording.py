@@ -164,19 +164,20 @@ def _filled(path: Path, of: About, parts: Iterator[Rows], mind: Bundle) -> Itera
     RecordingError where a row is damaged, or is not what the mind computes, behind all that are before it. Where there
     is nothing to fill in nothing is computed again, which would take 30 times as long.
     """
+    some = (part[first : first + CHUNK_TICKS] for part in parts for first in range(0, max(1, len(part)), CHUNK_TICKS))
+    if not of.lacks_readings or not (virtual_sensors(mind.graph) or mind.graph.memories):
+        yield from ((rows, rows["readings"]) for rows in some)
+        return
     engine, number = Engine(mind.policy, mind.procedures, of.master), 1
-    nothing = not of.lacks_readings or (not virtual_sensors(mind.graph) and not mind.graph.memories)
-    for part in parts:
-        for first in range(0, max(1, len(part)), CHUNK_TICKS):
-            rows = part[first : first + CHUNK_TICKS]
-            readings, known = rows["readings"].copy(), len(rows) if nothing else 0
-            try:
-                for row in () if nothing else computed_again(path, of, rows, engine, number):
-                    readings[known] = row.readings
-                    known += 1
-            finally:
-                yield rows[:known], readings[:known]
-            number += known
+    for rows in some:
+        readings, known = rows["readings"].copy(), 0
+        try:
+            for row in computed_again(path, of, rows, engine, number):
+                readings[known] = row.readings
+                known += 1
+        finally:
+            yield rows[:known], readings[:known]
+        number += known
 
 
 def _row_count(path: Path, of: About) -> int:
