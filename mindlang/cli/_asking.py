@@ -29,8 +29,8 @@ def explain_run(
     """Run a task, and print who made what is asked about."""
     session = RunSession(quiet)
     setup, rollout = session.prepare(file, task, master, interrupt)
-    run = session.record(setup, rollout, seed)
-    _answer(course_of_run(run, seed), asked)
+    made = session.record(setup, rollout, seed)
+    _answer(course_of_run(made.run, seed), asked)
 
 
 def explain_recording(recording: str, bundle: str, asked: Asked) -> None:

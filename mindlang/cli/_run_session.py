@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from time import perf_counter
+from typing import TYPE_CHECKING
 
 from mindrun.errors import MindError
 from mindrun.sim.rollout import Rollout, Scores
@@ -16,8 +17,10 @@ from mindlang.cli._terminal import FINDINGS, MISUSE, fail, load_compiled, proced
 from mindlang.compiler.compile import Compiled
 from mindlang.resource_limits import refuse_too_large, refuse_too_many
 from mindlang.run.layouts import NO_GENOME
-from mindlang.run.recorded_run import RecordedRun
 from mindlang.run.setup import RunSetup, SetupError, set_up
+
+if TYPE_CHECKING:
+    from mindlang.run.course import Course
 
 
 @dataclass(frozen=True, slots=True)
@@ -90,11 +93,13 @@ class RunSession:
         return scores, seconds
 
     @procedures_talk()
-    def record(self, set_up: RunSetup, rollout: Rollout, seed: int) -> RecordedRun:
-        """A run again, tick by tick."""
-        from mindlang.run.recorded_run import record_run
+    def record(self, setup: RunSetup, rollout: Rollout, seed: int) -> Course:
+        """A run written down tick by tick, and what came of it."""
+        from mindlang.run.course import course
 
-        return record_run(set_up, rollout, seed)
+        made = course(setup, rollout, seed)
+        self.say(*(f"note: {note}" for note in rollout.notes))
+        return made
 
     def say(self, *lines: str) -> None:
         """Print lines on stderr."""

@@ -185,11 +185,6 @@ class Trainer:
             print(json.dumps(result, allow_nan=False), flush=True)
 
 
-def _command(run: RunFolder) -> str:
-    """What goes on with a run."""
-    return f"mindc train --resume {shlex.quote(str(run.folder))}"
-
-
 class Interruption:
     """While entered, the first SIGINT sets `asked` and calls `when_asked`; a second one ends the process."""
 

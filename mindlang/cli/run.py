@@ -102,7 +102,8 @@ def _run_to_its_end(session: RunSession, file: str, chosen: RunChoice, files: Ru
     from mindlang.run.summary import run_summary
 
     setup, rollout = session.prepare(file, chosen.task, chosen.master, chosen.interrupt)
-    came = outcome.run_data(setup.task, session.score(rollout, [chosen.seed])[0])
+    made = session.record(setup, rollout, chosen.seed) if files.any() else None
+    came = made.found if made else outcome.run_data(setup.task, session.score(rollout, [chosen.seed])[0])
     found = {
         "task": setup.task.name,
         "master": setup.master,
@@ -113,5 +114,5 @@ def _run_to_its_end(session: RunSession, file: str, chosen: RunChoice, files: Ru
         print_json(found)
     else:
         console().print(run_summary(found))
-    if files.any():
-        files.write(session, session.record(setup, rollout, chosen.seed), setup, found)
+    if made:
+        files.write(session, made.run, setup, found)
