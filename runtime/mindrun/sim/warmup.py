@@ -12,6 +12,7 @@ from mindrun.actuators import Wheel
 from mindrun.bodies import Disc
 from mindrun.functions import Rule
 from mindrun.graph import Actuator, Graph, Reward, Skill, Task
+from mindrun.low_priority import give_way
 from mindrun.policy import Policy
 from mindrun.scenes import Plain
 from mindrun.sim import cache
@@ -79,7 +80,7 @@ def main(words: Sequence[str]) -> None:
         except OSError:
             return
         if behind:
-            os.nice(LOWEST_NICENESS)
+            give_way(LOWEST_NICENESS)
         warm_up()
 
 

@@ -12,3 +12,7 @@ def give_way(niceness: int) -> None:
     os.nice(niceness)
     with suppress(OSError):
         Path("/proc/self/oom_score_adj").write_text(FIRST_TO_BE_KILLED, encoding="ascii")
+    # Linux shares the processor between sessions first: among the processes of its own alone, one gives way to nobody.
+    if os.getsid(0) == os.getpid():
+        with suppress(OSError):
+            Path("/proc/self/autogroup").write_text(str(niceness), encoding="ascii")
