@@ -135,7 +135,7 @@ class Trainer:
         if self.where is None:
             yield None
             return
-        jobs = self.where.begin(assignment_of(run, subject))
+        jobs = self.where.begin(assignment_of(run, subject), self._say)
         try:
             yield StretchExecutor(run.course(rollout.genome_length), jobs)
         finally:

@@ -19,6 +19,12 @@ Examples:
   mindc train collect.mind --on ssh:a,b        attempts side by side, on two machines
   mindc train --resume runs/GoToObject/20260714T120000Z-1
   mindc train collect.mind GoToObject --tensorboard          then, beside it: tensorboard --logdir runs
+\b
+Where SLURM begins processes, these two lines begin a cluster (tls.pem, and other ways: docs/cluster.md):
+  TLS="--protocol tls --tls-ca-file tls.pem --tls-cert tls.pem --tls-key tls.pem"
+  sbatch --wrap "dask scheduler --scheduler-file scheduler.json $TLS"
+  sbatch --array 1-8 -c 4 --wrap "dask worker --scheduler-file scheduler.json --nthreads 4 $TLS"
+  mindc train collect.mind --attempts 32 --on dask:scheduler.json,tls.pem
 """
 
 
@@ -34,7 +40,13 @@ Examples:
 @click.option("--force", is_flag=True, help="Teach what is up to date, too, and keep it even where it does worse.")
 @click.option("--seed", type=SEED, help="The same seed gives the same weights.")
 @click.option("--workers", type=WORKERS, help="How many cores to use (default: all). Changes nothing else.")
-@click.option("--on", "where", type=ON, metavar="WHERE", help="Who does the attempts: processes:N, ssh:HOST,HOST …")
+@click.option(
+    "--on",
+    "where",
+    type=ON,
+    metavar="WHERE",
+    help="Who does the attempts: processes:N, ssh:HOST,HOST, dask:SCHEDULER …",
+)
 @click.option("--runs", type=click.Path(path_type=Path), default="runs", show_default=True, help="Where runs are kept.")
 @click.option("--resume", type=click.Path(path_type=Path), metavar="RUN", help="Go on with a run that was stopped.")
 @click.option("--tensorboard", "event_files", is_flag=True, help="Write event files for TensorBoard into the run, too.")

@@ -1,5 +1,6 @@
-"""Where jobs are done, by what --on says: one file a kind, `begin(argument, assignment)` opens it."""
+"""Where jobs are done, by what --on says: one file a kind, `begin(argument, assignment, say)` opens it."""
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from importlib import import_module
 from pkgutil import iter_modules
@@ -18,9 +19,9 @@ class Where:
     kind: str
     argument: str
 
-    def begin(self, assignment: Assignment) -> Executor:
-        """Workers for the jobs of an assignment; MindError where there can be none."""
-        executor: Executor = import_module(f"{__name__}.{self.kind}").begin(self.argument, assignment)
+    def begin(self, assignment: Assignment, say: Callable[[str], object] = lambda line: None) -> Executor:
+        """Workers for the jobs of an assignment, who `say` what they wait for; MindError where there can be none."""
+        executor: Executor = import_module(f"{__name__}.{self.kind}").begin(self.argument, assignment, say)
         return executor
 
 

@@ -1,6 +1,7 @@
 """Any command that is a worker: it takes frames on its standard input, and answers on its standard output."""
 
 import shlex
+from collections.abc import Callable
 
 from mindrun.work.assignment import Assignment
 from mindrun.work.crew import Crew, Place
@@ -21,7 +22,7 @@ def flaw(argument: str) -> str:
     return "" if 1 <= count <= MAX_COMMANDS else f"there are not 1 to {MAX_COMMANDS} of them"
 
 
-def begin(argument: str, assignment: Assignment) -> Executor:
+def begin(argument: str, assignment: Assignment, say: Callable[[str], object]) -> Executor:
     """The command, so many times."""
     count, words = _split(argument)
     names = [f"{words[0]} {number}" if count > 1 else words[0] for number in range(1, count + 1)]

@@ -1,6 +1,7 @@
 """Processes on this machine, which share its cores."""
 
 import sys
+from collections.abc import Callable
 
 from mindrun.work.assignment import Assignment
 from mindrun.work.crew import Crew, Place
@@ -18,7 +19,7 @@ def flaw(argument: str) -> str:
     return "" if 1 <= int(argument) <= MAX_PROCESSES else f"it is not from 1 to {MAX_PROCESSES}"
 
 
-def begin(argument: str, assignment: Assignment) -> Executor:
+def begin(argument: str, assignment: Assignment, say: Callable[[str], object]) -> Executor:
     """So many processes."""
     from mindrun.sim.rollout import cores
 

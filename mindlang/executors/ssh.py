@@ -1,5 +1,7 @@
 """Other machines by ssh: one worker on each, with all its cores."""
 
+from collections.abc import Callable
+
 from mindrun.work.assignment import Assignment
 from mindrun.work.crew import Crew, Place
 from mindrun.work.executor import Executor
@@ -18,7 +20,7 @@ def flaw(argument: str) -> str:
     return f"{wrong!r:.40} is no machine" if wrong else ""
 
 
-def begin(argument: str, assignment: Assignment) -> Executor:
+def begin(argument: str, assignment: Assignment, say: Callable[[str], object]) -> Executor:
     """A worker on each machine."""
     hosts = argument.split(",")
     return Crew([Place(host, (*SSH, "--", host, "mindrun", "work")) for host in hosts], assignment)

@@ -30,7 +30,11 @@ COMMANDS = {  # of the runtime, and why each may speak
     "tools/report.py": "mindrun report",
 }
 PROGRAMS = {"wiring/driver_inspection.py": "a process that imports a driver of a user, whatever that does"}
-TIMED = {"api.py": "a lesson notes when it began, and counts its seconds"}
+TIMED = {
+    "api.py": "a lesson notes when it began, and counts its seconds",
+    "cluster/answering.py": "what a worker of Dask runs, as mindrun work is what one behind pipes runs",
+    "cluster/jobs.py": "a scheduler is asked for its workers once a second",
+}
 
 
 def said(node: ast.Module, words: set[str]) -> Iterator[tuple[int, str]]:

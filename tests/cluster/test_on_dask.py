@@ -1,0 +1,127 @@
+"""`mindc train --on dask`: the same weights, with tls, too, and one sentence where there is no way to a cluster."""
+
+import json
+import os
+import shutil
+import signal
+import subprocess
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+from time import sleep
+
+import pytest
+
+from mindlang.cluster.scheduler import TLS, sbatch
+from tests.train.test_train_command import LONG, MIND, mindc
+
+pytest.importorskip("distributed", reason="distributed is not installed: pip install 'mindlang[cluster]'")
+
+ROOT = Path(__file__).parents[2]
+TAUGHT = ("drive.mind", "Go", "--seed", "3", "--generations", "6", "--attempts", "3", "--from-scratch", "--json")
+CLUSTER = """
+import sys
+from distributed import LocalCluster, Security
+pem = sys.argv[1]
+tls = {"protocol": "tls", "security": Security(**{f"tls_{who}_{what}": pem for who in ("client", "scheduler", "worker")
+    for what in ("cert", "key")}, tls_ca_file=pem, require_encryption=True)} if pem else {}
+if __name__ == "__main__":
+    with LocalCluster(n_workers=1, threads_per_worker=2, dashboard_address=None, host="127.0.0.1", **tls) as cluster:
+        print(cluster.scheduler_address, flush=True)
+        sys.stdin.read()
+"""
+
+
+def cluster_on_this_machine(folder: Path, pem: str = "") -> Iterator[str]:
+    """The address of a scheduler, whose one worker has two threads."""
+    (folder / "cluster.py").write_text(CLUSTER)
+    sources = {"PYTHONPATH": os.pathsep.join([str(ROOT), str(ROOT / "runtime")])}
+    with subprocess.Popen(
+        [sys.executable, "cluster.py", pem],
+        cwd=folder,
+        env=os.environ | sources,
+        text=True,
+        stdin=subprocess.PIPE,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.DEVNULL,
+    ) as process:
+        assert process.stdout
+        yield process.stdout.readline().strip()
+        assert process.stdin
+        process.stdin.close()
+
+
+@pytest.fixture(scope="module")
+def cluster(tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:
+    yield from cluster_on_this_machine(tmp_path_factory.mktemp("cluster"))
+
+
+@pytest.fixture
+def pem(tmp_path: Path) -> str:
+    """A certificate and its key, as docs/cluster.md makes them."""
+    if not shutil.which("openssl"):
+        pytest.skip("openssl is not installed, which makes a certificate")
+    words = "req -x509 -newkey rsa:2048 -nodes -days 2 -subj /CN=mind -keyout tls.pem -out tls.pem"
+    subprocess.run(["openssl", *words.split()], cwd=tmp_path, check=True, capture_output=True)
+    return str(tmp_path / "tls.pem")
+
+
+@pytest.fixture
+def project(tmp_path: Path) -> Path:
+    (tmp_path / "drive.mind").write_text(MIND)
+    return tmp_path
+
+
+def weights(project: Path, *words: str) -> dict[str, str]:
+    done = mindc(project, *words)
+    assert done.returncode == 0, done.stderr
+    found: dict[str, str] = json.loads(done.stdout)["weights"]
+    return found
+
+
+def test_the_weights_are_those_of_threads(project: Path, cluster: str, pem: str) -> None:
+    expected = weights(project, *TAUGHT, "--runs", "threads")
+    (project / "scheduler.json").write_text(json.dumps({"type": "Scheduler", "address": cluster}))
+    assert weights(project, *TAUGHT, "--runs", "dask", "--on", "dask:scheduler.json") == expected
+    for address in cluster_on_this_machine(project, pem):
+        assert address.startswith("tls://")
+        assert weights(project, *TAUGHT, "--runs", "tls", "--on", f"dask:{address},tls.pem") == expected
+        refused = mindc(project, *TAUGHT, "--on", f"dask:{address}")
+        assert (refused.returncode, "none was said" in refused.stderr) == (1, True)
+
+
+def test_ctrl_c_leaves_a_run_that_goes_on_to_the_same_weights(project: Path, cluster: str) -> None:
+    expected = weights(project, *LONG, "--runs", "undisturbed")
+    command = [sys.executable, "-c", "from mindlang.cli import main; main()", "train", *LONG, "--on", f"dask:{cluster}"]
+    with subprocess.Popen(command, cwd=project, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as process:
+        logs = project.glob("runs/Go-on-Reach/*/progress.jsonl")
+        while process.poll() is None and not any(log.stat().st_size for log in logs):
+            sleep(0.005)
+            logs = project.glob("runs/Go-on-Reach/*/progress.jsonl")
+        process.send_signal(signal.SIGINT)
+        _, talk = process.communicate()
+    assert process.returncode in (0, 130), talk  # a short lesson may have ended
+    assert "Traceback" not in talk
+    assert weights(project, *LONG, "--on", f"dask:{cluster}") == expected
+
+
+@pytest.mark.parametrize(
+    ("where", "code", "words"),
+    [
+        (
+            "dask:moon.json",
+            2,
+            'sbatch --array 1-8 -c 4 --wrap "dask worker --scheduler-file moon.json --nthreads 4 $TLS"',
+        ),
+        ("dask:tls://127.0.0.1:9,none.pem", 1, "none.pem is no certificate with its key"),
+    ],
+)
+def test_where_there_is_no_way_to_a_cluster_it_is_said(project: Path, where: str, code: int, words: str) -> None:
+    done = mindc(project, *TAUGHT, "--on", where)
+    assert (done.returncode, words in done.stderr) == (code, True), done.stderr
+    assert "Traceback" not in done.stderr
+
+
+def test_the_help_has_the_two_lines_for_slurm(project: Path) -> None:
+    done = mindc(project, "--help")
+    assert all(line in done.stdout for line in (TLS, *sbatch("scheduler.json")))
