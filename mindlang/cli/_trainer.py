@@ -144,12 +144,14 @@ class Trainer:
     @procedures_talk()
     def _watched(self, run: RunFolder, rollout: Rollout, executor: StretchExecutor | None) -> LessonState:
         lesson = run.manifest.lesson
-        watcher = self._watcher(run)
+        pace = TimeLeft.of(run, perf_counter())
+        watcher = self._watcher(run, pace)
         watchers = [watcher, *[EventFiles(run)] * self.event_files]
 
         def asked() -> None:
             watcher.close()
-            self._say(f"finishing this generation; Ctrl-C again stops at once, to go on then: {self._command(run)}")
+            what = "saving; what workers are at is done again then" if executor else "finishing this generation"
+            self._say(f"{what}; Ctrl-C again stops at once, to go on then: {self._command(run)}")
 
         def report(state: LessonState, record: Record) -> None:
             before = record.attempt if record.verdict is not None else record.attempt - 1
@@ -159,18 +161,16 @@ class Trainer:
 
         try:
             with Interruption(asked) as interruption:
-                watch = Watch(report, self._say, lambda: interruption.asked, perf_counter)
+                watch = Watch(report, self._say, lambda: interruption.asked, perf_counter, pace.look_ahead)
                 return train(run, rollout, watch, executor)
         finally:
             for each in watchers:
                 each.close()
 
-    def _watcher(self, run: RunFolder) -> Watcher:
+    def _watcher(self, run: RunFolder, pace: TimeLeft) -> Watcher:
         if self.quiet:
             return Silent()
-        return (ProgressBarLine if talk.is_terminal else PrintedLines)(
-            talk, run.manifest.name, TimeLeft.of(run, perf_counter())
-        )
+        return (ProgressBarLine if talk.is_terminal else PrintedLines)(talk, run.manifest.name, pace)
 
     def _command(self, run: RunFolder) -> str:
         """What goes on with a run."""

@@ -4,6 +4,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Protocol
 
+from mindrun.train.attempts import NOTHING_AHEAD, Ahead
 from mindrun.train.lesson_state import Record
 from mindrun.train.population import founder_count
 from mindrun.train.progress import read_progress
@@ -79,6 +80,7 @@ class TimeLeft:
     first: float = 1.0
     ticks: int = 0
     seen: float = 0.0
+    ahead: Ahead = NOTHING_AHEAD
 
     @classmethod
     def of(cls, run: RunFolder, began: float) -> "TimeLeft":
@@ -90,11 +92,21 @@ class TimeLeft:
         first = founder_count(learner) / learner.population if run.begins_with_nothing else 1.0
         return cls(lesson.generations * learner.attempts, began, learner.attempts, known, first)
 
+    def look_ahead(self, ahead: Ahead) -> None:
+        """What attempts ahead of their turn have done by now."""
+        self.ahead = ahead
+
+    def share(self, done: int) -> float:
+        """Which part of all has been done, in its turn or ahead."""
+        return (done + self.ahead.generations) / self.generations
+
     def standing(self, record: Record, done: int, now: float) -> ProgressText:
         """Where the lesson stands after a generation."""
         self.ticks += record.ticks
         self.seen += self.first if record.generation == 1 else 1.0
-        left = self.generations - done + (self.attempts - record.attempt) * (self.first - 1.0)
+        ahead = self.ahead.generations + self.ahead.attempts * (self.first - 1.0)
+        left = self.generations - done + (self.attempts - record.attempt) * (self.first - 1.0) - ahead
+        everywhere = (self.seen + ahead) / self.seen  # times what has been done in its turn
         self.reevaluated = self.reevaluated if record.reevaluated is None else record.reevaluated
         seconds = max(now - self.began, 1e-9)
         one = self.generations // self.attempts
@@ -102,13 +114,15 @@ class TimeLeft:
         if self.attempts > 1:
             attempt = f"attempt {record.attempt}"
             where, briefly = f"{attempt} of {self.attempts}, {where}", f"{attempt}, {briefly}"
+        if self.ahead.generations:
+            where += f" and {self.ahead.generations:,} ahead"
         return ProgressText(
             where,
             briefly,
             f"best {number(record.best)}",
             f"re-evaluated {number(self.reevaluated)}",
-            rate(self.ticks / seconds),
-            f"{duration(seconds / self.seen * left)} left",
+            rate(self.ticks * everywhere / seconds),
+            f"{duration(seconds / (self.seen * everywhere) * max(0.0, left))} left",
         )
 
 
@@ -147,7 +161,7 @@ class ProgressBarLine:
         self._live.stop()
 
     def _line(self, standing: ProgressText | None, done: int) -> RenderableType:
-        return ProgressLine(self._name, standing, done / self._pace.generations)
+        return ProgressLine(self._name, standing, self._pace.share(done))
 
 
 @dataclass(frozen=True, slots=True)

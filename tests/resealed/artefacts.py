@@ -334,7 +334,7 @@ def use_run(folder: Path) -> object:
     if learner.population * learner.layouts > 10_000:
         return run.course(LENGTH)  # which would only take long
     left = iter(range(6))
-    return train(run, Sphere(), Watch(forget, forget, lambda: next(left, None) is None, perf_counter, 0.0))
+    return train(run, Sphere(), Watch(forget, forget, lambda: next(left, None) is None, perf_counter, save_every=0.0))
 
 
 # Releases on a robot

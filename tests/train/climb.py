@@ -15,7 +15,9 @@ def main(folder: str, before: str = "", pause: str = "0") -> None:
     exec(before)
     print("ready", flush=True)
     try:
-        train(run, Sphere(), Watch(lambda *_: sleep(float(pause)), forget, lambda: False, perf_counter, 0.01))
+        train(
+            run, Sphere(), Watch(lambda *_: sleep(float(pause)), forget, lambda: False, perf_counter, save_every=0.01)
+        )
     except RunError as error:
         sys.exit(str(error))
 

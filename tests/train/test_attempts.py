@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from mindrun.train.attempts import Attempts, Segment, Step, Stretch, advance, side_by_side
+from mindrun.train.attempts import Ahead, Attempts, Segment, Step, Stretch, advance, side_by_side
 from mindrun.train.checkpoint import pack
 from mindrun.train.lesson import teach
 from mindrun.train.lesson_state import Course, LessonState, Record, begin
@@ -132,3 +132,14 @@ def test_what_nobody_asked_for_is_left_out(job: int) -> None:
     assert stretch is not None
     attempts.put(job, advance(course, Sphere(), stretch, lambda: 0.0))
     assert list(attempts.steps()) == []
+
+
+def test_what_is_ahead_is_what_will_be_reported_without_a_job() -> None:
+    course = Course(lesson(6, attempts=4), 1, UNKNOWN)
+    rng = np.random.default_rng(3)
+    steps = list(side_by_side(course, Shuffled(course, Sphere(), 4, rng), begin(course), lambda: False))
+    assert steps[-1].ahead == Ahead()
+    assert any(step.ahead.attempts > 1 for step in steps)
+    for step in steps:
+        assert 0 <= step.ahead.attempts <= max(0, 3 - step.state.attempt)
+        assert step.ahead.attempts <= step.ahead.generations <= 6 * step.ahead.attempts

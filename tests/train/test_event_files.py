@@ -39,7 +39,7 @@ def watched(run: RunFolder, stop_after: int = 10**9, events: EventFiles | None =
     def report(_: object, record: Record) -> None:
         events.report(record, 0, silent.clock())
 
-    train(run, Sphere(), Watch(report, forget, silent.stop, silent.clock, silent.save_every))
+    train(run, Sphere(), Watch(report, forget, silent.stop, silent.clock, save_every=silent.save_every))
     events.close()
 
 
@@ -132,7 +132,7 @@ def test_what_is_not_finite_is_no_event(run: RunFolder) -> None:
         events.report(record, 0, 0.0)
 
     silent = unwatched(1e9)
-    train(run, Faulty(above=-1e9), Watch(report, forget, silent.stop, silent.clock, silent.save_every))
+    train(run, Faulty(above=-1e9), Watch(report, forget, silent.stop, silent.clock, save_every=silent.save_every))
     events.close()
     assert all_of(run) == expected(run)
     assert set(all_of(run)["attempt 1"]) == {SPEED}

@@ -5,10 +5,12 @@ from io import StringIO
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from mindrun.train.attempts import Ahead
 from mindrun.train.lesson_state import Record
 from rich.console import Console
 
 from mindlang.cli._training_progress import PrintedLines, ProgressBarLine, ProgressLine, ProgressText, TimeLeft
+from mindlang.number_format import rate
 
 SHOWN = {
     200: "Follow ━━━━━━               attempt 2 of 2, generation 15 of 40, best 6.67, re-evaluated 5.97, "
@@ -53,6 +55,29 @@ def test_where_there_are_attempts_the_generation_is_one_of_them() -> None:
     pace = TimeLeft(80, 0.0, attempts=2)
     assert pace.standing(record(2, 2), 42, 1.0).text().startswith("attempt 2 of 2, generation 2 of 40, best 6.67, ")
     assert TimeLeft(80, 0.0).standing(record(1, 42), 42, 1.0).where == "generation 42 of 80"
+
+
+def test_what_others_have_done_ahead_shortens_the_time_that_is_left() -> None:
+    pace = TimeLeft(400, 0.0, attempts=4)
+    for generation in range(1, 11):
+        alone = pace.standing(record(1, generation), generation, 10.0)
+    assert (alone.where, alone.left, alone.rate) == (
+        "attempt 1 of 4, generation 10 of 100",
+        "6 min 30 s left",
+        rate(1000),
+    )
+    pace.look_ahead(Ahead(3, 30))
+    beside = pace.standing(record(1, 11), 11, 11.0)
+    assert beside.where == "attempt 1 of 4, generation 11 of 100 and 30 ahead"
+    assert beside.left == "1 min 36 s left", "41 generations in 11 s, and 359 to come"
+    assert beside.rate == rate(1000 * 41 / 11)
+    assert pace.share(11) == 41 / 400
+
+
+def test_founders_of_those_ahead_have_been_scored() -> None:
+    pace = TimeLeft(80, 0.0, attempts=2, first=10.0)
+    pace.look_ahead(Ahead(1, 1))
+    assert pace.standing(record(1, 1), 1, 20.0).left == "1 min 18 s left", "20 generations' worth in 20 s, 78 to come"
 
 
 def test_founders_are_as_many_generations_as_they_take() -> None:

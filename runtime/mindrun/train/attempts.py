@@ -48,12 +48,24 @@ class Segment:
 
 
 @dataclass(frozen=True, slots=True)
+class Ahead:
+    """What has been done ahead of its turn, which a lesson has not come to: so many generations of so many attempts."""
+
+    attempts: int = 0
+    generations: int = 0
+
+
+NOTHING_AHEAD = Ahead()
+
+
+@dataclass(frozen=True, slots=True)
 class Step:
     """What a lesson has come to: its state, and the generations since the step before, with the champion of each."""
 
     state: LessonState
     records: tuple[Record, ...]
     champions: Genomes
+    ahead: Ahead = NOTHING_AHEAD
 
 
 class Executor(Protocol):
@@ -174,6 +186,11 @@ class Attempts:
                 return
             yield self._gone_on(track, track.segments.popleft())
 
+    def ahead(self) -> Ahead:
+        """What attempts behind that at work have done."""
+        done = [t.state.population.generation for number, t in self.tracks.items() if number > self.lesson.attempt]
+        return Ahead(sum(map(bool, done)), sum(done))
+
     def _begin(self, state: AttemptState) -> None:
         self.tracks[self.begun] = Track(self.begun, state)
         heappush(self.ready, (self.begun, self.begun))
@@ -236,7 +253,7 @@ class Attempts:
         if segment.verdict is not None:
             self.lesson = ended(self.course, self.lesson, segment.verdict)
             del self.tracks[track.number]
-        return Step(self.lesson, tuple(records), segment.champions)
+        return Step(self.lesson, tuple(records), segment.champions, self.ahead())
 
 
 def side_by_side(course: Course, executor: Executor, state: LessonState, stop: Callable[[], bool]) -> Iterator[Step]:

@@ -1,0 +1,253 @@
+"""Attempts side by side, wherever: python benchmarks/executors.py [--generations 60] [--kills 50] [--turns 3].
+
+Three tables, of GoToObject on this machine: the SHA-256 of the weights for every executor and seed; what ten attempts
+take beside threads of the same cores, in turns; a training whose workers are killed at random moments, beside the same
+undisturbed. 1 where any weights differ.
+"""
+
+import argparse
+import os
+import random
+import signal
+import sys
+import time
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass, replace
+from hashlib import sha256
+from statistics import median
+from threading import Event, Thread
+
+import numpy as np
+import psutil
+from distributed import LocalCluster
+from mindrun.bundle import Bundle, pack
+from mindrun.policy import Policy
+from mindrun.sim.rollout import Rollout, cores
+from mindrun.train.attempts import side_by_side
+from mindrun.train.lesson import teach
+from mindrun.train.lesson_state import Course, begin
+from mindrun.work.assignment import Assignment
+from mindrun.work.crew import Crew
+from mindrun.work.executor import Executor, StretchExecutor
+
+from benchmarks.workloads import collect
+from mindlang.cluster.connection import connect
+from mindlang.cluster.jobs import ClusterJobs
+from mindlang.cluster.scheduler import Destination
+from mindlang.executors import where
+
+SKILL = "GoToObject"
+MIN_KILL_SECONDS, MAX_KILL_SECONDS = 0.5, 5.5  # between two kills
+SHOWN_CHARACTERS = 16  # of a hash
+
+Pids = Callable[[], list[int]]
+
+
+@dataclass(frozen=True, slots=True)
+class Taught:
+    """What a training came to: the hash of its weights, and the seconds that it took."""
+
+    weights: str
+    seconds: float
+    kills: int = 0
+
+
+def main() -> None:
+    """Teach on every executor, and print the tables."""
+    parser = argparse.ArgumentParser(allow_abbrev=False, description=__doc__)
+    parser.add_argument("--generations", type=int, default=60, help="of each of the ten attempts (default 60)")
+    parser.add_argument("--seeds", type=int, default=3, help="of the first table (default 3)")
+    parser.add_argument("--turns", type=int, default=3, help="of the second table (default 3)")
+    parser.add_argument("--kills", type=int, default=50, help="of each executor in the third table (default 50)")
+    options = parser.parse_args()
+    assignment = assignment_of()
+    is_same = [
+        hashes(assignment, options.seeds),
+        overhead(assignment, options.generations, options.turns),
+        kills(assignment, options.generations, options.kills),
+    ]
+    sys.exit(not all(is_same))
+
+
+def assignment_of() -> Assignment:
+    """What a worker has to know."""
+    graph, weights, _ = collect()
+    return Assignment(pack(Bundle(Policy(graph, weights), {})), SKILL, SKILL, (SKILL,))
+
+
+def course_of(rollout: Rollout, attempts: int, generations: int, seed: int) -> Course:
+    """The paper's lesson, shorter, from nothing."""
+    lesson = next(each for each in collect()[0].lessons if each.skill == SKILL and each.curriculum == "Collect")
+    learner = replace(lesson.learner, attempts=attempts)
+    nothing = np.empty((0, rollout.genome_length), np.float32)
+    return Course(replace(lesson, generations=generations, learner=learner), seed, nothing)
+
+
+def rollout_of(assignment: Assignment, threads: int) -> Rollout:
+    """What scores genomes in this process, compiled."""
+    rollout = Rollout(assignment.opened().policy, SKILL, SKILL, [SKILL], workers=threads)
+    rollout.compile()
+    return rollout
+
+
+@contextmanager
+def threads(count: int, assignment: Assignment) -> Iterator[tuple[None, Pids]]:
+    """No other process."""
+    yield None, list[int]
+
+
+@contextmanager
+def processes(count: int, assignment: Assignment) -> Iterator[tuple[Executor, Pids]]:
+    """Frames on standard streams."""
+    place = where(f"processes:{count}")
+    assert place
+    jobs = place.begin(assignment)
+    assert isinstance(jobs, Crew)
+    try:
+        yield jobs, lambda: [child.process.pid for child in jobs.children if child.process]
+    finally:
+        jobs.close()
+
+
+@contextmanager
+def dask(count: int, assignment: Assignment) -> Iterator[tuple[Executor, Pids]]:
+    """So many workers of one thread."""
+    with LocalCluster(n_workers=count, threads_per_worker=1, dashboard_address=None, host="127.0.0.1") as cluster:
+        jobs = ClusterJobs(connect(Destination(cluster.scheduler_address)), assignment, print)
+        try:
+            yield jobs, lambda: [nanny.pid for nanny in cluster.workers.values() if nanny.pid]
+        finally:
+            jobs.close()
+
+
+def taught(course: Course, rollout: Rollout, jobs: Executor | None) -> Taught:
+    """Teach a lesson in this process, or where jobs are done."""
+    began = time.perf_counter()
+    state = begin(course)
+    if jobs is None:
+        *_, (state, _) = teach(course, rollout, state, time.perf_counter)
+    else:
+        for step in side_by_side(course, StretchExecutor(course, jobs), state, lambda: False):
+            state = step.state
+    digest = sha256(state.kept.tobytes() + state.champions.tobytes()).hexdigest()
+    return Taught(digest, time.perf_counter() - began)
+
+
+EXECUTORS = {
+    "1 thread": (threads, 1),
+    "2 threads": (threads, 2),
+    "2 processes": (processes, 2),
+    "Dask, 1 worker": (dask, 1),
+    "Dask, 2 workers": (dask, 2),
+    "Dask, 4 workers": (dask, 4),
+}
+
+
+def hashes(assignment: Assignment, seeds: int) -> bool:
+    """The weights by executor and seed; whether they are the same."""
+    print(f"SHA-256 of the weights of four attempts of 15 generations, seeds 1 to {seeds}", flush=True)
+    found = dict[str, list[str]]()
+    for name, (make, count) in EXECUTORS.items():
+        rollout = rollout_of(assignment, count if make is threads else 1)
+        with make(count, assignment) as (jobs, _):
+            found[name] = [taught(course_of(rollout, 4, 15, seed), rollout, jobs).weights for seed in seeds_of(seeds)]
+        print(f"  {name:<16}", *(each[:SHOWN_CHARACTERS] for each in found[name]), flush=True)
+    return len({tuple(each) for each in found.values()}) == 1
+
+
+def seeds_of(count: int) -> Sequence[int]:
+    """Seeds from 1 on."""
+    return range(1, count + 1)
+
+
+def overhead(assignment: Assignment, generations: int, turns: int) -> bool:
+    """Ten attempts on the same cores by threads, processes and Dask, in turns; whether their weights are the same."""
+    names = {"threads": threads, "processes": processes, "Dask": dask}
+    count = cores()
+    rollout = rollout_of(assignment, count)
+    course = course_of(rollout, 10, generations, 1)
+    print(f"ten attempts of {generations} generations on {count} cores: seconds, and in brackets those of CPU time")
+    weights, found = set[str](), list[dict[str, tuple[float, float]]]()
+    for _ in range(turns):
+        turn = dict[str, tuple[float, float]]()
+        for name, make in names.items():
+            with make(count, assignment) as (jobs, pids):
+                warm_up(rollout, jobs)
+                before = cpu_seconds(pids())
+                done = taught(course, rollout, jobs)
+                turn[name] = done.seconds, cpu_seconds(pids()) - before
+            weights.add(done.weights)
+        found.append(turn)
+        print("  " + ", ".join(f"{name} {wall:.1f} ({cpu:.1f})" for name, (wall, cpu) in turn.items()), flush=True)
+    for name in names if found else ():
+        wall, cpu = (median(turn[name][i] / turn["threads"][i] for turn in found) for i in range(2))
+        print(f"  {name:<10} {wall:.3f} times the seconds of threads, {cpu:.3f} times their CPU time (medians)")
+    return len(weights) <= 1
+
+
+def cpu_seconds(pids: Sequence[int]) -> float:
+    """CPU time of this process, where a scheduler may run, and of workers so far."""
+    return time.process_time() + sum(sum(psutil.Process(pid).cpu_times()[:2]) for pid in pids)
+
+
+def warm_up(rollout: Rollout, jobs: Executor | None) -> None:
+    """Let every worker begin and load what is compiled: two short attempts for each."""
+    if jobs is not None:
+        taught(course_of(rollout, 2 * cores(), 1, 9), rollout, jobs)
+
+
+def kills(assignment: Assignment, generations: int, count: int) -> bool:
+    """A training whose two workers are killed at random moments, beside the same undisturbed; whether nothing differs.
+
+    It is taught again, with the same seed, until there were so many kills.
+    """
+    print(
+        f"{count} kills at random moments, {MIN_KILL_SECONDS} to {MAX_KILL_SECONDS} s after each other, of two workers"
+    )
+    rollout = rollout_of(assignment, 1)
+    course, weights = course_of(rollout, 10, generations, 1), set[str]()
+    for name, make in (("processes", processes), ("Dask", dask)):
+        with make(2, assignment) as (jobs, pids):
+            whole = taught(course, rollout, jobs)
+            disturbed = list[Taught]()
+            while sum(each.kills for each in disturbed) < count:
+                with killing(pids, count - sum(each.kills for each in disturbed), random.Random(1)) as killed:
+                    done = taught(course, rollout, jobs)
+                disturbed.append(replace(done, kills=len(killed)))
+        weights |= {whole.weights, *(each.weights for each in disturbed)}
+        total = sum(each.kills for each in disturbed)
+        lost = sum(each.seconds - whole.seconds for each in disturbed)
+        print(
+            f"  {name:<10} {total} kills in {len(disturbed)} trainings, {whole.seconds:.0f} s undisturbed,"
+            f" {sum(each.seconds for each in disturbed) / len(disturbed):.0f} s with them:"
+            f" {lost / max(1, total):.1f} s a kill; weights {' '.join(each[:SHOWN_CHARACTERS] for each in weights)}",
+            flush=True,
+        )
+    return len(weights) == 1
+
+
+@contextmanager
+def killing(pids: Pids, most: int, draw: random.Random) -> Iterator[list[int]]:
+    """Kill a random worker now and then, at most so many; who was killed."""
+    killed, over = list[int](), Event()
+
+    def kill() -> None:
+        while len(killed) < most and not over.wait(draw.uniform(MIN_KILL_SECONDS, MAX_KILL_SECONDS)):
+            if found := pids():
+                pid = draw.choice(found)
+                if pid not in killed:
+                    os.kill(pid, signal.SIGKILL)
+                    killed.append(pid)
+
+    thread = Thread(target=kill)
+    thread.start()
+    try:
+        yield killed
+    finally:
+        over.set()
+        thread.join()
+
+
+if __name__ == "__main__":
+    main()
