@@ -151,14 +151,11 @@ def hashes(assignment: Assignment, seeds: int) -> bool:
     for name, (make, count) in EXECUTORS.items():
         rollout = rollout_of(assignment, count if make is threads else 1)
         with make(count, assignment) as (jobs, _):
-            found[name] = [taught(course_of(rollout, 4, 15, seed), rollout, jobs).weights for seed in seeds_of(seeds)]
+            found[name] = [
+                taught(course_of(rollout, 4, 15, seed), rollout, jobs).weights for seed in range(1, seeds + 1)
+            ]
         print(f"  {name:<16}", *(each[:SHOWN_CHARACTERS] for each in found[name]), flush=True)
     return len({tuple(each) for each in found.values()}) == 1
-
-
-def seeds_of(count: int) -> Sequence[int]:
-    """Seeds from 1 on."""
-    return range(1, count + 1)
 
 
 def overhead(assignment: Assignment, generations: int, turns: int) -> bool:

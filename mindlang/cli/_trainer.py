@@ -161,7 +161,7 @@ class Trainer:
 
         try:
             with Interruption(asked) as interruption:
-                watch = Watch(report, self._say, lambda: interruption.asked, perf_counter, pace.look_ahead)
+                watch = Watch(report, self._say, lambda: interruption.asked, perf_counter, pace.count_ahead)
                 return train(run, rollout, watch, executor)
         finally:
             for each in watchers:

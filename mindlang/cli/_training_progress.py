@@ -4,11 +4,11 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Protocol
 
-from mindrun.train.attempts import NOTHING_AHEAD, Ahead
 from mindrun.train.lesson_state import Record
 from mindrun.train.population import founder_count
 from mindrun.train.progress import read_progress
 from mindrun.train.run_folder import RunFolder
+from mindrun.train.step import NOTHING_AHEAD, Ahead
 from rich.console import Console, ConsoleOptions, RenderableType
 from rich.live import Live
 from rich.progress_bar import ProgressBar
@@ -92,7 +92,7 @@ class TimeLeft:
         first = founder_count(learner) / learner.population if run.begins_with_nothing else 1.0
         return cls(lesson.generations * learner.attempts, began, learner.attempts, known, first)
 
-    def look_ahead(self, ahead: Ahead) -> None:
+    def count_ahead(self, ahead: Ahead) -> None:
         """What attempts ahead of their turn have done by now."""
         self.ahead = ahead
 

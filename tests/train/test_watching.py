@@ -5,8 +5,8 @@ from io import StringIO
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from mindrun.train.attempts import Ahead
 from mindrun.train.lesson_state import Record
+from mindrun.train.step import Ahead
 from rich.console import Console
 
 from mindlang.cli._training_progress import PrintedLines, ProgressBarLine, ProgressLine, ProgressText, TimeLeft
@@ -66,7 +66,7 @@ def test_what_others_have_done_ahead_shortens_the_time_that_is_left() -> None:
         "6 min 30 s left",
         rate(1000),
     )
-    pace.look_ahead(Ahead(3, 30))
+    pace.count_ahead(Ahead(3, 30))
     beside = pace.standing(record(1, 11), 11, 11.0)
     assert beside.where == "attempt 1 of 4, generation 11 of 100 and 30 ahead"
     assert beside.left == "1 min 36 s left", "41 generations in 11 s, and 359 to come"
@@ -76,7 +76,7 @@ def test_what_others_have_done_ahead_shortens_the_time_that_is_left() -> None:
 
 def test_founders_of_those_ahead_have_been_scored() -> None:
     pace = TimeLeft(80, 0.0, attempts=2, first=10.0)
-    pace.look_ahead(Ahead(1, 1))
+    pace.count_ahead(Ahead(1, 1))
     assert pace.standing(record(1, 1), 1, 20.0).left == "1 min 18 s left", "20 generations' worth in 20 s, 78 to come"
 
 

@@ -20,6 +20,7 @@ from mindrun.train.lesson_state import AttemptState, Course, LessonState, Record
 from mindrun.train.population import Genomes
 from mindrun.train.rungs import heights, is_behind, rung_at
 from mindrun.train.scoring import Scorer
+from mindrun.train.step import Ahead, Step
 
 SEGMENT_SECONDS = 2.0  # after which a segment ends with the generation at work
 SEGMENT_GENERATIONS = 100  # at most in a segment
@@ -45,27 +46,6 @@ class Segment:
     records: tuple[Record, ...]
     champions: Genomes
     verdict: Verdict | None
-
-
-@dataclass(frozen=True, slots=True)
-class Ahead:
-    """What has been done ahead of its turn, which a lesson has not come to: so many generations of so many attempts."""
-
-    attempts: int = 0
-    generations: int = 0
-
-
-NOTHING_AHEAD = Ahead()
-
-
-@dataclass(frozen=True, slots=True)
-class Step:
-    """What a lesson has come to: its state, and the generations since the step before, with the champion of each."""
-
-    state: LessonState
-    records: tuple[Record, ...]
-    champions: Genomes
-    ahead: Ahead = NOTHING_AHEAD
 
 
 class Executor(Protocol):

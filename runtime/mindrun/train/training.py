@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from mindrun.train import RunError, checkpoint
-from mindrun.train.attempts import Ahead, Executor, Step, side_by_side
+from mindrun.train.attempts import Executor, side_by_side
 from mindrun.train.champion_log import ChampionLog
 from mindrun.train.folder_lock import claim
 from mindrun.train.lesson import Clock, teach
@@ -15,6 +15,7 @@ from mindrun.train.population import Genomes
 from mindrun.train.progress import ProgressLog
 from mindrun.train.run_folder import RunFolder, keep_champions, keep_weights
 from mindrun.train.scoring import Scorer
+from mindrun.train.step import Ahead, Step
 from mindrun.weights import Weights
 
 CHECKPOINT_SECONDS = 2.0  # between two checkpoints
@@ -28,7 +29,7 @@ class Watch:
     warn: Callable[[str], None]
     stop: Callable[[], bool]
     clock: Clock
-    look_ahead: Callable[[Ahead], None] = lambda ahead: None  # told what others have done ahead, before it is reported
+    count_ahead: Callable[[Ahead], None] = lambda ahead: None  # told what others have done ahead, before it is reported
     save_every: float = CHECKPOINT_SECONDS
 
 
@@ -45,7 +46,7 @@ def train(run: RunFolder, scorer: Scorer, watch: Watch, executor: Executor | Non
             saved = watch.clock()
             for step in _steps(course, scorer, now, watch, executor):
                 now = step.state
-                watch.look_ahead(step.ahead)
+                watch.count_ahead(step.ahead)
                 for record, champion in zip(step.records, step.champions, strict=True):
                     progress.append(record)
                     champions.append(champion, (record.attempt, record.generation))
