@@ -8,6 +8,7 @@ import numpy as np
 from mindrun.graph import Lesson
 from mindrun.policy import Policy
 from mindrun.sim.rollout import Rollout
+from mindrun.sim.rollouts import rollout_for
 from mindrun.sim.trace import trace
 from mindrun.train import RunError
 from mindrun.train.scoring import mark
@@ -76,5 +77,5 @@ def open_trial(subject: Subject, lesson: Lesson, network: Network, shown: Path) 
             f"first: mindc train {shown} {' '.join(first)}",
         )
     policy = Policy(subject.graph, others)
-    rollout = Rollout(policy, lesson.task, lesson.master, (name,), procedures=subject.folder)
+    rollout = rollout_for(policy, lesson.task, lesson.master, (name,), procedures=subject.folder)
     return Trial(subject, lesson, network, others, rollout)
