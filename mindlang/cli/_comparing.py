@@ -8,6 +8,7 @@ from functools import partial
 from pathlib import Path
 
 from mindrun.changes import Change, ChangeError
+from mindrun.errors import MindError
 from mindrun.sim.rollout import Rollout
 
 from mindlang.cli._recordings import refusing_recordings
@@ -65,7 +66,8 @@ def compare_runs(file: str, played: Played, request: Request, as_json: bool, qui
         console().print(comparison_summary(request, compared))
     if played.picture:
         _draw(compared, request, played.picture)
-        session.say(f"{played.picture}: both paths of the robot")
+        what = "both runs" if compared.was.run.task.scene.environment else "both paths of the robot"
+        session.say(f"{played.picture}: {what}")
 
 
 @refusing_recordings()
@@ -98,10 +100,17 @@ def _another(session: RunSession, file: str, ours: RunSetup, played: Played) -> 
 
 def _draw(compared: Compared, request: Request, path: Path) -> None:
     from mindlang.pictures.picture import png
-    from mindlang.pictures.two_paths import two_paths
 
+    if compared.was.run.task.scene.environment:
+        from mindlang.pictures.environment_picture import environment_pictures as two_runs
+    else:
+        from mindlang.pictures.two_paths import two_paths as two_runs
     both = [(each.run, each.found) for each in (compared.was, compared.now)]
-    write_file(path, png(two_paths(both, request.words, request.tick)))
+    try:
+        drawn = two_runs(both, request.words, request.tick)
+    except MindError as error:
+        fail(str(error), error.hint, MISUSE)
+    write_file(path, png(drawn))
 
 
 def _recorded(path: Path, bundle: Path, request: Request) -> OpenLoop:

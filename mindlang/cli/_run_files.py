@@ -9,7 +9,7 @@ from typing import Any
 from mindrun.errors import MindError
 
 from mindlang.cli._run_session import RunSession
-from mindlang.cli._terminal import MISUSE, fail, refuse_unwritable, write_file
+from mindlang.cli._terminal import MISUSE, fail, procedures_talk, refuse_unwritable, write_file
 from mindlang.run.recorded_run import RecordedRun
 from mindlang.run.setup import RunSetup
 
@@ -35,6 +35,7 @@ class RunFiles:
         """Whether there is something to write."""
         return bool(self.picture or self.video or self.trace or self.record)
 
+    @procedures_talk()
     def write(self, session: RunSession, run: RecordedRun, setup: RunSetup, found: dict[str, Any]) -> None:
         """Write what was asked for of a run of the setup, and say so."""
         if self.picture:
@@ -48,22 +49,33 @@ class RunFiles:
 
 
 def _draw(session: RunSession, run: RecordedRun, found: dict[str, Any], path: Path) -> None:
-    from mindlang.pictures.picture import picture, png
+    from mindlang.pictures.picture import png
 
-    write_file(path, png(picture(run, found)))
-    session.say(f"{path}: the path of the robot")
+    if run.task.scene.environment:
+        from mindlang.pictures.environment_picture import environment_picture as picture
+
+        what = "the run as its environment draws it"
+    else:
+        from mindlang.pictures.picture import picture
+
+        what = "the path of the robot"
+    try:
+        drawn = picture(run, found)
+    except MindError as error:
+        fail(str(error), error.hint, MISUSE)
+    write_file(path, png(drawn))
+    session.say(f"{path}: {what}")
 
 
 def _film(session: RunSession, run: RecordedRun, found: dict[str, Any], path: Path, speed: float | None) -> None:
     from mindlang.pictures.film import Film
-    from mindlang.pictures.video_formats import VideoError
 
     film = Film.of(run, found, speed, path.suffix.lower())
     try:
         with session.progress() as progress:
             bar = progress.add_task(path.name, total=film.frames)
             film.write(path, lambda: progress.advance(bar))
-    except VideoError as error:
+    except MindError as error:
         fail(str(error), error.hint, MISUSE)
     except OSError as error:
         fail(f"{path} cannot be written: {error.strerror}", code=MISUSE)

@@ -2,10 +2,12 @@
 
 import os
 import signal
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
+from typing import Any
 
 from mindrun.sim import warmup
 from mindrun.sim.changed_ticks import compile_stages
+from mindrun.sim.lanes.advance import advance
 from mindrun.sim.rollout import Rollout
 
 from mindlang.cli._terminal import INTERRUPTED, say
@@ -14,9 +16,9 @@ COMPILING_STAGES = "compiling the stages of a tick once (about a minute)…"
 COMPILING = "compiling the simulator once (about half a minute)…"
 
 
-def is_compiled() -> bool:
-    """Whether there is a compiled simulator that numba would take: one of these very files, kept or shipped."""
-    return warmup.code().is_there()
+def is_compiled(entries: Iterable[Any] = (advance,)) -> bool:
+    """Whether there is compiled code of these functions that numba would take: of these very files, kept or shipped."""
+    return warmup.is_there(entries)
 
 
 def prepare(rollout: Rollout) -> None:
@@ -26,7 +28,7 @@ def prepare(rollout: Rollout) -> None:
 
 def ensure_compiled(rollout: Rollout, say: Callable[[str], None]) -> None:
     """Compile the simulator if need be, and say so; Ctrl-C ends the program meanwhile, because numba may swallow it."""
-    had = is_compiled()
+    had = is_compiled(rollout.entries)
     if not had:
         say(COMPILING)
     before = signal.signal(signal.SIGINT, lambda number, frame: os._exit(INTERRUPTED))
@@ -34,7 +36,7 @@ def ensure_compiled(rollout: Rollout, say: Callable[[str], None]) -> None:
         rollout.compile()
     finally:
         signal.signal(signal.SIGINT, before)
-    if had and not warmup.is_native():  # it was shipped, for any processor of its kind
+    if had and not warmup.is_native(rollout.entries):  # it was shipped, for any processor of its kind
         warmup.start(warmup.IN_BACKGROUND)
 
 

@@ -101,6 +101,8 @@ def _is_valid_fact(subject: str, value: Any) -> bool:
             return _is_skill(value)
         case ["task"]:
             return isinstance(value, dict) and _is_task(value)
+        case ["environment"]:
+            return isinstance(value, dict) and value.keys() == {"text"} and isinstance(value["text"], str)
         case ["start"]:
             return (
                 isinstance(value, dict) and value.keys() == {"at", "facing"} and all(map(_is_argument, value.values()))

@@ -109,6 +109,8 @@ def _task_changes(old: Mapping[str, Any], now: Mapping[str, Any]) -> Iterator[st
         *_reward_changes(old["rewards"], now["rewards"]),
     ]
     yield from (f"its task has changed: {change}" for change in told)
+    if "environment" in old and "environment" in now and old["environment"] != now["environment"]:
+        yield "the text of its task's environment has changed"
     if old.get("start") != now.get("start"):
         yield f"its task has changed: {_start(now.get('start'))}, before {_start(old.get('start'))}"
 
@@ -136,7 +138,8 @@ def _scene_changes(old: Mapping[str, Any] | None, now: Mapping[str, Any] | None)
             if old["scene"].get(field, value) != value:
                 kind = now["scene"]["is"]
                 before, after = (argument("task", kind, field, each) for each in (old["scene"][field], value))
-                yield f"in {kind} {before}, now {after.partition(' ')[2]}"
+                of = "" if field == kind else f"{kind} "
+                yield f"in {of}{before}, now {after.partition(' ')[2]}"
     if old["ticks"] != now["ticks"]:
         yield f"lasts {old['ticks']} ticks, now {now['ticks']}"
     for verb in ("ends", "succeeds"):

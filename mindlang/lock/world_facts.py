@@ -20,6 +20,7 @@ from mindrun.graph import Edge, Graph, Lesson, Reward, Skill, Start, Task
 from mindrun.reachability import reached_from
 from mindrun.registry import names
 from mindrun.sensors import SensorKind
+from mindrun.sim.outside.making import module_beside
 from mindrun.weights import genes, reachable
 
 from mindlang.compiler.drawing import phrase
@@ -87,6 +88,8 @@ class Worlds:
         ends, successes = (sorted(self._ends(task, succeeds)) for succeeds in (False, True))
         said = {"scene": encode(task.scene), "ticks": task.ticks, "ends": ends}
         yield "task", said | ({"succeeds": successes} if successes else {})
+        if text := self._text_of_environment(task.scene.environment):
+            yield "environment", {"text": text}
         if task.start != Start():
             yield "start", {"at": encode(task.start.at), "facing": task.start.facing}
         if varying := sorted([*_varying(task)]):
@@ -172,6 +175,11 @@ class Worlds:
         except ProcedureError:
             text = ""
         return sha256(text.encode()).hexdigest() if text else ""
+
+    def _text_of_environment(self, name: str) -> str:
+        """A hash of the module beside the mind that an environment comes from; empty where there is none."""
+        path = module_beside(name, self.folder)
+        return sha256(path.read_bytes()).hexdigest() if path else ""
 
     def _ends(self, task: Task, succeeds: bool) -> Iterator[str]:
         """What ends a run, as a success or not."""

@@ -9,6 +9,7 @@ from typing import Any, Never
 from mindrun.atomic_write import destination, write
 
 from mindlang.pictures.canvas import Image
+from mindlang.pictures.environment_film import EnvironmentFilmImages
 from mindlang.pictures.film_images import FilmImages
 from mindlang.pictures.video_formats import FORMATS, VideoError, VideoFormat
 from mindlang.run.recorded_run import RecordedRun
@@ -84,7 +85,8 @@ class Reel:
     def __init__(self, film: Film) -> None:
         self._film = film
         trail, flash = (seconds * film.format.fps * film.step for seconds in (TRAIL_SECONDS, COLLISION_SECONDS))
-        self._images = FilmImages(film.run, film.found, film.speed, round(trail), flash)
+        images = EnvironmentFilmImages if film.run.task.scene.environment else FilmImages
+        self._images = images(film.run, film.found, film.speed, round(trail), flash)
         self._last: Image | None = None
 
     def __len__(self) -> int:

@@ -30,7 +30,7 @@ class FilmImages:
         self._run, self._found, self._speed = run, found, speed
         self._trail_ticks, self._flash_ticks = trail, flash
         self._path = Path.of(run, NIGHT)
-        self.layout = FilmLayout.of(np.divide(*half_window(run)))
+        self.layout = FilmLayout.of(self.ratio())
         lines = self._title_places(self._facts(run.ticks))[-1][1] + 1
         lower = max(0.0, FIRST_LINE_PIXELS + TITLE_LINE_PIXELS * (lines - 0.5) - TITLE_PIXELS)
         hierarchy, readings = self.layout.divided(len(sensors_read(run)), lower)
@@ -38,6 +38,10 @@ class FilmImages:
         self._readings = ReadingsPanel(run, NIGHT, readings)
         self._empty_image = self._drawn_once()
         self._empty_world = self._floor(1) if run.task.scene.is_bounded else None
+
+    def ratio(self) -> float:
+        """How many times as wide as deep the world is that is seen."""
+        return float(np.divide(*half_window(self._run)))
 
     def image(self, tick: int) -> Image:
         """The film's image of a tick, the first of which is 1."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Sequence
 from math import isfinite, sqrt
 from typing import TYPE_CHECKING, Any
@@ -9,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from mindrun.graph import Task
 from mindrun.reward_sums import paid_by_text, score_of
+from mindrun.sim.codes import BROKEN_OFF, GOING_ON, LOST
 from numpy.typing import NDArray
 
 from mindlang.compiler.drawing import phrase
@@ -18,7 +20,8 @@ if TYPE_CHECKING:
 
     from mindlang.run.recorded_run import RecordedRun
 
-TIME, FLIGHT = "time", "flight out of bounds"  # beyond 1e9 units, or nowhere
+TIME = "time"
+OTHERWISE = {LOST: "flight out of bounds", BROKEN_OFF: "its environment"}  # beyond 1e9 units, or nowhere; truncated
 
 
 def events(task: Task) -> list[str]:
@@ -36,7 +39,7 @@ def ends(task: Task) -> list[str]:
 
 def ended_by(task: Task, number: int) -> str | None:
     """What ended a run, by its number there; None where it lasted its time, or goes on."""
-    return [*ends(task), FLIGHT, None][number] if -2 <= number < len(task.ends) else None
+    return ends(task)[number] if 0 <= number < len(task.ends) else OTHERWISE.get(number)
 
 
 def run_data(task: Task, scores: Scores) -> dict[str, Any]:
@@ -85,8 +88,8 @@ def bench_data(task: Task, scores: Scores, seeds: Sequence[int], seconds: float)
     run knows neither.
     """
     totals, ticks = scores.total[0], int(scores.ticks.sum())
-    names, happened = [*ends(task), FLIGHT, TIME], events(task)  # the last two by −2 and −1
-    ended = np.bincount(scores.ended_by[0] % len(names), minlength=len(names))
+    happened, ended = events(task), Counter(scores.ended_by[0].tolist())
+    numbers = [*range(len(task.ends)), *OTHERWISE, GOING_ON]
     return {
         "runs": len(seeds),
         **_spread("count_", scores.counts[0]),
@@ -94,7 +97,7 @@ def bench_data(task: Task, scores: Scores, seeds: Sequence[int], seconds: float)
         "by_event": {happened[event]: _spread("", scores.by_event[0, :, event]) for event in task.counts},
         **({"success": _spread("", succeeded(task, scores)[0].astype(float))} if task.can_succeed else {}),
         "runtime_mean": float(scores.ticks[0].mean() / task.ticks),
-        "ended": {name: int(n) for name, n in zip(names, ended, strict=True) if n},
+        "ended": {ended_by(task, number) or TIME: ended[number] for number in numbers if ended[number]},
         **_spread("score_", totals),
         "best_seed": int(seeds[int(totals.argmax())]),
         "worst_seed": int(seeds[int(totals.argmin())]),

@@ -25,7 +25,8 @@ class RecordedRun:
 
     `readings` as its skills read them, `influence`, `commands` before the noise of their actuators, `lines` (the sum of
     each reward line so far), `touching`, `battery`, `events` (how often each has happened so far) and `counts` (of the
-    counted ones) have a row per tick. `ended` is what ended it, as in a recording.
+    counted ones) have a row per tick. `ended` is what ended it, as in a recording; `acting` are the commands with the
+    noise of their actuators and what has failed, None where nobody knows them.
     """
 
     setup: RunSetup
@@ -42,6 +43,7 @@ class RecordedRun:
     battery: Floats
     events: NDArray[np.int64]
     ended: int
+    acting: NDArray[np.float32] | None = None
 
     @property
     def graph(self) -> Graph:
@@ -79,7 +81,10 @@ class RecordedRun:
         of_ticks = ("readings", "influence", "commands", "lines", "touching", "battery", "events")
         cut = {name: getattr(self, name)[: tick + 1] for name in with_beginning}
         ended = self.ended if tick >= self.ticks else GOES_ON
-        return replace(self, ended=ended, **cut, **{name: getattr(self, name)[:tick] for name in of_ticks})
+        acting = None if self.acting is None else self.acting[:tick]
+        return replace(
+            self, ended=ended, acting=acting, **cut, **{name: getattr(self, name)[:tick] for name in of_ticks}
+        )
 
     def placements(self, thing: int) -> Floats:
         """Every place and size [n, 3] where a thing appeared; neither a claw nor its own speed makes a new place."""
@@ -138,4 +143,5 @@ def recorded(setup: RunSetup, run: Trace) -> RecordedRun:
         ticks.battery,
         np.cumsum(ticks.events, axis=0),
         int(run.jobs.ended[0]),
+        ticks.acting,
     )

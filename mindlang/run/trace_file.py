@@ -19,11 +19,12 @@ def trace_table(run: RecordedRun) -> dict[str, Column]:
     """The columns of a run by name, each with a row for each tick.
 
     `tick` from 1 and `time` in seconds; where the robot is (`x`, `y` in units, `angle` in radians), each thing
-    (`ball x`, NaN while it is nowhere) and what the claw holds; `reading`, `influence` and `command` of each name, 0 to
-    1; `event`, how often it happened in this tick; `total`, the sum of each reward line so far, and of them all. A name
-    that several have is numbered, from 1 on.
+    (`ball x`, NaN while it is nowhere) and what the claw holds, all of it but in environments; `reading`, `influence`
+    and `command` of each name, 0 to 1; `event`, how often it happened in this tick; `total`, the sum of each reward
+    line so far, and of them all. A name that several have is numbered, from 1 on.
     """
-    return columns([*_world(run), *_mind(run), *_task(run)])
+    world = () if run.task.scene.environment else _world(run)
+    return columns([*_time(run), *world, *_mind(run), *_task(run)])
 
 
 def trace_bytes(run: RecordedRun, suffix: str) -> bytes:
@@ -32,9 +33,12 @@ def trace_bytes(run: RecordedRun, suffix: str) -> bytes:
     return csv_bytes(table) if suffix == ".csv" else _parquet(table)
 
 
-def _world(run: RecordedRun) -> Iterator[tuple[str, Column]]:
+def _time(run: RecordedRun) -> Iterator[tuple[str, Column]]:
     yield "tick", np.arange(1, run.ticks + 1)
     yield "time", np.arange(1, run.ticks + 1) * run.graph.tick
+
+
+def _world(run: RecordedRun) -> Iterator[tuple[str, Column]]:
     for k, name in enumerate(("x", "y", "angle")):
         yield name, run.body[1:, k]
     for i, thing in enumerate(run.contents):

@@ -81,8 +81,8 @@ class HierarchyData:
         for place, _ in enumerate(self.graph.memories):
             yield "memory", place
 
-    def curves(self, rewards: Sequence[str] = ()) -> list[dict[str, Any]]:
-        """Every column that can be drawn over time, by name; of the world and of rewards where there are any."""
+    def curves(self, rewards: Sequence[str] = (), has_robot: bool = True) -> list[dict[str, Any]]:
+        """Every column that can be drawn over time, by name; of rewards where there are any, and of a robot."""
         graph, reached = self.graph, {skill.name for skill in self.skills}
         named: list[tuple[str, str, list[tuple[int, str]]]] = [
             ("reading", "readings", [*enumerate(reading_names(graph))]),
@@ -96,7 +96,7 @@ class HierarchyData:
         return [
             {"name": shown(name), "group": group, "column": self.columns[of].column(place)}
             for group, of, each in named
-            if of in self.columns.groups
+            if of in self.columns.groups and (has_robot or group != "world")
             for place, name in each
         ]
 

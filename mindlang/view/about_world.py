@@ -18,13 +18,13 @@ from mindlang.view.texts import shown
 
 
 def run_data(graph: Graph, task: Task, seed: int, boxes: Doubles, columns: Columns) -> dict[str, Any]:
-    """The task of a run, its seed, its rewards and ends, and its world."""
+    """The task of a run, its seed, its rewards and ends, and its world, None where it is an environment."""
     return {
         "task": shown(task.name),
         "seed": str(seed),
         "rewards": [shown(reward.text) for reward in task.rewards],
         "ends": [shown(text) for text in outcome.ends(task)],
-        "world": world_data(graph, task, boxes, columns),
+        "world": None if task.scene.environment else world_data(graph, task, boxes, columns),
     }
 
 

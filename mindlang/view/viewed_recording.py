@@ -79,7 +79,9 @@ def viewed_rows(
         "of_ticks": of_ticks,
         "events": [*_robot_events(of), *(WorldEvents(task).data() if task else [])],
         **_run_data(found.graph, of.world, task, columns),
-        "curves": below.curves([reward.text for reward in task.rewards] if task else []),
+        "curves": below.curves(
+            [reward.text for reward in task.rewards] if task else [], not (task and task.scene.environment)
+        ),
         **below.data({}),
     }
     watcher = watching(of, found) if watching else None

@@ -76,7 +76,7 @@ class ViewedRun:
             "of_ticks": task.ticks,
             "events": WorldEvents(task).data(),
             **run_data(graph, task, self.seed, run.boxes, columns),
-            "curves": below.curves([reward.text for reward in task.rewards]),
+            "curves": below.curves([reward.text for reward in task.rewards], not task.scene.environment),
             **below.data(self.texts),
         }
 

@@ -33,7 +33,7 @@ class WorldEvents:
         found = [
             {"text": shown(text), "kind": kind} for text, kind in zip(outcome.events(self.task), kinds, strict=True)
         ]
-        return found if COLLISION in kinds else [*found, {"text": "touch", "kind": TOUCH}]
+        return found if self._knows_touch() else [*found, {"text": "touch", "kind": TOUCH}]
 
     def in_rows(self, rows: NDArray[Any]) -> NDArray[np.bool_]:
         """Which of them happen [ticks, events] in rows that follow those of the call before."""
@@ -42,9 +42,13 @@ class WorldEvents:
         touching = np.concatenate([[self._touched], world["touching"] != 0])
         self._counts, self._touched = counts[-1], bool(touching[-1])
         happened = [counts[1:] != counts[:-1]]
-        if COLLISION not in self._kinds():
+        if not self._knows_touch():
             happened.append((touching[1:] & ~touching[:-1])[:, None])
         return np.concatenate(happened, axis=1)
+
+    def _knows_touch(self) -> bool:
+        """Whether touching goes without saying: an event says it, or there is nothing to touch."""
+        return COLLISION in self._kinds() or bool(self.task.scene.environment)
 
     def _kinds(self) -> list[str]:
         return [names()[type(event)] for event in self.task.events]

@@ -13,6 +13,7 @@ WHOLE = {
     "foreign-drive",
     "second-steering",
 }  # whose examples are whole minds
+ENVIRONMENTS = "Environments"  # a chapter whose examples are, too
 SETTINGS = ("tick 1/60 s", "master {master}")
 DECLARATIONS = (
     "body Robot is disc",
@@ -33,7 +34,9 @@ def write(explanation: Explanation, text: str, folder: Path) -> Path:
     for name, content in zip(others[::2], others[1::2], strict=True):
         (folder / name).write_text(content, encoding="utf-8")
     path = folder / "mind.mind"
-    path.write_text(main if explanation.code in WHOLE else completed(main), encoding="utf-8")
+    path.write_text(
+        main if explanation.code in WHOLE or explanation.chapter == ENVIRONMENTS else completed(main), encoding="utf-8"
+    )
     return path
 
 

@@ -12,11 +12,11 @@ from mindlang.compiler.resolve.curricula import SWITCHES
 from mindlang.compiler.source import Source
 from mindlang.explaining.explanation import ERRORS, Explanation, errors, explanations
 from tests.breakpoints.subjects import subject
-from tests.explain.examples import write
+from tests.explain.examples import ENVIRONMENTS, write
 from tests.project.sources import COMPILER, RUNTIME, modules, tree
 
 ALL = list(errors())
-EMITTERS = {"error", "refuse", "Diagnostic", "Flaw", "Mistake"}
+EMITTERS = {"error", "refuse", "Diagnostic", "Flaw", "Mistake", "Misfit"}
 # Codes that are made of words as they are emitted: how, and which these are.
 MADE = {
     "f'unknown-{nouns[0]}'": {f"unknown-{noun}" for noun in ("sensor", "actuator", "skill", "task", "scene", "number")},
@@ -24,7 +24,7 @@ MADE = {
     "f'{word}-differs'": {"tick-differs", "unit-differs"},
     "said.replace(' ', '-')": {f"{key}-{word}" for key, (word, _) in SWITCHES.items()},
 }
-PASSED_ON = {"code", "mistake.code", "rule.code"}  # codes that are made elsewhere
+PASSED_ON = {"code", "mistake.code", "rule.code", "found.code"}  # codes that are made elsewhere
 NEEDED = {"no-tick", "no-master", "no-body"}  # in a table of what every mind needs
 # What no small mind shows: files that are not there or too many, locks and edits.
 FILES = {"unreadable", "use-too-deep", "too-many-mistakes", "faulty-procedure"}
@@ -39,7 +39,9 @@ def emitted() -> set[str]:
     """The codes of all diagnostics in the sources of the compiler."""
     found: set[str] = set()
     for node in (
-        node for path in modules(COMPILER, RUNTIME / "things", RUNTIME / "sensors") for node in ast.walk(tree(path))
+        node
+        for path in modules(COMPILER, RUNTIME / "things", RUNTIME / "sensors", RUNTIME / "sim" / "outside")
+        for node in ast.walk(tree(path))
     ):
         if isinstance(node, ast.Call) and _name(node.func) in EMITTERS and node.args:
             match node.args[0]:
@@ -73,6 +75,8 @@ def test_an_explanation_begins_with_a_short_sentence_and_says_what_to_do(explana
 
 def diagnostics(explanation: Explanation, text: str, folder: Path) -> tuple[Diagnostic, ...]:
     """What is said of an example: a mind, or breakpoints of the small one of tests/breakpoints."""
+    if explanation.chapter == ENVIRONMENTS:
+        pytest.importorskip("gymnasium")
     if explanation.chapter == "Breakpoints":
         master = "Seek" if explanation.code == "skill-not-in-run" else "Go"
         return breakpoints_of(Source("example", text), subject(master)).diagnostics

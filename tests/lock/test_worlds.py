@@ -218,9 +218,28 @@ actuator left_wheel is thruster neutral 0.5 at 1 0
 actuator right_wheel is thruster neutral 0.5 facing 90 deg
 """,
 )
+OUTSIDE = """\
+tick 1/50 s
+master Top
+sensor height is observation image 3 range -0.5 to 2
+actuator engine is action left 0 neutral 0.5 range -1 to 1
+actuator fire is choice 2 neutral 0
+memory mood is cell decay 0.95
+skill Top is mlp
+  reads height
+  reads mood
+  drives engine
+  drives fire
+task Land in gymnasium nowhere:Lander-v0
+  lasts 100 ticks
+  rewards its reward
+  ends on its end
+curriculum School is genetic population 8
+  teaches Top on Land for 3 generations
+"""
 GRAPH = compiled(MIND)
 LOCK = taught(GRAPH)
-GRAPHS = [GRAPH, *(compiled(MIND.replace(WHEELS, robot)) for robot in OTHER_ROBOTS)]
+GRAPHS = [GRAPH, *(compiled(MIND.replace(WHEELS, robot)) for robot in OTHER_ROBOTS), compiled(OUTSIDE)]
 
 
 def is_noticed(graph: Graph, skill: str = "Top", lock: Lock = LOCK) -> bool:

@@ -57,7 +57,7 @@ def test_of_another_package_nothing_is_run_before_the_rollout() -> None:
     assert minds.compiled(source).diagnostics == ()
     with pytest.raises(MindError, match="no environment called surely_not_there:Line-v0") as found:
         minds.rollout_of(source)
-    assert "No module named" in found.value.hint
+    assert found.value.hint == "There is no module surely_not_there, neither installed nor beside the mind."
 
 
 def test_without_gymnasium_a_sentence_says_what_to_install(monkeypatch: pytest.MonkeyPatch) -> None:

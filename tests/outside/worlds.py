@@ -14,7 +14,22 @@ class Line(gymnasium.Env[Any, Any]):
 
     observation_space = INFINITE
     action_space = Box(-1.0, 2.0, (1,), np.float32)
+    metadata = {"render_modes": ["rgb_array"]}  # noqa: RUF012  # as Gymnasium has it
     steps = 0
+    closed = 0  # how many have been closed
+
+    def __init__(self, render_mode: str | None = None) -> None:
+        self.render_mode = render_mode
+
+    def render(self) -> Any:
+        """A white point in the dark, for as many columns as it is from the left."""
+        image = np.zeros((40, 60, 3), np.uint8)
+        image[18:22, int(np.clip(30 + 9 * self.place, 1, 58))] = 255
+        return image
+
+    def close(self) -> None:
+        """Counted."""
+        Line.closed += 1
 
     def reset(self, *, seed: int | None = None, options: Any = None) -> tuple[Any, dict[str, Any]]:
         """Anywhere between −1 and 1, at rest."""
@@ -112,7 +127,46 @@ class Impatient(Line):
         return observed, reward, ended, self.steps == 4, info
 
 
-ALL = (Line, Parts, Several, Raising, Misshapen, Blind, Generous, Impatient)
+class Unseen(Line):
+    """The same, which cannot be made to be seen."""
+
+    def __init__(self) -> None:
+        super().__init__()
+
+
+class Dark(Line):
+    """The same, which cannot draw itself."""
+
+    def render(self) -> Any:
+        """Not possible."""
+        raise ImportError("there is no pencil")
+
+
+class Empty(Line):
+    """The same, which draws nothing."""
+
+    def render(self) -> Any:
+        """Nothing."""
+        return None
+
+
+class Moody(Line):
+    """The same, each of which has a shorter run than the one before."""
+
+    made = 0
+
+    def __init__(self, render_mode: str | None = None) -> None:
+        super().__init__(render_mode)
+        Moody.made += 1
+        self.longest = max(2, 30 - 5 * Moody.made)
+
+    def step(self, action: Any) -> tuple[Any, Any, bool, bool, dict[str, Any]]:
+        """Broken off."""
+        observed, reward, ended, _, info = super().step(action)
+        return observed, reward, ended, self.steps >= self.longest, info
+
+
+ALL = (Line, Parts, Several, Raising, Misshapen, Blind, Generous, Impatient, Unseen, Dark, Empty, Moody)
 
 
 def register() -> None:

@@ -12,8 +12,11 @@ from hypothesis import strategies as st
 from mindrun.graph import Graph
 from mindrun.registry import arguments, kinds
 
+from mindlang.compiler.compile import compile_source
+from mindlang.compiler.source import Source
 from tests.edits.sources import a_mind
 from tests.hierarchies import VIRTUAL, physical_kinds, virtual_kinds
+from tests.outside.drawn import environment_mind
 from tests.sim.worlds import learner_kinds, random_world, robot_kinds
 
 DRAWN = 200  # minds
@@ -41,10 +44,19 @@ def of_worlds() -> Iterator[Any]:
     """Kinds in worlds that are drawn, and more of those that have too many arguments for so few worlds."""
     for graph in drawn_from(random_world()):
         yield from parts(graph)
+    yield from of_environments()
     virtual = VIRTUAL.flatmap(lambda kind: virtual_kinds(kind, WIDTHS)).map(lambda drawn: drawn[1])
     for some in (physical_kinds(), virtual, learner_kinds(), robot_kinds()):
         for kinds_ in drawn_from(st.lists(some, min_size=24)):
             yield from kinds_
+
+
+def of_environments() -> Iterator[Any]:
+    """Kinds in environments that are drawn; nobody asks whether they fit."""
+    for seed in range(DRAWN):
+        graph = compile_source(Source("drawn.mind", environment_mind(Random(seed), "drawn:"))).graph
+        assert graph
+        yield from parts(graph)
 
 
 def drawn_from(strategy: st.SearchStrategy[Any]) -> list[Any]:
@@ -66,6 +78,7 @@ def of_texts() -> Iterator[Any]:
         graph = a_mind(Random(seed)).compiled().graph
         assert graph
         yield from parts(graph)
+    yield from of_environments()
 
 
 @cache

@@ -112,7 +112,7 @@ def test_workers_change_nothing(mindc: Call, rules: Path) -> None:
 
 
 def test_a_first_run_says_why_it_takes_so_long(mindc: Call, rules: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("mindlang.cli._simulator_compilation.is_compiled", lambda: False)
+    monkeypatch.setattr("mindlang.cli._simulator_compilation.is_compiled", lambda entries: False)
     assert mindc("run", rules, "--seed", 3).err == "compiling the simulator once (about half a minute)…\n"
     assert mindc("run", rules, "--seed", 3, "--quiet").err == ""
 

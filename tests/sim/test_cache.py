@@ -114,12 +114,14 @@ def test_native_code_is_made_behind_what_was_shipped(
     """And only then: where nothing can be kept it would be made again and again."""
 
     class Compiled:
+        entries = ()
+
         def compile(self) -> None:
             pass
 
     started: list[str] = []
-    monkeypatch.setattr(simulator, "is_compiled", lambda: is_there)
-    monkeypatch.setattr(warmup, "is_native", lambda: native)
+    monkeypatch.setattr(simulator, "is_compiled", lambda entries: is_there)
+    monkeypatch.setattr(warmup, "is_native", lambda entries: native)
     monkeypatch.setattr(warmup, "start", lambda *words: started.extend(words))
     simulator.ensure_compiled(Compiled(), lambda words: None)  # type: ignore[arg-type]
     assert started == ([warmup.IN_BACKGROUND] if is_there and not native else [])

@@ -29,17 +29,15 @@ def resolve(files: Sequence[File], findings: Findings) -> model.Mind | None:
     all_read = not findings.diagnostics
     written = gather(files, findings)
     values = numbers(written, findings)
-    tick = tick_seconds(files, values, findings)
-    unit = unit_metres(files, values, findings)
+    tick, unit = tick_seconds(files, values, findings), unit_metres(files, values, findings)
     check_versions(files, findings)
     names = expand(written, values, tick, findings)
     known_sensors = sensors(names, findings)
-    width = dict.fromkeys(names.of("sensor", "memory"), 1) | {sensor.name: sensor.width for sensor in known_sensors}
+    width = dict.fromkeys(names.of("sensor", "memory"), 1) | {each.name: each.width for each in known_sensors}
     memories, actuators = parts("memory", names, findings), parts("actuator", names, findings)
     known_skills = skills(names, width, findings)
     check_cycles(known_skills, findings)
-    outside = is_outside(names)
-    body = body_outside(names, findings) if outside else _body(names, findings)
+    body = body_outside(names, findings) if (outside := is_outside(names)) else _body(names, findings)
     robot = RobotFacts(names, width, tick, files[0].source.folder, body, actuators, known_sensors)
     known_tasks = tasks(robot, findings)
     check_outside(known_tasks, known_sensors, actuators, findings)

@@ -95,10 +95,10 @@ def _check_judged(task: model.Task, findings: Findings) -> None:
         name = kind_names()[type(kind)]
         if outside and not (kind.is_outside or getattr(kind, "is_of_success", False)):
             hint = "There its reward can be rewarded, and its end: what else there is to know is a sensor's to observe."
-            findings.error("foreign-judge", span, f"Nobody says in {ENVIRONMENT} what {name} is.", hint)
+            findings.error("foreign-outcome", span, f"Nobody says in {ENVIRONMENT} what {name} is.", hint)
         elif kind.is_outside and not outside:
             hint = f"{task.name} would have to be in one: task {task.name} in gymnasium LunarLanderContinuous-v3."
-            findings.error("foreign-judge", span, f"{name} is what {ENVIRONMENT} says.", hint)
+            findings.error("foreign-outcome", span, f"{name} is what {ENVIRONMENT} says.", hint)
 
 
 def _judged(task: model.Task) -> Iterator[tuple[Any, Span]]:
@@ -122,9 +122,9 @@ def _measured(expressions: Sequence[model.Expression]) -> Iterator[tuple[Any, Sp
 def _check_environment(
     task: model.Task, sensors: Sequence[Part[Any]], actuators: Sequence[Part[Any]], findings: Findings
 ) -> None:
-    """Report what does not fit the spaces of an environment; nothing where Gymnasium is not there to be asked.
+    """Report what does not fit the spaces of an environment; nothing where it cannot be asked on this machine.
 
-    One that has its module before it is not asked either: that would run the text of the module.
+    One that has its module before it is not asked: that would run the text of the module.
     """
     from mindrun.sim.outside import fitting, making
 
@@ -133,11 +133,13 @@ def _check_environment(
         return
     try:
         observed, acted = making.spaces(name)
-    except MindError as error:
+    except making.UnknownEnvironmentError as error:
         findings.error(
             "unknown-environment", header.phrase.span if header.phrase else header.span, str(error), error.hint
         )
         return
+    except MindError:
+        return  # what it needs is not installed here: a run says so
     spans = {part.name: part.span for part in (*sensors, *actuators)} | {"": header.span}
     ours = ({part.name: slot for part in parts if (slot := part.kind.slot)} for parts in (sensors, actuators))
     for found in fitting.misfits(observed, acted, *ours):

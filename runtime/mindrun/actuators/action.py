@@ -14,7 +14,8 @@ from mindrun.slot import Slot
 class Action(ActuatorKind):
     """One number of a Gymnasium environment's action: a command of 0 is the low end of its range, 1 the high end.
 
-    The first number is 0; of an array, one index for each axis; of a `Dict`, the name of the part goes before them.
+    The first number is 0; of an array, one index for each axis; of a `Dict`, the name of the part goes before them,
+    of a `Tuple` its number.
     The `range` is what the environment says, unless it is given, and has to be where the environment says none.
     """
 

@@ -23,7 +23,7 @@ MAX_SEED, MAX_UNITS = (1 << 64) - 1, 1e9
 CHECKSUM_FIELD = b', "check": "'  # the checksum of the line before it, which is the last that it says
 SHA256 = re.compile("[0-9a-f]{64}")
 POSE_COLUMNS, THING_COLUMNS, BOX_COLUMNS = 3, 4, 4  # x, y, angle; x, y, size, turned; x, y, half of both sides
-GOES_ON = -3  # of the column `ended`; −1: it has lasted its time, −2: it was out of bounds, else an end of the task
+GOES_ON = -3  # of the column `ended`; else as `Scores.ended_by`
 
 
 class RecordingError(MindError):

@@ -16,7 +16,7 @@ class Observation(Physical):
     """One number of a Gymnasium environment's observation: 0 at the low end of `range`, 1 at the high end.
 
     The first number is 0; of an array, one index for each of its axes; of a `Dict`, the name of the part goes before
-    them. What is beyond the range reads as its end, and how often is told.
+    them, of a `Tuple` its number. What is beyond the range reads as its end, and how often is told.
     """
 
     observation: Annotated[tuple[int, ...], INDEX]
@@ -35,7 +35,7 @@ class Observation(Physical):
         if self.slot.has_two_ends:
             return None
         hint = "Write the least and the greatest number that it will be: range -0.5 to 2."
-        return Flaw("no-range", "range", "An observation has a range with two ends.", hint)
+        return Flaw("open-range", "range", "An observation has a range with two ends.", hint)
 
     @staticmethod
     def lane(t: Any, s: Any, n: int, clock: int, sensor: Any) -> None:

@@ -15,7 +15,7 @@ PROGRESS, ADVANCE, RETREAT, FORWARD, CHANGE, ITS_REWARD = range(6)
 REACH, DELIVERY, VISIT, COLLISION, EXHAUSTION, SUCCESS, ITS_END = range(7)
 CONSTANT, DRAWN, DRAWN_WHOLE, FAILING, TIMES, OVER, INVERSE, DAMPING = range(8)  # how a number of a run comes about
 
-GOING_ON, LOST, BROKEN_OFF = -1, -2, -3  # no event has ended a run: out of time, beyond FAR, its environment has
+GOING_ON, LOST, BROKEN_OFF = -1, -2, -4  # no event has ended a run: out of time, beyond FAR, its environment has
 AWAY = 1e30  # units: where a box is that is none
 FAR = 1e9  # units from the origin, and radians: nothing is there, and a little further Chipmunk never comes back
 

@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from mindrun.errors import MindError
 from mindrun.graph import Task
 from mindrun.policy import Policy
 from mindrun.reward_sums import score_of
@@ -21,7 +22,7 @@ from mindrun.sim.lanes.runs import fill
 from mindrun.sim.lanes.stages import after
 from mindrun.sim.procedures import Procedures
 from mindrun.sim.python_procedures import Memories, advance_slowly, think_slowly
-from mindrun.sim.state import FAILED_COLUMN, FAILED_SKILL, Jobs, State
+from mindrun.sim.state import FAILED_COLUMN, FAILED_SKILL, Jobs, State, unbegun
 from mindrun.sim.tables import Sizes, Tables, build, genome_length
 from mindrun.sim.threads import in_threads
 
@@ -36,7 +37,7 @@ class Scores:
 
     `total` is −∞ where a reward was not a number; `by_line` [genomes, seeds, lines] sums each reward line; `counts` are
     all events that the task counts together, `by_event` [genomes, seeds, events] each event of the task; `ended_by` is
-    an index into the task's ends, −1 where the run lasted its time, −2 where the robot was beyond all places (FAR), −3
+    an index into the task's ends, −1 where the run lasted its time, −2 where the robot was beyond all places (FAR), −4
     where its environment broke it off;
     `met` is the end that came first, −1 where none did, also where a run goes on behind it; `faults` counts values that
     were not sent, and such a flight.
@@ -62,7 +63,12 @@ class Tile:
 
 
 class Rollout:
-    """Runs a task under a master of a policy; a genome has the weights of the `learners`, one after the other."""
+    """Runs a task under a master of a policy; a genome has the weights of the `learners`, one after the other.
+
+    MindError where the task is in an environment: `sim.rollouts.rollout_for` chooses.
+    """
+
+    simulates = True  # whether the worlds are the lanes' own
 
     def __init__(
         self,
@@ -78,6 +84,9 @@ class Rollout:
     ) -> None:
         self.graph = graph = policy.graph
         self.task = next(t for t in graph.tasks if t.name == task)
+        if self.simulates and (name := self.task.scene.environment):
+            said = f"{task} is in the environment {name}, which cannot be simulated otherwise"
+            raise MindError(said, "mindc run, bench, train and view step it.")
         self.procedures = Procedures(graph, master, procedures)
         self.interrupt, self.workers, self.lanes = interrupt, workers, lanes
         learning = {*learners}
@@ -119,7 +128,12 @@ class Rollout:
     def jobs(self, genomes: NDArray[np.float32], seeds: NDArray[np.uint64]) -> Jobs:
         """Every genome on every seed, as jobs that have not begun."""
         pairs = np.indices((len(genomes), len(seeds))).reshape(2, -1)
-        return _jobs(genomes, seeds, pairs[0], pairs[1], len(self.tables.rewards), len(self.tables.events))
+        return unbegun(genomes, seeds, pairs[0], pairs[1], len(self.tables.rewards), len(self.tables.events))
+
+    @property
+    def entries(self) -> tuple[Any, ...]:
+        """The compiled functions that its runs call."""
+        return (advance,)
 
     def compile(self) -> None:
         """Compile the lanes where no cache has them: up to a minute, otherwise under a second."""
@@ -138,7 +152,7 @@ class Rollout:
 
     def _run(self, jobs: Jobs, share: NDArray[np.int64], stop: Event, ran: Callable[[float], None]) -> Jobs:
         lines, events = jobs.lines.shape[1], jobs.counts.shape[1]
-        mine = _jobs(jobs.genomes, jobs.seeds, jobs.genome[share], jobs.seed[share], lines, events)
+        mine = unbegun(jobs.genomes, jobs.seeds, jobs.genome[share], jobs.seed[share], lines, events)
         tile = self.tile(lanes_for(len(share), self.lanes))
         self.fill(tile, mine)
         told, working = 0.0, 1
@@ -203,28 +217,6 @@ def lanes_for(jobs: int, most: int) -> int:
     rounds = -(-jobs // most)
     lanes = -(-jobs // max(1, rounds))
     return max(1, min(most, -(-lanes // 16) * 16 if lanes > 1 else 1))
-
-
-def _jobs(genomes: Array, seeds: Array, genome: Array, seed: Array, lines: int, events: int) -> Jobs:
-    count = len(genome)
-    return Jobs(
-        genomes=genomes,
-        seeds=seeds,
-        genome=np.ascontiguousarray(genome, np.int64),
-        seed=np.ascontiguousarray(seed, np.int64),
-        next=np.zeros(1, np.int64),
-        lanes=np.zeros(1, np.int64),
-        clock=np.zeros(1, np.int64),
-        lines=np.zeros((count, max(1, lines))),
-        counts=np.zeros((count, events), np.int64),
-        ticks=np.zeros(count, np.int64),
-        ended=np.zeros(count, np.int64),
-        met=np.zeros(count, np.int64),
-        faults=np.zeros(count, np.int64),
-        doubles=np.zeros((0, 0)),
-        singles=np.zeros((0, 0), np.float32),
-        recorded=np.zeros(1, np.int64),
-    )
 
 
 def _scores(parts: Sequence[Jobs], shares: Sequence[Array], shape: tuple[int, int], counted: Sequence[int]) -> Scores:

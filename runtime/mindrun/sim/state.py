@@ -6,6 +6,7 @@ is computed anew in each.
 
 from typing import Any, NamedTuple
 
+import numpy as np
 from numpy.typing import NDArray
 
 Array = NDArray[Any]
@@ -183,3 +184,26 @@ class Jobs(NamedTuple):
     doubles: Array  # [ticks, columns] float64: the first lane after each tick, in as many as there is room for
     singles: Array  # [ticks, columns] float32: its mind (lanes/record)
     recorded: Array  # [1]: how many ticks have been written down
+
+
+def unbegun(genomes: Array, seeds: Array, genome: Array, seed: Array, lines: int, events: int) -> Jobs:
+    """Jobs that have not begun: a genome and a seed of each, by their numbers."""
+    count = len(genome)
+    return Jobs(
+        genomes=genomes,
+        seeds=seeds,
+        genome=np.ascontiguousarray(genome, np.int64),
+        seed=np.ascontiguousarray(seed, np.int64),
+        next=np.zeros(1, np.int64),
+        lanes=np.zeros(1, np.int64),
+        clock=np.zeros(1, np.int64),
+        lines=np.zeros((count, max(1, lines))),
+        counts=np.zeros((count, events), np.int64),
+        ticks=np.zeros(count, np.int64),
+        ended=np.zeros(count, np.int64),
+        met=np.zeros(count, np.int64),
+        faults=np.zeros(count, np.int64),
+        doubles=np.zeros((0, 0)),
+        singles=np.zeros((0, 0), np.float32),
+        recorded=np.zeros(1, np.int64),
+    )

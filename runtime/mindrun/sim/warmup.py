@@ -4,7 +4,8 @@ import fcntl
 import os
 import subprocess
 import sys
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
+from typing import Any
 
 import numpy as np
 
@@ -28,21 +29,20 @@ IN_BACKGROUND = "behind"
 LOWEST_NICENESS = 19  # how little a process matters that works while others wait for nothing
 
 
-def code() -> cache.MachineCode:
-    """What is kept and shipped of the way in that takes the longest to compile."""
-    found: cache.MachineCode = code_of(advance)
-    return found
-
-
 def code_of_stages() -> cache.MachineCode:
-    """The same of the stages of a tick one by one."""
+    """What is kept and shipped of the stages of a tick one by one."""
     found: cache.MachineCode = code_of(stages.after)
     return found
 
 
-def is_native() -> bool:
-    """Whether the simulator is compiled for this very processor."""
-    return code().is_native()
+def is_there(entries: Iterable[Any]) -> bool:
+    """Whether there is machine code that numba would take of all of these functions."""
+    return all(code_of(entry).is_there() for entry in entries)
+
+
+def is_native(entries: Iterable[Any] = (advance,)) -> bool:
+    """Whether all of these functions are compiled for this very processor."""
+    return all(code_of(entry).is_native() for entry in entries)
 
 
 def start(*words: str) -> "subprocess.Popen[bytes]":

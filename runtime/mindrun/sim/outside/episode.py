@@ -1,6 +1,7 @@
 """One environment that is stepped, and what it said last."""
 
 from collections.abc import Callable
+from contextlib import suppress
 from typing import Any, TypeVar
 
 import numpy as np
@@ -16,12 +17,14 @@ SEED_LIMIT = 1 << 31  # some environments take no larger ones
 class Episode:
     """An environment in a run. After each step: what is `observed` [slots], the reward, how it stands.
 
+    One that `is_seen` draws itself.
+
     BrokenEnvironmentError where it raises, or says what none may say.
     """
 
-    def __init__(self, wiring: Wiring) -> None:
+    def __init__(self, wiring: Wiring, is_seen: bool = False) -> None:
         self._wiring = wiring
-        self._environment = making.make(wiring.environment)
+        self._environment = making.make(wiring.environment, wiring.folder, is_seen)
         self.observed = np.zeros(len(wiring.rows))
         self.reward, self.is_terminated, self.is_truncated = 0.0, False, False
         self._seed, self._steps = 0, 0
@@ -42,9 +45,14 @@ class Episode:
         self._steps += 1
         self._asked(lambda: self._stepped(action))
 
-    def picture(self) -> Any:
-        """What is seen of it [height, width, 3], where it was made to be seen."""
-        return self._environment.render()
+    def image(self) -> Any:
+        """What is seen of it now [height, width, 3], red first; None where it draws nothing."""
+        return self._asked(self._environment.render)
+
+    def close(self) -> None:
+        """Give back what it holds: windows, processes, files. Whatever it says to that is of no use to anybody."""
+        with suppress(Exception):
+            self._environment.close()
 
     def _begun(self, seed: int) -> None:
         observation, _ = self._environment.reset(seed=seed)

@@ -1,19 +1,22 @@
 """The arrays that an observation or an action consists of, by the names that lead to them."""
 
-from collections.abc import Mapping
-from dataclasses import dataclass
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, replace
 from math import prod
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from mindrun.slot import Slot
+
 
 @dataclass(frozen=True, slots=True)
 class Part:
     """An array of numbers in `low` to `high` [of its size], which are infinite where a space does not say.
 
-    Where there are `choices`, they are so many at each place, and the numbers are whole, from `low` on.
+    Where there are `choices`, they are so many at each place, and the numbers are whole, from `low` on. The keys of
+    `path` lead to it.
     """
 
     shape: tuple[int, ...]
@@ -21,6 +24,7 @@ class Part:
     high: NDArray[np.float64]
     dtype: Any
     choices: NDArray[np.int64] | None = None
+    path: tuple[Any, ...] = ()
 
     @property
     def axes(self) -> tuple[int, ...]:
@@ -37,16 +41,54 @@ class Part:
         return " and ".join(f"0 to {n - 1}" if n > 1 else "0" for n in self.axes)
 
 
-def parts_of(space: Any, name: str = "") -> dict[str, Part]:
+def parts_of(space: Any) -> dict[str, Part]:
     """The parts of a space by their names, `a.b` for one in another; of a text or a graph there are none.
 
-    The space itself has the empty name.
+    The space itself has the empty name, and those of a tuple have numbers, from 0 on.
     """
-    if isinstance(getattr(space, "spaces", None), Mapping):
-        inner = ((f"{name}.{key}".lstrip("."), value) for key, value in space.spaces.items())
-        return {key: part for below, value in inner for key, part in parts_of(value, below).items()}
-    part = _part(space)
-    return {} if part is None else {name: part}
+    known = ((path, _part(leaf)) for path, leaf in _leaves(space))
+    return {_name(path): replace(part, path=path) for path, part in known if part is not None}
+
+
+def others_of(space: Any) -> list[str]:
+    """The names of the parts of a space that are no numbers."""
+    return [_name(path) for path, leaf in _leaves(space) if _part(leaf) is None]
+
+
+def formed(space: Any, values: Mapping[str, Any], path: tuple[Any, ...] = ()) -> Any:
+    """What a space contains, made of the values of its parts by their names."""
+    within = getattr(space, "spaces", None)
+    if within is None:
+        return values[_name(path)]
+    if isinstance(within, Mapping):
+        return {key: formed(inner, values, (*path, key)) for key, inner in within.items()}
+    return tuple(formed(inner, values, (*path, number)) for number, inner in enumerate(within))
+
+
+def found(parts: Mapping[str, Part], slot: Slot) -> tuple[str, Part | None, tuple[int, ...]]:
+    """The name of the part that a slot is in, that part, None where there is none, and the index in it.
+
+    The first number of a slot in a tuple says which of its parts it is; none behind it is that of a single number.
+    """
+    name, index = slot.part, slot.index
+    while name not in parts and index:
+        name, index = f"{name}.{index[0]}".lstrip("."), index[1:]
+    if name not in parts:
+        return slot.part, None, slot.index
+    return name, parts[name], index or (0,)
+
+
+def _leaves(space: Any, path: tuple[Any, ...] = ()) -> Iterator[tuple[tuple[Any, ...], Any]]:
+    within = getattr(space, "spaces", None)
+    if within is None:
+        yield path, space
+        return
+    for key, inner in within.items() if isinstance(within, Mapping) else enumerate(within):
+        yield from _leaves(inner, (*path, key))
+
+
+def _name(path: tuple[Any, ...]) -> str:
+    return ".".join(map(str, path))
 
 
 def _part(space: Any) -> Part | None:

@@ -4,6 +4,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
+from weakref import finalize
 
 import numpy as np
 from numpy.typing import NDArray
@@ -30,9 +31,11 @@ class Episodes:
 class EnvironmentRollout(Rollout):
     """As `Rollout`, for a task in an environment: a run of a seed begins with its `reset(seed)`.
 
-    Environments are kept from run to run, and all are stepped in this thread. `clipped` counts for each observed
-    sensor how many of the `observed` numbers were beyond its range.
+    Environments are kept from run to run until nobody has this rollout any more, and all are stepped in this thread.
+    `clipped` counts for each observed sensor how many of the `observed` numbers were beyond its range.
     """
+
+    simulates = False
 
     def __init__(
         self,
@@ -46,10 +49,12 @@ class EnvironmentRollout(Rollout):
         lanes: int = ENVIRONMENT_LANES,
     ) -> None:
         super().__init__(policy, task, master, learners, procedures=procedures, interrupt=interrupt, lanes=lanes)
-        self.wiring: Wiring = wiring_of(self.graph, self.task.scene.environment)
+        self.wiring: Wiring = wiring_of(self.graph, self.task.scene.environment, procedures)
         self.slice_ticks = SLOW_SLICE_TICKS
         self.observed, self.clipped = 0, np.zeros(len(self.wiring.rows), np.int64)
         self._idle: list[Episode] = []
+        self._made: list[Episode] = []
+        finalize(self, _close, self._made)
         self._rough = np.array([bool(row["is_rough"]) for row in self.tables.actuators], bool)
         self._rewards = [i for i, measure in enumerate(self.task.measures) if measure.is_outside]
         self._ends = [i for i, event in enumerate(self.task.events) if event.is_outside]
@@ -59,10 +64,15 @@ class EnvironmentRollout(Rollout):
         """Which sensors were beyond their ranges, and how often."""
         shares = self.clipped / max(1, self.observed)
         return tuple(
-            f"{name} was beyond its range in {share:.1%} of the ticks"
+            f"{name} was beyond its range in {share:.1%} of the ticks".replace(" 0.0%", " less than 0.1%")
             for name, share in zip(self.wiring.names, shares.tolist(), strict=True)
             if share > 0
         )
+
+    @property
+    def entries(self) -> tuple[Any, ...]:
+        """The compiled stages of a tick that its runs call."""
+        return before, run_skills, act, conclude
 
     def compile(self) -> None:
         """Compile the stages where no cache has them."""
@@ -131,12 +141,21 @@ class EnvironmentRollout(Rollout):
         if begun:
             self._release(tile.kept, {*working})
         for job in begun:
-            episode = self._idle.pop() if self._idle else Episode(self.wiring)
+            episode = self._idle.pop() if self._idle else self._new()
             episode.begin(int(jobs.seeds[jobs.seed[job]]))
             going_on[job] = episode
         return [going_on[job] for job in working]
+
+    def _new(self) -> Episode:
+        self._made.append(Episode(self.wiring))
+        return self._made[-1]
 
     def _release(self, episodes: Episodes, working: set[int]) -> None:
         """The environments of runs that are over wait for others."""
         for job in [job for job in episodes.going_on if job not in working]:
             self._idle.append(episodes.going_on.pop(job))
+
+
+def _close(episodes: Sequence[Episode]) -> None:
+    for episode in episodes:
+        episode.close()

@@ -1,0 +1,58 @@
+"""What is seen of a run in an environment: the same run made again, in one that draws itself."""
+
+from pathlib import Path
+from weakref import finalize
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mindrun.graph import Graph
+from mindrun.sim.outside.episode import Episode
+from mindrun.sim.outside.making import BrokenEnvironmentError, first_line
+from mindrun.sim.outside.wiring import wiring_of
+
+WITHOUT_PICTURES = "mindc run --trace and --record need no pictures of it."
+
+
+class SeenEpisode:
+    """The images of a run, by the tick after which they are: the environment of that seed, given the same commands.
+
+    `commands` [ticks, actuators] are those that were sent. Asked tick after tick, each step is made once.
+    """
+
+    def __init__(
+        self, graph: Graph, environment: str, folder: Path | None, seed: int, commands: NDArray[np.float32]
+    ) -> None:
+        self._name, self._seed = environment, seed
+        wiring = wiring_of(graph, environment, folder)
+        self._actions = wiring.actions(commands.T)
+        self._episode = Episode(wiring, is_seen=True)
+        self._tick = -1  # it has not begun
+        finalize(self, self._episode.close)
+
+    def image(self, tick: int) -> NDArray[np.uint8]:
+        """What is seen after a tick, 0 for the beginning [height, width, 3], red first; BrokenEnvironmentError where
+        it draws nothing, or the run is another one when it is made again.
+        """
+        if not 0 <= self._tick <= tick:
+            self._episode.begin(self._seed)
+            self._tick = 0
+        while self._tick < tick:
+            if self._episode.is_over:
+                said = f"the environment {self._name} does not do the same again: there is no picture of this run"
+                raise BrokenEnvironmentError(said, f"It was over after tick {self._tick:,} now. {WITHOUT_PICTURES}")
+            self._episode.step(self._actions[self._tick])
+            self._tick += 1
+        return self._drawn()
+
+    def _drawn(self) -> NDArray[np.uint8]:
+        try:
+            found: NDArray[np.uint8] = np.asarray(self._episode.image())
+        except BrokenEnvironmentError as error:
+            why = first_line(error.__cause__) if error.__cause__ else str(error)
+            raise BrokenEnvironmentError(
+                f"the environment {self._name} cannot be drawn", f"{why} {WITHOUT_PICTURES}"
+            ) from error
+        if found.ndim != 3 or found.shape[2] != 3 or 0 in found.shape or found.dtype != np.uint8:
+            raise BrokenEnvironmentError(f"the environment {self._name} draws no pictures", WITHOUT_PICTURES)
+        return found
