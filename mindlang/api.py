@@ -20,7 +20,7 @@ from mindrun.train.lesson_state import Record
 from mindrun.train.training import Watch
 from mindrun.wiring import Wiring
 
-from mindlang import edits, transaction
+from mindlang import edits, executors, transaction
 from mindlang.compiler.compile import Compiled, compile_source
 from mindlang.compiler.compile import load as load_file
 from mindlang.compiler.diagnostic import Diagnostic
@@ -133,30 +133,33 @@ class Mind:
         options: TrainOptions = TrainOptions(),  # noqa: B008  # a frozen value
         seed: int = 0,
         workers: int = 1,
+        on: str = executors.THREADS,
         runs: Path | str = "runs",
         on_generation: Callable[[Record], None] = lambda record: None,
         cancelled: Callable[[], bool] = lambda: False,
     ) -> list[Result]:
         """Teach these skills, or what is due of a curriculum (default: the first); what is learnt goes to the lock.
 
-        `on_generation` is told of each generation, after which `cancelled` is asked. Where that says so, or Ctrl-C
-        comes, the run stays in its folder under `runs`, and the same call goes on with it, to the same bits. The result
-        of each lesson that has ended.
+        `on` says who does the attempts: "processes:2", "dask:scheduler.json". `on_generation` is told of each
+        generation, after which `cancelled` is asked. Where that says so, or Ctrl-C comes, the run stays in its folder
+        under `runs`, and the same call goes on with it, to the same bits. The result of each lesson that has ended.
         """
-        chosen = chosen_lessons(self.graph, curriculum, skills)
+        chosen, elsewhere = chosen_lessons(self.graph, curriculum, skills), executors.where(on)
         if not self.path.is_file():
             raise MindError(f"{self.path} is no file, and what is learnt is kept beside one", "save it, and load that")
-        results: list[Result] = []
-        watch = Watch(lambda state, record: on_generation(record), warn, cancelled, perf_counter)
+        results, watch = (
+            list[Result](),
+            Watch(lambda state, record: on_generation(record), warn, cancelled, perf_counter),
+        )
         if skills:
             refuse_frozen(open_subject(self.path, self.compiled), chosen)
         for lesson in chosen:
             subject = open_subject(self.path, self.compiled)  # the lesson before has changed the lock
             if not skills and not is_due(subject.graph, lesson, subject.standing(lesson)):
                 continue
-            now, call = datetime.now(UTC), ("mindlang.Mind.train", *skills)
-            run = begin_run(subject, options.applied(lesson), seed, Path(runs), now, call)
-            if (result := teach(run, subject, workers, watch)) is None:
+            call = ("mindlang.Mind.train", *skills)
+            run = begin_run(subject, options.applied(lesson), seed, Path(runs), datetime.now(UTC), call)
+            if (result := teach(run, subject, workers, watch, elsewhere)) is None:
                 break
             results.append(result)
         return results

@@ -5,8 +5,7 @@ import secrets
 import shlex
 import signal
 import sys
-from collections.abc import Callable, Iterator, Sequence
-from contextlib import contextmanager
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from datetime import UTC, datetime
 from pathlib import Path
@@ -30,7 +29,7 @@ from mindlang.training.event_files import EventFiles
 from mindlang.training.lesson_choice import TrainOptions, chosen_lessons, is_due
 from mindlang.training.results import Result, opening, outcome
 from mindlang.training.subject import Subject, begin_run, open_subject, refuse_changed, refuse_frozen
-from mindlang.training.teaching import TeachingResult, assignment_of, finish, has_ended, rollout_of
+from mindlang.training.teaching import TeachingResult, executor_of, finish, has_ended, rollout_of
 
 
 @dataclass(frozen=True, slots=True)
@@ -99,7 +98,7 @@ class Trainer:
             self._print(result)
             return True
         rollout = self._rollout(run, subject)
-        with self._executor(run, subject, rollout) as executor:
+        with executor_of(run, subject, rollout, self.where, self._say) as executor:
             state = self._watched(run, rollout, executor)
         if not has_ended(run, state):
             talk.print(f"saved; to go on: {self._command(run)}", markup=False)
@@ -128,18 +127,6 @@ class Trainer:
         rollout = rollout_of(run, subject, self.workers or cores())
         ensure_compiled(rollout, self._say)  # before the clock of the lesson starts
         return rollout
-
-    @contextmanager
-    def _executor(self, run: RunFolder, subject: Subject, rollout: Rollout) -> Iterator[StretchExecutor | None]:
-        """Those who do the attempts of a run elsewhere; they are sent away in the end, whatever they do."""
-        if self.where is None:
-            yield None
-            return
-        jobs = self.where.begin(assignment_of(run, subject), self._say)
-        try:
-            yield StretchExecutor(run.course(rollout.genome_length), jobs)
-        finally:
-            jobs.close()
 
     @procedures_talk()
     def _watched(self, run: RunFolder, rollout: Rollout, executor: StretchExecutor | None) -> LessonState:

@@ -1,5 +1,7 @@
 """The beginning and the end of a run of a lesson: what scores its genomes, and what becomes of what was learnt."""
 
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 
 from mindrun.bundle import Bundle, pack
@@ -12,7 +14,9 @@ from mindrun.train.population import founder_count
 from mindrun.train.run_folder import RunFolder, keep_result, read_result
 from mindrun.train.training import Watch, train
 from mindrun.work.assignment import Assignment
+from mindrun.work.executor import StretchExecutor
 
+from mindlang.executors import Where
 from mindlang.resource_limits import refuse_too_large, refuse_too_long
 from mindlang.training.lock_update import Kept, keep
 from mindlang.training.results import Result, result_of
@@ -53,15 +57,34 @@ def assignment_of(run: RunFolder, subject: Subject) -> Assignment:
     return Assignment(pack(Bundle(policy, procedures)), lesson.task, lesson.master, run.manifest.learners)
 
 
-def teach(run: RunFolder, subject: Subject, workers: int, watch: Watch) -> Result | None:
+@contextmanager
+def executor_of(
+    run: RunFolder, subject: Subject, rollout: Rollout, where: Where | None, say: Callable[[str], object]
+) -> Iterator[StretchExecutor | None]:
+    """Those who do the attempts of a run elsewhere, None for the threads of this process.
+
+    They `say` what they wait for, and are sent away in the end, whatever they do.
+    """
+    if where is None:
+        yield None
+        return
+    jobs = where.begin(assignment_of(run, subject), say)
+    try:
+        yield StretchExecutor(run.course(rollout.genome_length), jobs)
+    finally:
+        jobs.close()
+
+
+def teach(run: RunFolder, subject: Subject, workers: int, watch: Watch, where: Where | None = None) -> Result | None:
     """Go on with a run to its end, and put what it has taught into the lock; None where `watch` stopped it.
 
-    What came of it, where it has ended before.
+    What came of it, where it has ended before. Its attempts are done `where` it is said, else in so many threads.
     """
     if (result := read_result(run.folder)) is not None:
         return result
     rollout = rollout_of(run, subject, workers)
-    state = train(run, rollout, watch)
+    with executor_of(run, subject, rollout, where, watch.warn) as executor:
+        state = train(run, rollout, watch, executor)
     return finish(run, subject, state, rollout, force=False).result if has_ended(run, state) else None
 
 

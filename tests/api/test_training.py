@@ -21,6 +21,7 @@ class Taught:
 
     def __init__(self, folder: Path) -> None:
         self.mind, self.runs = mindlang.load(folder / "collect.mind"), folder / "runs"
+        self.on = "threads"
         self.seen: list[int] = []
 
     def __call__(self, stop_after: int = 10**9, options: TrainOptions = OPTIONS) -> int:
@@ -36,6 +37,7 @@ class Taught:
             seed=3,
             runs=self.runs,
             workers=2,
+            on=self.on,
             on_generation=told,
             cancelled=lambda: len(self.seen) >= stop_after,
         )
@@ -78,6 +80,25 @@ def test_a_cancelled_training_goes_on_to_the_same_bits(taught: Taught, tmp_path:
     assert taught.weights() == whole.weights()
     assert (collect / "collect.lock").read_bytes() == learnt
     assert no_thread_is_left(before)
+
+
+def test_on_processes_it_is_the_same_bits(taught: Taught, collect: Path) -> None:
+    two = TrainOptions(generations=2, population=10, attempts=2)
+    lock = (collect / "collect.lock").read_bytes()
+    assert taught(options=two) == 1
+    here, seen, learnt = taught.weights(), taught.seen, (collect / "collect.lock").read_bytes()
+    (collect / "collect.lock").write_bytes(lock)
+    taught.runs, taught.on = collect / "elsewhere", "processes:2"
+    assert taught(options=two) == 1
+    assert (taught.weights(), taught.seen) == (here, seen)
+    assert (collect / "collect.lock").read_bytes() == learnt
+
+
+def test_on_nowhere_nothing_is_begun(taught: Taught) -> None:
+    taught.on = "moon"
+    with pytest.raises(mindlang.MindError, match="nobody knows where 'moon' is"):
+        taught()
+    assert not taught.runs.exists()
 
 
 def test_without_a_name_what_is_due_is_taught(collect: Path) -> None:

@@ -1,15 +1,19 @@
 """`mindc train --on`: the same weights wherever they are taught, and one sentence where they cannot be."""
 
 import json
+import signal
 import subprocess
 import sys
 from pathlib import Path
+from time import sleep
 
 import pytest
 
-from tests.train.test_train_command import MIND, mindc
+from tests.train.test_train_command import LONG, MIND, mindc
 
 TAUGHT = ("drive.mind", "Go", "--seed", "3", "--generations", "6", "--attempts", "3", "--from-scratch", "--json")
+
+RUN = "runs/Go-on-Reach/*"
 
 
 def weights(folder: Path, *words: str) -> dict[str, str]:
@@ -54,6 +58,58 @@ def test_a_command_that_is_no_worker_leaves_a_run_that_goes_on(tmp_path: Path) -
     assert (done.returncode, "no worker is left" in done.stderr) == (1, True)
     done = mindc(tmp_path, *TAUGHT)
     assert done.returncode == 0, done.stderr
+
+
+def test_stopped_with_ctrl_c_it_goes_on_to_the_same_weights_there_or_here(tmp_path: Path) -> None:
+    (tmp_path / "drive.mind").write_text(MIND)
+    words = (*LONG, "--attempts", "3")
+    expected = json.loads(mindc(tmp_path, *words, "--runs", "undisturbed").stdout)["weights"]
+    command = [sys.executable, "-c", "from mindlang.cli import main; main()", "train", *words, "--on", "processes:2"]
+    with subprocess.Popen(command, cwd=tmp_path, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as process:
+        while process.poll() is None and not any(log.stat().st_size for log in tmp_path.glob(f"{RUN}/progress.jsonl")):
+            sleep(0.005)
+        process.send_signal(signal.SIGINT)
+        _, talk = process.communicate()
+    assert process.returncode == 130, talk
+    assert "what workers are at is done again then; Ctrl-C again stops at once" in talk
+    run = str(next(tmp_path.glob(RUN)))
+    there = mindc(tmp_path, *words, "--on", "processes:2")
+    assert json.loads(there.stdout) == json.loads(there.stdout) | {
+        "run": run.removeprefix(f"{tmp_path}/"),
+        "weights": expected,
+    }
+
+
+def test_killed_it_goes_on_to_the_same_weights(tmp_path: Path) -> None:
+    (tmp_path / "drive.mind").write_text(MIND)
+    words = (*LONG, "--attempts", "3")
+    expected = json.loads(mindc(tmp_path, *words, "--runs", "undisturbed").stdout)["weights"]
+    command = [sys.executable, "-c", "from mindlang.cli import main; main()", "train", *words, "--on", "processes:2"]
+    with subprocess.Popen(command, cwd=tmp_path, stdout=subprocess.PIPE, stderr=subprocess.PIPE) as process:
+        while process.poll() is None and not any(log.stat().st_size for log in tmp_path.glob(f"{RUN}/progress.jsonl")):
+            sleep(0.005)
+        process.kill()
+    run = str(next(tmp_path.glob(RUN)))
+    assert json.loads(mindc(tmp_path, "--resume", run, "--json").stdout)["weights"] == expected
+
+
+def test_event_files_have_every_generation_once_wherever_they_were_made(tmp_path: Path) -> None:
+    pytest.importorskip("tensorboardX", reason="event files are written with tensorboardX")
+    weights(tmp_path / "here", "--tensorboard")
+    weights(tmp_path / "there", "--tensorboard", "--on", "processes:2")
+    here, there = (
+        {path.parent.name: scores(path) for path in sorted((tmp_path / folder).glob(f"{RUN}/tensorboard/*/*"))}
+        for folder in ("here", "there")
+    )
+    assert len(here) == 3
+    assert here == there
+
+
+def scores(path: Path) -> dict[str, dict[int, float]]:
+    """What an event file says, but for times."""
+    from tests.train.test_event_files import SPEED, read
+
+    return {tag: steps for tag, steps in read(path).items() if tag != SPEED}
 
 
 def test_a_worker_that_is_sent_no_frame_says_so() -> None:
