@@ -147,10 +147,8 @@ class Mind:
         chosen, elsewhere = chosen_lessons(self.graph, curriculum, skills), executors.where(on)
         if not self.path.is_file():
             raise MindError(f"{self.path} is no file, and what is learnt is kept beside one", "save it, and load that")
-        results, watch = (
-            list[Result](),
-            Watch(lambda state, record: on_generation(record), warn, cancelled, perf_counter),
-        )
+        results: list[Result] = []
+        watch = Watch(lambda state, record: on_generation(record), warn, cancelled, perf_counter)
         if skills:
             refuse_frozen(open_subject(self.path, self.compiled), chosen)
         for lesson in chosen:
@@ -228,8 +226,7 @@ class EditedMind:
     def write(self, anyway: bool = False) -> Mind:
         """Write sources, locks and weights together, or nothing; the mind as it is then.
 
-        MindError where another mind that uses the same files would no longer compile, unless `anyway`; and where a file
-        has been changed since it was loaded.
+        MindError where a file has changed since it was loaded; where another mind would not compile, unless `anyway`.
         """
         broken = broken_sentences(self.edited)
         if broken and not anyway:

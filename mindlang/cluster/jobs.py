@@ -21,6 +21,7 @@ from mindrun.work.frame import Frame, FrameError, unpack
 from mindrun.work.worker import LACKS
 
 LOOK_SECONDS = 1.0  # between two times that the scheduler is asked for its workers
+RESULT_SECONDS = 30.0  # to wait for the bytes of a job that has ended, before who asks may look at something else
 WAIT_SECONDS = 5.0  # without a worker, before it is said that there is none
 RESUME = "what was saved of a training is intact: mindc train --resume goes on with it"
 INSTALL = "install the same wheel on the machines of scheduler and workers, and begin them again"
@@ -86,7 +87,10 @@ class ClusterJobs:
             self.workers  # noqa: B018  # looks whether there are any
             return None
         job = self._open.pop(future)
-        found = self._result(future)
+        if (found := self._result(future)) is None:
+            self._open[future] = job
+            self._done.put(future)
+            return None
         try:
             return self._read(job, unpack(found))
         except FrameError as why:
@@ -122,10 +126,15 @@ class ClusterJobs:
         self._open[future] = job
         future.add_done_callback(self._done.put)
 
-    def _result(self, future: Future) -> bytes:
-        """The bytes that a future has come to; WorkError where it has come to none."""
+    def _result(self, future: Future) -> bytes | None:
+        """The bytes that a future has come to; WorkError where it has come to none.
+
+        None where they are on a worker that does not answer: if it was lost, they are computed again.
+        """
         try:
-            found = future.result()
+            found = future.result(timeout=RESULT_SECONDS)
+        except TimeoutError:
+            return None
         except CancelledError as error:
             raise self._gone() from error
         except KilledWorker as error:
@@ -139,8 +148,7 @@ class ClusterJobs:
             raise WorkError(
                 f"a job failed at {self._address}: {type(error).__name__}: {error}"[:1000], INSTALL
             ) from error
-        finally:
-            future.release()
+        future.release()
         if not isinstance(found, bytes):
             raise WorkError(f"a worker of {self._address} answers with no bytes", INSTALL)
         return found
