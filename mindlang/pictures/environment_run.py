@@ -13,7 +13,8 @@ from mindlang.run.recorded_run import RecordedRun
 def seen_run(run: RecordedRun, seed: int) -> SeenEpisode:
     """The images of a run of that seed; MindError where its environment cannot be made to be seen."""
     acting = run.commands if run.acting is None else run.acting
-    return SeenEpisode(run.graph, run.task.scene.environment, run.setup.folder, seed, acting)
+    environment, folder = run.task.scene.environment, run.setup.folder
+    return SeenEpisode(run.graph, environment, folder, seed, lambda first, last: acting[first:last])
 
 
 def fitted(seen: NDArray[np.uint8], width: int, height: int, around: Colour) -> Image:

@@ -6,6 +6,8 @@ from dataclasses import dataclass
 from itertools import islice
 from pathlib import Path
 
+from mindrun.sim.outside import making
+
 from mindlang.compiler.syntax import NOUNS, SETTINGS
 from mindlang.editing.owners import OWNERS
 from mindlang.file_search import files_below
@@ -82,6 +84,10 @@ def _header(line: CursorLine, noun: str, rest: Sequence[str]) -> list[Offer]:
             return [*kinds_of(noun), Offer("like", "word", text=WORDS["is like"])]
         case [_, "is" | "in"]:
             return kinds_of(noun)
+        case [_, "is" | "in", "gymnasium"]:
+            return [Offer(name, "environment") for name in making.registered()]
+        case [_, "is" | "in", "gymnasium", *_]:
+            return []
         case [_, "is" | "in", "procedure", "from"] if noun == "skill":
             return [Offer(name, "function") for name in functions(line.folder)]
         case [_, "is" | "in", kind, *said]:

@@ -59,6 +59,10 @@ def reward_offers(view: MindView, task: Declaration | None, rest: Sequence[str])
     if "when" in rest:
         return condition_offers(view, task, rest[rest.index("when") :])
     match rest:
+        case [*_, "on", "its"]:
+            return [Offer("end", "word")]
+        case [*_, "its"]:
+            return [Offer("reward", "word")]
         case [*_, "per"]:
             return [Offer("tick", "word")]
         case [*_, "for"]:

@@ -95,6 +95,8 @@ def _contains(line: CursorLine, rest: Sequence[str]) -> list[Offer]:
 
 
 def _event(line: CursorLine, rest: Sequence[str]) -> list[Offer]:
+    if rest == ["its"]:
+        return [Offer("end", "word")]
     return arguments_of(line.view, "event", rest[0], rest[1:], line.above) if rest else kinds_of("event")
 
 

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from mindrun.quantity import Quantity, Reference
-from mindrun.registry import Argument, arguments, kinds
+from mindrun.registry import Argument, arguments, kinds, named_arguments
 from mindrun.variation import VARIED_NOUNS
 
 from mindlang.compiler.comments import comment_of
@@ -127,7 +127,8 @@ def written_arguments(cls: type[Any], rest: Iterable[str]) -> WrittenArguments:
             left.pop(word, None)
         else:
             values.append(word)
-    return WrittenArguments(current, tuple(values), tuple(left.values()))
+    named = {each.key for each in named_arguments(cls)}
+    return WrittenArguments(current, tuple(values), tuple(each for key, each in left.items() if key in named))
 
 
 def arguments_of(view: MindView, noun: str, kind: str, rest: Iterable[str], task: Declaration | None) -> list[Offer]:
@@ -135,6 +136,9 @@ def arguments_of(view: MindView, noun: str, kind: str, rest: Iterable[str], task
     cls = kinds(noun).get(kind)
     if cls is None:
         return []
+    rest = [*rest]
+    if kind in {each.key for each in arguments(cls)} and not any(word[0] in NUMBER for word in rest):
+        return []  # here comes the number that stands behind the kind itself
     state = written_arguments(cls, rest)
     if state.awaits_name and state.current:
         return _named(view, noun, kind, state.current, task)

@@ -35,6 +35,7 @@ OFFERS = {
     "scene": types.CompletionItemKind.Module,
     "number": types.CompletionItemKind.Value,
     "task": types.CompletionItemKind.Event,
+    "environment": types.CompletionItemKind.Module,
     "thing": types.CompletionItemKind.Constant,
     "kind": types.CompletionItemKind.Class,
     "key": types.CompletionItemKind.Property,

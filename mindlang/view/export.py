@@ -38,7 +38,7 @@ def exported(about: dict[str, Any], ticks: dict[str, Any], viewed: Viewed) -> st
             "see it with a server: leave --export out",
         )
     policy = f'<meta http-equiv="Content-Security-Policy" content="{_policy(script, style)}" />'
-    data = {"about": about | {"edits": False}, "ticks": ticks, "rows": viewed.known + 1}
+    data = {"about": about | {"edits": False, "drawn": False}, "ticks": ticks, "rows": viewed.known + 1}
     body = "\n".join([
         f'<script type="application/json" id="recording">{_inert(data)}</script>',
         f'<script type="text/plain" id="rows">{_rows(viewed)}</script>',

@@ -65,6 +65,14 @@ class Why:
 
 
 @dataclass(frozen=True, slots=True)
+class AskImage:
+    """What an environment draws of itself after a tick."""
+
+    fork: int
+    tick: int
+
+
+@dataclass(frozen=True, slots=True)
 class Change:
     """A run beside the one seen, in which something is replaced in a tick and `lasts` for so many."""
 
@@ -87,7 +95,7 @@ class PlayChampion:
     fork: int = 0
 
 
-Message = AskRows | AskColumns | Run | Why | Change | PlayChampion
+Message = AskRows | AskColumns | AskImage | Run | Why | Change | PlayChampion
 
 
 Plain = Mapping[str, Any]
@@ -145,6 +153,10 @@ def _why(plain: Plain) -> Why:
     return Why(_fork(plain), _whole(plain, "tick", 1), _whole(plain, "actuator"))
 
 
+def _image(plain: Plain) -> AskImage:
+    return AskImage(_fork(plain), _whole(plain, "tick"))
+
+
 def _change(plain: Plain) -> Change:
     what, value = plain.get("what"), plain.get("value")
     if what not in REPLACED:
@@ -192,6 +204,7 @@ KEYS: Mapping[str, set[str]] = {
     "rows": SPAN_KEYS,
     "columns": SPAN_KEYS | {"columns"},
     "run": {"fork", "to"},
+    "image": {"fork", "tick"},
     "why": {"fork", "tick", "actuator"},
     "change": {"fork", "tick", "what", "column", "value", "lasts"},
     "champion": {"run", "attempt", "generation", "seed"},
@@ -200,6 +213,7 @@ READERS: Mapping[str, Callable[[Plain], Message]] = {
     "rows": _rows,
     "columns": _columns,
     "run": _run,
+    "image": _image,
     "why": _why,
     "change": _change,
     "champion": _champion,

@@ -13,7 +13,18 @@ from mindrun.errors import MindError
 from mindlang.view.columns import DOUBLE_BLOCK, SINGLE_BLOCK
 from mindlang.view.command_shares import command_shares
 from mindlang.view.learning import WATCH_SECONDS
-from mindlang.view.messages import MAX_FORKS, AskColumns, AskRows, Change, Message, PlayChampion, RefusedError, Run, Why
+from mindlang.view.messages import (
+    MAX_FORKS,
+    AskColumns,
+    AskImage,
+    AskRows,
+    Change,
+    Message,
+    PlayChampion,
+    RefusedError,
+    Run,
+    Why,
+)
 from mindlang.view.texts import error_text
 from mindlang.view.viewed import Fork, Viewed
 
@@ -171,6 +182,8 @@ def _computed(viewed: Viewed, message: Message) -> bytes | dict[str, Any]:
                 return viewed.rows(fork, first, below, every, ask)
             case AskColumns(fork, columns, first, below, every, ask):
                 return viewed.some_columns(fork, columns, first, below, every, ask)
+            case AskImage(fork, tick):
+                return {"say": "image", "fork": fork, "tick": tick, "png": viewed.image(tick)}
             case Why():
                 return command_shares(viewed, message)
     except MindError as error:

@@ -10,12 +10,14 @@ import numpy as np
 from mindrun.errors import MindError, reason
 from mindrun.graph import Skill
 from mindrun.policy import Policy
+from mindrun.sim.outside.seen import SeenEpisode
 from mindrun.think import Hierarchy, hierarchy
 from mindrun.weights import reachable
 from numpy.typing import NDArray
 
 from mindlang.run.edge_flow import EdgeFlows, FlowWalker
 from mindlang.view.columns import DOUBLE_BLOCK, FLOW, SINGLE_BLOCK, Columns
+from mindlang.view.environment_images import Drawing, png_text
 from mindlang.view.frames import columns_frame, rows_frame, rows_that_fit
 from mindlang.view.messages import Change, RefusedError
 from mindlang.view.row_blocks import Chunk, Doubles, RowBlocks, Singles, TickNumbers
@@ -58,7 +60,7 @@ class Viewed:
     """`about` is what does not change, `chunks` what is still to come; the first chunk begins with tick 0.
 
     `forked` makes the same run with a change; RefusedError where that cannot be, None where nothing can be changed.
-    `delay` says, where it is so, what has to be done first and takes a while. One
+    `delay` says, where it is so, what has to be done first and takes a while. `drawing` is of its environment. One
     thread lets it `grow`; others may ask at the same time. What `is_live` grows without being asked.
     """
 
@@ -69,6 +71,7 @@ class Viewed:
     forked: Callable[[Change], Fork] | None = None
     delay: Callable[[], str | None] = lambda: None
     is_live: bool = False
+    drawing: Drawing | None = None
     blocks: RowBlocks = field(default_factory=RowBlocks)
     happened: list[tuple[int, int]] = field(default_factory=list)
     stops: list[tuple[int, str]] = field(default_factory=list)
@@ -76,6 +79,7 @@ class Viewed:
     ended_by: str | None = None
     failed: str | None = None
     flows: EdgeFlows = field(init=False)
+    _seen: SeenEpisode | None = None
 
     def __post_init__(self) -> None:
         """One walker of what flows, for all who ask; rows are ticks, and in the first of them nothing flows."""
@@ -163,6 +167,14 @@ class Viewed:
 
     def _flow(self, ticks: TickNumbers) -> Singles:
         return self.flows.walker.transmitted(ticks)
+
+    def image(self, tick: int) -> str:
+        """What its environment draws after a tick; RefusedError where nothing does, or the tick is not known."""
+        if self.drawing is None or tick > self.known:
+            raise RefusedError("there is no image of this tick")
+        if self._seen is None:
+            self._seen = self.drawing(lambda first, last: self.group("commands", np.arange(first + 1, last + 1)))
+        return png_text(self._seen, tick)
 
     def group(self, name: str, ticks: TickNumbers) -> NDArray[Any]:
         """The columns [ticks, count] of a group that is kept."""

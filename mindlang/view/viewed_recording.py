@@ -23,6 +23,7 @@ from mindlang.run.running_bundle import running_bundle, task_of
 from mindlang.view.about_hierarchy import HierarchyData
 from mindlang.view.about_world import run_data
 from mindlang.view.columns import FLOW, Columns
+from mindlang.view.environment_images import drawing_of
 from mindlang.view.growing_bytes import growing_bytes
 from mindlang.view.recorded_columns import beginning, blocks, world_columns
 from mindlang.view.row_blocks import Chunk, Singles
@@ -71,7 +72,9 @@ def viewed_rows(
     mind = SeenMind.of(found.policy, found.procedures, of.master, begins)
     columns = recording_columns(found, of, mind.edges)
     below = HierarchyData(found.graph, of.master, mind.skills, columns)
+    drawing = drawing_of(found.graph, task, bundle.absolute().parent, of.world.seed) if of.world else None
     about = {
+        "drawn": drawing is not None,
         "title": shown(f"{path.name} with {of.master} in charge"),
         "master": shown(of.master),
         "source": "robot" if of_ticks is None else "recording",
@@ -86,7 +89,7 @@ def viewed_rows(
     }
     watcher = watching(of, found) if watching else None
     chunks = recording_chunks(_filled(path, of, parts, found), of, task, columns, begins, watcher)
-    return Viewed(about, columns, chunks, mind, is_live=of_ticks is None)
+    return Viewed(about, columns, chunks, mind, is_live=of_ticks is None, drawing=drawing)
 
 
 def _run_data(graph: Graph, world: RecordedWorld | None, task: Task | None, columns: Columns) -> dict[str, Any]:

@@ -25,6 +25,7 @@ from mindlang.run.setup import RunSetup
 from mindlang.view.about_hierarchy import HierarchyData, Texts
 from mindlang.view.about_world import run_data
 from mindlang.view.columns import FLOW, Columns
+from mindlang.view.environment_images import drawing_of
 from mindlang.view.messages import Change
 from mindlang.view.recorded_columns import beginning, blocks, world_columns
 from mindlang.view.replacement import replacement, replacement_text
@@ -56,7 +57,9 @@ class ViewedRun:
         run = trace(self.rollout, self.seed, changes=self.changes)
         watching = watcher(self.breakpoints, setup) if self.breakpoints else None
         chunks = run_chunks(setup, run, self.seed, columns, watching)
-        return Viewed(self._about(run, mind, columns), columns, chunks, mind, self._forked, _compilation)
+        drawing = drawing_of(graph, setup.task, setup.folder, self.seed)
+        about = {**self._about(run, mind, columns), "drawn": drawing is not None}
+        return Viewed(about, columns, chunks, mind, self._forked, _compilation, drawing=drawing)
 
     def _forked(self, asked: Change) -> Fork:
         setup, graph = self.setup, self.setup.ready.policy.graph

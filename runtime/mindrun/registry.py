@@ -6,7 +6,7 @@ from importlib import import_module
 from pkgutil import iter_modules
 from typing import Annotated, Any, Literal, TypeVar, get_args, get_origin, get_type_hints
 
-from mindrun.quantity import Extent, Place, Quantity, Reference, Span
+from mindrun.quantity import SLOT, Extent, Place, Quantity, Reference, Span
 
 T = TypeVar("T")
 
@@ -88,6 +88,11 @@ def arguments(cls: type[Any]) -> tuple[Argument, ...]:
     if cls not in _arguments:
         _arguments[cls] = _read(cls)
     return _arguments[cls]
+
+
+def named_arguments(cls: type[Any]) -> tuple[Argument, ...]:
+    """Those that are written with their keys: what stands behind the kind itself, as in `observation 1`, is none."""
+    return tuple(each for each in arguments(cls) if each.key != _names[cls] and each.type != SLOT)
 
 
 def _read(cls: type[Any]) -> tuple[Argument, ...]:

@@ -308,7 +308,7 @@ def test_the_images_of_a_run_are_those_of_its_ticks() -> None:
     rollout = minds.rollout_of(minds.text(actuators="actuator push is action 0 neutral 0.5 delay 2 ticks"))
     moments = list(trace(rollout, 7, minds.genomes(rollout, 1)[0]).moments)
     sent = np.array([moment.acting for moment in moments])
-    seen = SeenEpisode(rollout.graph, worlds.name(worlds.Line), None, 7, sent)
+    seen = SeenEpisode(rollout.graph, worlds.name(worlds.Line), None, 7, lambda first, last: sent[first:last])
     for tick in (0, 1, 5, 3, len(moments) - 1):
         column = int(seen.image(tick)[19, :, 0].argmax())
         place = moments[tick].readings[0] * 4 - 2  # what is read in the tick after it

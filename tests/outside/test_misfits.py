@@ -68,3 +68,19 @@ def test_without_gymnasium_a_sentence_says_what_to_install(monkeypatch: pytest.M
     with pytest.raises(MindError, match="needs the package gymnasium") as found:
         minds.rollout_of(graph_source)
     assert found.value.hint == "Install it: pip install 'mindlang[gymnasium]'."
+
+
+def test_of_two_environments_it_is_said_which_one_it_is() -> None:
+    second = f"task Other in gymnasium {PARTS}\n  lasts 5 ticks\n"
+    found = minds.compiled(minds.text() + second).diagnostics
+    assert f"The observation of the environment {PARTS} has several parts." in [each.message for each in found]
+    assert all(PARTS in each.message for each in found)
+
+
+def test_what_cannot_be_made_here_is_no_mistake_of_the_file() -> None:
+    worlds.register()
+    source = minds.text(scene=worlds.name(worlds.Unmade))
+    assert minds.compiled(source).diagnostics == ()
+    with pytest.raises(MindError, match="cannot be made") as found:
+        minds.rollout_of(source)
+    assert found.value.hint == "ImportError: no physics here"

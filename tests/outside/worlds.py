@@ -166,7 +166,14 @@ class Moody(Line):
         return observed, reward, ended, self.steps >= self.longest, info
 
 
-ALL = (Line, Parts, Several, Raising, Misshapen, Blind, Generous, Impatient, Unseen, Dark, Empty, Moody)
+class Unmade(Line):
+    """The same, which needs what is not installed."""
+
+    def __init__(self, render_mode: str | None = None) -> None:
+        raise ImportError("no physics here")
+
+
+ALL = (Line, Parts, Several, Raising, Misshapen, Blind, Generous, Impatient, Unseen, Dark, Empty, Moody, Unmade)
 
 
 def register() -> None:

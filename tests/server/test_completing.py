@@ -41,6 +41,14 @@ CASES = [  # where the line is put, the line with | for the cursor, what must be
     (BELOW_AVOID, "sensor x is contact of |", "parcel", "depot"),
     (BELOW_AVOID, "sensor x is derivative of |", "eyes mood", "parcel"),
     (BELOW_AVOID, "actuator x is wheel side |", "left right", "neutral"),
+    (BELOW_AVOID, "sensor x is observation |", "", "range observation"),
+    (BELOW_AVOID, "sensor x is observation image 3 |", "range noise delay", "observation part"),
+    (BELOW_AVOID, "actuator x is choice 2 |", "neutral delay", "choice part"),
+    (BELOW_WORK, "  ends on its |", "end", "reward"),
+    (BELOW_WORK, "  rewards its |", "reward", "end"),
+    (BELOW_WORK, "  rewards 1 on its |", "end", "reward"),
+    (BELOW_AVOID, "task X in |", "gymnasium arena", "mlp"),
+    (BELOW_AVOID, "task X in gymnasium CartPole-v1 |", "", "size gymnasium"),
     (BELOW_AVOID, 'use "|', "parts.mind", "tour.mind"),
     (BELOW_AVOID, "master |", "Live", "eyes"),
     (BELOW_AVOID, "tick 1/50 |", "s", "deg"),
@@ -184,3 +192,10 @@ def test_words_are_explained_where_they_stand(place: str, line: str, said: str) 
     found = hover(Workspace({TOUR: text}).view(TOUR), TOUR, at + line.index("|"))
     assert found
     assert said in found.text
+
+
+def test_the_environments_of_gymnasium_are_offered() -> None:
+    pytest.importorskip("gymnasium")
+    path, text = Path("/nowhere/a.mind"), "task Land in gymnasium "
+    labels = [offer.label for offer in complete(Workspace({path: text}).view(path), path, text, len(text)).offers]
+    assert {"CartPole-v1", "LunarLanderContinuous-v3"} <= {*labels}

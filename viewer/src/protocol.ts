@@ -80,6 +80,7 @@ export interface About {
   rewards: string[];
   ends: string[];
   world: World | null;
+  drawn: boolean; // by an environment, tick by tick when it is asked
 }
 
 /** Whose champion plays: of a generation, found in generation `since`, with its score on fresh layouts. */
@@ -144,7 +145,15 @@ export interface Refused {
   ask: number | null;
 }
 
-export type Said = Learnt | About | Ticks | Why | Fork | Refused;
+/** What the environment of a run draws of itself after a tick. */
+export interface Drawn {
+  say: "image";
+  fork: number;
+  tick: number;
+  png: string; // base64
+}
+
+export type Said = Learnt | About | Ticks | Why | Fork | Drawn | Refused;
 
 /** What came as bytes: rows of both blocks, or some columns as doubles, every `every` ticks from `first` on. */
 export interface Frame {

@@ -25,6 +25,7 @@ import { Timeline } from "./timeline";
 import type { Trainings } from "./trainings";
 import { Transport } from "./transport";
 import { Why } from "./why";
+import { Seen } from "./seen";
 import { World } from "./world";
 
 const FIRST_TICKS = 1200; // of a run that goes on when it is asked
@@ -33,6 +34,7 @@ export class View {
   readonly playback: Playback;
   readonly hierarchy: Hierarchy;
   readonly world: World | null;
+  private readonly seen: Seen;
   readonly timeline: Timeline;
   private readonly rows: Rows;
   private readonly active: ActiveList;
@@ -66,7 +68,7 @@ export class View {
     this.rows = new Rows(about, 0, send, redraw);
     this.playback = new Playback(about.tick, (tick, ahead, every) => !!this.rows.row(tick, ahead, every), redraw, (tick) => this.want(tick), about.of_ticks);
     this.world = about.world && new World(element<HTMLCanvasElement>("world"), about, about.world, theme(), redraw);
-    element("no-world").hidden = !!about.world;
+    this.seen = new Seen(about, send, redraw);
     const shows = { over: (at: Selected, event: PointerEvent) => this.selection.point(at, event), chosen: (at: Selected) => this.choose(at) };
     this.hierarchy = new Hierarchy(svgElement("hierarchy"), element<HTMLCanvasElement>("edges"), about, shows, redraw);
     const search = element<HTMLInputElement>("search");
@@ -102,7 +104,7 @@ export class View {
     if (about.world) Object.assign(this.about.world!, about.world);
     Object.assign(this.about, about, { world: this.about.world });
     this.asked = -1;
-    for (const part of [this.happened, this.collisions, this.rows, this.playback, this.forks, this.curves, this.stops, this.why]) part.restart();
+    for (const part of [this.seen, this.happened, this.collisions, this.rows, this.playback, this.forks, this.curves, this.stops, this.why]) part.restart();
     this.learning?.restarted();
     showTitle(about);
     this.want(FIRST_TICKS);
@@ -121,11 +123,13 @@ export class View {
     else if (message.say === "ticks") this.forks.ticks(message);
     else if (message.say === "fork") this.forks.begun(message);
     else if (message.say === "why") this.why.show(message);
+    else if (message.say === "image") this.seen.show(message);
     else if (message.say === "refused") this.refused(message);
   }
 
   private refused({ why, of, ask }: Refused): void {
     if (of === "why") return this.why.refused(why);
+    if (of === "image") return this.seen.refused(why);
     if (ask !== null) for (const rows of [this.rows, this.forks]) rows.refused(ask);
     refusal(why);
   }
@@ -219,6 +223,7 @@ export class View {
     const drawn = [this.active.draw(row, now), this.hierarchy.draw(row, now)];
     this.dirty = drawn.includes(false);
     this.world?.draw(row, this.rows, this.collisions, this.forks.chosen);
+    this.seen.at(tick);
     this.edit.show(this.playback.playing, tick);
     this.selection.show();
     document.body.dataset.tick = String(tick); // the tick whose row is seen

@@ -6,7 +6,7 @@ from functools import cache
 from typing import TYPE_CHECKING
 from unicodedata import normalize
 
-from mindrun.registry import arguments, kinds
+from mindrun.registry import arguments, kinds, named_arguments
 
 from mindlang.compiler.diagnostic import Diagnostic, a, did_you_mean, listed
 from mindlang.compiler.parse.mistakes import MISTAKES, OPENINGS, Mistake
@@ -199,7 +199,7 @@ def _taken(kind: type | None) -> str:
     """The arguments that a kind takes, in words."""
     if kind is None:
         return "arguments by name"
-    return listed(argument.key for argument in arguments(kind)) if arguments(kind) else "no arguments"
+    return listed(each.key for each in named_arguments(kind)) if named_arguments(kind) else "no arguments"
 
 
 def unexpected(error: "UnexpectedInput", code: str, line: Span, example: str) -> Diagnostic:

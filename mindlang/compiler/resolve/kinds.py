@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from mindrun.quantity import Quantity, Reference
+from mindrun.quantity import SLOT, Quantity, Reference
 from mindrun.registry import Argument as Parameter
 from mindrun.registry import arguments, kinds
 from mindrun.things.about import AboutThing
@@ -119,7 +119,8 @@ def _unknown(kind: str, key: Name, parameters: Mapping[str, Parameter], findings
     if key.text in VERBS:
         findings.error("two-facts", key.span, "Two facts stand on one line.", f"Begin a new line before {key.text}.")
         return
-    takes = f"{kind} takes {listed(parameters, 'and')}." if parameters else f"{kind} takes no arguments."
+    named = [each for each, parameter in parameters.items() if each != kind and parameter.type != SLOT]
+    takes = f"{kind} takes {listed(named, 'and')}." if named else f"{kind} takes no arguments."
     hint = did_you_mean(key.text, parameters) or takes
     findings.error("unknown-argument", key.span, f"{kind} has no argument called {key.text}.", hint)
 

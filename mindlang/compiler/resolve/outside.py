@@ -56,8 +56,9 @@ def check_outside(
         _refuse_native_parts(sensors, actuators, findings)
         for task in outside:
             _refuse_world(task, findings)
-        for task in {task.scene.environment: task for task in reversed(outside)}.values():
-            _check_environment(task, sensors, actuators, findings)
+        several = {task.scene.environment: task for task in reversed(outside)}
+        for name, task in several.items():
+            _check_environment(task, sensors, actuators, f"environment {name}" * (len(several) > 1), findings)
 
 
 def _refuse_outside_parts(parts: Sequence[Part[Any]], findings: Findings) -> None:
@@ -120,11 +121,12 @@ def _measured(expressions: Sequence[model.Expression]) -> Iterator[tuple[Any, Sp
 
 
 def _check_environment(
-    task: model.Task, sensors: Sequence[Part[Any]], actuators: Sequence[Part[Any]], findings: Findings
+    task: model.Task, sensors: Sequence[Part[Any]], actuators: Sequence[Part[Any]], which: str, findings: Findings
 ) -> None:
     """Report what does not fit the spaces of an environment; nothing where it cannot be asked on this machine.
 
-    One that has its module before it is not asked: that would run the text of the module.
+    `which` says which one it is, where there are others. One that has its module before it is not asked: that would run
+    the text of the module.
     """
     from mindrun.sim.outside import fitting, making
 
@@ -143,4 +145,5 @@ def _check_environment(
     spans = {part.name: part.span for part in (*sensors, *actuators)} | {"": header.span}
     ours = ({part.name: slot for part in parts if (slot := part.kind.slot)} for parts in (sensors, actuators))
     for found in fitting.misfits(observed, acted, *ours):
-        findings.error(found.code, spans[found.name], found.message, found.hint)
+        message = found.message.replace("environment", which or "environment", 1)
+        findings.error(found.code, spans[found.name], message, found.hint)

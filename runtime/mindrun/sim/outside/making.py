@@ -79,6 +79,11 @@ def make(name: str, folder: Path | None = None, is_seen: bool = False) -> Any:
         raise BrokenEnvironmentError(f"The environment {name} cannot be made.", first_line(cause)) from None
 
 
+def registered() -> list[str]:
+    """The names that Gymnasium itself has environments of; none where it is not installed."""
+    return sorted(library().registry) if is_there() else []
+
+
 @cache
 def spaces(name: str, folder: Path | None = None) -> tuple[Any, Any]:
     """The spaces of its observations and of its actions."""

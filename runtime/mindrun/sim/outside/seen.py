@@ -1,5 +1,6 @@
 """What is seen of a run in an environment: the same run made again, in one that draws itself."""
 
+from collections.abc import Callable
 from pathlib import Path
 from weakref import finalize
 
@@ -14,19 +15,20 @@ from mindrun.sim.outside.wiring import wiring_of
 WITHOUT_PICTURES = "mindc run --trace and --record need no pictures of it."
 
 
+Sent = Callable[[int, int], NDArray[np.float32]]
+
+
 class SeenEpisode:
     """The images of a run, by the tick after which they are: the environment of that seed, given the same commands.
 
-    `commands` [ticks, actuators] are those that were sent. Asked tick after tick, each step is made once.
+    `sent` gives the commands [ticks, actuators] behind a tick, 0 for the beginning, up to another one. Asked tick after
+    tick, each step is made once.
     """
 
-    def __init__(
-        self, graph: Graph, environment: str, folder: Path | None, seed: int, commands: NDArray[np.float32]
-    ) -> None:
-        self._name, self._seed = environment, seed
-        wiring = wiring_of(graph, environment, folder)
-        self._actions = wiring.actions(commands.T)
-        self._episode = Episode(wiring, is_seen=True)
+    def __init__(self, graph: Graph, environment: str, folder: Path | None, seed: int, sent: Sent) -> None:
+        self._name, self._seed, self._sent = environment, seed, sent
+        self._wiring = wiring_of(graph, environment, folder)
+        self._episode = Episode(self._wiring, is_seen=True)
         self._tick = -1  # it has not begun
         finalize(self, self._episode.close)
 
@@ -37,11 +39,11 @@ class SeenEpisode:
         if not 0 <= self._tick <= tick:
             self._episode.begin(self._seed)
             self._tick = 0
-        while self._tick < tick:
+        for action in self._wiring.actions(self._sent(self._tick, tick).T):
             if self._episode.is_over:
                 said = f"the environment {self._name} does not do the same again: there is no picture of this run"
                 raise BrokenEnvironmentError(said, f"It was over after tick {self._tick:,} now. {WITHOUT_PICTURES}")
-            self._episode.step(self._actions[self._tick])
+            self._episode.step(action)
             self._tick += 1
         return self._drawn()
 
