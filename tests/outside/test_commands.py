@@ -1,6 +1,8 @@
 """What is asked of a mind whose task is in an environment: each command does it, or says in a sentence why not."""
 
 import json
+import subprocess
+import sys
 from pathlib import Path
 
 import numpy as np
@@ -162,16 +164,53 @@ def test_a_breakpoint_stops_it(mindc: Call, mind: Path, tmp_path: Path) -> None:
     assert mindc("run", mind, "--seed", 3, "--break", breaks).code == 0
 
 
-def test_a_dry_run_is_refused(mindc: Call, mind: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    from mindrun.bundle import read_bundle
+def test_a_dry_run_is_refused_before_it_is_begun(mindc: Call, mind: Path, tmp_path: Path) -> None:
+    bundle = tmp_path / "go.bundle"
+    mindc("build", mind, "-o", bundle)
+    words = [sys.executable, "-m", "mindrun", str(bundle), "--dry", "--arm"]
+    said = subprocess.run(words, capture_output=True, text=True, check=False)
+    assert (said.returncode != 0, said.stdout) == (True, "")
+    assert "there is no dry run of Go, which is in the environment tests/Line-v0" in said.stderr
+    assert "mindc run and mindc view step it" in said.stderr
+    assert "Traceback" not in said.stderr
+
+
+def test_no_other_simulator_takes_it(mindc: Call, mind: Path) -> None:
     from mindrun.errors import MindError
     from mindrun.sim.commanded_world import World
 
+    from mindlang.compiler.compile import load
+
+    graph = load(mind).graph
+    assert graph
+    with pytest.raises(MindError, match="in the environment tests/Line-v0"):
+        World(graph, "Go", 1, None)
+
+
+def test_a_bundle_thinks_for_readings_from_anywhere(mindc: Call, mind: Path, tmp_path: Path) -> None:
     bundle = tmp_path / "go.bundle"
     mindc("build", mind, "-o", bundle)
-    with pytest.raises(MindError, match="in the environment tests/Line-v0") as found:
-        World(read_bundle(bundle).graph, "Go", 1, None)
-    assert "mindc run" in found.value.hint
+    words = [sys.executable, "-m", "mindrun", str(bundle), "--readings", "-"]
+    said = subprocess.run(words, input='{"place": 0}\n{"place": 1}\n', capture_output=True, text=True, check=False)
+    commands = [json.loads(line)["commands"]["push"] for line in said.stdout.splitlines()]
+    assert commands == pytest.approx([0.6, 0.1])
+
+
+def test_a_robot_may_have_devices_for_what_an_environment_observes(mindc: Call, mind: Path, tmp_path: Path) -> None:
+    wiring = tmp_path / "robot.yaml"
+    wiring.write_text("robot: Go\nsensors:\n  place: {driver: mock}\nactuators:\n  push: {driver: mock}\n")
+    said = mindc("build", mind, "--robot", wiring, "-o", tmp_path / "go.bundle")
+    assert said.code == 0
+    assert "wired to Go" in said.err
+
+
+def test_a_training_that_an_environment_ends_is_a_sentence(mindc: Call, tmp_path: Path) -> None:
+    mind = rules(tmp_path, worlds.Raising, LEARNS + SCHOOL)
+    said = mindc("train", mind, "--runs", tmp_path / "runs")
+    assert said.code in (1, 2)
+    assert "the environment tests/Raising-v0 failed" in said.err
+    assert "Traceback" not in said.err
+    assert not (tmp_path / "go.lock").exists()
 
 
 def test_proofs_and_pages(mindc: Call, mind: Path) -> None:

@@ -16,7 +16,7 @@ from mindrun.graph import Graph, Task
 from mindrun.robot.device_locks import hold_devices
 from mindrun.robot.drive import DriveOptions, drive
 from mindrun.robot.drivers.mock import MockActuator
-from mindrun.robot.dry_run import DryRun, beginning, outcome
+from mindrun.robot.dry_run import DryRun, beginning, outcome, refuse_environment
 from mindrun.robot.identity import IdentityError, is_adopted
 from mindrun.robot.live_view import live_view
 from mindrun.robot.loop import Loop
@@ -94,6 +94,7 @@ def _dry(options: argparse.Namespace, bundle: Bundle, drive_options: DriveOption
     from mindrun.robot.simulated_world.process import simulated
 
     task, why = _task(bundle.graph, options.task)
+    refuse_environment(task)
     if why:
         line.tell(why)
     master = options.master or bundle.graph.master

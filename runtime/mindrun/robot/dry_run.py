@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mindrun.driver import DeviceError
+from mindrun.errors import MindError
 from mindrun.graph import Graph, Task
 from mindrun.movers import driving, movers
 from mindrun.robot.drivers.simulated import status
@@ -19,6 +20,13 @@ from mindrun.status_line import StatusLine
 SHOW_SECONDS = 0.25  # from one state of the line to the next
 MAX_THINGS_NAMED = 6
 MAX_ACTING_NAMED, LEAST_ACTING_INFLUENCE = 2, 0.01
+
+
+def refuse_environment(task: Task) -> None:
+    """MindError where no world of a task can be simulated beside the robot."""
+    if name := task.scene.environment:
+        said = f"there is no dry run of {task.name}, which is in the environment {name}"
+        raise MindError(said, "mindc run and mindc view step it, from the source of this bundle")
 
 
 def beginning(graph: Graph, task: Task, master: str, seed: int) -> list[str]:
