@@ -15,10 +15,10 @@ from typing import Any
 
 from mindrun.sim.rollout import Rollout, cores
 from mindrun.train import RunError
+from mindrun.train.attempts import Executor
 from mindrun.train.lesson_state import LessonState, Record
 from mindrun.train.run_folder import RunFolder, open_run, read_result
 from mindrun.train.training import Watch, train
-from mindrun.work.executor import StretchExecutor
 
 from mindlang.cli._simulator_compilation import ensure_compiled
 from mindlang.cli._terminal import load_compiled, procedures_talk, talk
@@ -129,7 +129,7 @@ class Trainer:
         return rollout
 
     @procedures_talk()
-    def _watched(self, run: RunFolder, rollout: Rollout, executor: StretchExecutor | None) -> LessonState:
+    def _watched(self, run: RunFolder, rollout: Rollout, executor: Executor | None) -> LessonState:
         lesson = run.manifest.lesson
         pace = TimeLeft.of(run, perf_counter())
         watcher = self._watcher(run, pace)

@@ -15,6 +15,7 @@ from mindrun.train.run_folder import RunFolder, keep_result, read_result
 from mindrun.train.training import Watch, train
 from mindrun.work.assignment import Assignment
 from mindrun.work.executor import StretchExecutor
+from mindrun.work.kept_segments import KeptSegments, RememberingExecutor
 
 from mindlang.executors import Where
 from mindlang.resource_limits import refuse_too_large, refuse_too_long
@@ -60,7 +61,7 @@ def assignment_of(run: RunFolder, subject: Subject) -> Assignment:
 @contextmanager
 def executor_of(
     run: RunFolder, subject: Subject, rollout: Rollout, where: Where | None, say: Callable[[str], object]
-) -> Iterator[StretchExecutor | None]:
+) -> Iterator[RememberingExecutor | None]:
     """Those who do the attempts of a run elsewhere, None for the threads of this process.
 
     They `say` what they wait for, and are sent away in the end, whatever they do.
@@ -68,10 +69,13 @@ def executor_of(
     if where is None:
         yield None
         return
+    course = run.course(rollout.genome_length)
+    kept = KeptSegments(run.folder, run.manifest.identity, course)
     jobs = where.begin(assignment_of(run, subject), say)
     try:
-        yield StretchExecutor(run.course(rollout.genome_length), jobs)
+        yield RememberingExecutor(StretchExecutor(course, jobs), kept)
     finally:
+        kept.save()
         jobs.close()
 
 

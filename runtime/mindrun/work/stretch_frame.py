@@ -77,8 +77,8 @@ def segment_frame(number: int, segment: Segment) -> Frame:
     return Frame(SEGMENT, _about(number, segment.state), _state(segment.state) | more)
 
 
-def segment_of(frame: Frame, course: Course, stretch: Stretch) -> Segment:
-    """The segment that a frame is; FrameError where it cannot be what came of the stretch."""
+def segment_of(frame: Frame, course: Course, stretch: Stretch, most: int = SEGMENT_GENERATIONS) -> Segment:
+    """The segment of `most` generations that a frame is; FrameError where it cannot be what came of the stretch."""
     _refuse_others(frame.arrays, STATE | OF_SEGMENT)
     number, state = _read_state(course, frame)
     champions, rows, ends = (frame.arrays[name] for name in OF_SEGMENT)
@@ -86,7 +86,7 @@ def segment_of(frame: Frame, course: Course, stretch: Stretch) -> Segment:
     if (
         number != stretch.number
         or len(rows) != state.population.generation - before
-        or len(rows) > SEGMENT_GENERATIONS
+        or len(rows) > most
         or (len(rows) == 0) != stretch.cut
         or champions.shape != (len(rows), course.start.shape[1])
         or not np.isfinite(champions).all()
