@@ -80,6 +80,10 @@ ROOMS = {
         but=(f"{R}sim/lanes/chipmunk.py", f"{R}sim/lanes/stages.py"),
         interpreted=True,
     ),
+    "outside": Room(
+        (f"{R}sim/outside/*.py", f"{R}slot.py", "mindlang/compiler/resolve/outside.py"),
+        tuple(f"tests/outside/test_{name}.py" for name in ("misfits", "outside_rollout", "drawn_minds", "commands")),
+    ),
     "train": Room(
         tuple(
             f"{R}train/{name}.py"
