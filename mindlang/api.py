@@ -32,7 +32,8 @@ from mindlang.editing.writing import write
 from mindlang.lock.ready import ReadyMind, make_ready
 from mindlang.resource_limits import refuse_too_large, refuse_too_many
 from mindlang.run.columns import Column
-from mindlang.run.layouts import NO_GENOME, layouts
+from mindlang.run.layouts import layouts
+from mindlang.run.many_runs import run_all
 from mindlang.run.outcome import bench_data
 from mindlang.run.recorded_run import record_run
 from mindlang.run.setup import RunSetup, master_of, set_up, skill_of, task_of, unknown, untaught_skills
@@ -121,10 +122,9 @@ class Mind:
         refuse_too_many(setup.task, runs)
         rollout = setup.rollout(workers=workers)
         refuse_too_large(rollout, 1, runs)
-        seeds, began = layouts(seed, runs), perf_counter()
-        scores = rollout.score(NO_GENOME, seeds)
         found = {"task": setup.task.name, "master": setup.master, "seed": seed, "notes": [*setup.ready.notes]}
-        return found | bench_data(setup.task, scores, seeds, perf_counter() - began)
+        seeds, began = layouts(seed, runs), perf_counter()
+        return found | bench_data(setup.task, run_all(rollout, seeds), seeds, perf_counter() - began)
 
     def train(
         self,

@@ -8,7 +8,7 @@ from pathlib import Path
 
 from mindrun.sim.rollout import Rollout
 
-from mindlang.cli._run_session import RunSession
+from mindlang.cli._run_session import BenchChoice, RunSession
 from mindlang.cli._terminal import MISUSE, console, fail, print_json, write_file
 from mindlang.run import outcome
 from mindlang.run.bench_comparison import Benched, compare, differing_tasks
@@ -28,17 +28,6 @@ class Contender:
     file: str
     master: str | None
     name: str
-
-
-@dataclass(frozen=True, slots=True)
-class BenchChoice:
-    """Which runs are made."""
-
-    task: str | None
-    runs: int
-    seed: int
-    workers: int
-    interrupt: bool
 
 
 def contenders(files: Sequence[str], masters: Sequence[str]) -> list[Contender]:
@@ -71,7 +60,8 @@ def compare_benched(
     session.say(*(f"note: {note}" for note in notes))
     benched, minds = [], []
     for each, (setup, rollout) in zip(both, cast, strict=True):
-        scores, seconds = session.score(rollout, seeds)
+        with session.scorer(setup, rollout, chosen) as scorer:
+            scores, seconds = session.score(scorer, seeds)
         benched.append(Benched(each.name, setup.task, scores))
         about = {"name": each.name, "file": each.file, "master": setup.master}
         data = outcome.bench_data(setup.task, scores, seeds, seconds)

@@ -2,21 +2,24 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from contextlib import contextmanager
+from collections.abc import Iterator, Sequence
+from contextlib import AbstractContextManager, contextmanager
 from dataclasses import dataclass
 from time import perf_counter
 from typing import TYPE_CHECKING
 
 from mindrun.errors import MindError
-from mindrun.sim.rollout import Rollout, Scores
+from mindrun.sim.rollout import Rollout
+from mindrun.work.job_scorer import JobScorer
+from mindrun.work.score_frame import RunScores
 from rich.progress import BarColumn, Progress, TaskProgressColumn, TextColumn, TimeRemainingColumn
 
 from mindlang.cli._simulator_compilation import ensure_compiled
 from mindlang.cli._terminal import FINDINGS, MISUSE, fail, load_compiled, procedures_talk, say, talk
 from mindlang.compiler.compile import Compiled
+from mindlang.executors import Where, scorer_on
 from mindlang.resource_limits import refuse_too_large, refuse_too_many
-from mindlang.run.layouts import NO_GENOME
+from mindlang.run.many_runs import run_all
 from mindlang.run.setup import RunSetup, SetupError, set_up
 
 if TYPE_CHECKING:
@@ -31,6 +34,18 @@ class RunChoice:
     seed: int
     master: str | None
     interrupt: bool
+
+
+@dataclass(frozen=True, slots=True)
+class BenchChoice:
+    """Which runs are made, and where: in so many `workers` of this machine, or as --on says."""
+
+    task: str | None
+    runs: int
+    seed: int
+    workers: int
+    interrupt: bool
+    where: Where | None
 
 
 @dataclass(frozen=True, slots=True)
@@ -81,15 +96,21 @@ class RunSession:
             self.say(f"{skill} runs in Python, which is slow: {reason}")
         return rollout
 
+    def scorer(
+        self, setup: RunSetup, rollout: Rollout, chosen: BenchChoice
+    ) -> AbstractContextManager[Rollout | JobScorer]:
+        """Who makes many runs, where it was said."""
+        return scorer_on(chosen.where, rollout, lambda: setup.assignment(chosen.interrupt), chosen.workers, self.say)
+
     @procedures_talk()
-    def score(self, rollout: Rollout, seeds: list[int]) -> tuple[Scores, float]:
+    def score(self, scorer: Rollout | JobScorer, seeds: Sequence[int]) -> tuple[RunScores, float]:
         """All runs, and the seconds that they took."""
         with self.progress() as progress:
-            bar = progress.add_task(f"{rollout.task.name}", total=len(seeds))
+            bar = progress.add_task(f"{scorer.task.name}", total=len(seeds))
             begin = perf_counter()
-            scores = rollout.score(NO_GENOME, seeds, lambda runs: progress.advance(bar, runs))
+            scores = run_all(scorer, seeds, lambda runs: progress.advance(bar, runs))
             seconds = perf_counter() - begin
-        self.say(*(f"note: {note}" for note in rollout.notes))
+        self.say(*(f"note: {note}" for note in scorer.notes))
         return scores, seconds
 
     @procedures_talk()

@@ -18,6 +18,7 @@ from mindrun.train import RunError
 from mindrun.train.attempts import Executor
 from mindrun.train.lesson_state import LessonState, Record
 from mindrun.train.run_folder import RunFolder, open_run, read_result
+from mindrun.train.scoring import Scorer
 from mindrun.train.training import Watch, train
 
 from mindlang.cli._simulator_compilation import ensure_compiled
@@ -29,14 +30,14 @@ from mindlang.training.event_files import EventFiles
 from mindlang.training.lesson_choice import TrainOptions, chosen_lessons, is_due
 from mindlang.training.results import Result, opening, outcome
 from mindlang.training.subject import Subject, begin_run, open_subject, refuse_changed, refuse_frozen
-from mindlang.training.teaching import TeachingResult, executor_of, finish, has_ended, rollout_of
+from mindlang.training.teaching import TeachingResult, finish, has_ended, rollout_of, workers_of
 
 
 @dataclass(frozen=True, slots=True)
 class Trainer:
     """Teaches on so many cores (all where None); talks on stderr and, with `as_json`, prints results on stdout.
 
-    Where `where` says of workers elsewhere, they do the attempts of each lesson.
+    Where `where` says of workers elsewhere, they do the attempts of each lesson, or of a single one the runs.
     With `event_files` it writes those of TensorBoard, too.
     """
 
@@ -98,12 +99,12 @@ class Trainer:
             self._print(result)
             return True
         rollout = self._rollout(run, subject)
-        with executor_of(run, subject, rollout, self.where, self._say) as executor:
-            state = self._watched(run, rollout, executor)
-        if not has_ended(run, state):
-            talk.print(f"saved; to go on: {self._command(run)}", markup=False)
-            return False
-        taught = self._finished(run, subject, state, rollout, force)
+        with workers_of(run, subject, rollout, self.where, self.workers or cores(), self._say) as (scorer, executor):
+            state = self._watched(run, scorer, executor)
+            if not has_ended(run, state):
+                talk.print(f"saved; to go on: {self._command(run)}", markup=False)
+                return False
+            taught = self._finished(run, subject, state, scorer, force)
         self._say(*(f"note: {note}" for note in rollout.notes))
         self._say(*outcome(run, taught.result, taught.kept, subject.keep_path(run.manifest.lesson).name))
         self._print(taught.result)
@@ -111,10 +112,10 @@ class Trainer:
 
     @procedures_talk()
     def _finished(
-        self, run: RunFolder, subject: Subject, state: LessonState, rollout: Rollout, force: bool
+        self, run: RunFolder, subject: Subject, state: LessonState, scorer: Scorer, force: bool
     ) -> TeachingResult:
         try:
-            return finish(run, subject, state, rollout, force)
+            return finish(run, subject, state, scorer, force)
         except LockError as error:
             hint = f"what was learnt is safe; mend that, then: {self._command(run)}"
             raise RunError(str(error), hint) from error
@@ -129,7 +130,7 @@ class Trainer:
         return rollout
 
     @procedures_talk()
-    def _watched(self, run: RunFolder, rollout: Rollout, executor: Executor | None) -> LessonState:
+    def _watched(self, run: RunFolder, scorer: Scorer, executor: Executor | None) -> LessonState:
         lesson = run.manifest.lesson
         pace = TimeLeft.of(run, perf_counter())
         watcher = self._watcher(run, pace)
@@ -149,7 +150,7 @@ class Trainer:
         try:
             with Interruption(asked) as interruption:
                 watch = Watch(report, self._say, lambda: interruption.asked, perf_counter, pace.count_ahead)
-                return train(run, rollout, watch, executor)
+                return train(run, scorer, watch, executor)
         finally:
             for each in watchers:
                 each.close()

@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import click
 
-from mindlang.cli._options import SEED, WORKERS, NewFile, WholeOption
+from mindlang.cli._options import ON, SEED, WORKERS, NewFile, WholeOption
 
 if TYPE_CHECKING:
-    from mindlang.cli._bench_pair import BenchChoice, Contender
+    from mindlang.cli._bench_pair import Contender
+    from mindlang.cli._run_session import BenchChoice
 
 EXAMPLES = """\b
 Examples:
@@ -21,6 +22,7 @@ Examples:
   mindc bench collect.mind --task Collect --csv runs.csv          a row for each run
   mindc bench collect.mind best.mind --task Collect               two minds on the same layouts
   mindc bench collect.mind --task Avoid --master Avoid --master Collect
+  mindc bench collect.mind --runs 1000000 --on ssh:a,b            the same figures, made on two machines
 """
 
 
@@ -43,6 +45,7 @@ Examples:
     multiple=True,
     help="Who is in charge. Default: the master of the task's first lesson. Twice: both are compared.",
 )
+@click.option("--on", "where", type=ON, metavar="WHERE", help="Who makes the runs: processes:N, ssh:HOST,HOST …")
 @click.option("--no-interruption", is_flag=True, help="Go on to the last tick, whatever would end a run.")
 @click.option("--csv", "table", type=NewFile(), metavar="PATH.csv", help="Write a row for each run.")
 @click.option("--json", "as_json", is_flag=True, help="Print one JSON document instead.")
@@ -53,6 +56,7 @@ def command(
     runs: int,
     seed: int,
     workers: int | None,
+    where: Any,
     masters: tuple[str, ...],
     no_interruption: bool,
     table: Path | None,
@@ -69,11 +73,12 @@ def command(
     """
     from mindrun.sim.rollout import cores
 
-    from mindlang.cli._bench_pair import BenchChoice, compare_benched, contenders
+    from mindlang.cli._bench_pair import compare_benched, contenders
+    from mindlang.cli._run_session import BenchChoice
     from mindlang.cli._terminal import refuse_unwritable
 
     refuse_unwritable(table, ".csv")
-    chosen = BenchChoice(task, runs, seed, workers or cores(), not no_interruption)
+    chosen = BenchChoice(task, runs, seed, workers or cores(), not no_interruption, where)
     who = contenders(files, masters)
     if len(who) > 1:
         compare_benched(who, chosen, table, as_json, quiet)
@@ -94,7 +99,8 @@ def _bench(who: Contender, chosen: BenchChoice, table: Path | None, as_json: boo
     cast = chosen.task, who.master, chosen.interrupt, chosen.workers, chosen.runs
     setup, rollout = session.prepare(who.file, *cast)
     seeds = layouts(chosen.seed, chosen.runs)
-    scores, seconds = session.score(rollout, seeds)
+    with session.scorer(setup, rollout, chosen) as scorer:
+        scores, seconds = session.score(scorer, seeds)
     found = {"task": setup.task.name, "master": setup.master, "seed": chosen.seed, "workers": chosen.workers}
     found |= outcome.bench_data(setup.task, scores, seeds, seconds) | {"notes": [*setup.ready.notes, *rollout.notes]}
     if table:

@@ -4,8 +4,9 @@ from threading import local
 from time import perf_counter
 
 from distributed import get_worker
-from mindrun.work.assigned import rollout_of
+from mindrun.work.assigned import drop, scorer_of
 from mindrun.work.frame import unpack
+from mindrun.work.serving import STEP_SECONDS
 from mindrun.work.worker import KEPT, LACKS, Worker
 
 CORES = "cores"  # the resource by which a worker says that it has others than one for each of its threads
@@ -29,6 +30,6 @@ def _worker() -> Worker:
         state = get_worker().state
         cores = int(state.total_resources.get(CORES, state.nthreads))
         threads = max(1, cores // state.nthreads)
-        _of_thread.worker = Worker(lambda assignment: rollout_of(assignment, threads), perf_counter)
+        _of_thread.worker = Worker(lambda assignment: scorer_of(assignment, threads, STEP_SECONDS), perf_counter, drop)
     worker: Worker = _of_thread.worker
     return worker

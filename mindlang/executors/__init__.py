@@ -1,13 +1,22 @@
 """Where jobs are done, by what --on says: one file a kind, `begin(argument, assignment, say)` opens it."""
 
-from collections.abc import Callable
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 from importlib import import_module
 from pkgutil import iter_modules
+from typing import TYPE_CHECKING
 
 from mindrun.errors import MindError
 from mindrun.work.assignment import Assignment
 from mindrun.work.executor import Executor
+from mindrun.work.job_scorer import JobScorer
+from mindrun.work.local import local_workers
+
+if TYPE_CHECKING:
+    from mindrun.sim.rollout import Rollout
 
 THREADS = "threads"  # of this process: no executor, and no argument
 
@@ -23,6 +32,32 @@ class Where:
         """Workers for the jobs of an assignment, who `say` what they wait for; MindError where there can be none."""
         executor: Executor = import_module(f"{__name__}.{self.kind}").begin(self.argument, assignment, say)
         return executor
+
+
+@contextmanager
+def scorer_on(
+    where: Where | None,
+    rollout: Rollout,
+    assignment: Callable[[], Assignment],
+    workers: int,
+    say: Callable[[str], object] = lambda line: None,
+) -> Iterator[Rollout | JobScorer]:
+    """What scores as a rollout does, where --on says; its workers are sent away in the end, whatever they do.
+
+    Where --on says nothing the rollout does it in threads; in environments so many processes do, unless 0, since a step
+    leaves no thread the interpreter.
+    """
+    if where is not None:
+        jobs = where.begin(assignment(), say)
+    elif rollout.task.scene.environment and workers:
+        jobs = local_workers(workers, 1, assignment())
+    else:
+        yield rollout
+        return
+    try:
+        yield JobScorer(rollout, jobs)
+    finally:
+        jobs.close()
 
 
 def kinds() -> list[str]:

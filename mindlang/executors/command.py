@@ -4,7 +4,8 @@ import shlex
 from collections.abc import Callable
 
 from mindrun.work.assignment import Assignment
-from mindrun.work.crew import Crew, Place
+from mindrun.work.child import Place
+from mindrun.work.crew import Crew
 from mindrun.work.executor import Executor
 
 USAGE = "command:WORDS, or command:N:WORDS for N of them"

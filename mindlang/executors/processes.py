@@ -1,11 +1,10 @@
 """Processes on this machine, which share its cores."""
 
-import sys
 from collections.abc import Callable
 
 from mindrun.work.assignment import Assignment
-from mindrun.work.crew import Crew, Place
 from mindrun.work.executor import Executor
+from mindrun.work.local import local_workers
 
 USAGE = "processes:N"
 MAX_PROCESSES = 1024
@@ -24,5 +23,4 @@ def begin(argument: str, assignment: Assignment, say: Callable[[str], object]) -
     from mindrun.sim.rollout import cores
 
     count = int(argument)
-    command = (sys.executable, "-m", "mindrun", "work", "--threads", str(max(1, cores() // count)))
-    return Crew([Place(f"process {number}", command) for number in range(1, count + 1)], assignment)
+    return local_workers(count, max(1, cores() // count), assignment)

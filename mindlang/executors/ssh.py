@@ -3,7 +3,8 @@
 from collections.abc import Callable
 
 from mindrun.work.assignment import Assignment
-from mindrun.work.crew import Crew, Place
+from mindrun.work.child import Place
+from mindrun.work.crew import Crew
 from mindrun.work.executor import Executor
 
 USAGE = "ssh:HOST[,HOST]…"

@@ -7,10 +7,13 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Never
 
+from mindrun.bundle import Bundle, pack
 from mindrun.default_task import default_task
+from mindrun.engine import procedure_sources
 from mindrun.errors import MindError
 from mindrun.graph import Graph, Task
 from mindrun.weights import owners, reachable
+from mindrun.work.assignment import Assignment
 
 from mindlang.compiler.compile import Compiled
 from mindlang.compiler.diagnostic import did_you_mean, listed
@@ -50,6 +53,12 @@ class RunSetup:
             interrupt=interrupt,
             workers=workers,
         )
+
+    def assignment(self, interrupt: bool = True) -> Assignment:
+        """What a worker has to know to make such runs; MindError where it is too large for a bundle."""
+        procedures = procedure_sources(self.ready.policy.graph, self.folder, self.master)
+        bundle = pack(Bundle(self.ready.policy, procedures))
+        return Assignment(bundle, self.task.name, self.master, (), interrupt, self.folder)
 
 
 def set_up(file: str, compiled: Compiled, task: str | None, master: str | None) -> RunSetup:

@@ -6,12 +6,11 @@ from math import isfinite
 
 import numpy as np
 from mindrun.graph import Lesson
-from mindrun.sim.rollout import Rollout
 from mindrun.train import RunError
 from mindrun.train.lesson_state import LessonState
 from mindrun.train.population import Genomes
 from mindrun.train.run_folder import RunFolder
-from mindrun.train.scoring import mark
+from mindrun.train.scoring import Scorer, mark
 from mindrun.train.seeds import Purpose, layouts
 from mindrun.weights import parts
 
@@ -56,7 +55,7 @@ class Kept:
     is_new: bool
 
 
-def keep(run: RunFolder, subject: Subject, state: LessonState, rollout: Rollout, force: bool) -> Kept:
+def keep(run: RunFolder, subject: Subject, state: LessonState, scorer: Scorer, force: bool) -> Kept:
     """Put what was learnt into the lock, or with `force` even where it is worse than what is there.
 
     RunError where nothing was learnt. LockError where the lock cannot be read or written.
@@ -65,7 +64,7 @@ def keep(run: RunFolder, subject: Subject, state: LessonState, rollout: Rollout,
     old = _genome_there(run, subject)
     if old is None or np.array_equal(old, state.kept[0]):
         return Kept(_record(run, subject, state, state.kept[0], state.reevaluated), None, True)
-    found = compare(run, rollout, np.stack([old, state.kept[0]]))
+    found = compare(run, scorer, np.stack([old, state.kept[0]]))
     if force or not found.is_worse:
         return Kept(_record(run, subject, state, state.kept[0], state.reevaluated), found, True)
     lesson = declared(subject, run.manifest.lesson)
@@ -93,10 +92,10 @@ def refuse_nothing(lesson: Lesson, state: LessonState) -> None:
     raise RunError(f"{lesson.skill} has learnt nothing: {why}; the lock stays as it is", hint)
 
 
-def compare(run: RunFolder, rollout: Rollout, genomes: Genomes) -> Comparison:
+def compare(run: RunFolder, scorer: Scorer, genomes: Genomes) -> Comparison:
     """Two genomes on layouts that neither has seen: the mean of each; -inf where something was not finite."""
     seeds = layouts(run.manifest.seed, 0, run.manifest.lesson.generations, COMPARED_LAYOUTS, Purpose.COMPARISON)
-    old, new = mark(rollout, genomes, seeds).scores
+    old, new = mark(scorer, genomes, seeds).scores
     return Comparison(float(old), float(new))
 
 

@@ -12,12 +12,14 @@ from mindrun.sim.rollouts import rollout_for
 from mindrun.train.lesson_state import LessonState
 from mindrun.train.population import founder_count
 from mindrun.train.run_folder import RunFolder, keep_result, read_result
+from mindrun.train.scoring import Scorer
 from mindrun.train.training import Watch, train
 from mindrun.work.assignment import Assignment
 from mindrun.work.executor import StretchExecutor
+from mindrun.work.job_scorer import JobScorer
 from mindrun.work.kept_segments import KeptSegments, RememberingExecutor
 
-from mindlang.executors import Where
+from mindlang.executors import Where, scorer_on
 from mindlang.resource_limits import refuse_too_large, refuse_too_long
 from mindlang.training.lock_update import Kept, keep
 from mindlang.training.results import Result, result_of
@@ -55,49 +57,57 @@ def assignment_of(run: RunFolder, subject: Subject) -> Assignment:
     lesson = run.manifest.lesson
     policy = Policy(subject.graph, run.weights)
     procedures = procedure_sources(subject.graph, subject.folder, lesson.master)
-    return Assignment(pack(Bundle(policy, procedures)), lesson.task, lesson.master, run.manifest.learners)
+    bundle = pack(Bundle(policy, procedures))
+    return Assignment(bundle, lesson.task, lesson.master, run.manifest.learners, folder=subject.folder)
 
 
 @contextmanager
-def executor_of(
-    run: RunFolder, subject: Subject, rollout: Rollout, where: Where | None, say: Callable[[str], object]
-) -> Iterator[RememberingExecutor | None]:
-    """Those who do the attempts of a run elsewhere, None for the threads of this process.
+def workers_of(
+    run: RunFolder,
+    subject: Subject,
+    rollout: Rollout,
+    where: Where | None,
+    workers: int,
+    say: Callable[[str], object],
+) -> Iterator[tuple[Scorer, RememberingExecutor | None]]:
+    """What scores the genomes of a run, and who does its attempts, where that was asked for and there are several.
 
     They `say` what they wait for, and are sent away in the end, whatever they do.
     """
-    if where is None:
-        yield None
-        return
-    course = run.course(rollout.genome_length)
-    kept = KeptSegments(run.folder, run.manifest.identity, course)
-    jobs = where.begin(assignment_of(run, subject), say)
-    try:
-        yield RememberingExecutor(StretchExecutor(course, jobs), kept)
-    finally:
-        kept.save()
-        jobs.close()
+    attempts = run.manifest.lesson.learner.attempts
+    with scorer_on(where, rollout, lambda: assignment_of(run, subject), workers, say) as scorer:
+        if not (where and isinstance(scorer, JobScorer) and attempts > 1):
+            yield scorer, None
+            return
+        course = run.course(rollout.genome_length)
+        kept = KeptSegments(run.folder, run.manifest.identity, course)
+        try:
+            yield rollout, RememberingExecutor(StretchExecutor(course, scorer.jobs, rollout), kept)
+        finally:
+            kept.save()
 
 
 def teach(run: RunFolder, subject: Subject, workers: int, watch: Watch, where: Where | None = None) -> Result | None:
     """Go on with a run to its end, and put what it has taught into the lock; None where `watch` stopped it.
 
-    What came of it, where it has ended before. Its attempts are done `where` it is said, else in so many threads.
+    What came of it, where it has ended before. Its attempts are done `where` it is said, else in so many threads; in
+    environments with more than one worker in so many processes.
     """
     if (result := read_result(run.folder)) is not None:
         return result
     rollout = rollout_of(run, subject, workers)
-    with executor_of(run, subject, rollout, where, watch.warn) as executor:
-        state = train(run, rollout, watch, executor)
-    return finish(run, subject, state, rollout, force=False).result if has_ended(run, state) else None
+    processes = workers if workers > 1 else 0  # what was registered in this one is not known in others
+    with workers_of(run, subject, rollout, where, processes, watch.warn) as (scorer, executor):
+        state = train(run, scorer, watch, executor)
+        return finish(run, subject, state, scorer, force=False).result if has_ended(run, state) else None
 
 
-def finish(run: RunFolder, subject: Subject, state: LessonState, rollout: Rollout, force: bool) -> TeachingResult:
+def finish(run: RunFolder, subject: Subject, state: LessonState, scorer: Scorer, force: bool) -> TeachingResult:
     """Put what a run has taught into the lock, unless what is there does better; with `force` even then.
 
     MindError where nothing was learnt, or the lock is damaged.
     """
-    kept = keep(run, subject, state, rollout, force)
+    kept = keep(run, subject, state, scorer, force)
     result = result_of(run, state, kept)
     keep_result(run.folder, result)
     return TeachingResult(result, kept)

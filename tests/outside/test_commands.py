@@ -12,6 +12,7 @@ import pytest
 pytest.importorskip("gymnasium")
 
 import cv2
+from mindrun.errors import MindError
 
 from tests.calling import Call, caller
 from tests.outside import worlds
@@ -66,7 +67,7 @@ def test_a_run_is_told(mindc: Call, mind: Path) -> None:
 
 
 def test_what_the_environment_breaks_off_is_said(mindc: Call, tmp_path: Path) -> None:
-    mind = rules(tmp_path, worlds.Impatient)
+    mind = rules(tmp_path, worlds.Impatient, RULES.replace("WORLD", "tests.outside.kept:WORLD"))  # processes find it
     assert "ticks  4 of 30, ended by its environment" in mindc("run", mind, "--seed", 3).out
     assert json.loads(mindc("bench", mind, "--runs", 3, "--json").out)["ended"] == {"its environment": 3}
     table = tmp_path / "runs.csv"
@@ -223,13 +224,16 @@ def test_proofs_and_pages(mindc: Call, mind: Path) -> None:
 
 @pytest.mark.parametrize(
     ("world", "message"),
-    [(worlds.Raising, "the environment tests/Raising-v0 failed"), (worlds.Misshapen, "an observation has the shape")],
+    [
+        (worlds.Raising, "the environment tests.outside.kept:tests/Raising-v0 failed"),
+        (worlds.Misshapen, "an observation has the shape"),
+    ],
 )
 @pytest.mark.parametrize("command", ["run", "bench", "why", "whatif", "view"])
 def test_an_environment_that_fails_is_one_sentence(
     mindc: Call, tmp_path: Path, world: type[worlds.Line], message: str, command: str
 ) -> None:
-    mind = rules(tmp_path, world)
+    mind = rules(tmp_path, world, RULES.replace("WORLD", "tests.outside.kept:WORLD"))  # bench's processes find it
     more = {
         "why": ["--tick", 2, "push", "--seed", 1],
         "whatif": ["--seed", 1, "--tick", 2, "--set", "place=1"],
@@ -332,10 +336,14 @@ def test_environments_are_closed_after_use() -> None:
     gc.collect()  # of tests before this one
     before = worlds.Line.closed
     rollout.score(minds.genomes(rollout, 2), [1, 2, 3])
-    assert worlds.Line.closed == before
+    assert worlds.Line.closed == before + 6  # one for each run
+    before = worlds.Line.closed
+    rollout = minds.rollout_of(minds.text(scene=worlds.name(worlds.Raising)), lanes=3)
+    with pytest.raises(MindError):
+        rollout.score(minds.genomes(rollout, 1), [1, 2, 3])
     del rollout
     gc.collect()
-    assert worlds.Line.closed == before + 3
+    assert worlds.Line.closed >= before + 3  # of runs that were broken off, when nobody has them any more
 
 
 def test_the_images_of_a_run_are_those_of_its_ticks() -> None:

@@ -88,8 +88,9 @@ def test_it_is_what_the_engine_does(source: str, draw: int, seed: int) -> None:
     )  # fmt: skip
 
 
-def test_a_result_depends_on_its_genome_and_its_seed_alone() -> None:
-    rollouts = [minds.rollout_of(MINDS["numbers"], lanes) for lanes in (1, 3, 64)]
+@pytest.mark.parametrize("world", [worlds.Line, worlds.Worn])
+def test_a_result_depends_on_its_genome_and_its_seed_alone(world: type[worlds.Line]) -> None:
+    rollouts = [minds.rollout_of(minds.text(scene=worlds.name(world)), lanes) for lanes in (1, 3, 64)]
     drawn = minds.genomes(rollouts[0], 5)
     found = [rollout.score(drawn, [3, 1, 4]).total for rollout in rollouts]
     again = rollouts[1].score(drawn[::-1], [3, 1, 4]).total[::-1]  # in environments that were used before

@@ -173,7 +173,20 @@ class Unmade(Line):
         raise ImportError("no physics here")
 
 
-ALL = (Line, Parts, Several, Raising, Misshapen, Blind, Generous, Impatient, Unseen, Dark, Empty, Moody, Unmade)
+class Worn(Line):
+    """The same, which is another one after each run: so is BipedalWalker."""
+
+    runs = 0
+
+    def reset(self, *, seed: int | None = None, options: Any = None) -> tuple[Any, dict[str, Any]]:
+        """As ever, but a little further from where it was."""
+        self.runs += 1
+        super().reset(seed=seed)
+        self.place += 0.01 * self.runs
+        return self.observed(), {}
+
+
+ALL = (Worn, Line, Parts, Several, Raising, Misshapen, Blind, Generous, Impatient, Unseen, Dark, Empty, Moody, Unmade)
 
 
 def register() -> None:

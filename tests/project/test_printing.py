@@ -29,6 +29,7 @@ COMMANDS = {  # of the runtime, and why each may speak
     "tools/doctor.py": "mindrun doctor",
     "tools/replay.py": "mindrun replay",
     "tools/report.py": "mindrun report",
+    "tools/work.py": "mindrun work: a worker whose environment hangs, or whom nobody hears, ends in its midst",
 }
 PROGRAMS = {"wiring/driver_inspection.py": "a process that imports a driver of a user, whatever that does"}
 TIMED = {

@@ -8,6 +8,8 @@ from pathlib import Path
 from time import sleep
 
 import pytest
+from mindrun.work.frame import unpack
+from mindrun.work.worker import READY
 
 from tests.train.test_train_command import LONG, MIND, mindc
 
@@ -29,6 +31,44 @@ def test_the_weights_are_the_same_on_threads_and_on_workers(tmp_path: Path) -> N
     expected = weights(tmp_path / "threads", "--on", "threads")
     assert weights(tmp_path / "processes", "--on", "processes:2") == expected
     assert weights(tmp_path / "command", "--on", f"command:{sys.executable} -m mindrun work --threads 1") == expected
+
+
+def test_of_a_single_attempt_the_runs_are_the_jobs(tmp_path: Path) -> None:
+    expected = weights(tmp_path / "threads", "--attempts", "1")
+    assert weights(tmp_path / "processes", "--attempts", "1", "--on", "processes:2") == expected
+
+
+@pytest.mark.parametrize("words", [(), ("--no-interruption", "--master", "Drive"), ("drive.mind", "--master", "Go")])
+def test_many_runs_are_the_same_wherever_they_are_made(tmp_path: Path, words: tuple[str, ...]) -> None:
+    (tmp_path / "drive.mind").write_text(MIND)
+    assert mindc(tmp_path, "drive.mind", "Go", "Drive", "--seed", "3", "-q").returncode == 0
+    found = []
+    for on in ((), ("--on", "processes:2")):
+        said = ("bench", "drive.mind", *words, "--task", "Reach", "--runs", "700", "--csv", "runs.csv", "--json", *on)
+        done = called(tmp_path, *said, *(("--master", "Drive") if "drive.mind" in words else ()))
+        assert done.returncode == 0, done.stderr
+        found.append((timeless(json.loads(done.stdout)), (tmp_path / "runs.csv").read_bytes()))
+    assert found[0] == found[1]
+
+
+def timeless(value: object) -> object:
+    """What is said of runs but for how fast they were made."""
+    if isinstance(value, dict):
+        return {k: timeless(each) for k, each in value.items() if k not in ("seconds", "ticks_per_second")}
+    return [timeless(each) for each in value] if isinstance(value, list) else value
+
+
+def test_runs_that_nobody_makes_are_one_sentence(tmp_path: Path) -> None:
+    (tmp_path / "drive.mind").write_text(MIND)
+    assert mindc(tmp_path, "drive.mind", "Go", "Drive", "--seed", "3", "-q").returncode == 0
+    done = called(tmp_path, "bench", "drive.mind", "--task", "Reach", "--on", "command:false")
+    assert (done.returncode, done.stdout) == (1, "")
+    assert "no worker is left; the last, at false, ended: it ended" in done.stderr
+
+
+def called(folder: Path, *words: str) -> "subprocess.CompletedProcess[str]":
+    command = [sys.executable, "-c", "from mindlang.cli import main; main()", *words]
+    return subprocess.run(command, cwd=folder, capture_output=True, text=True, check=False)
 
 
 @pytest.mark.parametrize(
@@ -115,5 +155,6 @@ def scores(path: Path) -> dict[str, dict[int, float]]:
 def test_a_worker_that_is_sent_no_frame_says_so() -> None:
     command = [sys.executable, "-m", "mindrun", "work"]
     done = subprocess.run(command, input=b"hello there, worker", capture_output=True, check=False)
-    assert (done.returncode, done.stdout) == (2, b"")
+    assert done.returncode == 2
+    assert unpack(done.stdout).kind == READY  # which it says before it is asked, and no more
     assert b"standard input is no frame: it begins with b'hello th'" in done.stderr

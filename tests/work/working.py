@@ -7,7 +7,7 @@ from time import perf_counter, sleep
 
 from mindrun.work.assignment import Assignment
 from mindrun.work.frame import Frame, pack, read, unpack
-from mindrun.work.worker import Worker
+from mindrun.work.worker import READY, Worker
 
 from tests.train.climbing import Sphere
 
@@ -41,6 +41,8 @@ FAULTS: dict[str, Callable[[bytes], bytes]] = {
 def main(fault: str = "", every: str = "3") -> None:
     worker = Worker(lambda assignment: Sphere(), perf_counter)
     jobs = 0
+    sys.stdout.buffer.write(pack(Frame(READY, {"silent_seconds": 90})))
+    sys.stdout.buffer.flush()
     while (data := read(sys.stdin.buffer)) is not None:
         answer = worker.answer(data)
         whole = len(answer) if fault == "truncates" else 0

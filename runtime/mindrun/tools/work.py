@@ -11,38 +11,62 @@ examples:
 import argparse
 import os
 import sys
+from dataclasses import replace
+from pathlib import Path
 from time import perf_counter
+from typing import Any
 
 from mindrun.arguments import whole
 from mindrun.errors import MindError
-from mindrun.work.assigned import rollout_of
+from mindrun.work.assigned import drop, scorer_of
+from mindrun.work.assignment import Assignment
 from mindrun.work.frame import FrameError
-from mindrun.work.worker import Worker, serve
+from mindrun.work.serving import STEP_SECONDS, Serving
+from mindrun.work.worker import Worker
 
 MAX_THREADS = 1024
-BEGUN_BY = "it is begun by: mindc train FILE --on ssh:HOST"
+MAX_STEP_SECONDS = 86_000  # of a step of an environment
+BEGUN_BY = "it is begun by mindc train FILE --on ssh:a,b"
 
 
 def options(parser: argparse.ArgumentParser) -> None:
     """The arguments."""
     parser.add_argument("--threads", type=whole(1, MAX_THREADS), metavar="N", help="cores to use (default: all)")
+    parser.add_argument(
+        "--folder",
+        type=Path,
+        metavar="PATH",
+        help="where a module of an environment may stand",
+    )
+    parser.add_argument(
+        "--step-seconds",
+        type=whole(1, MAX_STEP_SECONDS),
+        default=STEP_SECONDS,
+        metavar="S",
+        help=f"how long a step of an environment may take, before the job has failed (default: {STEP_SECONDS})",
+    )
 
 
 def run(options: argparse.Namespace) -> int:
     """Answer frames until no more come; the exit code."""
     if sys.stdin.isatty():
-        raise MindError(
-            "mindrun work is begun by another program, which sends it jobs", "mindc train FILE --on ssh:a,b"
-        )
+        raise MindError("mindrun work is begun by another program, which sends it jobs", BEGUN_BY)
     requests, answers = os.fdopen(os.dup(0), "rb"), os.fdopen(os.dup(1), "wb")
-    os.dup2(2, 1)  # what a procedure or a library prints is no answer
+    nothing = os.open(os.devnull, os.O_RDONLY)
+    os.dup2(nothing, 0)  # a procedure that reads takes no job away,
+    os.dup2(2, 1)  # and what it prints is no answer
+    sys.path += [f"{options.folder}"] if options.folder else []
     threads = options.threads or len(os.sched_getaffinity(0))
+    seconds = options.step_seconds
+
+    def made(assignment: Assignment) -> Any:
+        return scorer_of(replace(assignment, folder=options.folder), threads, seconds)
+
+    worker = Worker(made, perf_counter, drop)
     try:
-        serve(Worker(lambda assignment: rollout_of(assignment, threads), perf_counter), requests, answers)
+        Serving(worker, answers, lambda: os._exit(0), seconds).serve(requests)
     except FrameError as error:
-        raise MindError(
-            f"standard input is no frame: {error}", "it is begun by mindc train FILE --on ssh:a,b"
-        ) from error
+        raise MindError(f"standard input is no frame: {error}", BEGUN_BY) from error
     except BrokenPipeError:
         return 0  # nobody waits for the answer any more
     return 0

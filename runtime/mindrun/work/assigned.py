@@ -1,22 +1,43 @@
-"""The rollout of an assignment, at a worker: the policy of its bundle, and its procedures beside nothing else."""
+"""What scores an assignment, at a worker: the policy of its bundle, and its procedures beside nothing else.
+
+Where its worlds are environments, a worker of several cores has as many workers of one: a step leaves no thread the
+interpreter.
+"""
 
 from __future__ import annotations
 
 import tempfile
+from importlib import import_module
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from mindrun.work import WorkError
 from mindrun.work.assignment import Assignment
+from mindrun.work.job_scorer import JobScorer
+from mindrun.work.local import local_workers
 
 if TYPE_CHECKING:
     from mindrun import Rollout
 
 
+def scorer_of(assignment: Assignment, threads: int, step_seconds: int) -> Any:
+    """What does the jobs of an assignment on so many cores."""
+    rollout = rollout_of(assignment, threads)
+    if not (rollout.task.scene.environment and threads > 1):
+        return rollout
+    return JobScorer(rollout, local_workers(threads, 1, assignment, step_seconds))
+
+
+def drop(scorer: Any) -> None:
+    """Send its workers away, where a scorer has some."""
+    if isinstance(scorer, JobScorer):
+        scorer.close()
+
+
 def rollout_of(assignment: Assignment, threads: int) -> Rollout:
     """What does the jobs of an assignment, compiled; WorkError where its bundle has no such task, master or learner."""
     try:
-        from mindrun import Rollout
+        rollout_for = import_module("mindrun.sim.rollouts").rollout_for
     except ImportError as error:
         raise WorkError(f"there is no simulator at the worker ({error})", "pip install mindlang there") from error
     bundle = assignment.opened()
@@ -29,7 +50,7 @@ def rollout_of(assignment: Assignment, threads: int) -> Rollout:
             path = Path(folder, *module.split(".")).with_suffix(".py")
             path.parent.mkdir(parents=True, exist_ok=True)
             path.write_text(text, encoding="utf-8")
-        rollout = Rollout(
+        rollout: Rollout = rollout_for(
             bundle.policy,
             assignment.task,
             assignment.master,

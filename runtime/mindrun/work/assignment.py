@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 from functools import cached_property
 from hashlib import sha256
+from pathlib import Path
 
 import numpy as np
 
@@ -15,13 +16,17 @@ KIND = "assignment"
 
 @dataclass(frozen=True)
 class Assignment:
-    """A task under a master; a genome has the weights of the `learners`, one after the other. `bundle` is packed."""
+    """A task under a master; a genome has the weights of the `learners`, one after the other. `bundle` is packed.
+
+    `folder`, which no other machine is told, is where a module that registers an environment may stand.
+    """
 
     bundle: bytes
     task: str
     master: str
     learners: tuple[str, ...] = ()
     interrupt: bool = True
+    folder: Path | None = None
 
     @cached_property
     def packed(self) -> bytes:

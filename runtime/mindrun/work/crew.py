@@ -4,35 +4,26 @@ A job whose worker ends or answers nonsense is done again by whoever is free; a 
 that has cost five workers is at fault itself, and so is a place where three workers end without a word.
 """
 
-import subprocess
-import tempfile
 from collections.abc import Sequence
-from contextlib import suppress
 from dataclasses import dataclass, field
 from queue import Empty, PriorityQueue, Queue
 from threading import Lock, Thread
-from typing import IO, Any
+from typing import Any
 
-from mindrun.errors import MindError
 from mindrun.work import WorkError
 from mindrun.work.assignment import Assignment
+from mindrun.work.child import Child, Place
 from mindrun.work.executor import Read
-from mindrun.work.frame import Frame, FrameError, read, unpack
+from mindrun.work.frame import Frame, FrameError
+from mindrun.work.pipes import LostError
 from mindrun.work.worker import FAILED, KEPT, LACKS, REFUSED
 
 MAX_LOSSES = 5  # workers that a job may cost
 MAX_FALSE_STARTS = 3  # workers in succession that end at a place before they have answered anything
 TAKE_SECONDS = 0.2  # to wait for an answer before who asks may look at something else
-SHOWN_CHARACTERS = 300  # of what a worker said last
+END_SECONDS = 5.0  # to wait for workers that were killed
+RESUME = "what was saved of a training is intact: mindc train --resume goes on with it"
 MAX_WORDS_CHARACTERS = 2000  # of why a worker has not done a job
-
-
-@dataclass(frozen=True, slots=True)
-class Place:
-    """Where a worker runs: what to call it, and the command that is one."""
-
-    name: str
-    command: Sequence[str]
 
 
 @dataclass(order=True, slots=True)
@@ -44,71 +35,6 @@ class Job:
     data: bytes = field(compare=False)
     read: Read = field(compare=False)
     losses: int = field(compare=False, default=0)
-
-
-class LostError(MindError):
-    """A worker has ended, or answers nonsense."""
-
-
-class Child:
-    """A worker's process, which is begun when it is first asked."""
-
-    def __init__(self, place: Place) -> None:
-        self.place = place
-        self.process: subprocess.Popen[bytes] | None = None
-        self.has_answered = False
-        self._said: IO[bytes] | None = None
-
-    def ask(self, data: bytes) -> Frame:
-        """The answer to a frame; LostError where there is none."""
-        try:
-            process = self.process or self._begin()
-            assert process.stdin is not None
-            assert process.stdout is not None
-            process.stdin.write(data)
-            process.stdin.flush()
-            answer = read(process.stdout)
-            if answer is None:
-                raise LostError(self._last_words() or "it ended")
-            frame = unpack(answer)
-            self.has_answered = True
-            return frame
-        except FrameError as error:
-            raise LostError(f"its answer is no frame: {error}") from error
-        except OSError as error:
-            raise LostError(self._last_words() or f"{error.strerror}") from error
-
-    def end(self) -> None:
-        """End the process, whatever it does."""
-        process, self.process = self.process, None
-        if process is not None:
-            with suppress(OSError):
-                process.kill()
-            for stream in (process.stdin, process.stdout, self._said):
-                with suppress(OSError):  # what is left to be written has nobody to go to
-                    stream.close()  # type: ignore[union-attr]
-            process.wait()
-
-    def _begin(self) -> subprocess.Popen[bytes]:
-        # A session of its own: Ctrl-C at the terminal is for who asks, who lets the work go on to be saved.
-        self.has_answered = False
-        self._said = tempfile.TemporaryFile()  # noqa: SIM115 - for as long as the process
-        pipe = subprocess.PIPE
-        self.process = subprocess.Popen(
-            self.place.command, stdin=pipe, stdout=pipe, stderr=self._said, start_new_session=True
-        )
-        return self.process
-
-    def _last_words(self) -> str:
-        """The last line that it wrote on standard error."""
-        if self._said is None or self._said.closed:
-            return ""
-        with suppress(OSError, subprocess.TimeoutExpired):
-            if self.process is not None:
-                self.process.wait(1)
-        self._said.seek(0)
-        lines = self._said.read().decode(errors="replace").strip().splitlines()
-        return lines[-1][:SHOWN_CHARACTERS] if lines else ""
 
 
 class Crew:
@@ -124,6 +50,11 @@ class Crew:
         self._threads = [Thread(target=self._work, args=(child,), daemon=True) for child in self.children]
         for thread in self._threads:
             thread.start()
+
+    @property
+    def workers(self) -> int:
+        """How many places there are that were not given up."""
+        return self._left
 
     def has_room(self) -> bool:
         """Whether a worker would wait without another job."""
@@ -149,25 +80,41 @@ class Crew:
         """End all workers, whatever they do."""
         self._ended = True
         for child in self.children:
-            child.end()
+            child.kill()
         for _ in self._threads:
             self._jobs.put(Job((-1, 0), -1, b"", str))
+        for thread in self._threads:
+            thread.join(END_SECONDS)
 
     def _work(self, child: Child) -> None:
-        false_starts = 0
-        while not self._ended and (job := self._jobs.get()).number >= 0:
+        try:
+            while self._is_there(child) and (job := self._jobs.get()).number >= 0:
+                try:
+                    self._answers.put(self._asked(child, job))
+                except LostError as why:
+                    child.end()
+                    if not self._ended:
+                        self._lost(child.place, job, f"{why}")
+        except Exception as error:  # nobody would hear of it in a thread, and wait for ever
+            self._answers.put(WorkError(f"a worker's thread failed: {type(error).__name__}: {error}"))
+        finally:
+            child.end()
+
+    def _is_there(self, child: Child) -> bool:
+        """Begin a worker where there is none; whether that has gone well, not too often in vain."""
+        why = ""
+        for _ in range(MAX_FALSE_STARTS):
+            if self._ended:
+                return False
             try:
-                self._answers.put(self._asked(child, job))
-                false_starts = 0
-            except LostError as why:
-                false_starts = 0 if child.has_answered else false_starts + 1
-                job.losses += child.has_answered
+                child.begin()
+            except LostError as error:
+                why = f"{error}"
                 child.end()
-                if self._ended or not self._goes_on(child.place, job, str(why), false_starts):
-                    return
-            except Exception as error:  # nobody would hear of it in a thread, and wait for ever
-                self._answers.put(WorkError(f"a worker's thread failed: {type(error).__name__}: {error}"))
-                return
+            else:
+                return True
+        self._given_up(child.place, why)
+        return False
 
     def _asked(self, child: Child, job: Job) -> tuple[int, Any] | WorkError:
         """What came of a job, from a worker that may have to be told the assignment first."""
@@ -182,22 +129,23 @@ class Crew:
         except FrameError as error:
             raise LostError(f"its answer is nonsense: {error}") from error
 
-    def _goes_on(self, place: Place, job: Job, why: str, false_starts: int) -> bool:
-        """Give a lost job to others; whether another worker is begun at the place."""
+    def _lost(self, place: Place, job: Job, why: str) -> None:
+        """Give a job whose worker was lost to others, unless it is at fault itself."""
+        job.losses += 1
         if job.losses >= MAX_LOSSES:
             message = f"a job has ended {job.losses} workers, the last at {place.name}: {why}"
-            self._answers.put(WorkError(message, "what is saved is intact: go on with --resume"))
-            return False
+            self._answers.put(WorkError(message, RESUME))
+            return
         job.order = 0, job.number
         self._jobs.put(job)
-        if false_starts < MAX_FALSE_STARTS:
-            return True
+
+    def _given_up(self, place: Place, why: str) -> None:
+        """Do without a place; nobody can do anything any more where it was the last."""
         with self._lock:
             self._left -= 1
-        if self._left == 0:
+        if self._left == 0 and not self._ended:
             message = f"no worker is left; the last, at {place.name}, ended: {why}"
-            self._answers.put(WorkError(message, "see that the command runs there, then go on with --resume"))
-        return False
+            self._answers.put(WorkError(message, f"see that the command runs there; {RESUME}"))
 
 
 def refusal(where: str, answer: Frame) -> WorkError | None:

@@ -8,6 +8,7 @@ from mindrun.train.attempts import Segment, Stretch
 from mindrun.train.lesson_state import Course
 from mindrun.work.assignment import Assignment
 from mindrun.work.build import own_build
+from mindrun.work.effort import Effort, effort_of
 from mindrun.work.frame import Frame, pack
 from mindrun.work.stretch_frame import segment_of, stretch_frame
 
@@ -20,6 +21,10 @@ class Executor(Protocol):
     @property
     def assignment(self) -> Assignment:
         """What its workers are told."""
+
+    @property
+    def workers(self) -> int:
+        """How many jobs can be at work at once, as far as is known; it may change."""
 
     def has_room(self) -> bool:
         """Whether a worker would wait without another job."""
@@ -39,10 +44,11 @@ class Executor(Protocol):
 
 @dataclass(frozen=True, slots=True)
 class StretchExecutor:
-    """Does the stretches of a course."""
+    """Does the stretches of a course; what its workers count beside their results is counted in `scorer`."""
 
     course: Course
     jobs: Executor
+    scorer: Any = None
 
     def has_room(self) -> bool:
         """Whether a worker would wait without another stretch."""
@@ -51,11 +57,19 @@ class StretchExecutor:
     def submit(self, job: int, stretch: Stretch) -> None:
         """Ask for a stretch."""
         frame = stretch_frame(self.course, stretch, job_about(self.jobs.assignment))
-        self.jobs.submit(job, pack(frame), lambda answer: segment_of(answer, self.course, stretch))
+
+        def came(answer: Frame) -> tuple[Segment, Effort]:
+            return segment_of(answer, self.course, stretch), effort_of(answer, self.scorer)
+
+        self.jobs.submit(job, pack(frame), came)
 
     def take(self) -> tuple[int, Segment] | None:
         """A job and its segment; None where for a while none came."""
-        return self.jobs.take()
+        if (done := self.jobs.take()) is None:
+            return None
+        job, (segment, effort) = done
+        effort.count_in(self.scorer)
+        return job, segment
 
 
 def job_about(assignment: Assignment) -> dict[str, Any]:

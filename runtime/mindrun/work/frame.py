@@ -13,7 +13,7 @@ from dataclasses import dataclass, field
 from hashlib import sha256
 from math import prod
 from struct import Struct
-from typing import IO, Any
+from typing import Any, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -67,7 +67,14 @@ def unpack(data: bytes) -> Frame:
     return _frame(data[PREFIX_BYTES : PREFIX_BYTES + header], data[PREFIX_BYTES + header : -DIGEST_BYTES])
 
 
-def read(stream: IO[bytes]) -> bytes | None:
+class Stream(Protocol):
+    """What bytes come from."""
+
+    def read(self, size: int, /) -> bytes:
+        """At most so many, at least one unless it has ended."""
+
+
+def read(stream: Stream) -> bytes | None:
     """The bytes of the next frame of a stream, None where it ends before one; FrameError where something else comes."""
     prefix = _exactly(stream, len(MAGIC))
     if not prefix:
@@ -81,7 +88,7 @@ def read(stream: IO[bytes]) -> bytes | None:
     return data
 
 
-def _exactly(stream: IO[bytes], size: int) -> bytes:
+def _exactly(stream: Stream, size: int) -> bytes:
     """So many bytes, or fewer where the stream ends."""
     parts, left = list[bytes](), size
     while left and (part := stream.read(min(left, 1 << 20))):  # a length that lies takes no memory

@@ -7,6 +7,7 @@ from typing import Any, TypeVar
 import numpy as np
 
 from mindrun.sim.outside import making
+from mindrun.sim.outside.asking import Asking, place_of
 from mindrun.sim.outside.making import BrokenEnvironmentError
 from mindrun.sim.outside.wiring import Wiring
 
@@ -22,8 +23,9 @@ class Episode:
     BrokenEnvironmentError where it raises, or says what none may say.
     """
 
-    def __init__(self, wiring: Wiring, is_seen: bool = False) -> None:
+    def __init__(self, wiring: Wiring, is_seen: bool = False, asking: Asking | None = None) -> None:
         self._wiring = wiring
+        self._asking = asking or Asking(wiring.environment)
         self._environment = making.make(wiring.environment, wiring.folder, is_seen)
         self.observed = np.zeros(len(wiring.rows))
         self.reward, self.is_terminated, self.is_truncated = 0.0, False, False
@@ -64,9 +66,15 @@ class Episode:
         self.reward, self.is_terminated, self.is_truncated = float(reward), bool(terminated), bool(truncated)
 
     def _asked(self, ask: Callable[[], T]) -> T:
+        asking = self._asking
+        asking.seed, asking.steps = self._seed, self._steps
+        asking.number += 1
+        asking.is_open = True
         try:
             return ask()
         except Exception as error:
-            name, where = self._wiring.environment, f"step {self._steps} of the run of seed {self._seed}"
+            name, where = self._wiring.environment, place_of(self._seed, self._steps)
             hint = f"It was in {where}, and the fault is the environment's: {making.first_line(error)}."
             raise BrokenEnvironmentError(f"the environment {name} failed", hint.replace("..", ".")) from error
+        finally:
+            asking.is_open = False

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from mindrun.policy import Policy
 from mindrun.sim.codes import BROKEN_OFF
 from mindrun.sim.lanes.stages import act, before, conclude, run_skills
+from mindrun.sim.outside.asking import Asked, Asking
 from mindrun.sim.outside.episode import Episode
 from mindrun.sim.outside.wiring import Wiring, wiring_of
 from mindrun.sim.rollout import SLOW_SLICE_TICKS, Rollout, Tile
@@ -31,8 +32,8 @@ class Episodes:
 class EnvironmentRollout(Rollout):
     """As `Rollout`, for a task in an environment: a run of a seed begins with its `reset(seed)`.
 
-    Environments are kept from run to run until nobody has this rollout any more, and all are stepped in this thread.
-    `clipped` counts for each observed sensor how many of the `observed` numbers were beyond its range.
+    Every run has an environment of its own, and all are stepped in this thread. `clipped` counts for each observed
+    sensor how many of the `observed` numbers were beyond its range.
     """
 
     simulates = False
@@ -52,12 +53,25 @@ class EnvironmentRollout(Rollout):
         self.wiring: Wiring = wiring_of(self.graph, self.task.scene.environment, procedures)
         self.slice_ticks = SLOW_SLICE_TICKS
         self.observed, self.clipped = 0, np.zeros(len(self.wiring.rows), np.int64)
-        self._idle: list[Episode] = []
-        self._made: list[Episode] = []
-        finalize(self, _close, self._made)
+        self._asking = Asking(self.wiring.environment)
+        self._open: set[Episode] = set()
+        finalize(self, _close, self._open)
         self._rough = np.array([bool(row["is_rough"]) for row in self.tables.actuators], bool)
         self._rewards = [i for i, measure in enumerate(self.task.measures) if measure.is_outside]
         self._ends = [i for i, event in enumerate(self.task.events) if event.is_outside]
+
+    def asked(self) -> Asked | None:
+        """What an environment has been asked and has not answered, seen from another thread."""
+        return self._asking.asked()
+
+    def tally(self) -> NDArray[np.int64]:
+        """How often was observed, and for each sensor how often beyond its range."""
+        return np.array([self.observed, *self.clipped], np.int64)
+
+    def add(self, tally: NDArray[np.int64]) -> None:
+        """Count what was observed elsewhere."""
+        self.observed += int(tally[0])
+        self.clipped += tally[1:]
 
     @property
     def notes(self) -> tuple[str, ...]:
@@ -141,21 +155,20 @@ class EnvironmentRollout(Rollout):
         if begun:
             self._release(tile.kept, {*working})
         for job in begun:
-            episode = self._idle.pop() if self._idle else self._new()
+            episode = Episode(self.wiring, asking=self._asking)  # a new one: some (BipedalWalker) are worn by each run
+            self._open.add(episode)
             episode.begin(int(jobs.seeds[jobs.seed[job]]))
             going_on[job] = episode
         return [going_on[job] for job in working]
 
-    def _new(self) -> Episode:
-        self._made.append(Episode(self.wiring))
-        return self._made[-1]
-
     def _release(self, episodes: Episodes, working: set[int]) -> None:
-        """The environments of runs that are over wait for others."""
+        """The environments of runs that are over are of no use any more."""
         for job in [job for job in episodes.going_on if job not in working]:
-            self._idle.append(episodes.going_on.pop(job))
+            episode = episodes.going_on.pop(job)
+            self._open.discard(episode)  # another rollout may have begun it
+            episode.close()
 
 
-def _close(episodes: Sequence[Episode]) -> None:
+def _close(episodes: set[Episode]) -> None:
     for episode in episodes:
         episode.close()

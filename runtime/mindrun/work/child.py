@@ -1,0 +1,97 @@
+"""A worker that is a process: begun at its place, asked with frames, and never waited for in vain."""
+
+import subprocess
+from collections.abc import Sequence
+from contextlib import suppress
+from dataclasses import dataclass
+
+from mindrun.work.frame import DIGEST_BYTES, Frame, FrameError, read, unpack
+from mindrun.work.pipes import LostError, Pipes
+from mindrun.work.worker import ALIVE, MAX_SILENT_SECONDS, READY
+
+START_SECONDS = 600.0  # until a worker is there: others may have to leave their machine first
+
+
+@dataclass(frozen=True, slots=True)
+class Place:
+    """Where a worker runs: what to call it, and the command that is one."""
+
+    name: str
+    command: Sequence[str]
+
+
+class Child:
+    """The worker at a place. LostError where it has ended, has been silent for too long, or answers nonsense."""
+
+    def __init__(self, place: Place) -> None:
+        self.place = place
+        self.process: subprocess.Popen[bytes] | None = None
+        self._pipes: Pipes | None = None
+        self._at = ""
+
+    def begin(self) -> None:
+        """Begin the process, unless it is there, and wait until it says that it takes jobs."""
+        if self._pipes is not None:
+            return
+        # A session of its own: Ctrl-C at the terminal is for who asks, who lets the work go on to be saved.
+        pipe = subprocess.PIPE
+        try:
+            self.process = subprocess.Popen(
+                self.place.command, stdin=pipe, stdout=pipe, stderr=pipe, bufsize=0, start_new_session=True
+            )
+        except OSError as error:
+            raise LostError(f"{error.strerror}") from error
+        self._pipes = Pipes(self.process, START_SECONDS)
+        self._pipes.silent_seconds = _silent_seconds(self._heard(self._pipes))
+
+    def ask(self, data: bytes) -> Frame:
+        """The answer to a frame; in between it may say that it is alive."""
+        assert self._pipes is not None
+        self._at = ""
+        try:
+            self._pipes.write(data)
+        except OSError as error:
+            raise self._ended(f"{error.strerror}") from error
+        while (answer := self._heard(self._pipes)).kind == ALIVE:
+            self._at = f"{answer.about.get('at', '')}"[:300]
+        if answer.about.get("of") != data[-DIGEST_BYTES:].hex():
+            raise LostError("it answers another job than it was asked")
+        return answer
+
+    def kill(self) -> None:
+        """End the process; whoever waits for it is told by its pipes."""
+        if (process := self.process) is not None:
+            with suppress(OSError):
+                process.kill()
+
+    def end(self) -> None:
+        """End the process, whatever it does."""
+        self.kill()
+        pipes, self._pipes = self._pipes, None
+        if pipes is not None:
+            pipes.close()
+        if self.process is not None:
+            self.process.wait()
+
+    def _heard(self, pipes: Pipes) -> Frame:
+        try:
+            data = read(pipes)
+            if data is None:
+                raise self._ended("it ended")
+            return unpack(data)
+        except LostError as error:
+            raise LostError(f"{error}, {self._at}" if self._at else f"{error}") from error
+        except FrameError as error:
+            raise LostError(f"its answer is no frame: {error}") from error
+        except OSError as error:
+            raise self._ended(f"{error.strerror}") from error
+
+    def _ended(self, otherwise: str) -> LostError:
+        return LostError((self._pipes.last_line() if self._pipes else "") or otherwise)
+
+
+def _silent_seconds(first: Frame) -> float:
+    match first.kind, first.about:
+        case kind, {"silent_seconds": int(seconds)} if kind == READY and 0 < seconds <= MAX_SILENT_SECONDS:
+            return float(seconds)
+    raise LostError("what it says first is not that it is ready")

@@ -1,0 +1,46 @@
+"""Environments that processes find by themselves: `gymnasium tests.outside.kept:Line-v0`, and what they do wrong."""
+
+import time
+from typing import Any
+
+from tests.outside import worlds
+
+
+class Hanging(worlds.Line):
+    """The same, whose third step takes for ever."""
+
+    def observed(self) -> Any:
+        """Nothing, later on."""
+        while self.steps == 3:
+            time.sleep(0.01)
+        return super().observed()
+
+
+class Dying(worlds.Line):
+    """The same, whose third step ends the process, as a fault of machine code would."""
+
+    def observed(self) -> Any:
+        """Nothing, later on."""
+        if self.steps == 3:
+            import os
+
+            os.abort()
+        return super().observed()
+
+
+class Talking(worlds.Line):
+    """The same, which prints and reads what is not meant for it."""
+
+    def observed(self) -> Any:
+        """As ever; but it says so."""
+        import os
+        import sys
+
+        print("step", self.steps)
+        os.write(1, b"step\n")
+        assert sys.stdin.read() == ""
+        return super().observed()
+
+
+worlds.ALL = (*worlds.ALL, Hanging, Dying, Talking)  # type: ignore[assignment]
+worlds.register()

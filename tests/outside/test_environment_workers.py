@@ -1,0 +1,113 @@
+"""Environments are stepped in processes: the same bits for any number; what one does wrong there is one sentence."""
+
+import json
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+pytest.importorskip("gymnasium")
+
+from tests.outside import minds
+
+ROOT = Path(__file__).parents[2]
+LESSON = "curriculum School is genetic population 8 layouts 2\n  teaches Go on Go for 3 generations\n"
+
+
+def project(folder: Path, world: str, lesson: str = LESSON) -> Path:
+    folder.mkdir(exist_ok=True)
+    (folder / "go.mind").write_text(minds.text(scene=f"tests.outside.kept:{world}-v0") + lesson)
+    return folder
+
+
+def mindc(folder: Path, *words: str) -> "subprocess.CompletedProcess[str]":
+    path = os.pathsep.join([str(ROOT), str(ROOT / "runtime")])
+    return subprocess.run(
+        [sys.executable, "-c", "from mindlang.cli import main; main()", *words],
+        cwd=folder,
+        env={**os.environ, "PYTHONPATH": path},
+        capture_output=True,
+        text=True,
+        timeout=300,
+        check=False,
+    )
+
+
+def taught(folder: Path, *words: str, world: str = "Line") -> dict[str, str]:
+    lesson = LESSON.replace("layouts 2", "layouts 2 attempts 2 rungs 1")
+    done = mindc(project(folder, f"tests/{world}", lesson), "train", "go.mind", "--seed", "1", "--json", *words)
+    assert done.returncode == 0, done.stderr
+    weights: dict[str, str] = json.loads(done.stdout)["weights"]
+    return weights
+
+
+def test_the_weights_are_those_of_any_number_of_processes(tmp_path: Path) -> None:
+    expected = taught(tmp_path / "one", "--workers", "1")
+    assert taught(tmp_path / "three", "--workers", "3") == expected
+    assert taught(tmp_path / "attempts", "--on", "processes:2") == expected  # each attempt in a process
+    assert taught(tmp_path / "inner", "--on", f"command:{sys.executable} -m mindrun work --threads 2") == expected
+    assert taught(tmp_path / "talking", "--workers", "2", world="Talking") == expected
+
+
+def test_many_runs_are_the_same_in_any_number_of_processes(tmp_path: Path) -> None:
+    found = []
+    for words in (("--workers", "1"), ("--workers", "2"), ("--on", "processes:2")):
+        folder = project(tmp_path / "-".join(words).replace(":", ""), "tests/Line")
+        assert mindc(folder, "train", "go.mind", "--seed", "1", "-q").returncode == 0
+        done = mindc(folder, "bench", "go.mind", "--runs", "70", "--csv", "runs.csv", *words)
+        assert done.returncode == 0, done.stderr
+        assert "was beyond its range in" in done.stderr
+        found.append(((folder / "runs.csv").read_bytes(), done.stderr.splitlines()[-2:]))
+    assert found[0][0] == found[1][0] == found[2][0]
+    assert [each[1][0] for each in found[1:]] == [found[0][1][0]] * 2
+
+
+def test_a_module_beside_the_mind_is_found_from_elsewhere(tmp_path: Path) -> None:
+    folder = tmp_path / "beside"
+    folder.mkdir()
+    (folder / "go.mind").write_text(minds.text(scene="beside_me:Mine-v0") + LESSON)
+    (folder / "beside_me.py").write_text(
+        "import gymnasium\nfrom tests.outside.worlds import Line\ngymnasium.register('Mine-v0', Line)\n"
+    )
+    for on in ((), ("--on", f"command:{sys.executable} -m mindrun work --threads 2 --folder {folder}")):
+        done = mindc(tmp_path, "train", "beside/go.mind", "--seed", "1", "-q", "--force", *on)
+        assert (done.returncode, done.stderr) == (0, "")
+
+
+@pytest.mark.parametrize(
+    ("world", "words"),
+    [
+        ("Raising", ("the environment tests.outside.kept:tests/Raising-v0 failed", "in step 3 of the run of seed",
+                     "RuntimeError: the motor is hot.")),
+        ("Misshapen", ("failed", "an observation has the shape (3,), and its space says (2,)")),
+        ("Blind", ("nothing: the rewards of every genome were not finite numbers",)),
+        ("Generous", ("nothing: the rewards of every genome were not finite numbers",)),
+        ("Dying", ("a job has ended 5 workers", "--resume")),
+        ("Hanging", ("the environment tests.outside.kept:tests/Hanging-v0 does not come back from step 3 of the run of",
+                     "in 2 seconds", "--step-seconds")),
+    ],
+)  # fmt: skip
+def test_what_an_environment_does_wrong_in_a_process_is_one_message(
+    tmp_path: Path, world: str, words: tuple[str, ...]
+) -> None:
+    folder = project(tmp_path, f"tests/{world}")
+    on = ("--on", f"command:2:{sys.executable} -m mindrun work --threads 1 --step-seconds 2")
+    done = mindc(folder, "train", "go.mind", "--seed", "1", *on)
+    assert done.returncode == 1
+    assert all(each in " ".join(done.stderr.split()) for each in words), done.stderr
+    assert not (folder / "go.lock").exists()
+    assert workers_of(folder) == []
+
+
+def workers_of(folder: Path) -> list[str]:
+    """The processes that work in a folder."""
+    found = []
+    for process in Path("/proc").glob("[0-9]*"):
+        try:
+            if process.joinpath("cwd").readlink() == folder.resolve():
+                found.append(process.joinpath("cmdline").read_text())
+        except OSError:
+            continue
+    return found

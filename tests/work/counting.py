@@ -1,0 +1,98 @@
+"""A scorer whose results are plain arithmetic of a genome and a seed, with all that a rollout's have; and executors."""
+
+from collections.abc import Iterable
+from dataclasses import dataclass, field
+from types import SimpleNamespace
+from typing import Any
+
+import numpy as np
+from mindrun.work.assignment import Assignment
+from mindrun.work.executor import Read
+from mindrun.work.frame import FrameError, unpack
+from mindrun.work.score_frame import RunScores
+from mindrun.work.worker import KEPT, LACKS, Worker
+from numpy.typing import NDArray
+
+LENGTH, TICKS = 3, 100
+ASSIGNMENT = Assignment(b"no bundle", "Count", "Count")
+TASK: Any = SimpleNamespace(
+    name="Count", rewards=(None,) * 2, events=(None,) * 3, ends=(None,), ticks=TICKS, scene=None, can_succeed=False
+)
+
+
+class Counting:
+    """Scores by arithmetic; `jobs` are how many runs each call was for, and it tallies them."""
+
+    task, genome_length, notes = TASK, LENGTH, ()
+
+    def __init__(self) -> None:
+        self.jobs: list[int] = []
+        self._tally = np.zeros(2, np.int64)
+
+    def draw(self, count: int, rng: np.random.Generator) -> NDArray[np.float32]:
+        return rng.standard_normal((count, LENGTH), np.float32)
+
+    def tally(self) -> NDArray[np.int64]:
+        return self._tally.copy()
+
+    def add(self, tally: NDArray[np.int64]) -> None:
+        self._tally += tally
+
+    def score(self, genomes: NDArray[np.float32], seeds: NDArray[np.uint64]) -> RunScores:
+        first = np.multiply.outer(genomes.astype(np.float64).sum(axis=1), np.sin(np.asarray(seeds, np.float64)))
+        lines = np.stack([first, first**2], axis=-1)
+        total = lines[..., 0] + lines[..., 1]
+        words = np.abs(first * 1e3).astype(np.int64)
+        events = np.stack([words % 5, words % 7, words % 11], axis=-1)
+        self.jobs.append(total.size)
+        self.add(np.array([total.size, int((words % 2).sum())]))
+        ends = words % 4 - 3
+        faults = (words % 13 == 0).astype(np.int64)
+        return RunScores(total, lines, events.sum(axis=-1), events, words % TICKS, ends, ends, faults)
+
+
+@dataclass
+class Shuffling:
+    """An executor in this process: `choices` say which open job comes next, and what becomes of it.
+
+    A number below 0 loses it (its worker has done it, and nobody hears of it), and it is done again later.
+    """
+
+    choices: Iterable[int]
+    width: int = 2
+    assignment: Assignment = ASSIGNMENT
+    jobs: list[tuple[int, bytes, Read]] = field(default_factory=list)
+    worker: Worker = field(default_factory=lambda: Worker(lambda assignment: Counting(), iter(range(10**9)).__next__))
+
+    def __post_init__(self) -> None:
+        self.choices = iter(self.choices)
+
+    @property
+    def workers(self) -> int:
+        return self.width
+
+    def has_room(self) -> bool:
+        return len(self.jobs) < self.width
+
+    def submit(self, number: int, data: bytes, read: Read) -> None:
+        self.jobs.append((number, data, read))
+
+    def take(self) -> tuple[int, Any] | None:
+        choice = next(self.choices, 0)  # type: ignore[call-overload]
+        if not self.jobs:
+            return None
+        number, data, read = self.jobs[choice % len(self.jobs)]
+        answer = unpack(self.worker.answer(data))
+        if answer.kind == LACKS:
+            assert unpack(self.worker.answer(self.assignment.packed)).kind == KEPT
+            answer = unpack(self.worker.answer(data))
+        if choice < 0:
+            return None
+        self.jobs.remove((number, data, read))
+        try:
+            return number, read(answer)
+        except FrameError as error:
+            raise AssertionError(f"an honest worker is refused: {error}") from error
+
+    def close(self) -> None:
+        self.jobs.clear()
