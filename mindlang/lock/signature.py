@@ -9,6 +9,8 @@ from mindrun.sensors import SensorKind
 
 from mindlang.lock import Entry, Signature
 
+MAX_WIDTH_DIGITS = 9  # of how many readings a sensor has, where a text from outside says it
+
 
 def signature(graph: Graph, skill: Skill) -> Signature:
     """The signature of a skill that learns."""
@@ -72,7 +74,7 @@ def _arguments(of: Signature) -> tuple[str, dict[str, str]]:
 
 def _widths(of: Signature) -> dict[str, int]:
     parts = (read.partition(":") for read in of.reads)
-    return {name: int(width) if width.isdecimal() else 1 for name, _, width in parts}
+    return {name: int(width[:MAX_WIDTH_DIGITS]) if width.isdecimal() else 1 for name, _, width in parts}
 
 
 def _read_differences(old: dict[str, int], new: dict[str, int]) -> Iterator[str]:

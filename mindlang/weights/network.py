@@ -15,6 +15,7 @@ from mindlang.lock import Signature
 from mindlang.lock.signature import differences, signature
 from mindlang.weights.safetensors import Matrix, Tensors
 
+MAX_SHOWN = 400  # characters of what another program wrote
 KEYS = ("mind.function", "mind.reads", "mind.sends")  # of the metadata: the signature of the weights
 
 
@@ -116,10 +117,15 @@ def _in_order(network: Network, tensors: Tensors, genome: Weights) -> Weights:
     function, reads, sends = (tensors.metadata[key] for key in KEYS)
     its, own = Signature(function, tuple(reads.split()), tuple(sends.split())), network.signature
     if found := differences(its, own, network.skill.function.derived):
-        raise WeightsError(f"these are weights of another declaration: {visible('; '.join(found))}")
+        raise WeightsError(f"these are weights of another declaration: {_shortened('; '.join(found))}")
     if sorted(its.reads) != sorted(own.reads) or sorted(its.sends) != sorted(own.sends):
-        raise WeightsError("its __metadata__ names something twice")
+        said = f"{' '.join(own.reads)} and {' '.join(own.sends)}, in any order"
+        raise WeightsError("its __metadata__ says twice or otherwise what it reads or sends", f"they are {said}")
     return network.skill.function.reordered(genome, _places(own.reads, its.reads), _places(own.sends, its.sends))
+
+
+def _shortened(text: str) -> str:
+    return visible(text if len(text) <= MAX_SHOWN else f"{text[:MAX_SHOWN]}…")
 
 
 def _places(of: Sequence[str], among: Sequence[str]) -> list[int]:

@@ -20,7 +20,8 @@ LENGTH_BYTES = 8  # of the header's length, before it
 MAX_HEADER_BYTES = 1 << 20
 HEADER_ALIGNMENT = 8  # bytes that a header fills with spaces
 METADATA = "__metadata__"
-MAX_DIMENSION = 1 << 31
+MAX_AXES = 8  # of a tensor; weights have two
+MAX_NUMBERS = 1 << 31  # in a tensor, also where one of its axes is empty
 FLOAT32 = "F32"
 
 Matrix = NDArray[np.float32]
@@ -86,14 +87,14 @@ def _header(text: bytes) -> dict[str, Any]:
 
 def _place(name: str, about: object) -> _Place:
     """Where a tensor lies; WeightsError where what the header says of it does not fit itself."""
-    shown = visible(f"{name:.60}")
+    shown = _shown(name)
     if not isinstance(about, dict) or about.keys() != {"dtype", "shape", "data_offsets"}:
         raise WeightsError(f"its header does not say dtype, shape and data_offsets of {shown}")
     if about["dtype"] != FLOAT32:
         kind = visible(f"{about['dtype']!s:.20}")
         raise WeightsError(f"{shown} is {kind}, and weights are {FLOAT32}", "save it as float32: skill.float()")
     shape, offsets = about["shape"], about["data_offsets"]
-    if not isinstance(shape, list) or not all(is_whole(each, 0, MAX_DIMENSION) for each in shape):
+    if not _is_shape(shape):
         raise WeightsError(f"the shape of {shown} is none")
     if not isinstance(offsets, list) or len(offsets) != 2 or not all(map(is_whole, offsets)):
         raise WeightsError(f"the data_offsets of {shown} are not two whole numbers")
@@ -103,11 +104,21 @@ def _place(name: str, about: object) -> _Place:
     return _Place(tuple(shape), begin, end)
 
 
+def _is_shape(shape: object) -> bool:
+    if not isinstance(shape, list) or len(shape) > MAX_AXES or not all(map(is_whole, shape)):
+        return False
+    return prod(max(each, 1) for each in shape) <= MAX_NUMBERS
+
+
+def _shown(name: str) -> str:
+    return visible(f"{name:.60}") or "a tensor without a name"
+
+
 def _refuse_holes(places: Mapping[str, _Place], size: int) -> None:
     """WeightsError unless the tensors lie one behind the other, from the first byte to the last."""
     at = 0
     for name, place in sorted(places.items(), key=lambda item: (item[1].begin, item[1].end)):
-        shown = visible(f"{name:.60}")
+        shown = _shown(name)
         if place.begin < at:
             raise WeightsError(f"{shown} lies over another tensor")
         if place.begin > at:

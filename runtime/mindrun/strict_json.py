@@ -1,6 +1,7 @@
 """JSON that comes from outside: whoever wrote it, reading it ends in a value or in one error with words."""
 
 import json
+from collections import Counter
 from math import isfinite
 from typing import Any, NoReturn
 
@@ -8,12 +9,13 @@ from typing import Any, NoReturn
 def parsed(data: bytes | str, most: int = 1 << 20) -> Any:
     """The value of a JSON text; ValueError where it is none, longer than `most`, nested too deep, or not finite.
 
+    A name that stands twice in a table is an error, too: which of its values holds, readers would not agree on.
     What has this value may still be of any kind and size: who asks says what must stand there.
     """
     if len(data) > most:
         raise ValueError(f"it is larger than {most / (1 << 20):g} MiB")
     try:
-        return json.loads(data, parse_float=_finite, parse_constant=_no_number)
+        return json.loads(data, parse_float=_finite, parse_constant=_no_number, object_pairs_hook=_table)
     except RecursionError as error:
         raise ValueError("it is nested too deep") from error
 
@@ -30,6 +32,14 @@ def are_names(value: object) -> bool:
         and all(isinstance(name, str) and name.isprintable() for name in value)
         and len(set(value)) == len(value)
     )
+
+
+def _table(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
+    table = dict(pairs)
+    if len(table) < len(pairs):
+        twice = Counter(name for name, _ in pairs).most_common(1)[0][0]
+        raise ValueError(f"{twice:.40} stands there twice")
+    return table
 
 
 def _finite(text: str) -> float:

@@ -105,7 +105,9 @@ WRONG: dict[str, tuple[Callable[[Tensors], Tensors], str]] = {
     "another function": (said(**MLP | {"function": "elman width 5"}), "was elman, now mlp"),
     "other readings": (said(**MLP | {"reads": "nose"}), "reads eye is new; reads nose is gone"),
     "fewer readings": (said(**MLP | {"reads": "eye:2"}), "eye had 2 readings, now 3"),
-    "a name twice": (said(**MLP | {"reads": "eye:3 eye:3"}), "names something twice"),
+    "a name twice": (said(**MLP | {"reads": "eye:3 eye:3"}), "says twice or otherwise what it reads"),
+    "a width in other words": (said(**MLP | {"reads": "eye:03"}), "says twice or otherwise what it reads"),
+    "a width of many digits": (said(**MLP | {"reads": "eye:" + "9" * 5000}), "eye had 999999999 readings, now 3"),
 }
 
 
@@ -116,6 +118,14 @@ def test_what_does_not_fit_is_one_sentence(tmp_path: Path, change: Callable[[Ten
     with pytest.raises(WeightsError, match=r"^[^\n]+$") as error:
         to_genome(own, change(tensors))
     assert message in str(error.value)
+
+
+def test_much_that_is_said_is_cut_off(tmp_path: Path) -> None:
+    own = network(tmp_path)
+    tensors = to_tensors(own, matrices_of(own, genome_of(own)))
+    with pytest.raises(WeightsError, match=r"sends x+…$") as error:
+        to_genome(own, said(**MLP | {"sends": "x" * 100_000})(tensors))
+    assert len(str(error.value)) < 600
 
 
 @given(st.dictionaries(st.sampled_from(["mind.function", "mind.reads", "mind.sends"]), st.text(max_size=20)))

@@ -10,6 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import array_shapes, arrays
 from mindrun.errors import WeightsError
+from mindrun.printable import visible
 
 from mindlang.weights.safetensors import MAX_HEADER_BYTES, Tensors, from_safetensors, to_safetensors
 
@@ -69,6 +70,32 @@ def test_no_bytes_raise_anything_else(noise: bytes, tensors: Tensors) -> None:
                 from_safetensors(hostile)
 
 
+NUMBERS = st.integers() | st.sampled_from([0, 1, 4, 1 << 31, 1 << 53, 1 << 64])
+ANYTHING = st.recursive(
+    st.none() | st.booleans() | NUMBERS | st.floats() | TEXTS,
+    lambda inner: st.lists(inner, max_size=4) | st.dictionaries(TEXTS, inner, max_size=4),
+    max_leaves=8,
+)
+PLACES = st.fixed_dictionaries(
+    {
+        "dtype": st.just("F32") | st.just("F32") | ANYTHING,
+        "shape": st.lists(NUMBERS, max_size=80) | ANYTHING,
+        "data_offsets": st.lists(NUMBERS, min_size=2, max_size=2) | ANYTHING,
+    }
+)
+
+
+@given(st.dictionaries(TEXTS | st.just("__metadata__"), PLACES | ANYTHING, max_size=3), st.binary(max_size=16))
+def test_no_header_raises_anything_else(header: dict[str, Any], data: bytes) -> None:
+    try:
+        tensors = from_safetensors(file_of(header, data))
+    except WeightsError as error:
+        assert visible(str(error)) == str(error)
+        assert len(str(error)) < 500
+    else:
+        assert 4 * sum(matrix.size for matrix in tensors.by_name.values()) == len(data)
+
+
 HOSTILE: dict[str, tuple[bytes, str]] = {
     "nothing": (b"", "it is cut off: it has no header"),
     "a huge header": (b"\xff" * 8 + b"{}", f"its header says that it is {2**64 - 1:,} bytes long"),
@@ -85,6 +112,8 @@ HOSTILE: dict[str, tuple[bytes, str]] = {
     "a dtype of many": (file_of({"a": tensor(0, 4, dtype=["F32"])}, b"1234"), "and weights are F32"),
     "a negative shape": (file_of({"a": tensor(0, 4, [-1, -1])}, b"1234"), "the shape of a is none"),
     "a huge shape": (file_of({"a": tensor(0, 4, [2**40])}, b"1234"), "the shape of a is none"),
+    "many axes": (file_of({"a": tensor(0, 4, [1] * 100)}, b"1234"), "the shape of a is none"),
+    "huge, and empty": (file_of({"a": tensor(0, 0, [0, 2**31, 2**31])}), "the shape of a is none"),
     "too little for its shape": (file_of({"a": tensor(0, 4, [2, 2])}, b"1234"), "has 4 bytes, and its shape needs 16"),
     "a true offset": (file_of({"a": tensor(False, 4)}, b"1234"), "the data_offsets of a are not two whole numbers"),
     "overlapping": (
@@ -95,7 +124,19 @@ HOSTILE: dict[str, tuple[bytes, str]] = {
     "a name twice": (
         file_of(b'{"a":{"dtype":"F32","shape":[1],"data_offsets":[0,4]},"a":{"dtype":"F32","shape":[1],'
                 b'"data_offsets":[4,8]}}', b"12345678"),
-        "before a are 4 bytes of no tensor",
+        "its header is no JSON: a stands there twice",
+    ),
+    "no name": (file_of({"": tensor(0, 4, [2])}, b"1234"), "a tensor without a name has 4 bytes"),
+    "negative offsets": (file_of({"a": tensor(-4, 0)}, b"1234"), "the data_offsets of a are not two whole numbers"),
+    "offsets turned over": (file_of({"a": tensor(8, 4)}, b"12345678"), "a has -4 bytes, and its shape needs 4"),
+    "float64": (file_of({"a": tensor(0, 8, dtype="F64")}, b"12345678"), "a is F64, and weights are F32"),
+    "bfloat16": (file_of({"a": tensor(0, 2, dtype="BF16")}, b"12"), "a is BF16, and weights are F32"),
+    "whole numbers": (file_of({"a": tensor(0, 1, dtype="I8")}, b"1"), "a is I8, and weights are F32"),
+    "more digits than Python reads": (
+        file_of(b'{"a":{"dtype":"F32","shape":[' + b"9" * 5000 + b"]}}"), "its header is no JSON: Exceeds the limit",
+    ),
+    "nothing in something": (
+        file_of({"a": tensor(0, 8, [2]), "b": tensor(4, 4, [0])}, b"12345678"), "b lies over another tensor",
     ),
     "data cut off": (file_of({"a": tensor(0, 4)}, b"123"), "it is cut off: its tensors need 4 bytes, and 3 are there"),
     "data behind": (file_of({"a": tensor(0, 4)}, b"12345"), "behind its tensors are 1 bytes of none"),
