@@ -38,10 +38,18 @@ class NetworkModule(nn.Module):
     def forward(self, readings: Tensor, state: Tensor | None = None) -> Tensor | tuple[Tensor, Tensor]:
         """What it sends; with what it remembers, where it does."""
         if not self.network.state:
-            return ReturningClamp.apply(self._last_values(readings))
+            return ReturningClamp.apply(self.before_clamp(readings))
         before = self.start(*readings.shape[:-1]) if state is None else state
         neurons = RationalSigmoid.apply(self.layers[0](torch.cat([readings, before], -1)))
         return ReturningClamp.apply(self.layers[1](neurons)), neurons
+
+    def before_clamp(self, readings: Tensor) -> Tensor:
+        """What its last layer adds up to, of a network that remembers nothing: the mean of a policy that explores."""
+        *hidden, last = self.layers
+        values = readings
+        for layer in hidden:
+            values = RationalSigmoid.apply(layer(values))
+        return last(values)
 
     def start(self, *batch: int) -> Tensor:
         """What it remembers before the first tick of a run: zeros [..., state]."""
@@ -61,10 +69,3 @@ class NetworkModule(nn.Module):
     def extra_repr(self) -> str:
         """Whose function it is."""
         return f"{self.network.skill.name} is {self.network.signature.function}"
-
-    def _last_values(self, readings: Tensor) -> Tensor:
-        *hidden, last = self.layers
-        values = readings
-        for layer in hidden:
-            values = RationalSigmoid.apply(layer(values))
-        return last(values)

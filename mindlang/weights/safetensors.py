@@ -107,7 +107,8 @@ def _place(name: str, about: object) -> _Place:
 def _is_shape(shape: object) -> bool:
     if not isinstance(shape, list) or len(shape) > MAX_AXES or not all(map(is_whole, shape)):
         return False
-    return prod(max(each, 1) for each in shape) <= MAX_NUMBERS
+    numbers: int = prod(max(each, 1) for each in shape)
+    return numbers <= MAX_NUMBERS
 
 
 def _shown(name: str) -> str:

@@ -63,6 +63,15 @@ def test_a_batch_has_the_bits_of_each_row(tmp_path: Path) -> None:
     assert torch.equal(module(rows.reshape(4, 16, -1)).reshape(64, -1), module(rows))
 
 
+def test_before_the_clamp_it_is_the_same_in_0_to_1(tmp_path: Path) -> None:
+    own = network(tmp_path, "mlp hidden 2")
+    module = NetworkModule(own, own.skill.function.draw(own.inputs, own.outputs, 1, np.random.default_rng(1))[0])
+    rows = torch.rand(64, own.inputs)
+    values = module.before_clamp(rows)
+    assert ((values < 0) | (values > 1)).any()
+    assert torch.equal(values.clamp(0, 1), module(rows))
+
+
 def test_derivatives_are_those_of_the_function() -> None:
     torch.manual_seed(1)
     x, weight = torch.rand(5, 3, dtype=torch.float64) * 8 - 4, torch.rand(4, 3, dtype=torch.float64)
