@@ -4,7 +4,7 @@ A job whose worker ends or answers nonsense is done again by whoever is free; a 
 that has cost five workers is at fault itself, and so is a place where three workers end without a word.
 """
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from queue import Empty, PriorityQueue, Queue
 from threading import Lock, Thread
@@ -38,13 +38,15 @@ class Job:
 
 
 class Crew:
-    """Workers at several places, who do the jobs of one assignment."""
+    """Workers at several places, who do the jobs of one assignment; `begin` makes the one at a place."""
 
-    def __init__(self, places: Sequence[Place], assignment: Assignment) -> None:
+    def __init__(
+        self, places: Sequence[Place], assignment: Assignment, begin: Callable[[Place], Child] = Child
+    ) -> None:
         self.assignment = assignment
         self._jobs: PriorityQueue[Job] = PriorityQueue()
         self._answers: Queue[tuple[int, Any] | WorkError] = Queue()
-        self.children = [Child(place) for place in places]
+        self.children = [begin(place) for place in places]
         self._lock = Lock()
         self._open, self._left, self._ended = 0, len(places), False
         self._threads = [Thread(target=self._work, args=(child,), daemon=True) for child in self.children]
