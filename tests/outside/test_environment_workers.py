@@ -4,6 +4,8 @@ import json
 import os
 import subprocess
 import sys
+import time
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
@@ -99,6 +101,26 @@ def test_what_an_environment_does_wrong_in_a_process_is_one_message(
     assert all(each in " ".join(done.stderr.split()) for each in words), done.stderr
     assert not (folder / "go.lock").exists()
     assert workers_of(folder) == []
+
+
+def test_workers_end_with_who_asked_them_even_in_a_step_that_hangs(tmp_path: Path) -> None:
+    folder = project(tmp_path, "tests/Hanging")
+    path = os.pathsep.join([str(ROOT), str(ROOT / "runtime")])
+    words = [sys.executable, "-c", "from mindlang.cli import main; main()", "train", "go.mind", "--workers", "2"]
+    asking = subprocess.Popen(words, cwd=folder, env={**os.environ, "PYTHONPATH": path}, stderr=subprocess.DEVNULL)
+    until(lambda: len(workers_of(folder)) == 3)
+    asking.kill()
+    asking.wait()
+    until(lambda: workers_of(folder) == [])
+
+
+def until(holds: Callable[[], bool]) -> None:
+    """Wait for it, not for ever."""
+    for _ in range(600):
+        if holds():
+            return
+        time.sleep(0.1)
+    raise AssertionError("it never came to that")
 
 
 def workers_of(folder: Path) -> list[str]:

@@ -51,6 +51,23 @@ def test_many_runs_are_the_same_wherever_they_are_made(tmp_path: Path, words: tu
     assert found[0] == found[1]
 
 
+def test_a_procedure_that_prints_and_reads_takes_no_answer_and_no_job(tmp_path: Path) -> None:
+    rule = "skill Go is procedure from talk.go\n  reads bearing\n  drives left_wheel\n  drives right_wheel\n"
+    text = MIND[: MIND.index("skill Go")] + rule + MIND[MIND.index("skill Drive") : MIND.index("curriculum School")]
+    text = text[: text.index("skill Drive")] + text[text.index("task Reach") :]
+    (tmp_path / "drive.mind").write_text(text.replace("master Drive", "master Go"))
+    (tmp_path / "talk.py").write_text(
+        "import os, sys\n\n\ndef go(bearing):\n    print('mindfrm1', bearing)\n    os.write(1, b'mindfrm1')\n"
+        "    assert sys.stdin.read() == ''\n    return bearing, 0.7\n"
+    )
+    found = []
+    for on in ((), ("--on", "processes:2")):
+        done = called(tmp_path, "bench", "drive.mind", "--task", "Reach", "--runs", "9", "--csv", "runs.csv", *on)
+        assert done.returncode == 0, done.stderr
+        found.append((tmp_path / "runs.csv").read_bytes())
+    assert found[0] == found[1]
+
+
 def timeless(value: object) -> object:
     """What is said of runs but for how fast they were made."""
     if isinstance(value, dict):
@@ -68,7 +85,8 @@ def test_runs_that_nobody_makes_are_one_sentence(tmp_path: Path) -> None:
 
 def called(folder: Path, *words: str) -> "subprocess.CompletedProcess[str]":
     command = [sys.executable, "-c", "from mindlang.cli import main; main()", *words]
-    return subprocess.run(command, cwd=folder, capture_output=True, text=True, check=False)
+    nothing = subprocess.DEVNULL
+    return subprocess.run(command, cwd=folder, stdin=nothing, capture_output=True, text=True, check=False)
 
 
 @pytest.mark.parametrize(
