@@ -113,7 +113,7 @@ def processes(count: int, assignment: Assignment) -> Iterator[tuple[Executor, Pi
 @contextmanager
 def dask(count: int, assignment: Assignment) -> Iterator[tuple[Executor, Pids]]:
     """So many workers of one thread."""
-    with LocalCluster(n_workers=count, threads_per_worker=1, dashboard_address=None, host="127.0.0.1") as cluster:
+    with LocalCluster(count, threads_per_worker=1, dashboard_address=None, silence_logs="CRITICAL") as cluster:
         jobs = ClusterJobs(connect(Destination(cluster.scheduler_address)), assignment, print)
         try:
             yield jobs, lambda: [nanny.pid for nanny in cluster.workers.values() if nanny.pid]
@@ -124,12 +124,11 @@ def dask(count: int, assignment: Assignment) -> Iterator[tuple[Executor, Pids]]:
 def taught(course: Course, rollout: Rollout, jobs: Executor | None) -> Taught:
     """Teach a lesson in this process, or where jobs are done."""
     began = time.perf_counter()
-    state = begin(course)
     if jobs is None:
-        *_, (state, _) = teach(course, rollout, state, time.perf_counter)
+        *_, (state, _) = teach(course, rollout, begin(course), time.perf_counter)
     else:
-        for step in side_by_side(course, StretchExecutor(course, jobs), state, lambda: False):
-            state = step.state
+        *_, last = side_by_side(course, StretchExecutor(course, jobs), begin(course), lambda: False)
+        state = last.state
     digest = sha256(state.kept.tobytes() + state.champions.tobytes()).hexdigest()
     return Taught(digest, time.perf_counter() - began)
 

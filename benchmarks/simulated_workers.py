@@ -22,7 +22,7 @@ from mindrun.work.worker import answer_to
 LOST_SHARE = 0.01
 JOB_DELAY_SECONDS = 0.0005  # between two answers, of all workers together, on the mean
 JOB_GENOMES, GENOME_WEIGHTS = 25, 100
-WORKERS, JOBS = (10, 100, 1000), (1_000, 10_000, 100_000)
+WORKER_COUNTS, JOB_COUNTS = (10, 100, 1000), (1_000, 10_000, 100_000)
 LINE = "{workers:>6,} workers {jobs:>8,} jobs {lost:>6,} lost {cpu:>8.3f} ms of CPU a job {rate:>8,.0f} jobs/s"
 
 
@@ -96,10 +96,10 @@ def _sum(answer: Frame) -> float:
 def main(words: Sequence[str] | None = None) -> None:
     """Measure each number of workers with each number of jobs."""
     parser = argparse.ArgumentParser(allow_abbrev=False, description=__doc__)
-    parser.add_argument("--jobs", type=int, default=JOBS[-1], help="the most (default: 100000)")
+    parser.add_argument("--jobs", type=int, default=JOB_COUNTS[-1], help="the most (default: 100000)")
     options = parser.parse_args(words)
-    for workers in WORKERS:
-        for jobs in (each for each in JOBS if each <= options.jobs):
+    for workers in WORKER_COUNTS:
+        for jobs in (each for each in JOB_COUNTS if each <= options.jobs):
             found = cost(workers, jobs)
             said = {"cpu": found.cpu_milliseconds, "rate": found.jobs_per_second, "lost": found.lost}
             print(LINE.format(workers=workers, jobs=jobs, **said), flush=True)
