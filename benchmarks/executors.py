@@ -113,7 +113,7 @@ def processes(count: int, assignment: Assignment) -> Iterator[tuple[Executor, Pi
 @contextmanager
 def dask(count: int, assignment: Assignment) -> Iterator[tuple[Executor, Pids]]:
     """So many workers of one thread."""
-    with LocalCluster(count, threads_per_worker=1, dashboard_address=None, silence_logs="CRITICAL") as cluster:
+    with LocalCluster(count, threads_per_worker=1, dashboard_address=":0", silence_logs="CRITICAL") as cluster:
         jobs = ClusterJobs(connect(Destination(cluster.scheduler_address)), assignment, print)
         try:
             yield jobs, lambda: [nanny.pid for nanny in cluster.workers.values() if nanny.pid]
