@@ -4,12 +4,9 @@ from __future__ import annotations
 
 import asyncio
 import sys
-import webbrowser
-from contextlib import suppress
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
-from threading import Thread
 from typing import TYPE_CHECKING, TextIO
 
 import click
@@ -17,6 +14,7 @@ from mindrun.errors import MindError
 
 from mindlang.cli._run_session import RunSession
 from mindlang.cli._terminal import MISUSE, fail, procedures_talk, talk, write_file
+from mindlang.view.browser import open_browser
 from mindlang.view.export import exported
 from mindlang.view.server import PortError, ViewServer
 from mindlang.view.session import Session
@@ -73,11 +71,3 @@ class ViewOutput:
             fail(str(error), error.hint, MISUSE)
         write_file(path, page.encode())
         session.say(f"{path}: {viewed.known:,} ticks, {len(page) / 1e6:.1f} MB, opens in any browser")
-
-
-def open_browser(address: str) -> None:
-    """Open a browser with windows, if there is one: what runs in a terminal would take this one."""
-    with suppress(webbrowser.Error):
-        browser = webbrowser.get()
-        if type(browser) is not webbrowser.GenericBrowser:
-            Thread(target=browser.open, args=(address,), daemon=True).start()

@@ -21,7 +21,7 @@ from mindlang.run.setup import RunSetup, master_of, task_of, unknown, untaught_s
 class Agent:
     """It sees the readings with these numbers, and acts by so many numbers in 0..1.
 
-    `row` is that of the skill that it plays in the tables; None where it commands the actuators.
+    `played` is the skill that it plays, and `row` that one's in the tables; None where it commands the actuators.
     """
 
     setup: RunSetup
@@ -29,6 +29,7 @@ class Agent:
     readings: NDArray[np.int64]
     actions: int
     row: int | None = None
+    played: str | None = None
 
     def act(self, actions: NDArray[np.float32]) -> None:
         """One tick under its actions [lanes, actions]; one that is not finite is not sent."""
@@ -72,7 +73,7 @@ def _of_skill(mind: Mind, task: str | None, master: str | None, skill: str, lane
     row = int(np.flatnonzero(rollout.tables.skills["index"] == number)[0])
     inputs = np.array(ready.policy.graph.skills[number].inputs, np.int64)
     several = CommandedLanes(rollout, lanes)
-    return Agent(_setup(mind, chosen, leader, ready), several, inputs, played.outputs, row)
+    return Agent(_setup(mind, chosen, leader, ready), several, inputs, played.outputs, row, skill)
 
 
 def _played(graph: Graph, master: str, name: str) -> Skill:

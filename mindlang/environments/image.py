@@ -1,9 +1,6 @@
 """The world of one robot as an image."""
 
 import numpy as np
-from mindrun.arithmetic import ANGLE, BOX_COLUMNS, SIZE, THING_ROWS
-from mindrun.robot.recording_header import GOES_ON
-from mindrun.sim.ticks import turned
 
 from mindlang.environments.agent import Agent
 from mindlang.pictures.canvas import Canvas, Image, Viewport, blank
@@ -37,23 +34,20 @@ def image_of(agent: Agent, lane: int) -> Image:
 def _as_run(agent: Agent, lane: int) -> RecordedRun:
     """The present of a lane as a run of one tick, in which nothing has moved."""
     lanes, here = agent.lanes, slice(lane, lane + 1)
-    world, mind, graph = lanes.state.world, lanes.state.mind, agent.setup.ready.policy.graph
-    things = len(lanes.rollout.tables.things)
-    places = world.things[: THING_ROWS * things, lane].reshape(-1, THING_ROWS)[:, : SIZE + 1]
-    turns = turned(lanes.rollout, world.loose[:, here].T, world.direction[:, here].T)
+    world, mind, graph = lanes.world_columns(lane), lanes.state.mind, agent.setup.ready.policy.graph
     return RecordedRun(
         setup=agent.setup,
-        boxes=world.boxes[lane].reshape(-1, BOX_COLUMNS),
-        body=np.repeat(world.body[: ANGLE + 1, here].T, 2, axis=0),
-        things=np.repeat(places[None], 2, axis=0),
-        turned=np.repeat(turns, 2, axis=0),
-        held=np.repeat(world.held[here], 2),
+        boxes=lanes.boxes(lane),
+        body=np.repeat([world["pose"]], 2, axis=0),
+        things=np.repeat([world["things"][:, :-1]], 2, axis=0),
+        turned=np.repeat([world["things"][:, -1]], 2, axis=0),
+        held=np.repeat([world["held"]], 2),
         readings=mind.readings[: graph.width, here].T,
         influence=mind.influence[:, here].T,
         commands=mind.commands[: len(graph.actuators), here].T,
-        lines=lanes.lines[here],
-        touching=(lanes.state.contact.touching[here] & 1).astype(np.bool_),
-        battery=world.battery[here],
-        events=lanes.counts[here],
-        ended=GOES_ON,
+        lines=world["rewards"][None],
+        touching=np.array([world["touching"]], np.bool_),
+        battery=np.array([world["battery"]]),
+        events=world["events"][None],
+        ended=world["ended"],
     )

@@ -1,7 +1,7 @@
 """One robot as a `gymnasium.Env`."""
 
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from gymnasium import Env
@@ -10,9 +10,14 @@ from gymnasium.spaces import Box
 from gymnasium.utils import EzPickle
 from numpy.typing import NDArray
 
+from mindlang.environments.agent import Agent
 from mindlang.environments.episodes import Episodes, layouts
 from mindlang.environments.image import image_of
+from mindlang.environments.render_modes import refuse_unknown_mode
 from mindlang.pictures.canvas import Image
+
+if TYPE_CHECKING:
+    from mindlang.environments.live_view import LiveView
 
 Floats = NDArray[np.float32]
 ONE_LANE = np.ones(1, np.bool_)
@@ -23,9 +28,12 @@ class TaskEnv(Env[Floats, Floats], EzPickle):
 
     `reset(seed=3)` begins the layout of `mindc run --seed 3`; without a seed, layouts are drawn. The task's ends
     terminate an episode, its time truncates it. Pickled by its arguments: a copy begins anew.
+
+    With `render_mode="human"` the page of `mindc view` shows each step in real time, until `close`; `address` says
+    where.
     """
 
-    metadata: dict[str, Any] = {"render_modes": ["rgb_array"], "render_fps": 60}  # noqa: RUF012  # as gymnasium has it
+    metadata: dict[str, Any] = {"render_modes": ["rgb_array", "human"], "render_fps": 60}  # noqa: RUF012  # as gymnasium has it
 
     def __init__(
         self,
@@ -36,19 +44,24 @@ class TaskEnv(Env[Floats, Floats], EzPickle):
         render_mode: str | None = None,
     ) -> None:
         EzPickle.__init__(self, file, task, master, skill, render_mode)
+        refuse_unknown_mode(render_mode, self.metadata)
         self._episodes = Episodes(Path(file), task, master, skill, 1)
         agent = self._episodes.agent
         self.render_mode = render_mode
         self.metadata = self.metadata | {"render_fps": round(1 / agent.setup.ready.policy.graph.tick)}
         self.observation_space, self.action_space = unit_box(len(agent.readings)), unit_box(agent.actions)
         self._goes_on = False
+        self._view = _live_view(agent) if render_mode == "human" else None
 
     def reset(self, *, seed: int | None = None, options: dict[str, Any] | None = None) -> tuple[Floats, dict[str, Any]]:
         """Begin another episode; `info["layout"]` is the seed by which `mindc run` repeats it."""
         super().reset(seed=seed)
         self._episodes.begin(ONE_LANE, layouts([seed], [self.np_random]))
         self._goes_on = True
-        return self._episodes.sense()[0], {"layout": int(self._episodes.seeds[0])}
+        layout = int(self._episodes.seeds[0])
+        if self._view:
+            self._view.begin(layout)
+        return self._episodes.sense()[0], {"layout": layout}
 
     def step(self, action: Floats) -> tuple[Floats, float, bool, bool, dict[str, Any]]:
         """One tick; with the last of an episode, `info` says what came of it."""
@@ -56,12 +69,30 @@ class TaskEnv(Env[Floats, Floats], EzPickle):
             raise ResetNeeded("the episode has ended, or none has begun: call reset()")
         [reward], [terminated], [truncated] = self._episodes.step(np.asarray(action, np.float32)[None])
         self._goes_on = not (terminated or truncated)
+        if self._view:
+            self._view.show()
         info = {} if self._goes_on else self._episodes.outcome(0)
         return self._episodes.sense()[0], float(reward), bool(terminated), bool(truncated), info
 
     def render(self) -> Image | None:
         """The world as it is, [height, width, 3] as red, green, blue."""
         return image_of(self._episodes.agent, 0) if self.render_mode == "rgb_array" else None
+
+    @property
+    def address(self) -> str | None:
+        """Where a browser sees what `render_mode="human"` shows, from the first episode on."""
+        return self._view.address if self._view else None
+
+    def close(self) -> None:
+        """End the page, if there is one."""
+        if self._view:
+            self._view.close()
+
+
+def _live_view(agent: Agent) -> "LiveView":
+    from mindlang.environments.live_view import LiveView  # serves a page: imported where one is asked for
+
+    return LiveView(agent)
 
 
 def unit_box(length: int) -> Box:

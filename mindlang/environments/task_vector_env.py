@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from mindlang.environments.episodes import Episodes, Floats, Mask, layouts
 from mindlang.environments.image import image_of
+from mindlang.environments.render_modes import refuse_unknown_mode
 from mindlang.environments.task_env import unit_box
 from mindlang.pictures.canvas import Image
 
@@ -44,6 +45,7 @@ class TaskVectorEnv(VectorEnv[Floats, Floats, NDArray[Any]], EzPickle):
         EzPickle.__init__(
             self, file, task, master, skill, render_mode, num_envs=num_envs, autoreset_mode=autoreset_mode
         )
+        refuse_unknown_mode(render_mode, self.metadata)
         mode = AutoresetMode(autoreset_mode)
         if mode == AutoresetMode.DISABLED:
             raise MindError("episodes cannot be begun one by one", 'autoreset_mode is "NextStep" or "SameStep"')

@@ -18,6 +18,8 @@ def command_shares(viewed: Viewed, asked: Why) -> dict[str, Any]:
     """What each path has contributed to a command; RefusedError where there is no such actuator or tick."""
     mind = viewed.mind
     graph = mind.policy.graph
+    if viewed.about["source"] == "environment":
+        raise RefusedError("a program acts here: no path of influence has made its commands")
     if asked.actuator >= len(graph.actuators):
         raise RefusedError(f"there is no actuator {asked.actuator}")
     if asked.tick > viewed.known:

@@ -52,6 +52,13 @@ class Session:
         if self.forks[0].is_live:
             self._run(0, sys.maxsize)
 
+    def see(self, viewed: Viewed) -> None:
+        """Let all viewers see another run, in the loop that is running."""
+        self._see(viewed)
+        self.number += 1
+        self.begin()
+        self.changed()
+
     def _see(self, viewed: Viewed) -> None:
         """See a run, and nothing of those before it."""
         for growing in self._growing.values():
@@ -127,9 +134,7 @@ class Session:
             viewed = await asyncio.get_running_loop().run_in_executor(self._grower, self.champions.begin, *given)
         except MindError as error:
             raise RefusedError(error_text(error)) from error
-        self._see(viewed)
-        self.number += 1
-        self.changed()
+        self.see(viewed)
 
     async def _fork(self, change: Change) -> None:
         """A run beside another, which goes on at once to where that is."""

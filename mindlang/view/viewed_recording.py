@@ -67,17 +67,34 @@ def viewed_rows(
     `of_ticks` says how many there are, None that it still grows. MindError where both do not fit.
     """
     found = running_bundle(bundle, of)
+    title = f"{path.name} with {of.master} in charge"
+    rows = _filled(path, of, parts, found)
+    source = "robot" if of_ticks is None else "recording"
+    return viewed_mind(title, source, found, bundle.absolute().parent, of, rows, of_ticks, watching)
+
+
+def viewed_mind(
+    title: str,
+    source: str,
+    found: Bundle,
+    folder: Path,
+    of: About,
+    rows: Iterator[Filled],
+    of_ticks: int | None,
+    watching: Watching | None = None,
+) -> Viewed:
+    """The same of rows that have all readings; `folder` is that of the mind."""
     task = task_of(of, found)
     begins: set[int] = set()  # filled while the rows come
     mind = SeenMind.of(found.policy, found.procedures, of.master, begins)
     columns = recording_columns(found, of, mind.edges)
     below = HierarchyData(found.graph, of.master, mind.skills, columns)
-    drawing = drawing_of(found.graph, task, bundle.absolute().parent, of.world.seed) if of.world else None
+    drawing = drawing_of(found.graph, task, folder, of.world.seed) if of.world else None
     about = {
         "drawn": drawing is not None,
-        "title": shown(f"{path.name} with {of.master} in charge"),
+        "title": shown(title),
         "master": shown(of.master),
-        "source": "robot" if of_ticks is None else "recording",
+        "source": source,
         "tick": of.tick,
         "of_ticks": of_ticks,
         "events": [*_robot_events(of), *(WorldEvents(task).data() if task else [])],
@@ -88,7 +105,7 @@ def viewed_rows(
         **below.data({}),
     }
     watcher = watching(of, found) if watching else None
-    chunks = recording_chunks(_filled(path, of, parts, found), of, task, columns, begins, watcher)
+    chunks = recording_chunks(rows, of, task, columns, begins, watcher)
     return Viewed(about, columns, chunks, mind, is_live=of_ticks is None, drawing=drawing)
 
 

@@ -19,7 +19,7 @@ from websockets.sync.client import connect
 from websockets.typing import Origin
 
 from mindlang.cli._run_view import ViewChoice, run_view
-from mindlang.cli._view_output import open_browser
+from mindlang.view.browser import open_browser
 from mindlang.view.server import ViewServer
 from mindlang.view.session import Session
 from tests.calling import Call

@@ -6,6 +6,9 @@ import { shown } from "./names";
 import type { About } from "./protocol";
 import type { World } from "./world";
 
+/** What grows without being asked, and how that is said. */
+export const LIVE: Partial<Record<About["source"], string>> = { robot: "live from the robot", environment: "live from an environment" };
+
 const CHANGED: About["source"][] = ["simulation", "training"]; // by one page; a file is changed by none
 
 /** The title of a run, and where it comes from. */
@@ -13,7 +16,7 @@ export function showTitle({ title, source, edits }: About): void {
   const text = shown(title, 120);
   const others = !edits && CHANGED.includes(source) && !document.getElementById("recording");
   element("title").textContent = text;
-  element("source").textContent = (source === "robot" ? "live from the robot" : source) + (others ? ", another page may change it" : "");
+  element("source").textContent = (LIVE[source] ?? source) + (others ? ", another page may change it" : "");
   document.title = `${text} \u2013 mind view`;
 }
 

@@ -63,7 +63,7 @@ export interface About {
   title: string;
   task: string | null;
   master: string;
-  source: "simulation" | "recording" | "robot" | "training";
+  source: "simulation" | "recording" | "robot" | "training" | "environment";
   training?: Playing;
   seed: string | null;
   edits: boolean;

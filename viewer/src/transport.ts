@@ -12,7 +12,7 @@ export class Transport {
     private readonly playback: Playback,
     timeline: Timeline,
     private readonly tickSeconds: number,
-    isRobot: boolean,
+    isLive: boolean,
   ) {
     const to = (direction: 1 | -1) => {
       const found = timeline.next(playback.tick, direction);
@@ -22,8 +22,8 @@ export class Transport {
     pressed("to-begin", () => playback.jump(0));
     pressed("to-end", () => playback.end());
     pressed("live", () => playback.end());
-    element("live").hidden = !isRobot;
-    if (isRobot) playback.end();
+    element("live").hidden = !isLive;
+    if (isLive) playback.end();
     element("back").addEventListener("click", ({ shiftKey }) => playback.step(shiftKey ? -10 : -1));
     element("on").addEventListener("click", ({ shiftKey }) => playback.step(shiftKey ? 10 : 1));
     pressed("event-before", () => to(-1));

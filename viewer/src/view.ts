@@ -6,7 +6,7 @@ import { element, svgElement } from "./elements";
 import { Edit } from "./edit";
 import { Events } from "./events";
 import { Forks } from "./forks";
-import { listenToButtons, showTitle } from "./header";
+import { listenToButtons, LIVE, showTitle } from "./header";
 import type { Selected } from "./description";
 import { Hierarchy } from "./hierarchy";
 import { helpRows, listen } from "./keys";
@@ -82,7 +82,7 @@ export class View {
     this.forks = new Forks(element<HTMLSelectElement>("forks"), about, send, () => this.beside());
     const followed = (newest: boolean) => (follows.newest = newest);
     this.learning = about.training ? new Learning(about, trainings, send, theme(), follows.newest, followed) : null;
-    this.transport = new Transport(this.playback, this.timeline, about.tick, about.source === "robot");
+    this.transport = new Transport(this.playback, this.timeline, about.tick, about.source in LIVE);
     const parts = { ...this.parts(), follow: () => this.follow() };
     showTitle(about);
     listenToButtons(parts);
@@ -101,6 +101,7 @@ export class View {
   restart(about: About): boolean {
     if (shapeOf(about) !== shapeOf(this.about)) return false;
     const plays = this.playback.playing || (this.playback.over && this.playback.tick >= this.playback.known);
+    const follows = about.source in LIVE && (plays || this.playback.following);
     if (about.world) Object.assign(this.about.world!, about.world);
     Object.assign(this.about, about, { world: this.about.world });
     this.asked = -1;
@@ -108,7 +109,8 @@ export class View {
     this.learning?.restarted();
     showTitle(about);
     this.want(FIRST_TICKS);
-    if (plays) this.playback.play();
+    if (follows) this.playback.end();
+    else if (plays) this.playback.play();
     return true;
   }
 

@@ -10,24 +10,36 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from mindrun.arithmetic import ANGLE, BOX_COLUMNS, SIZE, THING_ROWS
+from mindrun.errors import MindError
 from mindrun.functions import Rule
 from mindrun.graph import Graph
 from mindrun.policy import Policy
 from mindrun.reward_sums import score_of
+from mindrun.robot.recording_header import GOES_ON
 from mindrun.sim.codes import GOING_ON, LOST
 from mindrun.sim.lanes.stages import after, before, begin_again, send, wake
 from mindrun.sim.rollout import Rollout
 from mindrun.sim.state import Jobs, State
 from mindrun.sim.tables import Tables
+from mindrun.sim.ticks import turned
 
 BY_LANE_FIRST = {"boxes"}  # [lane, column], where all others that are sensed are [row, lane] or [lane]
 ENDLESS_TICKS = 1 << 62
 
 
 class CommandedLanes:
-    """So many runs of a rollout's task. All begin with the seed 0; `begin` replaces them."""
+    """So many runs of a rollout's task. All begin with the seed 0; `begin` replaces them.
+
+    MindError where the task's world is not the simulator's.
+    """
 
     def __init__(self, rollout: Rollout, lanes: int) -> None:
+        if rollout.task.scene.environment:
+            raise MindError(
+                f"the task {rollout.task.name} is in an environment of Gymnasium, which the simulator is not",
+                f"Run it with mindc run --task {rollout.task.name}, or bench.",
+            )
         self.rollout, self.count = rollout, lanes
         self.tile = rollout.tile(lanes)
         self.state: State = self.tile.state
@@ -125,6 +137,28 @@ class CommandedLanes:
         if self._lost.any():
             happened[self._lost] = self.jobs.counts[self._lost, : happened.shape[1]]
         return happened
+
+    def world_columns(self, lane: int) -> dict[str, Any]:
+        """The world of a lane after its last tick, by the columns that a recording has of it."""
+        world, here = self.state.world, slice(lane, lane + 1)
+        things = world.things[: THING_ROWS * len(self.rollout.tables.things), lane].reshape(-1, THING_ROWS)
+        angles = turned(self.rollout, world.loose[:, here].T, world.direction[:, here].T)[0]
+        is_over = self.terminated[lane] or self.timed_out[lane]
+        return {
+            "pose": world.body[: ANGLE + 1, lane],
+            "things": np.column_stack([things[:, : SIZE + 1], angles]),
+            "battery": world.battery[lane],
+            "rewards": self.lines[lane, : len(self.rollout.task.rewards)],
+            "events": self.counts[lane],
+            "held": world.held[lane],
+            "touching": self.state.contact.touching[lane] & 1,
+            "ended": self.ended_by[lane] if is_over else GOES_ON,
+        }
+
+    def boxes(self, lane: int) -> NDArray[np.float64]:
+        """The obstacles of a lane [boxes, 4] as x, y and half of both sides."""
+        standing: NDArray[np.float64] = self.state.world.boxes[lane].reshape(-1, BOX_COLUMNS)
+        return standing.copy()
 
     def _compile(self) -> None:
         """Compile the stages now, not in the first ticks: no lane is at work yet."""

@@ -7,15 +7,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from mindrun.arithmetic import ANGLE, BOX_COLUMNS, SIZE, THING_ROWS
+from mindrun.arithmetic import ANGLE
 from mindrun.errors import MindError
 from mindrun.events import EventKind
 from mindrun.graph import Graph, Task
 from mindrun.registry import names
 from mindrun.reward_sums import paid_by_text
-from mindrun.robot.recording_header import GOES_ON
 from mindrun.sim.commanded_lanes import commanded_lanes
-from mindrun.sim.ticks import turned
 
 TIME = "time"  # what ends a run that nothing else has ended
 ONE_LANE = np.ones(1, np.bool_)
@@ -91,24 +89,11 @@ class World:
     @property
     def boxes(self) -> NDArray[np.float64]:
         """The obstacles [boxes, 4] as x, y and half of both sides."""
-        standing: NDArray[np.float64] = self._state.world.boxes[0].reshape(-1, BOX_COLUMNS)
-        return standing.copy()
+        return self._lanes.boxes(0)
 
     def columns(self) -> dict[str, Any]:
         """The world after the last tick, by the columns that a recording has of it."""
-        world, rollout = self._state.world, self._lanes.rollout
-        rows = world.things[: THING_ROWS * len(rollout.tables.things), 0]
-        angles = turned(rollout, world.loose[:, :1].T, world.direction[:, :1].T)[0]
-        return {
-            "pose": self.pose,
-            "things": np.column_stack([rows.reshape(-1, THING_ROWS)[:, : SIZE + 1], angles]),
-            "battery": world.battery[0],
-            "rewards": self._lanes.lines[0, : len(self.task.rewards)],
-            "events": self._lanes.counts[0],
-            "held": world.held[0],
-            "touching": self._state.contact.touching[0] & 1,
-            "ended": GOES_ON if self.ended is None else self._lanes.ended_by[0],
-        }
+        return self._lanes.world_columns(0)
 
     @property
     def by_line(self) -> dict[str, float]:

@@ -1,0 +1,140 @@
+"""`render_mode="human"`: the page of `mindc view`, to which each tick of an episode is added when it is made."""
+
+from collections.abc import Iterator
+from dataclasses import replace
+from logging import getLogger
+from math import nan
+from queue import Empty, SimpleQueue
+from typing import Any
+
+import numpy as np
+from mindrun.bundle import Bundle
+from mindrun.engine import procedure_sources
+from mindrun.functions import Rule
+from mindrun.graph import Edge
+from mindrun.policy import Policy
+from mindrun.robot.rate import Rate
+from mindrun.robot.recording_header import About
+from numpy.typing import NDArray
+
+from mindlang.environments.agent import Agent
+from mindlang.run.run_recording import world_of
+from mindlang.view.background import BackgroundView
+from mindlang.view.browser import open_browser
+from mindlang.view.viewed import Viewed
+from mindlang.view.viewed_recording import viewed_mind
+
+Rows = NDArray[Any]
+LOOK_SECONDS = 0.05  # after which a thread that waits for a tick looks whether anybody still wants it
+SOME, NONE = (("number", 0.5),), (("number", nan),)  # values of edges: any, and nothing sent
+
+log = getLogger(__name__)
+
+
+class LiveView:
+    """What the robot of an agent of one lane does, in real time: `show` waits until the next tick is due.
+
+    The page is served at `address` from the first episode on, and a browser opened there.
+    """
+
+    def __init__(self, agent: Agent) -> None:
+        self._agent = agent
+        self._served: BackgroundView | None = None
+        self._rate = Rate(agent.setup.ready.policy.graph.tick)
+        self._coming: SimpleQueue[Rows | None] = SimpleQueue()
+
+    @property
+    def address(self) -> str | None:
+        """Where the page is; None before the first episode."""
+        return self._served.address if self._served else None
+
+    def begin(self, seed: int) -> None:
+        """An episode has begun with this layout: it is what the page shows from now on."""
+        self._end_episode()
+        self._about, self._ticks = _about(self._agent, seed), 0
+        viewed = _viewed(self._agent, self._about, self._coming)
+        viewed.grow()
+        if self._served:
+            self._served.see(viewed)
+        else:
+            self._served = BackgroundView(viewed)
+            tell = log.info if open_browser(self._served.address) else log.warning
+            tell("the environment is seen at %s", self._served.address)
+        self._rate.begin()
+
+    def show(self) -> None:
+        """Add the tick that has been made, which has not been followed by sensing, and wait until it is over."""
+        row = np.zeros(1, self._about.row)
+        state = self._agent.lanes.state.mind
+        row["tick"], row["armed"] = self._ticks, 1
+        self._ticks += 1
+        row["time"] = self._ticks * self._about.tick
+        row["readings"] = state.readings[: self._about.readings, 0]
+        if self._agent.played:  # else no skill has any: not one of them acts
+            row["influence"] = state.influence[: len(self._about.skills), 0]
+        row["commands"] = row["sent"] = state.commands[: len(self._about.actuators), 0]
+        for name, value in self._agent.lanes.world_columns(0).items():
+            row["world"][name] = value
+        self._coming.put(row)
+        self._rate.wait()
+
+    def close(self) -> None:
+        """Serve it no more: a page that is open keeps what it has."""
+        self._end_episode()
+        if self._served:
+            self._served.close()
+            self._served = None
+
+    def _end_episode(self) -> None:
+        self._coming.put(None)
+        self._coming = SimpleQueue()
+
+
+def _about(agent: Agent, seed: int) -> About:
+    """What the rows of the episode are of, which has just begun."""
+    graph, world = agent.setup.ready.policy.graph, agent.lanes.world_columns(0)
+    things = world["things"]
+    begun = world_of(agent.setup.task, seed, agent.lanes.boxes(0), world["pose"], things[:, :-1], things[:, -1])
+    return replace(About.of(graph, "", agent.setup.master, ()), world=begun)
+
+
+def _viewed(agent: Agent, about: About, coming: "SimpleQueue[Rows | None]") -> Viewed:
+    setup, policy = agent.setup, _shown_policy(agent)
+    bundle = Bundle(policy, procedure_sources(policy.graph, setup.folder, setup.master))
+    played = f"{agent.played} played" if agent.played else "commanded"
+    title = f"{setup.task.name} with {setup.master} in charge, {played} by a program"
+    rows = ((row, row["readings"]) for row in _rows(coming, np.zeros(0, about.row)))
+    return viewed_mind(title, "environment", bundle, setup.folder, about, rows, None)
+
+
+def _rows(coming: "SimpleQueue[Rows | None]", nothing: Rows) -> Iterator[Rows]:
+    """Rows until None comes; none where nothing has come for a while."""
+    while True:
+        try:
+            row = coming.get(timeout=LOOK_SECONDS)
+        except Empty:
+            row = nothing
+        if row is None:
+            return
+        yield row
+
+
+def _shown_policy(agent: Agent) -> Policy:
+    """The mind in which nobody computes what a program does instead.
+
+    What it sends as a skill to other skills is in no row: nothing is shown of it.
+    """
+    graph, weights = agent.lanes.rollout.graph, dict(agent.setup.ready.policy.weights)
+    skills = [*graph.skills]
+    if agent.played:
+        weights.pop(agent.played, None)
+        number = graph.skill_numbers[agent.played]
+        edges = tuple(map(_outside, skills[number].edges))
+        skills[number] = replace(skills[number], function=Rule(), edges=edges)
+    return Policy(replace(graph, skills=tuple(skills)), weights)
+
+
+def _outside(edge: Edge) -> Edge:
+    if edge.output is None:
+        return edge
+    return replace(edge, output=None, value=NONE if edge.to == "skill" else SOME)
