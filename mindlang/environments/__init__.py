@@ -4,8 +4,12 @@ from mindlang import environments
 environments.register("collect.mind")
 env = gymnasium.make("mind/Collect-v0")
 many = gymnasium.make_vec("mind/Collect-v0", num_envs=1024)
+
+Without `register`, by any program that makes environments by their names:
+env = gymnasium.make("mindlang.environments:Mind-v0", file="collect.mind", task="Collect")
 """
 
+from contextlib import suppress
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
@@ -25,6 +29,10 @@ MODULES = {
     "StableBaselinesEnv": "stable_baselines",
 }
 EXTRAS = {"gymnasium": "pip install 'mindlang[gymnasium]'", "stable_baselines3": "pip install 'mindlang[sb3]'"}
+
+
+with suppress(ModuleNotFoundError):  # whatever is asked for then says so
+    import_module(f"{__name__}.registration").register_any()
 
 
 def __getattr__(name: str) -> Any:

@@ -1,5 +1,6 @@
 """The Python surface: the page's examples run, nothing prints, and weights never meet a graph that is not theirs."""
 
+import os
 import re
 import shutil
 import subprocess
@@ -22,13 +23,28 @@ ROOT = Path(__file__).parents[2]
 PAGE = ROOT / "docs" / "python.md"
 
 
+def code() -> str:
+    """All examples of the page, one after the other."""
+    found = "\n".join(re.findall(r"```python\n(.*?)```", PAGE.read_text(encoding="utf-8"), re.DOTALL))
+    assert len(found.splitlines()) > 30
+    return found
+
+
 def test_the_examples_run(collect: Path) -> None:
-    code = "\n".join(re.findall(r"```python\n(.*?)```", PAGE.read_text(encoding="utf-8"), re.DOTALL))
-    assert len(code.splitlines()) > 30
-    done = subprocess.run([sys.executable, "-c", code], cwd=collect, capture_output=True, text=True)
+    done = subprocess.run([sys.executable, "-c", code()], cwd=collect, capture_output=True, text=True)
     assert done.returncode == 0, done.stderr
     assert "whiskers" in done.stdout
     assert (collect / "collect.bundle").stat().st_size > 1000
+
+
+@pytest.mark.slow
+def test_the_examples_are_typed(tmp_path: Path) -> None:
+    """As a program of a user is, whose checker is strict."""
+    (tmp_path / "program.py").write_text(code(), encoding="utf-8")
+    words = [sys.executable, "-m", "mypy", "--strict", "--explicit-package-bases", "--follow-imports=silent"]
+    ours = os.environ | {"MYPYPATH": f"{ROOT}{os.pathsep}{ROOT / 'runtime'}"}
+    done = subprocess.run([*words, "program.py"], cwd=tmp_path, env=ours, capture_output=True, text=True)
+    assert done.returncode == 0, done.stdout
 
 
 def test_nothing_prints(collect: Path, capfd: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) -> None:

@@ -10,7 +10,9 @@ from tests.calling import write_rules
 
 pytest.importorskip("stable_baselines3")
 
+from gymnasium.wrappers import RescaleAction
 from stable_baselines3 import PPO
+from stable_baselines3.common.env_checker import check_env
 from stable_baselines3.common.vec_env import DummyVecEnv
 
 from mindlang.environments import StableBaselinesEnv, TaskEnv, TaskVectorEnv
@@ -45,6 +47,19 @@ def test_it_does_what_theirs_does(roam: Path) -> None:
                 assert a == b
         assert theirs.reset_infos == ours.reset_infos
     assert ended > 3
+
+
+@pytest.mark.parametrize("skill", [None, "Chase"])
+def test_theirs_finds_nothing_wrong(roam: Path, skill: str | None) -> None:
+    """But for actions in 0..1 as a mind has them, where it advises -1..1: their policies begin about 0."""
+    text = roam.read_text("utf-8").replace("Chase is rule", "Chase is mlp hidden 2")
+    text = text.replace("left_wheel at 3 * ball_bearing - 0.7", "left_wheel")
+    roam.write_text(text.replace("right_wheel at 2.3 - 3 * ball_bearing", "right_wheel"), "utf-8")
+    env = TaskEnv(roam, "Roam", "Roam", skill=skill, render_mode="rgb_array")
+    with pytest.warns(UserWarning, match="symmetric and normalized") as advised:
+        check_env(env)
+    assert len(advised) == 1
+    check_env(RescaleAction(env, -1.0, 1.0))  # a warning would be an error here
 
 
 def test_ppo_learns_on_it(roam: Path) -> None:

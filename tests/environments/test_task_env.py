@@ -1,6 +1,7 @@
 """One robot as a gymnasium.Env: clean, reproducible, and the episodes of mindc run, to the bit."""
 
 import pickle
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -37,6 +38,30 @@ def test_every_task_has_a_name(registered: list[str]) -> None:
     env = gymnasium.make("mind/GoToObject.Avoid-v0")
     assert env.unwrapped.spec.kwargs == {"file": str(COLLECT), "task": "GoToObject+Avoid"}
     assert env.action_space.shape == (3,)
+
+
+def test_any_mind_has_a_name_without_being_registered() -> None:
+    words = {"file": str(COLLECT), "task": "GoToObject"}
+    env = gymnasium.make("mindlang.environments:Mind-v0", **words)
+    assert env.reset(seed=3)[1] == {"layout": 3}
+    many = gymnasium.make_vec("mindlang.environments:Mind-v0", num_envs=2, **words)
+    assert many.reset(seed=3)[0].shape == (2, *env.observation_space.shape)
+    with pytest.raises(TypeError, match="file"):
+        gymnasium.make("Mind-v0")
+
+
+def test_a_mind_may_be_registered_twice(registered: list[str]) -> None:
+    assert register(COLLECT) == registered  # a warning would be an error here
+
+
+def test_a_task_in_an_environment_of_gymnasium_is_refused() -> None:
+    lander = COLLECT.parents[1] / "lander" / "lander.mind"
+    assert register(lander) == ["mind/Land-v0"]
+    for asked in (partial(gymnasium.make, "mind/Land-v0"), partial(TaskEnv, lander, skill="Steer")):
+        with pytest.raises(MindError) as raised:
+            asked()
+        assert str(raised.value) == "the task Land is in an environment of Gymnasium, which the simulator is not"
+        assert raised.value.hint == "Run it with mindc run --task Land, or bench."
 
 
 def test_an_engine_in_it_makes_the_run_of_its_layout() -> None:

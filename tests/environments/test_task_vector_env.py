@@ -84,6 +84,8 @@ def test_gymnasium_makes_it(roam: Path) -> None:
 def test_what_cannot_be_is_said(roam: Path) -> None:
     with pytest.raises(MindError, match="begun one by one"):
         TaskVectorEnv(roam, "Roam", autoreset_mode="Disabled")
+    with pytest.raises(MindError, match='cannot be rendered as "human"'):
+        TaskVectorEnv(roam, "Roam", render_mode="human")
     env = TaskVectorEnv(roam, "Roam", num_envs=2)
     with pytest.raises(ResetNeeded):
         env.step(np.zeros((2, 2), np.float32))
