@@ -6,6 +6,7 @@ from math import sqrt
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from mindlang.pictures.learning_log import Curve
 
@@ -45,12 +46,14 @@ class MeanCurve:
         An attempt that has ended, or was given up, has come to what it had last: it keeps it, so that the mean does not
         rise because the bad ones are gone.
         """
-        tracks = [run.points(attempt, column) for run in self.runs for attempt in run.attempts]
-        if not all(tracks):
+        found = [run.points(attempt, column) for run in self.runs for attempt in run.attempts]
+        if not all(found):
             return []
-        first, last = max(track[0][0] for track in tracks), self.generations
-        known = {generation for track in tracks for generation, _ in track if first <= generation <= last}
-        return [_mean(generation, [_at(track, generation) for track in tracks]) for generation in sorted(known)]
+        tracks = [tuple(zip(*track, strict=True)) for track in found]  # generations, and their scores
+        known = np.unique(np.concatenate([generations for generations, _ in tracks]))
+        known = known[(known >= max(generations[0] for generations, _ in tracks)) & (known <= self.generations)]
+        had_last = [np.array(scores)[np.searchsorted(made, known, side="right") - 1] for made, scores in tracks]
+        return [_mean(*each) for each in zip(known.tolist(), np.stack(had_last, axis=1), strict=True)]
 
     def verdict(self) -> MeanPoint | None:
         """The mean of what the attempts came to, on layouts that chose nothing; None while one goes on."""
@@ -83,11 +86,6 @@ def _note(runs: Sequence[Curve]) -> str:
     return f"{attempts} attempt{'s' * (attempts > 1)} in {len(runs)} run{'s' * (len(runs) > 1)}"
 
 
-def _at(track: Sequence[tuple[int, float]], generation: int) -> float:
-    """What an attempt had last, up to a generation."""
-    return next(score for known, score in reversed(track) if known <= generation)
-
-
-def _mean(generation: int, scores: Sequence[float]) -> MeanPoint:
+def _mean(generation: int, scores: Sequence[float] | NDArray[np.float64]) -> MeanPoint:
     error = float(np.std(scores, ddof=1)) / sqrt(len(scores)) if len(scores) > 1 else None
     return MeanPoint(generation, float(np.mean(scores)), error)
