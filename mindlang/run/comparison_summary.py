@@ -58,6 +58,11 @@ def _facts(name: str, found: Difference) -> list[str]:
     more = {SCORE: "B scores more", SUCCESS: "B alone succeeds"}.get(name, f"B has more ({name})")
     less = {SUCCESS: "A alone"}.get(name, "less")
     lines = [f"{more} in {found.more:,} runs, {less} in {found.less:,}, as much in {found.equal:,}"]
+    if found.is_widened:
+        lines.append(
+            f"the interval is as wide as layouts can make it of which {found.runs:,} runs need have no example: "
+            f"up to {100 * found.most_that_differ:.2g} % of all"
+        )
     if found.detectable is not None and found.mean is not None and not found.leaves_zero_out:
         needed = f"about {found.runs_to_tell:,} runs" if found.runs_to_tell else f"more than {MAX_RUNS:,} runs"
         lines.append(

@@ -1,11 +1,13 @@
 """How much two minds differ over runs that began on the same layouts, and what that says of all layouts.
 
 Runs on one layout share what is easy or hard about it, so the difference of each pair varies less than two means do.
-The interval is Student's for the mean of the differences d of n runs: mean ± t · std(d) / √n.
+The interval is Student's for the mean of the differences d of n runs, mean ± t · std(d) / √n, and never narrower than
+what layouts can do of which no run is an example. With 95 % confidence these are no more than the share 1 − 0.05^(1/n)
+of all; on them two minds that nearly agree elsewhere can differ as scores do from layout to layout: mean ± share · σ.
 """
 
 from dataclasses import asdict, dataclass
-from math import atan, ceil, exp, isfinite, lgamma, pi, sqrt
+from math import atan, ceil, exp, isfinite, lgamma, log, pi, sqrt
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,6 +24,7 @@ class Difference:
     """The second less the first, over `runs` pairs, of which in `more` it was more, in `less` less, in `equal` neither.
 
     `low` to `high` is the 95 % confidence interval of the mean; None where fewer than MIN_DIFFERING_RUNS pairs differ.
+    It is never narrower than `unseen` to both sides: what layouts without an example could do to the mean.
     `detectable` is the difference that so many runs would tell from 0 four times in five, and `runs_to_tell` how many
     it would take if the true difference were `mean`; None beyond MAX_RUNS. All are None where a figure is not finite,
     in `not_finite` pairs.
@@ -37,6 +40,7 @@ class Difference:
     standard_error: float | None = None
     low: float | None = None
     high: float | None = None
+    unseen: float | None = None
     detectable: float | None = None
     runs_to_tell: int | None = None
 
@@ -53,7 +57,12 @@ class Difference:
     @property
     def most_that_differ(self) -> float:
         """Where no run differs: the largest share of layouts on which they could, with 95 % confidence."""
-        return float(1 - (1 - CONFIDENCE_LEVEL) ** (1 / self.runs))
+        return unseen_share(self.runs)
+
+    @property
+    def is_widened(self) -> bool:
+        """Whether layouts without an example make the interval as wide as it is."""
+        return self.high is not None and self.unseen is not None and self.high == (self.mean or 0.0) + self.unseen
 
     def data(self) -> dict[str, float | int | None]:
         """As plain data."""
@@ -76,10 +85,18 @@ def difference(first: NDArray[np.float64], second: NDArray[np.float64]) -> Diffe
     error = std / sqrt(runs)
     if counts[1] + counts[2] < MIN_DIFFERING_RUNS:
         return Difference(*counts, mean, std, error)
-    half, needed = t_quantile(runs - 1) * error, NORMAL_TWO_SIDED + NORMAL_POWER
+    spread = sqrt((float(np.var(first)) + float(np.var(second))) / 2)
+    unseen = unseen_share(runs) * spread
+    half = max(t_quantile(runs - 1) * error, unseen)
+    detectable = max(NORMAL_TWO_SIDED * error, unseen) + NORMAL_POWER * error
     return Difference(
-        *counts, mean, std, error, mean - half, mean + half, needed * error, _runs_to_tell(mean, needed * std)
+        *counts, mean, std, error, mean - half, mean + half, unseen, detectable, _runs_to_tell(abs(mean), std, spread)
     )
+
+
+def unseen_share(runs: int) -> float:
+    """The largest share of layouts of which so many runs may have no example, with 95 % confidence."""
+    return float(1 - (1 - CONFIDENCE_LEVEL) ** (1 / runs))
 
 
 def t_quantile(degrees: int) -> float:
@@ -98,6 +115,15 @@ def t_quantile(degrees: int) -> float:
     return (low + high) / 2
 
 
-def _runs_to_tell(mean: float, spread: float) -> int | None:
-    runs = (spread / mean) ** 2 if mean and isfinite(spread / mean) else MAX_RUNS + 1
-    return max(ceil(runs), MIN_DIFFERING_RUNS) if runs <= MAX_RUNS else None
+def _runs_to_tell(mean: float, std: float, spread: float) -> int | None:
+    """How many runs it takes until the mean is as far from 0 as half the interval and what 80 % of the means vary.
+
+    The share without an example is at most −ln(0.05) / n: a quadratic equation in 1 / √n.
+    """
+    if not mean:
+        return None
+    unseen, varies = -log(1 - CONFIDENCE_LEVEL) * spread, NORMAL_POWER * std
+    roots = [(NORMAL_TWO_SIDED + NORMAL_POWER) * std / mean]
+    roots.append((varies + sqrt(varies**2 + 4 * unseen * mean)) / (2 * mean))
+    runs = max(roots) ** 2
+    return max(ceil(runs), MIN_DIFFERING_RUNS) if isfinite(runs) and runs <= MAX_RUNS else None

@@ -59,7 +59,7 @@ def test_theirs_finds_nothing_wrong(roam: Path, skill: str | None) -> None:
     with pytest.warns(UserWarning, match="symmetric and normalized") as advised:
         check_env(env)
     assert len(advised) == 1
-    check_env(RescaleAction(env, -1.0, 1.0))  # a warning would be an error here
+    check_env(RescaleAction(env, np.float32(-1), np.float32(1)))  # a warning would be an error here
 
 
 def test_ppo_learns_on_it(roam: Path) -> None:

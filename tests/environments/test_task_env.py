@@ -17,6 +17,18 @@ from gymnasium.utils.env_checker import check_env  # noqa: E402
 
 from mindlang.environments import TaskEnv, register  # noqa: E402
 
+OUTSIDE = """mind 1
+tick 1/50 s
+master Go
+sensor height is observation 0 range -1 to 1
+actuator torque is action 0 neutral 0.5
+skill Go is rule
+  reads height
+  drives torque at height
+task Swing in gymnasium Pendulum-v1
+  lasts 100 ticks
+  rewards its reward
+"""
 COLLECT = Path(__file__).parents[2] / "examples" / "collect" / "collect.mind"
 
 
@@ -54,14 +66,14 @@ def test_a_mind_may_be_registered_twice(registered: list[str]) -> None:
     assert register(COLLECT) == registered  # a warning would be an error here
 
 
-def test_a_task_in_an_environment_of_gymnasium_is_refused() -> None:
-    lander = COLLECT.parents[1] / "lander" / "lander.mind"
-    assert register(lander) == ["mind/Land-v0"]
-    for asked in (partial(gymnasium.make, "mind/Land-v0"), partial(TaskEnv, lander, skill="Steer")):
+def test_a_task_in_an_environment_of_gymnasium_is_refused(tmp_path: Path) -> None:
+    (swing := tmp_path / "swing.mind").write_text(OUTSIDE, encoding="utf-8")
+    assert register(swing) == ["mind/Swing-v0"]
+    for asked in (partial(gymnasium.make, "mind/Swing-v0"), partial(TaskEnv, swing)):
         with pytest.raises(MindError) as raised:
             asked()
-        assert str(raised.value) == "the task Land is in an environment of Gymnasium, which the simulator is not"
-        assert raised.value.hint == "Run it with mindc run --task Land, or bench."
+        assert str(raised.value) == "the task Swing is in an environment of Gymnasium, which the simulator is not"
+        assert raised.value.hint == "Run it with mindc run --task Swing, or bench."
 
 
 def test_an_engine_in_it_makes_the_run_of_its_layout() -> None:

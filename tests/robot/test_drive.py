@@ -19,6 +19,18 @@ from tests.robot.faults import MIND, SENSORS, graph
 from tests.sim.minds import compile_text
 
 NEUTRAL = [0.5, 0.5, 0.0]
+OUTSIDE = """mind 1
+tick 1/50 s
+master Go
+sensor height is observation 0 range -1 to 1
+actuator torque is action 0 neutral 0.5
+skill Go is rule
+  reads height
+  drives torque at height
+task Swing in gymnasium Pendulum-v1
+  lasts 100 ticks
+  rewards its reward
+"""
 
 
 def test_it_drives_records_and_is_replayed(bundle: Path, tmp_path: Path) -> None:
@@ -221,6 +233,17 @@ def test_a_dry_run_says_where_it_drives_and_what_came_of_it(bundle: Path) -> Non
     assert any(re.fullmatch(r" *ticks  \d+ of 100, ended before it was over", line) for line in lines)
     assert f"seed  {seed}" in said.stderr
     assert lines[-1].startswith("5 ticks of ")
+
+
+def test_a_dry_run_in_an_environment_of_gymnasium_is_refused(tmp_path: Path) -> None:
+    pytest.importorskip("gymnasium")
+    write_bundle(tmp_path / "swing.bundle", Bundle(Policy(compile_text(OUTSIDE), {}), {}))
+    said = mindrun(tmp_path / "swing.bundle", "--dry")
+    assert said.returncode == 2
+    assert said.stderr.splitlines()[-1] == (
+        "mindrun: the task Swing is in an environment of Gymnasium, which the simulator is not; "
+        "Run it with mindc run --task Swing, or bench."
+    )
 
 
 def test_a_dry_run_is_over_when_its_run_is(bundle: Path) -> None:

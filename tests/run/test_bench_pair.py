@@ -17,11 +17,11 @@ DIFFERENCE = {
     "type": "object",
     "properties": {
         **dict.fromkeys(("runs", "more", "less", "equal", "not_finite"), COUNT),
-        **dict.fromkeys(("mean", "std", "standard_error", "low", "high", "detectable"), NUMBER),
+        **dict.fromkeys(("mean", "std", "standard_error", "low", "high", "unseen", "detectable"), NUMBER),
         "runs_to_tell": {"type": ["integer", "null"]},
     },
     "additionalProperties": False,
-    "minProperties": 12,
+    "minProperties": 13,
 }
 SCHEMA = {
     "type": "object",

@@ -36,13 +36,50 @@ def test_every_pair_is_counted_and_the_other_way_round_the_signs_change(pairs: l
 def test_the_interval_contains_the_truth_as_often_as_it_says() -> None:
     rng = np.random.default_rng(1)
     layouts = rng.exponential(300, (2000, 40))  # what is common to both: far more than what differs
-    first = layouts + rng.exponential(10, layouts.shape)
-    second = layouts + 3 + rng.exponential(10, layouts.shape)
+    first = layouts + rng.exponential(100, layouts.shape)
+    second = layouts + 3 + rng.exponential(100, layouts.shape)
     found = [difference(*both) for both in zip(first, second, strict=True)]
     share = np.mean([each.low <= 3 <= each.high for each in found])  # type: ignore[operator]
     assert 0.935 < share < 0.965
     unpaired = np.hypot(first.std(axis=1), second.std(axis=1)) / sqrt(40)
-    assert max(each.standard_error or 0 for each in found) < unpaired.min()
+    assert np.mean([each.standard_error or 0 for each in found]) < 0.6 * unpaired.mean()
+    assert np.mean([each.is_widened for each in found]) < 0.01
+
+
+@pytest.mark.parametrize("runs", [20, 50, 200, 1000])
+def test_minds_that_rarely_differ_are_not_told_apart_by_the_runs_in_which_they_agree(runs: int) -> None:
+    """What is seen in most runs is a tiny difference for one, and what counts is one layout in fifty for the other."""
+    rng = np.random.default_rng(runs)
+    scores = rng.normal(250, 20, (500, runs))
+    other = scores + rng.normal(0.01, 0.01, scores.shape) - 10 * (rng.random(scores.shape) < 0.02)
+    found = [difference(*both) for both in zip(scores, other, strict=True)]
+    assert np.mean([each.low <= -0.19 <= each.high for each in found]) > 0.93  # type: ignore[operator]
+    assert np.mean([each.low > 0 for each in found]) < 0.01  # type: ignore[operator]
+    assert all(each.is_widened for each in found) == (runs <= 50)
+
+
+@pytest.mark.parametrize("std", [1.0, 30.0])
+def test_so_many_runs_are_enough_for_layouts_without_an_example_too(std: float) -> None:
+    rng = np.random.default_rng(5)
+    layouts = rng.normal(0, 20, 400)
+    pilot = difference(layouts, layouts + rng.normal(0.5, std, 400))
+    assert pilot.mean
+    assert pilot.std
+    assert pilot.runs_to_tell
+    told = []
+    for _ in range(400):
+        again = rng.normal(0, 20, pilot.runs_to_tell)
+        told.append(difference(again, again + rng.normal(pilot.mean, pilot.std, len(again))).leaves_zero_out)
+    assert np.mean(told) > 0.74
+
+
+def test_more_runs_make_the_interval_narrower() -> None:
+    rng = np.random.default_rng(6)
+    layouts = rng.normal(0, 20, 100_000)
+    other = layouts + rng.normal(0.5, 1.0, len(layouts))
+    found = [difference(layouts[:runs], other[:runs]) for runs in (100, 1000, 10_000)]
+    widths = [(each.high or 0) - (each.low or 0) for each in found]
+    assert widths[0] > 3 * widths[1] > 6 * widths[2]
 
 
 def test_so_many_runs_as_it_says_tell_four_times_in_five() -> None:
