@@ -10,7 +10,6 @@ from mindrun.events.its_end import ItsEnd
 from mindrun.graph import Graph, Task
 from mindrun.policy import Policy
 from mindrun.sim.codes import BROKEN_OFF, GOING_ON
-from mindrun.sim.outside.episode import SEED_LIMIT
 
 from tests.outside.drawn_worlds import inside
 from tests.plain import f, postfix
@@ -23,7 +22,7 @@ class PlainOutside:
         self.graph, self.task = graph, task
         self.engine = Engine(Policy(graph, weights), None, master)
         self.world: Any = gymnasium.make(task.scene.environment, max_episode_steps=-1).unwrapped
-        self.observed, _ = self.world.reset(seed=seed % SEED_LIMIT)
+        self.observed, _ = self.world.reset(seed=seed % (1 << 31))
         self.late = [deque([f(each.kind.neutral)] * each.kind.delay) for each in graph.actuators]
         self.history: dict[str, list[float]] = {}
         self.counts = [0] * len(task.events)

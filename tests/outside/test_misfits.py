@@ -84,3 +84,23 @@ def test_what_cannot_be_made_here_is_no_mistake_of_the_file() -> None:
     with pytest.raises(MindError, match="cannot be made") as found:
         minds.rollout_of(source)
     assert found.value.hint == "ImportError: no physics here"
+
+
+def test_an_environment_may_be_that_of_a_scene() -> None:
+    source = minds.text(scene="tests/Lime-v0").replace("task Go in gymnasium tests/Lime-v0", "task Go in Sky")
+    found = minds.compiled(source + "scene Sky is gymnasium tests/Lime-v0\n").diagnostics
+    assert [(each.code, each.span.text) for each in found] == [("unknown-environment", "gymnasium tests/Lime-v0")]
+    right = source + "scene Sky is gymnasium tests/Line-v0\n"
+    assert minds.compiled(right).diagnostics == ()
+    assert minds.rollout_of(right).task.scene.environment == "tests/Line-v0"
+
+
+def test_what_is_of_two_values_has_two_choices() -> None:
+    from gymnasium.spaces import MultiBinary
+    from mindrun.sim.outside.fitting import misfits
+    from mindrun.slot import Slot
+
+    each = {f"push{i}{chosen}": Slot("", (i,), chosen=chosen) for i in range(2) for chosen in range(2)}
+    assert [*misfits(MultiBinary(2), MultiBinary(2), {}, each)] == []
+    found = [*misfits(MultiBinary(2), MultiBinary(2), {}, each | {"more": Slot("", (1,), chosen=2)})]
+    assert [(wrong.name, wrong.hint) for wrong in found] == [("more", "Its choices are 0 to 1.")]

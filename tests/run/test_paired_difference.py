@@ -55,7 +55,7 @@ def test_minds_that_rarely_differ_are_not_told_apart_by_the_runs_in_which_they_a
     found = [difference(*both) for both in zip(scores, other, strict=True)]
     assert np.mean([each.low <= -0.19 <= each.high for each in found]) > 0.93  # type: ignore[operator]
     assert np.mean([each.low > 0 for each in found]) < 0.01  # type: ignore[operator]
-    assert all(each.is_widened for each in found) == (runs <= 50)
+    assert (np.mean([each.is_widened for each in found]) > 0.9) == (runs <= 200)
 
 
 @pytest.mark.parametrize("std", [1.0, 30.0])
