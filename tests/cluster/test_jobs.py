@@ -47,7 +47,7 @@ def begun(workers: int = 1) -> Iterator[Any]:
     from distributed import LocalCluster
 
     with (
-        dask.config.set({"distributed.scheduler.allowed-failures": 1}),
+        dask.config.set({"distributed.scheduler.allowed-failures": 3}),
         LocalCluster(n_workers=workers, threads_per_worker=1, dashboard_address=None, host="127.0.0.1") as cluster,
     ):
         yield cluster
@@ -97,7 +97,7 @@ def test_the_bits_are_those_of_one_machine(cluster: Any, expected: bytes, functi
         ("no_bytes", "answers with no bytes"),
         ("raises", "a job failed at .*: RuntimeError: out of luck"),
         ("missing", "has no such mindlang: .*'missing'"),
-        ("deadly", "a job has ended 2 workers"),
+        ("deadly", "a job has ended 4 workers"),
     ],
 )
 def test_a_job_that_cannot_be_done_is_one_sentence(cluster: Any, function: Callable[..., Any], words: str) -> None:
