@@ -130,9 +130,9 @@ class Killing(StretchExecutor):
         return done
 
 
-def test_killed_again_and_again_nothing_is_lost(cluster: Any, expected: bytes) -> None:
-    Killing.pids = lambda: [nanny.pid for nanny in cluster.workers.values() if nanny.pid]
-    with jobs_of(cluster, "slow") as jobs:
+def test_killed_again_and_again_nothing_is_lost(expected: bytes) -> None:
+    with begun() as cluster, jobs_of(cluster, "slow") as jobs:  # whose worker does not begin anew at this moment
+        Killing.pids = lambda: [nanny.pid for nanny in cluster.workers.values() if nanny.pid]
         assert taught(jobs, Killing) == expected
     assert Killing.killed == KILLS
 
