@@ -116,7 +116,8 @@ def dask(count: int, assignment: Assignment) -> Iterator[tuple[Executor, Pids]]:
     with LocalCluster(count, threads_per_worker=1, dashboard_address=":0", silence_logs="CRITICAL") as cluster:
         jobs = ClusterJobs(connect(Destination(cluster.scheduler_address)), assignment, print)
         try:
-            yield jobs, lambda: [nanny.pid for nanny in cluster.workers.values() if nanny.pid]
+            at_work = cluster.scheduler.workers  # a nanny whose worker is killed while it begins gives up
+            yield jobs, lambda: [each.pid for each in cluster.workers.values() if each.worker_address in at_work]
         finally:
             jobs.close()
 
