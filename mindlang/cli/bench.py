@@ -19,10 +19,10 @@ Examples:
   mindc bench collect.mind --task Collect --runs 200 --seed 1
   mindc bench collect.mind --task Collect --no-interruption --json
   mindc bench collect.mind --task Collect --master Avoid --workers 1
-  mindc bench collect.mind --task Collect --csv runs.csv          a row for each run
-  mindc bench collect.mind best.mind --task Collect               two minds on the same layouts
+  mindc bench collect.mind --task Collect --csv runs.csv   a row for each run
+  mindc bench collect.mind best.mind --task Collect        on the same layouts
   mindc bench collect.mind --task Avoid --master Avoid --master Collect
-  mindc bench collect.mind --runs 1000000 --on ssh:a,b            the same figures, made on two machines
+  mindc bench collect.mind --runs 1000000 --on ssh:a,b     by two machines
 """
 
 
