@@ -166,6 +166,9 @@ class CommandedLanes:
         before(tables, state, jobs)
         after(tables, state, jobs, False)
         begin_again(tables, state, jobs, np.zeros(self.count, np.bool_))
+        if len(tables.skills):
+            wake(tables, state, 0, 0)
+            send(tables, state, 0, 0, 0, 0)
 
 
 def commanded_lanes(graph: Graph, task: str, master: str, lanes: int = 1) -> CommandedLanes:
