@@ -32,7 +32,7 @@ import mindlang
 from mindlang.run.layouts import layouts
 
 FOLDER = Path(__file__).parent
-SOLVED = 200  # a mean score with which the environment counts as solved
+SOLVED_SCORE = 200  # a mean score with which the environment counts as solved
 ENDLESS_GENERATIONS = 10**6
 NO_GENOME = np.zeros((1, 0), np.float32)
 FINISHER = "Brake-on-Land"  # the first lesson of the evolution strategy
@@ -118,7 +118,9 @@ def hierarchy(plan: Plan, seed: int) -> Outcome:
     learners = sorted({skill for each in results for skill in each["weights"]})
     weights = mind.rollout("Land", "Land", learners).genome_length
     steps = sum(ticks[:finishing]), sum(ticks[finishing:])
-    return outcome("hierarchy", seed, weights, scores(plan, mind.rollout("Land"), NO_GENOME), float(plain), steps, took)
+    return outcome(
+        "hierarchy", seed, weights, scores(plan, mind.rollout("Land", "Land"), NO_GENOME), float(plain), steps, took
+    )
 
 
 def perceptron(plan: Plan, seed: int) -> Outcome:
@@ -168,7 +170,7 @@ def outcome(
 ) -> Outcome:
     """The outcome of a seed that scored so."""
     error = float(found.std(ddof=1)) / len(found) ** 0.5
-    solved = float((found >= SOLVED).mean())
+    solved = float((found >= SOLVED_SCORE).mean())
     return Outcome(kind, seed, weights, float(found.mean()), error, solved, plain, steps, *took, os.getloadavg()[2])
 
 
@@ -184,7 +186,7 @@ TEACHERS = {"hierarchy": hierarchy, "mlp": perceptron}  # in this order
 def report(plan: Plan, outcomes: Sequence[Outcome]) -> str:
     """The page with the table of all seeds."""
     kinds = {kind: [each.mean for each in outcomes if each.kind == kind] for kind in TEACHERS}
-    seeds = ((kind, len(means), sum(mean >= SOLVED for mean in means)) for kind, means in kinds.items())
+    seeds = ((kind, len(means), sum(mean >= SOLVED_SCORE for mean in means)) for kind, means in kinds.items())
     solved = "; ".join(f"{kind}: {count} of {of}" for kind, of, count in seeds)
     text = Template((FOLDER / "RESULTS.template.md").read_text(encoding="utf-8"))
     table = "\n".join(map(row, outcomes))
