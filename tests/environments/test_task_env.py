@@ -72,8 +72,8 @@ def test_a_task_in_an_environment_of_gymnasium_is_refused(tmp_path: Path) -> Non
     for asked in (partial(gymnasium.make, "mind/Swing-v0"), partial(TaskEnv, swing)):
         with pytest.raises(MindError) as raised:
             asked()
-        assert str(raised.value) == "the task Swing is in an environment of Gymnasium, which the simulator is not"
-        assert raised.value.hint == "Run it with mindc run --task Swing, or bench."
+        assert str(raised.value) == "Swing is in the environment Pendulum-v1, which cannot be simulated otherwise"
+        assert raised.value.hint == "mindc run, bench, train and view step it."
 
 
 def test_an_engine_in_it_makes_the_run_of_its_layout() -> None:

@@ -11,7 +11,6 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from mindrun.arithmetic import ANGLE, BOX_COLUMNS, SIZE, THING_ROWS
-from mindrun.errors import MindError
 from mindrun.functions import Rule
 from mindrun.graph import Graph
 from mindrun.policy import Policy
@@ -29,17 +28,9 @@ ENDLESS_TICKS = 1 << 62
 
 
 class CommandedLanes:
-    """So many runs of a rollout's task. All begin with the seed 0; `begin` replaces them.
-
-    MindError where the task's world is not the simulator's.
-    """
+    """So many runs of a rollout's task. All begin with the seed 0; `begin` replaces them."""
 
     def __init__(self, rollout: Rollout, lanes: int) -> None:
-        if rollout.task.scene.environment:
-            raise MindError(
-                f"the task {rollout.task.name} is in an environment of Gymnasium, which the simulator is not",
-                f"Run it with mindc run --task {rollout.task.name}, or bench.",
-            )
         self.rollout, self.count = rollout, lanes
         self.tile = rollout.tile(lanes)
         self.state: State = self.tile.state
