@@ -82,7 +82,7 @@ def vmas() -> Step:
 
 def main() -> None:
     """Measure all, and print a line for each."""
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser = argparse.ArgumentParser(allow_abbrev=False, description=__doc__.splitlines()[0])
     parser.add_argument("--steps", type=int, default=500, help="of 1,024 robots; one robot makes ten times as many")
     steps = parser.parse_args().steps
     register(COLLECT)

@@ -134,7 +134,9 @@ def teach(ticks: int, seed: int, robots: int, file: Path = FILE, name: str = SKI
 
 def main() -> None:
     """Teach it, and write its weights."""
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = argparse.ArgumentParser(
+        allow_abbrev=False, description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
     parser.add_argument("--ticks", type=float, default=12e6, help="of all robots together")
     parser.add_argument("--mind", type=Path, default=FILE, help="whose GoToObject; default: goto.mind, in short runs")
     parser.add_argument("--seed", type=int, default=1)

@@ -20,7 +20,7 @@ Examples:
   mindc plot runs/GoToObject runs/Avoid -o curves.png
   mindc plot runs                           every run beneath it, side by side
   mindc plot GoToObject.csv.gz --json
-  mindc plot runs/GoToObject --mean             the mean of all its runs, with a band of its standard error
+  mindc plot runs/GoToObject --mean    the mean of its runs, and its error
 """
 PATH = click.Path(path_type=Path)
 

@@ -16,14 +16,16 @@ Examples:
   mindc train collect.mind GoToObject --generations 50 --seed 1
   mindc train on_the_job.mind --scale 0.1      a tenth of the generations
   mindc train on_the_job.mind --attempts 3     the best of three
-  mindc train collect.mind --on ssh:a,b        attempts side by side, on two machines
+  mindc train collect.mind --on ssh:a,b        attempts on two machines
   mindc train --resume runs/GoToObject/20260714T120000Z-1
-  mindc train collect.mind GoToObject --tensorboard          then, beside it: tensorboard --logdir runs
+  mindc train collect.mind --tensorboard       then: tensorboard --logdir runs
 \b
-Where SLURM begins processes, these two lines begin a cluster (tls.pem, and other ways: docs/cluster.md):
-  TLS="--protocol tls --tls-ca-file tls.pem --tls-cert tls.pem --tls-key tls.pem"
+A cluster with SLURM (what tls.pem is, and other ways: docs/cluster.md):
+  TLS="--protocol tls --tls-ca-file tls.pem \\
+    --tls-cert tls.pem --tls-key tls.pem"
   sbatch --wrap "dask scheduler --scheduler-file scheduler.json $TLS"
-  sbatch --array 1-8 -c 4 --wrap "dask worker --scheduler-file scheduler.json --nthreads 4 $TLS"
+  sbatch --array 1-8 -c 4 --wrap \\
+    "dask worker --scheduler-file scheduler.json --nthreads 4 $TLS"
   mindc train collect.mind --attempts 32 --on dask:scheduler.json,tls.pem
 """
 

@@ -124,4 +124,5 @@ def test_where_there_is_no_way_to_a_cluster_it_is_said(project: Path, where: str
 
 def test_the_help_has_the_two_lines_for_slurm(project: Path) -> None:
     done = mindc(project, "--help")
-    assert all(line in done.stdout for line in (TLS, *sbatch("scheduler.json")))
+    said = " ".join(done.stdout.replace("\\\n", " ").split())
+    assert all(line in said for line in (TLS, *sbatch("scheduler.json")))

@@ -259,7 +259,7 @@ def _some(argument: Any) -> Any:
 
 
 def _shaped(shape: str, value: float) -> Any:
-    value = int(value) if isinstance(value, float) and value.is_integer() and shape == "one" else value
+    value = int(value) if isinstance(value, float) and value.is_integer() and shape in ("one", "list") else value
     span = {"first": value, "last": value, "by": None}
     return {
         "one": value,

@@ -240,9 +240,10 @@ def test_a_dry_run_in_an_environment_of_gymnasium_is_refused(tmp_path: Path) -> 
     write_bundle(tmp_path / "swing.bundle", Bundle(Policy(compile_text(OUTSIDE), {}), {}))
     said = mindrun(tmp_path / "swing.bundle", "--dry")
     assert said.returncode == 2
-    told = said.stderr.splitlines()[-2:]
-    assert "Swing" in told[0]
-    assert told[1] == "  mindc run and mindc view step it, from the source of this bundle"
+    assert said.stderr.splitlines()[-2:] == [
+        "mindrun: there is no dry run of Swing, which is in the environment Pendulum-v1",
+        "  mindc run and mindc view step it, from the source of this bundle",
+    ]
     assert "dry run:" not in said.stderr
 
 
