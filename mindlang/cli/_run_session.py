@@ -9,9 +9,9 @@ from time import perf_counter
 from typing import TYPE_CHECKING
 
 from mindrun.errors import MindError
+from mindrun.run_scores import Scores
 from mindrun.sim.rollout import Rollout
 from mindrun.work.job_scorer import JobScorer
-from mindrun.work.score_frame import RunScores
 from rich.progress import BarColumn, Progress, TaskProgressColumn, TextColumn, TimeRemainingColumn
 
 from mindlang.cli._simulator_compilation import ensure_compiled
@@ -103,7 +103,7 @@ class RunSession:
         return scorer_on(chosen.where, rollout, lambda: setup.assignment(chosen.interrupt), chosen.workers, self.say)
 
     @procedures_talk()
-    def score(self, scorer: Rollout | JobScorer, seeds: Sequence[int]) -> tuple[RunScores, float]:
+    def score(self, scorer: Rollout | JobScorer, seeds: Sequence[int]) -> tuple[Scores, float]:
         """All runs, and the seconds that they took."""
         with self.progress() as progress:
             bar = progress.add_task(f"{scorer.task.name}", total=len(seeds))

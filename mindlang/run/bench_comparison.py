@@ -15,7 +15,7 @@ from mindlang.run.outcome import events, succeeded
 from mindlang.run.paired_difference import CONFIDENCE_LEVEL, Difference, difference
 
 if TYPE_CHECKING:
-    from mindrun.work.score_frame import RunScores
+    from mindrun.run_scores import Scores
 
 
 @dataclass(frozen=True, slots=True)
@@ -24,7 +24,7 @@ class Benched:
 
     name: str
     task: Task
-    scores: RunScores
+    scores: Scores
 
     def figures(self) -> dict[str, NDArray[np.float64]]:
         """What each run came to [runs], by name."""

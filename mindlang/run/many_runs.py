@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING
 
+from mindrun.run_scores import Scores
 from mindrun.work.blocks import Block, empty_scores, place
 from mindrun.work.job_scorer import JobScorer
-from mindrun.work.score_frame import RunScores
 
 from mindlang.run.layouts import NO_GENOME
 
@@ -19,7 +19,7 @@ SLICE_RUNS = 1 << 16  # that are begun together
 
 def run_all(
     scorer: Rollout | JobScorer, seeds: Sequence[int], ran: Callable[[float], None] = lambda runs: None
-) -> RunScores:
+) -> Scores:
     """A run of each seed; `ran` is told how many more have been made, parts of them too."""
     if isinstance(scorer, JobScorer):
         return scorer.score(NO_GENOME, seeds, ran)

@@ -16,10 +16,7 @@ from numpy.typing import NDArray
 from mindlang.compiler.drawing import phrase
 
 if TYPE_CHECKING:
-    from mindrun.sim.rollout import Scores
-    from mindrun.work.score_frame import RunScores
-
-    AnyScores = Scores | RunScores
+    from mindrun.run_scores import Scores
 
     from mindlang.run.recorded_run import RecordedRun
 
@@ -45,7 +42,7 @@ def ended_by(task: Task, number: int) -> str | None:
     return ends(task)[number] if 0 <= number < len(task.ends) else OTHERWISE.get(number)
 
 
-def run_data(task: Task, scores: AnyScores) -> dict[str, Any]:
+def run_data(task: Task, scores: Scores) -> dict[str, Any]:
     """The single run of `scores`; a sum that is not a finite number is None, `counts` is the sum of `by_event`."""
     return {
         **rewards_data(task, scores.by_line[0, 0]),
@@ -84,7 +81,7 @@ def rewards_data(task: Task, paid: NDArray[np.float64]) -> dict[str, Any]:
     }
 
 
-def bench_data(task: Task, scores: AnyScores, seeds: Sequence[int], seconds: float) -> dict[str, Any]:
+def bench_data(task: Task, scores: Scores, seeds: Sequence[int], seconds: float) -> dict[str, Any]:
     """All runs of one genome; the best and the worst run are named by their seed.
 
     A `std` is that of the sample, how far single runs are apart; a `standard_error` how far the mean may be off. One
@@ -111,7 +108,7 @@ def bench_data(task: Task, scores: AnyScores, seeds: Sequence[int], seconds: flo
     }
 
 
-def succeeded(task: Task, scores: AnyScores) -> NDArray[np.bool_]:
+def succeeded(task: Task, scores: Scores) -> NDArray[np.bool_]:
     """Which runs [genomes, seeds] are a success: one came before any other end, whether or not it ended them."""
     successes = [number for number, end in enumerate(task.ends) if end.succeeds]
     return np.isin(scores.met, successes)

@@ -12,10 +12,10 @@ from mindlang.run.columns import Column, columns
 from mindlang.run.outcome import TIME, ended_by, events, succeeded
 
 if TYPE_CHECKING:
-    from mindrun.work.score_frame import RunScores
+    from mindrun.run_scores import Scores
 
 
-def runs_table(task: Task, scores: RunScores, seeds: Sequence[int]) -> dict[str, Column]:
+def runs_table(task: Task, scores: Scores, seeds: Sequence[int]) -> dict[str, Column]:
     """The columns of the runs of one genome by name, named as those of a trace.
 
     `seed`, with which `mindc run --seed` repeats the run; `score`; `total`, what each reward line has paid; `event`,
@@ -39,7 +39,7 @@ def joined(tables: Mapping[str, Mapping[str, Column]]) -> dict[str, Column]:
     return {"mind": np.repeat([*rows], [*rows.values()])} | whole
 
 
-def _columns(task: Task, scores: RunScores, seeds: Sequence[int]) -> Iterator[tuple[str, Column]]:
+def _columns(task: Task, scores: Scores, seeds: Sequence[int]) -> Iterator[tuple[str, Column]]:
     yield "seed", np.array(seeds, np.uint64)
     yield "score", scores.total[0]
     for i, reward in enumerate(task.rewards):

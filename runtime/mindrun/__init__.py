@@ -21,8 +21,8 @@ if TYPE_CHECKING:
     from mindrun.policy import Policy as Policy
     from mindrun.robot.replay import Replayed as Replayed
     from mindrun.robot.replay import replay_recording as replay_recording
+    from mindrun.run_scores import Scores as Scores
     from mindrun.sim.rollout import Rollout as Rollout
-    from mindrun.sim.rollout import Scores as Scores
     from mindrun.sim.trace import Moment as Moment
     from mindrun.sim.trace import Trace as Trace
 
@@ -36,7 +36,8 @@ __getattr__ = lazy_names(
         "mindrun.graph": ("Graph",),
         "mindrun.policy": ("Policy",),
         "mindrun.robot.replay": ("Replayed", "replay_recording"),
-        "mindrun.sim.rollout": ("Rollout", "Scores"),
+        "mindrun.run_scores": ("Scores",),
+        "mindrun.sim.rollout": ("Rollout",),
         "mindrun.sim.trace": ("Moment", "Trace"),
     },
 )

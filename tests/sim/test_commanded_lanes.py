@@ -8,9 +8,10 @@ from hypothesis import strategies as st
 from mindrun.functions.function import Stateful
 from mindrun.graph import Graph, Skill
 from mindrun.policy import Policy
+from mindrun.run_scores import Scores
 from mindrun.sim.codes import FAR
 from mindrun.sim.commanded_lanes import CommandedLanes, commanded_lanes
-from mindrun.sim.rollout import Rollout, Scores
+from mindrun.sim.rollout import Rollout
 from mindrun.weights import reachable, weights_of
 
 from mindlang.compiler.compile import load

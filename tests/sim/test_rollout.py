@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 from mindrun.graph import Graph
 from mindrun.policy import Policy
-from mindrun.sim.rollout import Rollout, Scores
+from mindrun.run_scores import Scores
+from mindrun.sim.rollout import Rollout
 from mindrun.weights import genes
 
 from mindlang.compiler.compile import load

@@ -5,8 +5,9 @@ from itertools import pairwise
 import numpy as np
 import pytest
 from mindrun.policy import Policy
+from mindrun.run_scores import Scores
 from mindrun.sim.lanes import stages
-from mindrun.sim.rollout import Rollout, Scores
+from mindrun.sim.rollout import Rollout
 from mindrun.sim.trace import Moment, trace
 
 from tests.sim.minds import compile_text

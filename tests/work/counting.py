@@ -6,10 +6,10 @@ from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
+from mindrun.run_scores import Scores
 from mindrun.work.assignment import Assignment
 from mindrun.work.executor import Read
 from mindrun.work.frame import FrameError, unpack
-from mindrun.work.score_frame import RunScores
 from mindrun.work.worker import KEPT, LACKS, Worker
 from numpy.typing import NDArray
 
@@ -38,7 +38,7 @@ class Counting:
     def add(self, tally: NDArray[np.int64]) -> None:
         self._tally += tally
 
-    def score(self, genomes: NDArray[np.float32], seeds: NDArray[np.uint64]) -> RunScores:
+    def score(self, genomes: NDArray[np.float32], seeds: NDArray[np.uint64]) -> Scores:
         first = np.multiply.outer(genomes.astype(np.float64).sum(axis=1), np.sin(np.asarray(seeds, np.float64)))
         lines = np.stack([first, first**2], axis=-1)
         total = lines[..., 0] + lines[..., 1]
@@ -48,7 +48,7 @@ class Counting:
         self.add(np.array([total.size, int((words % 2).sum())]))
         ends = words % 4 - 3
         faults = (words % 13 == 0).astype(np.int64)
-        return RunScores(total, lines, events.sum(axis=-1), events, words % TICKS, ends, ends, faults)
+        return Scores(total, lines, events.sum(axis=-1), events, words % TICKS, ends, ends, faults)
 
 
 @dataclass

@@ -5,17 +5,17 @@ from dataclasses import fields
 import numpy as np
 from hypothesis import given
 from hypothesis import strategies as st
+from mindrun.run_scores import Scores
 from mindrun.work import blocks
 from mindrun.work.blocks import Blocks, runs_in_a_job
 from mindrun.work.job_scorer import JobScorer
-from mindrun.work.score_frame import RunScores
 
 from tests.work.counting import LENGTH, Counting, Shuffling
 
 SHAPES = st.tuples(st.integers(0, 12), st.integers(0, 40))
 
 
-def arrays(scores: RunScores) -> dict[str, bytes]:
+def arrays(scores: Scores) -> dict[str, bytes]:
     return {each.name: getattr(scores, each.name).tobytes() for each in fields(scores)}
 
 

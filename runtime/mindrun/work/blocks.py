@@ -8,7 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mindrun.graph import Task
-from mindrun.work.score_frame import COUNTED, SUMMED, RunScores, kind_of, shape_of
+from mindrun.run_scores import Scores
+from mindrun.work.score_frame import COUNTED, SUMMED, kind_of, shape_of
 
 JOB_SECONDS = 1.0  # that a job takes at most, as far as is known: so much is lost with a worker
 MIN_JOB_SECONDS = 0.1  # that it takes at least, while there is so much to do
@@ -69,15 +70,15 @@ class Blocks:
         return block
 
 
-def empty_scores(genomes: int, seeds: int, task: Task) -> RunScores:
+def empty_scores(genomes: int, seeds: int, task: Task) -> Scores:
     """Room for what comes of all: arrays of zeros."""
     whole: dict[str, NDArray[Any]] = {}
     for name in (*SUMMED, *COUNTED):
         whole[name] = np.zeros(shape_of(name, genomes, seeds, task), kind_of(name))
-    return RunScores(**whole)
+    return Scores(**whole)
 
 
-def place(block: Block, part: Any, whole: RunScores) -> None:
+def place(block: Block, part: Any, whole: Scores) -> None:
     """Put what came of a block into its place."""
     for name in (*SUMMED, *COUNTED):
         getattr(whole, name)[block.genomes, block.seeds] = getattr(part, name)

@@ -7,12 +7,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mindrun.graph import Task
+from mindrun.run_scores import Scores
 from mindrun.train.population import Genomes
 from mindrun.work.blocks import Block, Blocks, empty_scores, place, runs_in_a_job
 from mindrun.work.effort import Effort, Tally, effort_of, tally_of
 from mindrun.work.executor import Executor, job_about
 from mindrun.work.frame import Frame, pack
-from mindrun.work.score_frame import RunScores, score_frame, scores_of
+from mindrun.work.score_frame import score_frame, scores_of
 
 
 class JobScorer:
@@ -45,7 +46,7 @@ class JobScorer:
         genomes: NDArray[np.float32],
         seeds: Sequence[int] | NDArray[np.uint64],
         ran: Callable[[float], None] = lambda runs: None,
-    ) -> RunScores:
+    ) -> Scores:
         """Every genome [genomes, genome_length] on every seed; `ran` is told how many more runs have been made."""
         if not np.isfinite(genomes).all():
             raise ValueError("a genome has weights that are not finite numbers")
@@ -81,7 +82,7 @@ class JobScorer:
         self._asked += 1
         data = pack(score_frame(genomes, seeds, self._about))
 
-        def came(answer: Frame) -> tuple[RunScores, Effort]:
+        def came(answer: Frame) -> tuple[Scores, Effort]:
             return scores_of(answer, *block.shape, self.task), effort_of(answer, self.rollout)
 
         self.jobs.submit(self._asked, data, came)

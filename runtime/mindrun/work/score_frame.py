@@ -1,13 +1,12 @@
 """Genomes to be scored on seeds as a frame, and the scores that answer it."""
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from mindrun.graph import Task
+from mindrun.run_scores import Scores
 from mindrun.train.population import Genomes
 from mindrun.train.seeds import Seeds
 from mindrun.work.frame import Arrays, Frame, FrameError
@@ -16,20 +15,6 @@ SCORE, SCORES = "score", "scores"
 COUNTED = ("counts", "by_event", "ticks", "ended_by", "met", "faults")
 SUMMED = ("total", "by_line")
 MIN_END = -8  # numbers of what ends a run and is no end of the task are from here to -1
-
-
-@dataclass(frozen=True, slots=True)
-class RunScores:
-    """The scores of `mindrun.sim.rollout.Scores`, as a worker has sent them: arrays [genomes, seeds, …]."""
-
-    total: NDArray[np.float64]
-    by_line: NDArray[np.float64]
-    counts: NDArray[np.int64]
-    by_event: NDArray[np.int64]
-    ticks: NDArray[np.int64]
-    ended_by: NDArray[np.int64]
-    met: NDArray[np.int64]
-    faults: NDArray[np.int64]
 
 
 def score_frame(genomes: Genomes, seeds: Seeds, about: Mapping[str, Any]) -> Frame:
@@ -54,7 +39,7 @@ def scores_frame(scores: Any) -> Frame:
     return Frame(SCORES, {}, {name: getattr(scores, name) for name in (*SUMMED, *COUNTED)})
 
 
-def scores_of(frame: Frame, genomes: int, seeds: int, task: Task) -> RunScores:
+def scores_of(frame: Frame, genomes: int, seeds: int, task: Task) -> Scores:
     """The scores of so many genomes on so many seeds of a task; FrameError where a frame has others."""
     arrays = frame.arrays
     if frame.kind != SCORES or arrays.keys() != {*SUMMED, *COUNTED}:
@@ -64,7 +49,7 @@ def scores_of(frame: Frame, genomes: int, seeds: int, task: Task) -> RunScores:
             raise FrameError(f"its {name} are not of {genomes} genomes on {seeds} seeds")
     if np.isnan(arrays["total"]).any() or not all(_could_be(arrays, task)):
         raise FrameError("its scores are such as no run has")
-    return RunScores(**arrays)
+    return Scores(**arrays)
 
 
 def kind_of(name: str) -> type[np.float64 | np.int64]:
