@@ -103,6 +103,7 @@ def refuse_ineffective(what_they_are: str, *names: str) -> None:
 SEED = WholeOption(0, 2**63 - 1)
 WORKERS = WholeOption(1, 1024)
 ON = WhereOption()
+IN_CHARGE = "Who is in charge. Default: the mind's master if a lesson on the task is under it, else that of the first."
 OF_A_CAST = "task", "master", "no_interruption"  # who does what in a run
 OF_A_RUN = (*OF_A_CAST, "seed")
 OF_RUNS_ALONE = "of runs, not of recordings"

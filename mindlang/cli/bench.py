@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from mindlang.cli._options import ON, SEED, WORKERS, NewFile, WholeOption
+from mindlang.cli._options import IN_CHARGE, ON, SEED, WORKERS, NewFile, WholeOption
 
 if TYPE_CHECKING:
     from mindlang.cli._bench_pair import Contender
@@ -43,7 +43,7 @@ Examples:
     "masters",
     metavar="SKILL",
     multiple=True,
-    help="Who is in charge. Default: the master of the task's first lesson. Twice: both are compared.",
+    help=f"{IN_CHARGE} Twice: both are compared.",
 )
 @click.option("--on", "where", type=ON, metavar="WHERE", help="Who makes the runs: processes:N, ssh:HOST,HOST …")
 @click.option("--no-interruption", is_flag=True, help="Go on to the last tick, whatever would end a run.")

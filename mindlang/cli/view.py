@@ -7,7 +7,15 @@ from typing import TYPE_CHECKING
 
 import click
 
-from mindlang.cli._options import OF_A_CAST, OF_A_RUN, OF_RUNS_ALONE, NewFile, WholeOption, refuse_ineffective
+from mindlang.cli._options import (
+    IN_CHARGE,
+    OF_A_CAST,
+    OF_A_RUN,
+    OF_RUNS_ALONE,
+    NewFile,
+    WholeOption,
+    refuse_ineffective,
+)
 
 if TYPE_CHECKING:
     from mindlang.cli._view_output import ViewOutput
@@ -35,7 +43,7 @@ PATH = click.Path(path_type=Path)
 @click.argument("bundle", required=False)
 @click.option("--task", metavar="TASK", help="Default: that on which the master is taught, or of its name.")
 @click.option("--seed", type=WholeOption(0, 2**64 - 1), help="The same seed gives the same run. Default: drawn.")
-@click.option("--master", metavar="SKILL", help="Who is in charge. Default: the master of the task's first lesson.")
+@click.option("--master", metavar="SKILL", help=IN_CHARGE)
 @click.option("--no-interruption", is_flag=True, help="Go on to the last tick, whatever would end the run.")
 @click.option("--break", "breaks", type=PATH, metavar="PATH.break", help="Pause the page where a line of it says.")
 @click.option(

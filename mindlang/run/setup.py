@@ -85,11 +85,12 @@ def task_of(graph: Graph, name: str | None) -> tuple[Task, str]:
 def master_of(graph: Graph, task: Task | None, name: str | None) -> str:
     """Who is in charge of a task: the skill of that name; without one, the master of the task's first lesson.
 
-    Where no lesson is on the task, or there is none, the mind's own master.
+    The mind's own master where a lesson on the task is under it, or none is on the task, or there is no task.
     """
-    if name is None:
-        return next((lesson.master for lesson in graph.lessons if task and lesson.task == task.name), graph.master)
-    return skill_of(graph, name)
+    if name is not None:
+        return skill_of(graph, name)
+    masters = [lesson.master for lesson in graph.lessons if task and lesson.task == task.name]
+    return masters[0] if masters and graph.master not in masters else graph.master
 
 
 def skill_of(graph: Graph, name: str) -> str:

@@ -6,6 +6,7 @@ import pytest
 from mindrun.default_task import default_task
 
 from mindlang.compiler.compile import load
+from mindlang.run.setup import master_of
 from tests.calling import RULES, Call
 
 MIND = """tick 1/60 s
@@ -59,6 +60,26 @@ def test_the_default_is_the_masters_or_the_reason_is_said(
     assert graph
     found, reason = default_task(graph)
     assert (found.name, reason) == (task, why)
+
+
+@pytest.mark.parametrize(
+    ("master", "lessons", "leader"),
+    [
+        ("Roam", ["Turn on Chase under Over", "Roam on Chase", "Over on Chase"], "Roam"),
+        ("Turn", ["Turn on Chase under Over", "Roam on Chase"], "Over"),
+        ("Roam", ["Roam on Roam", "Turn on Chase under Over", "Turn on Chase"], "Over"),
+        ("Turn", ["Roam on Roam"], "Turn"),
+    ],
+)
+def test_the_minds_master_is_in_charge_where_it_is_taught(
+    tmp_path: Path, master: str, lessons: list[str], leader: str
+) -> None:
+    path = tmp_path / "roam.mind"
+    taught = "".join(f"  teaches {lesson} for 5 generations\n" for lesson in lessons)
+    path.write_text(MIND.replace("MASTER", master) + taught)
+    graph = load(path).graph
+    assert graph
+    assert master_of(graph, graph.tasks[0], None) == leader
 
 
 def test_it_is_said_before_the_run(mindc: Call, rules: Path) -> None:
