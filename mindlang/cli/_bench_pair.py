@@ -65,7 +65,7 @@ def compare_benched(
         benched.append(Benched(each.name, setup.task, scores))
         about = {"name": each.name, "file": each.file, "master": setup.master}
         data = outcome.bench_data(setup.task, scores, seeds, seconds)
-        minds.append(about | data | {"notes": [*setup.ready.notes]})
+        minds.append(about | data | {"notes": [*setup.ready.notes, *rollout.notes]})
     compared = compare(*benched)
     found = {"task": benched[0].task.name, "seed": chosen.seed, "runs": chosen.runs, "workers": chosen.workers}
     found |= {"minds": minds, **compared.data(), "notes": notes}
