@@ -70,7 +70,7 @@ def test_train_is_like_make(mindc: Call, drive: Path) -> None:
     assert "nothing to do" in mindc("train", drive, *small).err
     drive.write_text(drive.read_text().replace("rewards 10 on", "rewards 5 on"))
     assert "taught elsewhere" in mindc("status", drive).out
-    said = mindc("run", drive, "--task", "Reach", "--seed", 1, "--json")
+    said = mindc("run", drive, "--task", "Reach", "--master", "Go", "--seed", 1, "--json")
     assert said.code == 0
     note = "Go was taught elsewhere: its task has changed: rewards 10 on reach of object, now 5"
     assert note in json.loads(said.out)["notes"][0] or note in said.err
