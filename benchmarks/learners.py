@@ -25,8 +25,9 @@ import numpy as np
 from mindrun.graph import Lesson
 from mindrun.learners import EvolutionStrategy, Genetic, Restarting
 from mindrun.sim.rollout import Rollout, cores
-from mindrun.train.lesson import REEVALUATED_CANDIDATES, REEVALUATION_GENERATIONS, generation, judge
-from mindrun.train.lesson import REEVALUATION_LAYOUTS as TRIES
+from mindrun.train.attempt import REEVALUATED_CANDIDATES, REEVALUATION_GENERATIONS, judge
+from mindrun.train.attempt import REEVALUATION_LAYOUTS as TRIES
+from mindrun.train.lesson import ended, generation
 from mindrun.train.lesson_state import Course, begin
 from mindrun.train.population import MAX_WEIGHT, Genomes, order
 from mindrun.train.training import best
@@ -115,8 +116,9 @@ def by_lesson(trial: Trial, teaching: Teaching) -> tuple[Genomes, int]:
     state = begin(course)
     while state.ticks < trial.ticks:
         state, _ = generation(course, rollout, state)
-    if len(state.champion):
-        state, _ = judge(course, rollout, state)
+    if len(state.now.champion):
+        verdict = judge(course, rollout, state.now)
+        state = replace(ended(course, state, verdict), ticks=state.ticks + verdict.ticks)
     return best(state), state.ticks
 
 

@@ -38,14 +38,14 @@ def learn(lesson: Lesson, rollout: Rollout, seed: int, seconds: float) -> dict[s
         if time.perf_counter() - start >= seconds:
             break
     taken = time.perf_counter() - start
-    scores = rollout.score(state.champion, [int(word) for word in FRESH_LAYOUTS])
+    scores = rollout.score(state.now.champion, [int(word) for word in FRESH_LAYOUTS])
     counts = scores.counts[0]
     return {
         "seed": seed,
         "count_mean": float(counts.mean()),
         "standard_error": float(counts.std(ddof=1) / len(counts) ** 0.5),
         "score_mean": float(scores.total.mean()),
-        "generations": state.population.generation,
+        "generations": state.now.population.generation,
         "ticks": state.ticks,
         "seconds": taken,
         "ticks_per_second": state.ticks / taken,

@@ -16,8 +16,7 @@ from mindrun.policy import Policy
 from mindrun.sim.rollout import Rollout
 from mindrun.sim.trace import Trace, trace
 from mindrun.train.lesson_state import Record
-from mindrun.train.run_folder import read_result
-from mindrun.train.training import Watch, train
+from mindrun.train.training import Watch
 from mindrun.wiring import Wiring
 
 from mindlang import edits, transaction
@@ -31,13 +30,16 @@ from mindlang.editing.summary import broken_sentences, diff, summarise
 from mindlang.editing.writing import write
 from mindlang.lock.ready import ReadyMind, make_ready
 from mindlang.resource_limits import refuse_too_large, refuse_too_many
+from mindlang.run.columns import Column
 from mindlang.run.layouts import NO_GENOME, layouts
 from mindlang.run.outcome import bench_data
-from mindlang.run.setup import master_of, set_up, task_of, unknown, untaught_skills
+from mindlang.run.recorded_run import record_run
+from mindlang.run.setup import RunSetup, master_of, set_up, skill_of, task_of, unknown, untaught_skills
+from mindlang.run.trace_file import trace_table
 from mindlang.training.lesson_choice import TrainOptions, chosen_lessons, is_due
 from mindlang.training.results import Result
 from mindlang.training.subject import begin_run, open_subject, refuse_frozen
-from mindlang.training.teaching import finish, has_ended, rollout_of
+from mindlang.training.teaching import teach
 
 
 @dataclass(frozen=True, slots=True)
@@ -91,7 +93,7 @@ class Mind:
         chosen, _ = task_of(self.graph, task)
         leader = master_of(self.graph, chosen, master)
         for skill in learners:
-            self._refuse_unknown(skill)
+            skill_of(self.graph, skill)
         ready = make_ready(self.graph, self.compiled.sources, leader)
         if {*untaught_skills(ready)} - {*learners}:
             raise self._untaught(ready)
@@ -101,6 +103,11 @@ class Mind:
         """One run of a task, tick by tick: `for moment in mind.trace("Collect", 3).moments`."""
         return trace(self.rollout(task, master), seed)
 
+    def trace_table(self, task: str | None = None, seed: int = 0, master: str | None = None) -> dict[str, Column]:
+        """One run as columns by name, a row for each tick, as `mindc run --trace` has it; pandas takes it as it is."""
+        setup = self._set_up(task, master)
+        return trace_table(record_run(setup, setup.rollout(), seed))
+
     def bench(
         self, task: str | None = None, runs: int = 200, seed: int = 1, master: str | None = None, workers: int = 1
     ) -> dict[str, Any]:
@@ -109,9 +116,7 @@ class Mind:
         `count_mean` and `count_standard_error` are of the events that the task counts, `score_…` of the rewards;
         `best_seed` and `worst_seed` name runs that `mind.trace` repeats.
         """
-        if not self.is_valid:
-            raise self._invalid()
-        setup = set_up(str(self.path), self.compiled, task, master)
+        setup = self._set_up(task, master)
         refuse_too_many(setup.task, runs)
         rollout = setup.rollout(workers=workers)
         refuse_too_large(rollout, 1, runs)
@@ -150,12 +155,8 @@ class Mind:
                 continue
             now, call = datetime.now(UTC), ("mindlang.Mind.train", *skills)
             run = begin_run(subject, options.applied(lesson), seed, Path(runs), now, call)
-            if (result := read_result(run.folder)) is None:
-                rollout = rollout_of(run, subject, workers)
-                state = train(run, rollout, watch)
-                if not has_ended(run, state):
-                    break
-                result = finish(run, subject, state, rollout, force=False).result
+            if (result := teach(run, subject, workers, watch)) is None:
+                break
             results.append(result)
         return results
 
@@ -182,9 +183,14 @@ class Mind:
     def _folder(self) -> Path:
         return self.path.absolute().parent
 
+    def _set_up(self, task: str | None, master: str | None) -> RunSetup:
+        if not self.is_valid:
+            raise self._invalid()
+        return set_up(str(self.path), self.compiled, task, master)
+
     def _ready(self, master: str | None) -> ReadyMind:
         if master is not None:
-            self._refuse_unknown(master)
+            skill_of(self.graph, master)
         ready = make_ready(self.graph, self.compiled.sources, master)
         if ready.refusals:
             raise self._untaught(ready)
@@ -196,10 +202,6 @@ class Mind:
 
     def _untaught(self, ready: ReadyMind) -> MindError:
         return MindError(ready.refusals[-1], f"mind.train() teaches it, or: mindc train {self.path}")
-
-    def _refuse_unknown(self, skill: str) -> None:
-        if skill not in (names := [each.name for each in self.graph.skills]):
-            unknown("skill", skill, names)
 
 
 @dataclass(frozen=True, slots=True)

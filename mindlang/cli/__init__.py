@@ -18,7 +18,9 @@ YOUNG_COLLECTIONS = 1  # before it looks among older ones, too
 
 
 class Suggesting(click.Group):
-    """Commands of which one that is nearly right is suggested."""
+    """Commands of which one that is nearly right is suggested; `noun` is what one is called."""
+
+    noun = "command"
 
     def resolve_command(
         self, ctx: click.Context, args: list[str]
@@ -28,8 +30,7 @@ class Suggesting(click.Group):
             from mindlang.compiler.diagnostic import did_you_mean
 
             hint = did_you_mean(args[0], self.list_commands(ctx)) or f"`{ctx.command_path} --help` lists them."
-            noun = "edit" if ctx.parent else "command"
-            raise click.UsageError(f"There is no {noun} called {args[0]!r}. {hint}", ctx)
+            raise click.UsageError(f"There is no {self.noun} called {args[0]!r}. {hint}", ctx)
         return super().resolve_command(ctx, args)
 
 

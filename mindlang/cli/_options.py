@@ -57,6 +57,23 @@ class TickSpan(click.ParamType[tuple[int, int]]):
         )
 
 
+class WhereOption(click.ParamType[Any]):
+    """Where jobs are done: threads, or a kind of executor and what is said of it."""
+
+    name = "where"
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
+        """What it says, None for threads; a sentence where it says nothing that is known."""
+        from mindrun.errors import MindError
+
+        from mindlang.executors import where
+
+        try:
+            return where(str(value))
+        except MindError as error:
+            return self.fail(f"{error}; {error.hint}.", param, ctx)
+
+
 class NewFile(click.Path):
     """The path of a file that is to be written."""
 
@@ -85,6 +102,7 @@ def refuse_ineffective(what_they_are: str, *names: str) -> None:
 
 SEED = WholeOption(0, 2**63 - 1)
 WORKERS = WholeOption(1, 1024)
+ON = WhereOption()
 OF_A_CAST = "task", "master", "no_interruption"  # who does what in a run
 OF_A_RUN = (*OF_A_CAST, "seed")
 OF_RUNS_ALONE = "of runs, not of recordings"

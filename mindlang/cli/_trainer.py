@@ -5,7 +5,8 @@ import secrets
 import shlex
 import signal
 import sys
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass
 from datetime import UTC, datetime
 from pathlib import Path
@@ -18,24 +19,33 @@ from mindrun.train import RunError
 from mindrun.train.lesson_state import LessonState, Record
 from mindrun.train.run_folder import RunFolder, open_run, read_result
 from mindrun.train.training import Watch, train
+from mindrun.work.executor import StretchExecutor
 
 from mindlang.cli._simulator_compilation import ensure_compiled
 from mindlang.cli._terminal import load_compiled, procedures_talk, talk
 from mindlang.cli._training_progress import PrintedLines, ProgressBarLine, Silent, TimeLeft, Watcher
+from mindlang.executors import Where
 from mindlang.lock import LockError
+from mindlang.training.event_files import EventFiles
 from mindlang.training.lesson_choice import TrainOptions, chosen_lessons, is_due
 from mindlang.training.results import Result, opening, outcome
 from mindlang.training.subject import Subject, begin_run, open_subject, refuse_changed, refuse_frozen
-from mindlang.training.teaching import TeachingResult, finish, has_ended, rollout_of
+from mindlang.training.teaching import TeachingResult, assignment_of, finish, has_ended, rollout_of
 
 
 @dataclass(frozen=True, slots=True)
 class Trainer:
-    """Teaches on so many cores (all where None); talks on stderr and, with `as_json`, prints results on stdout."""
+    """Teaches on so many cores (all where None); talks on stderr and, with `as_json`, prints results on stdout.
+
+    Where `where` says of workers elsewhere, they do the attempts of each lesson.
+    With `event_files` it writes those of TensorBoard, too.
+    """
 
     workers: int | None
     as_json: bool
     quiet: bool
+    where: Where | None = None
+    event_files: bool = False
 
     def teach_file(
         self,
@@ -83,13 +93,16 @@ class Trainer:
 
     def _teach(self, run: RunFolder, subject: Subject, force: bool) -> bool:
         if (result := read_result(run.folder)) is not None:
+            if self.event_files:
+                EventFiles(run).write_all()
             self._say(f"{run.folder} has finished already")
             self._print(result)
             return True
         rollout = self._rollout(run, subject)
-        state = self._watched(run, rollout)
+        with self._executor(run, subject, rollout) as executor:
+            state = self._watched(run, rollout, executor)
         if not has_ended(run, state):
-            talk.print(f"saved; to go on: {_command(run)}", markup=False)
+            talk.print(f"saved; to go on: {self._command(run)}", markup=False)
             return False
         taught = self._finished(run, subject, state, rollout, force)
         self._say(*outcome(run, taught.result, taught.kept, subject.keep_path(run.manifest.lesson).name))
@@ -103,34 +116,53 @@ class Trainer:
         try:
             return finish(run, subject, state, rollout, force)
         except LockError as error:
-            hint = f"what was learnt is safe; mend that, then: {_command(run)}"
+            hint = f"what was learnt is safe; mend that, then: {self._command(run)}"
             raise RunError(str(error), hint) from error
 
     @procedures_talk()
     def _rollout(self, run: RunFolder, subject: Subject) -> Rollout:
         self._say(opening(run))
+        if self.event_files:
+            self._say(f"to watch: tensorboard --logdir {shlex.quote(str(run.folder))}")
         rollout = rollout_of(run, subject, self.workers or cores())
         ensure_compiled(rollout, self._say)  # before the clock of the lesson starts
         return rollout
 
+    @contextmanager
+    def _executor(self, run: RunFolder, subject: Subject, rollout: Rollout) -> Iterator[StretchExecutor | None]:
+        """Those who do the attempts of a run elsewhere; they are sent away in the end, whatever they do."""
+        if self.where is None:
+            yield None
+            return
+        jobs = self.where.begin(assignment_of(run, subject))
+        try:
+            yield StretchExecutor(run.course(rollout.genome_length), jobs)
+        finally:
+            jobs.close()
+
     @procedures_talk()
-    def _watched(self, run: RunFolder, rollout: Rollout) -> LessonState:
+    def _watched(self, run: RunFolder, rollout: Rollout, executor: StretchExecutor | None) -> LessonState:
         lesson = run.manifest.lesson
         watcher = self._watcher(run)
+        watchers = [watcher, *[EventFiles(run)] * self.event_files]
 
         def asked() -> None:
             watcher.close()
-            self._say(f"finishing this generation; Ctrl-C again stops at once, to go on then: {_command(run)}")
+            self._say(f"finishing this generation; Ctrl-C again stops at once, to go on then: {self._command(run)}")
 
         def report(state: LessonState, record: Record) -> None:
-            done = state.attempt * lesson.generations + state.population.generation
-            watcher.report(record, done, perf_counter())
+            before = record.attempt if record.verdict is not None else record.attempt - 1
+            done = before * lesson.generations + (record.generation if record.verdict is None else 0)
+            for each in watchers:
+                each.report(record, done, perf_counter())
 
         try:
             with Interruption(asked) as interruption:
-                return train(run, rollout, Watch(report, self._say, lambda: interruption.asked, perf_counter))
+                watch = Watch(report, self._say, lambda: interruption.asked, perf_counter)
+                return train(run, rollout, watch, executor)
         finally:
-            watcher.close()
+            for each in watchers:
+                each.close()
 
     def _watcher(self, run: RunFolder) -> Watcher:
         if self.quiet:
@@ -138,6 +170,10 @@ class Trainer:
         return (ProgressBarLine if talk.is_terminal else PrintedLines)(
             talk, run.manifest.name, TimeLeft.of(run, perf_counter())
         )
+
+    def _command(self, run: RunFolder) -> str:
+        """What goes on with a run."""
+        return f"mindc train --resume {shlex.quote(str(run.folder))}" + " --tensorboard" * self.event_files
 
     def _say(self, *lines: str) -> None:
         for line in () if self.quiet else lines:

@@ -2,9 +2,15 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+from typing import TYPE_CHECKING
+
 import click
 
-from mindlang.cli._options import SEED, WORKERS, WholeOption
+from mindlang.cli._options import SEED, WORKERS, NewFile, WholeOption
+
+if TYPE_CHECKING:
+    from mindlang.cli._bench_pair import BenchChoice, Contender
 
 EXAMPLES = """\b
 Examples:
@@ -12,11 +18,14 @@ Examples:
   mindc bench collect.mind --task Collect --runs 200 --seed 1
   mindc bench collect.mind --task Collect --no-interruption --json
   mindc bench collect.mind --task Collect --master Avoid --workers 1
+  mindc bench collect.mind --task Collect --csv runs.csv          a row for each run
+  mindc bench collect.mind best.mind --task Collect               two minds on the same layouts
+  mindc bench collect.mind --task Avoid --master Avoid --master Collect
 """
 
 
 @click.command(epilog=EXAMPLES)
-@click.argument("file")
+@click.argument("files", nargs=-1, required=True, metavar="FILE [OTHER]")
 @click.option("--task", metavar="TASK", help="Default: that on which the master is taught, or of its name.")
 @click.option(
     "--runs",
@@ -27,18 +36,26 @@ Examples:
 )
 @click.option("--seed", type=SEED, default=1, show_default=True, help="Draws the layouts.")
 @click.option("--workers", type=WORKERS, help="How many cores to use (default: all). Changes nothing else.")
-@click.option("--master", metavar="SKILL", help="Who is in charge. Default: the master of the task's first lesson.")
+@click.option(
+    "--master",
+    "masters",
+    metavar="SKILL",
+    multiple=True,
+    help="Who is in charge. Default: the master of the task's first lesson. Twice: both are compared.",
+)
 @click.option("--no-interruption", is_flag=True, help="Go on to the last tick, whatever would end a run.")
+@click.option("--csv", "table", type=NewFile(), metavar="PATH.csv", help="Write a row for each run.")
 @click.option("--json", "as_json", is_flag=True, help="Print one JSON document instead.")
 @click.option("-q", "--quiet", is_flag=True, help="Print nothing but results and errors.")
 def command(
-    file: str,
+    files: tuple[str, ...],
     task: str | None,
     runs: int,
     seed: int,
     workers: int | None,
-    master: str | None,
+    masters: tuple[str, ...],
     no_interruption: bool,
+    table: Path | None,
     as_json: bool,
     quiet: bool,
 ) -> None:
@@ -46,22 +63,43 @@ def command(
 
     With the weights that its skills were taught. Runs the Python code of the file's procedures. Each run has a seed of
     its own; `mindc run --seed` repeats it.
+
+    With OTHER, or two masters, both run on the same layouts: how much they differ, with a confidence interval, and what
+    may be said of it. It is said of the weights that both have, not of how such minds are taught in general.
     """
     from mindrun.sim.rollout import cores
 
+    from mindlang.cli._bench_pair import BenchChoice, compare_benched, contenders
+    from mindlang.cli._terminal import refuse_unwritable
+
+    refuse_unwritable(table, ".csv")
+    chosen = BenchChoice(task, runs, seed, workers or cores(), not no_interruption)
+    who = contenders(files, masters)
+    if len(who) > 1:
+        compare_benched(who, chosen, table, as_json, quiet)
+    else:
+        _bench(who[0], chosen, table, as_json, quiet)
+
+
+def _bench(who: Contender, chosen: BenchChoice, table: Path | None, as_json: bool, quiet: bool) -> None:
     from mindlang.cli._run_session import RunSession
-    from mindlang.cli._terminal import console, print_json
+    from mindlang.cli._terminal import console, print_json, write_file
     from mindlang.run import outcome
+    from mindlang.run.columns import csv_bytes
     from mindlang.run.layouts import layouts
+    from mindlang.run.runs_table import runs_table
     from mindlang.run.summary import bench_summary
 
     session = RunSession(quiet)
-    workers = workers or cores()
-    setup, rollout = session.prepare(file, task, master, interrupt=not no_interruption, workers=workers, runs=runs)
-    seeds = layouts(seed, runs)
+    cast = chosen.task, who.master, chosen.interrupt, chosen.workers, chosen.runs
+    setup, rollout = session.prepare(who.file, *cast)
+    seeds = layouts(chosen.seed, chosen.runs)
     scores, seconds = session.score(rollout, seeds)
-    found = {"task": setup.task.name, "master": setup.master, "seed": seed, "workers": workers}
+    found = {"task": setup.task.name, "master": setup.master, "seed": chosen.seed, "workers": chosen.workers}
     found |= outcome.bench_data(setup.task, scores, seeds, seconds) | {"notes": [*setup.ready.notes]}
+    if table:
+        write_file(table, csv_bytes(runs_table(setup.task, scores, seeds)))
+        session.say(f"{table}: a row for each of {chosen.runs:,} runs")
     if as_json:
         print_json(found)
     else:

@@ -22,6 +22,8 @@ Examples:
 class Edits(Suggesting):
     """The edits that there are, each imported when it is asked for."""
 
+    noun = "edit"
+
     def list_commands(self, ctx: click.Context) -> list[str]:
         """Their names."""
         from mindlang.edits import names

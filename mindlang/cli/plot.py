@@ -20,6 +20,7 @@ Examples:
   mindc plot runs/GoToObject runs/Avoid -o curves.png
   mindc plot runs                           every run beneath it, side by side
   mindc plot GoToObject.csv.gz --json
+  mindc plot runs/GoToObject --mean             the mean of all its runs, with a band of its standard error
 """
 PATH = click.Path(path_type=Path)
 
@@ -27,29 +28,26 @@ PATH = click.Path(path_type=Path)
 @click.command(epilog=EXAMPLES)
 @click.argument("runs", nargs=-1, required=True, metavar="RUN…", type=PATH)
 @click.option("-o", "--output", type=NewFile(), default="curves.svg", show_default=True, help="A .svg or a .png file.")
+@click.option("--mean", is_flag=True, help="A panel for each lesson: the mean of its runs, and how sure it is.")
 @click.option("--json", "as_json", is_flag=True, help="Say what was drawn as one JSON document.")
 @click.option("-q", "--quiet", is_flag=True, help="Print nothing but results and errors.")
-def command(runs: tuple[Path, ...], output: Path, as_json: bool, quiet: bool) -> None:
+def command(runs: tuple[Path, ...], output: Path, mean: bool, as_json: bool, quiet: bool) -> None:
     """Draw how the skills of every RUN were learnt.
 
     The best of each generation, and the champion on fresh layouts. A RUN is the folder of a run, which may still go on,
     a folder with runs beneath it, or a log as .csv or .csv.gz with the columns of progress.csv: attempt, generation,
     best, and where there are any reevaluated and verdict.
-    """
-    from importlib.util import find_spec
 
+    With --mean, runs of one lesson of the same mind, begun with different seeds, become one panel: the mean over all
+    their attempts, and a band of its standard error. An attempt that has ended or was given up keeps what it had last.
+    """
     from mindrun.errors import MindError
     from mindrun.train import NotFoundError
 
     from mindlang.cli._terminal import MISUSE, fail, print_json, refuse_unwritable, write_file
     from mindlang.pictures.learning_log import load_curves
 
-    if find_spec("matplotlib") is None:
-        fail(
-            "Curves are drawn with matplotlib, which is not installed.",
-            "In the folder of mind: pip install '.[plot]'",
-            MISUSE,
-        )
+    _refuse_without_matplotlib()
     refuse_unwritable(output, ".svg", ".png")
     try:
         curves = load_curves(runs)
@@ -59,25 +57,38 @@ def command(runs: tuple[Path, ...], output: Path, as_json: bool, quiet: bool) ->
         fail(str(error), error.hint)
 
     from mindlang.pictures.curves import figure, image
+    from mindlang.pictures.mean_curves import by_lesson
+    from mindlang.pictures.mean_figure import mean_figure
 
-    write_file(output, image(figure(curves), output.suffix))
+    lessons = by_lesson(curves) if mean else []
+    write_file(output, image(mean_figure(lessons) if mean else figure(curves), output.suffix))
     if as_json:
-        print_json(_drawn(output, curves))
+        print_json({"picture": str(output), "curves": [each.data() for each in lessons] or _data(curves)})
     if not quiet:
         shown = curves[0].name if len(curves) == 1 else f"{len(curves)} runs"
         click.echo(f"{output}: how {shown} {'was' if len(curves) == 1 else 'were'} learnt", err=True)
 
 
-def _drawn(output: Path, curves: Sequence[Curve]) -> dict[str, object]:
-    return {
-        "picture": str(output),
-        "curves": [
-            {
-                "name": curve.name,
-                "run": str(curve.path),
-                "attempts": len(curve.attempts),
-                "generations": len(curve.records),
-            }
-            for curve in curves
-        ],
-    }
+def _refuse_without_matplotlib() -> None:
+    from importlib.util import find_spec
+
+    from mindlang.cli._terminal import MISUSE, fail
+
+    if find_spec("matplotlib") is None:
+        fail(
+            "Curves are drawn with matplotlib, which is not installed.",
+            "In the folder of mind: pip install '.[plot]'",
+            MISUSE,
+        )
+
+
+def _data(curves: Sequence[Curve]) -> list[dict[str, object]]:
+    return [
+        {
+            "name": curve.name,
+            "run": str(curve.path),
+            "attempts": len(curve.attempts),
+            "generations": len(curve.records),
+        }
+        for curve in curves
+    ]

@@ -7,7 +7,7 @@ from typing import Any
 
 import click
 
-from mindlang.cli._options import SEED, WORKERS, NumberOption, WholeOption
+from mindlang.cli._options import ON, SEED, WORKERS, NumberOption, WholeOption
 from mindlang.cli._terminal import INTERRUPTED, MISUSE, OK, fail
 
 EXAMPLES = """\b
@@ -16,7 +16,9 @@ Examples:
   mindc train collect.mind GoToObject --generations 50 --seed 1
   mindc train on_the_job.mind --scale 0.1      a tenth of the generations
   mindc train on_the_job.mind --attempts 3     the best of three
+  mindc train collect.mind --on ssh:a,b        attempts side by side, on two machines
   mindc train --resume runs/GoToObject/20260714T120000Z-1
+  mindc train collect.mind GoToObject --tensorboard          then, beside it: tensorboard --logdir runs
 """
 
 
@@ -32,8 +34,10 @@ Examples:
 @click.option("--force", is_flag=True, help="Teach what is up to date, too, and keep it even where it does worse.")
 @click.option("--seed", type=SEED, help="The same seed gives the same weights.")
 @click.option("--workers", type=WORKERS, help="How many cores to use (default: all). Changes nothing else.")
+@click.option("--on", "where", type=ON, metavar="WHERE", help="Who does the attempts: processes:N, ssh:HOST,HOST …")
 @click.option("--runs", type=click.Path(path_type=Path), default="runs", show_default=True, help="Where runs are kept.")
 @click.option("--resume", type=click.Path(path_type=Path), metavar="RUN", help="Go on with a run that was stopped.")
+@click.option("--tensorboard", "event_files", is_flag=True, help="Write event files for TensorBoard into the run, too.")
 @click.option("--json", "as_json", is_flag=True, help="Print one line of JSON per lesson.")
 @click.option("-q", "--quiet", is_flag=True, help="Print nothing but errors.")
 def command(
@@ -47,6 +51,8 @@ def command(
     from_scratch: bool,
     force: bool,
     workers: int | None,
+    where: Any,
+    event_files: bool,
     as_json: bool,
     quiet: bool,
     **choice: Any,
@@ -59,8 +65,11 @@ def command(
 
     Runs the Python code of the file's procedures. Every lesson gets a folder under runs/, from which it can go on after
     Ctrl-C, a crash or a power cut: with --resume, or by itself when the very same lesson is asked for with the same
-    --seed. The weights go to the lock of the file in which the lesson stands, or to the one that says them now.
+    --seed. Its progress.csv has a row for each generation. The weights go to the lock of the file in which the lesson
+    stands, or to the one that says them now.
     """
+    from importlib.util import find_spec
+
     from mindrun.errors import MindError
     from mindrun.train import NotFoundError
 
@@ -71,7 +80,13 @@ def command(
         fail("Standard input cannot be taught: what is learnt is kept beside a file.", "Save it as a file.", MISUSE)
     if (file is None) == (resume is None):
         fail("Say what to train: a file, or --resume and a run.", "mindc train --help has examples.", MISUSE)
-    trainer = Trainer(workers, as_json, quiet)
+    if event_files and find_spec("tensorboardX") is None:
+        fail(
+            "Event files are written with tensorboardX, which is not installed.",
+            "In the folder of mind: pip install '.[tensorboard]'",
+            MISUSE,
+        )
+    trainer = Trainer(workers, as_json, quiet, where, event_files)
     options = TrainOptions(generations, scale, population, attempts, from_scratch=from_scratch)
     try:
         if resume:

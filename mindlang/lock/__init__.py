@@ -11,6 +11,7 @@ from itertools import pairwise
 from math import isfinite
 from pathlib import Path
 from typing import Self
+from urllib.parse import unquote
 
 from mindrun.atomic_write import write
 from mindrun.errors import MindError
@@ -24,6 +25,7 @@ HEADER = (
     f"{VERSIONS[-1]} what has been taught. `mindc train` writes it; it belongs under version control, with weights/."
 )
 MAX_LOCK_BYTES = 64 << 20
+FILE_ORIGIN = "file:"  # before the name of a file, where weights begin with those in it; no skill's name has a colon
 
 _NAMES = r"[^\s|]+(?: [^\s|]+)*"
 _LINE = re.compile(
@@ -76,7 +78,8 @@ class Taught:
 class Entry:
     """One line: a trained skill. `weights` and those of the `subskills` that it was taught with are SHA-256.
 
-    `origin` is the other skill with whose weights it began, and their SHA-256; there may be none.
+    `origin` is the other skill with whose weights it began, and their SHA-256; or the file that they were brought in,
+    as `file:NAME`, and its SHA-256; there may be none.
     `worlds` are those of its lessons, the last one last; none where the lock does not know them. Where they are
     `accepted`, they are others than it was taught in, and a person has said that its weights will do in them.
     """
@@ -90,6 +93,12 @@ class Entry:
     accepted: bool = False
     origin: tuple[str, str] | None = None
     folder: Path = field(default=Path(), compare=False)  # where the lock stands that it was read from
+
+    @property
+    def origin_file(self) -> str:
+        """The name of the file in which the weights were brought with which it began; "" where there is none."""
+        name = self.origin[0] if self.origin else ""
+        return unquote(name.removeprefix(FILE_ORIGIN)) if name.startswith(FILE_ORIGIN) else ""
 
     def __str__(self) -> str:
         """The line."""

@@ -22,7 +22,7 @@ from mindlang.lock.training_world import TrainingWorld
 FOLDER = "weights"
 MAX_WEIGHTS_BYTES = 1 << 27  # of the weights of a skill; a bundle cannot hold more than half of that
 EMPTY_LOCK: Lock = {}
-Origin = tuple[str, str]  # a skill, and the SHA-256 of its weights
+Origin = tuple[str, str]  # a skill, and the SHA-256 of its weights; or file:NAME, and that of the file
 NO_ORIGINS: Mapping[str, Origin] = {}
 
 
@@ -52,12 +52,13 @@ def record(
     world: TrainingWorld | None = None,
     begun_with: Lock = EMPTY_LOCK,
     origins: Mapping[str, Origin] = NO_ORIGINS,
+    accepted: bool = False,
 ) -> dict[str, Entry]:
     """Keep what a lesson taught: weights as files, the skills' lines in the lock at `path`; the other lines stay.
 
     `others` are the weights of the skills that they were taught with, `world` is the one in which that was, and
-    `begun_with` has the lines of the weights that the lesson began with, `origins` the other skills whose weights those
-    were. No file of weights is removed: that is for
+    `begun_with` has the lines of the weights that the lesson began with, `origins` the other skills or the files whose
+    weights those were. Where they are `accepted` they were taught elsewhere. No file of weights is removed: that is for
     `mindc gc`.
     """
     weights = {**others, **learnt}
@@ -66,7 +67,7 @@ def record(
         entry = _entry(path, graph, skill, weights, taught)
         before = begun_with.get(skill)
         origin = origins.get(skill, before.origin if before else None)
-        entries[skill] = replace(entry, worlds=_worlds(before, world), origin=origin)
+        entries[skill] = replace(entry, worlds=_worlds(before, world), origin=origin, accepted=accepted)
     try:
         with exclusive_folder(path.parent / FOLDER):
             lock = read_lock(path)

@@ -121,7 +121,7 @@ def _made(row: Row) -> str:
         return f"like {row.like}" * bool(row.like)
     entry = row.status.entry
     how = f"like {row.like}" if row.like else made_by(entry.taught)
-    begun = f", begun as {entry.origin[0]}" if entry.origin and not row.like else ""
+    begun = f", begun as {entry.origin_file or entry.origin[0]}" if entry.origin and not row.like else ""
     return f"{entry.weights[:4]}…  {how}{begun}"
 
 
@@ -129,6 +129,8 @@ def made_by(taught: Taught) -> str:
     """How a genome came about, in words."""
     under = f" under {taught.master}"
     jointly = " with subskills" * taught.jointly
+    if not taught.generations:
+        return f"{taught.score:.1f} on {taught.task}{under}, not taught here"
     return (
         f"{taught.score:.1f} on {taught.task}{under}{jointly}, "
         f"{taught.generations} generations of {taught.population} from seed {taught.seed}"

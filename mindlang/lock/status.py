@@ -135,7 +135,7 @@ class _Standing:
 
     def _other_origin(self, entry: Entry) -> str:
         """What is different about another skill's weights that a skill began with, but for lessons of both."""
-        if entry.origin is None:
+        if entry.origin is None or entry.origin_file:
             return ""
         name, weights = entry.origin
         now = self.lock.get(self._owners.get(name, name))

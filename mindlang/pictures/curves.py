@@ -74,16 +74,38 @@ MEANINGS = {
 @style.context(["default", STYLE])
 def figure(curves: Sequence[Curve]) -> Figure:
     """A panel for each curve, and below them what its lines and marks mean."""
-    columns = len(curves) if len(curves) <= 3 else min(MAX_PANELS_PER_ROW, ceil(sqrt(len(curves))))
-    rows = ceil(len(curves) / columns)
-    wide, high = SINGLE_PANEL_INCHES if len(curves) == 1 else GRID_PANEL_INCHES
-    drawn = Figure(figsize=(wide * columns, high * rows + 0.4), layout="constrained", facecolor=PAGE)
-    for number, curve in enumerate(curves):
-        axes = drawn.add_subplot(rows, columns, number + 1)
+    drawn, panels = grid(len(curves))
+    for axes, curve in zip(panels, curves, strict=True):
         _panel(drawn, axes, curve)
-        axes.set_ylabel("score" if number % columns == 0 else "")
-    _legend(drawn, curves, columns)
+    _legend(drawn, curves)
     return drawn
+
+
+def panels_per_row(count: int) -> int:
+    """How many of so many panels are beside each other."""
+    return count if count <= 3 else min(MAX_PANELS_PER_ROW, ceil(sqrt(count)))
+
+
+def grid(count: int) -> tuple[Figure, list[Axes]]:
+    """So many empty panels."""
+    columns = panels_per_row(count)
+    rows = ceil(count / columns)
+    wide, high = SINGLE_PANEL_INCHES if count == 1 else GRID_PANEL_INCHES
+    drawn = Figure(figsize=(wide * columns, high * rows + 0.4), layout="constrained", facecolor=PAGE)
+    panels = [drawn.add_subplot(rows, columns, number + 1) for number in range(count)]
+    for axes in panels[::columns]:
+        axes.set_ylabel("score")
+    return drawn, panels
+
+
+def frame(axes: Axes, name: str, note: str, generations: int) -> None:
+    """What is around the lines of a panel: its name, a note below that, and its axes."""
+    axes.set_title(name, pad=20.0 if note else 8.0)
+    axes.annotate(note, (0, 1), (0, 8), xycoords="axes fraction", textcoords="offset points", size=6.5, color=FAINT)
+    axes.set_xlim(0, generations * 1.07)
+    axes.set_xlabel("generation")
+    axes.xaxis.set_major_locator(MaxNLocator(6, steps=ROUND, integer=True))
+    axes.yaxis.set_major_locator(MaxNLocator(6, steps=ROUND))
 
 
 @style.context(["default", STYLE])
@@ -96,10 +118,6 @@ def image(drawn: Figure, suffix: str) -> bytes:
 
 
 def _panel(drawn: Figure, axes: Axes, curve: Curve) -> None:
-    axes.set_title(curve.name, pad=20.0 if curve.note else 8.0)
-    axes.annotate(
-        curve.note, (0, 1), (0, 8), xycoords="axes fraction", textcoords="offset points", size=6.5, color=FAINT
-    )
     beyond = offset_copy(axes.transData, drawn, x=VERDICT_OFFSET_POINTS, units="points")
     for layer, (column, look) in enumerate(CURVE_STYLES.items(), 3):
         where = beyond if column == "verdict" else axes.transData
@@ -108,14 +126,10 @@ def _panel(drawn: Figure, axes: Axes, curve: Curve) -> None:
             generations, scores = [generation for generation, _ in points], [score for _, score in points]
             colour, label = ATTEMPTS[(attempt - 1) % len(ATTEMPTS)], f"{column} {attempt}"
             axes.plot(generations, scores, color=colour, label=label, transform=where, zorder=layer, **look)
-    last = max(int(record["generation"] or 0) for record in curve.records)
-    axes.set_xlim(0, last * 1.07)
-    axes.set_xlabel("generation")
-    axes.xaxis.set_major_locator(MaxNLocator(6, steps=ROUND, integer=True))
-    axes.yaxis.set_major_locator(MaxNLocator(6, steps=ROUND))
+    frame(axes, curve.name, curve.note, max(map(curve.last, curve.attempts)))
 
 
-def _legend(drawn: Figure, curves: Sequence[Curve], columns: int) -> None:
+def _legend(drawn: Figure, curves: Sequence[Curve]) -> None:
     shown = [name for name in CURVE_STYLES if any(curve.points(a, name) for curve in curves for a in curve.attempts)]
     handles: list[Any] = [Line2D([], [], color=INK, **CURVE_STYLES[name]) for name in shown]
     labels = [MEANINGS[name] for name in shown]
@@ -126,6 +140,6 @@ def _legend(drawn: Figure, curves: Sequence[Curve], columns: int) -> None:
         handles,
         labels,
         loc="outside lower center",
-        ncols=4 if columns > 2 else 2,
+        ncols=4 if panels_per_row(len(curves)) > 2 else 2,
         handler_map={tuple: HandlerTuple(ndivide=None, pad=0.0)},
     )

@@ -27,17 +27,30 @@ Records = Sequence[Mapping[str, float | None]]
 
 @dataclass(frozen=True, slots=True)
 class Curve:
-    """How a lesson was learnt: the records of its log. `note` tells it from others of its name."""
+    """How a lesson was learnt: the records of its log. `note` tells it from others of its name.
+
+    `lesson` is the same for runs that teach the same lesson of the same mind, whatever their seeds and the weights that
+    they began with; of a table nobody knows it.
+    """
 
     name: str
     records: Records
     path: Path
     note: str = ""
+    lesson: str = ""
 
     @property
     def attempts(self) -> list[int]:
         """The numbers of the attempts that have begun."""
         return sorted({int(record["attempt"] or 0) for record in self.records})
+
+    def last(self, attempt: int) -> int:
+        """The last generation of an attempt."""
+        return max(int(record["generation"] or 0) for record in self.records if record["attempt"] == attempt)
+
+    def has_ended(self, attempt: int) -> bool:
+        """Whether an attempt is known to have come to its end: it has a verdict, or another has begun after it."""
+        return attempt < max(self.attempts) or bool(self.points(attempt, "verdict"))
 
     def points(self, attempt: int, column: str) -> list[tuple[int, float]]:
         """The generations of an attempt that have a finite score in a column, each with it."""
@@ -71,12 +84,13 @@ def _logs(path: Path) -> list[Path]:
 
 def _from_run(folder: Path) -> Curve:
     try:
-        name = open_run(folder).manifest.name
+        manifest = open_run(folder).manifest
     except NotFoundError:
         raise
     except RunError as error:
         raise RunError(f"{folder}: {error}", f"its {TABLE} can be drawn all the same") from error
-    return _unless_empty(Curve(name, read_progress(folder), folder))
+    lesson = replace(manifest, seed=0, weights={}).identity
+    return _unless_empty(Curve(manifest.name, read_progress(folder), folder, lesson=lesson))
 
 
 def _from_table(path: Path) -> Curve:

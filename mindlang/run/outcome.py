@@ -49,7 +49,7 @@ def run_data(task: Task, scores: Scores) -> dict[str, Any]:
         "ticks": int(scores.ticks[0, 0]),
         "of_ticks": task.ticks,
         "ended_by": ended_by(task, int(scores.ended_by[0, 0])),
-        **({"succeeded": bool(_succeeded(task, scores)[0, 0])} if task.can_succeed else {}),
+        **({"succeeded": bool(succeeded(task, scores)[0, 0])} if task.can_succeed else {}),
         "faults": int(scores.faults[0, 0]),
     }
 
@@ -92,7 +92,7 @@ def bench_data(task: Task, scores: Scores, seeds: Sequence[int], seconds: float)
         **_spread("count_", scores.counts[0]),
         "counted": [happened[event] for event in task.counts],
         "by_event": {happened[event]: _spread("", scores.by_event[0, :, event]) for event in task.counts},
-        **({"success": _spread("", _succeeded(task, scores)[0].astype(float))} if task.can_succeed else {}),
+        **({"success": _spread("", succeeded(task, scores)[0].astype(float))} if task.can_succeed else {}),
         "runtime_mean": float(scores.ticks[0].mean() / task.ticks),
         "ended": {name: int(n) for name, n in zip(names, ended, strict=True) if n},
         **_spread("score_", totals),
@@ -105,7 +105,7 @@ def bench_data(task: Task, scores: Scores, seeds: Sequence[int], seconds: float)
     }
 
 
-def _succeeded(task: Task, scores: Scores) -> NDArray[np.bool_]:
+def succeeded(task: Task, scores: Scores) -> NDArray[np.bool_]:
     """Which runs [genomes, seeds] are a success: one came before any other end, whether or not it ended them."""
     successes = [number for number, end in enumerate(task.ends) if end.succeeds]
     return np.isin(scores.met, successes)

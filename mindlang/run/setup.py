@@ -80,6 +80,11 @@ def master_of(graph: Graph, task: Task | None, name: str | None) -> str:
     """
     if name is None:
         return next((lesson.master for lesson in graph.lessons if task and lesson.task == task.name), graph.master)
+    return skill_of(graph, name)
+
+
+def skill_of(graph: Graph, name: str) -> str:
+    """The name, which a skill has; SetupError where none does."""
     skills = [skill.name for skill in graph.skills]
     return name if name in skills else unknown("skill", name, skills)
 

@@ -2,21 +2,17 @@
 
 from __future__ import annotations
 
-from collections import Counter
 from collections.abc import Iterator
 from io import BytesIO
-from typing import Any
 
 import numpy as np
 from mindrun.errors import MindError
 from mindrun.named_readings import reading_names
 from mindrun.reward_sums import score_of
-from numpy.typing import NDArray
 
+from mindlang.run.columns import Column, columns, csv_bytes
 from mindlang.run.outcome import events
 from mindlang.run.recorded_run import RecordedRun
-
-Column = NDArray[Any]
 
 
 def trace_table(run: RecordedRun) -> dict[str, Column]:
@@ -27,13 +23,13 @@ def trace_table(run: RecordedRun) -> dict[str, Column]:
     1; `event`, how often it happened in this tick; `total`, the sum of each reward line so far, and of them all. A name
     that several have is numbered, from 1 on.
     """
-    return dict(zip(*_numbered([*_world(run), *_mind(run), *_task(run)]), strict=True))
+    return columns([*_world(run), *_mind(run), *_task(run)])
 
 
 def trace_bytes(run: RecordedRun, suffix: str) -> bytes:
     """The table as a file of that suffix; MindError where pyarrow is needed and not there."""
     table = trace_table(run)
-    return _csv(table) if suffix == ".csv" else _parquet(table)
+    return csv_bytes(table) if suffix == ".csv" else _parquet(table)
 
 
 def _world(run: RecordedRun) -> Iterator[tuple[str, Column]]:
@@ -67,39 +63,6 @@ def _task(run: RecordedRun) -> Iterator[tuple[str, Column]]:
     for i, reward in enumerate(run.task.rewards):
         yield f"total {reward.text}", run.lines[:, i]
     yield "total", score_of(run.lines)
-
-
-def _numbered(columns: list[tuple[str, Column]]) -> tuple[list[str], list[Column]]:
-    times = Counter(name for name, _ in columns)
-    seen: Counter[str] = Counter()
-    numbered = []
-    for name, _ in columns:
-        seen[name] += 1
-        numbered.append(f"{name} {seen[name]}" if times[name] > 1 else name)
-    return numbered, [column for _, column in columns]
-
-
-def _csv(table: dict[str, Column]) -> bytes:
-    header = ",".join(map(_quoted, table))
-    columns = [_texts(column) for column in table.values()]
-    return "\n".join([header, *map(",".join, zip(*columns, strict=True)), ""]).encode()
-
-
-def _quoted(name: str) -> str:
-    return '"' + name.replace('"', '""') + '"' if set(name) & set('",\n\r') else name
-
-
-def _texts(column: Column) -> list[str]:
-    """Each number with the fewest digits that give it back; nothing where it is not finite."""
-    if column.dtype.kind in "US":
-        return list(map(_quoted, column.tolist()))
-    if column.dtype == np.float32:
-        texts = [repr(float(text)) if "e" in text else text for text in map(str, column)]  # 1e6 is no 1e+06
-    else:
-        texts = list(map(repr, column.tolist()))
-    for row in np.flatnonzero(~np.isfinite(column)):
-        texts[row] = ""
-    return texts
 
 
 def _parquet(table: dict[str, Column]) -> bytes:

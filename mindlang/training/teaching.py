@@ -2,11 +2,15 @@
 
 from dataclasses import dataclass
 
+from mindrun.bundle import Bundle, pack
+from mindrun.engine import procedure_sources
 from mindrun.policy import Policy
 from mindrun.sim.rollout import Rollout
 from mindrun.train.lesson_state import LessonState
 from mindrun.train.population import founder_count
-from mindrun.train.run_folder import RunFolder, keep_result
+from mindrun.train.run_folder import RunFolder, keep_result, read_result
+from mindrun.train.training import Watch, train
+from mindrun.work.assignment import Assignment
 
 from mindlang.resource_limits import refuse_too_large, refuse_too_long
 from mindlang.training.lock_update import Kept, keep
@@ -38,6 +42,26 @@ def rollout_of(run: RunFolder, subject: Subject, workers: int) -> Rollout:
     refuse_too_large(rollout, first, learner.layouts)
     refuse_too_long(rollout, (first + learner.population * (lesson.generations - 1)) * learner.layouts)
     return rollout
+
+
+def assignment_of(run: RunFolder, subject: Subject) -> Assignment:
+    """What a worker has to know to do the jobs of a run; MindError where it is too large for a bundle."""
+    lesson = run.manifest.lesson
+    policy = Policy(subject.graph, run.weights)
+    procedures = procedure_sources(subject.graph, subject.folder, lesson.master)
+    return Assignment(pack(Bundle(policy, procedures)), lesson.task, lesson.master, run.manifest.learners)
+
+
+def teach(run: RunFolder, subject: Subject, workers: int, watch: Watch) -> Result | None:
+    """Go on with a run to its end, and put what it has taught into the lock; None where `watch` stopped it.
+
+    What came of it, where it has ended before.
+    """
+    if (result := read_result(run.folder)) is not None:
+        return result
+    rollout = rollout_of(run, subject, workers)
+    state = train(run, rollout, watch)
+    return finish(run, subject, state, rollout, force=False).result if has_ended(run, state) else None
 
 
 def finish(run: RunFolder, subject: Subject, state: LessonState, rollout: Rollout, force: bool) -> TeachingResult:

@@ -165,8 +165,8 @@ def _last_champions(run: RunFolder) -> list[Champion]:
     state = found.state
     ended = zip(state.lengths, state.champions, strict=True)
     champions = [Champion(number, int(length), genome) for number, (length, genome) in enumerate(ended, 1)]
-    generation = state.population.generation
-    now = [Champion(state.attempt + 1, generation, genome) for genome in state.champion if generation]
+    generation = state.now.population.generation
+    now = [Champion(state.attempt + 1, generation, genome) for genome in state.now.champion if generation]
     return champions + now
 
 

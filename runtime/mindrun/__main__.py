@@ -44,7 +44,7 @@ EXAMPLES = """examples:
 A line of readings: {"proximity": [1, 1, 0.4], "object_bearing": 0.5}; NaN is a reading that failed.
 A line of commands: {"commands": {"left_wheel": 0.7, "right_wheel": 0.5}}
 
-tools: mindrun adopt | calibrate | doctor | replay | report, each with --help"""
+tools: mindrun adopt | calibrate | doctor | replay | report | work, each with --help"""
 
 
 def main() -> None:

@@ -26,7 +26,9 @@ def test_what_is_no_file_is_a_mind_with_a_diagnostic(path: str, message: str, hi
     assert caught.value.hint.startswith(hint)
 
 
-@pytest.mark.parametrize("ask", ["graph", "policy", "engine", "rollout", "trace", "bench", "train", "edit", "bundle"])
+@pytest.mark.parametrize(
+    "ask", ["graph", "policy", "engine", "rollout", "trace", "trace_table", "bench", "train", "edit", "bundle"]
+)
 def test_a_text_with_errors_is_a_mind_that_can_do_nothing(ask: str) -> None:
     wrong = mindlang.loads("tick 1/60 s\nmaster Nobody\n")
     assert not wrong.is_valid

@@ -30,7 +30,7 @@ def test_it_has_each_champion_from_its_generation_on(tmp_path: Path, start: dict
     course, expected, before = run.course(LENGTH), [], None
     for state, record in teach(course, Sphere(), begin(course), lambda: 0.0):
         ended = state.attempt == record.attempt
-        champion = state.champions[-1].tobytes() if ended else state.champion[0].tobytes()
+        champion = state.champions[-1].tobytes() if ended else state.now.champion[0].tobytes()
         if before != (record.attempt, champion):
             expected.append((record.attempt, record.generation, champion))
         before = record.attempt, champion

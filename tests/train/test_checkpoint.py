@@ -58,45 +58,51 @@ def among(array: np.ndarray, number: float) -> np.ndarray:
 
 def of(state: LessonState, **changes: object) -> LessonState:
     """The state with another population."""
-    return replace(state, population=replace(state.population, **changes))
+    return at(state, population=replace(state.now.population, **changes))
+
+
+def at(state: LessonState, **changes: object) -> LessonState:
+    """The state with another attempt at work."""
+    return replace(state, now=replace(state.now, **changes))
 
 
 BROKEN: dict[str, Callable[[LessonState], LessonState]] = {
-    "a score too few": lambda s: of(s, scores=s.population.scores[:-1]),
-    "a champion of other weights": lambda s: replace(s, champion=s.champion[:, 1:]),
-    "a rival of other weights": lambda s: replace(s, rival=s.rival[:, 1:]),
+    "a score too few": lambda s: of(s, scores=s.now.population.scores[:-1]),
+    "a champion of other weights": lambda s: at(s, champion=s.now.champion[:, 1:]),
+    "a rival of other weights": lambda s: at(s, rival=s.now.rival[:, 1:]),
     "champions of other weights": lambda s: replace(s, champions=s.champions[:, 1:]),
-    "two champions": lambda s: replace(s, champion=np.repeat(s.champion, 2, axis=0)),
-    "two rivals": lambda s: replace(s, rival=np.repeat(s.rival, 2, axis=0)),
+    "two champions": lambda s: at(s, champion=np.repeat(s.now.champion, 2, axis=0)),
+    "two rivals": lambda s: at(s, rival=np.repeat(s.now.rival, 2, axis=0)),
     "a rung that is no number": lambda s: replace(s, rungs=among(s.rungs, np.nan)),
+    "a height that is no number": lambda s: at(s, climbed=among(s.now.climbed, np.nan)),
     "rungs of an attempt too few": lambda s: replace(s, rungs=s.rungs[:-1]),
     "a length too many": lambda s: replace(s, lengths=np.repeat(s.lengths, 2)),
     "a verdict too few": lambda s: replace(s, verdicts=s.verdicts[:0]),
     "half a verdict": lambda s: replace(s, verdicts=s.verdicts[:, :1]),
-    "a genome that is not finite": lambda s: of(s, genomes=among(s.population.genomes, np.inf)),
-    "a genome that is no number": lambda s: of(s, genomes=among(s.population.genomes, np.nan)),
-    "a champion that is not finite": lambda s: replace(s, champion=among(s.champion, -np.inf)),
-    "a rival that is not finite": lambda s: replace(s, rival=among(s.rival, np.inf)),
+    "a genome that is not finite": lambda s: of(s, genomes=among(s.now.population.genomes, np.inf)),
+    "a genome that is no number": lambda s: of(s, genomes=among(s.now.population.genomes, np.nan)),
+    "a champion that is not finite": lambda s: at(s, champion=among(s.now.champion, -np.inf)),
+    "a rival that is not finite": lambda s: at(s, rival=among(s.now.rival, np.inf)),
     "champions that are not finite": lambda s: replace(s, champions=among(s.champions, np.nan)),
-    "a score that is no number": lambda s: of(s, scores=among(s.population.scores, np.nan)),
+    "a score that is no number": lambda s: of(s, scores=among(s.now.population.scores, np.nan)),
     "a verdict that is no number": lambda s: replace(s, verdicts=among(s.verdicts, np.nan)),
     "a best that is no number": lambda s: replace(s, best=np.nan),
     "seconds that are no number": lambda s: replace(s, seconds=np.nan),
     "an attempt too many": lambda s: replace(s, attempt=2),
     "an attempt too few": lambda s: replace(s, attempt=0),
     "genomes before the first generation": lambda s: of(s, generation=0),
-    "no genomes after one": lambda s: of(s, genomes=s.population.genomes[:0], scores=np.empty(0)),
+    "no genomes after one": lambda s: of(s, genomes=s.now.population.genomes[:0], scores=np.empty(0)),
     "less than no time": lambda s: replace(s, ticks=-1),
     "a length of less than nothing": lambda s: replace(s, lengths=among(s.lengths, -1)),
     "more ticks than can be": lambda s: replace(s, ticks=2**53 + 1),
     "neither told apart nor not": lambda s: replace(s, told_apart=2),  # type: ignore[arg-type]
 }
 WHOLE: dict[str, Callable[[LessonState], LessonState]] = {
-    "scores of faults": lambda s: of(s, scores=among(s.population.scores, -np.inf)),
+    "scores of faults": lambda s: of(s, scores=among(s.now.population.scores, -np.inf)),
     "a verdict of a fault": lambda s: replace(s, verdicts=among(s.verdicts, -np.inf)),
     "as many ticks as can be": lambda s: replace(s, ticks=2**53),
     "nothing told apart": lambda s: replace(s, told_apart=False),
-    "no champion": lambda s: replace(s, champion=s.champion[:0], rival=s.rival[:0]),
+    "no champion": lambda s: at(s, champion=s.now.champion[:0], rival=s.now.rival[:0]),
 }
 
 
@@ -114,8 +120,8 @@ def test_a_state_that_a_run_can_have_is_read(second: LessonState, what: str) -> 
 
 
 def _plain(state: LessonState) -> tuple[object, ...]:
-    generation = state.population.generation
-    return state.attempt, generation, state.since, state.ticks, state.best, state.seconds, state.told_apart
+    generation = state.now.population.generation
+    return state.attempt, generation, state.now.since, state.ticks, state.best, state.seconds, state.told_apart
 
 
 def test_the_header_says_what_follows_and_nothing_else(second: LessonState) -> None:
@@ -167,7 +173,7 @@ def test_the_previous_one_is_taken_and_it_is_said(tmp_path: Path, states: list[L
     (tmp_path / checkpoint.NAME).write_bytes(damage)
     found = load(tmp_path, RUN)
     assert found is not None
-    assert found.state.population.generation == 1
+    assert found.state.now.population.generation == 1
     assert "damaged" in found.warning
 
 
@@ -179,7 +185,7 @@ def test_a_damaged_one_never_replaces_the_good_previous_one(tmp_path: Path, stat
     (tmp_path / checkpoint.NAME).unlink()
     found = load(tmp_path, RUN)
     assert found is not None
-    assert found.state.population.generation == 1
+    assert found.state.now.population.generation == 1
 
 
 def test_a_crash_between_the_two_renames_costs_nothing_but_one_checkpoint(

@@ -7,7 +7,8 @@ import numpy as np
 import pytest
 from mindrun.learners import EvolutionStrategy, Genetic
 from mindrun.train.ask_and_tell import ask, kept_count, tell
-from mindrun.train.lesson import REEVALUATION_LAYOUTS, fresh_count, teach
+from mindrun.train.attempt import REEVALUATION_LAYOUTS, fresh_count
+from mindrun.train.lesson import teach
 from mindrun.train.lesson_state import Course, begin, could_be
 from mindrun.train.population import Genomes, Population, nobody
 
@@ -86,7 +87,7 @@ def test_a_lesson_finishes_what_is_known_and_keeps_the_centre() -> None:
     start = np.full((1, LENGTH), 2.0, np.float32)
     course = Course(replace(lesson(30), learner=learner), 1, start)
     states = [state for state, _ in teach(course, Sphere(), begin(course), perf_counter)]
-    assert len(states[5].population.genomes) == kept_count(learner) == 1
+    assert len(states[5].now.population.genomes) == kept_count(learner) == 1
     assert all(could_be(course, state) for state in states[:-1])
     assert states[-1].reevaluated > -1.5 > -12
 

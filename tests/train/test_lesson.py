@@ -4,18 +4,17 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from mindrun.train.lesson import (
+from mindrun.train.attempt import (
     REEVALUATED_CANDIDATES,
     REEVALUATION_GENERATIONS,
     REEVALUATION_LAYOUTS,
     VERDICT_LAYOUTS,
-    generation,
     is_better,
     judge,
-    teach,
     try_again,
 )
-from mindrun.train.lesson_state import Course, LessonState, Record, begin
+from mindrun.train.lesson import generation, teach
+from mindrun.train.lesson_state import AttemptState, Course, LessonState, Record, begin, begin_attempt
 from mindrun.train.population import Population
 from mindrun.train.rungs import is_behind, rung_at
 from mindrun.train.scoring import mark
@@ -121,10 +120,10 @@ def test_better_means_beyond_doubt(scores: list[float], than: list[float], bette
 def test_attempts_in_the_worse_half_at_a_rung_end_there() -> None:
     course = Course(lesson(17, attempts=16, rungs=3), 1, UNKNOWN)
     state, records = taught(course, Sphere(noise=20.0))
-    assert state.rungs.shape == (17, 3)
-    assert (state.rungs[-1] == -np.inf).all(), "of an attempt that never began"
+    assert state.rungs.shape == (16, 3)
+    assert (state.now.climbed == -np.inf).all(), "of an attempt that never began"
     heights = [2, 4, 8, 17]
-    for attempt, scores in enumerate(state.rungs[:-1]):
+    for attempt, scores in enumerate(state.rungs):
         climbed = 0
         while climbed < 3 and not is_behind(state.rungs[: attempt + 1, climbed]):
             climbed += 1
@@ -262,30 +261,32 @@ def test_a_fault_makes_a_genome_worst_whatever_it_scored() -> None:
 
 def test_a_fault_in_its_verdict_makes_an_attempt_the_worst() -> None:
     course = Course(lesson(5), 1, UNKNOWN)
-    state = replace(begin(course), champion=genomes_of(9.0, faulty=1.0))
-    ended, said = judge(course, Listed(), state)
-    assert said == -np.inf
-    assert ended.verdicts.tolist() == [[-np.inf, -np.inf]]
-    assert ended.ticks == 2 * VERDICT_LAYOUTS
-    assert ended.faults == 2 * VERDICT_LAYOUTS
+    state = replace(begin_attempt(course), champion=genomes_of(9.0, faulty=1.0))
+    verdict = judge(course, Listed(), state)
+    assert verdict.scores.tolist() == [-np.inf, -np.inf]
+    assert verdict.ticks == 2 * VERDICT_LAYOUTS
+    assert verdict.faults == 2 * VERDICT_LAYOUTS
 
 
-def tried(champion: np.ndarray, rival: np.ndarray, *scored: float) -> tuple[LessonState, float]:
+def tried(champion: np.ndarray, rival: np.ndarray, *scored: float) -> tuple[AttemptState, int, float]:
+    """The state after a trial, its ticks, and the champion's score."""
     genomes = genomes_of(*scored)
-    state = begin(Course(lesson(5), 1, UNKNOWN))
+    state = begin_attempt(Course(lesson(5), 1, UNKNOWN))
     state = replace(state, population=Population(genomes, genomes[:, 0].astype(np.float64), 12))
-    return try_again(replace(state, champion=champion, rival=rival, since=3), Listed(), np.arange(REEVALUATION_LAYOUTS))
+    state = replace(state, champion=champion, rival=rival, since=3)
+    state, marks, score = try_again(state, Listed(), np.arange(REEVALUATION_LAYOUTS))
+    return state, marks.ticks, score
 
 
 def test_the_best_on_fresh_layouts_becomes_champion_but_never_the_rival() -> None:
-    state, score = tried(genomes_of(4.0), genomes_of(9.0), 1.0, 5.0, 3.0)
+    state, ticks, score = tried(genomes_of(4.0), genomes_of(9.0), 1.0, 5.0, 3.0)
     assert (state.champion[0, 0], score) == (5.0, 5.0)
     assert (state.rival[0, 0], state.since) == (9.0, 3)
-    assert state.ticks == REEVALUATION_LAYOUTS * 5
+    assert ticks == REEVALUATION_LAYOUTS * 5
 
 
 def test_a_champion_that_is_best_stays_and_is_a_better_rival() -> None:
-    state, score = tried(genomes_of(6.0), genomes_of(2.0), 1.0, 5.0)
+    state, _, score = tried(genomes_of(6.0), genomes_of(2.0), 1.0, 5.0)
     assert (state.champion[0, 0], score) == (6.0, 6.0)
     assert (state.rival[0, 0], state.since) == (6.0, 12)
 
@@ -293,7 +294,7 @@ def test_a_champion_that_is_best_stays_and_is_a_better_rival() -> None:
 def test_only_the_best_of_a_generation_are_tried_again() -> None:
     told = Told()
     genomes = genomes_of(*range(10))
-    state = begin(Course(lesson(5), 1, UNKNOWN))
+    state = begin_attempt(Course(lesson(5), 1, UNKNOWN))
     state = replace(state, population=Population(genomes, -genomes[:, 0].astype(np.float64), 12))
     try_again(state, told, np.arange(REEVALUATION_LAYOUTS, dtype=np.uint64))
     assert [count for count, _ in told.asked] == [REEVALUATED_CANDIDATES]
@@ -302,10 +303,10 @@ def test_only_the_best_of_a_generation_are_tried_again() -> None:
 def test_a_record_tells_of_its_generation_alone() -> None:
     course = Course(lesson(30), 1, UNKNOWN)
     state, first = generation(course, Sphere(noise=0.0), begin(course))
-    scores = state.population.scores
+    scores = state.now.population.scores
     assert (first.best, first.mean) == (scores.max(), scores.mean())
     assert first.ticks == 100 * (20 * course.lesson.learner.layouts + REEVALUATED_CANDIDATES * REEVALUATION_LAYOUTS)
-    assert first.generation == state.generations == state.population.generation == 1
+    assert first.generation == state.generations == state.now.population.generation == 1
     after, second = generation(course, Sphere(noise=0.0), state)
     assert second.reevaluated is None
     assert second.ticks == 100 * 20 * course.lesson.learner.layouts

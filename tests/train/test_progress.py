@@ -38,7 +38,8 @@ RECORDS = st.builds(
 def at(attempt: int, generation: int) -> LessonState:
     """A state that has so many attempts, and so many generations of the next one, behind it."""
     state = begin(Course(lesson(), 1, np.empty((0, LENGTH), np.float32)))
-    return replace(state, attempt=attempt, population=Population(state.population.genomes, np.empty(0), generation))
+    population = Population(state.now.population.genomes, np.empty(0), generation)
+    return replace(state, attempt=attempt, now=replace(state.now, population=population))
 
 
 def finite(record: Record) -> dict[str, object]:

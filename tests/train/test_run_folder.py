@@ -51,11 +51,11 @@ def test_it_is_saved_every_two_seconds_and_in_the_end(tmp_path: Path, monkeypatc
     save = checkpoint.save
 
     def counted(folder: Path, state: LessonState, run: str) -> None:
-        saved.append(state.population.generation)
+        saved.append(state.now.population.generation)
         save(folder, state, run)
 
     def report(state: LessonState, record: Record) -> None:
-        reported.append((state.population.generation, record.generation))
+        reported.append((state.now.population.generation, record.generation))
         now[0] += 0.5
 
     monkeypatch.setattr(checkpoint, "save", counted)
@@ -63,18 +63,18 @@ def test_it_is_saved_every_two_seconds_and_in_the_end(tmp_path: Path, monkeypatc
     state = train(made(tmp_path, 99), Sphere(), watch)
     assert saved == [4, 8, 10]
     assert reported == [(number, number) for number in range(1, 11)]
-    assert state.population.generation == 10
+    assert state.now.population.generation == 10
 
 
 def test_a_run_that_is_stopped_leaves_the_best_so_far(tmp_path: Path) -> None:
     run = create(tmp_path, manifest(lesson(6, attempts=2)), {}, {})
     state = train(run, Sphere(), unwatched(stop_after=3))
-    np.testing.assert_array_equal(np.load(run.folder / "weights.npy"), state.champion[0])
+    np.testing.assert_array_equal(np.load(run.folder / "weights.npy"), state.now.champion[0])
     assert not (run.folder / "champions.npy").exists()
     state = train(run, Sphere(), unwatched(stop_after=5))
     np.testing.assert_array_equal(np.load(run.folder / "weights.npy"), state.kept[0])
     np.testing.assert_array_equal(np.load(run.folder / "champions.npy"), state.champions)
-    assert (len(state.champions), state.population.generation) == (1, 2)
+    assert (len(state.champions), state.now.population.generation) == (1, 2)
 
 
 def test_a_run_leaves_no_file_open(tmp_path: Path) -> None:

@@ -5,7 +5,8 @@ from math import inf
 
 import numpy as np
 import pytest
-from mindrun.train.lesson import are_different, has_ended
+from mindrun.train.attempt import are_different
+from mindrun.train.lesson import has_ended
 from mindrun.train.lesson_state import Course, LessonState, begin, could_be
 from mindrun.train.population import Population
 
@@ -24,7 +25,8 @@ def state(
 ) -> LessonState:
     population = Population(np.ones((individuals, weights), np.float32), np.ones(individuals), generation)
     lengths = np.full(attempt, length)
-    return replace(begin(COURSE), population=population, attempt=attempt, since=since, lengths=lengths)
+    start = begin(COURSE)
+    return replace(start, now=replace(start.now, population=population, since=since), attempt=attempt, lengths=lengths)
 
 
 @pytest.mark.parametrize(
@@ -68,10 +70,10 @@ def test_an_attempt_ends_after_its_generations_or_its_patience(
 def test_nothing_is_kept_before_an_attempt_has_ended() -> None:
     start = begin(replace(COURSE, start=np.ones((1, LENGTH), np.float32)))
     assert (len(start.kept), start.kept_after, start.reevaluated, start.best) == (0, 0, -inf, -inf)
-    assert start.champion.tolist() == [[1.0] * LENGTH]
-    assert (start.attempt, start.since, start.generations, start.ticks, start.faults, start.seconds) == (0,) * 6
-    assert (start.rival.shape, start.champions.shape) == ((0, LENGTH), (0, LENGTH))
-    assert start.population.genomes.shape == (0, LENGTH)
+    assert start.now.champion.tolist() == [[1.0] * LENGTH]
+    assert (start.attempt, start.now.since, start.generations, start.ticks, start.faults, start.seconds) == (0,) * 6
+    assert (start.now.rival.shape, start.champions.shape) == ((0, LENGTH), (0, LENGTH))
+    assert start.now.population.genomes.shape == (0, LENGTH)
     assert start.told_apart is False
 
 

@@ -73,11 +73,16 @@ def test_a_result_that_is_none_is_no_result(run: RunFolder, text: str) -> None:
     assert found is None or json.dumps(found, allow_nan=False)
 
 
+def standing_at(state: LessonState, **now: object) -> LessonState:
+    """The state with another attempt at work."""
+    return replace(state, now=replace(state.now, **now))
+
+
 FEWER = Population(np.ones((4, LENGTH), np.float32), np.ones(4), 3)
 STATES: dict[str, Callable[[LessonState], LessonState]] = {
-    "of fewer": lambda state: replace(state, population=FEWER),
-    "after its end": lambda state: replace(state, population=replace(state.population, generation=6)),
-    "that began later": lambda state: replace(state, since=5),
+    "of fewer": lambda state: standing_at(state, population=FEWER),
+    "after its end": lambda state: standing_at(state, population=replace(state.now.population, generation=6)),
+    "that began later": lambda state: standing_at(state, since=5),
 }
 
 

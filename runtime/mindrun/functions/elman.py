@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mindrun.arithmetic import ZERO
-from mindrun.functions.function import Compute, Function, Weights
+from mindrun.functions.function import Compute, Function, Layers, Weights
 from mindrun.functions.mlp import WIDTH, Mlp, dense, dense_own, matrices, perceive
 from mindrun.registry import kind
 from mindrun.sigmoid import sigmoid
@@ -40,6 +40,10 @@ class Elman(Function):
     def state_length(self, inputs: int, outputs: int) -> int:
         """What its hidden neurons said."""
         return (self.width or max(inputs, outputs) + 2) if inputs and outputs else 0
+
+    def matrix_shapes(self, inputs: int, outputs: int) -> Layers:
+        """That of the hidden neurons, which read the inputs and what they said, and that of the outputs."""
+        return self._unrolled(inputs, outputs).layers(inputs + self.state_length(inputs, outputs), outputs)
 
     def genome_length(self, inputs: int, outputs: int) -> int:
         """One weight per connection: each hidden neuron reads the inputs and all hidden ones, each output these."""
@@ -104,8 +108,7 @@ class Elman(Function):
 
     def _matrices(self, weights: Weights, inputs: int, outputs: int) -> tuple[NDArray[np.float32], ...]:
         """Those of the hidden neurons [width, inputs + width] and of the outputs [outputs, width]."""
-        read = inputs + self.state_length(inputs, outputs)
-        return matrices(weights, self._unrolled(inputs, outputs).layers(read, outputs))
+        return matrices(weights, self.matrix_shapes(inputs, outputs))
 
     def _unrolled(self, inputs: int, outputs: int) -> Mlp:
         return Mlp(1, self.state_length(inputs, outputs))

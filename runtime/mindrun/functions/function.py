@@ -53,6 +53,13 @@ class Function:
         """The layers of a feed-forward network without biases; none where it is something else."""
         return ()
 
+    def matrix_shapes(self, inputs: int, outputs: int) -> Layers:
+        """The matrices in which its genome lies, row by row, where it is a network: sigmoid but for the last one.
+
+        The first reads the inputs and, behind them, what it remembers: the values of its hidden neurons.
+        """
+        return self.layers(inputs, outputs)
+
     def row(self, inputs: int, outputs: int) -> Mapping[str, int]:
         """What its lane function is told: the `hidden` layers and their `width`."""
         return {}

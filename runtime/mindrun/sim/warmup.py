@@ -14,6 +14,7 @@ from mindrun.policy import Policy
 from mindrun.scenes import Plain
 from mindrun.sim import cache
 from mindrun.sim.changed_ticks import compile_stages
+from mindrun.sim.commanded_lanes import CommandedLanes
 from mindrun.sim.lanes import stages
 from mindrun.sim.lanes.advance import advance
 from mindrun.sim.numba_internals import code_of
@@ -57,6 +58,7 @@ def warm_up() -> None:
     compile_stages(rollout)
     stages.wake(tables, state, 0, 0)
     stages.send(tables, state, 0, 0, 0, 0)
+    CommandedLanes(rollout, 1)
 
 
 def main(words: Sequence[str]) -> None:

@@ -45,23 +45,21 @@ class ChampionLog:
     """The file, open to append, with only the champions that `state` has behind it; `warn` is told where it is full."""
 
     def __init__(self, folder: Path, state: LessonState, warn: Callable[[str], None]) -> None:
-        path, count = folder / CHAMPION_ROWS, state.champion.shape[1]
-        here = state.attempt + 1, state.population.generation
+        path, count = folder / CHAMPION_ROWS, state.champions.shape[1]
+        here = state.attempt + 1, state.now.population.generation
         kept = [each for each in read_champions(folder) if len(each.genome) == count and each.position <= here]
         atomic_write.write(path, MAGIC + LENGTH.pack(count) + b"".join(map(_row, kept)))
         self._rows = os.open(path, os.O_WRONLY | os.O_APPEND)
         self._left, self._warn = rows_that_fit(count) - len(kept), warn
         self._last = kept[-1] if kept else None
 
-    def append(self, state: LessonState, position: Position) -> None:
-        """Add the champion of the generation with which a state ends, unless it was that before."""
+    def append(self, genome: Weights, position: Position) -> None:
+        """Add the champion with which a generation ends, unless it was that before."""
         attempt, generation = position
-        genomes = state.champion if state.attempt < attempt else state.champions[-1:]
         last = self._last
-        for genome in genomes:
-            if last is None or last.attempt != attempt or not np.array_equal(last.genome, genome):
-                self._last = Champion(attempt, generation, genome)
-                self._keep(self._last)
+        if last is None or last.attempt != attempt or not np.array_equal(last.genome, genome):
+            self._last = Champion(attempt, generation, genome)
+            self._keep(self._last)
 
     def _keep(self, champion: Champion) -> None:
         self._left -= 1

@@ -18,7 +18,7 @@ from mindrun.atomic_write import sync_folder, write_beside
 from mindrun.regular_files import read_whole
 from mindrun.strict_json import is_whole, parsed
 from mindrun.train import RunError
-from mindrun.train.lesson_state import LessonState
+from mindrun.train.lesson_state import AttemptState, LessonState
 from mindrun.train.population import Population
 
 NAME, PREVIOUS = "checkpoint", "checkpoint.previous"
@@ -74,12 +74,13 @@ def load(folder: Path, run: str) -> LoadedCheckpoint | None:
 
 def pack(state: LessonState, run: str) -> bytes:
     """A state as bytes."""
+    now = state.now
     arrays: Arrays = {
-        "genomes": state.population.genomes,
-        "scores": state.population.scores,
-        "champion": state.champion,
-        "rival": state.rival,
-        "rungs": state.rungs,
+        "genomes": now.population.genomes,
+        "scores": now.population.scores,
+        "champion": now.champion,
+        "rival": now.rival,
+        "rungs": np.concatenate([state.rungs, now.climbed[None]]),
         "champions": state.champions,
         "lengths": state.lengths,
         "verdicts": state.verdicts,
@@ -94,8 +95,8 @@ def pack(state: LessonState, run: str) -> bytes:
 
 def _counts(state: LessonState) -> tuple[int, ...]:
     """Its whole numbers, in the order of the file."""
-    generation = state.population.generation
-    return state.attempt, generation, state.since, state.generations, state.ticks, state.faults, state.told_apart
+    now = state.now.population.generation, state.now.since
+    return state.attempt, *now, state.generations, state.ticks, state.faults, state.told_apart
 
 
 def unpack(data: bytes, run: str) -> LessonState | None:
@@ -160,9 +161,10 @@ def _state(arrays: Arrays) -> LessonState:
     attempt, generation, since, generations, ticks, faults, told_apart = (int(count) for count in arrays["counts"])
     best, seconds = (float(number) for number in arrays["floats"])
     population = Population(arrays["genomes"], arrays["scores"], generation)
-    now = arrays["champion"], arrays["rival"], since, arrays["rungs"]
-    ended = arrays["champions"], arrays["lengths"], arrays["verdicts"]
-    return LessonState(attempt, population, *now, *ended, best, generations, ticks, seconds, faults, bool(told_apart))
+    rungs, climbed = arrays["rungs"][:-1], arrays["rungs"][-1]
+    now = AttemptState(population, arrays["champion"], arrays["rival"], since, climbed, bool(told_apart))
+    ended = rungs, arrays["champions"], arrays["lengths"], arrays["verdicts"]
+    return LessonState(attempt, now, *ended, best, generations, ticks, seconds, faults, bool(told_apart))
 
 
 def _read(path: Path, run: str) -> LessonState | None:

@@ -27,28 +27,37 @@ class Course:
 
 
 @dataclass(frozen=True, slots=True)
-class LessonState:
-    """Where a run stands, all that is needed to go on.
+class AttemptState:
+    """Where an attempt stands, whatever becomes of others.
 
-    `champion` [0 or 1, weights] is the best of this attempt; `rival` [0 or 1, weights] the last one that was better
-    beyond doubt than the one before it, found in generation `since`.
+    `champion` [0 or 1, weights] is its best; `rival` [0 or 1, weights] the last one that was better beyond doubt than
+    the one before it, found in generation `since`. `climbed` [rungs] has the score of its champion at each rung, the
+    lowest first, on layouts that all attempts have there; -inf where it has not come so far.
 
-    `rungs` [attempts begun, rungs] has the score of each attempt's champion at each rung, the lowest first, on layouts
-    that all attempts have there; -inf where it has not come so far.
-
-    Of the attempts that have ended, `champions` [ended, weights] are the best, `lengths` [ended] their generations, and
-    `verdicts` [ended, 2] their scores on layouts that chose nothing before: the first decides between the attempts, the
-    second, on yet others, is what is reported.
-
-    `told_apart` says whether the task has ever given two genomes of a generation different scores: if not, there was
-    nothing to learn from.
+    `told_apart` says whether the task has ever given two genomes of a generation different scores.
     """
 
-    attempt: int
     population: Population
     champion: Genomes
     rival: Genomes
     since: int
+    climbed: Scores
+    told_apart: bool
+
+
+@dataclass(frozen=True, slots=True)
+class LessonState:
+    """Where a run stands, all that is needed to go on: what has ended, and the attempt at work, `now`.
+
+    Of the attempts that have ended, `champions` [ended, weights] are the best, `lengths` [ended] their generations,
+    `rungs` [ended, rungs] how they had climbed, and `verdicts` [ended, 2] their scores on layouts that chose nothing
+    before: the first decides between the attempts, the second, on yet others, is what is reported.
+
+    The other numbers are of all attempts together. Where `told_apart` is False, there was nothing to learn from.
+    """
+
+    attempt: int
+    now: AttemptState
     rungs: Scores
     champions: Genomes
     lengths: NDArray[np.int64]
@@ -99,23 +108,28 @@ class Record:
     faults: int
 
 
+def begin_attempt(course: Course) -> AttemptState:
+    """The state of an attempt before its first generation."""
+    nothing = course.start[:0]
+    return AttemptState(nobody(nothing.shape[1]), course.start, nothing, 0, not_climbed(course.lesson), False)
+
+
 def begin(course: Course) -> LessonState:
     """The state before the first generation."""
-    empty = course.start[:0]
-    ended = empty, np.empty(0, np.int64), np.empty((0, 2))
-    rungs = not_climbed(course.lesson)
-    return LessonState(0, nobody(empty.shape[1]), course.start, empty, 0, rungs, *ended, -inf, 0, 0, 0.0, 0, False)
+    rungs = np.empty((0, course.lesson.learner.rungs))
+    ended = rungs, course.start[:0], np.empty(0, np.int64), np.empty((0, 2))
+    return LessonState(0, begin_attempt(course), *ended, -inf, 0, 0, 0.0, 0, False)
 
 
 def could_be(course: Course, state: LessonState) -> bool:
     """Whether a state that was read is one to which a run of this course could have come."""
-    individuals, weights = state.population.genomes.shape
-    generation = state.population.generation
+    individuals, weights = state.now.population.genomes.shape
+    generation = state.now.population.generation
     return (
         weights == course.start.shape[1]
         and individuals in (0, kept_count(course.lesson.learner))
         and state.attempt <= course.lesson.learner.attempts
-        and state.rungs.shape[1] == course.lesson.learner.rungs
-        and state.since <= generation < max(1, course.lesson.generations)
+        and state.rungs.shape[1] == len(state.now.climbed) == course.lesson.learner.rungs
+        and state.now.since <= generation < max(1, course.lesson.generations)
         and not (state.lengths > course.lesson.generations).any()
     )

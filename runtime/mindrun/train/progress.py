@@ -84,7 +84,7 @@ def _is_plain(value: object) -> bool:
 
 def _is_behind(record: Logged, state: LessonState) -> bool:
     attempt, generation = int(record["attempt"] or 0) - 1, int(record["generation"] or 0)
-    return (attempt, generation) <= (state.attempt, state.population.generation)
+    return (attempt, generation) <= (state.attempt, state.now.population.generation)
 
 
 def _plain(value: float | None) -> float | None:

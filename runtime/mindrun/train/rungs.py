@@ -20,8 +20,8 @@ def rung_at(lesson: Lesson, generation: int) -> int | None:
 
 
 def not_climbed(lesson: Lesson) -> Scores:
-    """The scores [1, rungs] of an attempt that begins."""
-    return np.full((1, lesson.learner.rungs), -inf)
+    """The scores [rungs] of an attempt that begins."""
+    return np.full(lesson.learner.rungs, -inf)
 
 
 def is_behind(scores: Scores) -> bool:

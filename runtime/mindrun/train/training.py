@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from mindrun.train import RunError, checkpoint
+from mindrun.train.attempts import Executor, Step, side_by_side
 from mindrun.train.champion_log import ChampionLog
 from mindrun.train.folder_lock import claim
 from mindrun.train.lesson import Clock, teach
@@ -14,6 +15,7 @@ from mindrun.train.population import Genomes
 from mindrun.train.progress import ProgressLog
 from mindrun.train.run_folder import RunFolder, keep_champions, keep_weights
 from mindrun.train.scoring import Scorer
+from mindrun.weights import Weights
 
 CHECKPOINT_SECONDS = 2.0  # between two checkpoints
 
@@ -29,20 +31,23 @@ class Watch:
     save_every: float = CHECKPOINT_SECONDS
 
 
-def train(run: RunFolder, scorer: Scorer, watch: Watch) -> LessonState:
+def train(run: RunFolder, scorer: Scorer, watch: Watch, executor: Executor | None = None) -> LessonState:
     """Go on with a run until its lesson is finished or `watch` says stop; the state, which is then saved.
 
-    RunError where another process has the run, its checkpoints are damaged, or the disk takes no more.
+    Generation after generation here, or its attempts side by side where there is an `executor`. RunError where another
+    process has the run, its checkpoints are damaged, or the disk takes no more.
     """
     course = run.course(scorer.genome_length)
     with _disk(run.folder), claim(run.folder):
         now = _standing(run, course, watch)
         with ProgressLog(run.folder, now) as progress, ChampionLog(run.folder, now, watch.warn) as champions:
             saved = watch.clock()
-            for now, record in teach(course, scorer, now, watch.clock):  # noqa: B020 - it goes on from the first
-                progress.append(record)
-                champions.append(now, (record.attempt, record.generation))
-                watch.report(now, record)
+            for step in _steps(course, scorer, now, watch, executor):
+                now = step.state
+                for record, champion in zip(step.records, step.champions, strict=True):
+                    progress.append(record)
+                    champions.append(champion, (record.attempt, record.generation))
+                    watch.report(now, record)
                 if watch.stop():
                     break
                 if watch.clock() - saved >= watch.save_every:
@@ -58,7 +63,24 @@ def train(run: RunFolder, scorer: Scorer, watch: Watch) -> LessonState:
 
 def best(state: LessonState) -> Genomes:
     """The best weights so far [0 or 1, weights]: of the attempts that have ended, else of this one."""
-    return state.kept if len(state.kept) else state.champion
+    return state.kept if len(state.kept) else state.now.champion
+
+
+def _steps(
+    course: Course, scorer: Scorer, state: LessonState, watch: Watch, executor: Executor | None
+) -> Iterator[Step]:
+    if executor is not None:
+        yield from side_by_side(course, executor, state, watch.stop)
+        return
+    for now, record in teach(course, scorer, state, watch.clock):
+        yield Step(now, (record,), champion_of(now, record)[None])
+
+
+def champion_of(state: LessonState, record: Record) -> Weights:
+    """The champion with which a generation ends, after which the run is in this state."""
+    ended = state.attempt == record.attempt
+    champion: Weights = (state.champions if ended else state.now.champion)[-1]
+    return champion
 
 
 def _standing(run: RunFolder, course: Course, watch: Watch) -> LessonState:

@@ -1,10 +1,12 @@
-"""The stages of a tick one by one, with a way in from Python: for minds with procedures that numba cannot compile.
+"""The stages of a tick one by one, with a way in from Python: for minds with procedures that numba cannot compile, and
+for robots that are commanded from outside.
 
 Functions of their own, not the stages compiled twice: numba would keep both under one name in its cache.
 """
 
 from mindrun.sim.compiling import entry
 from mindrun.sim.lanes import advance, think
+from mindrun.sim.lanes.runs import begin_job, finish
 
 
 @entry
@@ -35,3 +37,13 @@ def wake(tables, state, lanes, row):
 def send(tables, state, row, out, count, lanes):
     """As `think.send`."""
     think.send(tables, state, row, out, count, lanes)
+
+
+@entry
+def begin_again(tables, state, jobs, chosen):
+    """End the run of every chosen lane, and begin there the job with the number of the lane."""
+    for lane in range(jobs.lanes[0]):
+        if chosen[lane]:
+            finish(tables, state, jobs, lane)
+            jobs.next[0] = lane
+            begin_job(tables, state, jobs, lane)

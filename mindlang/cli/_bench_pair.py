@@ -1,0 +1,98 @@
+"""What `mindc bench` does with two minds, or two masters: both on the same layouts, and what differs."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from mindrun.sim.rollout import Rollout
+
+from mindlang.cli._run_session import RunSession
+from mindlang.cli._terminal import MISUSE, console, fail, print_json, write_file
+from mindlang.run import outcome
+from mindlang.run.bench_comparison import Benched, compare, differing_tasks
+from mindlang.run.columns import csv_bytes
+from mindlang.run.comparison_summary import comparison_summary
+from mindlang.run.layouts import layouts
+from mindlang.run.runs_table import joined, runs_table
+from mindlang.run.setup import RunSetup
+
+MAX_COMPARED = 2  # minds, or masters
+
+
+@dataclass(frozen=True, slots=True)
+class Contender:
+    """A mind that is compared, the master it is asked to run under, and what it is called beside the other."""
+
+    file: str
+    master: str | None
+    name: str
+
+
+@dataclass(frozen=True, slots=True)
+class BenchChoice:
+    """Which runs are made."""
+
+    task: str | None
+    runs: int
+    seed: int
+    workers: int
+    interrupt: bool
+
+
+def contenders(files: Sequence[str], masters: Sequence[str]) -> list[Contender]:
+    """Who runs: one mind, two minds, or one mind under two masters; of two minds each may have a master of its own."""
+    if len(files) > MAX_COMPARED or len(masters) > MAX_COMPARED:
+        fail("Two are compared, not more.", "mindc bench A.mind B.mind, or one FILE with --master X --master Y", MISUSE)
+    count = max(len(files), len(masters))
+    asked: Sequence[str | None] = masters or [None]
+    both = [(files[i % len(files)], asked[i % len(asked)]) for i in range(count)]
+    names = [_name(file, master, files, masters) for file, master in both]
+    if len({*names}) < count:
+        names = [f"{name} ({place})" for name, place in zip(names, "AB", strict=True)]
+    return [Contender(*each, name) for each, name in zip(both, names, strict=True)]
+
+
+def _name(file: str, master: str | None, files: Sequence[str], masters: Sequence[str]) -> str:
+    if len(files) == 1:
+        return str(master)
+    return f"{file} with {master}" if len(masters) == MAX_COMPARED else file
+
+
+def compare_benched(
+    both: Sequence[Contender], chosen: BenchChoice, table: Path | None, as_json: bool, quiet: bool
+) -> None:
+    """Run both on the same layouts, and print what differs."""
+    session = RunSession(quiet)
+    cast = _cast(session, both, chosen)
+    seeds = layouts(chosen.seed, chosen.runs)
+    notes = differing_tasks(both[1].file, cast[0][0].task, cast[1][0].task)
+    session.say(*(f"note: {note}" for note in notes))
+    benched, minds = [], []
+    for each, (setup, rollout) in zip(both, cast, strict=True):
+        scores, seconds = session.score(rollout, seeds)
+        benched.append(Benched(each.name, setup.task, scores))
+        about = {"name": each.name, "file": each.file, "master": setup.master}
+        data = outcome.bench_data(setup.task, scores, seeds, seconds)
+        minds.append(about | data | {"notes": [*setup.ready.notes]})
+    compared = compare(*benched)
+    found = {"task": benched[0].task.name, "seed": chosen.seed, "runs": chosen.runs, "workers": chosen.workers}
+    found |= {"minds": minds, **compared.data(), "notes": notes}
+    if table:
+        rows = {each.name: runs_table(each.task, each.scores, seeds) for each in benched}
+        write_file(table, csv_bytes(joined(rows)))
+        session.say(f"{table}: a row for each of 2 × {chosen.runs:,} runs")
+    if as_json:
+        print_json(found)
+    else:
+        console().print(comparison_summary(found, compared))
+
+
+def _cast(session: RunSession, both: Sequence[Contender], chosen: BenchChoice) -> list[tuple[RunSetup, Rollout]]:
+    """Who plays what; the second mind on the task of the first."""
+    cast: list[tuple[RunSetup, Rollout]] = []
+    for each in both:
+        task = cast[0][0].task.name if cast else chosen.task
+        cast.append(session.prepare(each.file, task, each.master, chosen.interrupt, chosen.workers, chosen.runs))
+    return cast

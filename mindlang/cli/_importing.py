@@ -1,0 +1,67 @@
+"""How `mindc weights import` goes and what it says."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+
+from mindrun.errors import MindError
+from mindrun.train import NotFoundError
+
+from mindlang.cli._simulator_compilation import ensure_compiled
+from mindlang.cli._terminal import FINDINGS, MISUSE, OK, fail, print_json, procedures_talk, talk
+from mindlang.importing.importing import Imported, bring, read_incoming
+from mindlang.importing.trial import open_trial
+from mindlang.number_format import number
+from mindlang.training.lock_update import COMPARED_LAYOUTS
+from mindlang.training.subject import Subject
+
+
+def import_file(
+    subject: Subject, skill: str, path: Path, recording: str | None, force: bool, as_json: bool, quiet: bool
+) -> None:
+    """Bring the weights of a file, print what came of them, and end the program."""
+
+    def say(line: str) -> None:
+        if not quiet:
+            talk.print(line, markup=False)
+
+    try:
+        with procedures_talk():
+            incoming = read_incoming(subject, skill, path)
+            trial = open_trial(subject, incoming.lesson, incoming.network, subject.shown)
+            ensure_compiled(trial.rollout, say)
+            found = bring(trial, incoming, recording, force)
+    except NotFoundError as error:
+        fail(f"{error}.", error.hint, MISUSE)
+    except MindError as error:
+        fail(f"{error}.", error.hint)
+    for line in _lines(found, subject.keep_path(incoming.lesson).name, recording):
+        say(line)
+    if as_json:
+        print_json(found.data())
+    sys.exit(OK if found.is_kept else FINDINGS)
+
+
+def _lines(found: Imported, lock: str, recording: str | None) -> Iterator[str]:
+    skill, lesson, compared = found.incoming.network.skill.name, found.incoming.lesson, found.comparison
+    where = recording or f"a run of {lesson.task}"
+    yield (
+        f"{found.incoming.path}: {len(found.incoming.genome):,} weights of {skill}; "
+        f"{compared.reference} and the engine differ by at most {compared.difference:.3g} "
+        f"in {compared.ticks:,} ticks of {where}"
+    )
+    if compared.faults:
+        yield f"{compared.faults:,} outputs were not finite, and are not sent"
+    if compared.reference == "float64":
+        yield "PyTorch is not installed: pip install 'mindlang[torch]' compares with the function there"
+    yield f"{skill} scores {number(found.score)} on {COMPARED_LAYOUTS} fresh layouts of {lesson.task}"
+    if found.is_unchanged:
+        yield f"{lock} has these weights already, and stays as it is"
+    elif not found.is_kept:
+        yield f"{found.scores}, and stay in {lock}; --force takes the new ones all the same"
+    else:
+        worse = f"; but {found.scores}" if found.scores and found.scores.is_worse else ""
+        yield f"weights in {lock}{worse}"
+    yield from found.notes

@@ -1,0 +1,69 @@
+"""One robot as a `gymnasium.Env`."""
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from gymnasium import Env
+from gymnasium.error import ResetNeeded
+from gymnasium.spaces import Box
+from gymnasium.utils import EzPickle
+from numpy.typing import NDArray
+
+from mindlang.environments.episodes import Episodes, layouts
+from mindlang.environments.image import image_of
+from mindlang.pictures.canvas import Image
+
+Floats = NDArray[np.float32]
+ONE_LANE = np.ones(1, np.bool_)
+
+
+class TaskEnv(Env[Floats, Floats], EzPickle):
+    """A task of a mind, in which an agent commands the actuators, or plays the skill of that name.
+
+    `reset(seed=3)` begins the layout of `mindc run --seed 3`; without a seed, layouts are drawn. The task's ends
+    terminate an episode, its time truncates it. Pickled by its arguments: a copy begins anew.
+    """
+
+    metadata: dict[str, Any] = {"render_modes": ["rgb_array"], "render_fps": 60}  # noqa: RUF012  # as gymnasium has it
+
+    def __init__(
+        self,
+        file: str | Path,
+        task: str | None = None,
+        master: str | None = None,
+        skill: str | None = None,
+        render_mode: str | None = None,
+    ) -> None:
+        EzPickle.__init__(self, file, task, master, skill, render_mode)
+        self._episodes = Episodes(Path(file), task, master, skill, 1)
+        agent = self._episodes.agent
+        self.render_mode = render_mode
+        self.metadata = self.metadata | {"render_fps": round(1 / agent.setup.ready.policy.graph.tick)}
+        self.observation_space, self.action_space = unit_box(len(agent.readings)), unit_box(agent.actions)
+        self._goes_on = False
+
+    def reset(self, *, seed: int | None = None, options: dict[str, Any] | None = None) -> tuple[Floats, dict[str, Any]]:
+        """Begin another episode; `info["layout"]` is the seed by which `mindc run` repeats it."""
+        super().reset(seed=seed)
+        self._episodes.begin(ONE_LANE, layouts([seed], [self.np_random]))
+        self._goes_on = True
+        return self._episodes.sense()[0], {"layout": int(self._episodes.seeds[0])}
+
+    def step(self, action: Floats) -> tuple[Floats, float, bool, bool, dict[str, Any]]:
+        """One tick; with the last of an episode, `info` says what came of it."""
+        if not self._goes_on:
+            raise ResetNeeded("the episode has ended, or none has begun: call reset()")
+        [reward], [terminated], [truncated] = self._episodes.step(np.asarray(action, np.float32)[None])
+        self._goes_on = not (terminated or truncated)
+        info = {} if self._goes_on else self._episodes.outcome(0)
+        return self._episodes.sense()[0], float(reward), bool(terminated), bool(truncated), info
+
+    def render(self) -> Image | None:
+        """The world as it is, [height, width, 3] as red, green, blue."""
+        return image_of(self._episodes.agent, 0) if self.render_mode == "rgb_array" else None
+
+
+def unit_box(length: int) -> Box:
+    """So many numbers in 0..1."""
+    return Box(0.0, 1.0, (length,), np.float32)

@@ -1,0 +1,120 @@
+"""Many robots side by side as a `gymnasium.vector.VectorEnv`: each a world of its own, all stepped by one call."""
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from gymnasium.error import ResetNeeded
+from gymnasium.utils import EzPickle
+from gymnasium.utils.seeding import np_random
+from gymnasium.vector import AutoresetMode, VectorEnv
+from gymnasium.vector.utils import batch_space
+from mindrun.errors import MindError
+from numpy.typing import NDArray
+
+from mindlang.environments.episodes import Episodes, Floats, Mask, layouts
+from mindlang.environments.image import image_of
+from mindlang.environments.task_env import unit_box
+from mindlang.pictures.canvas import Image
+
+Step = tuple[Floats, NDArray[np.float64], Mask, Mask, dict[str, Any]]
+
+
+class TaskVectorEnv(VectorEnv[Floats, Floats, NDArray[Any]], EzPickle):
+    """`num_envs` episodes of a task: those that as many `TaskEnv`s would have, to the bit.
+
+    `reset(seed=n)` gives robot i the seed n + i. After an episode the next step begins another one and ignores the
+    action ("NextStep"); with `autoreset_mode="SameStep"` the last step does, and `info["final_obs"]` has what was seen.
+    """
+
+    metadata: dict[str, Any] = {"render_modes": ["rgb_array"], "render_fps": 60}  # noqa: RUF012  # as gymnasium has it
+
+    def __init__(
+        self,
+        file: str | Path,
+        task: str | None = None,
+        master: str | None = None,
+        skill: str | None = None,
+        render_mode: str | None = None,
+        *,
+        num_envs: int = 1,
+        autoreset_mode: str | AutoresetMode = AutoresetMode.NEXT_STEP,
+    ) -> None:
+        EzPickle.__init__(
+            self, file, task, master, skill, render_mode, num_envs=num_envs, autoreset_mode=autoreset_mode
+        )
+        mode = AutoresetMode(autoreset_mode)
+        if mode == AutoresetMode.DISABLED:
+            raise MindError("episodes cannot be begun one by one", 'autoreset_mode is "NextStep" or "SameStep"')
+        self._episodes = Episodes(Path(file), task, master, skill, num_envs)
+        agent = self._episodes.agent
+        frames = round(1 / agent.setup.ready.policy.graph.tick)
+        self.metadata = self.metadata | {"autoreset_mode": mode, "render_fps": frames}
+        self.num_envs, self.render_mode = num_envs, render_mode
+        self.single_observation_space = unit_box(len(agent.readings))
+        self.single_action_space = unit_box(agent.actions)
+        self.observation_space = batch_space(self.single_observation_space, num_envs)
+        self.action_space = batch_space(self.single_action_space, num_envs)
+        self._at_once = mode == AutoresetMode.SAME_STEP
+        self._streams: list[np.random.Generator] = []
+        self._over = np.zeros(num_envs, np.bool_)
+
+    def reset(
+        self, *, seed: int | Sequence[int | None] | None = None, options: dict[str, Any] | None = None
+    ) -> tuple[Floats, dict[str, Any]]:
+        """Begin another episode everywhere; `info["layout"]` has the seeds by which `mindc run` repeats them."""
+        if options and "reset_mask" in options:
+            raise MindError("episodes cannot be begun one by one", "reset() without reset_mask begins all")
+        seeds: list[int | None] = [seed] * self.num_envs if seed is None else []
+        if seed is not None:
+            seeds += [seed + i for i in range(self.num_envs)] if isinstance(seed, int) else seed
+        if len(seeds) != self.num_envs:
+            raise MindError(f"there are {len(seeds)} seeds for {self.num_envs} robots", "give one, or one for each")
+        before = self._streams or [np_random()[0] for _ in seeds]
+        self._streams = [
+            stream if one is None else np_random(one)[0] for stream, one in zip(before, seeds, strict=True)
+        ]
+        everywhere = np.ones(self.num_envs, np.bool_)
+        self._episodes.begin(everywhere, layouts(seeds, self._streams))
+        self._over[:] = False
+        return self._episodes.sense(), self._begun(everywhere, {})
+
+    def step(self, actions: Floats) -> Step:
+        """One tick everywhere; `info` has the outcome of what has ended, and the layouts of what has begun."""
+        if not self._streams:
+            raise ResetNeeded("no episode has begun: call reset()")
+        rewards, terminated, truncated = self._episodes.step(actions)
+        infos: dict[str, Any] = {}
+        if self._at_once:
+            begins = terminated | truncated
+            if begins.any():
+                self._tell_last(begins, infos)
+        else:
+            begins = self._over
+            rewards[begins], terminated[begins], truncated[begins] = 0.0, False, False
+            self._over = terminated | truncated
+            for lane in np.flatnonzero(self._over).tolist():
+                infos = self._add_info(infos, self._episodes.outcome(lane), lane)
+        if begins.any():
+            chosen = np.flatnonzero(begins).tolist()
+            self._episodes.begin(begins, layouts([None] * len(chosen), [self._streams[i] for i in chosen]))
+            infos = self._begun(begins, infos)
+        return self._episodes.sense(), rewards, terminated, truncated, infos
+
+    def render(self) -> tuple[Image, ...] | None:
+        """The world of each robot, [height, width, 3] as red, green, blue."""
+        if self.render_mode != "rgb_array":
+            return None
+        return tuple(image_of(self._episodes.agent, lane) for lane in range(self.num_envs))
+
+    def _tell_last(self, ended: Mask, infos: dict[str, Any]) -> None:
+        """What the agents saw last, and what came of their episodes."""
+        for lane, seen in zip(np.flatnonzero(ended).tolist(), self._episodes.last_seen(ended), strict=True):
+            self._add_info(infos, {"final_obs": seen, "final_info": self._episodes.outcome(lane)}, lane)
+
+    def _begun(self, lanes: Mask, infos: dict[str, Any]) -> dict[str, Any]:
+        """The same with the layouts of what has just begun."""
+        for lane in np.flatnonzero(lanes).tolist():
+            infos = self._add_info(infos, {"layout": int(self._episodes.seeds[lane])}, lane)
+        return infos

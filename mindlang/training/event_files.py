@@ -1,0 +1,130 @@
+"""The generations of a run as event files, one for each attempt, which TensorBoard shows beside each other.
+
+They are made of the run's log and nothing else: whoever goes on with a run begins by writing them anew, so that no
+generation is there twice, whatever had been written when the process was killed.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import asdict
+from datetime import datetime
+from math import isfinite
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from mindrun.train import RunError
+from mindrun.train.lesson_state import Record
+from mindrun.train.progress import Logged, read_progress
+from mindrun.train.run_folder import RunFolder
+
+if TYPE_CHECKING:
+    from tensorboardX import RecordWriter
+    from tensorboardX.proto.summary_pb2 import Summary
+
+FOLDER, FILE = "tensorboard", "events.out.tfevents.mind"  # TensorBoard takes what has "tfevents" in its name
+FILE_VERSION = "brain.Event:2"
+SCORES = {
+    "score/best": "best",
+    "score/mean": "mean",
+    "score/re-evaluated": "reevaluated",
+    "score/verdict": "verdict",
+}
+SPEED = "speed/ticks per second"
+FLUSH_SECONDS = 2.0  # between two times that what was written is brought to the disk
+
+
+class EventFiles:
+    """The event files of a run; an event's step is its generation, its time how long the training had taken by then."""
+
+    def __init__(self, run: RunFolder) -> None:
+        self.folder = run.folder / FOLDER
+        self._run = run
+        self._writer: RecordWriter | None = None
+        self._attempt: float | None = None
+        self._time, self._flushed = 0.0, 0.0
+
+    def report(self, record: Record, done: int, now: float) -> None:
+        """A generation has ended, and is in the log: write it, and at first all before it."""
+        with _disk(self.folder):
+            if self._writer is None:
+                self._write_all()
+            else:
+                self._write(asdict(record))
+            if self._writer and now - self._flushed >= FLUSH_SECONDS:
+                self._writer.flush()
+                self._flushed = now
+
+    def write_all(self) -> None:
+        """Write what the log of a run has, which need not go on."""
+        with _disk(self.folder):
+            self._write_all()
+        self.close()
+
+    def close(self) -> None:
+        """Bring the files to the disk; a generation that is reported after that begins them anew."""
+        if self._writer:
+            with _disk(self.folder):
+                self._writer.flush()
+                self._writer.close()
+            self._writer = None
+
+    def _write_all(self) -> None:
+        self._attempt, self._time = None, datetime.fromisoformat(self._run.manifest.started).timestamp()
+        records = read_progress(self._run.folder)
+        known = {_folder(record) for record in records}
+        for path in self.folder.glob(f"*/{FILE}"):
+            if path.parent.name not in known:  # an attempt that a crash took back
+                path.unlink()
+        for record in records:
+            self._write(record)
+
+    def _write(self, record: Logged) -> None:
+        from tensorboardX.proto.event_pb2 import Event
+
+        if record["attempt"] != self._attempt:
+            self._begin(record)
+        assert self._writer
+        self._time += record["seconds"] or 0.0
+        event = Event(wall_time=self._time, step=int(record["generation"] or 0), summary=_summary(record))
+        self._writer.write(event.SerializeToString())
+
+    def _begin(self, record: Logged) -> None:
+        """The file of an attempt, with what each begins with."""
+        from tensorboardX import RecordWriter
+        from tensorboardX.proto.event_pb2 import Event
+
+        self.close()
+        folder = self.folder / _folder(record)
+        folder.mkdir(parents=True, exist_ok=True)
+        self._attempt, self._writer = record["attempt"], RecordWriter(str(folder / FILE))
+        self._writer.write(Event(wall_time=self._time, file_version=FILE_VERSION).SerializeToString())
+
+
+def _folder(record: Logged) -> str:
+    return f"attempt {record['attempt']}"
+
+
+def _summary(record: Logged) -> Summary:
+    """The figures of a generation that are finite, with their names."""
+    from tensorboardX.proto.summary_pb2 import Summary
+
+    scores = {tag: record[column] for tag, column in SCORES.items()}
+    speed = {SPEED: (record["ticks"] or 0) / record["seconds"] if record["seconds"] else None}
+    return Summary(
+        value=[
+            Summary.Value(tag=tag, simple_value=value)
+            for tag, value in (scores | speed).items()
+            if value is not None and isfinite(value)
+        ]
+    )
+
+
+@contextmanager
+def _disk(folder: Path) -> Iterator[None]:
+    try:
+        yield
+    except OSError as error:
+        hint = "make room, or go on without --tensorboard"
+        raise RunError(f"cannot write to {folder}: {error.strerror}", hint) from error

@@ -1,0 +1,130 @@
+"""A skill that learns as other programs know it: a network of matrices without biases, and its genome as these."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from itertools import accumulate
+
+import numpy as np
+from mindrun.errors import WeightsError
+from mindrun.functions.function import Layers
+from mindrun.graph import Graph, Skill
+from mindrun.printable import visible
+from mindrun.weights import Weights, genes
+
+from mindlang.lock import Signature
+from mindlang.lock.signature import differences, signature
+from mindlang.weights.safetensors import Matrix, Tensors
+
+KEYS = ("mind.function", "mind.reads", "mind.sends")  # of the metadata: the signature of the weights
+
+
+@dataclass(frozen=True, slots=True)
+class Network:
+    """What a skill computes: its matrices are [values out, values in], sigmoid but for the last, clamped to 0..1.
+
+    `shapes` are (values in, values out) of each. The first reads the inputs and, where there is a `state`, what its
+    neurons said in the tick before. What it reads and sends stands in the order of `signature`.
+    """
+
+    skill: Skill
+    signature: Signature
+    shapes: Layers
+
+    @property
+    def inputs(self) -> int:
+        """How many readings it takes."""
+        return len(self.skill.inputs)
+
+    @property
+    def outputs(self) -> int:
+        """How many values it sends."""
+        return self.skill.outputs
+
+    @property
+    def state(self) -> int:
+        """How many values it remembers."""
+        return self.skill.function.state_length(self.inputs, self.outputs)
+
+
+def network_of(graph: Graph, name: str) -> Network:
+    """The network of the skill of that name in an `arrange`d graph; WeightsError where it has none of its own."""
+    skill = next((each for each in graph.skills if each.name == name), None)
+    if skill is None:
+        raise WeightsError(f"there is no skill called {name}", f"There is {', '.join(s.name for s in graph.skills)}.")
+    if skill.like:
+        raise WeightsError(f"{name} is like {skill.like}: it has no weights of its own", f"take {skill.like}")
+    shapes = skill.function.matrix_shapes(len(skill.inputs), skill.outputs)
+    if not genes(skill) or not shapes:
+        raise WeightsError(f"{name} has no weights: it learns nothing", "take a skill that is mlp or elman")
+    return Network(skill, signature(graph, skill), shapes)
+
+
+def matrix_names(network: Network) -> tuple[str, ...]:
+    """The names of the matrices, as PyTorch gives them to the layers of `mindlang.torch.Skill`."""
+    return tuple(f"layers.{number}.weight" for number in range(len(network.shapes)))
+
+
+def matrices_of(network: Network, genome: Weights) -> tuple[Matrix, ...]:
+    """A genome as its matrices [values out, values in]."""
+    ends = [*accumulate(before * after for before, after in network.shapes)]
+    parts = np.split(genome, ends[:-1])
+    return tuple(part.reshape(after, before) for part, (before, after) in zip(parts, network.shapes, strict=True))
+
+
+def to_tensors(network: Network, matrices: Sequence[Matrix]) -> Tensors:
+    """The matrices by name, and which skill they are for."""
+    own = network.signature
+    said = (own.function, " ".join(own.reads), " ".join(own.sends))
+    metadata = {"format": "pt", "mind.skill": network.skill.name, **dict(zip(KEYS, said, strict=True))}
+    return Tensors(dict(zip(matrix_names(network), matrices, strict=True)), metadata)
+
+
+def to_genome(network: Network, tensors: Tensors) -> Weights:
+    """The genome in a file's tensors, in the order of the network; WeightsError where they are not its matrices.
+
+    What a file says that its weights read and send is held against the skill, by name: another order is brought into
+    that of the skill. A file that says nothing is taken as it is.
+    """
+    names = matrix_names(network)
+    _refuse_other_names(network, names, tensors)
+    for name, (into, out) in zip(names, network.shapes, strict=True):
+        found = tensors.by_name[name]
+        if found.shape != (out, into):
+            turned = " (it is turned over: a row is what one neuron reads)" * (found.shape == (into, out))
+            shape = "×".join(map(str, found.shape)) or "a single number"
+            raise WeightsError(f"{name} is {shape}, and that of {network.skill.name} {out}×{into}{turned}")
+        if not np.isfinite(found).all():
+            raise WeightsError(f"{name} has numbers that are not finite")
+    genome = np.concatenate([tensors.by_name[name].ravel() for name in names])
+    return _in_order(network, tensors, genome)
+
+
+def _refuse_other_names(network: Network, names: Sequence[str], tensors: Tensors) -> None:
+    hint = f"the tensors of {network.skill.name} are {', '.join(names)}; mindlang.torch.Skill saves them"
+    if missing := [name for name in names if name not in tensors.by_name]:
+        raise WeightsError(f"it has no {missing[0]}", hint)
+    if extra := [name for name in tensors.by_name if name not in names]:
+        raise WeightsError(f"it has {visible(f'{extra[0]:.60}')}, which is no weight of {network.skill.name}", hint)
+
+
+def _in_order(network: Network, tensors: Tensors, genome: Weights) -> Weights:
+    """The genome of a file that says what it reads and sends in the order in which the skill does."""
+    if not any(key in tensors.metadata for key in KEYS):
+        return genome
+    if not all(tensors.metadata.get(key, "").strip() for key in KEYS):
+        raise WeightsError("its __metadata__ says some of mind.function, mind.reads and mind.sends, but not all")
+    function, reads, sends = (tensors.metadata[key] for key in KEYS)
+    its, own = Signature(function, tuple(reads.split()), tuple(sends.split())), network.signature
+    if found := differences(its, own, network.skill.function.derived):
+        raise WeightsError(f"these are weights of another declaration: {visible('; '.join(found))}")
+    if sorted(its.reads) != sorted(own.reads) or sorted(its.sends) != sorted(own.sends):
+        raise WeightsError("its __metadata__ names something twice")
+    return network.skill.function.reordered(genome, _places(own.reads, its.reads), _places(own.sends, its.sends))
+
+
+def _places(of: Sequence[str], among: Sequence[str]) -> list[int]:
+    """For each reading or output of these names its place among those of the same names in another order."""
+    widths = [int(name.partition(":")[2] or 1) for name in among]
+    begins = dict(zip(among, accumulate(widths, initial=0), strict=False))
+    many = dict(zip(among, widths, strict=True))
+    return [begins[name] + number for name in of for number in range(many[name])]

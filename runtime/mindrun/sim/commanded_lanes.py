@@ -1,0 +1,162 @@
+"""Runs side by side whose robots are commanded from outside, tick by tick; each stays in its lane until it is replaced.
+
+A tick is `command` or `play`, then `act`, then `sense`; between the last two a run that is over may make room for
+another (`begin`). Under the commands that a mind computes, a run is bit for bit what `Rollout` makes of its seed.
+"""
+
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from mindrun.functions import Rule
+from mindrun.graph import Graph
+from mindrun.policy import Policy
+from mindrun.reward_sums import score_of
+from mindrun.sim.codes import GOING_ON, LOST
+from mindrun.sim.lanes.stages import after, before, begin_again, send, wake
+from mindrun.sim.rollout import Rollout
+from mindrun.sim.state import Jobs, State
+from mindrun.sim.tables import Tables
+
+BY_LANE_FIRST = {"boxes"}  # [lane, column], where all others that are sensed are [row, lane] or [lane]
+ENDLESS_TICKS = 1 << 62
+
+
+class CommandedLanes:
+    """So many runs of a rollout's task. All begin with the seed 0; `begin` replaces them."""
+
+    def __init__(self, rollout: Rollout, lanes: int) -> None:
+        self.rollout, self.count = rollout, lanes
+        self.tile = rollout.tile(lanes)
+        self.state: State = self.tile.state
+        genome = np.zeros((1, rollout.genome_length), np.float32)
+        self.jobs: Jobs = rollout.jobs(genome, np.zeros(lanes, np.uint64))
+        self._endless = _endless(rollout.tables)
+        self._aside: State | None = None
+        self._compile()
+        rollout.fill(self.tile, self.jobs)
+        self._lost = np.zeros(lanes, np.bool_)
+
+    def begin(self, lanes: NDArray[np.bool_], seeds: ArrayLike) -> None:
+        """In the marked lanes [lanes] begin the runs of these seeds, one for each; `sense` says what they read."""
+        self.jobs.seeds[lanes] = np.asarray(seeds, np.uint64)
+        self.jobs.lanes[0] = self.count
+        begin_again(self.rollout.tables, self.state, self.jobs, lanes)
+        self._lost[lanes] = False
+        self.tile.memories.forget({*np.flatnonzero(~lanes).tolist()})
+
+    def sense(self) -> None:
+        """What the robots read now; once in each tick, for noise draws random numbers."""
+        before(self.rollout.tables, self.state, self.jobs)
+
+    def command(self, commands: NDArray[np.float32]) -> None:
+        """Commands [lanes, actuators] for this tick; one that is not finite is neutral."""
+        mind, count = self.state.mind, commands.shape[1]
+        # Eq. 3 with the influence 1 gives back the command itself.
+        mind.command_sums[:count, : self.count] = commands.T
+        mind.influence_sums[:count, : self.count] = 1.0
+
+    def play(self, row: int, outputs: NDArray[np.float32]) -> None:
+        """Outputs [lanes, outputs] of the skill in this row of the tables; all other skills compute theirs."""
+        tables, state, lanes = self.rollout.tables, self.state, int(self.jobs.lanes[0])
+        self.rollout.think(self.tile, self.jobs, 0, row)
+        count = wake(tables, state, lanes, row)
+        if count:
+            state.mind.hidden[: outputs.shape[1], :count] = outputs[state.mind.active[:count].astype(np.int64)].T
+            send(tables, state, row, 0, count, lanes)
+        self.rollout.think(self.tile, self.jobs, row + 1, len(tables.skills))
+
+    def act(self) -> None:
+        """The rest of the tick. A run that is over goes on in its lane, unseen, until another begins there."""
+        # A robot beyond all places leaves its lane at once: another run takes it, or it stays empty where it is alone.
+        self.jobs.next[0] = 0 if self.count > 1 else 1
+        after(self._endless, self.state, self.jobs, False)
+        self._lost |= (self.state.world.tick == 0) | (self.state.run.job < 0)
+
+    def sensed_aside(self, lanes: NDArray[np.bool_]) -> State:
+        """What the marked lanes would read now, in the first lanes of another state; nothing here is changed."""
+        if self._aside is None:
+            self._aside = self.rollout.tile(self.count).state
+        chosen = np.flatnonzero(lanes)
+        for part in ("world", "sight", "mind"):
+            _copy(getattr(self.state, part), chosen, getattr(self._aside, part), self.count)
+        jobs = self.jobs._replace(lanes=np.array([len(chosen)], np.int64))
+        before(self.rollout.tables, self._aside, jobs)
+        return self._aside
+
+    @property
+    def terminated(self) -> NDArray[np.bool_]:
+        """In which lanes an end was met, or the robot is beyond all places."""
+        met: NDArray[np.bool_] = (self.state.run.met != GOING_ON) | self._lost
+        return met
+
+    @property
+    def timed_out(self) -> NDArray[np.bool_]:
+        """In which lanes the run has lasted its time."""
+        late: NDArray[np.bool_] = self.state.world.tick >= self.rollout.task.ticks
+        return late
+
+    @property
+    def ended_by(self) -> NDArray[np.int64]:
+        """The end that each run has met, as `Scores.ended_by`: GOING_ON where none, also when time is up."""
+        found: NDArray[np.int64] = np.where(self._lost, LOST, self.state.run.met)
+        return found
+
+    @property
+    def lines(self) -> NDArray[np.float64]:
+        """What each reward line has paid in each run [lanes, lines]."""
+        paid = self.state.judge.lines[:, : self.count].T.copy()
+        if self._lost.any():
+            paid[self._lost] = self.jobs.lines[self._lost]
+        return paid
+
+    @property
+    def scores(self) -> NDArray[np.float64]:
+        """What all reward lines have paid in each run [lanes]."""
+        paid: NDArray[np.float64] = score_of(self.lines)
+        return paid
+
+    @property
+    def counts(self) -> NDArray[np.int64]:
+        """How often each event of the task has happened in each run [lanes, events]."""
+        happened = self.state.judge.counts[: len(self.rollout.task.events), : self.count].T.copy()
+        if self._lost.any():
+            happened[self._lost] = self.jobs.counts[self._lost, : happened.shape[1]]
+        return happened
+
+    def _compile(self) -> None:
+        """Compile the stages now, not in the first ticks: no lane is at work yet."""
+        tables, state, jobs = self.rollout.tables, self.state, self.jobs
+        before(tables, state, jobs)
+        after(tables, state, jobs, False)
+        begin_again(tables, state, jobs, np.zeros(self.count, np.bool_))
+
+
+def commanded_lanes(graph: Graph, task: str, master: str, lanes: int = 1) -> CommandedLanes:
+    """Lanes in which no skill runs, so that none needs its weights or its procedure: what they read is all that counts.
+
+    As in training, a sensor that nobody below the master reads is not measured and reads 0: its noise would draw random
+    numbers.
+    """
+    silent = replace(graph, skills=tuple(replace(skill, function=Rule()) for skill in graph.skills))
+    return CommandedLanes(Rollout(Policy(silent, {}), task, master), lanes)
+
+
+def _endless(tables: Tables) -> Tables:
+    """The same with no last tick: a run that has lasted its time stays, and what it reads then can be asked."""
+    world = tables.world.copy()
+    world["ticks"] = ENDLESS_TICKS
+    return tables._replace(world=world)
+
+
+def _copy(source: Any, lanes: NDArray[np.int64], target: Any, count: int) -> None:
+    """Some lanes of a part of the state to the first ones of another."""
+    for name, rows, others in zip(source._fields, source, target, strict=True):
+        if name in BY_LANE_FIRST:
+            others[: len(lanes)] = rows[lanes]
+        elif rows.ndim == 2:
+            others[:, : len(lanes)] = rows[:, lanes]
+        elif len(rows) == count:
+            others[: len(lanes)] = rows[lanes]

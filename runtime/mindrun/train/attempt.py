@@ -1,0 +1,109 @@
+"""One attempt: generation after generation, its best tried on layouts never seen, until it ends. No other is asked."""
+
+from dataclasses import dataclass, replace
+from math import inf
+
+import numpy as np
+
+from mindrun.graph import Lesson
+from mindrun.learners import Learner
+from mindrun.train.ask_and_tell import ask, kept_count, tell
+from mindrun.train.lesson_state import AttemptState, Course, Record
+from mindrun.train.population import Scores, order
+from mindrun.train.rungs import rung_at
+from mindrun.train.scoring import Marks, Scorer, mark
+from mindrun.train.seeds import Purpose, Seeds, breeding_generator, layouts
+
+REEVALUATION_GENERATIONS = 10  # between two re-evaluations
+REEVALUATED_CANDIDATES = 4  # of a generation, that are re-evaluated beside the champion
+REEVALUATION_LAYOUTS = 16  # layouts of a re-evaluation of so many candidates
+VERDICT_LAYOUTS = 50  # layouts on which attempts are compared, and as many others on which the best is reported
+
+
+@dataclass(frozen=True, slots=True)
+class Verdict:
+    """What the champion of an attempt scores in its end: `scores` [2] decide between attempts, and are reported."""
+
+    scores: Scores
+    ticks: int
+    faults: int
+
+
+def generation(course: Course, scorer: Scorer, number: int, state: AttemptState) -> tuple[AttemptState, Record]:
+    """One generation of attempt `number`: bred, scored, and every now and then its best tried on fresh layouts."""
+    lesson, learner = course.lesson, course.lesson.learner
+    key = course.seed, number, state.population.generation
+    genomes = ask(state.population, learner, course.start, scorer.draw, breeding_generator(*key))
+    marks = mark(scorer, genomes, layouts(*key, learner.layouts))
+    population = tell(state.population, learner, course.start, genomes, marks.scores)
+    now = replace(state, population=population, told_apart=state.told_apart or are_different(marks.scores))
+    done, reevaluated = [marks], None
+    rung = rung_at(lesson, population.generation)
+    first_or_tenth = population.generation == 1 or population.generation % REEVALUATION_GENERATIONS == 0
+    if first_or_tenth or rung is not None or ends_by_itself(lesson, now):
+        now, again, reevaluated = try_again(now, scorer, layouts(*key, fresh_count(learner), Purpose.REEVALUATION))
+        done.append(again)
+    if rung is not None:
+        place = course.seed, 0, population.generation
+        now, there = climb(now, scorer, rung, layouts(*place, VERDICT_LAYOUTS, Purpose.RUNG))
+        done.append(there)
+    ticks, faults = sum(each.ticks for each in done), sum(each.faults for each in done)
+    best, mean = float(marks.scores.max()), _mean(marks.scores)
+    return now, Record(number + 1, population.generation, best, mean, reevaluated, None, ticks, 0.0, faults)
+
+
+def ends_by_itself(lesson: Lesson, state: AttemptState) -> bool:
+    """Whether an attempt has had all its generations, or has not become better for too many."""
+    number = state.population.generation
+    return number == lesson.generations or 0 < lesson.learner.patience <= number - state.since
+
+
+def fresh_count(learner: Learner) -> int:
+    """On how many layouts candidates are tried again: the fewer there are beside champion and rival, the more."""
+    return REEVALUATION_LAYOUTS * (REEVALUATED_CANDIDATES + 2) // (min(REEVALUATED_CANDIDATES, kept_count(learner)) + 2)
+
+
+def climb(state: AttemptState, scorer: Scorer, rung: int, seeds: Seeds) -> tuple[AttemptState, Marks]:
+    """The champion's score at a rung, on the layouts of all attempts there."""
+    marks = mark(scorer, state.champion, seeds)
+    climbed = state.climbed.copy()
+    climbed[rung] = marks.scores[0]
+    return replace(state, climbed=climbed), marks
+
+
+def try_again(state: AttemptState, scorer: Scorer, fresh: Seeds) -> tuple[AttemptState, Marks, float]:
+    """The champion is who does best on fresh layouts, it or the best of the generation; and its score on them."""
+    ranked = state.population.genomes[order(state.population.scores)]
+    candidates = np.concatenate([state.champion, ranked[:REEVALUATED_CANDIDATES], state.rival])
+    marks = mark(scorer, candidates, fresh)
+    winner = int(order(marks.scores[: len(candidates) - len(state.rival)])[0])
+    now = replace(state, champion=candidates[winner : winner + 1])
+    if not len(state.rival) or is_better(marks.each[winner], marks.each[-1]):
+        now = replace(now, rival=now.champion, since=state.population.generation)
+    return now, marks, float(marks.scores[winner])
+
+
+def judge(course: Course, scorer: Scorer, state: AttemptState) -> Verdict:
+    """The end of an attempt: its champion tried on layouts common to all attempts."""
+    seeds = layouts(course.seed, 0, course.lesson.generations, 2 * VERDICT_LAYOUTS, Purpose.VERDICT)
+    marks = mark(scorer, state.champion, seeds)
+    return Verdict(marks.each[0].reshape(2, VERDICT_LAYOUTS).mean(axis=1), marks.ticks, marks.faults)
+
+
+def is_better(scores: Scores, than: Scores) -> bool:
+    """Whether scores [layouts] are better than others on the same layouts by more than two standard errors."""
+    if not np.isfinite(scores).all() or not np.isfinite(than).all():
+        return bool(np.isfinite(scores).all())
+    gain = scores - than
+    return bool(gain.mean() > 2.0 * gain.std(ddof=1) / np.sqrt(len(gain)))
+
+
+def are_different(scores: Scores) -> bool:
+    """Whether there are two finite scores [genomes] that are not the same."""
+    finite = scores[np.isfinite(scores)]
+    return bool((finite != finite[:1]).any())
+
+
+def _mean(scores: Scores) -> float:
+    finite = scores[np.isfinite(scores)]
+    return float(finite.mean()) if len(finite) else -inf

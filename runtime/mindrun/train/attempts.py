@@ -1,0 +1,250 @@
+"""The attempts of a lesson side by side: whatever order they end in, the lesson goes as if it were one by one.
+
+An attempt asks no other but at a rung. There it is decided in the order of attempts: one ahead of its turn is cut in
+retrospect, where it stood at the rung.
+"""
+
+from collections import deque
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, field, replace
+from heapq import heappop, heappush
+from typing import Protocol
+
+import numpy as np
+
+from mindrun.graph import Lesson
+from mindrun.train import attempt
+from mindrun.train.attempt import Verdict, ends_by_itself, judge
+from mindrun.train.lesson import Clock, ended, gone_on, judged
+from mindrun.train.lesson_state import AttemptState, Course, LessonState, Record, begin_attempt
+from mindrun.train.population import Genomes
+from mindrun.train.rungs import heights, is_behind, rung_at
+from mindrun.train.scoring import Scorer
+
+SEGMENT_SECONDS = 2.0  # after which a segment ends with the generation at work
+SEGMENT_GENERATIONS = 100  # at most in a segment
+
+
+@dataclass(frozen=True, slots=True)
+class Stretch:
+    """A job: attempt `number`, which counts from 0, from a state on; with `cut` it ends there, and is judged."""
+
+    number: int
+    state: AttemptState
+    cut: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Segment:
+    """What came of a stretch: `records` and `champions` [records, weights] of its generations, and where it stands now.
+
+    `verdict` is there where the attempt has ended.
+    """
+
+    state: AttemptState
+    records: tuple[Record, ...]
+    champions: Genomes
+    verdict: Verdict | None
+
+
+@dataclass(frozen=True, slots=True)
+class Step:
+    """What a lesson has come to: its state, and the generations since the step before, with the champion of each."""
+
+    state: LessonState
+    records: tuple[Record, ...]
+    champions: Genomes
+
+
+class Executor(Protocol):
+    """Who does stretches: any number at once, in any order; one that was lost is done again."""
+
+    def has_room(self) -> bool:
+        """Whether somebody would wait without another job."""
+
+    def submit(self, job: int, stretch: Stretch) -> None:
+        """Ask for a stretch."""
+
+    def take(self) -> tuple[int, Segment] | None:
+        """A job that has ended, and what came of it; None where for a while none has."""
+
+
+def advance(course: Course, scorer: Scorer, stretch: Stretch, clock: Clock) -> Segment:
+    """An attempt goes on until it ends by itself, comes to a rung, or has been at it for long enough."""
+    state, records, champions = stretch.state, list[Record](), [stretch.state.champion[:0]]
+    began = clock()
+    while not (stretch.cut or is_over(course.lesson, state, records, clock() - began)):
+        start = clock()
+        state, record = attempt.generation(course, scorer, stretch.number, state)
+        records.append(replace(record, seconds=clock() - start))
+        champions.append(state.champion)
+    ends = stretch.cut or ends_by_itself(course.lesson, state)
+    verdict = judge(course, scorer, state) if ends else None
+    return Segment(state, tuple(records), np.concatenate(champions), verdict)
+
+
+def is_over(lesson: Lesson, state: AttemptState, records: list[Record], seconds: float) -> bool:
+    """Whether a segment ends here, of which there are these records after so many seconds."""
+    if not records:
+        return False
+    return (
+        ends_by_itself(lesson, state)
+        or rung_at(lesson, state.population.generation) is not None
+        or seconds >= SEGMENT_SECONDS
+        or len(records) == SEGMENT_GENERATIONS
+    )
+
+
+@dataclass(slots=True)
+class Track:
+    """An attempt that has begun: where it stands, and its segments that the lesson has not come to yet."""
+
+    number: int
+    state: AttemptState
+    job: int = -1  # that is at it; -1 for none
+    segments: deque[Segment] = field(default_factory=deque)
+    at_rung: dict[int, AttemptState] = field(default_factory=dict)  # where it stood there
+    cut: AttemptState | None = None  # where it was found behind
+    verdict: Verdict | None = None
+
+
+@dataclass(slots=True)
+class Attempts:
+    """The attempts of a course from a state on; `decided` has for each rung how many have been decided there."""
+
+    course: Course
+    lesson: LessonState
+    tracks: dict[int, Track] = field(default_factory=dict)
+    decided: dict[int, int] = field(default_factory=dict)
+    rows: np.ndarray[tuple[int, int], np.dtype[np.float64]] = field(init=False)
+    ready: list[tuple[int, int]] = field(default_factory=list)  # attempts that a job could go on with, the first first
+    jobs: dict[int, int] = field(default_factory=dict)  # the attempt of each
+    begun: int = 0
+    asked: int = 0
+
+    def __post_init__(self) -> None:
+        """Take up the attempt at work, whose rungs below have been decided."""
+        lesson, number = self.course.lesson, self.lesson.attempt
+        count = lesson.learner.attempts
+        self.rows = np.full((count, lesson.learner.rungs), -np.inf)
+        self.rows[:number] = self.lesson.rungs
+        reached = self.lesson.now.population.generation
+        for height in heights(lesson.learner.rungs):
+            if (rung := rung_at(lesson, place := int(height * lesson.generations))) is not None:
+                self.decided[rung] = number + (number < count and place <= reached)
+        self.begun = number
+        if number < count:
+            self.rows[number] = self.lesson.now.climbed
+            self._begin(self.lesson.now)
+
+    def next_stretch(self) -> tuple[int, Stretch] | None:
+        """The job that is most wanted; None where there is none to do."""
+        while self.ready or self.begun < self.course.lesson.learner.attempts:
+            if not self.ready:
+                self._begin(begin_attempt(self.course))
+            _, number = heappop(self.ready)
+            track = self.tracks.get(number)
+            if track is None or track.job >= 0 or track.verdict is not None:
+                continue
+            self.asked += 1
+            track.job = self.asked
+            self.jobs[self.asked] = number
+            return self.asked, Stretch(number, track.cut or track.state, track.cut is not None)
+        return None
+
+    def put(self, job: int, segment: Segment) -> None:
+        """What came of a job; of one that has become needless, nothing."""
+        track = self.tracks.get(self.jobs.pop(job, -1))
+        if track is None or track.job != job:
+            return
+        track.job, track.verdict = -1, segment.verdict
+        if track.cut is not None:
+            track.segments[-1] = replace(track.segments[-1], verdict=segment.verdict)
+        else:
+            track.state = segment.state
+            self._append(track, segment)
+        if segment.verdict is None:
+            heappush(self.ready, (track.number, track.number))
+        self._decide()
+
+    def steps(self) -> Iterator[Step]:
+        """What the lesson comes to by what is known now, in its order."""
+        while (track := self.tracks.get(self.lesson.attempt)) and track.segments:
+            if self._is_open(track, track.segments[0]):
+                return
+            yield self._gone_on(track, track.segments.popleft())
+
+    def _begin(self, state: AttemptState) -> None:
+        self.tracks[self.begun] = Track(self.begun, state)
+        heappush(self.ready, (self.begun, self.begun))
+        self.begun += 1
+
+    def _append(self, track: Track, segment: Segment) -> None:
+        """Keep a segment, as one with that before unless a decision may come between them."""
+        before = track.segments[-1] if track.segments else None
+        if before is not None and all(before.state is not at_rung for at_rung in track.at_rung.values()):
+            records, champions = before.records + segment.records, (before.champions, segment.champions)
+            track.segments[-1] = replace(segment, records=records, champions=np.concatenate(champions))
+        else:
+            track.segments.append(segment)
+        rung = rung_at(self.course.lesson, segment.state.population.generation)
+        if rung is not None:
+            track.at_rung[rung] = segment.state
+            self.rows[track.number, rung] = segment.state.climbed[rung]
+
+    def _is_open(self, track: Track, segment: Segment) -> bool:
+        """Whether it is not known yet what becomes of an attempt behind a segment."""
+        if segment.verdict is not None:
+            return False
+        rung = rung_at(self.course.lesson, segment.state.population.generation)
+        return track.cut is segment.state or (rung is not None and self.decided[rung] <= track.number)
+
+    def _decide(self) -> None:
+        """Decide at each rung for all for whom it can be: everybody before has come there, or never will."""
+        below = None
+        for rung in self.decided:
+            while (track := self.tracks.get(self.decided[rung])) and (
+                below is None or track.number < self.decided[below]
+            ):
+                never = track.cut is not None or (track.verdict is not None and rung not in track.at_rung)
+                if never:
+                    self.rows[track.number, rung] = -np.inf
+                elif rung not in track.at_rung:
+                    break
+                elif track.verdict is None or track.at_rung[rung] is not track.state:
+                    self._compare(track, rung)
+                self.decided[rung] += 1
+            below = rung
+
+    def _compare(self, track: Track, rung: int) -> None:
+        """Cut an attempt that is behind at a rung: what it did since has not happened."""
+        if not is_behind(self.rows[: track.number + 1, rung]):
+            return
+        track.cut, track.verdict, track.job = track.at_rung[rung], None, -1
+        while track.segments and track.segments[-1].state is not track.cut:
+            track.segments.pop()
+        track.state = track.cut
+        heappush(self.ready, (-1, track.number))  # it holds up all behind it
+        self.rows[track.number, rung + 1 :] = -np.inf
+
+    def _gone_on(self, track: Track, segment: Segment) -> Step:
+        records = [*segment.records]
+        if segment.verdict is not None:
+            records[-1] = judged(records[-1], segment.verdict)
+        for record in records:
+            self.lesson = gone_on(self.lesson, segment.state, record)
+        if segment.verdict is not None:
+            self.lesson = ended(self.course, self.lesson, segment.verdict)
+            del self.tracks[track.number]
+        return Step(self.lesson, tuple(records), segment.champions)
+
+
+def side_by_side(course: Course, executor: Executor, state: LessonState, stop: Callable[[], bool]) -> Iterator[Step]:
+    """The steps of a lesson whose attempts an executor does; who iterates may stop after any of them."""
+    attempts = Attempts(course, state)
+    while attempts.lesson.attempt < course.lesson.learner.attempts and not stop():
+        while executor.has_room() and (job := attempts.next_stretch()):
+            executor.submit(*job)
+        if (done := executor.take()) is not None:
+            attempts.put(*done)
+            yield from attempts.steps()

@@ -1,0 +1,109 @@
+"""Paired differences: their interval holds what it promises, and says nothing where the numbers say nothing."""
+
+from math import inf, nan, sqrt
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from mindlang.run.conclusion import SCORE, SUCCESS, conclusion
+from mindlang.run.paired_difference import MAX_RUNS, MIN_DIFFERING_RUNS, difference, t_quantile
+
+STUDENT = {1: 12.7062, 2: 4.30265, 4: 2.77645, 9: 2.26216, 30: 2.04227, 199: 1.97196, 10**6: 1.95997}  # any table
+WHOLE = st.lists(st.tuples(st.integers(-50, 50), st.integers(-50, 50)), min_size=2, max_size=60)
+
+
+@pytest.mark.parametrize("degrees", STUDENT)
+def test_the_quantiles_are_those_of_the_tables(degrees: int) -> None:
+    assert t_quantile(degrees) == pytest.approx(STUDENT[degrees], abs=1e-5)
+
+
+@given(WHOLE)
+def test_every_pair_is_counted_and_the_other_way_round_the_signs_change(pairs: list[tuple[int, int]]) -> None:
+    first, second = np.array(pairs, float).T
+    found, turned = difference(first, second), difference(second, first)
+    assert found.more + found.less + found.equal == found.runs == len(pairs)
+    assert (found.more, found.less) == (turned.less, turned.more)
+    assert found.mean == pytest.approx(second.mean() - first.mean())
+    assert (found.low is None) == (found.differing < MIN_DIFFERING_RUNS)
+    if found.low is not None:
+        assert turned.high == pytest.approx(-found.low)
+        assert found.low <= found.mean <= (found.high or 0)
+        assert found.leaves_zero_out == turned.leaves_zero_out == (found.low > 0 or (found.high or 0) < 0)
+
+
+def test_the_interval_contains_the_truth_as_often_as_it_says() -> None:
+    rng = np.random.default_rng(1)
+    layouts = rng.exponential(300, (2000, 40))  # what is common to both: far more than what differs
+    first = layouts + rng.exponential(10, layouts.shape)
+    second = layouts + 3 + rng.exponential(10, layouts.shape)
+    found = [difference(*both) for both in zip(first, second, strict=True)]
+    share = np.mean([each.low <= 3 <= each.high for each in found])  # type: ignore[operator]
+    assert 0.935 < share < 0.965
+    unpaired = np.hypot(first.std(axis=1), second.std(axis=1)) / sqrt(40)
+    assert max(each.standard_error or 0 for each in found) < unpaired.min()
+
+
+def test_so_many_runs_as_it_says_tell_four_times_in_five() -> None:
+    rng = np.random.default_rng(2)
+    pilot = difference(np.zeros(40), rng.normal(0.3, 1.0, 40))
+    assert pilot.mean
+    assert pilot.std
+    assert pilot.runs_to_tell
+    told = [
+        difference(np.zeros(pilot.runs_to_tell), rng.normal(pilot.mean, pilot.std, pilot.runs_to_tell)).leaves_zero_out
+        for _ in range(2000)
+    ]
+    assert 0.76 < np.mean(told) < 0.84
+    assert pilot.detectable == pytest.approx(2.8 * pilot.std / sqrt(40), rel=1e-2)
+
+
+def test_what_no_number_of_runs_tells_has_no_number() -> None:
+    alike = np.tile([1.0, -1.0], 20)
+    assert difference(np.zeros(40), alike).runs_to_tell is None
+    barely = alike + 1.0 / MAX_RUNS
+    assert difference(np.zeros(40), barely).runs_to_tell is None
+
+
+@pytest.mark.parametrize("broken", [nan, inf, -inf])
+def test_what_is_not_finite_is_compared_with_nothing(broken: float) -> None:
+    first, second = np.arange(20.0), np.arange(20.0)[::-1].copy()
+    first[3] = second[3] = second[5] = broken
+    found = difference(first, second)
+    assert (found.not_finite, found.mean, found.low, found.leaves_zero_out) == (2, None, None, False)
+    assert "In 2 runs the score is not a finite number" in conclusion("A", "B", "Go", {SCORE: found})
+
+
+def test_what_is_said_is_no_more_than_the_interval_says() -> None:
+    zero, rng = np.zeros(200), np.random.default_rng(3)
+    better = difference(zero, rng.normal(5, 1, 200))
+    said = conclusion("A", "B", "Go", {SCORE: better})
+    assert said.startswith("On layouts of Go, B scores ")
+    assert f"{better.low:.3f} to {better.high:.3f} more" in said
+    worse = conclusion("A", "B", "Go", {SCORE: difference(zero, rng.normal(-5, 1, 200))})
+    assert worse.startswith("On layouts of Go, A scores ")
+    assert "-" not in worse
+    unsure = difference(zero, np.tile([1.0, -1.0], 100))
+    low, high = f"{-(unsure.low or 0):.3f}", f"{unsure.high:.3f}"
+    said = conclusion("A", "B", "Go", {SCORE: unsure})
+    assert said.startswith(f"200 runs do not tell B from A: on layouts of Go, B scores from {low} less to {high} more")
+    same = conclusion("A", "B", "Go", {SCORE: difference(zero, zero)})
+    assert "the same score in 200 runs: they differ on at most 1.5 % of the layouts" in same
+    few = np.where(np.arange(200) < MIN_DIFFERING_RUNS - 1, 1.0, 0.0)
+    assert conclusion("A", "B", "Go", {SCORE: difference(zero, few)}).startswith("Only 9 of 200 runs differ in score")
+    assert conclusion("A", "B", "Go", {}).startswith("There is no figure that both have")
+
+
+def test_a_share_is_said_in_percentage_points_and_an_event_by_its_name() -> None:
+    zero, half = np.zeros(200), np.tile([0.0, 1.0], 100)
+    said = conclusion("A", "B", "Go", {SUCCESS: difference(zero, half)})
+    assert "B succeeds 50.0 percentage points more often than A on average" in said
+    said = conclusion("A", "B", "Go", {"reach of ball": difference(zero, half)})
+    assert "B counts 0.500 more (reach of ball) than A on average" in said
+
+
+def test_small_differences_have_the_digits_that_they_need() -> None:
+    tiny = difference(np.zeros(200), np.random.default_rng(4).normal(5e-5, 1e-5, 200))
+    assert "B scores 0.0000" in conclusion("A", "B", "Go", {SCORE: tiny})
+    assert "0.00 " not in conclusion("A", "B", "Go", {SCORE: tiny})
