@@ -14,6 +14,7 @@ from mindrun.errors import MindError
 from mindrun.graph import Graph
 from mindrun.policy import Policy
 from mindrun.sim.rollout import Rollout
+from mindrun.sim.rollouts import rollout_for
 from mindrun.sim.trace import Trace, trace
 from mindrun.train.lesson_state import Record
 from mindrun.train.training import Watch
@@ -97,7 +98,7 @@ class Mind:
         ready = make_ready(self.graph, self.compiled.sources, leader)
         if {*untaught_skills(ready)} - {*learners}:
             raise self._untaught(ready)
-        return Rollout(ready.policy, chosen.name, leader, learners, procedures=self._folder, workers=workers)
+        return rollout_for(ready.policy, chosen.name, leader, learners, procedures=self._folder, workers=workers)
 
     def trace(self, task: str | None = None, seed: int = 0, master: str | None = None) -> Trace:
         """One run of a task, tick by tick: `for moment in mind.trace("Collect", 3).moments`."""

@@ -85,7 +85,9 @@ class RunSession:
             bar = progress.add_task(f"{rollout.task.name}", total=len(seeds))
             begin = perf_counter()
             scores = rollout.score(NO_GENOME, seeds, lambda runs: progress.advance(bar, runs))
-            return scores, perf_counter() - begin
+            seconds = perf_counter() - begin
+        self.say(*(f"note: {note}" for note in rollout.notes))
+        return scores, seconds
 
     @procedures_talk()
     def record(self, set_up: RunSetup, rollout: Rollout, seed: int) -> RecordedRun:

@@ -105,6 +105,7 @@ class Trainer:
             talk.print(f"saved; to go on: {self._command(run)}", markup=False)
             return False
         taught = self._finished(run, subject, state, rollout, force)
+        self._say(*(f"note: {note}" for note in rollout.notes))
         self._say(*outcome(run, taught.result, taught.kept, subject.keep_path(run.manifest.lesson).name))
         self._print(taught.result)
         return True

@@ -96,7 +96,7 @@ def _bench(who: Contender, chosen: BenchChoice, table: Path | None, as_json: boo
     seeds = layouts(chosen.seed, chosen.runs)
     scores, seconds = session.score(rollout, seeds)
     found = {"task": setup.task.name, "master": setup.master, "seed": chosen.seed, "workers": chosen.workers}
-    found |= outcome.bench_data(setup.task, scores, seeds, seconds) | {"notes": [*setup.ready.notes]}
+    found |= outcome.bench_data(setup.task, scores, seeds, seconds) | {"notes": [*setup.ready.notes, *rollout.notes]}
     if table:
         write_file(table, csv_bytes(runs_table(setup.task, scores, seeds)))
         session.say(f"{table}: a row for each of {chosen.runs:,} runs")

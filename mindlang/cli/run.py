@@ -102,13 +102,13 @@ def _run_to_its_end(session: RunSession, file: str, chosen: RunChoice, files: Ru
     from mindlang.run.summary import run_summary
 
     setup, rollout = session.prepare(file, chosen.task, chosen.master, chosen.interrupt)
-    found = outcome.run_data(setup.task, session.score(rollout, [chosen.seed])[0])
+    came = outcome.run_data(setup.task, session.score(rollout, [chosen.seed])[0])
     found = {
         "task": setup.task.name,
         "master": setup.master,
         "seed": chosen.seed,
-        "notes": [*setup.ready.notes],
-    } | found
+        "notes": [*setup.ready.notes, *rollout.notes],
+    } | came
     if as_json:
         print_json(found)
     else:

@@ -10,6 +10,7 @@ from mindrun.engine import Engine
 from mindrun.graph import Graph, Skill
 from mindrun.policy import Policy
 from mindrun.sim.rollout import Rollout
+from mindrun.sim.rollouts import rollout_for
 from mindrun.sim.trace import trace
 from mindrun.weights import Weights, genes, owner_of, reachable, weights_of
 from numpy.typing import NDArray
@@ -158,6 +159,6 @@ def _recorded(side: MindVersion, skill: str, state: Trained, prepare: Callable[[
     task = state.entry.taught.task if state.entry.taught.task in tasks else tasks[0]
     weights = side.weights(skill)
     assert weights is not None
-    rollout = Rollout(Policy(side.graph, weights), task, skill, procedures=side.folder)
+    rollout = rollout_for(Policy(side.graph, weights), task, skill, procedures=side.folder)
     prepare(rollout)
     return np.array([moment.readings for moment in islice(trace(rollout, VERIFIED_SEED).moments, VERIFIED_TICKS)])

@@ -1,4 +1,4 @@
-"""A task as a Gymnasium environment: one robot, or many side by side. Needs the extra `gym`.
+"""A task as a Gymnasium environment: one robot, or many side by side. Needs the extra `gymnasium`.
 
 from mindlang import environments
 environments.register("collect.mind")
@@ -24,7 +24,7 @@ MODULES = {
     "TaskVectorEnv": "task_vector_env",
     "StableBaselinesEnv": "stable_baselines",
 }
-EXTRAS = {"gymnasium": "pip install 'mindlang[gym]'", "stable_baselines3": "pip install 'mindlang[sb3]'"}
+EXTRAS = {"gymnasium": "pip install 'mindlang[gymnasium]'", "stable_baselines3": "pip install 'mindlang[sb3]'"}
 
 
 def __getattr__(name: str) -> Any:

@@ -40,9 +40,9 @@ class RunSetup:
 
     def rollout(self, interrupt: bool = True, workers: int = 1) -> Rollout:
         """The task under the master, in the simulator. Runs the text of the procedures' modules."""
-        from mindrun.sim.rollout import Rollout
+        from mindrun.sim.rollouts import rollout_for
 
-        return Rollout(
+        return rollout_for(
             self.ready.policy,
             self.task.name,
             self.master,

@@ -6,6 +6,7 @@ from mindrun.bundle import Bundle, pack
 from mindrun.engine import procedure_sources
 from mindrun.policy import Policy
 from mindrun.sim.rollout import Rollout
+from mindrun.sim.rollouts import rollout_for
 from mindrun.train.lesson_state import LessonState
 from mindrun.train.population import founder_count
 from mindrun.train.run_folder import RunFolder, keep_result, read_result
@@ -29,7 +30,7 @@ class TeachingResult:
 def rollout_of(run: RunFolder, subject: Subject, workers: int) -> Rollout:
     """What scores the genomes of a run; MindError where memory or a year would not suffice."""
     lesson = run.manifest.lesson
-    rollout = Rollout(
+    rollout = rollout_for(
         Policy(subject.graph, run.weights),
         lesson.task,
         lesson.master,

@@ -85,8 +85,10 @@ RATIO = Quantity("a share between 0 and 1", {"": 1.0, "%": 0.01}, low=0.0, high=
 RATE = Quantity("a share between 0 and 1 for each tick", {"": 1.0, "%": 0.01}, low=0.0, high=1.0, rate="added")
 DECAY = Quantity("the share that is left after a tick", {"": 1.0, "%": 0.01}, low=0.0, high=1.0, rate="kept")
 COUNT = Quantity("a whole number", {"": 1.0}, low=1, high=1000, whole=True)
+INDEX = Quantity("a number of a slot", {"": 1.0}, low=0, high=1e6, whole=True)
 
 THING = Reference("thing")
 SENSOR = Reference("sensor")
 EXPRESSION = Reference("expression")
 FUNCTION = Reference("Python function")
+SLOT = Reference("name of a part of an observation or an action")

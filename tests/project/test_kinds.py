@@ -29,7 +29,11 @@ CODES = {
     "event": EVENT_CODES,
 }
 OUTCOMES = {"reached", "delivered"}
-GENERATORS = [ROOT / "tests" / "sim" / "worlds.py", ROOT / "tests" / "hierarchies.py"]
+GENERATORS = [
+    ROOT / "tests" / "sim" / "worlds.py",
+    ROOT / "tests" / "hierarchies.py",
+    ROOT / "tests" / "outside" / "minds.py",
+]
 
 # Where a module asks for the class of a kind outside of the room of its kinds, and why.
 MAY_ASK = {

@@ -103,12 +103,25 @@ class Builder(Transformer_NonRecursive[Token, Any]):
         kind = self._name(parts[0])
         return _Computed(Phrase(kind, (), kind.span), parts[1])
 
-    def reading(self, meta: Any, parts: list[Any]) -> Phrase:
-        """The number of the reading goes as an argument that is called as its kind."""
-        kind, which = self._name(parts[0]), parts[1]
-        span = Span(self.source, kind.span.start, which.span.end)
-        first = syntax.Argument(kind, syntax.Numbers((which,), which.span), span)
-        return Phrase(kind, (first, *parts[2:]), self._span(meta))
+    def numbered(self, meta: Any, parts: list[Any]) -> Phrase:
+        """The numbers go as an argument that is called as its kind; a name before them is that of a part."""
+        kind, *rest = self._name(parts[0]), *parts[1:]
+        part = self._name(rest.pop(0)) if isinstance(rest[0], Token) else None
+        which = tuple(each for each in rest if isinstance(each, Amount))
+        span = Span(self.source, which[0].span.start, which[-1].span.end)
+        first = [syntax.Argument(kind, syntax.Numbers(which, span), Span(self.source, kind.span.start, span.end))]
+        if part:
+            first.append(syntax.Argument(Name("part", part.span), part, part.span))
+        return Phrase(kind, (*first, *rest[len(which) :]), self._span(meta))
+
+    def outside(self, meta: Any, parts: list[Any]) -> Phrase:
+        """The environment goes as an argument that is called as its kind."""
+        kind, environment = map(self._name, parts)
+        return Phrase(kind, (syntax.Argument(kind, environment, self._span(meta)),), self._span(meta))
+
+    def its(self, meta: Any, parts: list[Any]) -> Phrase:
+        """What an environment says has both words for a name."""
+        return Phrase(Name(f"{parts[0]} {parts[1]}", self._span(meta)), (), self._span(meta))
 
     def reads(self, meta: Any, parts: list[Any]) -> syntax.Reads:
         stands_for = self._name(parts[1]) if len(parts) > 1 else None
@@ -164,6 +177,8 @@ class Builder(Transformer_NonRecursive[Token, Any]):
 
     def rewards(self, meta: Any, parts: list[Any]) -> syntax.Rewards:
         amount, *rest = parts
+        if isinstance(amount, Phrase):
+            amount = Expression((amount,), amount.span)
         on, each, when = (_one(rest, form) for form in (Phrase, syntax.Each, syntax.When))
         return syntax.Rewards(amount, on, each, when, self._span(meta))
 

@@ -113,6 +113,8 @@ def _making(node: Any, places: dict[int, int]) -> Maker:
     match node:
         case Span(_, start, end):
             return _spanning(places[start], places[end])
+        case syntax.Name(text, span) if text != span.text or " " in text:  # blanks of a shape are one
+            return _calling(text, places[span.start], places[span.end])
         case syntax.Name(_, span):
             return _naming(places[span.start], places[span.end])
         case syntax.Amount(sign, _, span, _, name) if name:
@@ -139,6 +141,11 @@ def _naming(first: int, end: int) -> Maker:
         return syntax.Name(line.source.text[start:stop], Span(line.source, start, stop))
 
     return name
+
+
+def _calling(text: str, first: int, end: int) -> Maker:
+    """A name that is not what stands there: `its  reward`, or that of an argument which goes without saying."""
+    return lambda line: syntax.Name(text, Span(line.source, line.at[first], line.at[end]))
 
 
 def _constant(sign: float, first: int, end: int) -> Maker:

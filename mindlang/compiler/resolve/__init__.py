@@ -13,6 +13,7 @@ from mindlang.compiler.hierarchy import check_cycles
 from mindlang.compiler.names import Names, gather
 from mindlang.compiler.resolve.curricula import lessons
 from mindlang.compiler.resolve.drives import check_drives
+from mindlang.compiler.resolve.outside import body_outside, check_outside, is_outside
 from mindlang.compiler.resolve.parts import parts, sensors
 from mindlang.compiler.resolve.settings import check_versions, master, settings, tick_seconds, unit_metres
 from mindlang.compiler.resolve.skills import skills
@@ -37,15 +38,17 @@ def resolve(files: Sequence[File], findings: Findings) -> model.Mind | None:
     memories, actuators = parts("memory", names, findings), parts("actuator", names, findings)
     known_skills = skills(names, width, findings)
     check_cycles(known_skills, findings)
-    body = _body(names, findings)
+    outside = is_outside(names)
+    body = body_outside(names, findings) if outside else _body(names, findings)
     robot = RobotFacts(names, width, tick, files[0].source.folder, body, actuators, known_sensors)
     known_tasks = tasks(robot, findings)
+    check_outside(known_tasks, known_sensors, actuators, findings)
     known_lessons = tuple(lessons(names, known_skills, width, findings))
-    if body:
+    if body and not outside:
         check_drives(body, actuators, findings)
     head = master(files[0], names, findings)
     if all_read:
-        _check_complete(files, names, known_skills, findings)
+        _check_complete(files, names, known_skills, bool(body), findings)
     if findings.diagnostics or body is None:
         return None
     return model.Mind(
@@ -81,7 +84,7 @@ def _body(names: Names, findings: Findings) -> model.Part[BodyKind] | None:
 
 
 def _check_complete(
-    files: Sequence[File], names: Names, known_skills: tuple[model.Skill, ...], findings: Findings
+    files: Sequence[File], names: Names, known_skills: tuple[model.Skill, ...], has_body: bool, findings: Findings
 ) -> None:
     """Report what every mind needs and this one lacks."""
     below = {name for skill in known_skills for name in skill.subskills}
@@ -89,7 +92,7 @@ def _check_complete(
     needs = (
         (any(settings(file, Tick) for file in files), "no-tick", "how long a tick is", "tick 1/60 s"),
         (bool(settings(files[0], Master)), "no-master", "which skill is the master", f"master {top}"),
-        (bool(names.of("body")), "no-body", "which body the robot has", "body Robot is disc size 2"),
+        (has_body or bool(names.of("body")), "no-body", "which body the robot has", "body Robot is disc size 2"),
     )
     start = Span(files[0].source, 0, 0)
     for there, code, what, line in needs:

@@ -169,6 +169,8 @@ def _check(noun: str, phrase: Phrase, parameter: Parameter, name: Name, scope: S
             _check_thing(name, about(noun, phrase.kind.text, key), phrase.kind.text, scope, findings)
         case "sensor":
             scope.names.find(name, ("sensor", "memory"), findings)
+        case "environment" | "name of a part of an observation or an action":
+            pass  # what there is, nobody but the environment knows: `resolve.outside` asks it
         case "Python function":
             if "." not in name.text:
                 hint = f"Write the module and the function: procedure from module.{name.text}."

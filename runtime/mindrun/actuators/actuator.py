@@ -7,6 +7,7 @@ from mindrun.bodies import BodyKind
 from mindrun.bodies.body import Drive, Point
 from mindrun.quantity import Quantity
 from mindrun.registry import base
+from mindrun.slot import Slot
 
 Side = Literal["left", "right"]
 Row = Mapping[str, float]  # columns of the lanes' table of actuators
@@ -30,6 +31,16 @@ class ActuatorKind:
     varying: tuple[str, ...] = ("delay",)  # the arguments that can differ from run to run
     drive: Drive | None = None  # what it does to a body, where it can move one
     is_light = False  # whether it shines with its command
+
+    @property
+    def slot(self) -> Slot | None:
+        """The number of an environment's action that it sets; None outside of environments."""
+        return None
+
+    @property
+    def is_outside(self) -> bool:
+        """Whether it belongs to an environment."""
+        return self.slot is not None
 
     @property
     def moves_body(self) -> bool:

@@ -79,6 +79,7 @@ class EventKind(AboutThing):
 
     outcome = ""  # the argument by which a thing says what becomes of it when the event happens
     needs_walls = False  # whether it can be computed in an arena alone
+    is_outside = False  # whether an environment says when it happens
     is_of_success = False  # whether an end of the task makes it happen
     is_of_battery = False  # whether it depends on the battery, of which it names no sensor
 

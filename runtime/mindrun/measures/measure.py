@@ -15,6 +15,7 @@ class MeasureKind(AboutThing):
 
     __slots__ = ()
 
+    is_outside = False  # whether an environment says what it is
     interval = (-inf, inf)  # its least and its greatest value
 
     @property

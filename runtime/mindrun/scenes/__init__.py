@@ -2,10 +2,11 @@
 
 from mindrun.registry import register_all, share_kinds
 from mindrun.scenes.arena import Arena
+from mindrun.scenes.gymnasium import Gymnasium
 from mindrun.scenes.plain import Plain
 from mindrun.scenes.scene import SceneKind
 
 register_all(__name__, __path__)
 share_kinds("scene", of="task")
 
-__all__ = ["Arena", "Plain", "SceneKind"]
+__all__ = ["Arena", "Gymnasium", "Plain", "SceneKind"]

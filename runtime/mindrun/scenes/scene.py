@@ -13,6 +13,11 @@ class SceneKind:
     __slots__ = ()
 
     @property
+    def environment(self) -> str:
+        """The environment that is this world; empty where the lanes simulate it."""
+        return ""
+
+    @property
     def sides(self) -> tuple[float, float]:
         """Its lengths along x and y in world units; infinite where it has no walls. The origin is its middle."""
         return inf, inf

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from mindrun.expression import Formula
 from mindrun.quantity import RATIO, TICKS
 from mindrun.registry import base
+from mindrun.slot import Slot
 from mindrun.things.about import AboutThing
 
 Readings = NDArray[np.float32]
@@ -99,6 +100,16 @@ class SensorKind(AboutThing):
     remembered = 0  # how many numbers the lanes keep of each of its readings
     blank, rest = 0.0, 0.0  # what it reads where there is nothing to measure, and in its dead zone
     remedy = "Give it a dead_zone below 0.5"  # for one that is constant
+
+    @property
+    def slot(self) -> Slot | None:
+        """The number of an environment's observation that it is; None outside of environments."""
+        return None
+
+    @property
+    def is_outside(self) -> bool:
+        """Whether it belongs to an environment."""
+        return self.slot is not None
 
     @property
     def width(self) -> int | None:

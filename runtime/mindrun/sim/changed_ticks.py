@@ -47,9 +47,10 @@ def _tick(rollout: Rollout, tile: Tile, jobs: Jobs, made: Changed) -> int:
     readings = tile.state.mind.readings
     for row, value in made.memory.items():
         readings[row, 0] = value
+    rollout.observe(tile, jobs)
     _sense(rollout.tables, tile.state, jobs, made.reading)
     _think(rollout, tile, jobs, made.influence)
-    after(rollout.tables, tile.state, jobs, rollout.interrupt)
+    rollout.conclude(tile, jobs)
     return int(jobs.lanes[0])
 
 

@@ -11,11 +11,11 @@ from mindrun.registry import kinds
 PUSH, STEERING, GRIPPER, IDLE = range(4)
 ITEM, ZONE, POWER, BOX, BALL, WALKER = range(6)
 STAYS, MOVES, VANISHES = range(3)
-PROGRESS, ADVANCE, RETREAT, FORWARD, CHANGE = range(5)
-REACH, DELIVERY, VISIT, COLLISION, EXHAUSTION, SUCCESS = range(6)
+PROGRESS, ADVANCE, RETREAT, FORWARD, CHANGE, ITS_REWARD = range(6)
+REACH, DELIVERY, VISIT, COLLISION, EXHAUSTION, SUCCESS, ITS_END = range(7)
 CONSTANT, DRAWN, DRAWN_WHOLE, FAILING, TIMES, OVER, INVERSE, DAMPING = range(8)  # how a number of a run comes about
 
-GOING_ON, LOST = -1, -2  # of a run that no event has ended: on its way or out of time, or beyond FAR
+GOING_ON, LOST, BROKEN_OFF = -1, -2, -3  # no event has ended a run: out of time, beyond FAR, its environment has
 AWAY = 1e30  # units: where a box is that is none
 FAR = 1e9  # units from the origin, and radians: nothing is there, and a little further Chipmunk never comes back
 
@@ -23,15 +23,16 @@ FORCE, TORQUE, FORCE_X, FORCE_Y, FORCE_ASIDE, PUSH_ROWS = range(6)  # rows of wh
 
 ACTUATOR_CODES = {
     "wheel": PUSH, "motor": PUSH, "thruster": PUSH, "steering": STEERING, "gripper": GRIPPER,
-    "servo": IDLE, "lamp": IDLE,
+    "servo": IDLE, "lamp": IDLE, "action": IDLE, "choice": IDLE,
 }  # fmt: skip
 THING_CODES = {"item": ITEM, "zone": ZONE, "power": POWER, "box": BOX, "ball": BALL, "walker": WALKER}
 MEASURE_CODES = {
     "progress": PROGRESS, "advance": ADVANCE, "retreat": RETREAT, "forward": FORWARD, "change": CHANGE,
+    "its reward": ITS_REWARD,
 }  # fmt: skip
 EVENT_CODES = {
     "reach": REACH, "delivery": DELIVERY, "visit": VISIT, "collision": COLLISION, "exhaustion": EXHAUSTION,
-    "success": SUCCESS,
+    "success": SUCCESS, "its end": ITS_END,
 }  # fmt: skip
 
 

@@ -18,6 +18,7 @@ from mindrun.sim.allocation import empty_state
 from mindrun.sim.codes import ITEM
 from mindrun.sim.lanes.advance import advance
 from mindrun.sim.lanes.runs import fill
+from mindrun.sim.lanes.stages import after
 from mindrun.sim.procedures import Procedures
 from mindrun.sim.python_procedures import Memories, advance_slowly, think_slowly
 from mindrun.sim.state import FAILED_COLUMN, FAILED_SKILL, Jobs, State
@@ -35,7 +36,8 @@ class Scores:
 
     `total` is −∞ where a reward was not a number; `by_line` [genomes, seeds, lines] sums each reward line; `counts` are
     all events that the task counts together, `by_event` [genomes, seeds, events] each event of the task; `ended_by` is
-    an index into the task's ends, −1 where the run lasted its time, −2 where the robot was beyond all places (FAR);
+    an index into the task's ends, −1 where the run lasted its time, −2 where the robot was beyond all places (FAR), −3
+    where its environment broke it off;
     `met` is the end that came first, −1 where none did, also where a run goes on behind it; `faults` counts values that
     were not sent, and such a flight.
     """
@@ -83,6 +85,7 @@ class Rollout:
         self.genome_length = genome_length(graph, learners)
         self.tables: Tables
         self.sizes: Sizes
+        self.slice_ticks = SLOW_SLICE_TICKS if self.procedures.slow else SLICE_TICKS
         addresses = self.procedures.addresses
         library = chipmunk.library()
         self.tables, self.sizes = build(graph, policy.weights, self.task, master, learners, addresses, library)
@@ -140,7 +143,7 @@ class Rollout:
         self.fill(tile, mine)
         told, working = 0.0, 1
         while working and not stop.is_set():
-            working = self.advance(tile, mine, SLOW_SLICE_TICKS if self.procedures.slow else SLICE_TICKS)
+            working = self.advance(tile, mine, self.slice_ticks)
             done = int(mine.next[0]) - working + float(tile.state.world.tick[:working].sum()) / self.task.ticks
             ran(done - told)
             told = done
@@ -158,6 +161,18 @@ class Rollout:
             advance(self.tables, tile.state, jobs, ticks, self.interrupt)
         self._explain(tile)
         return int(jobs.lanes[0])
+
+    @property
+    def notes(self) -> tuple[str, ...]:
+        """What somebody should know of the runs so far."""
+        return ()
+
+    def observe(self, tile: Tile, jobs: Jobs) -> None:
+        """What comes from outside of the lanes, before a tick: nothing here."""
+
+    def conclude(self, tile: Tile, jobs: Jobs) -> None:
+        """The second half of a tick, after `think`."""
+        after(self.tables, tile.state, jobs, self.interrupt)
 
     def think(self, tile: Tile, jobs: Jobs, first: int, last: int) -> None:
         """Run the skills first..last of the table, between both halves of a tick; ProcedureError where one fails."""

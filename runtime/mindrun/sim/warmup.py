@@ -6,6 +6,8 @@ import subprocess
 import sys
 from collections.abc import Sequence
 
+import numpy as np
+
 from mindrun.actuators import Wheel
 from mindrun.bodies import Disc
 from mindrun.functions import Rule
@@ -19,6 +21,7 @@ from mindrun.sim.lanes import stages
 from mindrun.sim.lanes.advance import advance
 from mindrun.sim.numba_internals import code_of
 from mindrun.sim.rollout import Rollout
+from mindrun.sim.state import Jobs
 
 IN_BACKGROUND = "behind"
 LOWEST_NICENESS = 19  # how little a process matters that works while others wait for nothing
@@ -59,6 +62,12 @@ def warm_up() -> None:
     stages.wake(tables, state, 0, 0)
     stages.send(tables, state, 0, 0, 0, 0)
     CommandedLanes(rollout, 1)
+    stages.act(tables, state, 0, 0)
+    stages.conclude(tables, state, _no_jobs(rollout), True)
+
+
+def _no_jobs(rollout: Rollout) -> Jobs:
+    return rollout.jobs(np.zeros((0, rollout.genome_length), np.float32), np.zeros(0, np.uint64))
 
 
 def main(words: Sequence[str]) -> None:

@@ -36,15 +36,22 @@ def before(tables, state, jobs):
 
 @part_of_tick
 def after(tables, state, jobs, interrupt):
-    """The second half of a tick: act, step, judge, recall; where somebody wants to know, it is written down.
+    """The second half of a tick: act, step, judge, recall."""
+    lanes, world = jobs.lanes[0], state.world
+    act(tables, state, lanes, jobs.clock[0])
+    for lane in range(lanes):
+        world.begun_at[X, lane], world.begun_at[Y, lane] = world.body[X, lane], world.body[Y, lane]
+    step(tables, state, lanes)
+    conclude(tables, state, jobs, interrupt)
+
+
+@part_of_tick
+def conclude(tables, state, jobs, interrupt):
+    """What follows a step: judge, recall; where somebody wants to know, it is written down.
 
     Lanes whose run is over write their result and begin the next.
     """
     lanes, clock, world = jobs.lanes[0], jobs.clock[0], state.world
-    act(tables, state, lanes, clock)
-    for lane in range(lanes):
-        world.begun_at[X, lane], world.begun_at[Y, lane] = world.body[X, lane], world.body[Y, lane]
-    step(tables, state, lanes)
     judge(tables, state, lanes, clock, interrupt)
     record(state, jobs)
     recall(tables, state.mind, state.run, lanes)

@@ -8,6 +8,7 @@ from mindrun.sim.codes import (
     DELIVERY,
     EXHAUSTION,
     GOING_ON,
+    ITS_END,
     POWER,
     REACH,
     SUCCESS,
@@ -77,7 +78,7 @@ def notice(tables, world, contact, judged, event, out, lanes):
     elif event.kind == EXHAUSTION:
         for lane in range(lanes):
             out[lane] = 1 if world.battery[lane] == 0.0 else 0
-    else:
+    elif event.kind != ITS_END:  # which stands there already
         out[:lanes] = 0  # a success comes later in the tick
     count = 0
     for lane in range(lanes):
@@ -164,7 +165,7 @@ def meet_end(tables, state, end, i, lanes, interrupt):
     for lane in range(lanes):
         if judged.paid[lane] > 0.0 and run.met[lane] == GOING_ON:
             run.met[lane] = i
-            run.ended[lane] = i if interrupt else GOING_ON
+            run.ended[lane] = i if interrupt else run.ended[lane]
             met += 1
         else:
             judged.paid[lane] = 0.0

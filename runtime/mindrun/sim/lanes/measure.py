@@ -3,7 +3,7 @@
 import numpy as np
 
 from mindrun.arithmetic import COSINE, DISTANCE, SINE, THING_ROWS, X, Y
-from mindrun.sim.codes import ADVANCE, CHANGE, FORWARD, PUSH, RETREAT
+from mindrun.sim.codes import ADVANCE, CHANGE, FORWARD, ITS_REWARD, PUSH, RETREAT
 from mindrun.sim.compiling import compiled
 
 
@@ -16,7 +16,7 @@ def take_measures(tables, world, commands, judged, lanes, clock):
             change(tables, commands, judged, measure, out, lanes, clock)
         elif measure.kind == FORWARD:
             forward(out, world.body, world.heading, world.begun_at, lanes)
-        else:
+        elif measure.kind != ITS_REWARD:  # which stands there already
             progress(out, judged.paid, world.body, world.things, measure, lanes)
 
 

@@ -5,6 +5,7 @@ Functions of their own, not the stages compiled twice: numba would keep both und
 """
 
 from mindrun.sim.compiling import entry
+from mindrun.sim.lanes import act as acting
 from mindrun.sim.lanes import advance, think
 from mindrun.sim.lanes.runs import begin_job, finish
 
@@ -19,6 +20,18 @@ def before(tables, state, jobs):
 def after(tables, state, jobs, interrupt):
     """As `advance.after`."""
     advance.after(tables, state, jobs, interrupt)
+
+
+@entry
+def act(tables, state, lanes, clock):
+    """As `act.act`: the commands, for an environment that is stepped outside of the lanes."""
+    acting.act(tables, state, lanes, clock)
+
+
+@entry
+def conclude(tables, state, jobs, interrupt):
+    """As `advance.conclude`: what follows that step."""
+    advance.conclude(tables, state, jobs, interrupt)
 
 
 @entry

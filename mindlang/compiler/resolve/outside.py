@@ -1,0 +1,144 @@
+"""Minds whose tasks are environments of somebody else: what makes sense there, and whether parts fit them."""
+
+from collections.abc import Iterator, Sequence
+from typing import Any
+
+from mindrun.bodies import BodyKind, Disc
+from mindrun.errors import MindError
+from mindrun.registry import names as kind_names
+from mindrun.sensors import Physical
+
+from mindlang.compiler import model
+from mindlang.compiler.diagnostic import Findings, a
+from mindlang.compiler.model import Part
+from mindlang.compiler.names import Names
+from mindlang.compiler.source import Span
+from mindlang.compiler.syntax import Counts, Starts
+
+ENVIRONMENT = "a gymnasium environment"
+
+
+def is_outside(names: Names) -> bool:
+    """Whether any task is in an environment, or a part belongs to one."""
+    return any(
+        (phrase := declaration.header.phrase) is not None and phrase.kind.text in kinds
+        for noun, kinds in (("task", {"gymnasium"}), ("sensor", {"observation"}), ("actuator", {"action", "choice"}))
+        for _, declaration in names.declarations(noun)
+    )
+
+
+def body_outside(names: Names, findings: Findings) -> Part[BodyKind]:
+    """What stands for the body where the environment has one of its own; one that is declared is reported."""
+    for _, declared in names.declarations("body"):
+        message = f"{ENVIRONMENT.capitalize()} has a body of its own."
+        findings.error("foreign-part", declared.header.span, message, "Leave the line out.")
+    tasks = [declaration for noun in ("task", "sensor", "actuator") for _, declaration in names.declarations(noun)]
+    return Part("", Disc(), tasks[0].header.span)
+
+
+def check_outside(
+    tasks: Sequence[model.Task], sensors: Sequence[Part[Any]], actuators: Sequence[Part[Any]], findings: Findings
+) -> None:
+    """Report what means nothing in the worlds of the tasks: an environment's in others, others' in an environment."""
+    known = [task for task in tasks if task.scene is not None]
+    outside = [task for task in known if task.scene.environment]
+    with findings.each_once():
+        for task in known:
+            _check_judged(task, findings)
+        if not outside:
+            if known:
+                _refuse_outside_parts([*sensors, *actuators], findings)
+            return
+        for task in (task for task in known if not task.scene.environment):
+            message = f"{task.name} is in no environment, as {outside[0].name} is."
+            hint = "The tasks of a mind are all in gymnasium, or none is: write this one in a file of its own."
+            findings.error("mixed-scenes", task.declaration.header.span, message, hint)
+        _refuse_native_parts(sensors, actuators, findings)
+        for task in outside:
+            _refuse_world(task, findings)
+        for task in {task.scene.environment: task for task in reversed(outside)}.values():
+            _check_environment(task, sensors, actuators, findings)
+
+
+def _refuse_outside_parts(parts: Sequence[Part[Any]], findings: Findings) -> None:
+    for part in (part for part in parts if part.kind.is_outside):
+        kind = kind_names()[type(part.kind)]
+        message = f"{a(kind).capitalize()} belongs to {ENVIRONMENT}, and no task is in one."
+        findings.error("foreign-part", part.span, message, "Write task Land in gymnasium LunarLanderContinuous-v3.")
+
+
+def _refuse_native_parts(sensors: Sequence[Part[Any]], actuators: Sequence[Part[Any]], findings: Findings) -> None:
+    for sensor in (each for each in sensors if isinstance(each.kind, Physical) and not each.kind.is_outside):
+        kind = kind_names()[type(sensor.kind)]
+        hint = f"Write which of its numbers it is: sensor {sensor.name} is observation 0 range -1 to 1."
+        findings.error("foreign-part", sensor.span, f"{a(kind).capitalize()} measures nothing in {ENVIRONMENT}.", hint)
+    for actuator in (each for each in actuators if each.kind.moves_body or each.kind.can_hold):
+        kind = kind_names()[type(actuator.kind)]
+        hint = f"Write what it takes: actuator {actuator.name} is action 0 neutral 0.5, or choice 0."
+        findings.error("foreign-part", actuator.span, f"{a(kind).capitalize()} does nothing in {ENVIRONMENT}.", hint)
+
+
+def _refuse_world(task: model.Task, findings: Findings) -> None:
+    """Report what a task puts into an environment."""
+    for thing in task.things:
+        message = f"Nothing can be put into {ENVIRONMENT}."
+        findings.error("foreign-part", thing.span, message, "Leave the line out.")
+    for fact in (fact for fact in task.facts if isinstance(fact, Starts)):
+        message = f"{ENVIRONMENT.capitalize()} says itself how a run begins."
+        findings.error("foreign-part", fact.span, message, "Leave the line out.")
+
+
+def _check_judged(task: model.Task, findings: Findings) -> None:
+    """Report events and measures of another kind of world than the task's."""
+    outside = bool(task.scene.environment)
+    for kind, span in _judged(task):
+        name = kind_names()[type(kind)]
+        if outside and not (kind.is_outside or getattr(kind, "is_of_success", False)):
+            hint = "There its reward can be rewarded, and its end: what else there is to know is a sensor's to observe."
+            findings.error("foreign-judge", span, f"Nobody says in {ENVIRONMENT} what {name} is.", hint)
+        elif kind.is_outside and not outside:
+            hint = f"{task.name} would have to be in one: task {task.name} in gymnasium LunarLanderContinuous-v3."
+            findings.error("foreign-judge", span, f"{name} is what {ENVIRONMENT} says.", hint)
+
+
+def _judged(task: model.Task) -> Iterator[tuple[Any, Span]]:
+    for end in task.ends:
+        if end.event and end.fact.event:
+            yield end.event, end.fact.event.span
+        yield from _measured(end.when.expressions if end.when else ())
+    for reward in task.rewards:
+        if reward.on and reward.fact.on:
+            yield reward.on, reward.fact.on.span
+        yield from _measured(reward.expressions)
+    counted = (fact for fact in task.facts if isinstance(fact, Counts))
+    yield from ((event, fact.event.span) for event, fact in zip(task.counts, counted, strict=True) if event)
+
+
+def _measured(expressions: Sequence[model.Expression]) -> Iterator[tuple[Any, Span]]:
+    for expression in expressions:
+        yield from ((term.measure, term.span) for term in expression.terms if isinstance(term, model.Measured))
+
+
+def _check_environment(
+    task: model.Task, sensors: Sequence[Part[Any]], actuators: Sequence[Part[Any]], findings: Findings
+) -> None:
+    """Report what does not fit the spaces of an environment; nothing where Gymnasium is not there to be asked.
+
+    One that has its module before it is not asked either: that would run the text of the module.
+    """
+    from mindrun.sim.outside import fitting, making
+
+    name, header = task.scene.environment, task.declaration.header
+    if ":" in name or not making.is_there():
+        return
+    try:
+        observed, acted = making.spaces(name)
+    except MindError as error:
+        findings.error(
+            "unknown-environment", header.phrase.span if header.phrase else header.span, str(error), error.hint
+        )
+        return
+    spans = {part.name: part.span for part in (*sensors, *actuators)} | {"": header.span}
+    ours = ({part.name: slot for part in parts if (slot := part.kind.slot)} for parts in (sensors, actuators))
+    for found in fitting.misfits(observed, acted, *ours):
+        findings.error(found.code, spans[found.name], found.message, found.hint)

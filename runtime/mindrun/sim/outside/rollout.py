@@ -1,0 +1,142 @@
+"""Rollouts whose worlds are environments: these are stepped one by one, and the skills think in lanes between."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mindrun.policy import Policy
+from mindrun.sim.codes import BROKEN_OFF
+from mindrun.sim.lanes.stages import act, before, conclude, run_skills
+from mindrun.sim.outside.episode import Episode
+from mindrun.sim.outside.wiring import Wiring, wiring_of
+from mindrun.sim.rollout import SLOW_SLICE_TICKS, Rollout, Tile
+from mindrun.sim.state import Jobs, State
+
+ENVIRONMENT_LANES = 64  # environments side by side: so many share one call of what is compiled
+
+
+@dataclass(frozen=True, slots=True)
+class Episodes:
+    """The environment of each run that goes on, by the number of its job; `native` is what a tile keeps anyway."""
+
+    native: Any
+    going_on: dict[int, Episode] = field(default_factory=dict)
+
+
+class EnvironmentRollout(Rollout):
+    """As `Rollout`, for a task in an environment: a run of a seed begins with its `reset(seed)`.
+
+    Environments are kept from run to run, and all are stepped in this thread. `clipped` counts for each observed
+    sensor how many of the `observed` numbers were beyond its range.
+    """
+
+    def __init__(
+        self,
+        policy: Policy,
+        task: str,
+        master: str,
+        learners: Sequence[str] = (),
+        *,
+        procedures: Path | None = None,
+        interrupt: bool = True,
+        lanes: int = ENVIRONMENT_LANES,
+    ) -> None:
+        super().__init__(policy, task, master, learners, procedures=procedures, interrupt=interrupt, lanes=lanes)
+        self.wiring: Wiring = wiring_of(self.graph, self.task.scene.environment)
+        self.slice_ticks = SLOW_SLICE_TICKS
+        self.observed, self.clipped = 0, np.zeros(len(self.wiring.rows), np.int64)
+        self._idle: list[Episode] = []
+        self._rough = np.array([bool(row["is_rough"]) for row in self.tables.actuators], bool)
+        self._rewards = [i for i, measure in enumerate(self.task.measures) if measure.is_outside]
+        self._ends = [i for i, event in enumerate(self.task.events) if event.is_outside]
+
+    @property
+    def notes(self) -> tuple[str, ...]:
+        """Which sensors were beyond their ranges, and how often."""
+        shares = self.clipped / max(1, self.observed)
+        return tuple(
+            f"{name} was beyond its range in {share:.1%} of the ticks"
+            for name, share in zip(self.wiring.names, shares.tolist(), strict=True)
+            if share > 0
+        )
+
+    def compile(self) -> None:
+        """Compile the stages where no cache has them."""
+        jobs = self.jobs(np.zeros((0, self.genome_length), np.float32), np.zeros(0, np.uint64))
+        state, none = self.tile(1).state, np.int64(0)
+        before(self.tables, state, jobs)
+        run_skills(self.tables, state, none, 0, 0)
+        act(self.tables, state, none, none)
+        conclude(self.tables, state, jobs, self.interrupt)
+
+    def tile(self, lanes: int) -> Tile:
+        """Room for so many lanes, and for their environments."""
+        tile = super().tile(lanes)
+        return Tile(tile.state, tile.memories, Episodes(tile.kept))
+
+    def advance(self, tile: Tile, jobs: Jobs, ticks: int) -> int:
+        """Run so many ticks; how many lanes are still at work."""
+        for _ in range(ticks):
+            if jobs.lanes[0] == 0:
+                break
+            self.observe(tile, jobs)
+            before(self.tables, tile.state, jobs)
+            self.think(tile, jobs, 0, len(self.tables.skills))
+            self.conclude(tile, jobs)
+        working = tile.state.run.job[: jobs.lanes[0]].tolist()
+        tile.memories.forget({*working})
+        self._release(tile.kept, {*working})
+        return len(working)
+
+    def observe(self, tile: Tile, jobs: Jobs) -> None:
+        """What the environments observe becomes readings; those of runs that begin are reset."""
+        lanes, readings = int(jobs.lanes[0]), tile.state.mind.readings
+        episodes = self._episodes(tile, jobs)
+        wiring = self.wiring
+        if len(wiring.rows) == 0:
+            return
+        seen = np.stack([episode.observed for episode in episodes], axis=1)
+        share = (seen - wiring.low[:, None]) / (wiring.high - wiring.low)[:, None]
+        self.clipped += ((share < 0) | (share > 1)).sum(axis=1)
+        self.observed += lanes
+        readings[wiring.rows, :lanes] = np.clip(share, 0.0, 1.0)
+
+    def conclude(self, tile: Tile, jobs: Jobs) -> None:
+        """The second half of a tick: commands, a step of every environment, and what it was worth."""
+        state, lanes = tile.state, int(jobs.lanes[0])
+        act(self.tables, state, np.int64(lanes), jobs.clock[0])
+        episodes = self._episodes(tile, jobs)
+        for episode, action in zip(episodes, self.wiring.actions(self._commands(state, lanes)), strict=True):
+            episode.step(action)
+        judge, ended = state.judge, state.run.ended
+        judge.measures[self._rewards, :lanes] = [episode.reward for episode in episodes]
+        judge.events[self._ends, :lanes] = [episode.is_terminated for episode in episodes]
+        ended[:lanes][[episode.is_over for episode in episodes]] = BROKEN_OFF  # unless one of the task's ends comes
+        conclude(self.tables, state, jobs, self.interrupt)
+
+    def _commands(self, state: State, lanes: int) -> NDArray[np.float32]:
+        count = len(self.tables.actuators)
+        commands: NDArray[np.float32] = state.mind.commands[:count, :lanes].copy()
+        commands[self._rough] = state.world.acting[:count, :lanes][self._rough]
+        return commands
+
+    def _episodes(self, tile: Tile, jobs: Jobs) -> list[Episode]:
+        """The environments of the lanes at work; a run that has not begun in one begins."""
+        working, going_on = tile.state.run.job[: jobs.lanes[0]].tolist(), tile.kept.going_on
+        begun = [job for job in working if job not in going_on]
+        if begun:
+            self._release(tile.kept, {*working})
+        for job in begun:
+            episode = self._idle.pop() if self._idle else Episode(self.wiring)
+            episode.begin(int(jobs.seeds[jobs.seed[job]]))
+            going_on[job] = episode
+        return [going_on[job] for job in working]
+
+    def _release(self, episodes: Episodes, working: set[int]) -> None:
+        """The environments of runs that are over wait for others."""
+        for job in [job for job in episodes.going_on if job not in working]:
+            self._idle.append(episodes.going_on.pop(job))
