@@ -3,6 +3,7 @@
 import warnings
 from difflib import get_close_matches
 from functools import cache
+from importlib import import_module
 from importlib.util import find_spec
 from types import ModuleType
 from typing import Any
@@ -21,11 +22,10 @@ def library() -> ModuleType:
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")
-            import gymnasium
+            return import_module("gymnasium")
     except ImportError:
         hint = "Install it: pip install 'mindlang[gymnasium]'."
         raise MindError("a task in gymnasium needs the package gymnasium, which is not installed", hint) from None
-    return gymnasium
 
 
 def is_there() -> bool:
