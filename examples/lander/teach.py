@@ -18,7 +18,7 @@ from pathlib import Path
 from shutil import copyfile, rmtree
 
 import numpy as np
-from mindrun.arguments import whole
+from mindrun.arguments import real, whole
 from mindrun.graph import Lesson
 from mindrun.sim.rollout import Rollout
 from mindrun.train.attempt import judge
@@ -56,11 +56,12 @@ class Outcome:
 
 @dataclass(frozen=True, slots=True)
 class Plan:
-    """Where seeds are taught, and in how many fresh episodes they are tried."""
+    """Where seeds are taught, in times so many generations, and in how many fresh episodes they are tried."""
 
     out: Path
     runs: int
     episodes: int
+    scale: float
 
     def path(self, kind: str, seed: int) -> Path:
         """Where the outcome of a seed lies."""
@@ -75,23 +76,23 @@ def main() -> None:
     parser.add_argument("--seeds", type=whole(1, 1000), default=5)
     parser.add_argument("--runs", type=whole(2, 1_000_000), default=1000, help="fresh episodes of each seed")
     parser.add_argument("--episodes", type=whole(0, 2**62), default=20261123, help="draws the fresh episodes")
+    parser.add_argument("--scale", type=real(0, 1000), default=1.0, help="times the generations of lander.mind")
     parser.add_argument("--processes", type=whole(1, 1024), default=2, help="seeds at a time")
     parser.add_argument("--out", type=Path, default=Path("runs/lander"))
     options = parser.parse_args()
     options.out.mkdir(parents=True, exist_ok=True)
-    plan, seeds = Plan(options.out, options.runs, options.episodes), range(1, options.seeds + 1)
-    trials = [(kind, seed) for kind in TEACHERS for seed in range(1, options.seeds + 1)]
-    left = [trial for trial in trials if not plan.path(*trial).exists()]
+    plan, seeds = Plan(options.out, options.runs, options.episodes, options.scale), range(1, options.seeds + 1)
     with ProcessPoolExecutor(options.processes, get_context("spawn")) as pool:
-        for found in pool.map(partial(try_out, plan), left):
-            print(row(found), flush=True)
-    outcomes = [read(plan, *trial) for trial in trials]
+        for kind in TEACHERS:
+            left = [seed for seed in seeds if not plan.path(kind, seed).exists()]
+            for found in pool.map(partial(try_out, plan, kind), left):
+                print(row(found), flush=True)
+    outcomes = [read(plan, kind, seed) for kind in TEACHERS for seed in seeds]
     (options.out / "RESULTS.md").write_text(report(outcomes), encoding="utf-8")
 
 
-def try_out(plan: Plan, trial: tuple[str, int]) -> Outcome:
+def try_out(plan: Plan, kind: str, seed: int) -> Outcome:
     """Teach a seed of a kind, try it, and write down what came of it."""
-    kind, seed = trial
     found = TEACHERS[kind](plan, seed)
     path = plan.path(kind, seed)
     path.with_suffix(".part").write_text(json.dumps(asdict(found), indent=1) + "\n", encoding="utf-8")
@@ -105,8 +106,9 @@ def hierarchy(plan: Plan, seed: int) -> Outcome:
     rmtree(folder, ignore_errors=True)
     folder.mkdir()
     copyfile(FOLDER / "lander.mind", folder / "lander.mind")
+    options = mindlang.TrainOptions(scale=plan.scale)
     began, cpu = time.perf_counter(), time.process_time()
-    results = mindlang.load(folder / "lander.mind").train(seed=seed, runs=folder / "runs")
+    results = mindlang.load(folder / "lander.mind").train(options=options, seed=seed, runs=folder / "runs")
     took = time.perf_counter() - began, time.process_time() - cpu
     finishing = next(number for number, each in enumerate(results) if each["lesson"] == FINISHER)
     ticks = [int(each["ticks"]) for each in results]
