@@ -16,6 +16,7 @@ from functools import partial
 from multiprocessing import get_context
 from pathlib import Path
 from shutil import copyfile, rmtree
+from string import Template
 
 import numpy as np
 from mindrun.arguments import real, whole
@@ -88,7 +89,7 @@ def main() -> None:
             for found in pool.map(partial(try_out, plan, kind), left):
                 print(row(found), flush=True)
     outcomes = [read(plan, kind, seed) for kind in TEACHERS for seed in seeds]
-    (options.out / "RESULTS.md").write_text(report(outcomes), encoding="utf-8")
+    (options.out / "RESULTS.md").write_text(report(plan, outcomes), encoding="utf-8")
 
 
 def try_out(plan: Plan, kind: str, seed: int) -> Outcome:
@@ -180,14 +181,18 @@ def read(plan: Plan, kind: str, seed: int) -> Outcome:
 TEACHERS = {"hierarchy": hierarchy, "mlp": perceptron}  # in this order
 
 
-def report(outcomes: Sequence[Outcome]) -> str:
-    """The table of all seeds."""
-    head = "| | seed | score | episodes of 200 and more | without Land | weights | steps | CPU | wall clock, load |"
-    return "\n".join([head, "|---|---|---|---|---|---|---|---|---|", *map(row, outcomes), ""])
+def report(plan: Plan, outcomes: Sequence[Outcome]) -> str:
+    """The page with the table of all seeds."""
+    kinds = {kind: [each.mean for each in outcomes if each.kind == kind] for kind in TEACHERS}
+    seeds = ((kind, len(means), sum(mean >= SOLVED for mean in means)) for kind, means in kinds.items())
+    solved = "; ".join(f"{kind}: {count} of {of}" for kind, of, count in seeds)
+    text = Template((FOLDER / "RESULTS.template.md").read_text(encoding="utf-8"))
+    table = "\n".join(map(row, outcomes))
+    return text.substitute(table=table, solved=solved, runs=f"{plan.runs:,}", episodes=plan.episodes)
 
 
 def row(found: Outcome) -> str:
-    """An outcome as a line of the table."""
+    """An outcome as a line of the table in RESULTS.template.md."""
     plain = "" if found.plain is None else f"{found.plain:.1f}"
     cells = (
         found.kind,
