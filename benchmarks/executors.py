@@ -116,7 +116,7 @@ def dask(count: int, assignment: Assignment) -> Iterator[tuple[Executor, Pids]]:
     with LocalCluster(count, threads_per_worker=1, dashboard_address=":0", silence_logs="CRITICAL") as cluster:
         jobs = ClusterJobs(connect(Destination(cluster.scheduler_address)), assignment, print)
         try:
-            at_work = cluster.scheduler.workers  # a nanny whose worker is killed while it begins gives up
+            at_work = cluster.scheduler.workers
             yield jobs, lambda: [each.pid for each in cluster.workers.values() if each.worker_address in at_work]
         finally:
             jobs.close()
@@ -226,16 +226,20 @@ def kills(assignment: Assignment, generations: int, count: int) -> bool:
 
 @contextmanager
 def killing(pids: Pids, most: int, draw: random.Random) -> Iterator[list[int]]:
-    """Kill a random worker now and then, at most so many; who was killed."""
-    killed, over = list[int](), Event()
+    """Kill a random worker now and then, at most so many; who was killed.
+
+    Only those that were there at the look before: a nanny of Dask whose worker is killed while it begins gives up.
+    """
+    killed, before, over = list[int](), set[int](), Event()
 
     def kill() -> None:
+        nonlocal before
         while len(killed) < most and not over.wait(draw.uniform(MIN_KILL_SECONDS, MAX_KILL_SECONDS)):
-            if found := pids():
-                pid = draw.choice(found)
-                if pid not in killed:
-                    os.kill(pid, signal.SIGKILL)
-                    killed.append(pid)
+            there = pids()
+            if found := [pid for pid in there if pid in before and pid not in killed]:
+                killed.append(draw.choice(found))
+                os.kill(killed[-1], signal.SIGKILL)
+            before = {*there}
 
     thread = Thread(target=kill)
     thread.start()
