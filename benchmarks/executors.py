@@ -116,8 +116,8 @@ def dask(count: int, assignment: Assignment) -> Iterator[tuple[Executor, Pids]]:
     with LocalCluster(count, threads_per_worker=1, dashboard_address=":0", silence_logs="CRITICAL") as cluster:
         jobs = ClusterJobs(connect(Destination(cluster.scheduler_address)), assignment, print)
         try:
-            at_work = cluster.scheduler.workers
-            yield jobs, lambda: [each.pid for each in cluster.workers.values() if each.worker_address in at_work]
+            there = cluster.scheduler.workers
+            yield jobs, lambda: [each.pid for each in cluster.workers.values() if each.worker_address in there]
         finally:
             jobs.close()
 
@@ -199,9 +199,7 @@ def kills(assignment: Assignment, generations: int, count: int) -> bool:
 
     It is taught again, with the same seed, until there were so many kills.
     """
-    print(
-        f"{count} kills at random moments, {MIN_KILL_SECONDS} to {MAX_KILL_SECONDS} s after each other, of two workers"
-    )
+    print(f"{count} kills at random moments, {MIN_KILL_SECONDS} to {MAX_KILL_SECONDS} s apart, of two workers")
     rollout = rollout_of(assignment, 1)
     course, weights = course_of(rollout, 10, generations, 1), set[str]()
     for name, make in (("processes", processes), ("Dask", dask)):
@@ -226,10 +224,7 @@ def kills(assignment: Assignment, generations: int, count: int) -> bool:
 
 @contextmanager
 def killing(pids: Pids, most: int, draw: random.Random) -> Iterator[list[int]]:
-    """Kill a random worker now and then, at most so many; who was killed.
-
-    Only those that were there at the look before: a nanny of Dask whose worker is killed while it begins gives up.
-    """
+    """Kill a random worker now and then that was there at the look before, at most so many; who was killed."""
     killed, before, over = list[int](), set[int](), Event()
 
     def kill() -> None:
