@@ -106,7 +106,7 @@ def test_a_skill_that_remembers(mindc: Call, path: Path) -> None:
 
 
 def test_readings_of_a_recording(mindc: Call, path: Path) -> None:
-    assert mindc("run", path, "--record", "day.rec").code == 0
+    assert mindc("run", path, "--master", "Go", "--record", "day.rec").code == 0
     mindc("weights", "export", path, "Go", "go.safetensors")
     said = mindc("weights", "import", path, "Go", "go.safetensors", "--recording", "day.rec", "--json")
     assert said.code == 0, said.err
