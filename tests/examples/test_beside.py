@@ -1,4 +1,4 @@
-"""The comparison of the lander with one perceptron: as many weights, as many steps, and nothing is done twice."""
+"""Minds beside one perceptron: as many weights, as many steps, and nothing is done twice."""
 
 import json
 import os
@@ -10,17 +10,16 @@ from typing import Any
 import pytest
 
 from mindlang import load
+from tests.examples.test_environments import EXAMPLES, Example
 from tests.language.examples import ROOT
 
+COMPARED = [example for example in EXAMPLES if (example.path.parent / "beside.toml").exists()]
 LANDER = ROOT / "examples" / "lander"
-
-pytest.importorskip("gymnasium")
-pytest.importorskip("Box2D")
 
 
 def teach(out: Path) -> str:
     options = ("--seeds", "1", "--runs", "2", "--processes", "1", "--scale", "0.01", "--out", str(out))
-    command = [sys.executable, str(LANDER / "teach.py"), *options]
+    command = [sys.executable, str(ROOT / "examples" / "beside.py"), str(LANDER), *options]
     return subprocess.run(command, capture_output=True, text=True, check=True, cwd=ROOT, env={**os.environ}).stdout
 
 
@@ -29,18 +28,26 @@ def outcome(path: Path) -> dict[str, Any]:
     return found
 
 
-def test_the_perceptron_has_as_many_weights_as_the_hierarchy() -> None:
-    hierarchy = load(LANDER / "lander.mind").rollout("Land", "Land", ["Upright", "Brake", "Aim", "Land"])
-    perceptron = load(LANDER / "monolith.mind").rollout("Land", "Pilot", ["Pilot"])
+@pytest.mark.parametrize("example", COMPARED, ids=lambda example: example.name)
+def test_the_perceptron_has_as_many_weights_as_the_hierarchy(example: Example) -> None:
+    pytest.importorskip("gymnasium")
+    pytest.importorskip(example.package)
+    mind, alone = load(example.path), load(example.path.parent / "monolith.mind")
+    learners = sorted({lesson.skill for lesson in mind.graph.lessons})
+    hierarchy = mind.rollout(example.task, mind.graph.master, learners)
+    perceptron = alone.rollout(example.task, alone.graph.master, [alone.graph.master])
     assert hierarchy.genome_length == perceptron.genome_length
 
 
 @pytest.mark.slow
 def test_a_seed_is_taught_once_and_the_perceptron_has_its_steps(tmp_path: Path) -> None:
+    pytest.importorskip("gymnasium")
+    pytest.importorskip("Box2D")
     said = teach(tmp_path)
     hierarchy, perceptron = outcome(tmp_path / "hierarchy-1.json"), outcome(tmp_path / "mlp-1.json")
-    for mine, its in zip(perceptron["steps"], hierarchy["steps"], strict=True):
-        assert mine >= its
+    assert {*perceptron["steps"]} == {*hierarchy["steps"]} == {"restarting", "evolution_strategy"}
+    for learner, steps in perceptron["steps"].items():
+        assert steps >= hierarchy["steps"][learner]
     (tmp_path / "mlp-1.json").unlink()
     again = teach(tmp_path)
     assert len(again.splitlines()) == 1 < len(said.splitlines())  # the perceptron alone

@@ -1,0 +1,246 @@
+"""A mind beside one perceptron of as many weights, from nothing: python examples/beside.py examples/lander --seeds 5.
+
+Each seed is taught in one thread, into a folder under --out; the perceptron (monolith.mind) has as many steps of each
+learner as the hierarchy of its seed took. Both are tried in the same fresh episodes. It may be stopped at any time: the
+same command goes on with what is left. At the end RESULTS.template.md with the table in it is in --out as RESULTS.md.
+"""
+
+import argparse
+import json
+import os
+import time
+import tomllib
+from collections import Counter
+from collections.abc import Mapping, Sequence
+from concurrent.futures import ProcessPoolExecutor
+from dataclasses import asdict, dataclass, field, replace
+from functools import partial
+from multiprocessing import get_context
+from pathlib import Path
+from shutil import copyfile, rmtree
+from string import Template
+
+import numpy as np
+from mindrun.arguments import real, whole
+from mindrun.graph import Lesson
+from mindrun.registry import names
+from mindrun.sim.rollout import Rollout
+from mindrun.train.attempt import judge
+from mindrun.train.lesson import ended, teach
+from mindrun.train.lesson_state import Course, begin
+from mindrun.train.population import Genomes, Scores
+from mindrun.train.training import best
+
+import mindlang
+from mindlang.run.layouts import NO_GENOME, layouts
+
+ENDLESS_GENERATIONS, ENDLESS_ATTEMPTS = 10**6, 1000
+
+
+@dataclass(frozen=True, slots=True)
+class Comparison:
+    """What beside.toml in an example's folder says.
+
+    The `task` that episodes are of, the score from which one is `solved`, and `also`: other masters of the same taught
+    hierarchy that are tried, by what their column is called.
+    """
+
+    task: str
+    solved: float
+    also: Mapping[str, str] = field(default_factory=dict)
+
+
+@dataclass(frozen=True, slots=True)
+class Outcome:
+    """One seed of one mind: what it scores in fresh episodes, and what it took. Steps are by the kind of learner."""
+
+    kind: str
+    seed: int
+    weights: int
+    mean: float
+    standard_error: float
+    solved: float
+    also: Mapping[str, float]
+    steps: Mapping[str, int]
+    seconds: float
+    cpu_seconds: float
+    load: float
+
+
+@dataclass(frozen=True, slots=True)
+class Taught:
+    """A mind that was taught: its episodes with a genome, and those with other masters in charge."""
+
+    rollout: Rollout
+    genome: Genomes
+    also: Mapping[str, Rollout]
+    weights: int
+    steps: Mapping[str, int]
+
+
+@dataclass(frozen=True, slots=True)
+class Plan:
+    """Which example is taught where, in times so many generations, and in how many fresh episodes it is tried."""
+
+    folder: Path
+    comparison: Comparison
+    out: Path
+    runs: int
+    episodes: int
+    scale: float
+
+    @property
+    def mind(self) -> Path:
+        """The hierarchy: the mind that has the name of its folder."""
+        return self.folder / f"{self.folder.name}.mind"
+
+    def path(self, kind: str, seed: int) -> Path:
+        """Where the outcome of a seed lies."""
+        return self.out / f"{kind}-{seed}.json"
+
+
+def main() -> None:
+    """Teach what is left, and write the tables."""
+    parser = argparse.ArgumentParser(
+        allow_abbrev=False, description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
+    parser.add_argument("example", type=Path, help="its folder, with beside.toml in it")
+    parser.add_argument("--seeds", type=whole(1, 1000), default=5)
+    parser.add_argument("--runs", type=whole(2, 1_000_000), default=1000, help="fresh episodes of each seed")
+    parser.add_argument("--episodes", type=whole(0, 2**62), default=20261123, help="draws the fresh episodes")
+    parser.add_argument("--scale", type=real(0, 1000), default=1.0, help="times the generations of the mind's lessons")
+    parser.add_argument("--processes", type=whole(1, 1024), default=2, help="seeds at a time")
+    parser.add_argument("--out", type=Path, help="runs/NAME if nothing is said")
+    options = parser.parse_args()
+    folder = options.example.resolve()
+    comparison = Comparison(**tomllib.loads((folder / "beside.toml").read_text(encoding="utf-8")))
+    out = options.out or Path("runs") / folder.name
+    plan, seeds = Plan(folder, comparison, out, options.runs, options.episodes, options.scale), options.seeds
+    out.mkdir(parents=True, exist_ok=True)
+    with ProcessPoolExecutor(options.processes, get_context("spawn")) as pool:
+        for kind in TEACHERS:
+            left = [seed for seed in range(1, seeds + 1) if not plan.path(kind, seed).exists()]
+            for found in pool.map(partial(try_out, plan, kind), left):
+                print(row(plan, found), flush=True)
+    outcomes = [read(plan, kind, seed) for kind in TEACHERS for seed in range(1, seeds + 1)]
+    (out / "RESULTS.md").write_text(report(plan, outcomes), encoding="utf-8")
+
+
+def try_out(plan: Plan, kind: str, seed: int) -> Outcome:
+    """Teach a seed of a kind, try it, and write down what came of it."""
+    began, cpu = time.perf_counter(), time.process_time()
+    came = TEACHERS[kind](plan, seed)
+    took = time.perf_counter() - began, time.process_time() - cpu
+    score = scores(plan, came.rollout, came.genome)
+    also = {name: float(scores(plan, other, NO_GENOME).mean()) for name, other in came.also.items()}
+    error, solved = float(score.std(ddof=1)) / len(score) ** 0.5, float((score >= plan.comparison.solved).mean())
+    load = os.getloadavg()[2]
+    found = Outcome(kind, seed, came.weights, float(score.mean()), error, solved, also, came.steps, *took, load)
+    path = plan.path(kind, seed)
+    path.with_suffix(".part").write_text(json.dumps(asdict(found), indent=1) + "\n", encoding="utf-8")
+    path.with_suffix(".part").replace(path)
+    return found
+
+
+def hierarchy(plan: Plan, seed: int) -> Taught:
+    """Teach all lessons of the mind."""
+    folder = plan.out / f"seed-{seed}"
+    rmtree(folder, ignore_errors=True)
+    folder.mkdir()
+    path = folder / plan.mind.name
+    copyfile(plan.mind, path)
+    options = mindlang.TrainOptions(scale=plan.scale)
+    results = mindlang.load(path).train(options=options, seed=seed, runs=folder / "runs")
+    mind, task = mindlang.load(path), plan.comparison.task
+    steps: Counter[str] = Counter()
+    for result, lesson in zip(results, mind.graph.lessons, strict=True):
+        steps[names()[type(lesson.learner)]] += int(result["ticks"])
+    learners = sorted({skill for each in results for skill in each["weights"]})
+    weights = mind.rollout(task, mind.graph.master, learners).genome_length
+    also = {name: mind.rollout(task, other) for name, other in plan.comparison.also.items()}
+    return Taught(mind.rollout(task, mind.graph.master), NO_GENOME, also, weights, steps)
+
+
+def perceptron(plan: Plan, seed: int) -> Taught:
+    """Teach the lessons of monolith.mind, each in as many steps as its learner had in the hierarchy of this seed."""
+    limits = read(plan, "hierarchy", seed).steps
+    mind = mindlang.load(plan.folder / "monolith.mind")
+    master = mind.graph.master
+    rollout = mind.rollout(plan.comparison.task, master, [master])
+    champion, steps = np.empty((0, rollout.genome_length), np.float32), {}
+    for lesson in mind.graph.lessons:
+        if lesson.skill == master:  # the others are those of the hierarchy, which it uses
+            learner = names()[type(lesson.learner)]
+            champion, steps[learner] = taught(lesson, rollout, champion, seed, limits[learner])
+    return Taught(rollout, champion, {}, rollout.genome_length, steps)
+
+
+def taught(lesson: Lesson, rollout: Rollout, start: Genomes, seed: int, limit: int) -> tuple[Genomes, int]:
+    """The champion [1, weights] of as many attempts as the steps allow, and the steps taken."""
+    endless = replace(lesson.learner, attempts=ENDLESS_ATTEMPTS)
+    course = Course(replace(lesson, learner=endless, generations=ENDLESS_GENERATIONS), seed, start)
+    for state, _ in teach(course, rollout, begin(course), time.perf_counter):
+        if state.ticks >= limit:
+            break
+    if len(state.now.champion):
+        verdict = judge(course, rollout, state.now)
+        state = replace(ended(course, state, verdict), ticks=state.ticks + verdict.ticks)
+    return best(state), state.ticks
+
+
+def scores(plan: Plan, rollout: Rollout, genome: Genomes) -> Scores:
+    """What it scores in each of the fresh episodes [runs]."""
+    found: Scores = rollout.score(genome, layouts(plan.episodes, plan.runs)).total[0]
+    return found
+
+
+def read(plan: Plan, kind: str, seed: int) -> Outcome:
+    """What was written down."""
+    return Outcome(**json.loads(plan.path(kind, seed).read_text(encoding="utf-8")))
+
+
+TEACHERS = {"hierarchy": hierarchy, "mlp": perceptron}  # in this order
+
+
+def report(plan: Plan, outcomes: Sequence[Outcome]) -> str:
+    """The page with the table of all seeds."""
+    kinds = {kind: [each.mean for each in outcomes if each.kind == kind] for kind in TEACHERS}
+    counts = (
+        (kind, len(means), sum(mean >= plan.comparison.solved for mean in means)) for kind, means in kinds.items()
+    )
+    solved = "; ".join(f"{kind}: {count} of {of}" for kind, of, count in counts)
+    text = Template((plan.folder / "RESULTS.template.md").read_text(encoding="utf-8"))
+    return text.substitute(table=table(plan, outcomes), solved=solved, runs=f"{plan.runs:,}", episodes=plan.episodes)
+
+
+def table(plan: Plan, outcomes: Sequence[Outcome]) -> str:
+    """A row for each outcome, below what its columns are."""
+    share = f"episodes of {plan.comparison.solved:g} and more"
+    head = ("", "seed", "score", share, *plan.comparison.also, "weights", "steps", "CPU", "wall clock, load")
+    return "\n".join((line(head), "|" + "---|" * len(head), *(row(plan, each) for each in outcomes)))
+
+
+def row(plan: Plan, found: Outcome) -> str:
+    """An outcome as a line of the table."""
+    return line(
+        (
+            found.kind,
+            found.seed,
+            f"{found.mean:.1f} ± {found.standard_error:.1f}",
+            f"{found.solved:.1%}",
+            *(f"{found.also[name]:.1f}" if name in found.also else "" for name in plan.comparison.also),
+            found.weights,
+            f"{sum(found.steps.values()) / 1e6:.2f} M",
+            f"{found.cpu_seconds:.0f} s",
+            f"{found.seconds:.0f} s, {found.load:.0f}",
+        )
+    )
+
+
+def line(cells: Sequence[object]) -> str:
+    """A line of a table in Markdown."""
+    return f"|{'|'.join(f' {cell} ' if cell != '' else ' ' for cell in cells)}|"
+
+
+if __name__ == "__main__":
+    main()
