@@ -158,7 +158,7 @@ def hierarchy(plan: Plan, seed: int) -> Taught:
     learners = sorted({skill for each in results for skill in each["weights"]})
     weights = mind.rollout(task, mind.graph.master, learners).genome_length
     also = {name: mind.rollout(task, other) for name, other in plan.comparison.also.items()}
-    return Taught(mind.rollout(task, mind.graph.master), NO_GENOME, also, weights, steps)
+    return Taught(mind.rollout(task, mind.graph.master), NO_GENOME, also, weights, dict(steps))
 
 
 def perceptron(plan: Plan, seed: int) -> Taught:
