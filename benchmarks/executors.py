@@ -1,8 +1,8 @@
 """Attempts side by side, wherever: python benchmarks/executors.py [--generations 60] [--kills 50] [--turns 3].
 
 Three tables, of GoToObject on this machine: the SHA-256 of the weights for every executor and seed; what ten attempts
-take beside threads of the same cores, in turns; a training whose workers are killed at random moments, beside the same
-undisturbed. 1 where any weights differ.
+take one by one and side by side on the same cores, in turns; a training whose workers are killed at random moments,
+beside the same undisturbed. 1 where any weights differ.
 """
 
 import argparse
@@ -11,7 +11,7 @@ import random
 import signal
 import sys
 import time
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from hashlib import sha256
@@ -20,7 +20,6 @@ from threading import Event, Thread
 
 import numpy as np
 import psutil
-from distributed import LocalCluster
 from mindrun.bundle import Bundle, pack
 from mindrun.policy import Policy
 from mindrun.sim.rollout import Rollout, cores
@@ -28,20 +27,13 @@ from mindrun.train.attempts import side_by_side
 from mindrun.train.lesson import teach
 from mindrun.train.lesson_state import Course, begin
 from mindrun.work.assignment import Assignment
-from mindrun.work.crew import Crew
-from mindrun.work.executor import Executor, StretchExecutor
 
+from benchmarks.executor_kinds import Begin, Pids, dask, one_by_one, processes, threads
 from benchmarks.workloads import collect
-from mindlang.cluster.connection import connect
-from mindlang.cluster.jobs import ClusterJobs
-from mindlang.cluster.scheduler import Destination
-from mindlang.executors import where
 
 SKILL = "GoToObject"
 MIN_KILL_SECONDS, MAX_KILL_SECONDS = 0.5, 5.5  # between two kills
 SHOWN_CHARACTERS = 16  # of a hash
-
-Pids = Callable[[], list[int]]
 
 
 @dataclass(frozen=True, slots=True)
@@ -91,51 +83,21 @@ def rollout_of(assignment: Assignment, threads: int) -> Rollout:
     return rollout
 
 
-@contextmanager
-def threads(count: int, assignment: Assignment) -> Iterator[tuple[None, Pids]]:
-    """No other process."""
-    yield None, list[int]
-
-
-@contextmanager
-def processes(count: int, assignment: Assignment) -> Iterator[tuple[Executor, Pids]]:
-    """Frames on standard streams."""
-    place = where(f"processes:{count}")
-    assert place
-    jobs = place.begin(assignment)
-    assert isinstance(jobs, Crew)
-    try:
-        yield jobs, lambda: [child.process.pid for child in jobs.children if child.process]
-    finally:
-        jobs.close()
-
-
-@contextmanager
-def dask(count: int, assignment: Assignment) -> Iterator[tuple[Executor, Pids]]:
-    """So many workers of one thread."""
-    with LocalCluster(count, threads_per_worker=1, dashboard_address=":0", silence_logs="CRITICAL") as cluster:
-        jobs = ClusterJobs(connect(Destination(cluster.scheduler_address)), assignment, print)
-        try:
-            there = cluster.scheduler.workers
-            yield jobs, lambda: [each.pid for each in cluster.workers.values() if each.worker_address in there]
-        finally:
-            jobs.close()
-
-
-def taught(course: Course, rollout: Rollout, jobs: Executor | None) -> Taught:
-    """Teach a lesson in this process, or where jobs are done."""
-    began = time.perf_counter()
-    if jobs is None:
+def taught(course: Course, rollout: Rollout, executor_of: Begin) -> Taught:
+    """Teach a lesson, its attempts one by one or side by side."""
+    began, executor = time.perf_counter(), executor_of(course, rollout)
+    if executor is None:
         *_, (state, _) = teach(course, rollout, begin(course), time.perf_counter)
     else:
-        *_, last = side_by_side(course, StretchExecutor(course, jobs), begin(course), lambda: False)
+        *_, last = side_by_side(course, executor, begin(course), lambda: False)
         state = last.state
     digest = sha256(state.kept.tobytes() + state.champions.tobytes()).hexdigest()
     return Taught(digest, time.perf_counter() - began)
 
 
 EXECUTORS = {
-    "1 thread": (threads, 1),
+    "1 thread": (one_by_one, 1),
+    "2, one by one": (one_by_one, 2),
     "2 threads": (threads, 2),
     "2 processes": (processes, 2),
     "Dask, 1 worker": (dask, 1),
@@ -149,18 +111,18 @@ def hashes(assignment: Assignment, seeds: int) -> bool:
     print(f"SHA-256 of the weights of four attempts of 15 generations, seeds 1 to {seeds}", flush=True)
     found = dict[str, list[str]]()
     for name, (make, count) in EXECUTORS.items():
-        rollout = rollout_of(assignment, count if make is threads else 1)
-        with make(count, assignment) as (jobs, _):
+        rollout = rollout_of(assignment, count if make in (one_by_one, threads) else 1)
+        with make(count, assignment) as (executor, _):
             found[name] = [
-                taught(course_of(rollout, 4, 15, seed), rollout, jobs).weights for seed in range(1, seeds + 1)
+                taught(course_of(rollout, 4, 15, seed), rollout, executor).weights for seed in range(1, seeds + 1)
             ]
         print(f"  {name:<16}", *(each[:SHOWN_CHARACTERS] for each in found[name]), flush=True)
     return len({tuple(each) for each in found.values()}) == 1
 
 
 def overhead(assignment: Assignment, generations: int, turns: int) -> bool:
-    """Ten attempts on the same cores by threads, processes and Dask, in turns; whether their weights are the same."""
-    names = {"threads": threads, "processes": processes, "Dask": dask}
+    """Ten attempts on the same cores, one by one and side by side, in turns; whether their weights are the same."""
+    names = {"one by one": one_by_one, "threads": threads, "processes": processes, "Dask": dask}
     count = cores()
     rollout = rollout_of(assignment, count)
     course = course_of(rollout, 10, generations, 1)
@@ -169,17 +131,17 @@ def overhead(assignment: Assignment, generations: int, turns: int) -> bool:
     for _ in range(turns):
         turn = dict[str, tuple[float, float]]()
         for name, make in names.items():
-            with make(count, assignment) as (jobs, pids):
-                warm_up(rollout, jobs)
+            with make(count, assignment) as (executor, pids):
+                warm_up(rollout, executor)
                 before = cpu_seconds(pids())
-                done = taught(course, rollout, jobs)
+                done = taught(course, rollout, executor)
                 turn[name] = done.seconds, cpu_seconds(pids()) - before
             weights.add(done.weights)
         found.append(turn)
         print("  " + ", ".join(f"{name} {wall:.1f} ({cpu:.1f})" for name, (wall, cpu) in turn.items()), flush=True)
     for name in names if found else ():
-        wall, cpu = (median(turn[name][i] / turn["threads"][i] for turn in found) for i in range(2))
-        print(f"  {name:<10} {wall:.3f} times the seconds of threads, {cpu:.3f} times their CPU time (medians)")
+        wall, cpu = (median(turn[name][i] / turn["one by one"][i] for turn in found) for i in range(2))
+        print(f"  {name:<10} {wall:.3f} times the seconds of one by one, {cpu:.3f} times their CPU time (medians)")
     return len(weights) <= 1
 
 
@@ -188,10 +150,9 @@ def cpu_seconds(pids: Sequence[int]) -> float:
     return time.process_time() + sum(sum(psutil.Process(pid).cpu_times()[:2]) for pid in pids)
 
 
-def warm_up(rollout: Rollout, jobs: Executor | None) -> None:
+def warm_up(rollout: Rollout, executor_of: Begin) -> None:
     """Let every worker begin and load what is compiled: two short attempts for each."""
-    if jobs is not None:
-        taught(course_of(rollout, 2 * cores(), 1, 9), rollout, jobs)
+    taught(course_of(rollout, 2 * cores(), 1, 9), rollout, executor_of)
 
 
 def kills(assignment: Assignment, generations: int, count: int) -> bool:
@@ -203,19 +164,19 @@ def kills(assignment: Assignment, generations: int, count: int) -> bool:
     rollout = rollout_of(assignment, 1)
     course, weights = course_of(rollout, 10, generations, 1), set[str]()
     for name, make in (("processes", processes), ("Dask", dask)):
-        with make(2, assignment) as (jobs, pids):
-            whole = taught(course, rollout, jobs)
+        with make(2, assignment) as (executor, pids):
+            whole = taught(course, rollout, executor)
             disturbed = list[Taught]()
             while sum(each.kills for each in disturbed) < count:
                 with killing(pids, count - sum(each.kills for each in disturbed), random.Random(1)) as killed:
-                    done = taught(course, rollout, jobs)
+                    done = taught(course, rollout, executor)
                 disturbed.append(replace(done, kills=len(killed)))
         weights |= {whole.weights, *(each.weights for each in disturbed)}
         total = sum(each.kills for each in disturbed)
         lost = sum(each.seconds - whole.seconds for each in disturbed)
         print(
             f"  {name:<10} {total} kills in {len(disturbed)} trainings, {whole.seconds:.0f} s undisturbed,"
-            f" {sum(each.seconds for each in disturbed) / len(disturbed):.0f} s with them:"
+            f" {sum(each.seconds for each in disturbed) / max(1, len(disturbed)):.0f} s with them:"
             f" {lost / max(1, total):.1f} s a kill; weights {' '.join(each[:SHOWN_CHARACTERS] for each in weights)}",
             flush=True,
         )

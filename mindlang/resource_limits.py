@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from mindrun.sim.rollout import Rollout
     from mindrun.sim.tables import Sizes
 
-RUN_BYTES, ENTRY_BYTES = 512, 64  # bytes that a run takes, and each of its rewards and events
+RUN_BYTES, ENTRY_BYTES = 160, 12  # bytes that a run takes, and each of its rewards and events
 LANE_BYTES, GENOME_COPIES = 2048, 6
 MAX_TICKS_PER_SECOND = 20_000_000  # agent-ticks in a second and worker, which no lesson reaches
 YEAR_SECONDS = 366 * 24 * 3600  # nobody waits for longer
@@ -34,9 +34,9 @@ def bytes_for(task: Task) -> int:
     return RUN_BYTES + ENTRY_BYTES * (len(task.rewards) + len(task.events))
 
 
-def refuse_too_large(rollout: Rollout, genomes: int, layouts: int) -> None:
-    """MindError where so many genomes on so many layouts each cannot be run at once."""
-    needed, there = bytes_of(rollout, genomes, layouts), available()
+def refuse_too_large(rollout: Rollout, genomes: int, layouts: int, attempts: int = 1) -> None:
+    """MindError where so many genomes on so many layouts each cannot be run at once, for each of so many attempts."""
+    needed, there = attempts * bytes_of(rollout, genomes, layouts), available()
     if there is not None and needed > there:
         message = f"{rollout.task.name} takes about {_in_bytes(needed)} of memory, and there are {_in_bytes(there)}"
         raise MindError(message, f"Most of it is for {_largest(rollout.sizes)}.")

@@ -12,7 +12,7 @@ from mindlang.cli._run_session import BenchChoice, RunSession
 from mindlang.cli._terminal import MISUSE, console, fail, print_json, write_file
 from mindlang.run import outcome
 from mindlang.run.bench_comparison import Benched, compare, differing_tasks
-from mindlang.run.columns import csv_bytes
+from mindlang.run.columns import csv_parts
 from mindlang.run.comparison_summary import comparison_summary
 from mindlang.run.layouts import layouts
 from mindlang.run.runs_table import joined, runs_table
@@ -71,7 +71,7 @@ def compare_benched(
     found |= {"minds": minds, **compared.data(), "notes": notes}
     if table:
         rows = {each.name: runs_table(each.task, each.scores, seeds) for each in benched}
-        write_file(table, csv_bytes(joined(rows)))
+        write_file(table, csv_parts(joined(rows)))
         session.say(f"{table}: a row for each of 2 × {chosen.runs:,} runs")
     if as_json:
         print_json(found)

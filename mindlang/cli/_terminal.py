@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, NoReturn
 
 if TYPE_CHECKING:
+    from mindrun.atomic_write import Data
     from rich.console import Console
 
     from mindlang.compiler.compile import Compiled
@@ -87,7 +88,7 @@ def refuse_unwritable(path: Path | None, *suffixes: str) -> None:
         fail(f"{path} cannot be written: {error.strerror}", code=MISUSE)
 
 
-def write_file(path: Path, data: bytes) -> None:
+def write_file(path: Path, data: Data) -> None:
     """Write a file whose contents are done; where that fails the program ends, and the old one is still there."""
     from mindrun.atomic_write import write_out
 

@@ -99,7 +99,8 @@ class Trainer:
             self._print(result)
             return True
         rollout = self._rollout(run, subject)
-        with workers_of(run, subject, rollout, self.where, self.workers or cores(), self._say) as (scorer, executor):
+        by = self.where, self.workers or cores(), self._say, perf_counter
+        with workers_of(run, subject, rollout, *by) as (scorer, executor):
             state = self._watched(run, scorer, executor)
             if not has_ended(run, state):
                 talk.print(f"saved; to go on: {self._command(run)}", markup=False)

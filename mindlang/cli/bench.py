@@ -90,7 +90,7 @@ def _bench(who: Contender, chosen: BenchChoice, table: Path | None, as_json: boo
     from mindlang.cli._run_session import RunSession
     from mindlang.cli._terminal import console, print_json, write_file
     from mindlang.run import outcome
-    from mindlang.run.columns import csv_bytes
+    from mindlang.run.columns import csv_parts
     from mindlang.run.layouts import layouts
     from mindlang.run.runs_table import runs_table
     from mindlang.run.summary import bench_summary
@@ -104,7 +104,7 @@ def _bench(who: Contender, chosen: BenchChoice, table: Path | None, as_json: boo
     found = {"task": setup.task.name, "master": setup.master, "seed": chosen.seed, "workers": chosen.workers}
     found |= outcome.bench_data(setup.task, scores, seeds, seconds) | {"notes": [*setup.ready.notes, *rollout.notes]}
     if table:
-        write_file(table, csv_bytes(runs_table(setup.task, scores, seeds)))
+        write_file(table, csv_parts(runs_table(setup.task, scores, seeds)))
         session.say(f"{table}: a row for each of {chosen.runs:,} runs")
     if as_json:
         print_json(found)

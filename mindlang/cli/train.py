@@ -47,7 +47,8 @@ A cluster with SLURM (what tls.pem is, and other ways: docs/cluster.md):
     "where",
     type=ON,
     metavar="WHERE",
-    help="Who does the attempts: processes:N, ssh:HOST,HOST, dask:SCHEDULER …",
+    help="Who does the attempts: processes:N, ssh:HOST,HOST, dask:SCHEDULER … (default: threads; processes in"
+    " environments of Gymnasium).",
 )
 @click.option("--runs", type=click.Path(path_type=Path), default="runs", show_default=True, help="Where runs are kept.")
 @click.option("--resume", type=click.Path(path_type=Path), metavar="RUN", help="Go on with a run that was stopped.")

@@ -1,7 +1,7 @@
 """Tables as columns by name, and as CSV for spreadsheets and notebooks."""
 
 from collections import Counter
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from typing import Any
 
 import numpy as np
@@ -25,11 +25,15 @@ def columns(named: Iterable[tuple[str, Column]]) -> dict[str, Column]:
 
 def csv_bytes(table: Mapping[str, Column]) -> bytes:
     """The table as CSV: a line of names, and one for each row."""
-    parts = [",".join(map(_quoted, table)) + "\n"]
+    return b"".join(csv_parts(table))
+
+
+def csv_parts(table: Mapping[str, Column]) -> Iterator[bytes]:
+    """The same part after part, so that not all of a long table is in memory as text."""
+    yield (",".join(map(_quoted, table)) + "\n").encode()
     for begin in range(0, max(map(len, table.values())), SLICE_ROWS):
         texts = [_texts(column[begin : begin + SLICE_ROWS]) for column in table.values()]
-        parts.append("\n".join([*map(",".join, zip(*texts, strict=True)), ""]))
-    return "".join(parts).encode()
+        yield "\n".join([*map(",".join, zip(*texts, strict=True)), ""]).encode()
 
 
 def _quoted(name: str) -> str:

@@ -9,10 +9,12 @@ from mindrun.engine import procedure_sources
 from mindrun.policy import Policy
 from mindrun.sim.rollout import Rollout
 from mindrun.sim.rollouts import rollout_for
-from mindrun.train.lesson_state import LessonState
+from mindrun.train.lesson import Clock
+from mindrun.train.lesson_state import Course, LessonState
 from mindrun.train.population import founder_count
 from mindrun.train.run_folder import RunFolder, keep_result, read_result
 from mindrun.train.scoring import Scorer
+from mindrun.train.stretch_threads import StretchThreads
 from mindrun.train.training import Watch, train
 from mindrun.work.assignment import Assignment
 from mindrun.work.executor import StretchExecutor
@@ -47,7 +49,8 @@ def rollout_of(run: RunFolder, subject: Subject, workers: int) -> Rollout:
     )
     learner = lesson.learner
     first = founder_count(learner)
-    refuse_too_large(rollout, first, learner.layouts)
+    side_by_side = min(rollout.workers, learner.attempts)
+    refuse_too_large(rollout.on(-(-rollout.workers // side_by_side)), first, learner.layouts, side_by_side)
     refuse_too_long(rollout, (first + learner.population * (lesson.generations - 1)) * learner.layouts)
     return rollout
 
@@ -69,22 +72,35 @@ def workers_of(
     where: Where | None,
     workers: int,
     say: Callable[[str], object],
+    clock: Clock,
 ) -> Iterator[tuple[Scorer, RememberingExecutor | None]]:
-    """What scores the genomes of a run, and who does its attempts, where that was asked for and there are several.
+    """What scores the genomes of a run, and who does its attempts, where there are several and they go side by side.
 
     They `say` what they wait for, and are sent away in the end, whatever they do.
     """
-    attempts = run.manifest.lesson.learner.attempts
+    course = run.course(rollout.genome_length)
     with scorer_on(where, rollout, lambda: assignment_of(run, subject), workers, say) as scorer:
-        if not (where and isinstance(scorer, JobScorer) and attempts > 1):
+        if (stretches := stretches_of(course, rollout, scorer if where else rollout, clock)) is None:
             yield scorer, None
             return
-        course = run.course(rollout.genome_length)
         kept = KeptSegments(run.folder, run.manifest.identity, course)
         try:
-            yield rollout, RememberingExecutor(StretchExecutor(course, scorer.jobs, rollout), kept)
+            yield rollout, RememberingExecutor(stretches, kept, clock)
         finally:
+            if isinstance(stretches, StretchThreads):
+                stretches.close()
             kept.save()
+
+
+def stretches_of(
+    course: Course, rollout: Rollout, scorer: Scorer, clock: Clock
+) -> StretchExecutor | StretchThreads | None:
+    """Who does several attempts side by side: the workers of a scorer, else threads; None where nobody does."""
+    if course.lesson.learner.attempts == 1:
+        return None
+    if isinstance(scorer, JobScorer):
+        return StretchExecutor(course, scorer.jobs, rollout)
+    return StretchThreads(course, rollout.workers, rollout.on, clock) if rollout.workers > 1 else None
 
 
 def teach(run: RunFolder, subject: Subject, workers: int, watch: Watch, where: Where | None = None) -> Result | None:
@@ -97,7 +113,7 @@ def teach(run: RunFolder, subject: Subject, workers: int, watch: Watch, where: W
         return result
     rollout = rollout_of(run, subject, workers)
     processes = workers if workers > 1 else 0  # what was registered in this one is not known in others
-    with workers_of(run, subject, rollout, where, processes, watch.warn) as (scorer, executor):
+    with workers_of(run, subject, rollout, where, processes, watch.warn, watch.clock) as (scorer, executor):
         state = train(run, scorer, watch, executor)
         return finish(run, subject, state, scorer, force=False).result if has_ended(run, state) else None
 

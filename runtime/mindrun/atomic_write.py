@@ -9,17 +9,18 @@ import fcntl
 import os
 import re
 import stat
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
 
 from mindrun.regular_files import irregular, read_regular
 
+Data = bytes | Iterable[bytes]  # what is written: all of it, or part after part
 # Where Linux has the descriptors of a process. What is behind one has perhaps no path, or one that is not its own.
 DESCRIPTORS = re.compile(r"/(?:dev|proc/self)/fd/(\d{1,9})|/dev/std(in|out|err)")
 
 
-def write(path: Path, data: bytes) -> None:
+def write(path: Path, data: Data) -> None:
     """Replace `path`, or a link that stands there, by `data`, on the disk before this returns.
 
     An OSError leaves the old file as it was.
@@ -28,7 +29,7 @@ def write(path: Path, data: bytes) -> None:
     sync_folder(path.parent)
 
 
-def write_out(path: Path, data: bytes) -> None:
+def write_out(path: Path, data: Data) -> None:
     """Write to a path that a user has named: a link is followed, and a character device or a pipe is written into.
 
     So `-o /dev/null` and `-o /dev/stdout` do what they do elsewhere. OSError where it cannot be written.
@@ -62,7 +63,7 @@ def exchange(path: Path, data: bytes, was: bytes | None) -> None:
     sync_folder(path.parent)
 
 
-def write_beside(path: Path, data: bytes) -> Path:
+def write_beside(path: Path, data: Data) -> Path:
     """Write `data` to a temporary file beside `path`, on the disk; its path. One process at a time may do that.
 
     It belongs to the same people as `path`, and may be read and written by the same.
@@ -76,7 +77,7 @@ def write_beside(path: Path, data: bytes) -> Path:
                 with suppress(PermissionError):  # only root may give a file away
                     os.fchown(file.fileno(), old.st_uid, old.st_gid)
                 os.fchmod(file.fileno(), old.st_mode & 0o7777)
-            file.write(data)
+            file.writelines(_parts(data))
             file.flush()
             os.fsync(file.fileno())
     except OSError:
@@ -185,7 +186,12 @@ def _opened(path: Path) -> Iterator[int]:
         os.close(descriptor)
 
 
-def _write_all(descriptor: int, data: bytes) -> None:
-    rest = memoryview(data)
-    while rest:
-        rest = rest[os.write(descriptor, rest) :]
+def _write_all(descriptor: int, data: Data) -> None:
+    for part in _parts(data):
+        rest = memoryview(part)
+        while rest:
+            rest = rest[os.write(descriptor, rest) :]
+
+
+def _parts(data: Data) -> Iterable[bytes]:
+    return (data,) if isinstance(data, bytes) else data

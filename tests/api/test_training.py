@@ -110,9 +110,10 @@ def test_without_a_name_what_is_due_is_taught(collect: Path) -> None:
     assert [result["skill"] for result in results][:1] == ["GoToDropZone"]
 
 
-def test_ctrl_c_leaves_a_run_that_goes_on(taught: Taught) -> None:
+@pytest.mark.parametrize("attempts", [1, 3])
+def test_ctrl_c_leaves_a_run_that_goes_on(taught: Taught, attempts: int) -> None:
     before = {*threading.enumerate()}
-    endless = TrainOptions(generations=10**6, population=200, attempts=1)
+    endless = TrainOptions(generations=10**6, population=200, attempts=attempts)
     assert taught(stop_after=2, options=endless) == 0  # compiled, and saved
     timer = threading.Timer(1.0, os.kill, (os.getpid(), signal.SIGINT))
     timer.start()

@@ -9,9 +9,10 @@ from typing import Any
 
 import numpy as np
 import pytest
-from mindrun.train.attempts import Segment, side_by_side
+from mindrun.train.attempts import side_by_side
 from mindrun.train.lesson import teach
 from mindrun.train.lesson_state import Course, begin
+from mindrun.train.segment import Segment
 from mindrun.work import WorkError
 from mindrun.work.executor import StretchExecutor
 from mindrun.work.frame import Frame, pack

@@ -1,5 +1,6 @@
 """What would take more memory than there is is refused before it begins; the estimate is near the truth."""
 
+import tracemalloc
 from pathlib import Path
 
 import numpy as np
@@ -11,9 +12,14 @@ from mindrun.sim.rollout import Rollout
 
 from mindlang import resource_limits
 from mindlang.compiler.compile import load
-from mindlang.resource_limits import bytes_of
+from mindlang.resource_limits import bytes_for, bytes_of
+from mindlang.run.columns import csv_parts
+from mindlang.run.layouts import layouts
+from mindlang.run.many_runs import run_all
+from mindlang.run.runs_table import runs_table
 from tests.calling import Call
 
+RUNS = 30_000
 MIND = """
 tick 1/60 s
 master Go
@@ -59,6 +65,34 @@ def test_the_estimate_is_near_what_the_lanes_take(tmp_path: Path, said: dict[str
         < bytes_of(rollout, 64, 1) - resource_limits.GENOME_COPIES * 64 * 4 * rollout.genome_length
         < 2 * taken + 2**20
     )
+
+
+@pytest.mark.parametrize("rewards", [1, 9])
+def test_the_estimate_is_near_what_many_runs_take(tmp_path: Path, rewards: int) -> None:
+    graph_of(tmp_path)
+    path, line = tmp_path / "m.mind", "  rewards 1 on visit of patch size 4\n"
+    path.write_text(path.read_text().replace("lasts 60 s", "lasts 2 ticks").replace(line, line * rewards))
+    graph = load(path).graph
+    assert graph
+    first = Rollout(Policy(graph, {}), "Roam", "Go", ["Go"])
+    rollout = Rollout(Policy(graph, {"Go": np.zeros(first.genome_length, np.float32)}), "Roam", "Go")
+    _, few, many = (most_bytes(rollout, runs) for runs in (RUNS, RUNS, 2 * RUNS))  # what comes once comes first
+    taken = (many - few) / RUNS
+    assert taken < bytes_for(graph.tasks[0]) < 2 * taken
+
+
+def most_bytes(rollout: Rollout, runs: int) -> int:
+    """What is taken at most while the results of so many runs become a table."""
+    tracemalloc.start()
+    try:
+        seeds = layouts(1, runs)
+        scores = run_all(rollout, seeds)
+        tracemalloc.reset_peak()
+        parts = csv_parts(runs_table(rollout.task, scores, seeds))
+        assert sum(map(len, parts)) > runs
+        return tracemalloc.get_traced_memory()[1]
+    finally:
+        tracemalloc.stop()
 
 
 @pytest.mark.parametrize(

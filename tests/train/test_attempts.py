@@ -7,10 +7,11 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from mindrun.train.attempts import Attempts, Segment, Stretch, advance, side_by_side
+from mindrun.train.attempts import Attempts, side_by_side
 from mindrun.train.checkpoint import pack
 from mindrun.train.lesson import teach
 from mindrun.train.lesson_state import Course, LessonState, Record, begin
+from mindrun.train.segment import Segment, Stretch, advance
 from mindrun.train.step import Ahead, Step
 
 from tests.train.climbing import LENGTH, Faulty, Flat, Sphere, lesson

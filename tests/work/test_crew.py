@@ -11,11 +11,12 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from mindrun.train.attempts import Segment, side_by_side
+from mindrun.train.attempts import side_by_side
 from mindrun.train.checkpoint import pack as state_bytes
 from mindrun.train.lesson import teach
 from mindrun.train.lesson_state import Course, LessonState, begin
 from mindrun.train.run_folder import create
+from mindrun.train.segment import Segment
 from mindrun.train.training import train
 from mindrun.work import WorkError
 from mindrun.work.crew import MAX_LOSSES, Crew, Place

@@ -1,6 +1,7 @@
 """What attempts ahead have done is not done again, and changes no bit; a file that is damaged is as none."""
 
 from dataclasses import replace
+from itertools import count
 from pathlib import Path
 
 import numpy as np
@@ -17,6 +18,12 @@ from tests.train.test_attempts import COURSES, Shuffled, one_by_one, timeless
 COURSE = Course(lesson(30, attempts=6, rungs=2), 1, np.empty((0, LENGTH), np.float32))
 
 STEPS = 16  # of the lesson, until it is stopped
+
+
+def remembering(others: Shuffled, kept: KeptSegments) -> RememberingExecutor:
+    """Saves now and then: three seconds pass between two looks at the clock."""
+    seconds = count(step=3)
+    return RememberingExecutor(others, kept, lambda: float(next(seconds)))
 
 
 def taught(course: Course, executor: RememberingExecutor, state: LessonState, most: int = 10**9) -> LessonState:
@@ -36,7 +43,7 @@ def test_stopped_wherever_it_goes_on_to_the_same_bits(
     state = begin(course)
     for most in (*stops, 10**9):
         kept = KeptSegments(folder, "a run", course)
-        state = taught(course, RememberingExecutor(Shuffled(course, scorer, room, rng), kept), state, most)
+        state = taught(course, remembering(Shuffled(course, scorer, room, rng), kept), state, most)
         kept.save()
     assert timeless(state) == timeless(one_by_one(course, scorer)[0])
     assert not (folder / NAME).exists()
@@ -45,7 +52,7 @@ def test_stopped_wherever_it_goes_on_to_the_same_bits(
 def stopped(folder: Path) -> tuple[Shuffled, LessonState]:
     """Who has done some of a lesson, and where that stood when it was stopped."""
     kept, others = KeptSegments(folder, "a run", COURSE), Shuffled(COURSE, Sphere(), 6, np.random.default_rng(2))
-    state = taught(COURSE, RememberingExecutor(others, kept), begin(COURSE), STEPS)
+    state = taught(COURSE, remembering(others, kept), begin(COURSE), STEPS)
     kept.save()
     assert sum(map(len, kept.chains.values())) > 2
     return others, state
@@ -54,7 +61,7 @@ def stopped(folder: Path) -> tuple[Shuffled, LessonState]:
 def jobs_to_the_end(folder: Path, state: LessonState, identity: str = "a run") -> int:
     """How many stretches are done by others from there to the end."""
     others = Shuffled(COURSE, Sphere(), 6, np.random.default_rng(3))
-    last = taught(COURSE, RememberingExecutor(others, KeptSegments(folder, identity, COURSE)), state)
+    last = taught(COURSE, remembering(others, KeptSegments(folder, identity, COURSE)), state)
     assert timeless(last) == timeless(one_by_one(COURSE, Sphere())[0])
     return len(others.done)
 
@@ -77,7 +84,7 @@ def test_a_segment_is_the_answer_to_its_stretch_alone(tmp_path: Path) -> None:
     stopped(tmp_path)
     kept = KeptSegments(tmp_path, "a run", COURSE)
     others = Shuffled(COURSE, Sphere(), 6, np.random.default_rng(2))
-    taught(COURSE, RememberingExecutor(others, KeptSegments(tmp_path / "none", "a run", COURSE)), begin(COURSE), 1)
+    taught(COURSE, remembering(others, KeptSegments(tmp_path / "none", "a run", COURSE)), begin(COURSE), 1)
     stretch = next(stretch for _, stretch in others.waiting if stretch.number in kept.chains)
     assert kept.find(stretch) is not None
     champion = np.ones((1, LENGTH), np.float32)

@@ -28,7 +28,9 @@ def weights(folder: Path, *words: str) -> dict[str, str]:
 
 
 def test_the_weights_are_the_same_on_threads_and_on_workers(tmp_path: Path) -> None:
-    expected = weights(tmp_path / "threads", "--on", "threads")
+    expected = weights(tmp_path / "one after the other", "--workers", "1")
+    assert weights(tmp_path / "threads", "--on", "threads", "--workers", "2") == expected
+    assert weights(tmp_path / "more threads", "--workers", "4") == expected
     assert weights(tmp_path / "processes", "--on", "processes:2") == expected
     assert weights(tmp_path / "command", "--on", f"command:{sys.executable} -m mindrun work --threads 1") == expected
 
@@ -118,11 +120,14 @@ def test_a_command_that_is_no_worker_leaves_a_run_that_goes_on(tmp_path: Path) -
     assert done.returncode == 0, done.stderr
 
 
-def test_stopped_with_ctrl_c_it_goes_on_to_the_same_weights_there_or_here(tmp_path: Path) -> None:
+@pytest.mark.parametrize("where", [("--workers", "2"), ("--on", "processes:2")])
+def test_stopped_with_ctrl_c_it_goes_on_to_the_same_weights_there_or_here(
+    tmp_path: Path, where: tuple[str, ...]
+) -> None:
     (tmp_path / "drive.mind").write_text(MIND)
     words = (*LONG, "--attempts", "3")
-    expected = json.loads(mindc(tmp_path, *words, "--runs", "undisturbed").stdout)["weights"]
-    command = [sys.executable, "-c", "from mindlang.cli import main; main()", "train", *words, "--on", "processes:2"]
+    expected = json.loads(mindc(tmp_path, *words, "--workers", "1", "--runs", "undisturbed").stdout)["weights"]
+    command = [sys.executable, "-c", "from mindlang.cli import main; main()", "train", *words, *where]
     with subprocess.Popen(command, cwd=tmp_path, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as process:
         while process.poll() is None and not any(log.stat().st_size for log in tmp_path.glob(f"{RUN}/progress.jsonl")):
             sleep(0.005)
@@ -131,18 +136,19 @@ def test_stopped_with_ctrl_c_it_goes_on_to_the_same_weights_there_or_here(tmp_pa
     assert process.returncode == 130, talk
     assert "what workers are at is done again then; Ctrl-C again stops at once" in talk
     run = str(next(tmp_path.glob(RUN)))
-    there = mindc(tmp_path, *words, "--on", "processes:2")
+    there = mindc(tmp_path, *words, *where)
     assert json.loads(there.stdout) == json.loads(there.stdout) | {
         "run": run.removeprefix(f"{tmp_path}/"),
         "weights": expected,
     }
 
 
-def test_killed_it_goes_on_to_the_same_weights(tmp_path: Path) -> None:
+@pytest.mark.parametrize("where", [("--workers", "2"), ("--on", "processes:2")])
+def test_killed_it_goes_on_to_the_same_weights(tmp_path: Path, where: tuple[str, ...]) -> None:
     (tmp_path / "drive.mind").write_text(MIND)
     words = (*LONG, "--attempts", "3")
-    expected = json.loads(mindc(tmp_path, *words, "--runs", "undisturbed").stdout)["weights"]
-    command = [sys.executable, "-c", "from mindlang.cli import main; main()", "train", *words, "--on", "processes:2"]
+    expected = json.loads(mindc(tmp_path, *words, "--workers", "1", "--runs", "undisturbed").stdout)["weights"]
+    command = [sys.executable, "-c", "from mindlang.cli import main; main()", "train", *words, *where]
     with subprocess.Popen(command, cwd=tmp_path, stdout=subprocess.PIPE, stderr=subprocess.PIPE) as process:
         while process.poll() is None and not any(log.stat().st_size for log in tmp_path.glob(f"{RUN}/progress.jsonl")):
             sleep(0.005)

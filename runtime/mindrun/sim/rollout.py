@@ -2,10 +2,11 @@
 
 import os
 from collections.abc import Callable, Sequence
+from copy import copy
 from dataclasses import dataclass
 from pathlib import Path
 from threading import Event
-from typing import Any
+from typing import Any, Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -97,6 +98,12 @@ class Rollout:
         stop = Event()
         parts = in_threads(lambda share: self._run(jobs, share, stop, ran), shares, stop)
         return _scores(parts, shares, (len(genomes), len(seeds)), self.task.counts)
+
+    def on(self, workers: int) -> Self:
+        """The same on so many cores; what is compiled and read is shared."""
+        other = copy(self)
+        other.workers = workers
+        return other
 
     def draw(self, count: int, rng: np.random.Generator) -> NDArray[np.float32]:
         """Random genomes [count, genome_length] for learning to begin with."""

@@ -6,46 +6,18 @@ retrospect, where it stood at the rung.
 
 from collections import deque
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from heapq import heappop, heappush
 from typing import Protocol
 
 import numpy as np
 
-from mindrun.graph import Lesson
-from mindrun.train import attempt
-from mindrun.train.attempt import Verdict, ends_by_itself, judge
-from mindrun.train.lesson import Clock, ended, gone_on, judged
-from mindrun.train.lesson_state import AttemptState, Course, LessonState, Record, begin_attempt
-from mindrun.train.population import Genomes
+from mindrun.train.attempt import Verdict
+from mindrun.train.lesson import ended, gone_on, judged
+from mindrun.train.lesson_state import AttemptState, Course, LessonState, begin_attempt
 from mindrun.train.rungs import heights, is_behind, rung_at
-from mindrun.train.scoring import Scorer
+from mindrun.train.segment import Joined, Segment, Stretch
 from mindrun.train.step import Ahead, Step
-
-SEGMENT_SECONDS = 2.0  # after which a segment ends with the generation at work
-SEGMENT_GENERATIONS = 100  # at most in a segment
-
-
-@dataclass(frozen=True, slots=True)
-class Stretch:
-    """A job: attempt `number`, which counts from 0, from a state on; with `cut` it ends there, and is judged."""
-
-    number: int
-    state: AttemptState
-    cut: bool = False
-
-
-@dataclass(frozen=True, slots=True)
-class Segment:
-    """What came of a stretch: `records` and `champions` [records, weights] of its generations, and where it stands now.
-
-    `verdict` is there where the attempt has ended.
-    """
-
-    state: AttemptState
-    records: tuple[Record, ...]
-    champions: Genomes
-    verdict: Verdict | None
 
 
 class Executor(Protocol):
@@ -61,32 +33,6 @@ class Executor(Protocol):
         """A job that has ended, and what came of it; None where for a while none has."""
 
 
-def advance(course: Course, scorer: Scorer, stretch: Stretch, clock: Clock) -> Segment:
-    """An attempt goes on until it ends by itself, comes to a rung, or has been at it for long enough."""
-    state, records, champions = stretch.state, list[Record](), [stretch.state.champion[:0]]
-    began = clock()
-    while not (stretch.cut or is_over(course.lesson, state, records, clock() - began)):
-        start = clock()
-        state, record = attempt.generation(course, scorer, stretch.number, state)
-        records.append(replace(record, seconds=clock() - start))
-        champions.append(state.champion)
-    ends = stretch.cut or ends_by_itself(course.lesson, state)
-    verdict = judge(course, scorer, state) if ends else None
-    return Segment(state, tuple(records), np.concatenate(champions), verdict)
-
-
-def is_over(lesson: Lesson, state: AttemptState, records: list[Record], seconds: float) -> bool:
-    """Whether a segment ends here, of which there are these records after so many seconds."""
-    if not records:
-        return False
-    return (
-        ends_by_itself(lesson, state)
-        or rung_at(lesson, state.population.generation) is not None
-        or seconds >= SEGMENT_SECONDS
-        or len(records) == SEGMENT_GENERATIONS
-    )
-
-
 @dataclass(slots=True)
 class Track:
     """An attempt that has begun: where it stands, and its segments that the lesson has not come to yet."""
@@ -94,7 +40,7 @@ class Track:
     number: int
     state: AttemptState
     job: int = -1  # that is at it; -1 for none
-    segments: deque[Segment] = field(default_factory=deque)
+    segments: deque[Joined] = field(default_factory=deque)
     at_rung: dict[int, AttemptState] = field(default_factory=dict)  # where it stood there
     cut: AttemptState | None = None  # where it was found behind
     verdict: Verdict | None = None
@@ -151,7 +97,7 @@ class Attempts:
             return
         track.job, track.verdict = -1, segment.verdict
         if track.cut is not None:
-            track.segments[-1] = replace(track.segments[-1], verdict=segment.verdict)
+            track.segments[-1].verdict = segment.verdict
         else:
             track.state = segment.state
             self._append(track, segment)
@@ -164,7 +110,7 @@ class Attempts:
         while (track := self.tracks.get(self.lesson.attempt)) and track.segments:
             if self._is_open(track, track.segments[0]):
                 return
-            yield self._gone_on(track, track.segments.popleft())
+            yield self._gone_on(track, track.segments.popleft().whole())
 
     def ahead(self) -> Ahead:
         """What attempts behind that at work have done."""
@@ -180,16 +126,15 @@ class Attempts:
         """Keep a segment, as one with that before unless a decision may come between them."""
         before = track.segments[-1] if track.segments else None
         if before is not None and all(before.state is not at_rung for at_rung in track.at_rung.values()):
-            records, champions = before.records + segment.records, (before.champions, segment.champions)
-            track.segments[-1] = replace(segment, records=records, champions=np.concatenate(champions))
+            before.add(segment)
         else:
-            track.segments.append(segment)
+            track.segments.append(Joined(segment))
         rung = rung_at(self.course.lesson, segment.state.population.generation)
         if rung is not None:
             track.at_rung[rung] = segment.state
             self.rows[track.number, rung] = segment.state.climbed[rung]
 
-    def _is_open(self, track: Track, segment: Segment) -> bool:
+    def _is_open(self, track: Track, segment: Joined) -> bool:
         """Whether it is not known yet what becomes of an attempt behind a segment."""
         if segment.verdict is not None:
             return False

@@ -28,9 +28,8 @@ def teach(course: Course, scorer: Scorer, state: LessonState, clock: Clock) -> I
 def generation(course: Course, scorer: Scorer, state: LessonState) -> tuple[LessonState, Record]:
     """One generation of the attempt at work, and its end where it comes to it."""
     now, record = attempt.generation(course, scorer, state.attempt, state.now)
-    after = gone_on(state, now, record)
-    if not has_ended(course.lesson, after):
-        return after, record
+    if not has_ended(course.lesson, replace(state, now=now)):
+        return gone_on(state, now, record), record
     verdict = judge(course, scorer, now)
     record = judged(record, verdict)
     return ended(course, gone_on(state, now, record), verdict), record

@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from mindrun.train import RunError, checkpoint
@@ -73,7 +73,10 @@ def _steps(
     course: Course, scorer: Scorer, state: LessonState, watch: Watch, executor: Executor | None
 ) -> Iterator[Step]:
     if executor is not None:
-        yield from side_by_side(course, executor, state, watch.stop)
+        began = watch.clock()
+        for step in side_by_side(course, executor, state, watch.stop):
+            # Those of several at once are not the sum of their own.
+            yield replace(step, state=replace(step.state, seconds=state.seconds + watch.clock() - began))
         return
     for now, record in teach(course, scorer, state, watch.clock):
         yield Step(now, (record,), champion_of(now, record)[None])

@@ -4,8 +4,8 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any, Protocol
 
-from mindrun.train.attempts import Segment, Stretch
 from mindrun.train.lesson_state import Course
+from mindrun.train.segment import Segment, Stretch
 from mindrun.work.assignment import Assignment
 from mindrun.work.build import own_build
 from mindrun.work.effort import Effort, effort_of

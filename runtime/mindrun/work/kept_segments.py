@@ -6,7 +6,6 @@ damaged, or of another run or build, is as none.
 """
 
 from contextlib import suppress
-from dataclasses import replace
 from io import BytesIO
 from pathlib import Path
 
@@ -14,18 +13,21 @@ import numpy as np
 
 from mindrun.atomic_write import write
 from mindrun.regular_files import read_whole
-from mindrun.train.attempts import Executor, Segment, Stretch
+from mindrun.train.attempts import Executor
+from mindrun.train.lesson import Clock
 from mindrun.train.lesson_state import AttemptState, Course, begin_attempt
 from mindrun.train.rungs import rung_at
+from mindrun.train.segment import Joined, Segment, Stretch
 from mindrun.work.build import own_build
 from mindrun.work.frame import Frame, FrameError, pack, read, unpack
 from mindrun.work.stretch_frame import segment_frame, segment_of
 
 NAME, KIND = "ahead", "ahead"
 MAX_FILE_BYTES = 1 << 30
-SAVE_ANSWERS = 64  # after which the file is written anew
+SAVE_SECONDS = 2.0  # between two times that the file is written anew, at least
+MAX_SAVE_SHARE = 0.05  # of the time that goes into writing it
 
-Chain = list[Segment]  # of an attempt, each from where that before ends
+Chain = list[Joined]  # of an attempt, from rung to rung, each from where that before ends
 
 
 class KeptSegments:
@@ -43,33 +45,33 @@ class KeptSegments:
         before = begin_attempt(self.course)
         for segment in [] if stretch.cut else self.chains.get(stretch.number, []):
             if is_same(before, stretch.state):
-                return segment
+                return segment.whole()
             before = segment.state
         return None
 
     def put(self, stretch: Stretch, segment: Segment) -> None:
         """Keep what came of a stretch, where all before it has been kept."""
-        chain = self.chains.get(stretch.number, [])
+        chain = self.chains.setdefault(stretch.number, [])
         start = chain[-1].state if chain else begin_attempt(self.course)
         if stretch.cut or not is_same(start, stretch.state):
             return
         if chain and rung_at(self.course.lesson, start.population.generation) is None:
-            last = chain.pop()
-            champions = np.concatenate((last.champions, segment.champions))
-            segment = replace(segment, records=last.records + segment.records, champions=champions)
-        self.chains[stretch.number] = [*chain, segment]
+            chain[-1].add(segment)
+        else:
+            chain.append(Joined(segment))
 
     def forget(self, below: int) -> None:
         """Forget the attempts before one."""
-        self.chains = {number: chain for number, chain in self.chains.items() if number >= below}
+        for number in [number for number in self.chains if number < below]:
+            del self.chains[number]
 
     def save(self) -> None:
         """Write the file, as far as that can be: it spares work, and nothing depends on it."""
-        if not self.chains:
+        if not any(self.chains.values()):
             self.path.unlink(missing_ok=True)
             return
         frames = [Frame(KIND, self._about)]
-        frames += [segment_frame(number, each) for number, chain in self.chains.items() for each in chain]
+        frames += [segment_frame(number, each.whole()) for number, chain in self.chains.items() for each in chain]
         with suppress(OSError, FrameError):
             write(self.path, b"".join(pack(frame) for frame in frames))
 
@@ -85,20 +87,21 @@ class KeptSegments:
                 raise FrameError("it does not say of which attempt it is")
             chain = chains.setdefault(number, [])
             start = chain[-1].state if chain else begin_attempt(self.course)
-            chain.append(segment_of(frame, self.course, Stretch(number, start), self.course.lesson.generations))
+            stretch = Stretch(number, start)
+            chain.append(Joined(segment_of(frame, self.course, stretch, self.course.lesson.generations)))
         return chains
 
 
 class RememberingExecutor:
     """Does stretches as another does, but for those whose segment has been kept."""
 
-    def __init__(self, stretches: Executor, kept: KeptSegments) -> None:
-        self._stretches, self._kept = stretches, kept
+    def __init__(self, stretches: Executor, kept: KeptSegments, clock: Clock) -> None:
+        self._stretches, self._kept, self._clock = stretches, kept, clock
+        self._due = clock() + SAVE_SECONDS
         self._first = self._at = -1  # the attempt that the lesson was at, which checkpoints have; and is at now
         self._ended = set[int]()
         self._asked: dict[int, Stretch] = {}
         self._found: list[tuple[int, Stretch, Segment]] = []
-        self._answers = 0
 
     def has_room(self) -> bool:
         """Whether a worker would wait without another stretch."""
@@ -135,13 +138,16 @@ class RememberingExecutor:
         while self._at in self._ended:
             self._at += 1
             self._kept.forget(self._at)
-        self._answers += 1
-        if self._answers % SAVE_ANSWERS == 0:
+        if (began := self._clock()) >= self._due:
             self._kept.save()
+            now = self._clock()
+            self._due = now + max(SAVE_SECONDS, (now - began) / MAX_SAVE_SHARE)
 
 
 def is_same(one: AttemptState, other: AttemptState) -> bool:
     """Whether two states of an attempt are the same."""
+    if one is other:
+        return True
     return one.population.generation == other.population.generation and all(
         np.array_equal(one_array, other_array)
         for one_array, other_array in (

@@ -15,10 +15,10 @@ from mindrun.graph import Lesson
 from mindrun.strict_json import is_whole
 from mindrun.train.ask_and_tell import kept_count
 from mindrun.train.attempt import Verdict
-from mindrun.train.attempts import SEGMENT_GENERATIONS, Segment, Stretch
 from mindrun.train.lesson_state import AttemptState, Course, Record
 from mindrun.train.manifest import MAX_SEED
 from mindrun.train.population import Population
+from mindrun.train.segment import SEGMENT_GENERATIONS, Segment, Stretch
 from mindrun.validate import lesson_flaws
 from mindrun.work.frame import Arrays, Frame, FrameError
 

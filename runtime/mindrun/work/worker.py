@@ -6,8 +6,8 @@ from dataclasses import replace
 from typing import Any
 
 from mindrun.errors import MindError
-from mindrun.train.attempts import advance
 from mindrun.train.scoring import Scorer
+from mindrun.train.segment import advance
 from mindrun.work.assignment import KIND as ASSIGNMENT
 from mindrun.work.assignment import Assignment, assignment_of
 from mindrun.work.build import difference, own_build

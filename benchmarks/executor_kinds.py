@@ -1,0 +1,65 @@
+"""Who does the attempts of a lesson in `benchmarks/executors.py`: each is begun with so many cores, and ended."""
+
+import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+
+from distributed import LocalCluster
+from mindrun.sim.rollout import Rollout
+from mindrun.train.attempts import Executor
+from mindrun.train.lesson_state import Course
+from mindrun.train.stretch_threads import StretchThreads
+from mindrun.work.assignment import Assignment
+from mindrun.work.crew import Crew
+from mindrun.work.executor import StretchExecutor
+
+from mindlang.cluster.connection import connect
+from mindlang.cluster.jobs import ClusterJobs
+from mindlang.cluster.scheduler import Destination
+from mindlang.executors import where
+
+Begin = Callable[[Course, Rollout], Executor | None]  # what does the attempts of a course; None where nobody does
+Pids = Callable[[], list[int]]
+
+
+@contextmanager
+def one_by_one(count: int, assignment: Assignment) -> Iterator[tuple[Begin, Pids]]:
+    """No other process, and each generation split."""
+    yield lambda course, rollout: None, list[int]
+
+
+@contextmanager
+def threads(count: int, assignment: Assignment) -> Iterator[tuple[Begin, Pids]]:
+    """No other process, and each attempt a thread."""
+    yield lambda course, rollout: StretchThreads(course, count, rollout.on, time.perf_counter), list[int]
+
+
+@contextmanager
+def processes(count: int, assignment: Assignment) -> Iterator[tuple[Begin, Pids]]:
+    """Frames on standard streams."""
+    place = where(f"processes:{count}")
+    assert place
+    jobs = place.begin(assignment)
+    assert isinstance(jobs, Crew)
+    try:
+        yield (
+            lambda course, rollout: StretchExecutor(course, jobs),
+            lambda: [child.process.pid for child in jobs.children if child.process],
+        )
+    finally:
+        jobs.close()
+
+
+@contextmanager
+def dask(count: int, assignment: Assignment) -> Iterator[tuple[Begin, Pids]]:
+    """So many workers of one thread."""
+    with LocalCluster(count, threads_per_worker=1, dashboard_address=":0", silence_logs="CRITICAL") as cluster:
+        jobs = ClusterJobs(connect(Destination(cluster.scheduler_address)), assignment, print)
+        try:
+            there = cluster.scheduler.workers
+            yield (
+                lambda course, rollout: StretchExecutor(course, jobs),
+                lambda: [each.pid for each in cluster.workers.values() if each.worker_address in there],
+            )
+        finally:
+            jobs.close()
