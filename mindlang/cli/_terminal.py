@@ -6,7 +6,7 @@ import json
 import os
 import sys
 from collections.abc import Iterator
-from contextlib import contextmanager, redirect_stdout
+from contextlib import contextmanager
 from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NoReturn
@@ -69,8 +69,12 @@ def print_document(text: str) -> None:
 
 @contextmanager
 def procedures_talk() -> Iterator[None]:
-    """Around whatever runs procedures, or above it as a decorator: what they print is talk, and goes to stderr."""
-    with redirect_stdout(sys.stderr):
+    """Around whatever runs procedures or environments, or above it as a decorator: what they print is talk, and goes
+    to stderr.
+    """
+    from mindrun.standard_streams import talk
+
+    with talk():
         yield
 
 

@@ -6,6 +6,9 @@ take is dropped as well, and remembered: a document that is not whole is no succ
 
 import os
 import sys
+from collections.abc import Iterator
+from contextlib import contextmanager, redirect_stdout
+from ctypes import CDLL
 from io import BufferedWriter, FileIO, RawIOBase, TextIOWrapper
 from select import select
 from typing import Any, TextIO
@@ -142,6 +145,21 @@ def document(text: str) -> None:
     sys.stdout.flush()
     sys.stdout.buffer.write(text.encode("utf-8", "backslashreplace"))
     sys.stdout.buffer.flush()
+
+
+@contextmanager
+def talk() -> Iterator[None]:
+    """Around code of somebody else: what it prints goes to standard error, also where it is written in C."""
+    sys.stdout.flush()
+    kept = os.dup(OUTPUT_DESCRIPTOR)
+    try:
+        os.dup2(ERROR_DESCRIPTOR, OUTPUT_DESCRIPTOR)
+        with redirect_stdout(sys.stderr):
+            yield
+    finally:
+        CDLL(None).fflush(None)  # C keeps back what does not go to a terminal
+        os.dup2(kept, OUTPUT_DESCRIPTOR)
+        os.close(kept)
 
 
 def draw(text: str) -> None:

@@ -16,6 +16,7 @@ from mindrun.encoding import decode_part
 from mindrun.errors import BundleError
 from mindrun.functions.procedure import module_source
 from mindrun.graph import Graph, Lesson
+from mindrun.sim.outside.making import module_beside
 from mindrun.strict_json import is_whole, parsed
 from mindrun.train import RunError
 from mindrun.validate import lesson_flaws
@@ -62,7 +63,7 @@ class Manifest:
 
 
 def fingerprint(graph: Graph, lesson: Lesson, procedures: Path | None) -> str:
-    """The SHA-256 of what a lesson depends on: its task, the skills under its master, the body and its parts."""
+    """The SHA-256 of what a lesson depends on: its task, the skills under its master, the body, the modules beside."""
     skills = reachable(graph, lesson.master)
     tasks = tuple(task for task in graph.tasks if task.name == lesson.task)
     # To freeze a skill changes the lesson of no other.
@@ -73,6 +74,8 @@ def fingerprint(graph: Graph, lesson: Lesson, procedures: Path | None) -> str:
         for skill in skills
         if skill.function.calls is not None and procedures is not None
     ]
+    beside = (module_beside(task.scene.environment, procedures) for task in tasks)
+    code += [path.read_text(encoding="utf-8", errors="replace") for path in beside if path is not None]
     return _sha256(repr((scope, code)).encode())
 
 

@@ -1,13 +1,13 @@
 """One environment that is stepped, and what it said last."""
 
 from collections.abc import Callable
-from contextlib import suppress
 from typing import Any, TypeVar
 
 import numpy as np
 
 from mindrun.sim.outside import making
 from mindrun.sim.outside.asking import Asking, place_of
+from mindrun.sim.outside.foreign import first_line, foreign_code
 from mindrun.sim.outside.making import BrokenEnvironmentError
 from mindrun.sim.outside.wiring import Wiring
 
@@ -52,9 +52,8 @@ class Episode:
         return self._asked(self._environment.render)
 
     def close(self) -> None:
-        """Give back what it holds: windows, processes, files. Whatever it says to that is of no use to anybody."""
-        with suppress(Exception):
-            self._environment.close()
+        """Give back what it holds."""
+        making.close(self._environment)
 
     def _begun(self, seed: int) -> None:
         observation, _ = self._environment.reset(seed=seed)
@@ -71,10 +70,11 @@ class Episode:
         asking.number += 1
         asking.is_open = True
         try:
-            return ask()
+            with foreign_code():
+                return ask()
         except Exception as error:
             name, where = self._wiring.environment, place_of(self._seed, self._steps)
-            hint = f"It was in {where}, and the fault is the environment's: {making.first_line(error)}."
+            hint = f"It was in {where}, and the fault is the environment's: {first_line(error)}."
             raise BrokenEnvironmentError(f"the environment {name} failed", hint.replace("..", ".")) from error
         finally:
             asking.is_open = False

@@ -4,7 +4,7 @@ import os
 import sys
 import warnings
 from collections.abc import Iterator, Mapping
-from contextlib import contextmanager, redirect_stdout
+from contextlib import contextmanager, redirect_stdout, suppress
 from difflib import get_close_matches
 from functools import cache
 from importlib import import_module, invalidate_caches
@@ -14,11 +14,14 @@ from types import ModuleType
 from typing import Any
 
 from mindrun.errors import MindError
+from mindrun.sim.outside.foreign import first_line, foreign_code
 
 NO_TIME_LIMIT = -1  # of steps: how long a run is, the task says
 DRAWN = "rgb_array"  # the render mode of an environment that is to be seen
 WITHOUT_GREETING = {"PYGAME_HIDE_SUPPORT_PROMPT": "1"}  # which pygame says on standard output
 WITHOUT_SCREEN = {"SDL_VIDEODRIVER": "dummy", "SDL_AUDIODRIVER": "dummy"}  # pygame looks for neither
+
+_texts: dict[Path, bytes] = {}  # of the modules beside minds, as this program has them: Python imports each once
 
 
 class BrokenEnvironmentError(MindError):
@@ -59,13 +62,15 @@ def make(name: str, folder: Path | None = None, is_seen: bool = False) -> Any:
     A module before its name is looked for in `folder` first. One that `is_seen` draws itself.
     """
     gymnasium = library()
-    if module_beside(name, folder) and str(folder) not in sys.path:
-        sys.path.insert(0, str(folder))
-        invalidate_caches()
+    if (path := module_beside(name, folder)) is not None:
+        _refuse_another(name, path)
+        if str(folder) not in sys.path:
+            sys.path.insert(0, str(folder))
+            invalidate_caches()
     drawn = {"render_mode": DRAWN} if is_seen else {}
     _set(WITHOUT_SCREEN if is_seen else {})
     try:
-        with _silence():
+        with _silence(), foreign_code():
             return gymnasium.make(name, max_episode_steps=NO_TIME_LIMIT, disable_env_checker=True, **drawn)
     except (gymnasium.error.UnregisteredEnv, gymnasium.error.DeprecatedEnv):
         raise UnknownEnvironmentError(
@@ -86,17 +91,22 @@ def registered() -> list[str]:
 
 @cache
 def spaces(name: str, folder: Path | None = None) -> tuple[Any, Any]:
-    """The spaces of its observations and of its actions."""
+    """The spaces of its observations and of its actions; BrokenEnvironmentError where it has none."""
     environment = make(name, folder)
-    found = environment.observation_space, environment.action_space
-    environment.close()
-    return found
+    try:
+        with foreign_code():
+            return environment.observation_space, environment.action_space
+    except Exception as error:
+        message = f"The environment {name} does not say what it observes and takes."
+        raise BrokenEnvironmentError(message, first_line(error)) from error
+    finally:
+        close(environment)
 
 
-def first_line(error: BaseException) -> str:
-    """What an error of somebody else's code says, short enough for one line."""
-    said = next((line.strip() for line in str(error).splitlines() if line.strip()), "")
-    return f"{type(error).__name__}: {said}"[:200] if said else type(error).__name__
+def close(environment: Any) -> None:
+    """Give back what it holds: windows, processes, files. Whatever it says to that is of no use to anybody."""
+    with suppress(Exception), foreign_code():
+        environment.close()
 
 
 @contextmanager
@@ -106,6 +116,20 @@ def _silence() -> Iterator[None]:
     with warnings.catch_warnings(), redirect_stdout(sys.stderr):
         warnings.simplefilter("ignore")
         yield
+
+
+def _refuse_another(name: str, path: Path) -> None:
+    """BrokenEnvironmentError where this program has another module of that name, or an older text of this one."""
+    module, text = name.partition(":")[0].partition(".")[0], path.read_bytes()
+    message = f"The environment {name} cannot be made."
+    if (loaded := sys.modules.get(module)) is not None:
+        file = getattr(loaded, "__file__", None)
+        if file is None or not path.samefile(file):
+            hint = f"There is another module called {module} here ({file or 'of Python'}): give this one another name."
+            raise BrokenEnvironmentError(message, hint)
+    if _texts.setdefault(path.resolve(), text) != text:
+        hint = f"{path.name} has changed since this program has imported it: begin the program again."
+        raise BrokenEnvironmentError(message, hint)
 
 
 def _set(variables: Mapping[str, str]) -> None:

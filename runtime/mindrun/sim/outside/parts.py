@@ -57,7 +57,7 @@ def others_of(space: Any) -> list[str]:
 
 def formed(space: Any, values: Mapping[str, Any], path: tuple[Any, ...] = ()) -> Any:
     """What a space contains, made of the values of its parts by their names."""
-    within = getattr(space, "spaces", None)
+    within = _within(space)
     if within is None:
         return values[_name(path)]
     if isinstance(within, Mapping):
@@ -79,7 +79,7 @@ def found(parts: Mapping[str, Part], slot: Slot) -> tuple[str, Part | None, tupl
 
 
 def _leaves(space: Any, path: tuple[Any, ...] = ()) -> Iterator[tuple[tuple[Any, ...], Any]]:
-    within = getattr(space, "spaces", None)
+    within = _within(space)
     if within is None:
         yield path, space
         return
@@ -91,19 +91,29 @@ def _name(path: tuple[Any, ...]) -> str:
     return ".".join(map(str, path))
 
 
+def _kinds(space: Any) -> set[str]:
+    """What a space is, by name: Gymnasium need not be imported for it."""
+    return {each.__name__ for each in type(space).__mro__}
+
+
+def _within(space: Any) -> Any:
+    """The spaces that a space consists of; None where it does of none. One of several (OneOf) does of none."""
+    return getattr(space, "spaces", None) if _kinds(space) & {"Dict", "Tuple"} else None
+
+
 def _part(space: Any) -> Part | None:
-    match type(space).__name__:
-        case "Box":
-            low, high = (np.asarray(end, np.float64).ravel() for end in (space.low, space.high))
-            return Part(tuple(space.shape), low, high, space.dtype)
-        case "Discrete":
-            return _choices((), np.array([space.n]), np.array([space.start]), space.dtype)
-        case "MultiDiscrete":
-            start = np.asarray(getattr(space, "start", np.zeros_like(space.nvec)))
-            return _choices(tuple(space.shape), space.nvec.ravel(), start.ravel(), space.dtype)
-        case "MultiBinary":
-            count = prod(space.shape)
-            return _choices(tuple(space.shape), np.full(count, 2), np.zeros(count), space.dtype)
+    kinds = _kinds(space)
+    if "Box" in kinds:
+        low, high = (np.asarray(end, np.float64).ravel() for end in (space.low, space.high))
+        return Part(tuple(space.shape), low, high, space.dtype)
+    if "Discrete" in kinds:
+        return _choices((), np.array([space.n]), np.array([space.start]), space.dtype)
+    if "MultiDiscrete" in kinds:
+        start = np.asarray(getattr(space, "start", np.zeros_like(space.nvec)))
+        return _choices(tuple(space.shape), space.nvec.ravel(), start.ravel(), space.dtype)
+    if "MultiBinary" in kinds:
+        count = prod(space.shape)
+        return _choices(tuple(space.shape), np.full(count, 2), np.zeros(count), space.dtype)
     return None
 
 

@@ -9,7 +9,8 @@ from numpy.typing import NDArray
 
 from mindrun.graph import Graph
 from mindrun.sim.outside.episode import Episode
-from mindrun.sim.outside.making import BrokenEnvironmentError, first_line
+from mindrun.sim.outside.foreign import first_line
+from mindrun.sim.outside.making import BrokenEnvironmentError
 from mindrun.sim.outside.wiring import wiring_of
 
 WITHOUT_PICTURES = "mindc run --trace and --record need no pictures of it."

@@ -17,6 +17,7 @@ from mindrun.slot import Slot
 
 Floats = NDArray[np.float64]
 Commands = NDArray[np.float32]  # [actuators, lanes]
+NUMBERS = "biuf"  # kinds of arrays: truth values, whole numbers, others
 
 
 @dataclass(frozen=True, slots=True)
@@ -82,9 +83,11 @@ class Wiring:
         """The numbers of an observation that are read, into `out` [slots]; ValueError where it has another shape."""
         for source in self.sources:
             seen = np.asarray(_inside(observation, source.part.path))
+            what = f"the part {source.name} of an observation" if source.name else "an observation"
             if seen.shape != source.part.shape:
-                what = f"the part {source.name} of an observation" if source.name else "an observation"
                 raise ValueError(f"{what} has the shape {seen.shape}, and its space says {source.part.shape}")
+            if seen.dtype.kind not in NUMBERS:
+                raise ValueError(f"{what} is of {seen.dtype}, which are no real numbers")
             out[source.to] = seen.reshape(-1)[source.places]
 
     def actions(self, commands: Commands) -> Sequence[Any]:

@@ -1,0 +1,36 @@
+"""Code of somebody else: it may raise what it likes, and does not end this program."""
+
+import os
+from collections.abc import Iterator
+from contextlib import contextmanager
+
+
+@contextmanager
+def foreign_code() -> Iterator[None]:
+    """Around such code: what it raises is an `Exception`, sys.exit too. Ctrl-C stays what it is.
+
+    A child that it has forked, and that comes back to here, ends as it was to.
+    """
+    process = os.getpid()
+    try:
+        yield
+    except (Exception, KeyboardInterrupt):
+        raise
+    except BaseException as error:
+        if os.getpid() != process:
+            raise
+        raise RuntimeError(_said(error)) from error
+
+
+def first_line(error: BaseException) -> str:
+    """What an error of somebody else's code says, short enough for one line."""
+    try:
+        lines = str(error).splitlines()
+    except Exception:  # it is somebody else's code that says it
+        lines = []
+    said = next((line.strip() for line in lines if line.strip()), "")
+    return f"{type(error).__name__}: {said}"[:200] if said else type(error).__name__
+
+
+def _said(error: BaseException) -> str:
+    return f"it called sys.exit({error.code!r:.100})" if isinstance(error, SystemExit) else first_line(error)
