@@ -21,6 +21,7 @@ from mindrun.train.training import Watch
 from mindrun.wiring import Wiring
 
 from mindlang import edits, executors, transaction
+from mindlang.bounds import LAYOUTS, RUNS, SEEDS, WORKERS, whole
 from mindlang.compiler.compile import Compiled, compile_source
 from mindlang.compiler.compile import load as load_file
 from mindlang.compiler.diagnostic import Diagnostic
@@ -99,16 +100,23 @@ class Mind:
         ready = make_ready(self.graph, self.compiled.sources, leader)
         if {*untaught_skills(ready)} - {*learners}:
             raise self._untaught(ready)
-        return rollout_for(ready.policy, chosen.name, leader, learners, procedures=self._folder, workers=workers)
+        return rollout_for(
+            ready.policy,
+            chosen.name,
+            leader,
+            learners,
+            procedures=self._folder,
+            workers=whole("workers", workers, WORKERS),
+        )
 
     def trace(self, task: str | None = None, seed: int = 0, master: str | None = None) -> Trace:
         """One run of a task, tick by tick: `for moment in mind.trace("Collect", 3).moments`."""
-        return trace(self.rollout(task, master), seed)
+        return trace(self.rollout(task, master), whole("seed", seed, LAYOUTS))
 
     def trace_table(self, task: str | None = None, seed: int = 0, master: str | None = None) -> dict[str, Column]:
         """One run as columns by name, a row for each tick, as `mindc run --trace` has it; pandas takes it as it is."""
         setup = self._set_up(task, master)
-        return trace_table(record_run(setup, setup.rollout(), seed))
+        return trace_table(record_run(setup, setup.rollout(), whole("seed", seed, LAYOUTS)))
 
     def bench(
         self, task: str | None = None, runs: int = 200, seed: int = 1, master: str | None = None, workers: int = 1
@@ -118,13 +126,14 @@ class Mind:
         `count_mean` and `count_standard_error` are of the events that the task counts, `score_…` of the rewards;
         `best_seed` and `worst_seed` name runs that `mind.trace` repeats.
         """
-        setup = self._set_up(task, master)
+        setup, runs, seed = self._set_up(task, master), whole("runs", runs, RUNS), whole("seed", seed, SEEDS)
         refuse_too_many(setup.task, runs)
-        rollout = setup.rollout(workers=workers)
+        rollout = setup.rollout(workers=whole("workers", workers, WORKERS))
         refuse_too_large(rollout, 1, runs)
-        found = {"task": setup.task.name, "master": setup.master, "seed": seed, "notes": [*setup.ready.notes]}
         seeds, began = layouts(seed, runs), perf_counter()
-        return found | bench_data(setup.task, run_all(rollout, seeds), seeds, perf_counter() - began)
+        data = bench_data(setup.task, run_all(rollout, seeds), seeds, perf_counter() - began)
+        notes = [*setup.ready.notes, *rollout.notes]
+        return {"task": setup.task.name, "master": setup.master, "seed": seed, "notes": notes} | data
 
     def train(
         self,
@@ -145,6 +154,7 @@ class Mind:
         under `runs`, and the same call goes on with it, to the same bits. The result of each lesson that has ended.
         """
         chosen, elsewhere = chosen_lessons(self.graph, curriculum, skills), executors.where(on)
+        seed, workers = whole("seed", seed, SEEDS), whole("workers", workers, WORKERS)
         if not self.path.is_file():
             raise MindError(f"{self.path} is no file, and what is learnt is kept beside one", "save it, and load that")
         results: list[Result] = []

@@ -9,6 +9,8 @@ from typing import Any
 import click
 from click.core import ParameterSource
 
+from mindlang import bounds
+
 SHOWN_CHARACTERS = 20  # of what is refused
 MAX_TICK_DIGITS = 15
 
@@ -100,8 +102,9 @@ def refuse_ineffective(what_they_are: str, *names: str) -> None:
         raise click.UsageError(f"{listed(words, 'and')} {verb} {what_they_are}.")
 
 
-SEED = WholeOption(0, 2**63 - 1)
-WORKERS = WholeOption(1, 1024)
+SEED = WholeOption(*bounds.SEEDS)
+LAYOUT = WholeOption(*bounds.LAYOUTS)
+WORKERS = WholeOption(*bounds.WORKERS)
 ON = WhereOption()
 IN_CHARGE = "Who is in charge. Default: the mind's master if a lesson on the task is under it, else that of the first."
 OF_A_CAST = "task", "master", "no_interruption"  # who does what in a run

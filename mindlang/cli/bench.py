@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from mindlang import bounds
 from mindlang.cli._options import IN_CHARGE, ON, SEED, WORKERS, NewFile, WholeOption
 
 if TYPE_CHECKING:
@@ -31,7 +32,7 @@ Examples:
 @click.option("--task", metavar="TASK", help="Default: that on which the master is taught, or of its name.")
 @click.option(
     "--runs",
-    type=WholeOption(1, 10_000_000),
+    type=WholeOption(*bounds.RUNS),
     default=200,
     show_default=True,
     help="How many layouts to run the task on.",

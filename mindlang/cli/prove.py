@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import click
 
-from mindlang.cli._options import NumberOption, WholeOption
+from mindlang.cli._options import LAYOUT, NumberOption
 
 EXAMPLES = """\b
 Examples:
@@ -28,7 +28,7 @@ Examples:
 @click.option("--master", metavar="SKILL", help="Who is in charge. Default: the mind's master.")
 @click.option("--run", "with_run", is_flag=True, help="Run a task, too, and count ticks without influence.")
 @click.option("--task", metavar="TASK", help="Of the run. Default: the one that `mindc run` takes.")
-@click.option("--seed", type=WholeOption(0, 2**64 - 1), default=1, help="Of the run. Default: 1.")
+@click.option("--seed", type=LAYOUT, default=1, help="Of the run. Default: 1.")
 @click.option("--json", "as_json", is_flag=True, help="Print one JSON document instead.")
 def command(
     file: str, leak: float, master: str | None, with_run: bool, task: str | None, seed: int, as_json: bool

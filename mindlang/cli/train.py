@@ -7,6 +7,7 @@ from typing import Any
 
 import click
 
+from mindlang import bounds
 from mindlang.cli._options import ON, SEED, WORKERS, NumberOption, WholeOption
 from mindlang.cli._terminal import INTERRUPTED, MISUSE, OK, fail
 
@@ -34,10 +35,10 @@ A cluster with SLURM (what tls.pem is, and other ways: docs/cluster.md):
 @click.argument("file", required=False)
 @click.argument("skills", nargs=-1, metavar="[SKILL]...")
 @click.option("--curriculum", metavar="NAME", help="Whose lessons to teach (default: the first in the file).")
-@click.option("--generations", type=WholeOption(1, 10_000_000), help="Instead of what the lesson says.")
+@click.option("--generations", type=WholeOption(*bounds.GENERATIONS), help="Instead of what the lesson says.")
 @click.option("--scale", type=NumberOption(0, 1000, min_open=True), default=1.0, help="Times so many generations.")
-@click.option("--population", type=WholeOption(4, 1_000_000), help="Genomes in a generation.")
-@click.option("--attempts", type=WholeOption(1, 10_000), help="Independent attempts, of which the best is kept.")
+@click.option("--population", type=WholeOption(*bounds.POPULATION), help="Genomes in a generation.")
+@click.option("--attempts", type=WholeOption(*bounds.ATTEMPTS), help="Independent attempts, of which the best is kept.")
 @click.option("--from-scratch", is_flag=True, help="Forget the weights that the skill has.")
 @click.option("--force", is_flag=True, help="Teach what is up to date, too, and keep it even where it does worse.")
 @click.option("--seed", type=SEED, help="The same seed gives the same weights.")

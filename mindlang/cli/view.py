@@ -9,6 +9,7 @@ import click
 
 from mindlang.cli._options import (
     IN_CHARGE,
+    LAYOUT,
     OF_A_CAST,
     OF_A_RUN,
     OF_RUNS_ALONE,
@@ -42,7 +43,7 @@ PATH = click.Path(path_type=Path)
 @click.argument("file")
 @click.argument("bundle", required=False)
 @click.option("--task", metavar="TASK", help="Default: that on which the master is taught, or of its name.")
-@click.option("--seed", type=WholeOption(0, 2**64 - 1), help="The same seed gives the same run. Default: drawn.")
+@click.option("--seed", type=LAYOUT, help="The same seed gives the same run. Default: drawn.")
 @click.option("--master", metavar="SKILL", help=IN_CHARGE)
 @click.option("--no-interruption", is_flag=True, help="Go on to the last tick, whatever would end the run.")
 @click.option("--break", "breaks", type=PATH, metavar="PATH.break", help="Pause the page where a line of it says.")

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import click
 
-from mindlang.cli._options import IN_CHARGE, OF_A_RUN, OF_RUNS_ALONE, NewFile, WholeOption, refuse_ineffective
+from mindlang.cli._options import IN_CHARGE, LAYOUT, OF_A_RUN, OF_RUNS_ALONE, NewFile, WholeOption, refuse_ineffective
 
 EXAMPLES = """\b
 Examples:
@@ -24,7 +24,7 @@ Examples:
 @click.argument("file")
 @click.argument("bundle", required=False, type=click.Path(path_type=Path))
 @click.option("--task", metavar="TASK", help="Default: that on which the master is taught, or of its name.")
-@click.option("--seed", type=WholeOption(0, 2**64 - 1), help="Of the run. Default: 1.")
+@click.option("--seed", type=LAYOUT, help="Of the run. Default: 1.")
 @click.option("--master", metavar="SKILL", help=IN_CHARGE)
 @click.option("--no-interruption", is_flag=True, help="Go on to the last tick, whatever would end the run.")
 @click.option("--tick", type=WholeOption(1, 2**53), default=1, help="The first tick that is changed. Default: 1.")

@@ -94,7 +94,7 @@ def nearest(word: str, known: Iterable[str]) -> str | None:
 
 def did_you_mean(word: str, known: Iterable[str]) -> str:
     """A question that names the known word nearest to `word`, or nothing."""
-    near = nearest(word, known)
+    near = nearest(f"{word}", known)  # a program may ask for anything
     return f"Did you mean {near}?" if near else ""
 
 

@@ -14,6 +14,7 @@ from mindlang.environments.agent import agent_of
 Floats = NDArray[np.float32]
 Mask = NDArray[np.bool_]
 SEED_COUNT = 1 << 64  # layouts
+REAL_NUMBERS = "biuf"  # kinds of arrays: truth values, whole numbers, others
 MAX_DRAWN_SEED = 1 << 31  # as those that `mindc run` draws: short enough to be written down
 
 
@@ -44,10 +45,7 @@ class Episodes:
 
     def step(self, actions: ArrayLike) -> tuple[NDArray[np.float64], Mask, Mask]:
         """One tick under actions [lanes, actions]: rewards, what has come to an end, and where time is up instead."""
-        given = np.asarray(actions, np.float32)
-        if given.shape != self._shape:
-            raise MindError(f"actions have the shape {given.shape}", f"{self._shape} is [robots, actions]")
-        self.agent.act(given)
+        self.agent.act(numbers(actions, self._shape))
         scores = self._lanes.scores
         rewards, self._scores = scores - self._scores, scores
         terminated = self._lanes.terminated
@@ -65,6 +63,21 @@ class Episodes:
 
     def _seen(self, state: State, lanes: int) -> Floats:
         return np.ascontiguousarray(state.mind.readings[self.agent.readings, :lanes].T)
+
+
+def numbers(actions: ArrayLike, shape: tuple[int, ...]) -> Floats:
+    """Actions as they are given to robots; MindError where they are no numbers of that shape."""
+    try:
+        given = np.asarray(actions)
+    except ValueError as error:  # lists of several lengths
+        raise MindError(f"actions are no array: {error}", f"give an array of the shape {shape}") from error
+    if given.dtype.kind not in REAL_NUMBERS:
+        raise MindError(f"actions are of {given.dtype}, which are no real numbers", f"give float32 {shape}")
+    if given.shape != shape:
+        raise MindError(f"actions have the shape {given.shape}", f"{shape} is what the action space says")
+    if given.dtype != np.float32:  # what is finite stays so: it will be clamped
+        given = np.where(np.isfinite(given), np.clip(given, 0.0, 1.0), given)
+    return given.astype(np.float32, copy=False)
 
 
 def layouts(seeds: list[int | None], streams: list[np.random.Generator]) -> NDArray[np.uint64]:

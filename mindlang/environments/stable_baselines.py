@@ -16,8 +16,10 @@ class StableBaselinesEnv(VecEnv):
     """Adapts a `TaskVectorEnv` with `autoreset_mode="SameStep"`, the only way that Stable-Baselines3 knows."""
 
     def __init__(self, env: TaskVectorEnv) -> None:
-        if env.metadata["autoreset_mode"] != AutoresetMode.SAME_STEP:
-            raise ValueError('Stable-Baselines3 begins episodes at once: autoreset_mode="SameStep"')
+        if getattr(env, "metadata", {}).get("autoreset_mode") != AutoresetMode.SAME_STEP:
+            raise ValueError(
+                'Stable-Baselines3 begins episodes at once: a TaskVectorEnv with autoreset_mode="SameStep"'
+            )
         self.env = env
         super().__init__(env.num_envs, env.single_observation_space, env.single_action_space)
 

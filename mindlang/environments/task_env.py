@@ -11,7 +11,7 @@ from gymnasium.utils import EzPickle
 from numpy.typing import NDArray
 
 from mindlang.environments.agent import Agent
-from mindlang.environments.episodes import Episodes, layouts
+from mindlang.environments.episodes import Episodes, layouts, numbers
 from mindlang.environments.image import image_of
 from mindlang.environments.render_modes import refuse_unknown_mode
 from mindlang.pictures.canvas import Image
@@ -67,7 +67,7 @@ class TaskEnv(Env[Floats, Floats], EzPickle):
         """One tick; with the last of an episode, `info` says what came of it."""
         if not self._goes_on:
             raise ResetNeeded("the episode has ended, or none has begun: call reset()")
-        [reward], [terminated], [truncated] = self._episodes.step(np.asarray(action, np.float32)[None])
+        [reward], [terminated], [truncated] = self._episodes.step(numbers(action, self.action_space.shape)[None])
         self._goes_on = not (terminated or truncated)
         if self._view:
             self._view.show()

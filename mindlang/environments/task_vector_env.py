@@ -1,8 +1,9 @@
 """Many robots side by side as a `gymnasium.vector.VectorEnv`: each a world of its own, all stepped by one call."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from operator import index
 from pathlib import Path
-from typing import Any
+from typing import Any, SupportsIndex
 
 import numpy as np
 from gymnasium.error import ResetNeeded
@@ -19,6 +20,7 @@ from mindlang.environments.render_modes import refuse_unknown_mode
 from mindlang.environments.task_env import unit_box
 from mindlang.pictures.canvas import Image
 
+Seeds = SupportsIndex | Sequence[SupportsIndex | None] | NDArray[np.integer] | None
 Step = tuple[Floats, NDArray[np.float64], Mask, Mask, dict[str, Any]]
 
 
@@ -46,6 +48,8 @@ class TaskVectorEnv(VectorEnv[Floats, Floats, NDArray[Any]], EzPickle):
             self, file, task, master, skill, render_mode, num_envs=num_envs, autoreset_mode=autoreset_mode
         )
         refuse_unknown_mode(render_mode, self.metadata)
+        if not isinstance(num_envs, SupportsIndex) or index(num_envs) < 1:
+            raise MindError(f"there cannot be {num_envs!r} robots", "num_envs is a whole number, 1 or more")
         mode = AutoresetMode(autoreset_mode)
         if mode == AutoresetMode.DISABLED:
             raise MindError("episodes cannot be begun one by one", 'autoreset_mode is "NextStep" or "SameStep"')
@@ -63,16 +67,15 @@ class TaskVectorEnv(VectorEnv[Floats, Floats, NDArray[Any]], EzPickle):
         self._over = np.zeros(num_envs, np.bool_)
 
     def reset(
-        self, *, seed: int | Sequence[int | None] | None = None, options: dict[str, Any] | None = None
+        self,
+        *,
+        seed: Seeds = None,
+        options: dict[str, Any] | None = None,
     ) -> tuple[Floats, dict[str, Any]]:
         """Begin another episode everywhere; `info["layout"]` has the seeds by which `mindc run` repeats them."""
         if options and "reset_mask" in options:
             raise MindError("episodes cannot be begun one by one", "reset() without reset_mask begins all")
-        seeds: list[int | None] = [seed] * self.num_envs if seed is None else []
-        if seed is not None:
-            seeds += [seed + i for i in range(self.num_envs)] if isinstance(seed, int) else seed
-        if len(seeds) != self.num_envs:
-            raise MindError(f"there are {len(seeds)} seeds for {self.num_envs} robots", "give one, or one for each")
+        seeds = _seeds(seed, self.num_envs)
         before = self._streams or [np_random()[0] for _ in seeds]
         self._streams = [
             stream if one is None else np_random(one)[0] for stream, one in zip(before, seeds, strict=True)
@@ -97,7 +100,7 @@ class TaskVectorEnv(VectorEnv[Floats, Floats, NDArray[Any]], EzPickle):
             rewards[begins], terminated[begins], truncated[begins] = 0.0, False, False
             self._over = terminated | truncated
             for lane in np.flatnonzero(self._over).tolist():
-                infos = self._add_info(infos, self._episodes.outcome(lane), lane)
+                infos = self._add_info(infos, self._outcome(lane), lane)
         if begins.any():
             chosen = np.flatnonzero(begins).tolist()
             self._episodes.begin(begins, layouts([None] * len(chosen), [self._streams[i] for i in chosen]))
@@ -113,10 +116,33 @@ class TaskVectorEnv(VectorEnv[Floats, Floats, NDArray[Any]], EzPickle):
     def _tell_last(self, ended: Mask, infos: dict[str, Any]) -> None:
         """What the agents saw last, and what came of their episodes."""
         for lane, seen in zip(np.flatnonzero(ended).tolist(), self._episodes.last_seen(ended), strict=True):
-            self._add_info(infos, {"final_obs": seen, "final_info": self._episodes.outcome(lane)}, lane)
+            self._add_info(infos, {"final_obs": seen, "final_info": self._outcome(lane)}, lane)
+
+    def _outcome(self, lane: int) -> dict[str, Any]:
+        """The same as of one robot; a layout may be larger than what numpy makes of an int."""
+        return self._episodes.outcome(lane) | {"layout": self._episodes.seeds[lane]}
 
     def _begun(self, lanes: Mask, infos: dict[str, Any]) -> dict[str, Any]:
         """The same with the layouts of what has just begun."""
         for lane in np.flatnonzero(lanes).tolist():
-            infos = self._add_info(infos, {"layout": int(self._episodes.seeds[lane])}, lane)
+            infos = self._add_info(infos, {"layout": self._episodes.seeds[lane]}, lane)
         return infos
+
+
+def _seeds(given: Seeds, count: int) -> list[int | None]:
+    """The seed of each robot; MindError where they are none, or not so many."""
+    given = given.tolist() if isinstance(given, np.ndarray) else given
+    match given:
+        case None:
+            return [None] * count
+        case SupportsIndex():
+            return [index(given) + i for i in range(count)]
+        case str() | bytes() | Mapping():
+            raise MindError(f"{given!r:.60} is no seed", "a seed is a whole number, 0 or more")
+    try:
+        seeds = [None if each is None else index(each) for each in given]
+    except TypeError as error:
+        raise MindError(f"{given!r:.60} are no seeds", "a seed is a whole number, 0 or more") from error
+    if len(seeds) != count:
+        raise MindError(f"there are {len(seeds)} seeds for {count} robots", "give one, or one for each")
+    return seeds

@@ -3,18 +3,23 @@
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 
+from mindrun.errors import MindError
 from mindrun.graph import Graph, Lesson
 from mindrun.train import NotFoundError, RunError
 from mindrun.weights import learners, owners, reachable
 
+from mindlang.bounds import ATTEMPTS, GENERATIONS, POPULATION, RUNGS, whole
 from mindlang.compiler.diagnostic import did_you_mean, listed
 from mindlang.lock.status import Status, Trained
 from mindlang.lock.world_facts import key_of, key_of_taught
 
+BOUNDS = {"generations": GENERATIONS, "population": POPULATION, "attempts": ATTEMPTS, "rungs": RUNGS}
+MAX_SCALE = 1000
+
 
 @dataclass(frozen=True, slots=True)
 class TrainOptions:
-    """What the command line says instead of the source; None leaves it as it stands there.
+    """What the command line or a program says instead of the source; None leaves it as it stands there.
 
     `scale` multiplies the generations of a lesson.
     """
@@ -25,6 +30,14 @@ class TrainOptions:
     attempts: int | None = None
     rungs: int | None = None
     from_scratch: bool = False
+
+    def __post_init__(self) -> None:
+        """MindError where a number is none that `mindc train` would take."""
+        for what in BOUNDS:
+            if (value := getattr(self, what)) is not None:
+                object.__setattr__(self, what, whole(what, value, BOUNDS[what]))  # one of numpy becomes an int
+        if not 0 < self.scale <= MAX_SCALE:
+            raise MindError(f"scale cannot be {self.scale!r}", f"scale is a number above 0, and at most {MAX_SCALE}")
 
     def applied(self, lesson: Lesson) -> Lesson:
         """The lesson as it is wished for."""

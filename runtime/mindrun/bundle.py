@@ -60,7 +60,7 @@ def fingerprint(wiring: Wiring) -> str:
 def write_bundle(path: Path, bundle: Bundle) -> str:
     """Write a mind to one file, which replaces an older one only when it is whole; the SHA-256 of its bytes.
 
-    The same mind has the same bytes.
+    The same mind has the same bytes. OSError where it cannot be written.
     """
     data = pack(bundle)
     unpack(data)  # nothing is written that cannot be read

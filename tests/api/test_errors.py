@@ -2,7 +2,9 @@
 
 from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
+import numpy as np
 import pytest
 
 import mindlang
@@ -75,3 +77,38 @@ def test_a_frozen_skill_is_not_taught(collect: Path) -> None:
     with pytest.raises(MindError, match="Avoid is frozen") as caught:
         mind.train("Avoid")
     assert "unfreeze" in caught.value.hint
+
+
+COUNTED: dict[str, Callable[[Mind, Any], object]] = {
+    "train seed": lambda mind, value: mind.train("Avoid", seed=value),
+    "train workers": lambda mind, value: mind.train("Avoid", workers=value),
+    "bench runs": lambda mind, value: mind.bench("Avoid", runs=value),
+    "bench seed": lambda mind, value: mind.bench("Avoid", seed=value),
+    "bench workers": lambda mind, value: mind.bench("Avoid", workers=value),
+    "trace seed": lambda mind, value: mind.trace("Avoid", seed=value),
+    "table seed": lambda mind, value: mind.trace_table("Avoid", seed=value),
+    "rollout workers": lambda mind, value: mind.rollout("Avoid", learners=["Avoid"], workers=value),
+    "generations": lambda mind, value: mindlang.TrainOptions(generations=value),
+    "population": lambda mind, value: mindlang.TrainOptions(population=value),
+    "attempts": lambda mind, value: mindlang.TrainOptions(attempts=value),
+    "rungs": lambda mind, value: mindlang.TrainOptions(rungs=value),
+}
+
+
+@pytest.mark.parametrize("value", [-1, 2**64, 1.5, "3", True, float("nan")])
+@pytest.mark.parametrize("case", COUNTED)
+def test_a_number_is_whole_and_within_its_bounds(case: str, value: Any) -> None:
+    with pytest.raises(MindError, match="cannot be") as caught:
+        COUNTED[case](mindlang.load(COLLECT / "collect.mind"), value)
+    assert "is a whole number from" in caught.value.hint
+
+
+def test_numbers_of_numpy_are_numbers() -> None:
+    options = mindlang.TrainOptions(generations=np.int64(3))  # type: ignore[arg-type]
+    assert (options.generations, type(options.generations)) == (3, int)
+
+
+@pytest.mark.parametrize("scale", [0, -1.0, float("nan"), float("inf"), 1001])
+def test_a_scale_is_within_its_bounds(scale: float) -> None:
+    with pytest.raises(MindError, match="scale cannot be"):
+        mindlang.TrainOptions(scale=scale)

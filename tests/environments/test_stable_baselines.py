@@ -76,3 +76,9 @@ def test_another_way_to_go_on_is_refused(roam: Path) -> None:
     assert env.get_attr("num_envs", [0, 2]) == [3, 3]
     with pytest.raises(AttributeError, match="share one environment"):
         env.set_attr("x", 1)
+
+
+@pytest.mark.parametrize("other", [None, 3, object()])
+def test_it_adapts_nothing_else(other: object) -> None:
+    with pytest.raises(ValueError, match="SameStep"):
+        StableBaselinesEnv(other)  # type: ignore[arg-type]

@@ -167,5 +167,5 @@ def test_what_is_not_there_is_said(words: dict[str, str], said: str) -> None:
 def test_actions_of_another_shape_are_refused() -> None:
     env = TaskEnv(COLLECT, "Collect")
     env.reset(seed=1)
-    with pytest.raises(MindError, match=r"actions have the shape \(1, 2\)"):
+    with pytest.raises(MindError, match=r"actions have the shape \(2,\)"):
         env.step(np.zeros(2, np.float32))

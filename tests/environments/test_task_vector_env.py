@@ -94,7 +94,7 @@ def test_what_cannot_be_is_said(roam: Path) -> None:
     with pytest.raises(MindError, match="3 seeds for 2 robots"):
         env.reset(seed=[1, 2, 3])
     env.reset(seed=[1, 2])
-    with pytest.raises(MindError, match=r"\[robots, actions\]|shape \(2, 3\)"):
+    with pytest.raises(MindError, match=r"shape \(2, 3\)"):
         env.step(np.zeros((2, 3), np.float32))
 
 
