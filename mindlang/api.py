@@ -21,7 +21,7 @@ from mindrun.train.training import Watch
 from mindrun.wiring import Wiring
 
 from mindlang import edits, executors, transaction
-from mindlang.bounds import LAYOUTS, RUNS, SEEDS, WORKERS, whole
+from mindlang.bounds import as_layout, as_workers
 from mindlang.compiler.compile import Compiled, compile_source
 from mindlang.compiler.compile import load as load_file
 from mindlang.compiler.diagnostic import Diagnostic
@@ -93,47 +93,38 @@ class Mind:
         `rollout.score(genomes, seeds)` takes genomes [genomes, weights] of the `learners`, one after the other, and
         gives scores, counts and lengths as arrays [genomes, seeds].
         """
-        chosen, _ = task_of(self.graph, task)
+        (chosen, _), threads = task_of(self.graph, task), as_workers(workers)
         leader = master_of(self.graph, chosen, master)
         for skill in learners:
             skill_of(self.graph, skill)
         ready = make_ready(self.graph, self.compiled.sources, leader)
         if {*untaught_skills(ready)} - {*learners}:
             raise self._untaught(ready)
-        return rollout_for(
-            ready.policy,
-            chosen.name,
-            leader,
-            learners,
-            procedures=self._folder,
-            workers=whole("workers", workers, WORKERS),
-        )
+        return rollout_for(ready.policy, chosen.name, leader, learners, procedures=self._folder, workers=threads)
 
     def trace(self, task: str | None = None, seed: int = 0, master: str | None = None) -> Trace:
         """One run of a task, tick by tick: `for moment in mind.trace("Collect", 3).moments`."""
-        return trace(self.rollout(task, master), whole("seed", seed, LAYOUTS))
+        return trace(self.rollout(task, master), as_layout(seed))
 
     def trace_table(self, task: str | None = None, seed: int = 0, master: str | None = None) -> dict[str, Column]:
         """One run as columns by name, a row for each tick, as `mindc run --trace` has it; pandas takes it as it is."""
         setup = self._set_up(task, master)
-        return trace_table(record_run(setup, setup.rollout(), whole("seed", seed, LAYOUTS)))
+        return trace_table(record_run(setup, setup.rollout(), as_layout(seed)))
 
     def bench(
         self, task: str | None = None, runs: int = 200, seed: int = 1, master: str | None = None, workers: int = 1
     ) -> dict[str, Any]:
         """Many runs of a task on layouts that `seed` draws: each mean with its standard error, as `mindc bench --json`.
 
-        `count_mean` and `count_standard_error` are of the events that the task counts, `score_…` of the rewards;
-        `best_seed` and `worst_seed` name runs that `mind.trace` repeats.
+        `count_…` is of the events that the task counts, `score_…` of the rewards; `mind.trace` repeats `best_seed`.
         """
-        setup, runs, seed = self._set_up(task, master), whole("runs", runs, RUNS), whole("seed", seed, SEEDS)
+        setup, seeds = self._set_up(task, master), layouts(seed, runs)
         refuse_too_many(setup.task, runs)
-        rollout = setup.rollout(workers=whole("workers", workers, WORKERS))
+        rollout, began = setup.rollout(workers=as_workers(workers)), perf_counter()
         refuse_too_large(rollout, 1, runs)
-        seeds, began = layouts(seed, runs), perf_counter()
         data = bench_data(setup.task, run_all(rollout, seeds), seeds, perf_counter() - began)
         notes = [*setup.ready.notes, *rollout.notes]
-        return {"task": setup.task.name, "master": setup.master, "seed": seed, "notes": notes} | data
+        return {"task": setup.task.name, "master": setup.master, "seed": int(seed), "notes": notes} | data
 
     def train(
         self,
@@ -154,10 +145,9 @@ class Mind:
         under `runs`, and the same call goes on with it, to the same bits. The result of each lesson that has ended.
         """
         chosen, elsewhere = chosen_lessons(self.graph, curriculum, skills), executors.where(on)
-        seed, workers = whole("seed", seed, SEEDS), whole("workers", workers, WORKERS)
         if not self.path.is_file():
             raise MindError(f"{self.path} is no file, and what is learnt is kept beside one", "save it, and load that")
-        results: list[Result] = []
+        results, threads = list[Result](), as_workers(workers)
         watch = Watch(lambda state, record: on_generation(record), warn, cancelled, perf_counter)
         if skills:
             refuse_frozen(open_subject(self.path, self.compiled), chosen)
@@ -167,7 +157,7 @@ class Mind:
                 continue
             call = ("mindlang.Mind.train", *skills)
             run = begin_run(subject, options.applied(lesson), seed, Path(runs), datetime.now(UTC), call)
-            if (result := teach(run, subject, workers, watch, elsewhere)) is None:
+            if (result := teach(run, subject, threads, watch, elsewhere)) is None:
                 break
             results.append(result)
         return results

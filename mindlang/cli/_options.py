@@ -102,9 +102,9 @@ def refuse_ineffective(what_they_are: str, *names: str) -> None:
         raise click.UsageError(f"{listed(words, 'and')} {verb} {what_they_are}.")
 
 
-SEED = WholeOption(*bounds.SEEDS)
-LAYOUT = WholeOption(*bounds.LAYOUTS)
-WORKERS = WholeOption(*bounds.WORKERS)
+SEED = WholeOption(*bounds.SEED_BOUNDS)
+LAYOUT = WholeOption(*bounds.LAYOUT_BOUNDS)
+WORKERS = WholeOption(*bounds.WORKER_BOUNDS)
 ON = WhereOption()
 IN_CHARGE = "Who is in charge. Default: the mind's master if a lesson on the task is under it, else that of the first."
 OF_A_CAST = "task", "master", "no_interruption"  # who does what in a run

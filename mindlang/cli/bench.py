@@ -32,7 +32,7 @@ Examples:
 @click.option("--task", metavar="TASK", help="Default: that on which the master is taught, or of its name.")
 @click.option(
     "--runs",
-    type=WholeOption(*bounds.RUNS),
+    type=WholeOption(*bounds.RUN_BOUNDS),
     default=200,
     show_default=True,
     help="How many layouts to run the task on.",

@@ -13,6 +13,7 @@ from pathlib import Path
 from typing import Any
 
 from mindrun.codec import encode
+from mindrun.environment_module import module_beside
 from mindrun.errors import ProcedureError
 from mindrun.expression import leaves
 from mindrun.functions.procedure import module_source
@@ -20,7 +21,6 @@ from mindrun.graph import Edge, Graph, Lesson, Reward, Skill, Start, Task
 from mindrun.reachability import reached_from
 from mindrun.registry import names
 from mindrun.sensors import SensorKind
-from mindrun.sim.outside.making import module_beside
 from mindrun.weights import genes, reachable
 
 from mindlang.compiler.drawing import phrase

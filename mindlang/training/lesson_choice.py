@@ -8,12 +8,17 @@ from mindrun.graph import Graph, Lesson
 from mindrun.train import NotFoundError, RunError
 from mindrun.weights import learners, owners, reachable
 
-from mindlang.bounds import ATTEMPTS, GENERATIONS, POPULATION, RUNGS, whole
+from mindlang import bounds
 from mindlang.compiler.diagnostic import did_you_mean, listed
 from mindlang.lock.status import Status, Trained
 from mindlang.lock.world_facts import key_of, key_of_taught
 
-BOUNDS = {"generations": GENERATIONS, "population": POPULATION, "attempts": ATTEMPTS, "rungs": RUNGS}
+BOUNDS = {
+    "generations": bounds.GENERATION_BOUNDS,
+    "population": bounds.POPULATION_BOUNDS,
+    "attempts": bounds.ATTEMPT_BOUNDS,
+    "rungs": bounds.RUNG_BOUNDS,
+}
 MAX_SCALE = 1000
 
 
@@ -35,7 +40,7 @@ class TrainOptions:
         """MindError where a number is none that `mindc train` would take."""
         for what in BOUNDS:
             if (value := getattr(self, what)) is not None:
-                object.__setattr__(self, what, whole(what, value, BOUNDS[what]))  # one of numpy becomes an int
+                object.__setattr__(self, what, bounds.whole(what, BOUNDS[what], value))  # one of numpy becomes an int
         if not 0 < self.scale <= MAX_SCALE:
             raise MindError(f"scale cannot be {self.scale!r}", f"scale is a number above 0, and at most {MAX_SCALE}")
 

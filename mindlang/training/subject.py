@@ -12,6 +12,7 @@ from mindrun.train.manifest import Manifest, fingerprint, hashes, processor, ver
 from mindrun.train.run_folder import RunFolder, create, unfinished
 from mindrun.weights import Weights, learners
 
+from mindlang.bounds import as_seed
 from mindlang.compiler.compile import Compiled
 from mindlang.compiler.diagnostic import listed
 from mindlang.lock import Lock, lock_path, lock_sources, read_lock, read_locks
@@ -90,7 +91,7 @@ def begin_run(
     manifest = Manifest(
         lesson=lesson,
         learners=learners(subject.graph, lesson),
-        seed=seed,
+        seed=as_seed(seed),
         mind=fingerprint(subject.graph, lesson, subject.folder),
         weights=hashes(weights),
         source=str(subject.source),

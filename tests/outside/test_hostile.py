@@ -34,7 +34,7 @@ def test_whatever_an_environment_raises_is_one_error_that_says_where(place: str,
     world = named(Failing, place=place, error=ERRORS[error])
     with pytest.raises(MindError, match=f"environment {world} ") as found:
         scored(world)
-    said = {"exit": "sys.exit(0)", "exit-words": "sys.exit('bye')", "base": "mine", "generator": "GeneratorExit"}
+    said = {"exit": "SystemExit: 0", "exit-words": "SystemExit: bye", "base": "mine", "generator": "GeneratorExit"}
     assert said.get(error, type(ERRORS[error]).__name__) in found.value.hint
 
 

@@ -13,10 +13,10 @@ import numpy as np
 
 from mindrun.codec import encode
 from mindrun.encoding import decode_part
+from mindrun.environment_module import module_beside
 from mindrun.errors import BundleError
 from mindrun.functions.procedure import module_source
 from mindrun.graph import Graph, Lesson
-from mindrun.sim.outside.making import module_beside
 from mindrun.strict_json import is_whole, parsed
 from mindrun.train import RunError
 from mindrun.validate import lesson_flaws

@@ -19,7 +19,7 @@ def foreign_code() -> Iterator[None]:
     except BaseException as error:
         if os.getpid() != process:
             raise
-        raise RuntimeError(_said(error)) from error
+        raise RuntimeError(first_line(error)) from error
 
 
 def first_line(error: BaseException) -> str:
@@ -30,7 +30,3 @@ def first_line(error: BaseException) -> str:
         lines = []
     said = next((line.strip() for line in lines if line.strip()), "")
     return f"{type(error).__name__}: {said}"[:200] if said else type(error).__name__
-
-
-def _said(error: BaseException) -> str:
-    return f"it called sys.exit({error.code!r:.100})" if isinstance(error, SystemExit) else first_line(error)

@@ -13,6 +13,7 @@ from pathlib import Path
 from types import ModuleType
 from typing import Any
 
+from mindrun.environment_module import module_beside
 from mindrun.errors import MindError
 from mindrun.sim.outside.foreign import first_line, foreign_code
 
@@ -45,15 +46,6 @@ def library() -> ModuleType:
 def is_there() -> bool:
     """Whether the package gymnasium is installed."""
     return find_spec("gymnasium") is not None
-
-
-def module_beside(name: str, folder: Path | None) -> Path | None:
-    """The file of the module that an environment's name begins with, where it stands in a folder; nothing is run."""
-    module, colon, _ = name.partition(":")
-    if folder is None or not colon:
-        return None
-    top = folder / module.partition(".")[0]
-    return next((path for path in (top.with_suffix(".py"), top / "__init__.py") if path.is_file()), None)
 
 
 def make(name: str, folder: Path | None = None, is_seen: bool = False) -> Any:
