@@ -6,7 +6,7 @@ from contextlib import contextmanager
 
 from distributed import LocalCluster
 from mindrun.sim.rollout import Rollout
-from mindrun.train.attempts import Executor
+from mindrun.train.attempts import AttemptExecutor
 from mindrun.train.lesson_state import Course
 from mindrun.train.stretch_threads import StretchThreads
 from mindrun.work.assignment import Assignment
@@ -18,7 +18,9 @@ from mindlang.cluster.jobs import ClusterJobs
 from mindlang.cluster.scheduler import Destination
 from mindlang.executors import where
 
-Begin = Callable[[Course, Rollout], Executor | None]  # what does the attempts of a course; None where nobody does
+Begin = Callable[
+    [Course, Rollout], AttemptExecutor | None
+]  # what does the attempts of a course; None where nobody does
 Pids = Callable[[], list[int]]
 
 

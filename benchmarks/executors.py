@@ -1,22 +1,17 @@
-"""Attempts side by side, wherever: python benchmarks/executors.py [--generations 60] [--kills 50] [--turns 3].
+"""Attempts side by side, wherever: python benchmarks/executors.py [--generations 60] [--seeds 3] [--turns 3].
 
-Three tables, of GoToObject on this machine: the SHA-256 of the weights for every executor and seed; what ten attempts
-take one by one and side by side on the same cores, in turns; a training whose workers are killed at random moments,
-beside the same undisturbed. 1 where any weights differ.
+Two tables, of GoToObject on this machine: the SHA-256 of the weights for every executor and seed; what ten attempts
+take one by one and side by side on the same cores, in turns. 1 where any weights differ. Workers that are killed:
+killed_workers.py.
 """
 
 import argparse
-import os
-import random
-import signal
 import sys
 import time
-from collections.abc import Iterator, Sequence
-from contextlib import contextmanager
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from hashlib import sha256
 from statistics import median
-from threading import Event, Thread
 
 import numpy as np
 import psutil
@@ -28,11 +23,10 @@ from mindrun.train.lesson import teach
 from mindrun.train.lesson_state import Course, begin
 from mindrun.work.assignment import Assignment
 
-from benchmarks.executor_kinds import Begin, Pids, dask, one_by_one, processes, threads
+from benchmarks.executor_kinds import Begin, dask, one_by_one, processes, threads
 from benchmarks.workloads import collect
 
 SKILL = "GoToObject"
-MIN_KILL_SECONDS, MAX_KILL_SECONDS = 0.5, 5.5  # between two kills
 SHOWN_CHARACTERS = 16  # of a hash
 
 
@@ -42,7 +36,6 @@ class Taught:
 
     weights: str
     seconds: float
-    kills: int = 0
 
 
 def main() -> None:
@@ -51,13 +44,11 @@ def main() -> None:
     parser.add_argument("--generations", type=int, default=60, help="of each of the ten attempts (default 60)")
     parser.add_argument("--seeds", type=int, default=3, help="of the first table (default 3)")
     parser.add_argument("--turns", type=int, default=3, help="of the second table (default 3)")
-    parser.add_argument("--kills", type=int, default=50, help="of each executor in the third table (default 50)")
     options = parser.parse_args()
     assignment = assignment_of()
     is_same = [
         hashes(assignment, options.seeds),
         overhead(assignment, options.generations, options.turns),
-        kills(assignment, options.generations, options.kills),
     ]
     sys.exit(not all(is_same))
 
@@ -153,57 +144,6 @@ def cpu_seconds(pids: Sequence[int]) -> float:
 def warm_up(rollout: Rollout, executor_of: Begin) -> None:
     """Let every worker begin and load what is compiled: two short attempts for each."""
     taught(course_of(rollout, 2 * cores(), 1, 9), rollout, executor_of)
-
-
-def kills(assignment: Assignment, generations: int, count: int) -> bool:
-    """A training whose two workers are killed at random moments, beside the same undisturbed; whether nothing differs.
-
-    It is taught again, with the same seed, until there were so many kills.
-    """
-    print(f"{count} kills at random moments, {MIN_KILL_SECONDS} to {MAX_KILL_SECONDS} s apart, of two workers")
-    rollout = rollout_of(assignment, 1)
-    course, weights = course_of(rollout, 10, generations, 1), set[str]()
-    for name, make in (("processes", processes), ("Dask", dask)):
-        with make(2, assignment) as (executor, pids):
-            whole = taught(course, rollout, executor)
-            disturbed = list[Taught]()
-            while sum(each.kills for each in disturbed) < count:
-                with killing(pids, count - sum(each.kills for each in disturbed), random.Random(1)) as killed:
-                    done = taught(course, rollout, executor)
-                disturbed.append(replace(done, kills=len(killed)))
-        weights |= {whole.weights, *(each.weights for each in disturbed)}
-        total = sum(each.kills for each in disturbed)
-        lost = sum(each.seconds - whole.seconds for each in disturbed)
-        print(
-            f"  {name:<10} {total} kills in {len(disturbed)} trainings, {whole.seconds:.0f} s undisturbed,"
-            f" {sum(each.seconds for each in disturbed) / max(1, len(disturbed)):.0f} s with them:"
-            f" {lost / max(1, total):.1f} s a kill; weights {' '.join(each[:SHOWN_CHARACTERS] for each in weights)}",
-            flush=True,
-        )
-    return len(weights) == 1
-
-
-@contextmanager
-def killing(pids: Pids, most: int, draw: random.Random) -> Iterator[list[int]]:
-    """Kill a random worker now and then that was there at the look before, at most so many; who was killed."""
-    killed, before, over = list[int](), set[int](), Event()
-
-    def kill() -> None:
-        nonlocal before
-        while len(killed) < most and not over.wait(draw.uniform(MIN_KILL_SECONDS, MAX_KILL_SECONDS)):
-            there = pids()
-            if found := [pid for pid in there if pid in before and pid not in killed]:
-                killed.append(draw.choice(found))
-                os.kill(killed[-1], signal.SIGKILL)
-            before = {*there}
-
-    thread = Thread(target=kill)
-    thread.start()
-    try:
-        yield killed
-    finally:
-        over.set()
-        thread.join()
 
 
 if __name__ == "__main__":

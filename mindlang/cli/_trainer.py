@@ -15,7 +15,7 @@ from typing import Any
 
 from mindrun.sim.rollout import Rollout, cores
 from mindrun.train import RunError
-from mindrun.train.attempts import Executor
+from mindrun.train.attempts import AttemptExecutor
 from mindrun.train.lesson_state import LessonState, Record
 from mindrun.train.run_folder import RunFolder, open_run, read_result
 from mindrun.train.scoring import Scorer
@@ -131,7 +131,7 @@ class Trainer:
         return rollout
 
     @procedures_talk()
-    def _watched(self, run: RunFolder, scorer: Scorer, executor: Executor | None) -> LessonState:
+    def _watched(self, run: RunFolder, scorer: Scorer, executor: AttemptExecutor | None) -> LessonState:
         lesson = run.manifest.lesson
         pace = TimeLeft.of(run, perf_counter())
         watcher = self._watcher(run, pace)

@@ -1,7 +1,8 @@
 """Jobs given to the workers of a Dask cluster: one future each, bytes in and bytes out.
 
-Dask does the jobs of a worker that is lost again, and gives one up that has cost as many as its scheduler allows
-(`distributed.scheduler.allowed-failures`, three). A job whose answer is nonsense is done again here.
+Dask does the jobs of a worker that is lost again, and gives one up that has cost more than its scheduler allows
+(`distributed.scheduler.allowed-failures`, three). That may be bad luck where machines come and go: it is asked again
+here, until it has cost five at least. So is a job whose answer is nonsense.
 """
 
 from collections.abc import Callable
@@ -34,7 +35,7 @@ class Job:
     number: int
     data: bytes
     read: Read
-    losses: int = 0
+    losses: int = 0  # workers that it has cost, and answers that were nonsense
     has_assignment: bool = False  # beside it, for a worker that lacks that
 
 
@@ -87,18 +88,21 @@ class ClusterJobs:
             self.workers  # noqa: B018  # looks whether there are any
             return None
         job = self._open.pop(future)
-        if (found := self._result(future)) is None:
-            self._open[future] = job
-            self._done.put(future)
-            return None
         try:
+            if (found := self._result(future)) is None:
+                self._open[future] = job
+                self._done.put(future)
+                return None
             return self._read(job, unpack(found))
+        except KilledWorker as why:
+            job.losses += why.allowed_failures + 1
+            flaw = f"with the worker at {why.last_worker.address}"
         except FrameError as why:
             job.losses += 1
-            if job.losses >= MAX_LOSSES:
-                message = f"a job was answered with nonsense {job.losses} times, the last time: {why}"
-                raise WorkError(message, RESUME) from why
-            self._submit(job)
+            flaw = f"its answer was nonsense: {why}"
+        if job.losses >= MAX_LOSSES:
+            raise WorkError(f"a job was lost {job.losses} times, the last time {flaw}", RESUME)
+        self._submit(job)
         return None
 
     def close(self) -> None:
@@ -127,7 +131,7 @@ class ClusterJobs:
         future.add_done_callback(self._done.put)
 
     def _result(self, future: Future) -> bytes | None:
-        """The bytes that a future has come to; WorkError where it has come to none.
+        """The bytes that a future has come to; KilledWorker where Dask gave it up, WorkError where it has come to none.
 
         None where they are on a worker that does not answer: if it was lost, they are computed again.
         """
@@ -137,11 +141,8 @@ class ClusterJobs:
             return None
         except CancelledError as error:
             raise self._gone() from error
-        except KilledWorker as error:
-            workers = error.allowed_failures + 1
-            raise WorkError(
-                f"a job has ended {workers} workers, the last at {error.last_worker.address}", RESUME
-            ) from error
+        except KilledWorker:
+            raise
         except (ImportError, AttributeError) as error:
             raise WorkError(f"a worker of {self._address} has no such mindlang: {error}", INSTALL) from error
         except Exception as error:

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 
 from mindrun.errors import MindError
 from mindrun.work.assignment import Assignment
-from mindrun.work.executor import Executor
+from mindrun.work.executor import JobExecutor
 from mindrun.work.job_scorer import JobScorer
 from mindrun.work.local import local_workers
 
@@ -28,9 +28,9 @@ class Where:
     kind: str
     argument: str
 
-    def begin(self, assignment: Assignment, say: Callable[[str], object] = lambda line: None) -> Executor:
+    def begin(self, assignment: Assignment, say: Callable[[str], object] = lambda line: None) -> JobExecutor:
         """Workers for the jobs of an assignment, who `say` what they wait for; MindError where there can be none."""
-        executor: Executor = import_module(f"{__name__}.{self.kind}").begin(self.argument, assignment, say)
+        executor: JobExecutor = import_module(f"{__name__}.{self.kind}").begin(self.argument, assignment, say)
         return executor
 
 

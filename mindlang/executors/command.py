@@ -6,7 +6,7 @@ from collections.abc import Callable
 from mindrun.work.assignment import Assignment
 from mindrun.work.child import Place
 from mindrun.work.crew import Crew
-from mindrun.work.executor import Executor
+from mindrun.work.executor import JobExecutor
 
 USAGE = "command:WORDS, or command:N:WORDS for N of them"
 MAX_COMMANDS = 1024
@@ -23,7 +23,7 @@ def flaw(argument: str) -> str:
     return "" if 1 <= count <= MAX_COMMANDS else f"there are not 1 to {MAX_COMMANDS} of them"
 
 
-def begin(argument: str, assignment: Assignment, say: Callable[[str], object]) -> Executor:
+def begin(argument: str, assignment: Assignment, say: Callable[[str], object]) -> JobExecutor:
     """The command, so many times."""
     count, words = _split(argument)
     names = [f"{words[0]} {number}" if count > 1 else words[0] for number in range(1, count + 1)]

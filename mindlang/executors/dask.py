@@ -5,7 +5,7 @@ from importlib.util import find_spec
 
 from mindrun.errors import MindError
 from mindrun.work.assignment import Assignment
-from mindrun.work.executor import Executor
+from mindrun.work.executor import JobExecutor
 
 from mindlang.cluster.scheduler import address_of, destination, flaw_of
 
@@ -23,7 +23,7 @@ def flaw(argument: str) -> str:
     return found
 
 
-def begin(argument: str, assignment: Assignment, say: Callable[[str], object]) -> Executor:
+def begin(argument: str, assignment: Assignment, say: Callable[[str], object]) -> JobExecutor:
     """Whoever is connected to the scheduler, now or later."""
     from mindlang.cluster.connection import connect
     from mindlang.cluster.jobs import ClusterJobs

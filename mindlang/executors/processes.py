@@ -3,7 +3,7 @@
 from collections.abc import Callable
 
 from mindrun.work.assignment import Assignment
-from mindrun.work.executor import Executor
+from mindrun.work.executor import JobExecutor
 from mindrun.work.local import local_workers
 
 USAGE = "processes:N"
@@ -18,7 +18,7 @@ def flaw(argument: str) -> str:
     return "" if 1 <= int(argument) <= MAX_PROCESSES else f"it is not from 1 to {MAX_PROCESSES}"
 
 
-def begin(argument: str, assignment: Assignment, say: Callable[[str], object]) -> Executor:
+def begin(argument: str, assignment: Assignment, say: Callable[[str], object]) -> JobExecutor:
     """So many processes."""
     from mindrun.sim.rollout import cores
 

@@ -5,7 +5,7 @@ from collections.abc import Callable
 from mindrun.work.assignment import Assignment
 from mindrun.work.child import Place
 from mindrun.work.crew import Crew
-from mindrun.work.executor import Executor
+from mindrun.work.executor import JobExecutor
 
 USAGE = "ssh:HOST[,HOST]…"
 # Nobody is there to type a password, and a machine that is gone is noticed within a minute.
@@ -21,7 +21,7 @@ def flaw(argument: str) -> str:
     return f"{wrong!r:.40} is no machine" if wrong else ""
 
 
-def begin(argument: str, assignment: Assignment, say: Callable[[str], object]) -> Executor:
+def begin(argument: str, assignment: Assignment, say: Callable[[str], object]) -> JobExecutor:
     """A worker on each machine."""
     hosts = argument.split(",")
     return Crew([Place(host, (*SSH, "--", host, "mindrun", "work")) for host in hosts], assignment)

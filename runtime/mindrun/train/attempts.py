@@ -20,7 +20,7 @@ from mindrun.train.segment import Joined, Segment, Stretch
 from mindrun.train.step import Ahead, Step
 
 
-class Executor(Protocol):
+class AttemptExecutor(Protocol):
     """Who does stretches: any number at once, in any order; one that was lost is done again."""
 
     def has_room(self) -> bool:
@@ -181,7 +181,9 @@ class Attempts:
         return Step(self.lesson, tuple(records), segment.champions, self.ahead())
 
 
-def side_by_side(course: Course, executor: Executor, state: LessonState, stop: Callable[[], bool]) -> Iterator[Step]:
+def side_by_side(
+    course: Course, executor: AttemptExecutor, state: LessonState, stop: Callable[[], bool]
+) -> Iterator[Step]:
     """The steps of a lesson whose attempts an executor does; who iterates may stop after any of them."""
     attempts = Attempts(course, state)
     while attempts.lesson.attempt < course.lesson.learner.attempts and not stop():

@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from mindrun.train import RunError, checkpoint
-from mindrun.train.attempts import Executor, side_by_side
+from mindrun.train.attempts import AttemptExecutor, side_by_side
 from mindrun.train.champion_log import ChampionLog
 from mindrun.train.folder_lock import claim
 from mindrun.train.lesson import Clock, teach
@@ -33,7 +33,7 @@ class Watch:
     save_every: float = CHECKPOINT_SECONDS
 
 
-def train(run: RunFolder, scorer: Scorer, watch: Watch, executor: Executor | None = None) -> LessonState:
+def train(run: RunFolder, scorer: Scorer, watch: Watch, executor: AttemptExecutor | None = None) -> LessonState:
     """Go on with a run until its lesson is finished or `watch` says stop; the state, which is then saved.
 
     Generation after generation here, or its attempts side by side where there is an `executor`. RunError where another
@@ -70,7 +70,7 @@ def best(state: LessonState) -> Genomes:
 
 
 def _steps(
-    course: Course, scorer: Scorer, state: LessonState, watch: Watch, executor: Executor | None
+    course: Course, scorer: Scorer, state: LessonState, watch: Watch, executor: AttemptExecutor | None
 ) -> Iterator[Step]:
     if executor is not None:
         began = watch.clock()

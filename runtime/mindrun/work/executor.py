@@ -15,7 +15,7 @@ from mindrun.work.stretch_frame import segment_of, stretch_frame
 Read = Callable[[Frame], Any]  # what came of a job; FrameError where its answer is nonsense
 
 
-class Executor(Protocol):
+class JobExecutor(Protocol):
     """Does the jobs of one assignment; one whose worker is lost, or answers nonsense, is done again."""
 
     @property
@@ -47,7 +47,7 @@ class StretchExecutor:
     """Does the stretches of a course; what its workers count beside their results is counted in `scorer`."""
 
     course: Course
-    jobs: Executor
+    jobs: JobExecutor
     scorer: Any = None
 
     def has_room(self) -> bool:

@@ -11,7 +11,7 @@ from mindrun.run_scores import Scores
 from mindrun.train.population import Genomes
 from mindrun.work.blocks import Block, Blocks, empty_scores, place, runs_in_a_job
 from mindrun.work.effort import Effort, Tally, effort_of, tally_of
-from mindrun.work.executor import Executor, job_about
+from mindrun.work.executor import JobExecutor, job_about
 from mindrun.work.frame import Frame, pack
 from mindrun.work.score_frame import score_frame, scores_of
 
@@ -22,7 +22,7 @@ class JobScorer:
     So neither how many workers there are, nor how runs are cut into jobs, nor in which order these end, changes a bit.
     """
 
-    def __init__(self, rollout: Any, jobs: Executor) -> None:
+    def __init__(self, rollout: Any, jobs: JobExecutor) -> None:
         self.rollout, self.jobs = rollout, jobs
         self.task: Task = rollout.task
         self.genome_length: int = rollout.genome_length

@@ -13,7 +13,7 @@ import numpy as np
 
 from mindrun.atomic_write import write
 from mindrun.regular_files import read_whole
-from mindrun.train.attempts import Executor
+from mindrun.train.attempts import AttemptExecutor
 from mindrun.train.lesson import Clock
 from mindrun.train.lesson_state import AttemptState, Course, begin_attempt
 from mindrun.train.rungs import rung_at
@@ -95,7 +95,7 @@ class KeptSegments:
 class RememberingExecutor:
     """Does stretches as another does, but for those whose segment has been kept."""
 
-    def __init__(self, stretches: Executor, kept: KeptSegments, clock: Clock) -> None:
+    def __init__(self, stretches: AttemptExecutor, kept: KeptSegments, clock: Clock) -> None:
         self._stretches, self._kept, self._clock = stretches, kept, clock
         self._due = clock() + SAVE_SECONDS
         self._first = self._at = -1  # the attempt that the lesson was at, which checkpoints have; and is at now
