@@ -47,6 +47,11 @@ class BenchChoice:
     interrupt: bool
     where: Where | None
 
+    @property
+    def by(self) -> dict[str, int | str]:
+        """Who makes them, for a document."""
+        return {"workers": self.workers} if self.where is None else {"on": f"{self.where}"}
+
 
 @dataclass(frozen=True, slots=True)
 class RunSession:

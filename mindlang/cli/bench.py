@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from mindlang import bounds
-from mindlang.cli._options import IN_CHARGE, ON, SEED, WORKERS, NewFile, WholeOption
+from mindlang.cli._options import IN_CHARGE, ON, SEED, WORKERS, NewFile, WholeOption, refuse_ineffective
 
 if TYPE_CHECKING:
     from mindlang.cli._bench_pair import Contender
@@ -24,6 +24,7 @@ Examples:
   mindc bench collect.mind best.mind --task Collect        on the same layouts
   mindc bench collect.mind --task Avoid --master Avoid --master Collect
   mindc bench collect.mind --runs 1000000 --on ssh:a,b     by two machines
+  mindc bench collect.mind --runs 1000000 --on dask:scheduler.json
 """
 
 
@@ -79,6 +80,8 @@ def command(
     from mindlang.cli._terminal import refuse_unwritable
 
     refuse_unwritable(table, ".csv")
+    if where is not None:
+        refuse_ineffective("for the cores of this machine: with --on others make the runs", "workers")
     chosen = BenchChoice(task, runs, seed, workers or cores(), not no_interruption, where)
     who = contenders(files, masters)
     if len(who) > 1:
@@ -102,7 +105,7 @@ def _bench(who: Contender, chosen: BenchChoice, table: Path | None, as_json: boo
     seeds = layouts(chosen.seed, chosen.runs)
     with session.scorer(setup, rollout, chosen) as scorer:
         scores, seconds = session.score(scorer, seeds)
-    found = {"task": setup.task.name, "master": setup.master, "seed": chosen.seed, "workers": chosen.workers}
+    found = {"task": setup.task.name, "master": setup.master, "seed": chosen.seed, **chosen.by}
     found |= outcome.bench_data(setup.task, scores, seeds, seconds) | {"notes": [*setup.ready.notes, *rollout.notes]}
     if table:
         write_file(table, csv_parts(runs_table(setup.task, scores, seeds)))

@@ -1,8 +1,8 @@
 """Jobs given to the workers of a Dask cluster: one future each, bytes in and bytes out.
 
 Dask does the jobs of a worker that is lost again, and gives one up that has cost more than its scheduler allows
-(`distributed.scheduler.allowed-failures`, three). That may be bad luck where machines come and go: it is asked again
-here, until it has cost five at least. So is a job whose answer is nonsense.
+(`distributed.scheduler.allowed-failures`, three). That may be bad luck where machines come and go: such a job is asked
+again here, and so is one whose answer is nonsense, five times.
 """
 
 from collections.abc import Callable
@@ -16,7 +16,7 @@ from typing import Any
 from distributed import Client, Future, KilledWorker
 from mindrun.work import WorkError
 from mindrun.work.assignment import Assignment
-from mindrun.work.crew import MAX_LOSSES, TAKE_SECONDS, refusal
+from mindrun.work.crew import FATAL, MAX_LOSSES, TAKE_SECONDS, refusal
 from mindrun.work.executor import Read
 from mindrun.work.frame import Frame, FrameError, unpack
 from mindrun.work.worker import LACKS
@@ -24,7 +24,6 @@ from mindrun.work.worker import LACKS
 LOOK_SECONDS = 1.0  # between two times that the scheduler is asked for its workers
 RESULT_SECONDS = 30.0  # to wait for the bytes of a job that has ended, before who asks may look at something else
 WAIT_SECONDS = 5.0  # without a worker, before it is said that there is none
-RESUME = "what was saved of a training is intact: mindc train --resume goes on with it"
 INSTALL = "install the same wheel on the machines of scheduler and workers, and begin them again"
 
 
@@ -35,7 +34,7 @@ class Job:
     number: int
     data: bytes
     read: Read
-    losses: int = 0  # workers that it has cost, and answers that were nonsense
+    losses: int = 0  # times that Dask gave it up, and answers that were nonsense
     has_assignment: bool = False  # beside it, for a worker that lacks that
 
 
@@ -95,13 +94,12 @@ class ClusterJobs:
                 return None
             return self._read(job, unpack(found))
         except KilledWorker as why:
-            job.losses += why.allowed_failures + 1
-            flaw = f"with the worker at {why.last_worker.address}"
+            flaw = f"with {why.allowed_failures + 1} workers, the last at {why.last_worker.address}"
         except FrameError as why:
-            job.losses += 1
             flaw = f"its answer was nonsense: {why}"
+        job.losses += 1
         if job.losses >= MAX_LOSSES:
-            raise WorkError(f"a job was lost {job.losses} times, the last time {flaw}", RESUME)
+            raise WorkError(f"a job was lost {job.losses} times, the last time {flaw}", FATAL)
         self._submit(job)
         return None
 
@@ -164,7 +162,7 @@ class ClusterJobs:
             raise self._gone() from error
 
     def _gone(self) -> WorkError:
-        return WorkError(f"the scheduler at {self._address} is gone", RESUME)
+        return WorkError(f"the scheduler at {self._address} is gone", "begin it again, and its workers")
 
     def _tell(self, now: float) -> None:
         """Say that there is no worker, and later that there is one."""

@@ -28,6 +28,10 @@ class Where:
     kind: str
     argument: str
 
+    def __str__(self) -> str:
+        """As --on says it."""
+        return f"{self.kind}:{self.argument}"
+
     def begin(self, assignment: Assignment, say: Callable[[str], object] = lambda line: None) -> JobExecutor:
         """Workers for the jobs of an assignment, who `say` what they wait for; MindError where there can be none."""
         executor: JobExecutor = import_module(f"{__name__}.{self.kind}").begin(self.argument, assignment, say)

@@ -28,7 +28,8 @@ def run_summary(found: dict[str, Any]) -> RenderableType:
 def bench_summary(found: dict[str, Any]) -> RenderableType:
     """Many runs: means with their standard errors, how they ended, how fast they were."""
     runs = found["runs"]
-    cores = "core" if found["workers"] == 1 else "cores"
+    cores = "core" if found.get("workers") == 1 else "cores"
+    who = f"by {found['on']}" if "on" in found else f"on {found['workers']} {cores}"
     error = "; ± is the standard error of the mean" if runs > 1 else ""
     ended = ", ".join(
         f"{'lasted its time' if name == TIME else name}: {n / runs:.0%}" for name, n in found["ended"].items()
@@ -42,7 +43,7 @@ def bench_summary(found: dict[str, Any]) -> RenderableType:
         ("ended by", ended),
         ("best run", f"seed {found['best_seed']}"),
         ("worst run", f"seed {found['worst_seed']}"),
-        ("speed", f"{rate(found['ticks_per_second'])} on {found['workers']} {cores}, in {duration(found['seconds'])}"),
+        ("speed", f"{rate(found['ticks_per_second'])} {who}, in {duration(found['seconds'])}"),
         ("faults", _faults(found)),
     )
     return Group(_title(found), facts)

@@ -1,5 +1,6 @@
 """The beginning and the end of a run of a lesson: what scores its genomes, and what becomes of what was learnt."""
 
+import shlex
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
@@ -16,6 +17,7 @@ from mindrun.train.run_folder import RunFolder, keep_result, read_result
 from mindrun.train.scoring import Scorer
 from mindrun.train.stretch_threads import StretchThreads
 from mindrun.train.training import Watch, train
+from mindrun.work import WorkError
 from mindrun.work.assignment import Assignment
 from mindrun.work.executor import StretchExecutor
 from mindrun.work.job_scorer import JobScorer
@@ -76,10 +78,11 @@ def workers_of(
 ) -> Iterator[tuple[Scorer, RememberingExecutor | None]]:
     """What scores the genomes of a run, and who does its attempts, where there are several and they go side by side.
 
-    They `say` what they wait for, and are sent away in the end, whatever they do.
+    They `say` what they wait for, and are sent away in the end, whatever they do. What they cannot do is a WorkError,
+    whose hint says how the run goes on.
     """
     course = run.course(rollout.genome_length)
-    with scorer_on(where, rollout, lambda: assignment_of(run, subject), workers, say) as scorer:
+    with _resumable(run), scorer_on(where, rollout, lambda: assignment_of(run, subject), workers, say) as scorer:
         if (stretches := stretches_of(course, rollout, scorer if where else rollout, clock)) is None:
             yield scorer, None
             return
@@ -101,6 +104,16 @@ def stretches_of(
     if isinstance(scorer, JobScorer):
         return StretchExecutor(course, scorer.jobs, rollout)
     return StretchThreads(course, rollout.workers, rollout.on, clock) if rollout.workers > 1 else None
+
+
+@contextmanager
+def _resumable(run: RunFolder) -> Iterator[None]:
+    """Say of work that nobody can do how to go on when somebody can."""
+    try:
+        yield
+    except WorkError as error:
+        resume = f"what was saved is intact; to go on: mindc train --resume {shlex.quote(str(run.folder))}"
+        raise WorkError(str(error), "; ".join(filter(None, (error.hint, resume)))) from error
 
 
 def teach(run: RunFolder, subject: Subject, workers: int, watch: Watch, where: Where | None = None) -> Result | None:

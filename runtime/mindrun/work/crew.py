@@ -22,7 +22,7 @@ MAX_LOSSES = 5  # workers that a job may cost
 MAX_FALSE_STARTS = 3  # workers in succession that end at a place before they have answered anything
 TAKE_SECONDS = 0.2  # to wait for an answer before who asks may look at something else
 END_SECONDS = 5.0  # to wait for workers that were killed
-RESUME = "what was saved of a training is intact: mindc train --resume goes on with it"
+FATAL = "the same job ends whoever does it: see there whether memory runs out, or a procedure ends the process"
 MAX_WORDS_CHARACTERS = 2000  # of why a worker has not done a job
 
 
@@ -136,7 +136,7 @@ class Crew:
         job.losses += 1
         if job.losses >= MAX_LOSSES:
             message = f"a job has ended {job.losses} workers, the last at {place.name}: {why}"
-            self._answers.put(WorkError(message, RESUME))
+            self._answers.put(WorkError(message, FATAL))
             return
         job.order = 0, job.number
         self._jobs.put(job)
@@ -147,7 +147,7 @@ class Crew:
             self._left -= 1
         if self._left == 0 and not self._ended:
             message = f"no worker is left; the last, at {place.name}, ended: {why}"
-            self._answers.put(WorkError(message, f"see that the command runs there; {RESUME}"))
+            self._answers.put(WorkError(message, "see that the command runs there"))
 
 
 def refusal(where: str, answer: Frame) -> WorkError | None:
