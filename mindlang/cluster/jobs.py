@@ -94,7 +94,7 @@ class ClusterJobs:
                 return None
             return self._read(job, unpack(found))
         except KilledWorker as why:
-            flaw = f"with {why.allowed_failures + 1} workers, the last at {why.last_worker.address}"
+            flaw = f"its workers ended, the last at {why.last_worker.address}"
         except FrameError as why:
             flaw = f"its answer was nonsense: {why}"
         job.losses += 1

@@ -98,7 +98,7 @@ def test_the_bits_are_those_of_one_machine(cluster: Any, expected: bytes, functi
         ("no_bytes", "answers with no bytes"),
         ("raises", "a job failed at .*: RuntimeError: out of luck"),
         ("missing", "has no such mindlang: .*'missing'"),
-        ("deadly", "a job was lost 5 times, the last time with 1 workers "),
+        ("deadly", "a job was lost 5 times, the last time its workers ended, the last at "),
     ],
 )
 def test_a_job_that_cannot_be_done_is_one_sentence(cluster: Any, function: Callable[..., Any], words: str) -> None:

@@ -1,4 +1,4 @@
-"""`--on ssh:a,b` with a program called ssh that has no network: what it is asked splits words again, as a shell there."""
+"""`--on ssh:a,b` with an ssh that has no network: the shell there splits again what it is asked."""
 
 import os
 import shlex
