@@ -43,12 +43,15 @@ def sources() -> Iterator[None]:
 
 @contextmanager
 def begun(workers: int = 1) -> Iterator[Any]:
-    """A cluster on this machine, where Dask gives up a job that has cost a worker."""
+    """A cluster on this machine, where Dask gives up a job that has cost a worker.
+
+    A LocalCluster ends a nanny for ever whose worker is not there 15 s after one was lost: begun again, or lost again.
+    """
     import dask
     from distributed import LocalCluster
 
     with (
-        dask.config.set({"distributed.scheduler.allowed-failures": 0}),
+        dask.config.set({"distributed.scheduler.allowed-failures": 0, "distributed.deploy.lost-worker-timeout": "1h"}),
         LocalCluster(n_workers=workers, threads_per_worker=1, dashboard_address=None, host="127.0.0.1") as cluster,
     ):
         yield cluster

@@ -14,6 +14,7 @@ import pytest
 
 from mindlang.cluster.scheduler import TLS, sbatch
 from tests.train.test_train_command import LONG, MIND, mindc
+from tests.work.test_on import called
 
 pytest.importorskip("distributed", reason="distributed is not installed: pip install 'mindlang[cluster]'")
 
@@ -88,6 +89,17 @@ def test_the_weights_are_those_of_threads(project: Path, cluster: str, pem: str)
         assert weights(project, *TAUGHT, "--runs", "tls", "--on", f"dask:{address},tls.pem") == expected
         refused = mindc(project, *TAUGHT, "--on", f"dask:{address}")
         assert (refused.returncode, "none was said" in refused.stderr) == (1, True)
+
+
+def test_the_runs_are_those_of_threads(project: Path, cluster: str) -> None:
+    assert mindc(project, "drive.mind", "Go", "Drive", "--seed", "3", "-q").returncode == 0
+    rows = []
+    for words in ((), ("--on", f"dask:{cluster}")):
+        done = called(project, "bench", "drive.mind", "--task", "Reach", "--runs", "700", "--csv", "runs.csv", *words)
+        assert done.returncode == 0, done.stderr
+        rows.append((project / "runs.csv").read_bytes())
+    assert rows[0] == rows[1]
+    assert f"by dask:{cluster}, in" in " ".join(done.stdout.split())
 
 
 def test_ctrl_c_leaves_a_run_that_goes_on_to_the_same_weights(project: Path, cluster: str) -> None:

@@ -90,6 +90,13 @@ def test_what_follows_the_arrays_is_refused() -> None:
         unpack(sealed(EMPTY, b"more"))
 
 
+@pytest.mark.parametrize("between", [b"", b"\n"])
+def test_a_stream_has_frame_after_frame(between: bytes) -> None:
+    frames = [pack(FRAME), pack(Frame("k"))]
+    stream = BytesIO(b"".join(frame + between for frame in frames))
+    assert [read(stream), read(stream), read(stream)] == [*frames, None]
+
+
 @pytest.mark.parametrize("lengths", [(2**32 - 1, 0), (0, 2**64 - 1), (10, 2**30)])
 def test_a_length_that_lies_takes_no_memory(lengths: tuple[int, int]) -> None:
     with pytest.raises(FrameError):

@@ -15,6 +15,18 @@ from tests.train.test_train_command import LONG, MIND, mindc
 
 TAUGHT = ("drive.mind", "Go", "--seed", "3", "--generations", "6", "--attempts", "3", "--from-scratch", "--json")
 
+SRUN = """\
+# Standard output as SLURM's slurmstepd passes it on: what is no whole line waits until there are 1,024 bytes.
+import subprocess, sys
+with subprocess.Popen(sys.argv[3:], stdout=subprocess.PIPE, bufsize=0) as worker:
+    kept = b""
+    while part := worker.stdout.read(1 << 16):
+        kept += part
+        whole = len(kept) if len(kept) >= 1024 else kept.rfind(b"\\n") + 1
+        sys.stdout.buffer.write(kept[:whole])
+        sys.stdout.buffer.flush()
+        kept = kept[whole:]
+"""
 RUN = "runs/Go-on-Reach/*"
 
 
@@ -33,6 +45,14 @@ def test_the_weights_are_the_same_on_threads_and_on_workers(tmp_path: Path) -> N
     assert weights(tmp_path / "more threads", "--workers", "4") == expected
     assert weights(tmp_path / "processes", "--on", "processes:2") == expected
     assert weights(tmp_path / "command", "--on", f"command:{sys.executable} -m mindrun work --threads 1") == expected
+
+
+def test_srun_passes_on_whole_lines_alone(tmp_path: Path) -> None:
+    srun = tmp_path / "srun"
+    srun.write_text(f"#!{sys.executable}\n{SRUN}")
+    srun.chmod(0o755)
+    words = f"command:2:'{srun}' -n 1 {sys.executable} -m mindrun work --threads 1"
+    assert weights(tmp_path / "srun's", "--on", words) == weights(tmp_path / "threads")
 
 
 def test_of_a_single_attempt_the_runs_are_the_jobs(tmp_path: Path) -> None:
@@ -180,5 +200,5 @@ def test_a_worker_that_is_sent_no_frame_says_so() -> None:
     command = [sys.executable, "-m", "mindrun", "work"]
     done = subprocess.run(command, input=b"hello there, worker", capture_output=True, check=False)
     assert done.returncode == 2
-    assert unpack(done.stdout).kind == READY  # which it says before it is asked, and no more
+    assert unpack(done.stdout.removesuffix(b"\n")).kind == READY  # which it says before it is asked, and no more
     assert b"standard input is no frame: it begins with b'hello th'" in done.stderr

@@ -5,6 +5,8 @@
 header     {"kind": …, "about": {…}, "arrays": {name: [dtype, shape]}}
 arrays     one after the other, in the header's order
 32 bytes   the SHA-256 of all that
+
+On a stream a newline may follow: srun passes nothing on before a line has ended.
 """
 
 import json
@@ -24,6 +26,7 @@ MAGIC = b"mindfrm1"
 LENGTHS = Struct("<IQ")
 PREFIX_BYTES = len(MAGIC) + LENGTHS.size
 DIGEST_BYTES = 32
+LINE_END = b"\n"
 MAX_HEADER_BYTES = 1 << 20
 MAX_ARRAYS_BYTES = 1 << 30
 MAX_ARRAYS, MAX_DIMENSIONS = 64, 4
@@ -77,6 +80,8 @@ class Stream(Protocol):
 def read(stream: Stream) -> bytes | None:
     """The bytes of the next frame of a stream, None where it ends before one; FrameError where something else comes."""
     prefix = _exactly(stream, len(MAGIC))
+    if prefix.startswith(LINE_END):  # of the frame before
+        prefix = prefix[len(LINE_END) :] + _exactly(stream, len(LINE_END))
     if not prefix:
         return None
     if prefix == MAGIC:  # else who speaks may say no more, and wait

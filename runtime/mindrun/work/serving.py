@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from threading import Event, Lock, Thread
 from typing import IO, Any
 
-from mindrun.work.frame import Frame, Stream, pack, read
+from mindrun.work.frame import LINE_END, Frame, Stream, pack, read
 from mindrun.work.worker import ALIVE, READY, Worker, answer_to, failure
 
 ALIVE_SECONDS = 1.0  # between two signs of life
@@ -45,7 +45,7 @@ class Serving:
     def say(self, data: bytes) -> None:
         """Write a frame."""
         with self._lock:
-            self.answers.write(data)
+            self.answers.write(data + LINE_END)
             self.answers.flush()
 
     def _live(self) -> None:
