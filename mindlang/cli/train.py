@@ -25,7 +25,7 @@ A cluster with SLURM (what tls.pem is, and other ways: docs/cluster.md):
   TLS="--protocol tls --tls-ca-file tls.pem \\
     --tls-cert tls.pem --tls-key tls.pem"
   sbatch --wrap "dask scheduler --scheduler-file scheduler.json $TLS"
-  sbatch --array 1-8 -c 4 --wrap \\
+  sbatch --array 1-8 -c 4 --requeue --wrap \\
     "dask worker --scheduler-file scheduler.json --nthreads 4 $TLS"
   mindc train collect.mind --attempts 32 --on dask:scheduler.json,tls.pem
 """

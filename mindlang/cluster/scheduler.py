@@ -34,7 +34,7 @@ def sbatch(path: str) -> tuple[str, str]:
     """The two lines that begin a cluster with SLURM: a scheduler that writes this file, eight workers of 4 cores."""
     return (
         f'sbatch --wrap "dask scheduler --scheduler-file {path} $TLS"',
-        f'sbatch --array 1-8 -c 4 --wrap "dask worker --scheduler-file {path} --nthreads 4 $TLS"',
+        f'sbatch --array 1-8 -c 4 --requeue --wrap "dask worker --scheduler-file {path} --nthreads 4 $TLS"',
     )
 
 

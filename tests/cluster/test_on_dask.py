@@ -123,7 +123,7 @@ def test_ctrl_c_leaves_a_run_that_goes_on_to_the_same_weights(project: Path, clu
         (
             "dask:moon.json",
             2,
-            'sbatch --array 1-8 -c 4 --wrap "dask worker --scheduler-file moon.json --nthreads 4 $TLS"',
+            'sbatch --array 1-8 -c 4 --requeue --wrap "dask worker --scheduler-file moon.json --nthreads 4 $TLS"',
         ),
         ("dask:tls://127.0.0.1:9,none.pem", 1, "none.pem is no certificate with its key"),
     ],
