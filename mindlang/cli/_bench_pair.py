@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 from mindrun.sim.rollout import Rollout
 
@@ -67,7 +68,7 @@ def compare_benched(
         data = outcome.bench_data(setup.task, scores, seeds, seconds)
         minds.append(about | data | {"notes": [*setup.ready.notes, *rollout.notes]})
     compared = compare(*benched)
-    found = {"task": benched[0].task.name, "seed": chosen.seed, "runs": chosen.runs, **chosen.by}
+    found: dict[str, Any] = {"task": benched[0].task.name, "seed": chosen.seed, "runs": chosen.runs, **chosen.by}
     found |= {"minds": minds, **compared.data(), "notes": notes}
     if table:
         rows = {each.name: runs_table(each.task, each.scores, seeds) for each in benched}
