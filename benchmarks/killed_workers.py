@@ -31,7 +31,7 @@ from mindlang.cluster.jobs import ClusterJobs
 from mindlang.cluster.scheduler import destination
 
 MIN_KILL_SECONDS, MAX_KILL_SECONDS = 0.5, 5.5  # between two kills
-WORKERS = 2
+WORKER_COUNT = 2
 BEGIN_SECONDS = 60.0  # for a scheduler and its workers to be there
 
 Kills = dict[int, Callable[[], object]]  # what kills each worker that is there, by its process
@@ -75,7 +75,7 @@ class ClusterJob:
 @contextmanager
 def piped(assignment: Assignment) -> Iterator[tuple[JobExecutor, FindKills]]:
     """Processes, whose pipes begin them again."""
-    with processes(WORKERS, assignment) as (jobs, pids):
+    with processes(WORKER_COUNT, assignment) as (jobs, pids):
         yield jobs, lambda: {pid: partial(os.kill, pid, signal.SIGKILL) for pid in pids()}
 
 
@@ -87,11 +87,11 @@ def clustered(assignment: Assignment, is_whole_job: bool) -> Iterator[tuple[JobE
         place = ("--host", "127.0.0.1", "--port", "0", "--no-dashboard")
         stack.callback(end, dask("scheduler", "--scheduler-file", f"{file}", *place))
         wait_for(file.exists)
-        members = [ClusterJob(f"worker-{number}", file) for number in range(WORKERS)]
+        members = [ClusterJob(f"worker-{number}", file) for number in range(WORKER_COUNT)]
         for member in members:
             stack.callback(member.end)
         client = stack.enter_context(connect(destination(f"{file}")))
-        wait_for(lambda: len(registered(client)) == WORKERS)
+        wait_for(lambda: len(registered(client)) == WORKER_COUNT)
 
         def kills() -> Kills:
             there = registered(client)
