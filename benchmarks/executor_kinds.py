@@ -1,4 +1,4 @@
-"""Who does the attempts of a lesson in `benchmarks/executors.py`: each is begun with so many cores, and ended."""
+"""Who does the attempts of a lesson in the benchmarks of executors: each is begun with so many cores, and ended."""
 
 import time
 from collections.abc import Callable, Iterator

@@ -23,9 +23,10 @@ from threading import Event, Thread
 import psutil
 from distributed import Client
 from mindrun.work.assignment import Assignment
-from mindrun.work.executor import JobExecutor
+from mindrun.work.executor import StretchExecutor
 
-from benchmarks.executors import SHOWN_CHARACTERS, Taught, assignment_of, course_of, processes, rollout_of, taught
+from benchmarks.executor_kinds import Begin, processes
+from benchmarks.executors import SHOWN_CHARACTERS, Taught, assignment_of, course_of, rollout_of, taught
 from mindlang.cluster.connection import connect
 from mindlang.cluster.jobs import ClusterJobs
 from mindlang.cluster.scheduler import destination
@@ -73,14 +74,14 @@ class ClusterJob:
 
 
 @contextmanager
-def piped(assignment: Assignment) -> Iterator[tuple[JobExecutor, FindKills]]:
+def piped(assignment: Assignment) -> Iterator[tuple[Begin, FindKills]]:
     """Processes, whose pipes begin them again."""
-    with processes(WORKER_COUNT, assignment) as (jobs, pids):
-        yield jobs, lambda: {pid: partial(os.kill, pid, signal.SIGKILL) for pid in pids()}
+    with processes(WORKER_COUNT, assignment) as (executor, pids):
+        yield executor, lambda: {pid: partial(os.kill, pid, signal.SIGKILL) for pid in pids()}
 
 
 @contextmanager
-def clustered(assignment: Assignment, is_whole_job: bool) -> Iterator[tuple[JobExecutor, FindKills]]:
+def clustered(assignment: Assignment, is_whole_job: bool) -> Iterator[tuple[Begin, FindKills]]:
     """A scheduler and its workers, begun by the commands of docs/cluster.md; kills are of workers, or of whole jobs."""
     with TemporaryDirectory() as folder, ExitStack() as stack:
         file = Path(folder, "scheduler.json")
@@ -104,7 +105,7 @@ def clustered(assignment: Assignment, is_whole_job: bool) -> Iterator[tuple[JobE
 
         jobs = ClusterJobs(connect(destination(f"{file}")), assignment, lambda line: print(f"  {line}", flush=True))
         stack.callback(jobs.close)
-        yield jobs, kills
+        yield lambda course, rollout: StretchExecutor(course, jobs), kills
 
 
 def dask(*words: str) -> "subprocess.Popen[bytes]":
@@ -145,7 +146,7 @@ def wait_for(there: Callable[[], bool]) -> None:
         time.sleep(0.1)
 
 
-EXECUTORS: dict[str, Callable[[Assignment], AbstractContextManager[tuple[JobExecutor, FindKills]]]] = {
+EXECUTORS: dict[str, Callable[[Assignment], AbstractContextManager[tuple[Begin, FindKills]]]] = {
     "processes": piped,
     "Dask, workers": partial(clustered, is_whole_job=False),
     "Dask, whole jobs": partial(clustered, is_whole_job=True),
@@ -164,8 +165,8 @@ def main() -> None:
     rollout = rollout_of(assignment, 1)
     course, weights = course_of(rollout, 10, options.generations, 1), set[str]()
     for name in [options.only] if options.only else EXECUTORS:
-        with EXECUTORS[name](assignment) as (jobs, find_kills):
-            weights |= measured(name, options.kills, lambda: taught(course, rollout, jobs), find_kills)
+        with EXECUTORS[name](assignment) as (executor, find_kills):
+            weights |= measured(name, options.kills, lambda: taught(course, rollout, executor), find_kills)
     sys.exit(len(weights) != 1)
 
 
