@@ -1,8 +1,9 @@
 """A mind beside one perceptron of as many weights, from nothing: python examples/beside.py examples/lander --seeds 5.
 
-Each seed is taught in one thread, into a folder under --out; the perceptron (monolith.mind) has as many steps of each
-learner as the hierarchy of its seed took. Both are tried in the same fresh episodes. It may be stopped at any time: the
-same command goes on with what is left. At the end RESULTS.template.md with the table in it is in --out as RESULTS.md.
+Each seed is taught in one thread, into a folder under --out. The perceptron, and what else beside.toml names, is a mind
+that uses the hierarchy: what is taught under its own master has as many steps of each learner as the hierarchy of its
+seed took. All are tried in the same fresh episodes. It may be stopped at any time: the same command goes on with what
+is left. RESULTS.template.md with the table of what is done in it is in --out as RESULTS.md.
 """
 
 import argparse
@@ -11,7 +12,7 @@ import os
 import time
 import tomllib
 from collections import Counter
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import ProcessPoolExecutor
 from dataclasses import asdict, dataclass, field, replace
 from functools import partial
@@ -34,6 +35,7 @@ from mindrun.train.training import best
 import mindlang
 from mindlang.run.layouts import NO_GENOME, layouts
 
+HIERARCHY = "hierarchy"
 ENDLESS_GENERATIONS, ENDLESS_ATTEMPTS = 10**6, 1000
 
 
@@ -41,13 +43,15 @@ ENDLESS_GENERATIONS, ENDLESS_ATTEMPTS = 10**6, 1000
 class Comparison:
     """What beside.toml in an example's folder says.
 
-    The `task` that episodes are of, the score from which one is `solved`, and `also`: other masters of the same taught
-    hierarchy that are tried, by what their column is called.
+    The `task` that episodes are of, and the score from which one is `solved`; `others`: the file of each mind beside
+    the hierarchy, by its name in the table; `also`: a file and a master in it that tries what the hierarchy was taught,
+    by what its column is called.
     """
 
     task: str
     solved: float
-    also: Mapping[str, str] = field(default_factory=dict)
+    others: Mapping[str, str] = field(default_factory=lambda: {"mlp": "monolith.mind"})
+    also: Mapping[str, tuple[str, str]] = field(default_factory=dict)
 
 
 @dataclass(frozen=True, slots=True)
@@ -90,9 +94,14 @@ class Plan:
     scale: float
 
     @property
-    def mind(self) -> Path:
-        """The hierarchy: the mind that has the name of its folder."""
-        return self.folder / f"{self.folder.name}.mind"
+    def teachers(self) -> Mapping[str, Callable[[int], Taught]]:
+        """What is taught, in this order."""
+        others = {kind: partial(beside, self, file) for kind, file in self.comparison.others.items()}
+        return {HIERARCHY: partial(hierarchy, self), **others}
+
+    def seed_folder(self, seed: int) -> Path:
+        """Where the minds of a seed, and what they were taught, lie."""
+        return self.out / f"seed-{seed}"
 
     def path(self, kind: str, seed: int) -> Path:
         """Where the outcome of a seed lies."""
@@ -118,18 +127,18 @@ def main() -> None:
     plan, seeds = Plan(folder, comparison, out, options.runs, options.episodes, options.scale), options.seeds
     out.mkdir(parents=True, exist_ok=True)
     with ProcessPoolExecutor(options.processes, get_context("spawn")) as pool:
-        for kind in TEACHERS:
+        for kind in plan.teachers:
             left = [seed for seed in range(1, seeds + 1) if not plan.path(kind, seed).exists()]
             for found in pool.map(partial(try_out, plan, kind), left):
                 print(row(plan, found), flush=True)
-    outcomes = [read(plan, kind, seed) for kind in TEACHERS for seed in range(1, seeds + 1)]
-    (out / "RESULTS.md").write_text(report(plan, outcomes), encoding="utf-8")
+                (out / "RESULTS.md").write_text(report(plan, seeds), encoding="utf-8")
+    (out / "RESULTS.md").write_text(report(plan, seeds), encoding="utf-8")
 
 
 def try_out(plan: Plan, kind: str, seed: int) -> Outcome:
     """Teach a seed of a kind, try it, and write down what came of it."""
     began, cpu = time.perf_counter(), time.process_time()
-    came = TEACHERS[kind](plan, seed)
+    came = plan.teachers[kind](seed)
     took = time.perf_counter() - began, time.process_time() - cpu
     score = scores(plan, came.rollout, came.genome)
     also = {name: float(scores(plan, other, NO_GENOME).mean()) for name, other in came.also.items()}
@@ -143,35 +152,37 @@ def try_out(plan: Plan, kind: str, seed: int) -> Outcome:
 
 
 def hierarchy(plan: Plan, seed: int) -> Taught:
-    """Teach all lessons of the mind."""
-    folder = plan.out / f"seed-{seed}"
+    """Teach all lessons of the mind that has the name of its folder."""
+    folder = plan.seed_folder(seed)
     rmtree(folder, ignore_errors=True)
     folder.mkdir()
-    path = folder / plan.mind.name
-    copyfile(plan.mind, path)
+    for source in plan.folder.glob("*.mind"):
+        copyfile(source, folder / source.name)
+    path, task = folder / f"{plan.folder.name}.mind", plan.comparison.task
     options = mindlang.TrainOptions(scale=plan.scale)
     results = mindlang.load(path).train(options=options, seed=seed, runs=folder / "runs")
-    mind, task = mindlang.load(path), plan.comparison.task
+    mind = mindlang.load(path)
     steps: Counter[str] = Counter()
     for result, lesson in zip(results, mind.graph.lessons, strict=True):
         steps[names()[type(lesson.learner)]] += int(result["ticks"])
     learners = sorted({skill for each in results for skill in each["weights"]})
     weights = mind.rollout(task, mind.graph.master, learners).genome_length
-    also = {name: mind.rollout(task, other) for name, other in plan.comparison.also.items()}
+    tried = plan.comparison.also.items()
+    also = {name: mindlang.load(folder / file).rollout(task, master) for name, (file, master) in tried}
     return Taught(mind.rollout(task, mind.graph.master), NO_GENOME, also, weights, dict(steps))
 
 
-def perceptron(plan: Plan, seed: int) -> Taught:
-    """Teach the lessons of monolith.mind, each in as many steps as its learner had in the hierarchy of this seed."""
-    limits = read(plan, "hierarchy", seed).steps
-    mind = mindlang.load(plan.folder / "monolith.mind")
+def beside(plan: Plan, file: str, seed: int) -> Taught:
+    """Teach the lessons under a mind's master, each in as many steps as its learner had in the hierarchy."""
+    limits = read(plan, HIERARCHY, seed).steps
+    mind = mindlang.load(plan.seed_folder(seed) / file)
     master = mind.graph.master
-    rollout = mind.rollout(plan.comparison.task, master, [master])
+    lessons = [lesson for lesson in mind.graph.lessons if lesson.master == master]
+    rollout = mind.rollout(plan.comparison.task, master, sorted({lesson.skill for lesson in lessons}))
     champion, steps = np.empty((0, rollout.genome_length), np.float32), {}
-    for lesson in mind.graph.lessons:
-        if lesson.skill == master:  # the others are those of the hierarchy, which it uses
-            learner = names()[type(lesson.learner)]
-            champion, steps[learner] = taught(lesson, rollout, champion, seed, limits[learner])
+    for lesson in lessons:
+        learner = names()[type(lesson.learner)]
+        champion, steps[learner] = taught(lesson, rollout, champion, seed, limits[learner])
     return Taught(rollout, champion, {}, rollout.genome_length, steps)
 
 
@@ -199,18 +210,19 @@ def read(plan: Plan, kind: str, seed: int) -> Outcome:
     return Outcome(**json.loads(plan.path(kind, seed).read_text(encoding="utf-8")))
 
 
-TEACHERS = {"hierarchy": hierarchy, "mlp": perceptron}  # in this order
-
-
-def report(plan: Plan, outcomes: Sequence[Outcome]) -> str:
-    """The page with the table of all seeds."""
-    kinds = {kind: [each.mean for each in outcomes if each.kind == kind] for kind in TEACHERS}
-    counts = (
-        (kind, len(means), sum(mean >= plan.comparison.solved for mean in means)) for kind, means in kinds.items()
-    )
-    solved = "; ".join(f"{kind}: {count} of {of}" for kind, of, count in counts)
+def report(plan: Plan, seeds: int) -> str:
+    """The page with the table of the seeds that have been taught."""
+    done = {kind: [seed for seed in range(1, seeds + 1) if plan.path(kind, seed).exists()] for kind in plan.teachers}
+    outcomes = {kind: [read(plan, kind, seed) for seed in numbers] for kind, numbers in done.items()}
     text = Template((plan.folder / "RESULTS.template.md").read_text(encoding="utf-8"))
-    return text.substitute(table=table(plan, outcomes), solved=solved, runs=f"{plan.runs:,}", episodes=plan.episodes)
+    solved = "; ".join(solving(plan, kind, found) for kind, found in outcomes.items())
+    rows = table(plan, [each for found in outcomes.values() for each in found])
+    return text.substitute(table=rows, solved=solved, runs=f"{plan.runs:,}", episodes=plan.episodes)
+
+
+def solving(plan: Plan, kind: str, found: Sequence[Outcome]) -> str:
+    """How many seeds of a kind solve it."""
+    return f"{kind}: {sum(each.mean >= plan.comparison.solved for each in found)} of {len(found)}"
 
 
 def table(plan: Plan, outcomes: Sequence[Outcome]) -> str:
@@ -222,24 +234,16 @@ def table(plan: Plan, outcomes: Sequence[Outcome]) -> str:
 
 def row(plan: Plan, found: Outcome) -> str:
     """An outcome as a line of the table."""
-    return line(
-        (
-            found.kind,
-            found.seed,
-            f"{found.mean:.1f} ± {found.standard_error:.1f}",
-            f"{found.solved:.1%}",
-            *(f"{found.also[name]:.1f}" if name in found.also else "" for name in plan.comparison.also),
-            found.weights,
-            f"{sum(found.steps.values()) / 1e6:.2f} M",
-            f"{found.cpu_seconds:.0f} s",
-            f"{found.seconds:.0f} s, {found.load:.0f}",
-        )
-    )
+    mean, share = f"{found.mean:.1f} ± {found.standard_error:.1f}", f"{found.solved:.1%}"
+    also = (f"{found.also[name]:.1f}" if name in found.also else "" for name in plan.comparison.also)
+    took = f"{found.cpu_seconds:.0f} s", f"{found.seconds:.0f} s, {found.load:.0f}"
+    steps = f"{sum(found.steps.values()) / 1e6:.2f} M"
+    return line((found.kind, found.seed, mean, share, *also, found.weights, steps, *took))
 
 
 def line(cells: Sequence[object]) -> str:
     """A line of a table in Markdown."""
-    return f"|{'|'.join(f' {cell} ' if cell != '' else ' ' for cell in cells)}|"
+    return f"| {' | '.join(map(str, cells))} |"
 
 
 if __name__ == "__main__":

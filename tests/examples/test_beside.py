@@ -33,9 +33,10 @@ def test_the_perceptron_has_as_many_weights_as_the_hierarchy(example: Example) -
     pytest.importorskip("gymnasium")
     pytest.importorskip(example.package)
     mind, alone = load(example.path), load(example.path.parent / "monolith.mind")
-    learners = sorted({lesson.skill for lesson in mind.graph.lessons})
-    hierarchy = mind.rollout(example.task, mind.graph.master, learners)
-    perceptron = alone.rollout(example.task, alone.graph.master, [alone.graph.master])
+    learners = {lesson.skill for lesson in mind.graph.lessons}
+    hierarchy = mind.rollout(example.task, mind.graph.master, sorted(learners))
+    pilots = {lesson.skill for lesson in alone.graph.lessons if lesson.master == alone.graph.master}
+    perceptron = alone.rollout(example.task, alone.graph.master, sorted(pilots))
     assert hierarchy.genome_length == perceptron.genome_length
 
 

@@ -26,7 +26,7 @@ class Example:
         return ROOT / "examples" / self.name / f"{self.name}.mind"
 
 
-EXAMPLES = [Example("lander", "Box2D", "Land", 220.0)]
+EXAMPLES = [Example("lander", "Box2D", "Land", 220.0), Example("doorkey", "minigrid", "Fetch", 85.0)]
 
 
 @pytest.fixture(params=EXAMPLES, ids=lambda example: example.name)
