@@ -62,7 +62,7 @@ def compare_benched(
     benched, minds = [], []
     for each, (setup, rollout) in zip(both, cast, strict=True):
         with session.scorer(setup, rollout, chosen) as scorer:
-            scores, seconds = session.score(scorer, seeds)
+            scores, seconds = session.score(scorer, seeds, f"{each.name}: ")
         benched.append(Benched(each.name, setup.task, scores))
         about = {"name": each.name, "file": each.file, "master": setup.master}
         data = outcome.bench_data(setup.task, scores, seeds, seconds)

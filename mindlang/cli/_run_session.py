@@ -108,14 +108,14 @@ class RunSession:
         return scorer_on(chosen.where, rollout, lambda: setup.assignment(chosen.interrupt), chosen.workers, self.say)
 
     @procedures_talk()
-    def score(self, scorer: Rollout | JobScorer, seeds: Sequence[int]) -> tuple[Scores, float]:
-        """All runs, and the seconds that they took."""
+    def score(self, scorer: Rollout | JobScorer, seeds: Sequence[int], whose: str = "") -> tuple[Scores, float]:
+        """All runs, and the seconds that they took; notes say `whose` they are."""
         with self.progress() as progress:
             bar = progress.add_task(f"{scorer.task.name}", total=len(seeds))
             begin = perf_counter()
             scores = run_all(scorer, seeds, lambda runs: progress.advance(bar, runs))
             seconds = perf_counter() - begin
-        self.say(*(f"note: {note}" for note in scorer.notes))
+        self.say(*(f"note: {whose}{note}" for note in scorer.notes))
         return scores, seconds
 
     @procedures_talk()

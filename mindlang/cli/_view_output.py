@@ -15,7 +15,8 @@ from mindrun.errors import MindError
 from mindlang.cli._run_session import RunSession
 from mindlang.cli._terminal import MISUSE, fail, procedures_talk, talk, write_file
 from mindlang.view.browser import open_browser
-from mindlang.view.export import exported
+from mindlang.view.export import exported, refuse_too_long
+from mindlang.view.exported_images import exported_images
 from mindlang.view.server import PortError, ViewServer
 from mindlang.view.session import Session
 from mindlang.view.viewed import Viewed
@@ -61,13 +62,18 @@ class ViewOutput:
             while not viewed.over:
                 viewed.grow()
                 progress.update(bar, completed=viewed.known)
-        if viewed.failed:
-            fail(f"{viewed.failed}: nothing is written")
+            if viewed.failed:
+                fail(f"{viewed.failed}: nothing is written")
+            try:
+                refuse_too_long(viewed)
+            except MindError as error:
+                fail(str(error), error.hint, MISUSE)
+            progress.reset(bar, description="images", total=viewed.known)
+            images = exported_images(viewed, lambda tick: progress.update(bar, completed=tick))
         seen = Session(viewed)
         everything = seen.ticks(0) | {"happened": viewed.happened, "stops": viewed.stops}
-        try:
-            page = exported(seen.about(edits=False), everything, viewed)
-        except MindError as error:
-            fail(str(error), error.hint, MISUSE)
+        page = exported(seen.about(edits=False), everything, viewed, images)
         write_file(path, page.encode())
         session.say(f"{path}: {viewed.known:,} ticks, {len(page) / 1e6:.1f} MB, opens in any browser")
+        if images and images.note:
+            session.say(f"note: {images.note}")

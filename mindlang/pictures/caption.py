@@ -36,9 +36,9 @@ def draw_title(
 
 def _facts(run: RecordedRun, found: dict[str, Any]) -> list[tuple[str, str]]:
     seconds = found["ticks"] * run.graph.tick
-    facts = [("in charge", found["master"]), ("seed", str(found["seed"])), ("score", score(found["score"], 1))]
+    facts = [("in charge", found["master"]), ("seed", str(found["seed"])), ("score", score(found["score"]))]
     facts += [(event, str(times)) for event, times in found["by_event"].items()]
-    facts.append(("ticks", f"{found['ticks']:,} of {found['of_ticks']:,} ({seconds:.0f} s)"))
+    facts.append(("ticks", f"{found['ticks']:,} of {found['of_ticks']:,} ({seconds:,.1f} s)"))
     return [*facts, ("success" if found.get("succeeded") else "ended by", found["ended_by"] or "time")]
 
 

@@ -126,6 +126,7 @@ def _panel(drawn: Figure, axes: Axes, curve: Curve) -> None:
             generations, scores = [generation for generation, _ in points], [score for _, score in points]
             colour, label = ATTEMPTS[(attempt - 1) % len(ATTEMPTS)], f"{column} {attempt}"
             axes.plot(generations, scores, color=colour, label=label, transform=where, zorder=layer, **look)
+            axes.update_datalim(points)  # whose own place does not count where it is shifted
     frame(axes, curve.name, curve.note, max(map(curve.last, curve.attempts)))
 
 

@@ -59,7 +59,7 @@ def draw_banner(
     The room is given by its upper left corner, as are the labels, all in pixels.
     """
     colour, seconds = ending_colour(found, theme), found["ticks"] * run.graph.tick
-    words, detail = ending_words(found), f"after {seconds:.1f} s with a score of {score(found['score'], 1)}"
+    words, detail = ending_words(found), f"after {seconds:.1f} s with a score of {score(found['score'])}"
     widest = max(text_width(words, WORDS_PIXELS, True), text_width(detail, DETAIL_PIXELS)) + 2 * BANNER_MARGIN_PIXELS
     wide = min(widest, room.width - 2 * BANNER_MARGIN_PIXELS)
     fit = wide / widest

@@ -2,7 +2,8 @@
 
 import cv2
 import numpy as np
-from mindrun.sim.outside.seen import SeenEpisode
+from mindrun.errors import MindError
+from mindrun.sim.outside.seen import UNKNOWN_FAILURES, SeenEpisode
 from numpy.typing import NDArray
 
 from mindlang.pictures.canvas import Image, blank, pasted
@@ -13,6 +14,8 @@ from mindlang.run.recorded_run import RecordedRun
 def seen_run(run: RecordedRun, seed: int) -> SeenEpisode:
     """The images of a run of that seed; MindError where its environment cannot be made to be seen."""
     acting = run.commands if run.acting is None else run.acting
+    if run.task.fails and run.acting is None:
+        raise MindError(UNKNOWN_FAILURES, "mindc run --picture and --video draw such a run")
     environment, folder = run.task.scene.environment, run.setup.folder
     return SeenEpisode(run.graph, environment, folder, seed, lambda first, last: acting[first:last])
 

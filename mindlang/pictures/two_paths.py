@@ -106,7 +106,7 @@ def _outcome(canvas: Canvas, way: Way, x: float, y: float, right: float) -> None
 def outcome_words(found: dict[str, Any]) -> str:
     """What came of a run, in a line."""
     counted = [f"{times} × {event}" for event, times in found["by_event"].items()]
-    return ", ".join([f"score {score(found['score'], 1)}", *counted, f"{found['ticks']:,} ticks", ending_words(found)])
+    return ", ".join([f"score {score(found['score'])}", *counted, f"{found['ticks']:,} ticks", ending_words(found)])
 
 
 def _fitting(canvas: Canvas, x: float, y: float, text: str, size: float, right: float) -> None:

@@ -10,6 +10,7 @@ import base64
 import hashlib
 import json
 import zlib
+from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
@@ -17,6 +18,8 @@ import numpy as np
 from mindrun.errors import MindError
 from numpy.typing import NDArray
 
+from mindlang.view.columns import DOUBLE_BLOCK, SINGLE_BLOCK
+from mindlang.view.exported_images import ExportedImages
 from mindlang.view.viewed import Viewed
 
 PAGE = Path(__file__).parent / "page"
@@ -28,17 +31,23 @@ class ExportError(MindError):
     """A run that does not fit into a file."""
 
 
-def exported(about: dict[str, Any], ticks: dict[str, Any], viewed: Viewed) -> str:
-    """The page as HTML with a run that is over; `about` and `ticks` are what a server would have said of it."""
-    script, style = ((PAGE / name).read_text("utf-8") for name in ("view.js", "view.css"))
-    size = (viewed.known + 1) * (8 * about["doubles"] + 4 * about["singles"])
+def refuse_too_long(viewed: Viewed) -> None:
+    """ExportError where so many rows do not fit into a page."""
+    columns = viewed.columns
+    size = (viewed.known + 1) * (8 * columns.width(DOUBLE_BLOCK) + 4 * columns.width(SINGLE_BLOCK))
     if size > MAX_EXPORTED_BYTES:
         raise ExportError(
             f"{viewed.known:,} ticks of this mind are {size >> 20:,} MiB, more than a page can hold",
             "see it with a server: leave --export out",
         )
+
+
+def exported(about: dict[str, Any], ticks: dict[str, Any], viewed: Viewed, images: ExportedImages | None) -> str:
+    """The page as HTML with a run that is over; `about` and `ticks` are what a server would have said of it."""
+    script, style = ((PAGE / name).read_text("utf-8") for name in ("view.js", "view.css"))
     policy = f'<meta http-equiv="Content-Security-Policy" content="{_policy(script, style)}" />'
-    data = {"about": about | {"edits": False, "drawn": False}, "ticks": ticks, "rows": viewed.known + 1}
+    data = {"about": about | {"edits": False}, "ticks": ticks, "rows": viewed.known + 1}
+    data |= {"images": images and asdict(images)}
     body = "\n".join([
         f'<script type="application/json" id="recording">{_inert(data)}</script>',
         f'<script type="text/plain" id="rows">{_rows(viewed)}</script>',

@@ -12,6 +12,7 @@ from mindrun.errors import MindError
 
 from mindlang.view.columns import DOUBLE_BLOCK, SINGLE_BLOCK
 from mindlang.view.command_shares import command_shares
+from mindlang.view.environment_images import data_url
 from mindlang.view.learning import WATCH_SECONDS
 from mindlang.view.messages import (
     MAX_FORKS,
@@ -188,7 +189,8 @@ def _computed(viewed: Viewed, message: Message) -> bytes | dict[str, Any]:
             case AskColumns(fork, columns, first, below, every, ask):
                 return viewed.some_columns(fork, columns, first, below, every, ask)
             case AskImage(fork, tick):
-                return {"say": "image", "fork": fork, "tick": tick, "png": viewed.image(tick)}
+                image = data_url(viewed.image(tick), "png")
+                return {"say": "image", "fork": fork, "tick": tick, "image": image}
             case Why():
                 return command_shares(viewed, message)
     except MindError as error:

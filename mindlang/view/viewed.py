@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from mindlang.run.edge_flow import EdgeFlows, FlowWalker
 from mindlang.view.columns import DOUBLE_BLOCK, FLOW, SINGLE_BLOCK, Columns
-from mindlang.view.environment_images import Drawing, png_text
+from mindlang.view.environment_images import Drawing, Image
 from mindlang.view.frames import columns_frame, rows_frame, rows_that_fit
 from mindlang.view.messages import Change, RefusedError
 from mindlang.view.row_blocks import Chunk, Doubles, RowBlocks, Singles, TickNumbers
@@ -168,13 +168,20 @@ class Viewed:
     def _flow(self, ticks: TickNumbers) -> Singles:
         return self.flows.walker.transmitted(ticks)
 
-    def image(self, tick: int) -> str:
-        """What its environment draws after a tick; RefusedError where nothing does, or the tick is not known."""
+    def image(self, tick: int) -> Image:
+        """What its environment draws after a tick [height, width, 3], red first.
+
+        RefusedError where nothing does, or the tick is not known; MindError where it cannot.
+        """
         if self.drawing is None or tick > self.known:
             raise RefusedError("there is no image of this tick")
         if self._seen is None:
-            self._seen = self.drawing(lambda first, last: self.group("commands", np.arange(first + 1, last + 1)))
-        return png_text(self._seen, tick)
+            self._seen = self.drawing(self._sent)
+        return self._seen.image(tick)
+
+    def _sent(self, first: int, last: int) -> Singles:
+        """What reached the actuators behind a tick, up to another one; of a run that is all that its rows have."""
+        return self.group("sent" if "sent" in self.columns.groups else "commands", np.arange(first + 1, last + 1))
 
     def group(self, name: str, ticks: TickNumbers) -> NDArray[Any]:
         """The columns [ticks, count] of a group that is kept."""

@@ -60,7 +60,7 @@ def test_many_runs_are_the_same_in_any_number_of_processes(tmp_path: Path) -> No
         assert mindc(folder, "train", "go.mind", "--seed", "1", "-q").returncode == 0
         done = mindc(folder, "bench", "go.mind", "--runs", "70", "--csv", "runs.csv", *words)
         assert done.returncode == 0, done.stderr
-        assert "was beyond its range in" in done.stderr
+        assert "note: readings beyond their range: place in " in done.stderr
         found.append(((folder / "runs.csv").read_bytes(), done.stderr.splitlines()[-2:]))
     assert found[0][0] == found[1][0] == found[2][0]
     assert [each[1][0] for each in found[1:]] == [found[0][1][0]] * 2

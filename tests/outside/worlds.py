@@ -150,6 +150,27 @@ class Empty(Line):
         return None
 
 
+class Sparks(Line):
+    """The same, in which every step leaves a spark, which grows old by being drawn."""
+
+    def reset(self, *, seed: int | None = None, options: Any = None) -> tuple[Any, dict[str, Any]]:
+        """None yet."""
+        self.sparks: list[int] = []
+        return super().reset(seed=seed, options=options)
+
+    def step(self, action: Any) -> tuple[Any, Any, bool, bool, dict[str, Any]]:
+        """One more."""
+        self.sparks.append(5)
+        return super().step(action)
+
+    def render(self) -> Any:
+        """As many bright rows as there are sparks."""
+        image = super().render()
+        self.sparks = [left - 1 for left in self.sparks if left]
+        image[: len(self.sparks), :3] = 255
+        return image
+
+
 class Moody(Line):
     """The same, each of which has a shorter run than the one before."""
 
@@ -186,7 +207,8 @@ class Worn(Line):
         return self.observed(), {}
 
 
-ALL = (Worn, Line, Parts, Several, Raising, Misshapen, Blind, Generous, Impatient, Unseen, Dark, Empty, Moody, Unmade)
+OTHERS = Raising, Misshapen, Blind, Generous, Impatient, Unseen, Dark, Empty, Sparks, Moody, Unmade
+ALL = (Worn, Line, Parts, Several, *OTHERS)
 
 
 def register() -> None:

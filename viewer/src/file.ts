@@ -1,15 +1,24 @@
 /** A page with its recording in it, opened from a disk: the same questions, answered without a server. */
 
-import { type About, COLUMNS_KIND, type Frame, HEADER_BYTES, type Listener, ROWS_KIND, type Send, type Ticks } from "./protocol";
+import { type About, COLUMNS_KIND, type Drawn, type Frame, HEADER_BYTES, type Listener, type Refused, ROWS_KIND, type Send, type Ticks } from "./protocol";
 
 interface Recording {
   about: About;
   ticks: Ticks;
   rows: number;
+  images: Images | null; // of a run in an environment
+}
+
+/** Those after the ticks 0, `every`, 2 · `every` …; `why` says what is wrong where there are none. */
+interface Images {
+  every: number;
+  images: string[];
+  why: string;
 }
 
 interface Question {
   say: string;
+  tick: number;
   from: number;
   to: number;
   every: number;
@@ -40,11 +49,18 @@ export function openFile(listener: Listener): Send | null {
     const question = message as Question;
     if (question.say === "rows" && blocks) listener.frame(rowsFrame(blocks, question, recording.rows));
     else if (question.say === "columns" && blocks) listener.frame(columnsFrame(blocks, question, recording.rows));
-    else if (question.say !== "run") {
-      const why = "a file cannot compute this: open the run with mindc view";
-      listener.said({ say: "refused", why, of: question.say, ask: question.ask ?? null });
-    }
+    else if (question.say === "image" && recording.images) listener.said(imageSaid(recording.images, question));
+    else if (question.say !== "run") listener.said(refused("a file cannot compute this: open the run with mindc view", question));
   };
+}
+
+function refused(why: string, { say, ask }: Question): Refused {
+  return { say: "refused", why, of: say, ask: ask ?? null };
+}
+
+function imageSaid({ every, images, why }: Images, question: Question): Drawn | Refused {
+  const number = Math.floor(question.tick / every);
+  return number < images.length ? { say: "image", fork: 0, tick: number * every, image: images[number] } : refused(why, question);
 }
 
 async function inflated(text: string): Promise<ArrayBuffer> {

@@ -80,7 +80,7 @@ export interface About {
   rewards: string[];
   ends: string[];
   world: World | null;
-  drawn: boolean; // by an environment, tick by tick when it is asked
+  drawn: boolean; // by an environment, a tick when it is asked for
 }
 
 /** Whose champion plays: of a generation, found in generation `since`, with its score on fresh layouts. */
@@ -150,7 +150,7 @@ export interface Drawn {
   say: "image";
   fork: number;
   tick: number;
-  png: string; // base64
+  image: string; // as an address with the data in it
 }
 
 export type Said = Learnt | About | Ticks | Why | Fork | Drawn | Refused;

@@ -225,7 +225,7 @@ export class View {
     const drawn = [this.active.draw(row, now), this.hierarchy.draw(row, now)];
     this.dirty = drawn.includes(false);
     this.world?.draw(row, this.rows, this.collisions, this.forks.chosen);
-    this.seen.at(tick);
+    this.seen.at(tick, this.forks.chosen);
     this.edit.show(this.playback.playing, tick);
     this.selection.show();
     document.body.dataset.tick = String(tick); // the tick whose row is seen

@@ -19,6 +19,7 @@ from mindrun.sim.rollout import SLOW_SLICE_TICKS, Rollout, Tile
 from mindrun.sim.state import Jobs, State
 
 ENVIRONMENT_LANES = 64  # environments side by side: so many share one call of what is compiled
+LEAST_SHARE = 0.001  # of the ticks, that is said as a number
 
 
 @dataclass(frozen=True, slots=True)
@@ -75,13 +76,10 @@ class EnvironmentRollout(Rollout):
 
     @property
     def notes(self) -> tuple[str, ...]:
-        """Which sensors were beyond their ranges, and how often."""
-        shares = self.clipped / max(1, self.observed)
-        return tuple(
-            f"{name} was beyond its range in {share:.1%} of the ticks".replace(" 0.0%", " less than 0.1%")
-            for name, share in zip(self.wiring.names, shares.tolist(), strict=True)
-            if share > 0
-        )
+        """Which sensors were beyond their ranges, and how often, in one sentence."""
+        shares = zip(self.wiring.names, (self.clipped / max(1, self.observed)).tolist(), strict=True)
+        said = [f"{name} in {_percent(share)}" for name, share in shares if share]
+        return (f"readings beyond their range: {', '.join(said)} of the ticks",) if said else ()
 
     @property
     def entries(self) -> tuple[Any, ...]:
@@ -172,3 +170,7 @@ class EnvironmentRollout(Rollout):
 def _close(episodes: set[Episode]) -> None:
     for episode in episodes:
         episode.close()
+
+
+def _percent(share: float) -> str:
+    return f"{share:.1%}" if share >= LEAST_SHARE else f"less than {LEAST_SHARE:.1%}"

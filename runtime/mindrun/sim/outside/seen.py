@@ -14,7 +14,8 @@ from mindrun.sim.outside.making import BrokenEnvironmentError
 from mindrun.sim.outside.wiring import wiring_of
 
 WITHOUT_PICTURES = "mindc run --trace and --record need no pictures of it."
-
+UNKNOWN_FAILURES = "actuators fail in this task, and a recording does not say when"
+TICKS_DRAWN_BEFORE = 10  # what is drawn may grow old by being drawn, such as the sparks of the lunar lander in 7 images
 
 Sent = Callable[[int, int], NDArray[np.float32]]
 
@@ -31,22 +32,28 @@ class SeenEpisode:
         self._wiring = wiring_of(graph, environment, folder)
         self._episode = Episode(self._wiring, is_seen=True)
         self._tick = -1  # it has not begun
+        self._image: NDArray[np.uint8] | None = None  # after that tick
         finalize(self, self._episode.close)
 
     def image(self, tick: int) -> NDArray[np.uint8]:
         """What is seen after a tick, 0 for the beginning [height, width, 3], red first; BrokenEnvironmentError where
         it draws nothing, or the run is another one when it is made again.
         """
+        if tick == self._tick and self._image is not None:
+            return self._image
         if not 0 <= self._tick <= tick:
             self._episode.begin(self._seed)
             self._tick = 0
-        for action in self._wiring.actions(self._sent(self._tick, tick).T):
+        for number, action in enumerate(self._wiring.actions(self._sent(self._tick, tick).T), self._tick + 1):
             if self._episode.is_over:
                 said = f"the environment {self._name} does not do the same again: there is no picture of this run"
                 raise BrokenEnvironmentError(said, f"It was over after tick {self._tick:,} now. {WITHOUT_PICTURES}")
             self._episode.step(action)
-            self._tick += 1
-        return self._drawn()
+            self._tick, self._image = number, None
+            if tick - TICKS_DRAWN_BEFORE <= number < tick:
+                self._drawn()
+        self._image = self._drawn()
+        return self._image
 
     def _drawn(self) -> NDArray[np.uint8]:
         try:
