@@ -178,11 +178,12 @@ def beside(plan: Plan, file: str, seed: int) -> Taught:
     mind = mindlang.load(plan.seed_folder(seed) / file)
     master = mind.graph.master
     lessons = [lesson for lesson in mind.graph.lessons if lesson.master == master]
-    rollout = mind.rollout(plan.comparison.task, master, sorted({lesson.skill for lesson in lessons}))
+    skills = sorted({lesson.skill for lesson in lessons})
+    rollout = mind.rollout(plan.comparison.task, master, skills)
     champion, steps = np.empty((0, rollout.genome_length), np.float32), {}
     for lesson in lessons:
-        learner = names()[type(lesson.learner)]
-        champion, steps[learner] = taught(lesson, rollout, champion, seed, limits[learner])
+        learner, there = names()[type(lesson.learner)], mind.rollout(lesson.task, master, skills)
+        champion, steps[learner] = taught(lesson, there, champion, seed, limits[learner])
     return Taught(rollout, champion, {}, rollout.genome_length, steps)
 
 

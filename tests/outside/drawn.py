@@ -174,7 +174,7 @@ def _task(rng: Random, world: str, sensors: list[str], actuators: list[str]) -> 
     rewards = [
         "its reward", f"its reward when {one} > 0.3", "0.1 * its reward per tick", f"its reward - {one} per tick",
         f"{other} * its reward per tick", "10 on its end", f"{one} on its end when {one} < 0.8", "7 on success",
-        "3 per tick",
+        "3 per tick", f"greatest of its reward (-0.1) {one} per tick", f"{one} - least of 0.2 its reward per tick",
     ]  # fmt: skip
     chosen = rng.sample(rewards, rng.randint(1, 4))
     if rng.random() < 0.3:
