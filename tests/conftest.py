@@ -1,6 +1,9 @@
 """What all tests share."""
 
+import os
 import signal
+import subprocess
+import sys
 from pathlib import Path
 
 import pytest
@@ -17,6 +20,20 @@ settings.load_profile("same")
 # A shell that starts the tests in the background has them ignore Ctrl-C, and so every program that they start.
 if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
     signal.signal(signal.SIGINT, signal.default_int_handler)
+
+
+@pytest.hookimpl(optionalhook=True)
+def pytest_xdist_auto_num_workers() -> int:
+    """Of `--numprocesses auto`: half as many again as processors, for a test often waits for a program or a clock."""
+    processors = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+    return processors + (processors + 1) // 2
+
+
+def pytest_sessionstart(session: pytest.Session) -> None:
+    """Where several processes test, one more compiles the simulator for all of them: who needs it waits for that."""
+    is_worker = hasattr(session.config, "workerinput")
+    if session.config.getoption("numprocesses", None) and not is_worker:
+        subprocess.Popen([sys.executable, "-m", "mindrun.sim.warmup"], stdin=subprocess.DEVNULL)
 
 
 @pytest.fixture

@@ -103,8 +103,8 @@ def test_who_was_killed_keeps_nobody_waiting(old: str, robot: FakeRobot, bundles
     process = program(robot, "deploy", bundles[1], HOST, "--watch", 30)
     while process.poll() is None and not any(line.startswith("start") for line in robot.log("systemctl.log")):
         time.sleep(0.02)
-    os.killpg(process.pid, signal.SIGKILL)
-    process.communicate()
+    with process:  # the workstation alone is waited for: the robot watches the service for half a minute
+        os.killpg(process.pid, signal.SIGKILL)
     robot.clean()
     subprocess.run(["flock", "-w", "20", robot.mind / "deploying", "true"], check=True)
 

@@ -10,7 +10,7 @@ import pickle
 import shutil
 import sys
 import tempfile
-from contextlib import suppress
+from contextlib import AbstractContextManager, nullcontext, suppress
 from functools import cache
 from hashlib import sha256
 from pathlib import Path
@@ -20,6 +20,7 @@ import llvmlite
 import numba
 from llvmlite.binding import get_host_cpu_features, get_host_cpu_name
 
+from mindrun.sim.compile_lock import exclusive
 from mindrun.sim.numba_internals import KeptCode, made_for, packed, unpacked
 
 SIM_FOLDER = Path(__file__).parent
@@ -83,12 +84,22 @@ class MachineCode(KeptCode):
 
     def load_overload(self, sig: Any, target_context: Any) -> Any:
         """The compiled function, or None."""
-        triple, *processor = made_for(target_context.codegen())
-        kept = folder() / self.file(sig, triple, *processor)
-        for path in (kept, *(SHIPPED / self.file(sig, triple, kind, PROCESSORS[kind]) for kind in fitting())):
+        for path in self.places(sig, target_context):
             if (data := _read(path)) is not None:
                 return unpacked(pickle.loads(data), target_context)
         return None
+
+    def places(self, sig: Any, target_context: Any) -> list[Path]:
+        """Where it is looked for: what is kept, then what was shipped."""
+        triple, *processor = made_for(target_context.codegen())
+        kept = folder() / self.file(sig, triple, *processor)
+        return [kept, *(SHIPPED / self.file(sig, triple, kind, PROCESSORS[kind]) for kind in fitting())]
+
+    def exclusive(self, sig: Any, target_context: Any) -> AbstractContextManager[None]:
+        """For compiling: where nothing is found, one process at a time, so that the next finds what the first made."""
+        kept, *shipped = self.places(sig, target_context)
+        is_found = any(path.is_file() for path in (kept, *shipped))
+        return nullcontext() if is_found else exclusive(kept.with_suffix(".lock"))
 
     def save_overload(self, sig: Any, data: Any) -> None:
         """Keep a compiled function; where that fails, it is compiled again another time."""

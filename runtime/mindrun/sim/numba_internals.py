@@ -4,7 +4,9 @@ How a function is compiled into one piece of machine code with all that it calls
 what is more is in numba's documentation, above all `numba.extending`.
 """
 
+from abc import abstractmethod
 from collections.abc import Callable
+from contextlib import AbstractContextManager
 from typing import Any
 
 from llvmlite.binding import Linkage
@@ -13,6 +15,7 @@ from numba.core.caching import _Cache
 from numba.core.ccallback import CFunc
 from numba.core.codegen import JITCodeLibrary
 from numba.core.compiler import CompilerBase, CompileResult, DefaultPassBuilder
+from numba.core.compiler_lock import global_compiler_lock
 from numba.core.compiler_machinery import PassManager, register_pass
 from numba.core.serialize import dumps
 from numba.core.sigutils import normalize_signature
@@ -117,10 +120,22 @@ class KeptCode(_Cache):  # type: ignore[misc]
     def disable(self) -> None:
         """It never is."""
 
+    @abstractmethod
+    def exclusive(self, sig: Any, target_context: Any) -> AbstractContextManager[None]:
+        """For looking and, where nothing is found, compiling: no other process compiles the same meanwhile."""
+
 
 def keep_code(dispatcher: Any, code: KeptCode) -> None:
-    """A compiled function asks `code`."""
+    """A compiled function asks `code`, and is compiled by one process at a time."""
     dispatcher._cache = code
+    find_or_compile = dispatcher.compile
+
+    def compile_exclusively(signature: Any) -> Any:
+        # Numba's lock first: who compiles a caller has it already when the turn of another way in comes.
+        with global_compiler_lock, code.exclusive(signature, dispatcher.targetctx):
+            return find_or_compile(signature)
+
+    dispatcher.compile = compile_exclusively
 
 
 def code_of(dispatcher: Any) -> Any:
@@ -131,8 +146,9 @@ def code_of(dispatcher: Any) -> Any:
 def callback_of(function: Callable[..., Any], signature: Any, code: KeptCode) -> Any:
     """A function for C, which calls its `address`."""
     made: Any = CFunc(function, normalize_signature(signature), locals={}, options={})
-    keep_code(made, code)
-    made.compile()
+    made._cache = code
+    with global_compiler_lock, code.exclusive(made._sig, made._targetdescr.target_context):
+        made.compile()
     return made
 
 
