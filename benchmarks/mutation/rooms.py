@@ -83,7 +83,10 @@ ROOMS = {
     "outside": Room(
         (f"{R}sim/outside/*.py", f"{R}slot.py", "mindlang/compiler/resolve/outside.py"),
         (
-            *(f"tests/outside/test_{name}.py" for name in ("misfits", "outside_rollout", "drawn_minds", "commands")),
+            *(
+                f"tests/outside/test_{name}.py"
+                for name in ("misfits", "pictures", "outside_rollout", "drawn_minds", "commands")
+            ),
             "tests/language/test_messages.py",
         ),
     ),

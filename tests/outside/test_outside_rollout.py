@@ -13,6 +13,7 @@ from mindrun.engine import Engine
 from mindrun.errors import MindError
 from mindrun.policy import Policy
 from mindrun.sim.codes import BROKEN_OFF
+from mindrun.sim.rollout import SLOW_SLICE_TICKS
 from mindrun.sim.rollouts import rollout_for
 from mindrun.sim.takeover import take_over
 from mindrun.sim.trace import trace
@@ -77,7 +78,7 @@ def action_of(environment, graph, commands):
 
 @pytest.mark.parametrize("source", MINDS.values(), ids=MINDS)
 @settings(max_examples=10, deadline=None)
-@given(draw=st.integers(0, 1000), seed=st.integers(0, 1 << 31))
+@given(draw=st.integers(0, 1000), seed=st.integers(0, 2**64 - 1))
 def test_it_is_what_the_engine_does(source: str, draw: int, seed: int) -> None:
     rollout = minds.rollout_of(source)
     genome = minds.genomes(rollout, 1, draw)
@@ -95,6 +96,13 @@ def test_a_result_depends_on_its_genome_and_its_seed_alone(world: type[worlds.Li
     found = [rollout.score(drawn, [3, 1, 4]).total for rollout in rollouts]
     again = rollouts[1].score(drawn[::-1], [3, 1, 4]).total[::-1]  # in environments that were used before
     assert all(np.array_equal(found[0], each) for each in (*found, again))
+
+
+def test_an_environment_is_looked_after_every_few_ticks() -> None:
+    """So often can a run be stopped, and is it told how far it is: a step of an environment may take a second."""
+    rollout, told = minds.rollout_of(minds.text(lines="rewards 1 per tick"), lanes=1), list[float]()
+    rollout.score(minds.genomes(rollout, 1), [1], ran=told.append)
+    assert max(told) * rollout.task.ticks == SLOW_SLICE_TICKS < rollout.task.ticks
 
 
 def test_the_limit_of_the_environment_is_taken_off() -> None:
