@@ -19,7 +19,7 @@ from tests.hierarchies import VIRTUAL, physical_kinds, virtual_kinds
 from tests.outside.drawn import environment_mind
 from tests.sim.worlds import learner_kinds, random_world, robot_kinds
 
-DRAWN = 200  # minds
+DRAWN, DRAWN_LISTS = 200, 50  # minds, and lists of kinds of which ten are enough
 NOUNS = ("body", "actuator", "sensor", "memory", "skill", "task", "content", "event", "measure", "curriculum")
 OF_FILES = {"map"}  # which no text says by itself
 WIDTHS = {"s0": 1, "s1": 3, "m0": 1}  # of what sensors are made of
@@ -46,9 +46,10 @@ def of_worlds() -> Iterator[Any]:
         yield from parts(graph)
     yield from of_environments()
     virtual = VIRTUAL.flatmap(lambda kind: virtual_kinds(kind, WIDTHS)).map(lambda drawn: drawn[1])
-    for some in (physical_kinds(), virtual, learner_kinds(), robot_kinds()):
-        for kinds_ in drawn_from(st.lists(some, min_size=24)):
-            yield from kinds_
+    some = ((physical_kinds(), DRAWN), *((each, DRAWN_LISTS) for each in (virtual, learner_kinds(), robot_kinds())))
+    for kinds_of, lists in some:
+        for drawn in drawn_from(st.lists(kinds_of, min_size=24), lists):
+            yield from drawn
 
 
 def of_environments() -> Iterator[Any]:
@@ -59,11 +60,11 @@ def of_environments() -> Iterator[Any]:
         yield from parts(graph)
 
 
-def drawn_from(strategy: st.SearchStrategy[Any]) -> list[Any]:
-    """Examples of a strategy."""
+def drawn_from(strategy: st.SearchStrategy[Any], count: int = DRAWN) -> list[Any]:
+    """So many examples of a strategy."""
     found: list[Any] = []
 
-    @settings(max_examples=DRAWN, database=None, suppress_health_check=list(HealthCheck))
+    @settings(max_examples=count, database=None, suppress_health_check=list(HealthCheck))
     @given(strategy)
     def draw(example: Any) -> None:
         found.append(example)

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import IO
 
 # Then each compiles for itself: the other may be stopped, or its machine be gone while a shared disk keeps its lock.
-WAIT_SECONDS = 300.0
+WAIT_SECONDS = 600.0
 ASK_AGAIN_SECONDS = 0.05
 
 
