@@ -167,8 +167,7 @@ def hierarchy(plan: Plan, seed: int) -> Taught:
         steps[names()[type(lesson.learner)]] += int(result["ticks"])
     learners = sorted({skill for each in results for skill in each["weights"]})
     weights = mind.rollout(task, mind.graph.master, learners).genome_length
-    tried = plan.comparison.also.items()
-    also = {name: mindlang.load(folder / file).rollout(task, master) for name, (file, master) in tried}
+    also = {name: mindlang.load(folder / file).rollout(task, who) for name, (file, who) in plan.comparison.also.items()}
     return Taught(mind.rollout(task, mind.graph.master), NO_GENOME, also, weights, dict(steps))
 
 
