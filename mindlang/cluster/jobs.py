@@ -94,12 +94,12 @@ class ClusterJobs:
                 return None
             return self._read(job, unpack(found))
         except KilledWorker as why:
-            flaw = f"its workers ended, the last at {why.last_worker.address}"
+            flaw, hint = f"its workers ended, the last at {why.last_worker.address}", FATAL
         except FrameError as why:
-            flaw = f"its answer was nonsense: {why}"
+            flaw, hint = f"its answer was nonsense: {why}", ""
         job.losses += 1
         if job.losses >= MAX_LOSSES:
-            raise WorkError(f"a job was lost {job.losses} times, the last time {flaw}", FATAL)
+            raise WorkError(f"a job was lost {job.losses} times, the last time {flaw}", hint)
         self._submit(job)
         return None
 

@@ -83,11 +83,8 @@ class Wiring:
         """The numbers of an observation that are read, into `out` [slots]; ValueError where it has another shape."""
         for source in self.sources:
             seen = np.asarray(_inside(observation, source.part.path))
-            what = f"the part {source.name} of an observation" if source.name else "an observation"
-            if seen.shape != source.part.shape:
-                raise ValueError(f"{what} has the shape {seen.shape}, and its space says {source.part.shape}")
-            if seen.dtype.kind not in NUMBERS:
-                raise ValueError(f"{what} is of {seen.dtype}, which are no real numbers")
+            if seen.shape != source.part.shape or seen.dtype.kind not in NUMBERS:
+                raise ValueError(_flaw(source, seen))
             out[source.to] = seen.reshape(-1)[source.places]
 
     def actions(self, commands: Commands) -> Sequence[Any]:
@@ -139,6 +136,14 @@ def _sink(name: str, parts: Mapping[str, Part], driven: Sequence[tuple[int, Slot
     low, high = np.array(said, np.float64).reshape(-1, 2).T
     numbers = np.array([slot.chosen or 0 for slot in slots], np.int64)
     return Sink(name, part, np.array(rows, np.int64), places, low, high, numbers)
+
+
+def _flaw(source: Source, seen: NDArray[Any]) -> str:
+    """What is wrong with what was seen in the place of a part."""
+    what = f"the part {source.name} of an observation" if source.name else "an observation"
+    if seen.shape != source.part.shape:
+        return f"{what} has the shape {seen.shape}, and its space says {source.part.shape}"
+    return f"{what} is of {seen.dtype}, which are no real numbers"
 
 
 def _ends(slot: Slot) -> tuple[float, float]:
