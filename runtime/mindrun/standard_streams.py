@@ -25,17 +25,18 @@ FLUSH_SECONDS = 1.0  # in which what has been told aside must be taken
 
 
 class StandardOutput(FileIO):
-    """Standard output; `failure` is the first error of it."""
+    """Standard output; `failure` is its first error, and `to` the descriptor that leads there, during `talk`, too."""
 
     failure: OSError | None = None
+    to: int = OUTPUT_DESCRIPTOR
 
     def write(self, data: Any) -> int:
         """Write everything; an error is kept, never raised. Returns the length of `data` in any case."""
-        if self.failure is None:
+        while self.failure is None:
             try:
-                while (written := super().write(data)) is None:  # a terminal that another program left not blocking
-                    select([], [self], [])
-                return written
+                return os.write(self.to, data)
+            except BlockingIOError:  # a terminal that another program left not blocking
+                select([], [self.to], [])
             except OSError as error:
                 self.failure = error
         return memoryview(data).nbytes
@@ -149,16 +150,23 @@ def document(text: str) -> None:
 
 @contextmanager
 def talk() -> Iterator[None]:
-    """Around code of somebody else: what it prints goes to standard error, also where it is written in C."""
+    """Around code of somebody else: what it prints goes to standard error, also where it is written in C.
+
+    Who has had `sys.stdout` before still writes to standard output with it.
+    """
     sys.stdout.flush()
-    kept = os.dup(OUTPUT_DESCRIPTOR)
+    kept, ours = os.dup(OUTPUT_DESCRIPTOR), _raw(sys.stdout)
     try:
         os.dup2(ERROR_DESCRIPTOR, OUTPUT_DESCRIPTOR)
+        if isinstance(ours, StandardOutput):
+            ours.to = kept
         with redirect_stdout(sys.stderr):
             yield
     finally:
         CDLL(None).fflush(None)  # C keeps back what does not go to a terminal
         os.dup2(kept, OUTPUT_DESCRIPTOR)
+        if isinstance(ours, StandardOutput):
+            ours.to = OUTPUT_DESCRIPTOR
         os.close(kept)
 
 

@@ -211,7 +211,7 @@ def test_both_paths_are_in_the_picture(mindc: Call, rules: Path, tmp_path: Path)
 
 def test_a_success_is_said_as_one_in_the_picture() -> None:
     found = {"score": 12.34, "by_event": {"reach of ball": 2}, "ticks": 1200, "ended_by": "2 reach of ball"}
-    assert outcome_words(found) == "score 12.3, 2 × reach of ball, 1,200 ticks, ended by 2 reach of ball"
+    assert outcome_words(found) == "score 12.34, 2 × reach of ball, 1,200 ticks, ended by 2 reach of ball"
     assert outcome_words(found | {"succeeded": True}).endswith("1,200 ticks, success: 2 reach of ball")
 
 

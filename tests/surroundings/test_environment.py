@@ -1,6 +1,8 @@
 """What the environment says, or does not: each command works, or says in one sentence what it needs."""
 
 import pwd
+import subprocess
+import sys
 from collections.abc import Callable
 from pathlib import Path
 
@@ -136,3 +138,24 @@ def test_a_missing_part_of_ours_is_a_fault_of_ours() -> None:
     assert surroundings(ModuleNotFoundError("no", name="mindlang.x")) == ""
     assert surroundings(ValueError("no")) == ""
     assert standard_streams.lost() is None
+
+
+TALKS = """
+import os, sys
+from mindrun.standard_streams import prepare, talk
+prepare()
+ours = sys.stdout
+print("before")
+with talk():
+    print("Python's")
+    os.write(1, b"C's\\n")
+    with talk():
+        print("ours", file=ours, flush=True)
+    print("kept back", file=ours)
+print("after")
+"""
+
+
+def test_what_is_printed_around_talk_is_not_its() -> None:
+    done = subprocess.run([sys.executable, "-c", TALKS], capture_output=True, text=True, check=True)
+    assert (done.stdout, done.stderr) == ("before\nours\nkept back\nafter\n", "Python's\nC's\n")

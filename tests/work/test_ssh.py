@@ -20,6 +20,7 @@ def put_mindrun(path: Path) -> None:
     """A `mindrun` of these sources, for a shell that has nothing of our environment."""
     kept = {"PYTHONPATH": f"{ROOT}{os.pathsep}{ROOT / 'runtime'}"}
     kept |= {name: value for name, value in os.environ.items() if name.startswith("NUMBA_")}
+    kept |= {"XDG_CACHE_HOME": os.environ.get("XDG_CACHE_HOME") or f"{Path.home() / '.cache'}"}  # else each compiles
     words = ["exec", "env", *(f"{name}={value}" for name, value in kept.items()), sys.executable, "-m", "mindrun"]
     path.parent.mkdir(parents=True, exist_ok=True)
     path.write_text(f'#!/bin/sh\n{shlex.join(words)} "$@"\n')
