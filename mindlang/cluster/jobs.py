@@ -96,7 +96,7 @@ class ClusterJobs:
         except KilledWorker as why:
             flaw, hint = f"its workers ended, the last at {why.last_worker.address}", FATAL
         except FrameError as why:
-            flaw, hint = f"its answer was nonsense: {why}", ""
+            flaw, hint = f"its answer was nonsense: {why}", "install the same mindlang on the cluster's workers"
         job.losses += 1
         if job.losses >= MAX_LOSSES:
             raise WorkError(f"a job was lost {job.losses} times, the last time {flaw}", hint)
