@@ -27,7 +27,7 @@ def begin(argument: str, assignment: Assignment, say: Callable[[str], object]) -
     """The command, so many times."""
     count, words = _split(argument)
     names = [f"{words[0]} {number}" if count > 1 else words[0] for number in range(1, count + 1)]
-    return Crew([Place(name, words) for name in names], assignment)
+    return Crew([Place(name, words) for name in names], assignment, say=say)
 
 
 def _split(argument: str) -> tuple[int, list[str]]:

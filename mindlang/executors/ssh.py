@@ -24,4 +24,4 @@ def flaw(argument: str) -> str:
 def begin(argument: str, assignment: Assignment, say: Callable[[str], object]) -> JobExecutor:
     """A worker on each machine."""
     hosts = argument.split(",")
-    return Crew([Place(host, (*SSH, "--", host, "mindrun", "work")) for host in hosts], assignment)
+    return Crew([Place(host, (*SSH, "--", host, "mindrun", "work")) for host in hosts], assignment, say=say)

@@ -158,3 +158,28 @@ def test_no_worker_is_left_behind() -> None:
         taught(workers)
         processes = [child.process for child in workers.children]
     assert [process.poll() for process in processes if process] == [-signal.SIGKILL] * 2
+
+
+def test_workers_that_are_long_in_coming_are_said_once(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("mindrun.work.crew.PATIENCE_TAKES", 2)
+    monkeypatch.setattr("mindrun.work.crew.TAKE_SECONDS", 0.0)
+    said: list[str] = []
+    silent = Place("head", (sys.executable, "-c", "input()"))
+    late = Crew([silent, replace(silent, name="other")], ASSIGNMENT, say=said.append)
+    try:
+        assert [late.take() for _ in range(5)] == [None] * 5
+    finally:
+        late.close()
+    assert said == ["no worker has begun yet (head and 1 more): waiting for one (Ctrl-C stops)"]
+
+
+def test_nothing_is_said_of_workers_that_are_there(monkeypatch: pytest.MonkeyPatch) -> None:
+    said: list[str] = []
+    there = Crew([place()], ASSIGNMENT, say=said.append)
+    try:
+        assert taught(there)
+        monkeypatch.setattr("mindrun.work.crew.PATIENCE_TAKES", there._takes + 1)
+        assert there.take() is None
+    finally:
+        there.close()
+    assert said == []

@@ -21,6 +21,7 @@ from mindrun.work.worker import FAILED, KEPT, LACKS, REFUSED
 MAX_LOSSES = 5  # workers that a job may cost
 MAX_FALSE_STARTS = 3  # workers in succession that end at a place before they have answered anything
 TAKE_SECONDS = 0.2  # to wait for an answer before who asks may look at something else
+PATIENCE_TAKES = 50  # in vain, before it is said that no worker has begun yet
 END_SECONDS = 5.0  # to wait for workers that were killed
 FATAL = "the same job ends whoever does it: see there whether memory runs out, or a procedure ends the process"
 MAX_WORDS_CHARACTERS = 2000  # of why a worker has not done a job
@@ -38,12 +39,20 @@ class Job:
 
 
 class Crew:
-    """Workers at several places, who do the jobs of one assignment; `begin` makes the one at a place."""
+    """Workers at several places, who do the jobs of one assignment; `begin` makes the one at a place.
+
+    `say` is called with a sentence, by `take`, when they are long in coming.
+    """
 
     def __init__(
-        self, places: Sequence[Place], assignment: Assignment, begin: Callable[[Place], Child] = Child
+        self,
+        places: Sequence[Place],
+        assignment: Assignment,
+        begin: Callable[[Place], Child] = Child,
+        say: Callable[[str], object] = lambda words: None,
     ) -> None:
         self.assignment = assignment
+        self._say, self._takes, self._has_begun = say, 0, False
         self._jobs: PriorityQueue[Job] = PriorityQueue()
         self._answers: Queue[tuple[int, Any] | WorkError] = Queue()
         self.children = [begin(place) for place in places]
@@ -72,11 +81,19 @@ class Crew:
         try:
             answer = self._answers.get(timeout=TAKE_SECONDS)
         except Empty:
+            self._tell()
             return None
         if isinstance(answer, WorkError):
             raise answer
         self._open -= 1
         return answer
+
+    def _tell(self) -> None:
+        """Say once that nobody has begun: others may have to leave their machine first, or no frame may ever come."""
+        self._takes += 1
+        if self._takes == PATIENCE_TAKES and not self._has_begun:
+            names = self.children[0].place.name + (f" and {more} more" if (more := len(self.children) - 1) else "")
+            self._say(f"no worker has begun yet ({names}): waiting for one (Ctrl-C stops)")
 
     def close(self) -> None:
         """End all workers, whatever they do."""
@@ -114,6 +131,7 @@ class Crew:
                 why = f"{error}"
                 child.end()
             else:
+                self._has_begun = True
                 return True
         self._given_up(child.place, why)
         return False
