@@ -29,6 +29,7 @@ HOSTILE = [
     "javascript:document.title='taken'",
     "a" * LONG_NAME,
 ]
+OWN_IMAGES = "#seen-image, #seen-changed-image"  # of environments
 
 
 @pytest.fixture(scope="module")
@@ -240,7 +241,8 @@ def test_names_do_nothing_whatever_they_are(browser: Any, mind: Path) -> None:
             found.page.keyboard.press("Enter")
         found.page.evaluate("new Promise(done => setTimeout(done, 500))")
         assert found.page.title().endswith("mind view")  # the scripts would have set another
-        assert found.page.locator("body img, body script, foreignObject").count() == 0
+        assert found.page.locator(f"body img:not({OWN_IMAGES}), body script, foreignObject").count() == 0
+        assert found.page.locator(OWN_IMAGES).evaluate_all("them => them.map(one => one.src)") == ["", ""]
         assert "\u202e" not in found.page.inner_text("body")
         assert len(found.page.inner_text("body")) < 20_000
         found.close()
