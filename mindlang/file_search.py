@@ -16,7 +16,7 @@ from mindlang.compiler.source import MAX_SOURCE_BYTES, decode
 MAX_FOLDER_ENTRIES = 20_000  # of a folder, or of all folders below one, that are looked at
 MAX_READ_FILES = 500  # that are read of all those around one
 MAX_READ_CHARACTERS = 8 << 20  # of all of them together
-SKIPPED_FOLDERS = ("node_modules", "build", "dist", "runs")
+SKIPPED_FOLDERS = ("node_modules", "build", "dist", "runs", "venv", "site-packages", "__pycache__")
 
 
 def files_beside(folder: Path, suffix: str = ".mind") -> list[Path]:
@@ -34,11 +34,16 @@ def files_below(folder: Path, suffix: str = ".mind") -> Iterator[Path]:
     """The files in a folder and in those below it, but for hidden ones and those in which nobody writes."""
     left = MAX_FOLDER_ENTRIES
     for at, folders, files in os.walk(folder):
-        folders[:] = sorted(name for name in folders if not name.startswith(".") and name not in SKIPPED_FOLDERS)
+        folders[:] = sorted(name for name in folders if is_looked_into(name))
         yield from (Path(at, name) for name in sorted(files)[:left] if name.endswith(suffix))
         left -= len(folders) + len(files)
         if left <= 0:
             return
+
+
+def is_looked_into(folder: str) -> bool:
+    """Whether a folder of this name may hold what people write: it is not hidden, and no program fills it."""
+    return not folder.startswith(".") and folder not in SKIPPED_FOLDERS
 
 
 def folders_above(path: Path) -> list[Path]:

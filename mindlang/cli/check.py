@@ -17,6 +17,7 @@ if TYPE_CHECKING:
 EXAMPLES = """\b
 Examples:
   mindc check collect.mind
+  mindc check .
   mindc check examples/*.mind --json
   mindc check collect.break                    against collect.mind beside it
   mindc check collect.mind wheels.break --task Collect
@@ -36,13 +37,14 @@ class _Checked:
 
 
 @click.command(epilog=EXAMPLES)
-@click.argument("files", nargs=-1, required=True, metavar="FILE…")
+@click.argument("files", nargs=-1, required=True, metavar="FILE_OR_FOLDER…")
 @click.option("--task", metavar="TASK", help="What .break files are about. Default: as of mindc run.")
 @click.option("--master", metavar="SKILL", help="Who is in charge then. Default: as of mindc run.")
 @click.option("--json", "as_json", is_flag=True, help="One JSON document instead: mindc check collect.mind --json")
 def command(files: tuple[str, ...], task: str | None, master: str | None, as_json: bool) -> None:
     """Read files, and report everything that is wrong in them.
 
+    A folder is the .mind and .break files in it and below; hidden folders, runs and build are left out.
     A file that is no whole mind is read with those that use it, where they are given as well.
     Of procedures the text is read, and nothing is run.
     Breakpoints, NAME.break, are held against the mind that is given with them, or else against NAME.mind beside them;
@@ -51,26 +53,29 @@ def command(files: tuple[str, ...], task: str | None, master: str | None, as_jso
     """
     from mindlang.breakpoints import SUFFIX
     from mindlang.cli._diagnostic_printer import as_data, print_report
+    from mindlang.cli._named_files import files_of, in_files
     from mindlang.cli._terminal import FINDINGS, MISUSE, OK, console, print_json, take_back
+    from mindlang.compiler.diagnostic import distinct
     from mindlang.editing.neighbours import minds
 
-    for file in files:
+    named = files_of(files, ".mind", SUFFIX)
+    for file in named:
         take_back(file)
-    breaks = [file for file in files if Path(file).suffix == SUFFIX]
+    breaks = [file for file in named if Path(file).suffix == SUFFIX]
     if (task or master) and not breaks:
         raise click.UsageError("--task and --master are for files of breakpoints, and none is given.")
-    bundles = [file for file in files if breaks and Path(file).suffix == ".bundle"]
-    compiled = minds(file for file in files if file not in (*breaks, *bundles))
+    bundles = [file for file in named if breaks and Path(file).suffix == ".bundle"]
+    compiled = minds(file for file in named if file not in (*breaks, *bundles))
     checked = [*_minds(compiled), *_breakpoints(breaks, bundles, compiled, task, master)]
-    found = [diagnostic for each in checked for diagnostic in each.diagnostics]
+    found = distinct(diagnostic for each in checked for diagnostic in each.diagnostics)
     if as_json:
         files_data = [{"file": each.file, "ok": each.is_whole and not each.diagnostics} for each in checked]
         print_json({"files": files_data, "diagnostics": [as_data(diagnostic) for diagnostic in found]})
     elif found:
         print_report(found, console(stderr=True))
-        click.echo(f"{len(found)} mistake{'s' if len(found) > 1 else ''}", err=True)
+        click.echo(f"{len(found)} mistake{'s' if len(found) > 1 else ''}{in_files(files, named)}", err=True)
     else:
-        click.echo("nothing wrong", err=True)
+        click.echo(f"nothing wrong{in_files(files, named)}", err=True)
     sys.exit(MISUSE if not all(each.is_readable for each in checked) else FINDINGS if found else OK)
 
 

@@ -16,6 +16,7 @@ if TYPE_CHECKING:
 EXAMPLES = """\b
 Examples:
   mindc fmt collect.mind
+  mindc fmt .
   mindc fmt collect.mind collect.break
   mindc fmt *.mind --check
   mindc fmt collect.mind --diff
@@ -24,7 +25,7 @@ Examples:
 
 
 @click.command(epilog=EXAMPLES)
-@click.argument("files", nargs=-1, required=True, metavar="FILE…")
+@click.argument("files", nargs=-1, required=True, metavar="FILE_OR_FOLDER…")
 @click.option("--check", is_flag=True, help="Write nothing; end with 1 where a file is not as it should be.")
 @click.option("--diff", is_flag=True, help="Write nothing; print what would change, and end with 1 if anything would.")
 def command(files: tuple[str, ...], check: bool, diff: bool) -> None:
@@ -33,8 +34,18 @@ def command(files: tuple[str, ...], check: bool, diff: bool) -> None:
     Spaces and blank lines are set, nothing else is touched: nothing is reordered or aligned, no comment and no meaning
     changes, and there are no options of taste. A file with lines that cannot be read is reported and left as it is. A
     file of breakpoints is known by its name, NAME.break. `-` is standard input, a mind, and goes to standard output.
+    A folder is the files of both sorts in it and below.
     """
-    sys.exit(max(_tidy(file, check, diff) for file in files))
+    from mindlang.breakpoints import SUFFIX
+    from mindlang.cli._named_files import files_of, in_files
+    from mindlang.cli._terminal import OK
+
+    named = files_of(files, ".mind", SUFFIX)
+    codes = [_tidy(file, check, diff) for file in named]
+    if among := in_files(files, named):
+        odd = sum(code != OK for code in codes)
+        click.echo(f"{f'{odd} not tidy' if odd else 'all is tidy'}{among}", err=True)
+    sys.exit(max(codes))
 
 
 def _tidy(file: str, check: bool, diff: bool) -> int:

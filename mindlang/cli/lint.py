@@ -4,16 +4,19 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Sequence
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 import click
 
 if TYPE_CHECKING:
     from mindlang.compiler.diagnostic import Diagnostic
+    from mindlang.linting.settings import LintSettings
 
 EXAMPLES = """\b
 Examples:
   mindc lint collect.mind
+  mindc lint .
   mindc lint *.mind --ignore untaught-skill,unread-sensor
   mindc lint collect.mind --fix
   mindc lint examples/collect/*.mind --format sarif > lint.sarif
@@ -22,7 +25,7 @@ FORMATS = ("text", "json", "github", "sarif")
 
 
 @click.command(epilog=EXAMPLES)
-@click.argument("files", nargs=-1, required=True, metavar="FILE…")
+@click.argument("files", nargs=-1, required=True, metavar="FILE_OR_FOLDER…")
 @click.option("--fix", is_flag=True, help="Make the fixes that never change what the robot does.")
 @click.option("--select", multiple=True, metavar="CODES", help="Only these rules: --select unread-sensor,edge-at-zero")
 @click.option("--ignore", multiple=True, metavar="CODES", help="Not these rules: --ignore untaught-skill")
@@ -30,52 +33,62 @@ FORMATS = ("text", "json", "github", "sarif")
 def command(files: tuple[str, ...], fix: bool, select: tuple[str, ...], ignore: tuple[str, ...], as_: str) -> None:
     """Report what is wrong in files, and what is hardly meant so.
 
-    `mindc explain CODE` says why. `# noqa: CODE` at the end of a line silences it there. Ends with 0 when nothing was
-    found, with 1 when something was, with 2 when a file cannot be read.
+    A folder is the .mind files in it and below. `mindc explain CODE` says why. `# noqa: CODE` at the end of a line
+    silences it there, mind.toml in whole files or everywhere (docs/lint.md). Ends with 0 when nothing was found, with 1
+    when something was, with 2 when a file cannot be read.
     """
     from mindrun.errors import MindError
 
+    from mindlang.cli._named_files import files_of, in_files
     from mindlang.cli._terminal import FINDINGS, MISUSE, OK, fail, take_back
+    from mindlang.compiler.diagnostic import distinct
     from mindlang.editing.neighbours import minds
-    from mindlang.linting.lint_file import Linted, linted
+    from mindlang.linting.lint_file import linted
 
     if fix and "-" in files:
         fail("Standard input cannot be mended.", "Leave --fix out, or save it as a file.", MISUSE)
-    for file in files:
+    selected, ignored = _codes(select), _codes(ignore)
+    named = files_of(files, ".mind")
+    for file in named:
         take_back(file)
     try:
-        done: list[Linted] = [
-            linted(file, compiled, _codes(select), _codes(ignore), fix) for file, compiled in minds(files).items()
+        done = [
+            linted(file, compiled, _settings(file).codes(Path(file).resolve(), selected, ignored), fix)
+            for file, compiled in minds(named).items()
         ]
     except MindError as error:
         fail(str(error), error.hint)
-    found = [diagnostic for each in done for diagnostic in each.diagnostics]
+    found = distinct(diagnostic for each in done for diagnostic in each.diagnostics)
     _print(found, as_)
     if as_ == "text":
-        made = sum(each.fixed for each in done)
-        click.echo(_summary(found, made), err=True)
+        click.echo(_summary(found, sum(each.fixed for each in done)) + in_files(files, named), err=True)
     sys.exit(MISUSE if not all(each.readable for each in done) else FINDINGS if found else OK)
+
+
+def _settings(file: str) -> LintSettings:
+    """The settings that count for a file; what is wrong in them ends the program."""
+    from mindlang.cli._diagnostic_printer import print_report
+    from mindlang.cli._terminal import MISUSE, console
+    from mindlang.linting.settings_file import settings_of
+
+    found = settings_of(Path(file).resolve())
+    if found.wrong:
+        print_report(found.wrong, console(stderr=True))
+        sys.exit(MISUSE)
+    return found
 
 
 def _codes(said: Sequence[str]) -> list[str]:
     """The codes of an option; one that is none ends the program."""
     from mindlang.cli._terminal import MISUSE, fail
-    from mindlang.compiler.diagnostic import did_you_mean
-    from mindlang.explaining.explanation import errors
-    from mindlang.rules import all_rules
+    from mindlang.linting.settings_file import why_no_rule
 
     codes = [code for text in said for code in text.replace(",", " ").split()]
     if said and not codes:
         fail("No rule is named.", "Write for example --select unread-sensor.", MISUSE)
     for code in codes:
-        if any(code == error.code for error in errors()):
-            fail(f"{code} is an error, not a rule: errors are always reported.", "", MISUSE)
-        if code not in all_rules():
-            fail(
-                f"There is no rule called {code}.",
-                did_you_mean(code, all_rules()) or "mindc explain lists them.",
-                MISUSE,
-            )
+        if why := why_no_rule(code):
+            fail(*why, MISUSE)
     return codes
 
 

@@ -85,6 +85,15 @@ def errors(diagnostics: Iterable[Diagnostic]) -> list[Diagnostic]:
     return [diagnostic for diagnostic in diagnostics if diagnostic.severity == "error"]
 
 
+def distinct(diagnostics: Iterable[Diagnostic]) -> list[Diagnostic]:
+    """The diagnostics, each once: what is wrong in a file that several minds use is said by all of them."""
+    found: dict[tuple[object, ...], Diagnostic] = {}
+    for each in diagnostics:
+        place = (each.span.source.path, each.span.start, each.span.end) if each.span else ()
+        found.setdefault((each.code, each.message, *place), each)
+    return list(found.values())
+
+
 def nearest(word: str, known: Iterable[str]) -> str | None:
     """The known word that is most similar to `word`; None where none is similar enough."""
     by_lower = {name.lower(): name for name in known}

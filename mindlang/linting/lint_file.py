@@ -14,7 +14,6 @@ from mindlang.editing.neighbours import neighbours
 from mindlang.linting.fixing import fixed
 from mindlang.linting.lint import lint
 from mindlang.lock import LockError
-from mindlang.rules import all_rules
 
 
 @dataclass(frozen=True, slots=True)
@@ -26,9 +25,8 @@ class Linted:
     fixed: int
 
 
-def linted(file: str, compiled: Compiled, select: Collection[str], ignore: Collection[str], fix: bool) -> Linted:
-    """A file held against the rules; MindError where the mended file cannot be written."""
-    codes = [code for code in (select or all_rules()) if code not in ignore]
+def linted(file: str, compiled: Compiled, codes: Collection[str], fix: bool) -> Linted:
+    """A file held against the rules with these codes; MindError where the mended file cannot be written."""
     try:
         if fix and compiled.graph:
             return _mended(Path(file).resolve(), compiled, codes)

@@ -1,7 +1,7 @@
 """What an editor looks at: the files of one mind as they are now, parsed even where they do not compile."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
 
@@ -56,13 +56,22 @@ class MindView:
         """What is wrong, and where nothing is, what is hardly meant; a damaged lock is a finding, too."""
         from mindlang.compiler.procedures import mistakes
         from mindlang.linting.lint import lint
+        from mindlang.linting.settings_file import settings_of
 
+        settings = settings_of(self.main)
         try:
-            return (*lint(self.compiled), *mistakes(self.compiled))
+            found = (*lint(self.compiled, settings.codes(self.main)), *mistakes(self.compiled))
+            return (*map(self._said_here, settings.wrong), *found)
         except MindError as error:
             where = Span(self.compiled.sources[0], 0, 0)
             damage = Diagnostic("damaged-lock", f"{error}.", where, error.hint, severity="warning")
             return (*self.compiled.diagnostics, damage)
+
+    def _said_here(self, diagnostic: Diagnostic) -> Diagnostic:
+        """What is wrong in another file, said in the first line of the mind's own: an editor has that one open."""
+        where = f"{diagnostic.span.source.name}:{diagnostic.span.line}: " if diagnostic.span else ""
+        here = Span(self.compiled.sources[0], 0, 0) if self.compiled.sources else None
+        return replace(diagnostic, message=f"{where}{diagnostic.message}", span=here, severity="warning")
 
 
 def view(main: Path, texts: Texts) -> MindView:

@@ -16,7 +16,7 @@ from tests.explain.examples import ENVIRONMENTS, write
 from tests.project.sources import COMPILER, RUNTIME, modules, tree
 
 ALL = list(errors())
-EMITTERS = {"error", "refuse", "Diagnostic", "Flaw", "Mistake", "Misfit"}
+EMITTERS = {"error", "refuse", "Diagnostic", "Flaw", "Mistake", "Misfit", "_refuse"}
 # Codes that are made of words as they are emitted: how, and which these are.
 MADE = {
     "f'unknown-{nouns[0]}'": {f"unknown-{noun}" for noun in ("sensor", "actuator", "skill", "task", "scene", "number")},
@@ -32,7 +32,8 @@ MAPS = {
     *("not-a-file", "unreadable-map", "ragged-map", "map-too-large", "map-without-floor"),
     *("unknown-letter", "ambiguous-letter", "placed-twice"),
 }
-WITHOUT_EXAMPLES = FILES | MAPS | {"impossible-edit", "damaged-lock", "too-many-things", "too-many-readings"}
+SETTINGS = {"unreadable-settings", "unknown-setting", "wrong-setting", "unknown-rule"}
+WITHOUT_EXAMPLES = FILES | MAPS | SETTINGS | {"impossible-edit", "damaged-lock", "too-many-things", "too-many-readings"}
 
 
 def emitted() -> set[str]:

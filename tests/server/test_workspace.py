@@ -85,3 +85,19 @@ def test_many_findings_are_told_once(tmp_path: Path) -> None:
         found = editor.settle(path)
         assert len(found) == 1001
         assert "4000 more findings" in found[-1]["message"]
+
+
+def test_settings_count_and_what_is_wrong_in_them_is_said_in_the_first_line(tmp_path: Path) -> None:
+    folder = tmp_path.resolve()
+    (folder / "main.mind").write_text(
+        (MAIN + GO).replace('use "parts.mind"', "sensor eye is battery\nsensor odd is battery")
+    )
+    settings = folder / "mind.toml"
+    settings.write_text('[lint]\nignore = ["unread-sensor", "no-rule"]\n')
+    with editing(folder) as editor:
+        editor.open(folder / "main.mind")
+        found = editor.settle(folder / "main.mind")
+        assert "unread-sensor" not in {each["code"] for each in found}
+        wrong = next(each for each in found if each["code"] == "unknown-rule")
+        assert "mind.toml:2: There is no rule called no-rule." in wrong["message"]
+        assert wrong["range"]["start"] == {"line": 0, "character": 0}
