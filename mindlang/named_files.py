@@ -26,6 +26,14 @@ def is_folder(word: str) -> bool:
         return False
 
 
+def is_file(word: str) -> bool:
+    """Whether a word of a command line names a file that is there."""
+    try:
+        return Path(word).is_file()
+    except OSError:
+        return False
+
+
 def _of_folder(folder: str, suffixes: tuple[str, ...]) -> list[str]:
     found = [str(path) for path in _below(Path(folder)) if path.suffix in suffixes]
     if not found:

@@ -1,9 +1,11 @@
 """Several files changed together or not at all, whatever happens meanwhile.
 
-Before anything is written, a journal beside them keeps what they were; it goes when all is done. A journal that is
-found later is of a change that was interrupted: the files are put back.
+Before anything is written, a journal beside them keeps what they were; when all is done it goes, or is kept under
+another name so that the change can be taken back. A journal that is found later is of a change that was interrupted:
+the files are put back.
 """
 
+import errno
 import json
 import os
 from base64 import b64decode, b64encode
@@ -19,6 +21,7 @@ from mindrun.errors import MindError
 from mindrun.regular_files import read_whole
 
 JOURNAL_NAME = ".mind-edit"
+UNDO_NAME = ".mind-undo"  # the journal of the last change that may be taken back
 MAX_FILE_BYTES = 1 << 28  # of a file that is changed, and of a journal
 CHANGED_SUFFIXES = (".mind", ".lock", ".npy")  # of files that mindc changes
 
@@ -35,11 +38,14 @@ class _Noted:
     becomes: str
 
 
-def change(folder: Path, files: Mapping[Path, bytes], check: Callable[[], None] = lambda: None) -> None:
-    """Write files, all of them in `folder` or below; TransactionError where that fails.
+def change(
+    folder: Path, files: Mapping[Path, bytes | None], check: Callable[[], None] = lambda: None, keeps: bool = False
+) -> None:
+    """Write files, all of them in `folder` or below, None for one that goes; TransactionError where that fails.
 
     Whether this ends, fails or is killed: afterwards, at the latest when `recover` has been called, either all files
-    are changed or all are as they were. `check` may still refuse, when no other process can change these files.
+    are changed or all are as they were. `check` may still refuse, when no other process can change these files. What
+    they were is kept for `last_change` where that is wished for.
     """
     for path in files:
         if not _is_ours(folder, path):
@@ -56,7 +62,7 @@ def change(folder: Path, files: Mapping[Path, bytes], check: Callable[[], None] 
             for path, data in files.items():
                 _change(path, data, were[path])
                 waiting.remove(path)
-            _done(folder)
+            _done(folder, keeps)
         except BaseException as error:
             _undo(folder, waiting)
             if isinstance(error, OSError):
@@ -64,18 +70,32 @@ def change(folder: Path, files: Mapping[Path, bytes], check: Callable[[], None] 
             raise
 
 
+def last_change(folder: Path) -> dict[Path, bytes | None]:
+    """What the files of the last change that was kept in a folder were before it, None those that it made.
+
+    Empty where none was kept; TransactionError where it is not to be read, or a file is not what that change made it.
+    """
+    noted = _read(folder / UNDO_NAME) or {}
+    for path, note in noted.items():
+        if _hash(_get(path)) != note.becomes:
+            raise TransactionError(
+                f"{path} has been changed since the last edit was written", "nothing has been taken back"
+            )
+    return {path: note.was for path, note in noted.items()}
+
+
 def recover(folder: Path) -> bool:
     """Put back what an interrupted change left behind in a folder or above it; whether there was one.
 
     TransactionError where that would lose work that was done since.
     """
-    return sum(_recovered(above) for above in (folder, *folder.parents) if _is_left(above)) > 0
+    return sum(_recovered(above) for above in (folder, *folder.parents) if _is_left(above / JOURNAL_NAME)) > 0
 
 
-def _is_left(folder: Path) -> bool:
-    """Whether a journal lies in a folder; one of somebody else does not count, nor what is no file."""
+def _is_left(journal: Path) -> bool:
+    """Whether a journal lies there; one of somebody else does not count, nor what is no file."""
     try:
-        found = (folder / JOURNAL_NAME).lstat()
+        found = journal.lstat()
     except OSError:
         return False
     return S_ISREG(found.st_mode) and found.st_uid == os.getuid()
@@ -88,7 +108,7 @@ def _recovered(folder: Path) -> bool:
 
 def _undo(folder: Path, waiting: Collection[Path]) -> None:
     """Put back at once what a failed change has written; where that fails too, the journal stays."""
-    if not _is_left(folder):  # nothing had been written yet
+    if not _is_left(folder / JOURNAL_NAME):  # nothing had been written yet
         with suppress(OSError):
             spare(folder / JOURNAL_NAME).unlink(missing_ok=True)
         return
@@ -101,7 +121,7 @@ def _undo(folder: Path, waiting: Collection[Path]) -> None:
         ) from error
 
 
-def _journal(folder: Path, files: Mapping[Path, bytes], were: Mapping[Path, bytes | None]) -> bytes:
+def _journal(folder: Path, files: Mapping[Path, bytes | None], were: Mapping[Path, bytes | None]) -> bytes:
     plain = {
         path.relative_to(folder).as_posix(): {"was": _packed(were[path]), "becomes": _hash(data)}
         for path, data in files.items()
@@ -112,7 +132,7 @@ def _journal(folder: Path, files: Mapping[Path, bytes], were: Mapping[Path, byte
 def _put_back(folder: Path, waiting: Collection[Path] = ()) -> bool:
     """Put back what a journal says, if there is one; of the `waiting` files what somebody else has written stays."""
     spare(folder / JOURNAL_NAME).unlink(missing_ok=True)
-    if (noted := _read(folder)) is None:
+    if (noted := _read(folder / JOURNAL_NAME)) is None:
         return False
     names = ", ".join(path.name for path in noted if path.suffix != ".npy")
     for path, note in noted.items():
@@ -130,20 +150,21 @@ def _put_back(folder: Path, waiting: Collection[Path] = ()) -> bool:
     return True
 
 
-def _read(folder: Path) -> dict[Path, _Noted] | None:
-    """The journal of a folder, if there is one; TransactionError where it is none that mindc wrote."""
-    if not _is_left(folder):
+def _read(journal: Path) -> dict[Path, _Noted] | None:
+    """What a journal says, if there is one; TransactionError where it is none that mindc wrote."""
+    if not _is_left(journal):
         return None
     try:
-        plain = json.loads(_get(folder / JOURNAL_NAME) or b"")
+        plain = json.loads(_get(journal) or b"")
         return {
-            _inside(folder, path): _Noted(_unpacked(told["was"]), str(told["becomes"])) for path, told in plain.items()
+            _inside(journal.parent, path): _Noted(_unpacked(told["was"]), str(told["becomes"]))
+            for path, told in plain.items()
         }
     except OSError as error:
-        raise TransactionError(f"{folder / JOURNAL_NAME} cannot be read: {error.strerror}", "delete it") from error
+        raise TransactionError(f"{journal} cannot be read: {error.strerror}", "delete it") from error
     except (ValueError, TypeError, KeyError, AttributeError, RuntimeError) as error:
         # a RuntimeError is of what nests too deep, or of links in a circle
-        raise TransactionError(f"{folder / JOURNAL_NAME} is not what mindc wrote", "delete it") from error
+        raise TransactionError(f"{journal} is not what mindc wrote", "delete it") from error
 
 
 def _inside(folder: Path, name: str) -> Path:
@@ -161,8 +182,12 @@ def _is_ours(folder: Path, path: Path) -> bool:
     return path.suffix in CHANGED_SUFFIXES and not path.is_symlink() and path.resolve().is_relative_to(folder.resolve())
 
 
-def _done(folder: Path) -> None:
-    (folder / JOURNAL_NAME).unlink()
+def _done(folder: Path, keeps: bool = False) -> None:
+    journal = folder / JOURNAL_NAME
+    if keeps:
+        journal.replace(folder / UNDO_NAME)
+    else:
+        journal.unlink()
     with suppress(OSError):  # at worst a power cut brings the journal back, and all is as it was
         sync_folder(folder)
 
@@ -174,11 +199,17 @@ def _get(path: Path) -> bytes | None:
         return None
 
 
-def _change(path: Path, data: bytes, was: bytes | None) -> None:
-    """Write a file, unless somebody has written it since it `was` read."""
-    if data != was:
+def _change(path: Path, data: bytes | None, was: bytes | None) -> None:
+    """Write or remove a file, unless somebody has written it since it `was` read."""
+    if data == was:
+        return
+    if data is not None:
         path.parent.mkdir(parents=True, exist_ok=True)
         exchange(path, data, was)
+    elif _get(path) == was:
+        path.unlink()
+    else:
+        raise OSError(errno.ESTALE, "it has been changed meanwhile", str(path))
 
 
 def _set(path: Path, data: bytes | None) -> None:

@@ -6,13 +6,13 @@ from dataclasses import dataclass
 from typing import Any
 
 from mindlang.cli._diagnostic_printer import as_data, print_report
+from mindlang.cli._diff_printer import print_diff
 from mindlang.cli._terminal import (
     FINDINGS,
     MISUSE,
     console,
     fail,
     load_compiled,
-    print_document,
     print_json,
     procedures_talk,
     talk,
@@ -78,7 +78,7 @@ def _show(edited: Edited, sentences: list[str], options: EditOptions) -> None:
         print_json({"diff": diff(edited), "written": options.write, "weights": sentences})
         return
     if not options.write:
-        print_document(diff(edited))
+        print_diff(diff(edited))
     for line in sentences:
         talk.print(line, markup=False)
     talk.print(_ending(edited, options.write), markup=False)

@@ -13,14 +13,17 @@ if TYPE_CHECKING:
 
 EXAMPLES = """\b
 Examples:
-  mindc edit rename Avoid Dodge --noun skill collect.mind
-  mindc edit encapsulate Collect CarefulCollect --with Avoid \\
-    --reads proximity collect.mind --write
+  mindc edit rename collect.mind Avoid Dodge --noun skill
+  mindc edit encapsulate collect.mind Collect CarefulCollect \\
+    --with Avoid --reads proximity --write
+  mindc edit undo collect.mind                 takes that back
 """
+
+UNDO = "undo"
 
 
 class Edits(Suggesting):
-    """The edits that there are, each imported when it is asked for."""
+    """The edits that there are, each imported when it is asked for, and what takes the last one back."""
 
     noun = "edit"
 
@@ -28,12 +31,16 @@ class Edits(Suggesting):
         """Their names."""
         from mindlang.edits import names
 
-        return names()
+        return sorted([*names(), UNDO])
 
     def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:
         """The edit of that name as a command."""
         from mindlang.edits import edit
 
+        if cmd_name == UNDO:
+            from mindlang.cli._undoing import command as undo
+
+            return undo
         return _command(edit(cmd_name)) if cmd_name in self.list_commands(ctx) else None
 
 
@@ -41,7 +48,7 @@ class Edits(Suggesting):
 def command() -> None:
     """Edit a hierarchy in its source.
 
-    Prints the diff; --write makes the edit: sources, locks and weights together. The file stands last or first.
+    Prints the diff; --write makes the edit: sources, locks and weights together. `undo` takes back the last one.
     """
 
 
@@ -51,12 +58,12 @@ def _command(of: Edit) -> click.Command:
     def run(file: str, write: bool, anyway: bool, keep_weights: bool, verify: bool, as_json: bool, **said: Any) -> None:
         from mindlang.cli._editing import EditOptions, perform
 
-        said, file = _file_first(of, said, file)
+        file, said = _file_first(of, file, said)
         perform(of, said, file, EditOptions(write, anyway, keep_weights, verify, as_json))
 
     parameters = [
-        *(click.Argument([name], nargs=-1 if many else 1, required=True) for name, many in of.arguments),
         click.Argument(["file"]),
+        *(click.Argument([name], nargs=-1 if many else 1, required=True) for name, many in of.arguments),
         *(_option(option) for option in of.options),
         click.Option(["--write"], is_flag=True, help="Make the edit, and not only print it."),
         click.Option(
@@ -75,20 +82,25 @@ def _command(of: Edit) -> click.Command:
     return click.Command(of.name, params=parameters, callback=run, help=of.text, epilog=f"\b\n{of.example}")
 
 
-def _file_first(of: Edit, said: dict[str, Any], file: str) -> tuple[dict[str, Any], str]:
-    """The file stands last or, as in other commands, first: there it is where only the first word is one."""
-    words = [word for name, many in of.arguments for word in (said[name] if many else [said[name]])] + [file]
-    if _is_file(file) or file == "-" or not _is_file(words[0]):
-        return said, file
-    first, *words = words
+def _file_first(of: Edit, first: str, said: dict[str, Any]) -> tuple[str, dict[str, Any]]:
+    """The file stands first; where only the last word is one, it is that, as it was until 0.1."""
+    words = [first, *(word for name, many in of.arguments for word in (said[name] if many else [said[name]]))]
+    is_first = _is_mind(first) and not _is_mind(words[-1])
+    if is_first or not (_is_mind(words[-1]) or _is_file(words[-1])) or (_is_file(first) and not _is_mind(words[-1])):
+        return first, said
+    *words, last = words
     single = {name: words.pop(0) for name, many in of.arguments if not many}
-    return said | single | {name: tuple(words) for name, many in of.arguments if many}, first
+    return last, said | single | {name: tuple(words) for name, many in of.arguments if many}
+
+
+def _is_mind(word: str) -> bool:
+    return word.endswith(".mind") or word == "-"
 
 
 def _is_file(word: str) -> bool:
-    from pathlib import Path
+    from mindlang.named_files import is_file
 
-    return word.endswith(".mind") or Path(word).is_file()
+    return is_file(word)
 
 
 def _option(option: EditOption) -> click.Option:

@@ -86,6 +86,7 @@ def _put(file: str, source: Source, text: str, check: bool, diff: bool) -> int:
     """The tidy text put where it belongs."""
     from mindrun.atomic_write import rewrite
 
+    from mindlang.cli._diff_printer import print_diff
     from mindlang.cli._terminal import FINDINGS, OK, fail, print_document
     from mindlang.compiler.source import encoded
     from mindlang.unified_diff import unified
@@ -93,7 +94,7 @@ def _put(file: str, source: Source, text: str, check: bool, diff: bool) -> int:
     is_tidy = text == source.text
     match (diff, check, file):
         case True, _, _:
-            print_document(unified(file.lstrip("/"), source.text, text))
+            print_diff(unified(file.lstrip("/"), source.text, text))
         case _, True, _ if not is_tidy:
             click.echo(f"{file} is not tidy", err=True)
         case False, False, "-":

@@ -34,6 +34,7 @@ def command(files: tuple[str, ...], write: bool) -> None:
 def _migrate(file: str, write: bool) -> int:
     """Migrate one file; how the program would end if it were the only one."""
     from mindlang.cli._diagnostic_printer import print_report
+    from mindlang.cli._diff_printer import print_diff
     from mindlang.cli._terminal import FINDINGS, MISUSE, OK, console, print_document, take_back
     from mindlang.compiler.compile import read_main
     from mindlang.compiler.diagnostic import Findings
@@ -52,7 +53,10 @@ def _migrate(file: str, write: bool) -> int:
     if findings.diagnostics:
         return FINDINGS
     is_piped = write and file == "-"
-    print_document(text if is_piped else unified(file.lstrip("/"), source.text, text))
+    if is_piped:
+        print_document(text)
+    else:
+        print_diff(unified(file.lstrip("/"), source.text, text))
     if text == source.text:
         click.echo(f"{file} needs nothing", err=True)
     elif write and not is_piped:

@@ -142,7 +142,7 @@ class Project:
         first, *others = (mention.name.span for mention in used)
         hint = "Take these lines out first."
         if any(mention.by is None for mention in used):
-            hint = f"Let another skill be the master first: mindc edit replace {name} OTHER {self.main.source.name}"
+            hint = f"Let another skill be the master first: mindc edit replace {self.main.source.name} {name} OTHER"
         raise EditError(f"{name} is still used.", hint, first, *(Label(span, "and here") for span in others))
 
     def file_of(self, declaration: Declaration) -> File:

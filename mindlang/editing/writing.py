@@ -1,6 +1,7 @@
 """An edit written: sources, locks and weights together or not at all, and not over what somebody else has written."""
 
 import os
+from collections.abc import Iterable
 from contextlib import ExitStack
 from pathlib import Path
 
@@ -19,13 +20,13 @@ from mindlang.lock.blobs import FOLDER, exclusive_folder
 def write(edited: Edited) -> None:
     """Write what an edit changes; MindError where that fails."""
     locks = {path: edited.followed.locks[path] for path in changed_locks(edited)}
-    files = {path: to_npy(weights) for path, weights in edited.followed.weights.items()}
+    files: dict[Path, bytes | None] = {path: to_npy(weights) for path, weights in edited.followed.weights.items()}
     files |= {path: lock_text(lock).encode() for path, lock in locks.items()}
     files |= {path: encoded(path, text) for path, text in edited.texts.items()}
     with ExitStack() as stack:
         for weights in sorted({path.parent / FOLDER for path in locks}):
             stack.enter_context(exclusive_folder(weights))  # a training may keep what it has taught just now
-        transaction.change(_folder(files), files, lambda: _refuse_changed(edited))
+        transaction.change(_folder(files), files, lambda: _refuse_changed(edited), keeps=True)
 
 
 def changed_locks(edited: Edited) -> list[Path]:
@@ -33,7 +34,7 @@ def changed_locks(edited: Edited) -> list[Path]:
     return [path for path, lock in edited.followed.locks.items() if lock != edited.locks[path]]
 
 
-def _folder(files: dict[Path, bytes]) -> Path:
+def _folder(files: Iterable[Path]) -> Path:
     """The folder in which all files lie, or below."""
     return Path(os.path.commonpath([path.parent for path in files]))
 

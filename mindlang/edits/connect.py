@@ -24,7 +24,7 @@ def connect(
     It reads sensors, drives actuators and influences skills. A memory is read, unless there is a value to drive
     it with.
 
-    Example: mindc edit connect Collect proximity collect.mind
+    Example: mindc edit connect collect.mind Collect proximity
     """
     declaration = project.find(skill, "skill")
     project.refuse_like(declaration)

@@ -9,7 +9,7 @@ from mindlang.editing.project import EditError, MindChange, Project
 def disconnect(project: Project, skill: str, target: str) -> MindChange:
     """Let a skill no longer read, drive or influence something.
 
-    Example: mindc edit disconnect Collect Grab collect.mind
+    Example: mindc edit disconnect collect.mind Collect Grab
     """
     declaration = project.find(skill, "skill")
     edges = [fact for fact in declaration.facts if isinstance(fact, Reads | Drives | Influences)]
@@ -20,6 +20,6 @@ def disconnect(project: Project, skill: str, target: str) -> MindChange:
         raise EditError(message, hint, declaration.header.span)
     if len(found) > 1:
         labels = [Label(fact.span, "or this") for fact in found[1:]]
-        hint = f'Say which: mindc edit remove "{found[0].span.text}" --from {skill} {project.main.source.name}'
+        hint = f'Say which: mindc edit remove {project.main.source.name} "{found[0].span.text}" --from {skill}'
         raise EditError(f"{skill} reads {target} and drives it.", hint, found[0].span, *labels)
     return MindChange((without_fact(found[0]),))

@@ -22,7 +22,7 @@ def extract(
 
     The skill influences the new one in their place.
 
-    Example: mindc edit extract Collect Fetch GoToObject+Avoid Grab collect.mind
+    Example: mindc edit extract collect.mind Collect Fetch GoToObject+Avoid Grab
     """
     declaration = project.find(parent, "skill")
     project.refuse_like(declaration)

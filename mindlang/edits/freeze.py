@@ -10,7 +10,7 @@ def freeze(project: Project, skill: str) -> MindChange:
 
     Lessons with subskills leave it out.
 
-    Example: mindc edit freeze Avoid collect.mind
+    Example: mindc edit freeze collect.mind Avoid
     """
     declaration = project.find(skill, "skill")
     project.refuse_like(declaration)

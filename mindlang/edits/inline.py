@@ -23,7 +23,7 @@ def inline(project: Project, skill: str) -> MindChange:
 
     It is the reverse of extract.
 
-    Example: mindc edit inline Fetch collect.mind
+    Example: mindc edit inline collect.mind Fetch
     """
     declaration = project.find(skill, "skill")
     project.refuse_like(declaration)

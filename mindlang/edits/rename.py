@@ -30,7 +30,7 @@ def rename(
 
     Other minds that use the same files follow, those beside them and in the folders above.
 
-    Example: mindc edit rename Avoid Dodge --noun skill collect.mind
+    Example: mindc edit rename collect.mind Avoid Dodge --noun skill
     """
     declared = _declared(project, old, noun)
     of = declared.noun

@@ -13,7 +13,7 @@ def replace(project: Project, skill: str, new: str) -> MindChange:
     Both stay declared. They must drive the same actuators. Skills that influenced the old one keep their
     weights and influence the new one.
 
-    Example: mindc edit replace GoToPower+Avoid GoToPower power.mind
+    Example: mindc edit replace power.mind GoToPower+Avoid GoToPower
     """
     project.find(skill, "skill")
     declaration = project.find(new, "skill")

@@ -12,7 +12,7 @@ def split(project: Project, to: str, names: tuple[str, ...]) -> MindChange:
 
     A name that two nouns have takes its noun with it: task:Avoid.
 
-    Example: mindc edit split wheels.mind left_wheel right_wheel collect.mind
+    Example: mindc edit split collect.mind wheels.mind left_wheel right_wheel
     """
     path = _new_file(project, to)
     chosen = [_chosen(project, name) for name in dict.fromkeys(names)]

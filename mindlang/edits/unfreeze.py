@@ -8,7 +8,7 @@ from mindlang.editing.project import EditError, MindChange, Project, facts
 def unfreeze(project: Project, skill: str) -> MindChange:
     """Let a frozen skill be taught again.
 
-    Example: mindc edit unfreeze Avoid collect.mind
+    Example: mindc edit unfreeze collect.mind Avoid
     """
     declaration = project.find(skill, "skill")
     project.refuse_like(declaration)

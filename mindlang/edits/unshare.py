@@ -16,7 +16,7 @@ def unshare(project: Project, skill: str) -> MindChange:
 
     It says for itself then what the other one says, and begins with a copy of the weights that they shared.
 
-    Example: mindc edit unshare GoToDropZone like.mind
+    Example: mindc edit unshare like.mind GoToDropZone
     """
     declaration = project.find(skill, "skill")
     skills = {known.name: known for known in project.mind.skills}

@@ -83,7 +83,7 @@ def read_incoming(subject: Subject, skill: str, path: Path) -> Incoming:
     network = network_of(subject.graph, skill)
     lesson = chosen_lessons(subject.graph, None, [skill])[-1]
     if skill not in learners(subject.graph, lesson):
-        raise RunError(f"{skill} is frozen", f"mindc edit unfreeze {skill} {subject.shown} --write")
+        raise RunError(f"{skill} is frozen", f"mindc edit unfreeze {subject.shown} {skill} --write")
     data = read_bytes(path)
     return Incoming(path, network, lesson, genome_in(path, data, network), sha256(data).hexdigest())
 

@@ -108,7 +108,7 @@ def refuse_frozen(subject: Subject, chosen: Iterable[Lesson]) -> None:
     """RunError where a lesson has nobody to teach."""
     for lesson in chosen:
         if not learners(subject.graph, lesson):
-            hint = f"mindc edit unfreeze {lesson.skill} {subject.shown} --write"
+            hint = f"mindc edit unfreeze {subject.shown} {lesson.skill} --write"
             raise RunError(f"{lesson.skill} is frozen", hint)
 
 

@@ -45,7 +45,7 @@ def test_a_frozen_skill_refuses_training(mindc: Call, drive: Path) -> None:
     for how in (("Go",), ("Go", "--force"), ("--force",), ("Go", "--from-scratch")):
         said = mindc("train", drive, *how, *QUICK)
         assert said.code == 1
-        assert said.err.splitlines() == ["Go is frozen", f"  mindc edit unfreeze Go {drive.name} --write"]
+        assert said.err.splitlines() == ["Go is frozen", f"  mindc edit unfreeze {drive.name} Go --write"]
     assert weights(drive) == before
     assert not (drive.parent / "runs").exists()
 

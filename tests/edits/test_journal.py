@@ -186,7 +186,7 @@ def test_a_damaged_journal_is_told(mindc: Call, rules: Path, text: str) -> None:
 def test_any_command_puts_back_what_an_edit_left(mindc: Call, rules: Path) -> None:
     old = rules.read_text()
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr("mindlang.transaction._done", lambda folder: Path("/nowhere").stat())
+        patch.setattr("mindlang.transaction._done", lambda *_: Path("/nowhere").stat())
         patch.setattr("mindlang.transaction._undo", lambda *_: None)
         assert mindc("edit", "rename", "Turn", "Spin", rules, "--write").code == 1
     assert rules.read_text() != old
@@ -238,7 +238,7 @@ def test_what_is_taken_back_is_said(mindc: Call, rules: Path) -> None:
     project = open_project(load(rules))
     edited = apply_edit(project, rename(project, "Turn", "Spin"), keep_weights=False)
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr("mindlang.transaction._done", lambda folder: (_ for _ in ()).throw(Crash()))
+        patch.setattr("mindlang.transaction._done", lambda *_: (_ for _ in ()).throw(Crash()))
         patch.setattr("mindlang.transaction._undo", lambda *_: None)
         with pytest.raises(Crash):
             write(edited)

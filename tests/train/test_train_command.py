@@ -187,7 +187,7 @@ def test_files_are_called_as_they_are_from_here(project: Path) -> None:
     source = project / "drive.mind"
     source.write_text(MIND.replace("skill Go is mlp hidden 1\n", "skill Go is mlp hidden 1\n  stays frozen\n"))
     frozen = mindc(project, "drive.mind", "Go")
-    assert frozen.stderr.splitlines()[-1] == "  mindc edit unfreeze Go drive.mind --write"
+    assert frozen.stderr.splitlines()[-1] == "  mindc edit unfreeze drive.mind Go --write"
     source.write_text(MIND)
     assert mindc(project, "drive.mind", "Drive").stderr.splitlines()[-1].strip() == "first: mindc train drive.mind Go"
 

@@ -163,7 +163,7 @@ def test_a_frozen_skill_stays_as_it_is(mindc: Call, path: Path) -> None:
     before = lock_path(path).read_bytes()
     said = mindc("weights", "import", path, "Go", changed(Path("go.safetensors")), "--force")
     assert (said.code, "Go is frozen" in said.err) == (1, True)
-    assert "mindc edit unfreeze Go drive.mind --write" in said.err
+    assert "mindc edit unfreeze drive.mind Go --write" in said.err
     assert lock_path(path).read_bytes() == before
 
 

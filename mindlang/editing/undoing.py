@@ -1,0 +1,38 @@
+"""The last edit that was written, taken back: sources, locks and weights together or not at all."""
+
+from collections.abc import Mapping
+from contextlib import ExitStack
+from pathlib import Path
+
+from mindlang import transaction
+from mindlang.lock.blobs import FOLDER, exclusive_folder
+from mindlang.transaction import TransactionError
+
+Files = Mapping[Path, bytes | None]
+
+
+def kept_in(folder: Path) -> Path | None:
+    """The folder, or the nearest above it, in which an edit was written last; None where none was."""
+    return next((each for each in (folder, *folder.parents) if (each / transaction.UNDO_NAME).is_file()), None)
+
+
+def undo(folder: Path) -> tuple[Files, Files]:
+    """Take back the last edit that was written in a folder; its files as they were until now, and as they are.
+
+    What has been taken back is kept in the place of the edit, and so can be taken back itself. TransactionError where
+    a file has been changed since.
+    """
+    files = transaction.last_change(folder)
+    now = {path: path.read_bytes() if path.exists() else None for path in files}
+    locked = {path.parent / FOLDER for path in files if path.suffix == ".lock"}
+    with ExitStack() as stack:
+        for weights in sorted(locked):
+            stack.enter_context(exclusive_folder(weights))  # a training may keep what it has taught just now
+        transaction.change(folder, files, lambda: _refuse_changed(folder, files), keeps=True)
+    return now, files
+
+
+def _refuse_changed(folder: Path, files: Files) -> None:
+    """TransactionError where another edit was written meanwhile, or one of the files."""
+    if transaction.last_change(folder) != files:
+        raise TransactionError("another edit has been written meanwhile", "nothing has been taken back")
