@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Sequence
+from os.path import realpath
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -53,7 +54,7 @@ def command(files: tuple[str, ...], fix: bool, select: tuple[str, ...], ignore: 
         take_back(file)
     try:
         done = [
-            linted(file, compiled, _settings(file).codes(Path(file).resolve(), selected, ignored), fix)
+            linted(file, compiled, _settings(file).codes(Path(realpath(file)), selected, ignored), fix)
             for file, compiled in minds(named).items()
         ]
     except MindError as error:
@@ -71,7 +72,7 @@ def _settings(file: str) -> LintSettings:
     from mindlang.cli._terminal import MISUSE, console
     from mindlang.linting.settings_file import settings_of
 
-    found = settings_of(Path(file).resolve())
+    found = settings_of(Path(realpath(file)))
     if found.wrong:
         print_report(found.wrong, console(stderr=True))
         sys.exit(MISUSE)

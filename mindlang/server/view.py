@@ -61,13 +61,13 @@ class MindView:
         settings = settings_of(self.main)
         try:
             found = (*lint(self.compiled, settings.codes(self.main)), *mistakes(self.compiled))
-            return (*map(self._said_here, settings.wrong), *found)
+            return (*map(self._in_first_line, settings.wrong), *found)
         except MindError as error:
             where = Span(self.compiled.sources[0], 0, 0)
             damage = Diagnostic("damaged-lock", f"{error}.", where, error.hint, severity="warning")
             return (*self.compiled.diagnostics, damage)
 
-    def _said_here(self, diagnostic: Diagnostic) -> Diagnostic:
+    def _in_first_line(self, diagnostic: Diagnostic) -> Diagnostic:
         """What is wrong in another file, said in the first line of the mind's own: an editor has that one open."""
         where = f"{diagnostic.span.source.name}:{diagnostic.span.line}: " if diagnostic.span else ""
         here = Span(self.compiled.sources[0], 0, 0) if self.compiled.sources else None
