@@ -41,7 +41,7 @@ async function start() {
   try {
     await client.start();
   } catch (error) {
-    const help = "In the folder of mind: pip install '.[lsp]', or say where mindc is: mind.path";
+    const help = "pip install 'mindlang[lsp]', or say where mindc is: mind.path";
     const choice = await vscode.window.showErrorMessage(`${command} lsp does not start. ${help}`, "Settings");
     if (choice) vscode.commands.executeCommand("workbench.action.openSettings", "mind.path");
   }

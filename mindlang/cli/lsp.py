@@ -25,7 +25,7 @@ def command(stdio: bool) -> None:
     if find_spec("pygls") is None:
         fail(
             "The language server needs pygls, which is not installed.",
-            "In the folder of mind: pip install '.[lsp]'",
+            "pip install 'mindlang[lsp]'",
             MISUSE,
         )
 

@@ -77,7 +77,7 @@ def _refuse_without_matplotlib() -> None:
     if find_spec("matplotlib") is None:
         fail(
             "Curves are drawn with matplotlib, which is not installed.",
-            "In the folder of mind: pip install '.[plot]'",
+            "pip install 'mindlang[plot]'",
             MISUSE,
         )
 

@@ -99,7 +99,7 @@ def command(
     if event_files and find_spec("tensorboardX") is None:
         fail(
             "Event files are written with tensorboardX, which is not installed.",
-            "In the folder of mind: pip install '.[tensorboard]'",
+            "pip install 'mindlang[tensorboard]'",
             MISUSE,
         )
     trainer = Trainer(workers, as_json, quiet, where, event_files)

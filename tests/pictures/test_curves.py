@@ -200,4 +200,4 @@ def test_without_matplotlib_the_command_says_how_to_get_it(
     monkeypatch.setitem(sys.modules, "matplotlib", None)
     said = mindc("plot", table)
     assert (said.code, said.out) == (2, "")
-    assert said.err.splitlines()[1:] == ["  In the folder of mind: pip install '.[plot]'"]
+    assert said.err.splitlines()[1:] == ["  pip install 'mindlang[plot]'"]

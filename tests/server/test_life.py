@@ -38,7 +38,7 @@ def test_without_pygls_it_says_what_to_do(mindc: Call, monkeypatch: pytest.Monke
     monkeypatch.setattr("importlib.util.find_spec", lambda name: None)
     said = mindc("lsp")
     assert said.code == 2
-    assert "In the folder of mind: pip install '.[lsp]'" in said.err
+    assert "pip install 'mindlang[lsp]'" in said.err
     assert "Traceback" not in said.err
 
 

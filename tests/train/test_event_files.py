@@ -151,7 +151,7 @@ def test_without_the_package_the_command_says_how_to_get_it(
     monkeypatch.setitem(sys.modules, "tensorboardX", None)
     said = mindc("train", drive, "Go", "--tensorboard")
     assert (said.code, said.out) == (2, "")
-    assert said.err.splitlines()[1:] == ["  In the folder of mind: pip install '.[tensorboard]'"]
+    assert said.err.splitlines()[1:] == ["  pip install 'mindlang[tensorboard]'"]
     assert not Path("runs").exists()
 
 
