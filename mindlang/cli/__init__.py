@@ -73,8 +73,12 @@ def main() -> None:
 
 
 def _run() -> int:
+    if "_MINDC_COMPLETE" in os.environ:  # a shell asks
+        from mindlang.cli._completing import complete_files
+
+        complete_files()
     try:
-        code = commands.main(standalone_mode=False)
+        code = commands.main(prog_name="mindc", standalone_mode=False)
     except SystemExit as stop:
         code = stop.code
     except click.exceptions.Exit as stop:

@@ -9,13 +9,12 @@ import os
 import sys
 from collections.abc import Callable, Iterator
 from contextlib import redirect_stdout
-from pathlib import Path
 from typing import Any
 
-from mindrun import VERSION, arguments, standard_streams
-from mindrun.arguments import MAX_SEED, new_file, real, whole
+from mindrun import standard_streams
 from mindrun.bundle import read_bundle
 from mindrun.describe import contents, describe
+from mindrun.driving_arguments import driving_parser
 from mindrun.engine import Engine
 from mindrun.errors import MindError, ProcedureError, ReadingsError, surroundings
 from mindrun.named_readings import vector
@@ -25,33 +24,15 @@ from mindrun.wiring import read_by
 
 OK, FAILED, MISUSE, INTERRUPTED = 0, 1, 2, 130
 MAX_LINE_CHARACTERS = 1 << 20  # of one line of readings
-MAX_PORT = 65535
-MAX_TICK = 2**63 - 1  # tick
-
-EXAMPLES = """examples:
-  mindrun ball.bundle                                       on its robot, nothing moves yet
-  mindrun ball.bundle --arm --record day.rec                everything moves, and every tick is recorded
-  mindrun ball.bundle --arm --view                          and seen in a browser while it drives
-  mindrun ball.bundle --arm --view --break day.break        the page pauses where a line holds, the robot never
-  mindrun ball.bundle --dry --arm                           in a simulated world, without hardware
-  mindrun ball.bundle --describe                            what it holds (a bundle without wiring does this anyway)
-  mindrun collect.bundle --json                             the same as JSON
-  mindrun collect.bundle --readings log.jsonl               one line of commands for each line of readings
-  mindrun collect.bundle --readings - --fill 0.5            readings from standard input, missing ones 0.5
-  mindrun collect.bundle --readings - --influence           with the influence of each skill
-  mindrun collect.bundle --readings - --master Avoid        another skill in charge
-
-A line of readings: {"proximity": [1, 1, 0.4], "object_bearing": 0.5}; NaN is a reading that failed.
-A line of commands: {"commands": {"left_wheel": 0.7, "right_wheel": 0.5}}
-
-tools: mindrun adopt | calibrate | doctor | replay | report | work, each with --help"""
 
 
 def main() -> None:
     """Run the command line; whatever happens ends in one message and an exit code."""
     standard_streams.prepare(standard_streams.Printable)
     tool = len(sys.argv) > 1 and sys.argv[1] in tools()
-    code = guarded((lambda: run_tool(sys.argv[1], sys.argv[2:])) if tool else (lambda: run(_options())))
+    code = guarded(
+        (lambda: run_tool(sys.argv[1], sys.argv[2:])) if tool else (lambda: run(driving_parser().parse_args()))
+    )
     if why := standard_streams.finish():
         _say(why)
         code = code or FAILED
@@ -77,6 +58,10 @@ def guarded(command: Callable[[], int]) -> int:
         if why := surroundings(error):
             return _say(why)
         return _say(f"failed: {type(error).__name__}: {error}", "Set MIND_DEBUG=1 to see where, and please report it.")
+
+
+def _drive_or_describe() -> int:
+    return run(driving_parser().parse_args())
 
 
 def run(options: argparse.Namespace) -> int:
@@ -115,39 +100,6 @@ def drive(options: argparse.Namespace) -> int:
     standard_streams.detach_standard_error()
     with redirect_stdout(sys.stderr):  # a procedure may print
         return run_robot(options)
-
-
-def _options() -> argparse.Namespace:
-    about = "Let a compiled mind drive its robot, say what it holds, or run it on readings."
-    parser = arguments.parser("mindrun", about, EXAMPLES)
-    parser.add_argument("bundle", type=Path, metavar="FILE.bundle", help="what `mindc build` wrote")
-    parser.add_argument("--version", action="version", version=f"mindrun, version {VERSION}", help="say which it is")
-    parser.add_argument("--readings", metavar="FILE", help="JSON lines of readings by sensor name; - is standard input")
-    parser.add_argument("--fill", type=real(0, 1), metavar="X", help="what a sensor that a line leaves out reads")
-    parser.add_argument("--influence", action="store_true", help="print the influence of each skill too")
-    parser.add_argument("--master", metavar="SKILL", help="the skill in charge (default: the mind's master)")
-    parser.add_argument("--json", action="store_true", help="describe the bundle as one JSON document")
-    parser.add_argument("--describe", action="store_true", help="say what the bundle holds, and move nothing")
-    robot = parser.add_argument_group("on a robot")
-    robot.add_argument("--arm", action="store_true", help="let the actuators move: without it they stay neutral")
-    robot.add_argument("--record", type=new_file, metavar="FILE", help="every reading, influence and command, per tick")
-    robot.add_argument("--view", action="store_true", help="show it in a browser while it drives (needs mindlang)")
-    robot.add_argument(
-        "--view-port", type=whole(1, MAX_PORT), metavar="P", help="of that page (default: 8123, or any that is free)"
-    )
-    robot.add_argument(
-        "--break", dest="breaks", type=Path, metavar="FILE", help="pause that page where a line of FILE.break says"
-    )
-    robot.add_argument(
-        "--ticks", type=whole(0, MAX_TICK), default=0, metavar="N", help="end after so many ticks (default: never)"
-    )
-    robot.add_argument(
-        "--dry", action="store_true", help="no hardware: a run in a simulated world (needs the simulator)"
-    )
-    robot.add_argument("--task", metavar="TASK", help="with --dry: the task of that world (default: the master's)")
-    robot.add_argument("--seed", type=whole(0, MAX_SEED), default=1, help="with --dry: the layout of that world")
-    robot.add_argument("-q", "--quiet", action="store_true", help="say nothing but errors, and where a view is")
-    return parser.parse_args()
 
 
 def _run(engine: Engine, options: argparse.Namespace) -> None:

@@ -1,5 +1,6 @@
 """What `mindrun` can do beside driving a robot, one file each: `options` adds its arguments, `run` does it."""
 
+from argparse import ArgumentParser
 from importlib import import_module
 from pkgutil import iter_modules
 
@@ -11,11 +12,17 @@ def tools() -> list[str]:
     return sorted(module.name for module in iter_modules(__path__))
 
 
-def run_tool(name: str, words: list[str]) -> int:
-    """Run a tool with these words of the command line; its exit code."""
+def tool_parser(name: str) -> ArgumentParser:
+    """The parser of a tool, with its help."""
     module = import_module(f"{__name__}.{name}")
     summary, _, rest = (module.__doc__ or "").partition("\n\n")
     known = parser(f"mindrun {name}", summary.strip(), rest.strip())
     module.options(known)
-    code: int = module.run(known.parse_args(words))
+    return known
+
+
+def run_tool(name: str, words: list[str]) -> int:
+    """Run a tool with these words of the command line; its exit code."""
+    known = tool_parser(name)
+    code: int = import_module(f"{__name__}.{name}").run(known.parse_args(words))
     return code

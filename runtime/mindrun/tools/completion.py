@@ -1,0 +1,22 @@
+"""Print what lets a shell complete the words of mindrun. `mindc completion --install` installs it with that of mindc.
+
+examples:
+  mindrun completion bash >> ~/.bashrc
+  mindrun completion zsh >> ~/.zshrc
+  mindrun completion fish > ~/.config/fish/completions/mindrun.fish
+"""
+
+import argparse
+
+from mindrun.shell_completion import SHELLS, script
+
+
+def options(parser: argparse.ArgumentParser) -> None:
+    """The arguments."""
+    parser.add_argument("shell", choices=tuple(SHELLS))
+
+
+def run(options: argparse.Namespace) -> int:
+    """Print it."""
+    print(script(options.shell), end="")
+    return 0
