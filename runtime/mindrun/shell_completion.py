@@ -4,16 +4,12 @@ from argparse import ArgumentParser
 from collections.abc import Callable, Mapping
 from shlex import quote
 
-from mindrun.driving_arguments import driving_parser
-from mindrun.tools import tool_parser, tools
-
 Words = Mapping[str, list[str]]  # the options of each tool, and of driving under ""
 
 
-def script(shell: str) -> str:
-    """The script for one of SHELLS."""
-    words = {name: _options(tool_parser(name)) for name in tools()} | {"": _options(driving_parser())}
-    return SHELLS[shell](words)
+def script(shell: str, parsers: Mapping[str, ArgumentParser]) -> str:
+    """The script for one of SHELLS; `parsers` are those of the tools by their names, and of driving under ""."""
+    return SHELLS[shell]({name: _options(parser) for name, parser in parsers.items()})
 
 
 def _options(parser: ArgumentParser) -> list[str]:

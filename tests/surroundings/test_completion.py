@@ -6,8 +6,9 @@ import sys
 from pathlib import Path
 
 import pytest
-from mindrun.shell_completion import SHELLS, script
+from mindrun.shell_completion import SHELLS
 from mindrun.tools import tools
+from mindrun.tools.completion import script_of_mindrun
 
 from tests.calling import Call
 
@@ -96,5 +97,5 @@ def test_a_home_that_cannot_be_written_is_a_sentence(home: Path, mindc: Call) ->
 
 @pytest.mark.parametrize("shell", SHELLS)
 def test_every_shell_is_told_every_tool_and_option_of_mindrun(shell: str) -> None:
-    text = script(shell)
+    text = script_of_mindrun(shell)
     assert all(name in text for name in (*tools(), "view-port", "step-seconds"))

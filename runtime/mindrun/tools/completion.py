@@ -8,7 +8,10 @@ examples:
 
 import argparse
 
+from mindrun.driving_arguments import driving_parser
 from mindrun.shell_completion import SHELLS, script
+from mindrun.standard_streams import document
+from mindrun.tools import tool_parser, tools
 
 
 def options(parser: argparse.ArgumentParser) -> None:
@@ -18,5 +21,10 @@ def options(parser: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> int:
     """Print it."""
-    print(script(options.shell), end="")
+    document(script_of_mindrun(options.shell))
     return 0
+
+
+def script_of_mindrun(shell: str) -> str:
+    """The script for a shell, with all that may be said to mindrun now."""
+    return script(shell, {name: tool_parser(name) for name in tools()} | {"": driving_parser()})

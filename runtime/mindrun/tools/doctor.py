@@ -1,13 +1,16 @@
 """Say what a robot has, what is wired to it, what answers, and what to install.
 
-Nothing is moved: sensors are read once, actuators are left alone.
+Nothing is moved: sensors are read once, actuators are left alone. `ok` answers, `-` is not there and needed only by
+what uses it, `NOT` has to be mended. Ends with 0, or with 1 where something has to be mended.
 
 examples:
   mindrun doctor
   mindrun doctor ball.bundle
+  mindrun doctor ball.bundle --json
 """
 
 import argparse
+import json
 import os
 import platform
 from collections.abc import Iterator
@@ -20,6 +23,7 @@ import mindrun.robot.drivers  # noqa: F401  every driver is known once this is i
 from mindrun.bundle import read_bundle
 from mindrun.driver import driver_name
 from mindrun.robot.sampling import Sample, Sampler
+from mindrun.standard_streams import document
 from mindrun.wiring import SensorWire, Wiring, still
 
 SENSOR_SECONDS = 3.0  # for a sensor to answer
@@ -33,6 +37,7 @@ PACKAGES = {  # that drivers may need, and the line that installs each
 
 
 FINE, ABSENT, WRONG = "ok ", "-  ", "NOT"  # what is absent is no fault before something needs it
+STATES = {FINE: "ok", ABSENT: "absent", WRONG: "wrong"}  # in a document
 
 
 @dataclass(frozen=True, slots=True)
@@ -47,6 +52,7 @@ class CheckResult:
 def options(parser: argparse.ArgumentParser) -> None:
     """The arguments."""
     parser.add_argument("bundle", type=Path, nargs="?", help="look at what this bundle is wired to, as well")
+    parser.add_argument("--json", action="store_true", help="one JSON document instead")
 
 
 def run(options: argparse.Namespace) -> int:
@@ -55,10 +61,15 @@ def run(options: argparse.Namespace) -> int:
     if options.bundle:
         wiring = read_bundle(options.bundle).wiring
         findings += wired(wiring) if wiring else [CheckResult("bundle", WRONG, "it is wired to no robot")]
-    width = max(len(finding.what) for finding in findings)
-    for finding in findings:
-        print(f"{finding.mark}  {finding.what:<{width}}  {finding.words}")
-    return 1 if any(finding.mark == WRONG for finding in findings) else 0
+    is_fine = all(finding.mark != WRONG for finding in findings)
+    if options.json:
+        data = [{"what": each.what, "state": STATES[each.mark], "seen": each.words} for each in findings]
+        document(json.dumps({"ok": is_fine, "checks": data}, indent=2) + "\n")
+    else:
+        width = max(len(finding.what) for finding in findings)
+        for finding in findings:
+            print(f"{finding.mark}  {finding.what:<{width}}  {finding.words}")
+    return 0 if is_fine else 1
 
 
 def machine() -> Iterator[CheckResult]:

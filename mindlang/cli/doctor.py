@@ -1,0 +1,56 @@
+"""`mindc doctor`: what is installed here, what is missing, and what mends it."""
+
+from __future__ import annotations
+
+import sys
+from typing import TYPE_CHECKING
+
+import click
+
+if TYPE_CHECKING:
+    from rich.text import Text
+
+    from mindlang.diagnosis.finding import Finding
+
+EXAMPLES = """\b
+Examples:
+  mindc doctor
+  mindc doctor --json
+"""
+MARKS = {"ok": ("ok ", "green"), "absent": ("-  ", "dim"), "wrong": ("NOT", "red")}
+
+
+@click.command(epilog=EXAMPLES)
+@click.option("--json", "as_json", is_flag=True, help="One JSON document instead: mindc doctor --json")
+def command(as_json: bool) -> None:
+    """Say what is installed on this machine, what is missing, and what mends it.
+
+    `ok` is as it should be, `-` is absent and only needed for what is said, `NOT` has to be mended. Changes nothing.
+    Ends with 0, or with 1 where something has to be mended. For a robot's devices: mindrun doctor
+    """
+    from dataclasses import asdict
+
+    from mindlang.cli._terminal import FINDINGS, OK, console, print_json
+    from mindlang.diagnosis.checks import findings
+    from mindlang.diagnosis.finding import State
+
+    found = list(findings())
+    is_fine = all(each.state is not State.WRONG for each in found)
+    if as_json:
+        print_json({"ok": is_fine, "checks": [asdict(each) | {"state": each.state.value} for each in found]})
+    else:
+        width = max(len(each.what) for each in found)
+        for each in found:
+            console().print(_lines(each, width), end="")
+    sys.exit(OK if is_fine else FINDINGS)
+
+
+def _lines(of: Finding, width: int) -> Text:
+    """What was seen, and below it what mends it."""
+    from mindrun.printable import visible
+    from rich.text import Text
+
+    mark, style = MARKS[of.state.value]
+    mend = f"{' ' * (len(mark) + width + 4)}{visible(of.mend)}\n" if of.mend else ""
+    seen = f"  {of.what:<{width}}  {visible(of.seen)}\n"
+    return Text.assemble((mark, style), seen, (mend, "cyan"))

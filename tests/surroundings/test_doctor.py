@@ -1,0 +1,149 @@
+"""`mindc doctor`: what is missing is never called ok, and the line that mends it is said."""
+
+import json
+from importlib.metadata import PackageNotFoundError, version
+from pathlib import Path
+from pkgutil import iter_modules
+
+import pytest
+from mindrun.sim import cache, warmup
+from mindrun.tools import doctor, run_tool
+
+from mindlang.diagnosis import checks, requirements
+from mindlang.diagnosis.checks import browser, machine, packages, programs, python
+from mindlang.diagnosis.finding import Finding, State
+from mindlang.diagnosis.requirements import Requirement, parsed
+from tests.calling import Call
+
+
+def without(monkeypatch: pytest.MonkeyPatch, *names: str, **others: str) -> None:
+    """Let packages be missing, or of another version; what needs them is said here."""
+
+    def found(name: str) -> str:
+        if name in names:
+            raise PackageNotFoundError(name)
+        return others.get(name) or version(name)
+
+    lines = ["numpy>=1.26", "numba<0.69,>=0.63", 'matplotlib>=3.8; extra == "plot"', 'pytest>=8; extra == "dev"']
+    monkeypatch.setattr(requirements, "version", found)
+    monkeypatch.setattr(requirements, "requires", lambda _: lines)
+
+
+def said(mindc: Call) -> tuple[int, dict[str, dict[str, str]]]:
+    done = mindc("doctor", "--json")
+    data = json.loads(done.out)
+    assert data["ok"] == (done.code == 0)
+    return done.code, {each["what"]: each for each in data["checks"]}
+
+
+def test_each_check_is_told_in_its_order() -> None:
+    assert sorted(module.name for module in iter_modules(checks.__path__)) == sorted(checks.ORDER)
+
+
+def test_where_all_is_there(mindc: Call, monkeypatch: pytest.MonkeyPatch) -> None:
+    without(monkeypatch)
+    code, found = said(mindc)
+    assert code == 0
+    assert found["numpy"] == {"what": "numpy", "state": "ok", "seen": version("numpy"), "mend": ""}
+    text = mindc("doctor")
+    assert (text.code, text.err) == (0, "")
+    assert text.out.count("\n") >= len(found)
+
+
+@pytest.mark.parametrize(("there", "seen"), [("", "not installed"), ("0.70.1", "0.70.1, and <0.69,>=0.63 is needed")])
+def test_what_is_needed_and_missing(mindc: Call, monkeypatch: pytest.MonkeyPatch, there: str, seen: str) -> None:
+    without(monkeypatch, *([] if there else ["numba"]), numba=there)
+    code, found = said(mindc)
+    assert code == 1
+    assert found["numba"]["state"] == "wrong"
+    assert found["numba"]["seen"] == seen
+    assert found["numba"]["mend"] == "pip install 'numba<0.69,>=0.63'"
+    text = mindc("doctor")
+    assert text.code == 1
+    assert "NOT  numba " in text.out
+
+
+def test_an_extra_that_is_absent_is_neither_ok_nor_wrong(mindc: Call, monkeypatch: pytest.MonkeyPatch) -> None:
+    without(monkeypatch, "matplotlib")
+    code, found = said(mindc)
+    assert code == 0
+    assert found["[plot]"]["state"] == "absent"
+    assert found["[plot]"]["mend"] == "pip install 'mindlang[plot]'"
+
+
+def test_a_cache_that_cannot_be_written(mindc: Call, monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    monkeypatch.setattr(cache, "folder", lambda: tmp_path)
+    code, found = said(mindc)
+    assert code == 1
+    assert "no folder can be written" in found["compiler cache"]["seen"]
+
+
+def test_a_cold_cache_is_absent(mindc: Call, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(warmup, "is_native", lambda *_: False)
+    monkeypatch.setattr(warmup, "is_there", lambda *_: False)
+    code, found = said(mindc)
+    assert (code, found["simulator"]["state"]) == (0, "absent")
+    assert found["simulator"]["mend"] == "mindc warmup"
+
+
+def test_a_check_that_fails_hides_no_other(mindc: Call, monkeypatch: pytest.MonkeyPatch) -> None:
+    def broken() -> list[Finding]:
+        raise ImportError("numba: undefined symbol\nand more")
+
+    monkeypatch.setattr(packages, "check", broken)
+    code, found = said(mindc)
+    assert code == 1
+    assert found["packages"]["seen"] == "ImportError: numba: undefined symbol"
+    assert "browser" in found
+
+
+def test_programs_of_two_versions(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("mindrun.VERSION", "0.0.9")
+    assert [each.state for each in programs.check()] == [State.FINE, State.WRONG]
+
+
+def test_little_memory_and_an_old_python(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("mindlang.resource_limits.available", lambda: 100 << 20)
+    assert [each.seen for each in machine.check() if each.state is State.WRONG] == ["100 MiB free"]
+    monkeypatch.setattr("platform.python_version", lambda: "3.10.2")
+    assert [each.state for each in python.check()] == [State.WRONG]
+
+
+def test_no_browser(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("PATH", "")
+    monkeypatch.setattr("webbrowser._tryorder", [])
+    monkeypatch.setattr("webbrowser._browsers", {})
+    assert [each.state for each in browser.check()] == [State.ABSENT]
+
+
+@pytest.mark.parametrize(
+    ("line", "requirement"),
+    [
+        ("click>=8.1", Requirement("click", ">=8.1", "")),
+        ('lark<2,>=1.2; extra == "x"', Requirement("lark", "<2,>=1.2", "x")),
+        ("smbus2 (>=0.4) ; extra == 'robot'", Requirement("smbus2", ">=0.4", "robot")),
+        ("rich", Requirement("rich", "", "")),
+    ],
+)
+def test_lines_of_metadata(line: str, requirement: Requirement) -> None:
+    assert parsed(line) == requirement
+
+
+@pytest.mark.parametrize(
+    ("bounds", "inside", "outside"), [("<2,>=1.2", ["1.2", "1.2.0", "1.99"], ["1.1.9", "2", "2.0"]), ("", ["0"], [])]
+)
+def test_bounds(bounds: str, inside: list[str], outside: list[str]) -> None:
+    needed = Requirement("x", bounds, "")
+    assert [needed.admits(each) for each in inside + outside] == [True] * len(inside) + [False] * len(outside)
+
+
+def test_on_a_robot_nothing_that_is_absent_is_ok(
+    capsysbinary: pytest.CaptureFixture[bytes], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(doctor, "find_spec", lambda name: None if name == "lgpio" else object())
+    monkeypatch.setattr(doctor, "Path", lambda _: Path("/nowhere"))
+    assert run_tool("doctor", ["--json"]) == 0
+    found = {each["what"]: each["state"] for each in json.loads(capsysbinary.readouterr().out)["checks"]}
+    assert found["lgpio"] == "absent"
+    assert found["/nowhere/video0"] == "absent"
+    assert found["numpy"] == "ok"
