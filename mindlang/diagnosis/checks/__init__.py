@@ -5,7 +5,7 @@ from importlib import import_module
 
 from mindlang.diagnosis.finding import Finding, State
 
-ORDER = ("programs", "python", "machine", "packages", "machine_code", "page", "browser", "extras")
+ORDER = ("programs", "python", "machine", "packages", "machine_code", "viewer", "browser", "extras")
 
 
 def findings() -> Iterator[Finding]:
