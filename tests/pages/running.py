@@ -1,0 +1,58 @@
+"""Doing what a page says, in a folder of its own, as in a terminal of 80 columns."""
+
+import os
+import shlex
+import shutil
+import subprocess
+import sys
+from dataclasses import dataclass
+from pathlib import Path
+
+from tests.pages.transcript import Command, Write
+from tests.project.sources import ROOT
+
+PROGRAMS = {"mindc": "from mindlang.cli import main; main()", "mindrun": "from mindrun.__main__ import main; main()"}
+LONGEST_SECONDS = 500
+
+
+@dataclass
+class Reader:
+    """Somebody who has the examples, and follows a page: the folder that is theirs, and the one in which they are."""
+
+    home: Path
+    folder: Path
+
+    @classmethod
+    def beginning(cls, home: Path) -> "Reader":
+        """With a copy of the examples and the two programs."""
+        shutil.copytree(ROOT / "examples", home / "examples", ignore=shutil.ignore_patterns("runs"))
+        (home / "bin").mkdir()
+        for name, code in PROGRAMS.items():
+            program = home / "bin" / name
+            program.write_text(
+                f'#!/bin/sh\nexec {shlex.quote(sys.executable)} -c {shlex.quote(code)} "$@"\n', encoding="utf-8"
+            )
+            program.chmod(0o755)
+        return cls(home, home)
+
+    def write(self, step: Write) -> None:
+        """Write a file of the page, or change it."""
+        path = self.folder / step.path
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(step.onto(path.read_text(encoding="utf-8") if path.exists() else ""), encoding="utf-8")
+
+    def run(self, command: Command) -> tuple[int, str]:
+        """The exit status of a command and all that it printed; `cd` lasts."""
+        there = self.home / "bin" / "where"
+        words = ["bash", "-c", f"trap 'pwd > {shlex.quote(str(there))}' EXIT\n{command.line}"]
+        done = subprocess.run(
+            words, cwd=self.folder, env=self._environment(), stdin=subprocess.DEVNULL,
+            stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False, timeout=LONGEST_SECONDS,
+        )  # fmt: skip
+        self.folder = Path(there.read_text(encoding="utf-8").strip())
+        return done.returncode, done.stdout
+
+    def _environment(self) -> dict[str, str]:
+        path = os.pathsep.join([str(self.home / "bin"), str(Path(sys.executable).parent), os.environ["PATH"]])
+        ours = os.pathsep.join([str(ROOT), str(ROOT / "runtime")])
+        return {**os.environ, "PATH": path, "PYTHONPATH": ours, "COLUMNS": "80", "MPLBACKEND": "agg"}

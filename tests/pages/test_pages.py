@@ -1,0 +1,95 @@
+"""Every page of the documentation does what it says: its commands are run, in order, and print what is shown.
+
+After a change of what commands print: UPDATE=1 pytest tests/pages, and read the difference.
+"""
+
+import os
+import re
+from pathlib import Path
+
+import cv2
+import numpy as np
+import pytest
+
+from tests.pages.comparing import MEANWHILE, fits
+from tests.pages.running import Reader
+from tests.pages.transcript import INDENT, Command, steps
+from tests.project.sources import ROOT
+
+ALL = sorted([ROOT / "README.md", *(ROOT / "docs").rglob("*.md"), *(ROOT / "examples").rglob("README.md")])
+RUN = [ROOT / "docs" / "tutorial.md", *sorted((ROOT / "docs" / "guides").glob("[a-z]*.md"))]
+SLOW: set[str] = set()  # pages that take more than some ten seconds of a core
+PICTURE_BYTES = 180_000
+LEFT = {"docs/tutorial.md": "rover"}  # what a page ends with, as an example
+SAME_PIXELS = 2.0  # mean difference of two pictures, of 255, below which only a library draws its letters otherwise
+
+
+def name(page: Path) -> str:
+    """The page as its readers call it."""
+    return str(page.relative_to(ROOT))
+
+
+def pages() -> list[object]:
+    """Those with commands, the long ones marked."""
+    return [pytest.param(page, id=name(page), marks=[pytest.mark.slow] if name(page) in SLOW else []) for page in RUN]
+
+
+@pytest.mark.parametrize("page", pages())
+def test_a_page_does_what_it_says(tmp_path: Path, page: Path) -> None:
+    reader = Reader.beginning(tmp_path)
+    text = page.read_text(encoding="utf-8")
+    lines, wrong = text.splitlines(), []
+    for step in steps(text):
+        if not isinstance(step, Command):
+            reader.write(step)
+            continue
+        status, printed = reader.run(step)
+        assert status in (0, 1), f"$ {step.line}\n{printed}"
+        if not fits(step.output, printed):
+            wrong.append((step, printed))
+    if os.environ.get("UPDATE"):
+        for step, printed in reversed(wrong):
+            now = MEANWHILE.sub("", printed).rstrip("\n").splitlines()
+            lines[step.first : step.end] = [(INDENT + line).rstrip() for line in now]
+        page.write_text("\n".join(lines) + "\n", encoding="utf-8")
+    else:
+        assert [f"$ {step.line}\n{printed}\nand not\n{step.output}" for step, printed in wrong] == []
+    keep_or_compare(reader.folder, page)
+    if name(page) in LEFT:
+        compare_example(ROOT / "examples" / LEFT[name(page)], reader.folder)
+
+
+def keep_or_compare(folder: Path, page: Path) -> None:
+    """The pictures that a page shows and its commands have made."""
+    for link in re.findall(r"!\[[^\]]*\]\(([^)]+\.png)\)", page.read_text(encoding="utf-8")):
+        kept, made = page.parent / link, folder / Path(link).name
+        if not made.exists():
+            continue
+        if os.environ.get("UPDATE") and (not kept.exists() or differ(kept, made)):
+            kept.parent.mkdir(exist_ok=True)
+            kept.write_bytes(made.read_bytes())
+        assert not differ(kept, made), f"{link} is no longer what the page's commands draw"
+        assert kept.stat().st_size <= PICTURE_BYTES
+
+
+def compare_example(example: Path, made: Path) -> None:
+    """An example that is what a page ends with: the source, the wiring, and what was learnt."""
+    for kept in sorted(path for path in example.rglob("*") if path.is_file() and path.name != "README.md"):
+        assert kept.read_bytes() == (made / kept.relative_to(example)).read_bytes(), kept
+
+
+def differ(one: Path, other: Path) -> bool:
+    """Whether two pictures show something else."""
+    a, b = cv2.imread(str(one)), cv2.imread(str(other))
+    return a.shape != b.shape or float(np.abs(a.astype(int) - b).mean()) > SAME_PIXELS
+
+
+@pytest.mark.parametrize("page", RUN, ids=name)
+def test_there_is_something_to_run(page: Path) -> None:
+    assert any(isinstance(step, Command) for step in steps(page.read_text(encoding="utf-8")))
+
+
+@pytest.mark.parametrize("page", ALL, ids=name)
+def test_what_is_shown_of_the_language_is_part_of_a_file(page: Path) -> None:
+    """So that it is compiled: ```mind has the name of a file behind it."""
+    assert "```mind\n" not in page.read_text(encoding="utf-8")
