@@ -9,6 +9,7 @@ from mindlang.compiler.source import Source
 from mindlang.compiler.splice import Splice
 from mindlang.server.completing import complete
 from mindlang.server.hovering import hover
+from mindlang.server.lenses import lenses
 from mindlang.server.lsp_types import LspConverter
 from mindlang.server.navigating import Symbol, definitions, everything, highlights, references, symbols
 from mindlang.server.offers import Offer
@@ -45,6 +46,8 @@ OFFERS = {
     "word": types.CompletionItemKind.Keyword,
 }
 
+TERMINAL = "mind.terminal"  # which is the editor's own
+
 
 def register(server: MindServer) -> None:
     """Let a server answer these requests."""
@@ -56,6 +59,7 @@ def register(server: MindServer) -> None:
     server.feature(types.TEXT_DOCUMENT_DOCUMENT_SYMBOL)(outlined)
     server.feature(types.WORKSPACE_SYMBOL)(searched)
     server.feature(types.TEXT_DOCUMENT_FORMATTING)(formatted)
+    server.feature(types.TEXT_DOCUMENT_CODE_LENS, types.CodeLensOptions())(asked_above)
 
 
 def hovered(ls: MindServer, params: types.HoverParams) -> types.Hover | None:
@@ -76,6 +80,20 @@ def completed(ls: MindServer, params: types.CompletionParams) -> types.Completio
     edits = (ls.session.lsp.text_edit(Splice(source, found.start, offset, offer.label)) for offer in found.offers)
     items = [_item(*each) for each in enumerate(zip(found.offers, edits, strict=True))]
     return types.CompletionList(is_incomplete=False, items=items)
+
+
+def asked_above(ls: MindServer, params: types.CodeLensParams) -> list[types.CodeLens]:
+    """What stands above lines: commands of mindc, which the editor runs in a terminal."""
+    path = ls.session.lsp.path(params.text_document.uri)
+    view = ls.session.workspace.view(path)
+    folder = str(view.main.parent)
+    return [
+        types.CodeLens(
+            ls.session.lsp.range(lens.span),
+            types.Command(lens.title, TERMINAL, arguments=[{"folder": folder, "words": list(lens.words)}]),
+        )
+        for lens in lenses(view, path)
+    ]
 
 
 def _item(place: int, of: tuple[Offer, types.TextEdit]) -> types.CompletionItem:
