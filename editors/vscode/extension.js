@@ -1,19 +1,32 @@
-// Starts `mindc lsp` and talks with it; asks for the arguments of an edit, and for the names of what it makes.
+// Starts `mindc lsp` and talks with it; runs mindc in terminals; asks for the arguments of an edit, and for the names of
+// what it makes.
 const fs = require("fs");
 const os = require("os");
 const vscode = require("vscode");
-const { LanguageClient, TransportKind } = require("vscode-languageclient/node");
-const { program } = require("./program");
+const { CloseAction, ErrorAction, LanguageClient, TransportKind } = require("vscode-languageclient/node");
+const { notFound, program } = require("./program");
+const { COMMANDS, choices, invocation } = require("./terminal");
 
+const HELP = "pip install 'mindlang[lsp]', in the environment of that mindc";
 let client;
+let mindc;
 
 async function activate(context) {
   context.subscriptions.push(
     vscode.commands.registerCommand("mind.editHierarchy", editHierarchy),
     vscode.commands.registerCommand("mind.restart", restart),
+    vscode.commands.registerCommand("mind.terminal", inTerminal),
+    vscode.commands.registerCommand("mind.train", () => chosen("mind.train")),
+    vscode.commands.registerCommand("mind.run", () => chosen("mind.run")),
+    vscode.commands.registerCommand("mind.bench", () => chosen("mind.bench")),
+    vscode.commands.registerCommand("mind.view", () => chosen("mind.view")),
+    vscode.tasks.registerTaskProvider("mind", { provideTasks: () => [], resolveTask: (task) => mindc && taskOf(task.definition) }),
     vscode.workspace.onDidChangeConfiguration((event) => event.affectsConfiguration("mind.path") && restart()),
     vscode.workspace.onDidGrantWorkspaceTrust(restart),
   );
+  const environments = (await pythonExtension())?.environments;
+  const changed = environments?.onDidChangeActiveEnvironmentPath?.(restart);
+  if (changed) context.subscriptions.push(changed);
   await start();
 }
 
@@ -22,29 +35,99 @@ async function deactivate() {
 }
 
 async function restart() {
-  await client?.dispose();
+  await client?.dispose().catch(() => undefined); // one that never began has nothing to end
+  client = undefined;
   await start();
 }
 
 async function start() {
-  const command = program(vscode.workspace.getConfiguration("mind").get("path"), {
-    folders: (vscode.workspace.workspaceFolders ?? []).map((folder) => folder.uri.fsPath),
-    home: os.homedir(),
-    isTrusted: vscode.workspace.isTrusted,
-    exists: fs.existsSync,
-  });
-  const server = { command, args: ["lsp"], transport: TransportKind.stdio };
+  const found = program(vscode.workspace.getConfiguration("mind").get("path"), await world());
+  mindc = found.command;
+  if (!mindc) return complain(notFound(found.looked));
+  let begun = false; // until then it says nothing itself, so that there is one message
+  const server = { command: mindc, args: ["lsp"], transport: TransportKind.stdio };
   client = new LanguageClient("mind", "mind", server, {
     documentSelector: [{ language: "mind", scheme: "file" }, { language: "mind", scheme: "untitled" }],
     middleware: { executeCommand: thenRename },
+    errorHandler: {
+      error: () => ({ action: ErrorAction.Continue, handled: true }),
+      closed: () => ({ action: CloseAction.DoNotRestart, handled: !begun }),
+    },
   });
   try {
     await client.start();
-  } catch (error) {
-    const help = "pip install 'mindlang[lsp]', or say where mindc is: mind.path";
-    const choice = await vscode.window.showErrorMessage(`${command} lsp does not start. ${help}`, "Settings");
-    if (choice) vscode.commands.executeCommand("workbench.action.openSettings", "mind.path");
+    begun = true;
+  } catch {
+    await complain(`${mindc} lsp does not start. ${HELP}`);
   }
+}
+
+// The one message where nothing serves the editor.
+async function complain(message) {
+  const choice = await vscode.window.showErrorMessage(message, "Settings", "Try again");
+  if (choice === "Settings") await vscode.commands.executeCommand("workbench.action.openSettings", "mind.path");
+  if (choice === "Try again") await restart();
+}
+
+// All that the search for mindc depends on.
+async function world() {
+  const folders = (vscode.workspace.workspaceFolders ?? []).map(({ name, uri }) => ({ name, path: uri.fsPath }));
+  return {
+    folders,
+    home: os.homedir(),
+    env: process.env,
+    isTrusted: vscode.workspace.isTrusted,
+    python: (await pythonExtension())?.environments?.getActiveEnvironmentPath?.(vscode.workspace.workspaceFolders?.[0]?.uri)?.path,
+    exists: isProgram,
+  };
+}
+
+function isProgram(file) {
+  try {
+    fs.accessSync(file, fs.constants.X_OK);
+    return fs.statSync(file).isFile();
+  } catch {
+    return false;
+  }
+}
+
+// The Python extension, where it is there and works.
+async function pythonExtension() {
+  try {
+    return await vscode.extensions.getExtension("ms-python.python")?.activate();
+  } catch {
+    return undefined;
+  }
+}
+
+// A word above a line: mindc in a terminal, on the files as they are in the editor.
+async function inTerminal(what) {
+  if (!mindc) return start();
+  const documents = vscode.workspace.textDocuments.filter((each) => each.languageId === "mind" && !each.isUntitled);
+  await Promise.all(documents.filter((each) => each.isDirty).map((each) => each.save()));
+  await vscode.tasks.executeTask(taskOf({ type: "mind", ...what }));
+}
+
+// Also one that stands in tasks.json.
+function taskOf(definition) {
+  const { name, command, args, options } = invocation(mindc, definition);
+  const task = new vscode.Task(definition, vscode.TaskScope.Workspace, name, "mind", new vscode.ProcessExecution(command, args, options));
+  task.presentationOptions = { reveal: vscode.TaskRevealKind.Always, panel: vscode.TaskPanelKind.Dedicated };
+  return task;
+}
+
+// A command of the palette: which of the words above the lines of this file.
+async function chosen(command) {
+  const document = vscode.window.activeTextEditor?.document;
+  if (document?.languageId !== "mind" || !client?.isRunning()) return;
+  const lenses = await client.sendRequest("textDocument/codeLens", { textDocument: { uri: document.uri.toString() } });
+  const picks = choices(lenses, command);
+  if (!picks.length) {
+    await vscode.window.showInformationMessage(`There is nothing to ${COMMANDS[command]} in this file.`);
+    return;
+  }
+  const pick = picks.length === 1 ? picks[0] : await vscode.window.showQuickPick(picks, { title: `mindc ${COMMANDS[command]}` });
+  if (pick) await inTerminal(pick.what);
 }
 
 // An edit answers with the place of a name that it had to invent: let the user give a better one.
