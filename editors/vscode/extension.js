@@ -11,6 +11,15 @@ const HELP = "pip install 'mindlang[lsp]', in the environment of that mindc";
 let client;
 let mindc;
 
+// Until it has begun it says nothing itself, so that a user gets one message.
+class Client extends LanguageClient {
+  begun = false;
+
+  error(message, data, shown) {
+    super.error(message, data, this.begun && shown);
+  }
+}
+
 async function activate(context) {
   context.subscriptions.push(
     vscode.commands.registerCommand("mind.editHierarchy", editHierarchy),
@@ -44,19 +53,21 @@ async function start() {
   const found = program(vscode.workspace.getConfiguration("mind").get("path"), await world());
   mindc = found.command;
   if (!mindc) return complain(notFound(found.looked));
-  let begun = false; // until then it says nothing itself, so that there is one message
   const server = { command: mindc, args: ["lsp"], transport: TransportKind.stdio };
-  client = new LanguageClient("mind", "mind", server, {
+  const starting = new Client("mind", "mind", server, {
     documentSelector: [{ language: "mind", scheme: "file" }, { language: "mind", scheme: "untitled" }],
     middleware: { executeCommand: thenRename },
+    initializationFailedHandler: () => false,
     errorHandler: {
-      error: () => ({ action: ErrorAction.Continue, handled: true }),
-      closed: () => ({ action: CloseAction.DoNotRestart, handled: !begun }),
+      error: (...said) => (starting.begun ? usual.error(...said) : { action: ErrorAction.Continue, handled: true }),
+      closed: () => (starting.begun ? usual.closed() : { action: CloseAction.DoNotRestart, handled: true }),
     },
   });
+  const usual = starting.createDefaultErrorHandler();
+  client = starting;
   try {
-    await client.start();
-    begun = true;
+    await starting.start();
+    starting.begun = true;
   } catch {
     await complain(`${mindc} lsp does not start. ${HELP}`);
   }

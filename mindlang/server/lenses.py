@@ -8,8 +8,8 @@ from mindlang.compiler.source import Span
 from mindlang.compiler.syntax import Declaration, Master, Teaches
 from mindlang.server.view import MindView
 
-DUE = "Train what is due"
-LOOKS = {"Run": "run", "Bench": "bench", "View": "view"}  # a word above the line, and the command of mindc
+DUE_TITLE = "Train what is due"
+LOOKING_COMMANDS = {"Run": "run", "Bench": "bench", "View": "view"}  # a word above the line, and the command of mindc
 
 
 @dataclass(frozen=True, slots=True)
@@ -43,7 +43,7 @@ def _of_master(view: MindView, master: Master) -> Iterator[Lens]:
     """Nothing in a mind that only thinks, for there is no world in which it could be run."""
     if master.span.source.path == view.main and view.names.of("task"):
         if view.names.of("curriculum"):
-            yield Lens(master.span, DUE, ("train", view.main.name))
+            yield Lens(master.span, DUE_TITLE, ("train", view.main.name))
         yield from _looks(view, master.span)
 
 
@@ -58,8 +58,8 @@ def _of_task(view: MindView, task: Declaration) -> Iterator[Lens]:
 
 def _of_curriculum(view: MindView, curriculum: Declaration) -> Lens:
     header = curriculum.header
-    return Lens(header.span, DUE, ("train", view.main.name, "--curriculum", header.name.text))
+    return Lens(header.span, DUE_TITLE, ("train", view.main.name, "--curriculum", header.name.text))
 
 
 def _looks(view: MindView, span: Span, *more: str) -> Iterator[Lens]:
-    return (Lens(span, title, (command, view.main.name, *more)) for title, command in LOOKS.items())
+    return (Lens(span, title, (command, view.main.name, *more)) for title, command in LOOKING_COMMANDS.items())
