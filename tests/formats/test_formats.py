@@ -85,4 +85,5 @@ def test_breakpoints_and_logs(release: Path) -> None:
 def test_the_present_folder_has_every_kind(noun: str) -> None:
     text = "\n".join(path.read_text(encoding="utf-8") for path in (FOLDER / VERSION).glob("*.mind"))
     words = {*text.replace("\n", " ").split()}
-    assert {*kinds(noun)} - words == set()
+    missing = {*kinds(noun)} - words
+    assert not missing, f"add {missing} to a mind of tests/formats/{VERSION}, then python -m tests.formats.write"
