@@ -1,6 +1,7 @@
 """The container: built from the files that it is given and no more; where there is a builder, built and used."""
 
 import fnmatch
+import re
 import shutil
 import subprocess
 import sys
@@ -48,6 +49,9 @@ def test_docker_is_given_the_same() -> None:
 def test_it_is_built_and_checks_a_mind() -> None:
     program = builder()
     assert program
+    (base,) = re.findall(r"^ARG PYTHON=(\S+)$", (ROOT / "Containerfile").read_text(), re.MULTILINE)
+    if subprocess.run([program, "pull", base], capture_output=True).returncode:
+        pytest.skip(f"{base} is not to be had here")
     subprocess.run([program, "build", "-t", "mind-test", "-f", "Containerfile", "."], cwd=ROOT, check=True)
     if program == "buildah":
         pytest.skip("buildah builds, and runs nothing")
