@@ -26,6 +26,21 @@ class WholeOption(click.IntRange):
             self.fail(f"{_shortened(value)} is not a whole number from {self.min} to {self.max}.", param, ctx)
 
 
+class LayoutOption(WholeOption):
+    """The seed of one run, or which of those of `mindc bench`: 2/17 is the 17th of those from seed 2."""
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
+        """The seed."""
+        seed, slash, number = str(value).partition("/")
+        if not slash:
+            return super().convert(value, param, ctx)
+        first = SEED.convert(seed, param, ctx)
+        run = WholeOption(*bounds.RUN_BOUNDS).convert(number, param, ctx)
+        from mindlang.run.layouts import layouts
+
+        return layouts(first, run)[-1]
+
+
 class NumberOption(click.FloatRange):
     """A number from one bound to another; nan, of which no comparison holds, is none."""
 
@@ -103,7 +118,7 @@ def refuse_ineffective(what_they_are: str, *names: str) -> None:
 
 
 SEED = WholeOption(*bounds.SEED_BOUNDS)
-LAYOUT = WholeOption(*bounds.LAYOUT_BOUNDS)
+LAYOUT = LayoutOption(*bounds.LAYOUT_BOUNDS)
 WORKERS = WholeOption(*bounds.WORKER_BOUNDS)
 ON = WhereOption()
 IN_CHARGE = "Who is in charge. Default: the mind's master if a lesson on the task is under it, else that of the first."

@@ -54,16 +54,36 @@ class ProgressText:
 
     def text(self) -> str:
         """All of it."""
-        return ", ".join((self.where, self.best, self.reevaluated, self.rate, self.left))
+        return _joined(self.where, self.best, self.reevaluated, self.rate, self.left)
 
     def shorter(self) -> Iterator[tuple[str, int]]:
         """Ever shorter texts, each with the columns that its bar needs; how long it will take is in all of them."""
         yield self.text(), MIN_BAR_COLUMNS
-        yield ", ".join((self.where, self.best, self.reevaluated, self.left)), MIN_BAR_COLUMNS
-        yield ", ".join((self.where, self.best, self.reevaluated, self.left)), 0
+        yield _joined(self.where, self.best, self.reevaluated, self.left), MIN_BAR_COLUMNS
+        yield _joined(self.where, self.best, self.reevaluated, self.left), 0
         yield ", ".join((self.where, self.best, self.left)), 0
         yield ", ".join((self.where, self.left)), 0
         yield ", ".join((self.briefly, self.left)), 0
+
+
+def _joined(*parts: str) -> str:
+    return ", ".join(part for part in parts if part)
+
+
+@dataclass(frozen=True, slots=True)
+class Reevaluated:
+    """What the best of a generation scored on fresh layouts."""
+
+    attempt: int
+    generation: int
+    score: float
+
+    def told(self, attempt: int, generation: int) -> str:
+        """In words, in a later generation of the same attempt; nothing in another one, of which it says nothing."""
+        if attempt != self.attempt:
+            return ""
+        when = "" if generation == self.generation else f" in generation {self.generation}"
+        return f"re-evaluated {number(self.score)}{when}"
 
 
 @dataclass(slots=True)
@@ -76,7 +96,7 @@ class TimeLeft:
     generations: int
     began: float
     attempts: int = 1
-    reevaluated: float | None = None
+    reevaluated: Reevaluated | None = None
     first: float = 1.0
     ticks: int = 0
     seen: float = 0.0
@@ -86,8 +106,10 @@ class TimeLeft:
     def of(cls, run: RunFolder, began: float) -> "TimeLeft":
         """The pace of a run that is taken up, which may have scored before."""
         lesson = run.manifest.lesson
-        scores = [record["reevaluated"] for record in read_progress(run.folder)]
-        known = next((score for score in reversed(scores) if score is not None), None)
+        known = None
+        for row in read_progress(run.folder):
+            if (score := row["reevaluated"]) is not None:
+                known = Reevaluated(int(row["attempt"] or 0), int(row["generation"] or 0), score)
         learner = lesson.learner
         first = founder_count(learner) / learner.population if run.begins_with_nothing else 1.0
         return cls(lesson.generations * learner.attempts, began, learner.attempts, known, first)
@@ -107,7 +129,8 @@ class TimeLeft:
         ahead = self.ahead.generations + self.ahead.attempts * (self.first - 1.0)
         left = self.generations - done + (self.attempts - record.attempt) * (self.first - 1.0) - ahead
         everywhere = (self.seen + ahead) / self.seen  # times what has been done in its turn
-        self.reevaluated = self.reevaluated if record.reevaluated is None else record.reevaluated
+        if record.reevaluated is not None:
+            self.reevaluated = Reevaluated(record.attempt, record.generation, record.reevaluated)
         seconds = max(now - self.began, 1e-9)
         one = self.generations // self.attempts
         where, briefly = f"generation {record.generation} of {one}", f"{record.generation}/{one}"
@@ -120,7 +143,7 @@ class TimeLeft:
             where,
             briefly,
             f"best {number(record.best)}",
-            f"re-evaluated {number(self.reevaluated)}",
+            self.reevaluated.told(record.attempt, record.generation) if self.reevaluated else "",
             rate(self.ticks * everywhere / seconds),
             f"{duration(seconds / (self.seen * everywhere) * max(0.0, left))} left",
         )

@@ -22,10 +22,11 @@ SHELLS = ("bash", "zsh", "fish")
 @click.argument("shell", type=click.Choice(SHELLS), required=False)
 @click.option("--install", is_flag=True, help="Install it for you: mindc completion --install")
 def command(shell: str | None, install: bool) -> None:
-    """Let a shell complete commands, options and files of mindc and mindrun.
+    """Let a shell complete the words of mindc and mindrun.
 
-    Prints a script for SHELL, or installs it: for fish in its folder of completions; for bash and zsh in your data
-    folder, with a line in ~/.bashrc or ~/.zshrc that reads it. Without SHELL it is that of $SHELL.
+    Commands, options and files. Prints a script for SHELL, or installs it: for fish in its folder of completions; for
+    bash and zsh in your data folder, with a line in ~/.bashrc or ~/.zshrc that reads it. Without SHELL it is that of
+    $SHELL.
     """
     from mindlang.cli._terminal import MISUSE, fail, print_document, talk, write_file
     from mindlang.compiler.diagnostic import listed

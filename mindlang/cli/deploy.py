@@ -52,7 +52,7 @@ def command(
     as_json: bool,
     quiet: bool,
 ) -> None:
-    """Bring BUNDLE to HOST over ssh, and start it there as a service.
+    """Bring BUNDLE to HOST over ssh, and start it as a service.
 
     It is copied with rsync, verified there, and made current in one step. The service is not armed, that is it moves
     nothing, unless this very command says --arm-service. A release whose service does not stay up is left again for the

@@ -23,7 +23,7 @@ MARKS = {"ok": ("ok ", "green"), "absent": ("-  ", "dim"), "wrong": ("NOT", "red
 @click.command(epilog=EXAMPLES)
 @click.option("--json", "as_json", is_flag=True, help="One JSON document instead: mindc doctor --json")
 def command(as_json: bool) -> None:
-    """Say what is installed on this machine, what is missing, and what mends it.
+    """Say what is installed here, what is missing, what mends it.
 
     `ok` is as it should be, `-` is absent and only needed for what is said, `NOT` has to be mended. Changes nothing.
     Ends with 0, or with 1 where something has to be mended. For a robot's devices: mindrun doctor

@@ -33,7 +33,7 @@ Examples:
 def command(
     file: str, leak: float, master: str | None, with_run: bool, task: str | None, seed: int, as_json: bool
 ) -> None:
-    """Prove what FILE can and cannot do, for any readings from 0 to 1.
+    """Prove what FILE can and cannot do, for any readings.
 
     From the declaration alone: the paths of influence to each actuator, and how much of a command small leaks of
     influence along them can take. With weights: what each actuator can be sent, whether it can be without influence

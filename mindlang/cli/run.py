@@ -24,6 +24,7 @@ Examples:
   mindc run collect.mind --task Collect --seed 3 --record run.rec
   mindc run collect.mind --task Collect --seed 3 --break collect.break
   mindc run collect.mind --task Avoid --seed 3 --json
+  mindc run collect.mind --task Avoid --seed 1/17   of bench --seed 1
 """
 
 

@@ -82,7 +82,7 @@ def rewards_data(task: Task, paid: NDArray[np.float64]) -> dict[str, Any]:
 
 
 def bench_data(task: Task, scores: Scores, seeds: Sequence[int], seconds: float) -> dict[str, Any]:
-    """All runs of one genome; the best and the worst run are named by their seed.
+    """All runs of one genome; the best and the worst run are named by their number, from 1 on, and seed.
 
     A `std` is that of the sample, how far single runs are apart; a `standard_error` how far the mean may be off. One
     run knows neither.
@@ -99,6 +99,8 @@ def bench_data(task: Task, scores: Scores, seeds: Sequence[int], seconds: float)
         "runtime_mean": float(scores.ticks[0].mean() / task.ticks),
         "ended": {ended_by(task, number) or TIME: ended[number] for number in numbers if ended[number]},
         **_spread("score_", totals),
+        "best_run": int(totals.argmax()) + 1,
+        "worst_run": int(totals.argmin()) + 1,
         "best_seed": int(seeds[int(totals.argmax())]),
         "worst_seed": int(seeds[int(totals.argmin())]),
         "faults": int(scores.faults.sum()),

@@ -41,8 +41,8 @@ def bench_summary(found: dict[str, Any]) -> RenderableType:
         ("score", _mean(found, "score_")),
         ("run time", f"{found['runtime_mean']:.1%} of the task's ticks"),
         ("ended by", ended),
-        ("best run", f"seed {found['best_seed']}"),
-        ("worst run", f"seed {found['worst_seed']}"),
+        ("best run", f"--seed {found['seed']}/{found['best_run']} in mindc run"),
+        ("worst run", f"--seed {found['seed']}/{found['worst_run']}"),
         ("speed", f"{rate(found['ticks_per_second'])} {who}, in {duration(found['seconds'])}"),
         ("faults", _faults(found)),
     )

@@ -119,6 +119,16 @@ def test_no_exception_becomes_a_traceback(
     assert "Traceback" not in found[2]
 
 
+@pytest.mark.parametrize("words", [(), ("edit",), ("weights",)])
+def test_the_lists_of_commands_are_not_cut_at_80_columns(
+    words: tuple[str, ...], mindc: Call, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("COLUMNS", "80")
+    listed = mindc(*words, "--help").out.partition("Commands:\n")[2].split("\n\n")[0].splitlines()
+    assert listed
+    assert [line for line in listed if line.endswith("...")] == []
+
+
 def test_every_flag_of_check_and_show_has_an_example(mindc: Call) -> None:
     for name, flags in (("check", ["--json"]), ("show", ["--dot", "--json"])):
         _, out, _ = mindc(name, "--help")

@@ -74,6 +74,17 @@ def test_bench_is_run_many_times(mindc: Call, rules: Path) -> None:
     ended = [run["ended_by"] or "time" for run in runs]
     assert found["ended"] == {name: ended.count(name) for name in set(ended)}
     assert found["best_seed"] == max(runs, key=lambda run: run["score"])["seed"]
+    assert layouts(5, 6)[found["best_run"] - 1] == found["best_seed"]
+
+
+def test_a_single_run_of_many_is_named_briefly(mindc: Call, rules: Path) -> None:
+    text = mindc("bench", rules, "--task", "Roam", "--runs", 6, "--seed", 5).out
+    said = text.partition("best run  --seed ")[2].split()[0]
+    best = json.loads(mindc("run", rules, "--task", "Roam", "--seed", said, "--json").out)
+    found = json.loads(mindc("bench", rules, "--task", "Roam", "--runs", 6, "--seed", 5, "--json").out)
+    assert best["seed"] == found["best_seed"]
+    for wrong in ("5/", "/3", "5/0", "x/1", "5/1/2", "5/99999999999"):
+        assert mindc("run", rules, "--task", "Roam", "--seed", wrong).code == 2
 
 
 def test_every_counted_event_has_its_own_number(mindc: Call, rules: Path) -> None:

@@ -9,7 +9,14 @@ from mindrun.train.lesson_state import Record
 from mindrun.train.step import Ahead
 from rich.console import Console
 
-from mindlang.cli._training_progress import PrintedLines, ProgressBarLine, ProgressLine, ProgressText, TimeLeft
+from mindlang.cli._training_progress import (
+    PrintedLines,
+    ProgressBarLine,
+    ProgressLine,
+    ProgressText,
+    Reevaluated,
+    TimeLeft,
+)
 from mindlang.number_format import rate
 
 SHOWN = {
@@ -88,10 +95,20 @@ def test_founders_are_as_many_generations_as_they_take() -> None:
     assert TimeLeft(80, 0.0, attempts=2, first=10.0).standing(record(2, 1), 41, 10.0).left == "39 s left"
 
 
-def test_the_last_score_is_told_until_there_is_another() -> None:
-    pace = TimeLeft(40, 0.0, reevaluated=5.97)  # as of a run that goes on
-    told = [pace.standing(record(1, n, score), n, 1.0).reevaluated for n, score in ((11, None), (20, 4.0), (21, None))]
-    assert told == ["re-evaluated 5.97", "re-evaluated 4.00", "re-evaluated 4.00"]
+def test_a_score_is_told_with_the_generation_that_it_is_of() -> None:
+    pace = TimeLeft(80, 0.0, attempts=2, reevaluated=Reevaluated(1, 10, 5.97))  # as of a run that goes on
+    records = [(1, 11, None), (1, 20, 4.0), (1, 21, None), (2, 1, None), (2, 10, 3.0), (2, 11, None)]
+    told = [pace.standing(record(*each), each[1], 1.0) for each in records]
+    assert [each.reevaluated for each in told] == [
+        "re-evaluated 5.97 in generation 10",
+        "re-evaluated 4.00",
+        "re-evaluated 4.00 in generation 20",
+        "",
+        "re-evaluated 3.00",
+        "re-evaluated 3.00 in generation 10",
+    ]
+    assert told[3].text().startswith("attempt 2 of 2, generation 1 of 40, best 6.67, ")
+    assert ", , " not in told[3].text()
 
 
 def test_the_bar_goes_away_and_lines_stay() -> None:
@@ -109,5 +126,5 @@ def test_the_bar_goes_away_and_lines_stay() -> None:
     lines.report(record(1, 40), 40, 2.0)
     assert out.getvalue().splitlines() == [
         "Follow: generation 1 of 40, best 6.67, re-evaluated 5.00, 2 k ticks/s, 20 s left",
-        "Follow: generation 40 of 40, best 6.67, re-evaluated 5.00, 2 k ticks/s, 0 s left",
+        "Follow: generation 40 of 40, best 6.67, re-evaluated 5.00 in generation 1, 2 k ticks/s, 0 s left",
     ]
