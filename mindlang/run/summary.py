@@ -34,6 +34,7 @@ def bench_summary(found: dict[str, Any]) -> RenderableType:
     ended = ", ".join(
         f"{'lasted its time' if name == TIME else name}: {n / runs:.0%}" for name, n in found["ended"].items()
     )
+    best = f"{found['seed']}/{found['best_run']}"
     facts = _facts(
         ("runs", f"{runs} from seed {found['seed']}{error}"),
         *_counted({event: f"{_mean(spread, '')}   " for event, spread in found["by_event"].items()}),
@@ -41,8 +42,8 @@ def bench_summary(found: dict[str, Any]) -> RenderableType:
         ("score", _mean(found, "score_")),
         ("run time", f"{found['runtime_mean']:.1%} of the task's ticks"),
         ("ended by", ended),
-        ("best run", f"--seed {found['seed']}/{found['best_run']} in mindc run"),
-        ("worst run", f"--seed {found['seed']}/{found['worst_run']}"),
+        ("best run", f"seed {best}: mindc run --seed {best} repeats it"),
+        ("worst run", f"seed {found['seed']}/{found['worst_run']}"),
         ("speed", f"{rate(found['ticks_per_second'])} {who}, in {duration(found['seconds'])}"),
         ("faults", _faults(found)),
     )

@@ -79,7 +79,7 @@ def test_bench_is_run_many_times(mindc: Call, rules: Path) -> None:
 
 def test_a_single_run_of_many_is_named_briefly(mindc: Call, rules: Path) -> None:
     text = mindc("bench", rules, "--task", "Roam", "--runs", 6, "--seed", 5).out
-    said = text.partition("best run  --seed ")[2].split()[0]
+    said = text.partition("mindc run --seed ")[2].split()[0]
     best = json.loads(mindc("run", rules, "--task", "Roam", "--seed", said, "--json").out)
     found = json.loads(mindc("bench", rules, "--task", "Roam", "--runs", 6, "--seed", 5, "--json").out)
     assert best["seed"] == found["best_seed"]
