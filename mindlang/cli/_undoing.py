@@ -25,7 +25,7 @@ def command(place: str, as_json: bool) -> None:
     """Take back the edit that was last written in a folder.
 
     Sources, locks and weights become what they were before it, together or not at all. Without FILE_OR_FOLDER it is the
-    working directory. Where one of the files has been changed since, nothing is. Said again, it makes the edit again.
+    working directory. Where one of the files has been changed since, nothing is. Edits before the last are not kept.
     """
     from mindlang.cli._diff_printer import print_diff
     from mindlang.cli._terminal import FINDINGS, MISUSE, fail, print_json, take_back, talk
@@ -55,7 +55,6 @@ def command(place: str, as_json: bool) -> None:
         return
     print_diff(_diff(folder, were, are))
     talk.print(f"taken back: {listed(names, 'and')}", markup=False)
-    talk.print("mindc edit undo, said again, makes the edit again", markup=False)
 
 
 def _diff(folder: Path, were: Files, are: Files) -> str:

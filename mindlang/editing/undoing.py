@@ -19,8 +19,7 @@ def kept_in(folder: Path) -> Path | None:
 def undo(folder: Path) -> tuple[Files, Files]:
     """Take back the last edit that was written in a folder; its files as they were until now, and as they are.
 
-    What has been taken back is kept in the place of the edit, and so can be taken back itself. TransactionError where
-    a file has been changed since.
+    What was done before that edit is not kept. TransactionError where a file has been changed since.
     """
     files = transaction.last_change(folder)
     now = {path: path.read_bytes() if path.exists() else None for path in files}
@@ -28,7 +27,8 @@ def undo(folder: Path) -> tuple[Files, Files]:
     with ExitStack() as stack:
         for weights in sorted(locked):
             stack.enter_context(exclusive_folder(weights))  # a training may keep what it has taught just now
-        transaction.change(folder, files, lambda: _refuse_changed(folder, files), keeps=True)
+        transaction.change(folder, files, lambda: _refuse_changed(folder, files))
+    (folder / transaction.UNDO_NAME).unlink(missing_ok=True)
     return now, files
 
 

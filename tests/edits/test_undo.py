@@ -36,7 +36,7 @@ def project(folder: Path) -> dict[str, bytes]:
         ("freeze", "Go"),
     ],
 )
-def test_an_edit_is_taken_back_and_made_again(mindc: Call, drive: Path, words: tuple[str, ...]) -> None:
+def test_an_edit_is_taken_back_once(mindc: Call, drive: Path, words: tuple[str, ...]) -> None:
     before = project(drive.parent)
     edit, *more = words
     assert mindc("edit", edit, drive, *more, "--write").code == 0
@@ -47,7 +47,9 @@ def test_an_edit_is_taken_back_and_made_again(mindc: Call, drive: Path, words: t
     assert project(drive.parent) == before
     assert f"taken back: {drive.name}" in said.err
     assert said.out.startswith("--- ")
-    assert mindc("edit", "undo", drive).code == 0
+    assert mindc("edit", "undo", drive).code == 1
+    assert found(drive.parent) == before
+    assert mindc("edit", edit, drive, *more, "--write").code == 0
     assert project(drive.parent) == after
 
 
