@@ -51,6 +51,15 @@ def folders_above(path: Path) -> list[Path]:
     return [folder for folder in path.parents if folder != folder.parent]
 
 
+def name_from_here(path: Path) -> str:
+    """What a user calls a file: its path from the working directory where it is in there, else the whole of it."""
+    try:
+        here = Path.cwd()
+    except OSError:  # it has been removed
+        return str(path)
+    return str(path.relative_to(here)) if path.is_relative_to(here) else str(path)
+
+
 def text_of(path: Path) -> str:
     """The text of a source file; None where it cannot be read or is none."""
     try:

@@ -5,7 +5,7 @@ from os.path import realpath
 from pathlib import Path
 
 from mindlang.compiler.compile import Compiled, load
-from mindlang.file_search import files_beside, folders_above, text_of, within_read_limits
+from mindlang.file_search import files_beside, folders_above, name_from_here, text_of, within_read_limits
 
 
 def neighbours(files: Collection[Path]) -> Iterator[Compiled]:
@@ -18,7 +18,7 @@ def neighbours(files: Collection[Path]) -> Iterator[Compiled]:
     paths = (path for folder in folders for path in files_beside(folder) if path != main)
     for path, text in sorted(within_read_limits((path, text_of(path)) for path in paths)):
         if path in files or 'use "' in text:  # most of those that lie about need not be compiled
-            compiled = load(path)
+            compiled = load(name_from_here(path))
             if compiled.graph and not {source.path for source in compiled.sources}.isdisjoint(files):
                 yield compiled
 

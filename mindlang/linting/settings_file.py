@@ -14,7 +14,7 @@ from mindrun.regular_files import read_regular
 
 from mindlang.compiler.diagnostic import Diagnostic, did_you_mean, listed
 from mindlang.compiler.source import MAX_SOURCE_BYTES, Source, Span, decode
-from mindlang.file_search import folders_above
+from mindlang.file_search import folders_above, name_from_here
 from mindlang.linting.settings import LintSettings
 from mindlang.rules import all_rules
 
@@ -42,7 +42,7 @@ def why_no_rule(code: str) -> tuple[str, str] | None:
 
 
 def _read(path: Path) -> LintSettings:
-    name = os.path.relpath(path) if path.is_relative_to(Path.cwd()) else str(path)
+    name = name_from_here(path)
     try:
         source = Source(name, decode(read_regular(path, MAX_SOURCE_BYTES + 1)), path.parent)
     except (OSError, ValueError) as error:
