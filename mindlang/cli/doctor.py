@@ -42,6 +42,8 @@ def command(as_json: bool) -> None:
         width = max(len(each.what) for each in found)
         for each in found:
             console().print(_lines(each, width), end="")
+        wrong = sum(each.state is State.WRONG for each in found)
+        click.echo(f"{wrong} to be mended" if wrong else "all that is needed is there", err=True)
     sys.exit(OK if is_fine else FINDINGS)
 
 

@@ -46,7 +46,7 @@ def test_where_all_is_there(mindc: Call, monkeypatch: pytest.MonkeyPatch) -> Non
     assert code == 0
     assert found["numpy"] == {"what": "numpy", "state": "ok", "seen": version("numpy"), "mend": ""}
     text = mindc("doctor")
-    assert (text.code, text.err) == (0, "")
+    assert (text.code, text.err) == (0, "all that is needed is there\n")
     assert text.out.count("\n") >= len(found)
 
 
@@ -61,6 +61,7 @@ def test_what_is_needed_and_missing(mindc: Call, monkeypatch: pytest.MonkeyPatch
     text = mindc("doctor")
     assert text.code == 1
     assert "NOT  numba " in text.out
+    assert text.err == "1 to be mended\n"
 
 
 def test_an_extra_that_is_absent_is_neither_ok_nor_wrong(mindc: Call, monkeypatch: pytest.MonkeyPatch) -> None:
