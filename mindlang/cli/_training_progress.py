@@ -78,7 +78,7 @@ class Reevaluated:
     generation: int
     score: float
 
-    def told(self, attempt: int, generation: int) -> str:
+    def words(self, attempt: int, generation: int) -> str:
         """In words, in a later generation of the same attempt; nothing in another one, of which it says nothing."""
         if attempt != self.attempt:
             return ""
@@ -143,7 +143,7 @@ class TimeLeft:
             where,
             briefly,
             f"best {number(record.best)}",
-            self.reevaluated.told(record.attempt, record.generation) if self.reevaluated else "",
+            self.reevaluated.words(record.attempt, record.generation) if self.reevaluated else "",
             rate(self.ticks * everywhere / seconds),
             f"{duration(seconds / (self.seen * everywhere) * max(0.0, left))} left",
         )
