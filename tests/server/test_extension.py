@@ -65,16 +65,22 @@ def test_its_own_tests() -> None:
     assert "# pass 0" not in done.stdout
 
 
-@pytest.mark.slow
-@pytest.mark.skipif(not shutil.which("npm"), reason="there is no npm")
-def test_it_packages(tmp_path: Path) -> None:
-    folder = tmp_path / "editors" / "vscode"  # as deep as it is here: the schema comes from docs/
-    (tmp_path / "docs").mkdir()
-    shutil.copy(ROOT / "docs" / "robot.schema.json", tmp_path / "docs")
+def packaged(place: Path) -> Path:
+    """The extension as it is installed, built in a folder that is not there yet."""
+    folder = place / "editors" / "vscode"  # as deep as it is here: the schema comes from docs/
+    (place / "docs").mkdir(parents=True)
+    shutil.copy(ROOT / "docs" / "robot.schema.json", place / "docs")
     shutil.copytree(FOLDER, folder, ignore=shutil.ignore_patterns("node_modules", "dist", "*.vsix"))
     subprocess.run(["npm", "ci", "--no-audit", "--no-fund"], cwd=folder, check=True)
     subprocess.run(["npm", "run", "package"], cwd=folder, check=True)
     (made,) = folder.glob("*.vsix")
+    return made
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(not shutil.which("npm"), reason="there is no npm")
+def test_it_packages(tmp_path: Path) -> None:
+    made = packaged(tmp_path / "built")
     assert made.stat().st_size < 200_000
     with zipfile.ZipFile(made) as archive:
         assert archive.read("extension/dist/robot.schema.json") == (ROOT / "docs" / "robot.schema.json").read_bytes()
