@@ -1,50 +1,50 @@
-"""`mindc explain`: what does this code mean, and what is to be done?"""
+"""`mindc explain`: what is this, and what is to be done about it?"""
 
 import click
 
 EXAMPLES = """\b
 Examples:
   mindc explain
+  mindc explain wheel
+  mindc explain sensor light
+  mindc explain ultrasonic
+  mindc explain teaches
   mindc explain influence-cycle
   mindc explain unread-sensor --json
-  mindc explain ultrasonic
 """
 
 
 @click.command(epilog=EXAMPLES)
-@click.argument("code", required=False)
+@click.argument("name", nargs=-1)
 @click.option("--json", "as_json", is_flag=True, help="One JSON document instead: mindc explain comma --json")
-def command(code: str | None, as_json: bool) -> None:
-    """Say what a code of a diagnostic means; without CODE list all.
+def command(name: tuple[str, ...], as_json: bool) -> None:
+    """Say what a NAME of the language is; without NAME list all codes.
 
-    With a wrong example and a right one. The code stands in brackets at the end of a message. CODE can be a driver of
-    a robot.yaml, too: what it is, and what it can be told. Ends with 0, or with 2 where there is no such code.
+    NAME is a kind (wheel), a driver (ultrasonic), a word of the language (teaches), a command (train), or the code in
+    brackets at the end of a message. Where several things have the name, all are said; a noun before it chooses one:
+    sensor light. Ends with 0, or with 2 where there is nothing of that name.
     """
     from mindrun.printable import visible
     from rich.text import Text
 
+    from mindlang.cli._command_articles import command_articles
     from mindlang.cli._terminal import MISUSE, console, fail, print_json
-    from mindlang.compiler.diagnostic import did_you_mean
-    from mindlang.explaining.explanation import explanations
-    from mindlang.explaining.show import as_data, contents, describe_explanation
-    from mindlang.wiring.driver_page import driver_names, driver_page
+    from mindlang.explaining.codes import codes
+    from mindlang.explaining.collection import articles, found, hint
+    from mindlang.explaining.terminal import article_text, as_data, contents
 
-    known = explanations()
-    word = None if code is None else code.strip("[]")
-    if word is not None and word in driver_names():
+    if not name:
         if as_json:
-            print_json({"driver": word, "page": driver_page(word)})
+            print_json({"articles": [as_data(each) for each in codes().values()]})
         else:
-            click.echo(driver_page(word))
+            console().print(Text.assemble(*contents(codes().values())), end="")
         return
-    if word is not None and word not in known:
-        fail(
-            f"There is no code called {visible(word)}.",
-            did_you_mean(word, [*known, *driver_names()])
-            or "mindc explain lists them; those of a robot.yaml are in docs/robot-yaml.md.",
-            MISUSE,
-        )
+    asked = " ".join(" ".join(name).strip("[]").split())
+    known = found(asked, articles()) or found(asked, [*command_articles()])
+    if not known:
+        fail(f"There is nothing called {visible(asked)}.", hint(asked, [*articles(), *command_articles()]), MISUSE)
     if as_json:
-        print_json(as_data(known[word]) if word else {"codes": [as_data(each) for each in known.values()]})
+        print_json({"articles": [as_data(each) for each in known]})
         return
-    console().print(Text.assemble(*(describe_explanation(known[word]) if word else contents(known.values()))), end="")
+    for number, each in enumerate(known):
+        console().print(Text.assemble("\n" * (number > 0), *article_text(each)), end="")

@@ -32,7 +32,7 @@ def settings_of(path: Path) -> LintSettings:
 
 def why_no_rule(code: str) -> tuple[str, str] | None:
     """Why a code cannot be selected or ignored, and what may have been meant; None where it can."""
-    from mindlang.explaining.explanation import errors
+    from mindlang.explaining.codes import errors
 
     if code in all_rules():
         return None

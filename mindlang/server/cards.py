@@ -8,10 +8,11 @@ from mindrun.registry import kinds
 from mindlang.compiler.comments import comment_of
 from mindlang.compiler.drawing import text_after_name
 from mindlang.compiler.syntax import Contains, Declaration, Drives, Influences, Reads, Teaches
+from mindlang.explaining import markdown
+from mindlang.explaining.kinds import kind_article
 from mindlang.lock import lock_sources
 from mindlang.lock.report import Row, made_by, rows
 from mindlang.lock.status import Trained
-from mindlang.server.describing import kind_card
 from mindlang.server.view import MindView
 
 
@@ -166,5 +167,5 @@ def _thing(view: MindView, name: str) -> str:
 
 def _of_kind(noun: str, declaration: Declaration) -> str:
     phrase = declaration.header.phrase
-    cls = kinds(noun).get(phrase.kind.text) if phrase else None
-    return f"---\n{kind_card(noun, phrase.kind.text, cls)}" if phrase and cls else ""
+    is_known = phrase is not None and phrase.kind.text in kinds(noun)
+    return f"---\n{markdown.card(kind_article(noun, phrase.kind.text))}" if phrase and is_known else ""

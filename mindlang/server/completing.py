@@ -10,13 +10,13 @@ from mindrun.sim.outside import making
 
 from mindlang.compiler.syntax import NOUNS, SETTINGS
 from mindlang.editing.owners import OWNERS
+from mindlang.explaining.words import language_words
 from mindlang.file_search import files_below
 from mindlang.server.cursor_line import CursorLine
 from mindlang.server.facts import FACTS
 from mindlang.server.offers import Offer, arguments_of, functions, kinds_of, names, words
 from mindlang.server.stops import are_breakpoints, stop_offers
 from mindlang.server.view import MindView, declaration_at
-from mindlang.server.words import WORDS
 
 MAX_OFFERED_FILES = 200  # that are offered
 
@@ -79,9 +79,9 @@ def _header(line: CursorLine, noun: str, rest: Sequence[str]) -> list[Offer]:
         case [_, "in"]:
             return [*names(line.view, "scene"), *kinds_of(noun)]
         case [_, "is"] if noun == "task":
-            return [Offer("like", "word", text=WORDS["is like"])]
+            return [Offer("like", "word", text=language_words()["is like"].summary)]
         case [_, "is"] if noun in ("skill", "scene"):
-            return [*kinds_of(noun), Offer("like", "word", text=WORDS["is like"])]
+            return [*kinds_of(noun), Offer("like", "word", text=language_words()["is like"].summary)]
         case [_, "is" | "in"]:
             return kinds_of(noun)
         case [_, "is" | "in", "gymnasium"]:

@@ -11,14 +11,15 @@ from mindrun.variation import VARIED_NOUNS
 from mindlang.compiler.resolve.curricula import USING
 from mindlang.compiler.source import Span
 from mindlang.compiler.syntax import NOUNS, Argument, Contains, Expression, File, Header, Name, Phrase, Teaches, Varies
+from mindlang.explaining import markdown
+from mindlang.explaining.kinds import kind_article
+from mindlang.explaining.parameters import parameter
+from mindlang.explaining.words import language_words
 from mindlang.server.cards import card
-from mindlang.server.describing import argument_card, argument_line, kind_card
 from mindlang.server.tree import path_to
 from mindlang.server.view import MindView, declaration_at
-from mindlang.server.words import WORDS
 
 _WORD = re.compile(r"[A-Za-z_][\w.]*(?:\+[A-Z]\w*)*|%")
-_JOINT = re.compile(rf"\b(?:{'|'.join(word for word in WORDS if ' ' in word)})\b")  # of several words
 
 
 @dataclass(frozen=True, slots=True)
@@ -72,7 +73,7 @@ def _varied(view: MindView, fact: Varies) -> Hover | None:
     phrase = view.names.table[noun][fact.of.text].header.phrase if noun else None
     classes = [cls for name, cls in kinds(noun or "content").items() if not phrase or name == phrase.kind.text]
     known = [each for cls in classes for each in arguments(cls) if each.field in cls.varying]
-    found = next((argument_line(each) for each in known if each.field == fact.argument.text), None)
+    found = next((markdown.parameter_line(parameter(each)) for each in known if each.field == fact.argument.text), None)
     return Hover(found, fact.argument.span) if found else None
 
 
@@ -89,7 +90,7 @@ def _of_lesson(lesson: Teaches, of_all: Phrase | None, argument: Argument, offse
 
 def _kind_itself(noun: str, kind: Name) -> Hover | None:
     cls = kinds(noun).get(kind.text)
-    return Hover(kind_card(noun, kind.text, cls), kind.span) if cls else None
+    return Hover(markdown.card(kind_article(noun, kind.text)), kind.span) if cls else None
 
 
 def _owned(path: list[Any]) -> tuple[Any, ...]:
@@ -100,10 +101,11 @@ def _owned(path: list[Any]) -> tuple[Any, ...]:
 
 def _argument(noun: str, kind: str, argument: Argument) -> Hover | None:
     cls = kinds(noun).get(kind)
-    parameters = {parameter.key: parameter for parameter in arguments(cls)} if cls else {}
+    parameters = {each.key: each for each in arguments(cls)} if cls else {}
     if cls is None or argument.key.text not in parameters:
         return None
-    return Hover(argument_card(kind, parameters[argument.key.text], cls), argument.span)
+    said = parameter(parameters[argument.key.text])
+    return Hover(markdown.parameter_card(said, kind_article(noun, kind)), argument.span)
 
 
 def _word(view: MindView, file: File, offset: int) -> Hover | None:
@@ -114,9 +116,11 @@ def _word(view: MindView, file: File, offset: int) -> Hover | None:
     found = next((word for word in _WORD.finditer(line) if word.start() <= offset - start <= word.end()), None)
     if found is None:
         return None
-    for joint in (each for each in _JOINT.finditer(line) if each.start() <= offset - start <= each.end()):
-        return Hover(WORDS[joint[0]], Span(source, start + joint.start(), start + joint.end()))
+    words = language_words()
+    joints = re.finditer(rf"\b(?:{'|'.join(word for word in words if ' ' in word)})\b", line)
+    for joint in (each for each in joints if each.start() <= offset - start <= each.end()):
+        return Hover(markdown.card(words[joint[0]]), Span(source, start + joint.start(), start + joint.end()))
     span = Span(source, start + found.start(), start + found.end())
     if noun := view.names.noun_of(found[0], NOUNS):
         return Hover(card(view, noun, found[0]), span)
-    return Hover(WORDS[found[0]], span) if found[0] in WORDS else None
+    return Hover(markdown.card(words[found[0]]), span) if found[0] in words else None

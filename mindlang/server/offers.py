@@ -14,10 +14,12 @@ from mindlang.compiler.comments import comment_of
 from mindlang.compiler.names import things_of
 from mindlang.compiler.resolve.kinds import about
 from mindlang.compiler.syntax import Declaration, Reads
+from mindlang.explaining import markdown
+from mindlang.explaining.kinds import kind_article
+from mindlang.explaining.parameters import meaning, parameter
+from mindlang.explaining.words import language_words
 from mindlang.file_search import files_beside, text_of
-from mindlang.server.describing import argument_line, kind_card, meaning
 from mindlang.server.view import MindView
-from mindlang.server.words import WORDS
 
 NUMBER = "0123456789"
 _FUNCTION = re.compile(r"^def ([a-z]\w*)\(", re.MULTILINE)
@@ -36,7 +38,13 @@ class Offer:
 
 def words(*labels: str) -> list[Offer]:
     """Words of the language."""
-    return [Offer(label, "word", text=WORDS.get(label, "")) for label in labels]
+    return [Offer(label, "word", text=_word(label)) for label in labels]
+
+
+def _word(label: str) -> str:
+    """What a word of the language is for."""
+    article = language_words().get(label)
+    return article.summary if article else ""
 
 
 def names(view: MindView, *nouns: str, but: Iterable[str] = ()) -> list[Offer]:
@@ -74,7 +82,7 @@ def numbers(view: MindView) -> list[Offer]:
 
 def kinds_of(noun: str) -> list[Offer]:
     """The kinds of a noun with their documentation."""
-    return [Offer(name, "kind", noun, kind_card(noun, name, cls)) for name, cls in sorted(kinds(noun).items())]
+    return [Offer(name, "kind", noun, markdown.card(kind_article(noun, name))) for name in sorted(kinds(noun))]
 
 
 def things(view: MindView, task: Declaration | None, about: Iterable[str]) -> list[Offer]:
@@ -149,8 +157,8 @@ def arguments_of(view: MindView, noun: str, kind: str, rest: Iterable[str], task
 
 def keys(parameters: Iterable[Argument]) -> list[Offer]:
     """Arguments that may be said, those first that must be."""
-    first = sorted(parameters, key=lambda parameter: not parameter.required)
-    return [Offer(parameter.key, "key", meaning(parameter), argument_line(parameter)) for parameter in first]
+    first = sorted(parameters, key=lambda each: not each.required)
+    return [Offer(each.key, "key", meaning(each), markdown.parameter_line(parameter(each))) for each in first]
 
 
 def _after_number(state: WrittenArguments) -> Iterator[Offer]:
@@ -164,7 +172,7 @@ def _after_number(state: WrittenArguments) -> Iterator[Offer]:
 
 def units(*units_: str) -> list[Offer]:
     """Units of a number."""
-    return [Offer(unit, "unit", WORDS.get(unit, "")) for unit in units_ if unit]
+    return [Offer(unit, "unit", _word(unit)) for unit in units_ if unit]
 
 
 def units_of(parameter: Argument) -> list[Offer]:

@@ -63,7 +63,6 @@ METAPHORS = {
 }
 NAMED_METAPHORS = {
     "mindlang/compiler/parse/explain.py: common_mistake": "a mistake that is common",
-    "mindlang/wiring/driver_page.py: driver_page": "a page of the documentation",
     "runtime/mindrun/sensors/eye.py: eye": "the language's sensor eye: one line of a camera",
     "runtime/mindrun/sensors/eye.py: Eye": "the language's sensor eye: one line of a camera",
     "runtime/mindrun/robot/drivers/ball_eye.py: ball_eye": "the language's sensor eye, from a camera",

@@ -9,7 +9,7 @@ from lark import Lark, Token, Tree, UnexpectedInput
 
 from mindlang.breakpoints.parse import grammar as breakpoints
 from mindlang.compiler.parse.shape import grammar
-from mindlang.server.words import NOUNS, SETTINGS, VERBS
+from mindlang.explaining.words import words_of
 from tests.language.examples import EXAMPLES
 from tests.server.textmate import Grammar
 
@@ -206,7 +206,7 @@ def test_a_wrong_colour_is_found() -> None:
 
 
 def test_a_line_that_is_being_written_has_its_colours() -> None:
-    for word in (*NOUNS, *SETTINGS, *VERBS, "stop"):
+    for word in (*words_of("Nouns"), *words_of("Settings"), *words_of("Verbs"), "stop"):
         assert COLOURS.scopes(f"  {word}")[2].split(".")[0] in ("storage", "keyword"), word
         assert COLOURS.scopes(f"  {word} ")[2]
 
@@ -214,6 +214,6 @@ def test_a_line_that_is_being_written_has_its_colours() -> None:
 def test_the_words_of_the_language_are_explained() -> None:
     from mindlang.compiler import syntax
 
-    assert set(NOUNS) == set(syntax.NOUNS)
-    assert set(VERBS) == set(syntax.VERBS)
-    assert set(SETTINGS) == set(syntax.SETTINGS)
+    assert set(words_of("Nouns")) == set(syntax.NOUNS)
+    assert set(words_of("Verbs")) == set(syntax.VERBS)
+    assert set(words_of("Settings")) == set(syntax.SETTINGS)

@@ -158,7 +158,7 @@ def test_definition_in_other_files(shared) -> None:
     assert place["uri"] == uri(folder / "tour" / "parts.mind")
     (place,) = editor.ask("textDocument/definition", editor.at(tour, "drives neck", 8))
     assert place["uri"] == uri(folder / "tour" / "parts.mind")
-    assert "default 40" in hover(editor, tour, "patience 30", 2)
+    assert "default: 40" in hover(editor, tour, "patience 30", 2)
     editor.close(tour)
 
 

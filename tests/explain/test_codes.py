@@ -10,7 +10,9 @@ from mindlang.compiler.compile import load
 from mindlang.compiler.diagnostic import Diagnostic
 from mindlang.compiler.resolve.curricula import SWITCHES
 from mindlang.compiler.source import Source
-from mindlang.explaining.explanation import ERRORS, Explanation, errors, explanations
+from mindlang.explaining.article import Article
+from mindlang.explaining.codes import ERROR, errors
+from mindlang.explaining.codes import codes as all_codes
 from tests.breakpoints.subjects import subject
 from tests.explain.examples import ENVIRONMENTS, write
 from tests.project.sources import COMPILER, RUNTIME, modules, tree
@@ -60,47 +62,47 @@ def _name(function: ast.expr) -> str:
 
 
 def test_every_code_has_an_explanation_and_no_other_is_explained() -> None:
-    codes = [explanation.code for explanation in ALL]
+    codes = [explanation.name for explanation in ALL]
     assert sorted(set(codes)) == sorted(codes)
     assert set(codes) == emitted()
 
 
-@pytest.mark.parametrize("explanation", explanations().values(), ids=lambda each: each.code)
-def test_an_explanation_begins_with_a_short_sentence_and_says_what_to_do(explanation: Explanation) -> None:
-    assert explanation.title.endswith(".")
-    assert len(explanation.title) <= 80
+@pytest.mark.parametrize("explanation", all_codes().values(), ids=lambda each: each.name)
+def test_an_explanation_begins_with_a_short_sentence_and_says_what_to_do(explanation: Article) -> None:
+    assert explanation.summary.endswith(".")
+    assert len(explanation.summary) <= 80
     assert explanation.text
     assert explanation.chapter
-    assert bool(explanation.bad and explanation.good) == (explanation.code not in WITHOUT_EXAMPLES)
+    assert bool(explanation.wrong and explanation.right) == (explanation.name not in WITHOUT_EXAMPLES)
 
 
-def diagnostics(explanation: Explanation, text: str, folder: Path) -> tuple[Diagnostic, ...]:
+def diagnostics(explanation: Article, text: str, folder: Path) -> tuple[Diagnostic, ...]:
     """What is said of an example: a mind, or breakpoints of the small one of tests/breakpoints."""
     if explanation.chapter == ENVIRONMENTS:
         pytest.importorskip("gymnasium")
     if explanation.chapter == "Breakpoints":
-        master = "Seek" if explanation.code == "skill-not-in-run" else "Go"
+        master = "Seek" if explanation.name == "skill-not-in-run" else "Go"
         return breakpoints_of(Source("example", text), subject(master)).diagnostics
     return load(write(explanation, text, folder)).diagnostics
 
 
-BAD = [(each, text) for each in ALL for text in each.bad]
-GOOD = [(each, text) for each in ALL for text in each.good]
+BAD = [(each, text) for each in ALL for text in each.wrong]
+GOOD = [(each, text) for each in ALL for text in each.right]
 
 
-@pytest.mark.parametrize(("explanation", "text"), BAD, ids=lambda each: getattr(each, "code", ""))
-def test_a_wrong_example_gives_just_its_code(explanation: Explanation, text: str, tmp_path: Path) -> None:
+@pytest.mark.parametrize(("explanation", "text"), BAD, ids=lambda each: getattr(each, "name", ""))
+def test_a_wrong_example_gives_just_its_code(explanation: Article, text: str, tmp_path: Path) -> None:
     found = diagnostics(explanation, text, tmp_path)
-    assert [diagnostic.code for diagnostic in found] == [explanation.code], [each.message for each in found]
+    assert [diagnostic.code for diagnostic in found] == [explanation.name], [each.message for each in found]
 
 
-@pytest.mark.parametrize(("explanation", "text"), GOOD, ids=lambda each: getattr(each, "code", ""))
-def test_a_right_example_is_right(explanation: Explanation, text: str, tmp_path: Path) -> None:
+@pytest.mark.parametrize(("explanation", "text"), GOOD, ids=lambda each: getattr(each, "name", ""))
+def test_a_right_example_is_right(explanation: Article, text: str, tmp_path: Path) -> None:
     found = diagnostics(explanation, text, tmp_path)
     assert [(each.code, each.message) for each in found] == []
 
 
 def test_errors_come_before_lint_rules() -> None:
-    sorts = [each.sort for each in explanations().values()]
-    assert sorts[: len(ALL)] == [ERRORS] * len(ALL)
-    assert ERRORS not in sorts[len(ALL) :]
+    sorts = [each.noun for each in all_codes().values()]
+    assert sorts[: len(ALL)] == [ERROR] * len(ALL)
+    assert ERROR not in sorts[len(ALL) :]

@@ -1,0 +1,42 @@
+"""`mindc kinds`: which kinds and drivers are there?"""
+
+import click
+
+EXAMPLES = """\b
+Examples:
+  mindc kinds
+  mindc kinds sensor
+  mindc kinds driver
+  mindc kinds thing --json
+"""
+
+
+@click.command(epilog=EXAMPLES)
+@click.argument("noun", required=False)
+@click.option("--json", "as_json", is_flag=True, help="One JSON document instead: mindc kinds sensor --json")
+def command(noun: str | None, as_json: bool) -> None:
+    """List the kinds of the language and the drivers.
+
+    NOUN chooses some: body, actuator, sensor, memory, skill, scene, thing, event, measure, curriculum or driver.
+    mindc explain says more of each. Ends with 0, or with 2 where there is no such noun.
+    """
+    from mindrun.printable import visible
+    from rich.text import Text
+
+    from mindlang.cli._terminal import MISUSE, console, fail, print_json
+    from mindlang.compiler.diagnostic import did_you_mean, listed
+    from mindlang.explaining.collection import ALSO_CALLED
+    from mindlang.explaining.drivers import driver_articles
+    from mindlang.explaining.kinds import kind_articles
+    from mindlang.explaining.terminal import as_data, kind_list
+
+    known = (*kind_articles(), *driver_articles())
+    nouns = list(dict.fromkeys(each.noun for each in known))
+    chosen = [each for each in known if noun is None or each.noun == ALSO_CALLED.get(noun, noun)]
+    if not chosen:
+        near = did_you_mean(str(noun), nouns)
+        fail(f"There are no kinds of {visible(str(noun))}.", near or f"Write {listed(nouns)}.", MISUSE)
+    if as_json:
+        print_json({"kinds": [as_data(each) for each in chosen]})
+        return
+    console().print(Text.assemble(*kind_list(chosen)), end="")

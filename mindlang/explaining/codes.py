@@ -1,0 +1,30 @@
+"""Every code of a diagnostic: errors from `errors.md`, lint rules from themselves."""
+
+from collections.abc import Iterator
+from functools import cache
+
+from mindlang.explaining.article import Article
+from mindlang.explaining.sections import sections, titled
+
+ERROR, RULE = "error", "lint rule"
+
+
+@cache
+def codes() -> dict[str, Article]:
+    """All codes: errors in the order of their chapters, then the lint rules."""
+    return {each.name: each for each in (*errors(), *_rules())}
+
+
+def errors() -> Iterator[Article]:
+    """The errors."""
+    for each in sections("errors.md"):
+        wrong, right = each.labelled("mind bad"), each.labelled("mind good")
+        yield Article(each.name, ERROR, ERROR, each.chapter, each.title, each.text, wrong=wrong, right=right)
+
+
+def _rules() -> Iterator[Article]:
+    from mindlang.rules import all_rules
+
+    for rule in all_rules().values():
+        wrong, right = (tuple(mind.lstrip("\n") for mind in minds) for minds in (rule.bad, rule.good))
+        yield Article(rule.code, RULE, RULE, "Lint rules", *titled(rule.text), wrong=wrong, right=right)

@@ -1,0 +1,39 @@
+"""All articles, and those that somebody asks for by a name."""
+
+from collections.abc import Iterable, Sequence
+from functools import cache
+
+from mindlang.compiler.diagnostic import did_you_mean, listed
+from mindlang.explaining.article import Article
+from mindlang.explaining.codes import codes
+from mindlang.explaining.drivers import driver_articles
+from mindlang.explaining.kinds import kind_articles
+from mindlang.explaining.words import word_articles
+
+ALSO_CALLED = {"task": "scene", "content": "thing", "function": "skill"}  # nouns of kinds that people say as well
+NAMED_OWNERS = 4  # of an argument, so many of whose kinds are named
+
+
+@cache
+def articles() -> tuple[Article, ...]:
+    """What stands in the language and in a robot.yaml, then the codes."""
+    return (*word_articles().values(), *kind_articles(), *driver_articles(), *codes().values())
+
+
+def found(asked: str, among: Sequence[Article]) -> list[Article]:
+    """The articles of a name, or of a name behind its noun: `light`, `sensor light`."""
+    of_name = [each for each in among if each.name == asked]
+    noun, _, name = asked.partition(" ")
+    return of_name or [each for each in among if (each.noun, each.name) == (ALSO_CALLED.get(noun, noun), name)]
+
+
+def hint(asked: str, among: Iterable[Article]) -> str:
+    """What to do where there is no such name."""
+    known = list(among)
+    owners = [each for each in known if any(parameter.key == asked for parameter in each.parameters)]
+    if owners:
+        some = [f"{each.noun} {each.name}" for each in owners[:NAMED_OWNERS]]
+        some += [f"{len(owners) - len(some)} more"] if len(owners) > len(some) else []
+        return f"It is an argument of {listed(some, 'and')}: mindc explain {owners[0].name} says what it takes."
+    near = did_you_mean(asked, [*(each.name for each in known), *(f"{each.noun} {each.name}" for each in known)])
+    return near or "mindc kinds lists the kinds and drivers, mindc explain the codes."

@@ -1,0 +1,78 @@
+"""Every kind of the language: what its docstring and its fields say of it, with what `kinds.md` says more."""
+
+from collections.abc import Iterator, Mapping
+from dataclasses import fields, is_dataclass
+from functools import cache
+from inspect import cleandoc
+from typing import Any
+
+import mindrun.graph  # noqa: F401  (it knows all kinds)
+from mindrun.registry import arguments, kinds, names
+
+from mindlang.explaining.article import Article
+from mindlang.explaining.parameters import parameter
+from mindlang.explaining.sections import Section, in_lines, sections
+
+# The nouns of kinds as people say them, in the order in which a mind is written, and how the registry calls them.
+NOUNS = {
+    "body": "body",
+    "actuator": "actuator",
+    "sensor": "sensor",
+    "memory": "memory",
+    "skill": "skill",
+    "scene": "task",
+    "thing": "content",
+    "event": "event",
+    "measure": "measure",
+    "curriculum": "curriculum",
+}
+CHAPTERS = {
+    "body": "Bodies",
+    "actuator": "Actuators",
+    "sensor": "Sensors",
+    "memory": "Memories",
+    "skill": "Skills",
+    "scene": "Worlds",
+    "thing": "Things",
+    "event": "Events",
+    "measure": "Measures",
+    "curriculum": "Curricula",
+}
+SAID_AS = {noun: kind for kind, noun in NOUNS.items()} | {"scene": "scene"}
+
+
+@cache
+def kind_articles() -> tuple[Article, ...]:
+    """All kinds, by noun and name."""
+    return tuple(kind_article(of, name) for of in NOUNS.values() for name in sorted(kinds(of)))
+
+
+@cache
+def kind_article(of: str, name: str) -> Article:
+    """The kind of a noun of the registry with that name."""
+    cls, noun = kinds(of)[name], SAID_AS[of]
+    more = _more().get((noun, name))
+    return Article(
+        name,
+        noun,
+        f"kind of {noun}",
+        CHAPTERS[noun],
+        more.title if more else "",
+        "\n\n".join(_texts(cls)),
+        tuple(parameter(each) for each in arguments(cls)),
+        more.scale if more else {},
+        right=more.labelled("mind") if more else (),
+    )
+
+
+@cache
+def _more() -> Mapping[tuple[str, str], Section]:
+    return {(each.chapter, each.name): each for each in sections("kinds.md")}
+
+
+def _texts(cls: type[Any]) -> Iterator[str]:
+    """Its docstring; of a kind that it varies, and of what gives many kinds their arguments, all but the title."""
+    yield in_lines(cleandoc(cls.__doc__ or ""))
+    for each in cls.__mro__[1:]:
+        if is_dataclass(each) and (each in names() or all(field.kw_only for field in fields(each))):
+            yield in_lines(cleandoc(each.__doc__ or "")).partition("\n\n")[2]

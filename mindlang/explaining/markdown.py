@@ -1,0 +1,66 @@
+"""Articles as Markdown: what an editor shows under the mouse, and the pages of reference in docs/."""
+
+from collections.abc import Iterable, Iterator
+from itertools import groupby
+from textwrap import fill
+
+from mindlang.compiler.diagnostic import a
+from mindlang.explaining.article import Article, Parameter
+
+LINE_CHARACTERS = 120  # of a page
+CELL = str.maketrans({"|": "\\|"})
+
+
+def card(article: Article) -> str:
+    """What an editor shows of it."""
+    parts = [f"**{article.name}**, {a(article.sort)}", article.summary, *article.paragraphs]
+    parts += ["\n".join(f"- **{mark}** {meaning}" for mark, meaning in article.scale.items())]
+    parts += ["\n".join(f"- {parameter_line(each)}" for each in article.parameters)]
+    parts += [fenced(text, article.language) for text in article.right]
+    return "\n\n".join(filter(None, parts))
+
+
+def parameter_line(parameter: Parameter) -> str:
+    """An argument in a line: what it takes, and its default."""
+    return f"`{parameter.key}` {parameter.meaning}{parameter.otherwise}"
+
+
+def parameter_card(parameter: Parameter, of: Article) -> str:
+    """What an editor shows of an argument."""
+    return "\n\n".join([parameter_line(parameter), f"of **{of.name}**: {of.summary}", *of.paragraphs])
+
+
+def page(title: str, about: str, articles: Iterable[Article]) -> str:
+    """A page of reference: chapters, and a section for each article."""
+    text = f"# {title}\n\n{about}"
+    for chapter, group in groupby(articles, key=lambda each: each.chapter):
+        text += f"\n## {chapter}\n\n" + "\n".join("\n".join(_section(each)) for each in group)
+    return text
+
+
+def _section(article: Article) -> Iterator[str]:
+    """The lines of an article in a page."""
+    yield from (f"### `{article.name}`", "", article.summary, "")
+    for paragraph in article.paragraphs:
+        yield from (fill(paragraph, LINE_CHARACTERS, break_long_words=False, break_on_hyphens=False), "")
+    if article.scale:
+        yield from (f"| {' | '.join(article.scale)} |", "|---" * len(article.scale) + "|")
+        yield from (f"| {' | '.join(each.translate(CELL) for each in article.scale.values())} |", "")
+    if article.parameters:
+        yield from (f"| of `{article.name}` | | if it is not said |", "|---|---|---|")
+        for each in article.parameters:
+            yield f"| `{each.key}` | {each.meaning.translate(CELL)} | {_default(each)} |"
+        yield ""
+    for heading, texts in (("Wrong:", article.wrong), ("Right:" if article.wrong else "", article.right)):
+        for text in texts:
+            yield from ((heading, "") if heading else ())
+            yield from (fenced(text, article.language), "")
+
+
+def _default(parameter: Parameter) -> str:
+    return "needed" if parameter.default is None else parameter.default.translate(CELL)
+
+
+def fenced(text: str, language: str) -> str:
+    """A text as a block of code."""
+    return f"```{language}\n{text.rstrip()}\n```"

@@ -1,0 +1,91 @@
+"""Articles on a terminal, in 80 columns, and as data."""
+
+from collections.abc import Iterable, Iterator
+from itertools import groupby
+from textwrap import fill, indent
+from typing import Any
+
+from mindlang.explaining.article import Article
+from mindlang.explaining.codes import ERROR
+
+COLUMNS = 80
+NARROW = 12  # columns of a name, at least
+Segment = tuple[str, str]  # text and style
+
+
+def article_text(article: Article) -> Iterator[Segment]:
+    """One article, whole."""
+    yield article.name, "bold"
+    yield f" ({article.sort})\n", "dim"
+    yield f"{fill(article.summary, COLUMNS, break_on_hyphens=False)}\n", ""
+    for paragraph in article.paragraphs:
+        yield f"\n{fill(paragraph, COLUMNS, break_on_hyphens=False)}\n", ""
+    if article.scale:
+        yield "\n", ""
+        yield from _rows([(mark, meaning, "") for mark, meaning in article.scale.items()], 4)
+    if article.parameters:
+        yield f"\n{'Options' if article.noun in ('driver', 'command') else 'Arguments'}:\n", "bold"
+        yield from _rows([(each.key, each.meaning, each.otherwise) for each in article.parameters], NARROW)
+    yield from _examples(article)
+
+
+def _rows(rows: list[tuple[str, str, str]], least: int) -> Iterator[Segment]:
+    """A name, what there is to say of it, and a remark behind it, below one another."""
+    wide = max(least, *(len(key) for key, _, _ in rows))
+    for key, text, remark in rows:
+        lines = fill(f"{text}{remark}", COLUMNS - wide - 4, break_on_hyphens=False).split("\n")
+        yield f"  {key:{wide}}", "cyan"
+        yield "  " + f"\n{'':{wide + 4}}".join(lines) + "\n", ""
+
+
+def _examples(article: Article) -> Iterator[Segment]:
+    right = "Right" if article.wrong else "Example"
+    for heading, style, texts in (("Wrong", "red", article.wrong), (right, "green", article.right)):
+        for text in texts:
+            yield f"\n{heading}:\n", style
+            yield f"{indent(text.rstrip(), '  ')}\n", ""
+
+
+def contents(codes: Iterable[Article]) -> Iterator[Segment]:
+    """All codes with their sentences, by chapter."""
+    known = list(codes)
+    wide = max(len(each.name) for each in known)
+    for (noun, chapter), group in groupby(known, key=lambda each: (each.noun, each.chapter)):
+        yield f"Errors: {chapter}\n" if noun == ERROR else f"{chapter}\n", "bold"
+        for each in group:
+            yield f"  {each.name:{wide}}", "cyan"
+            yield f"  {each.summary}\n", ""
+        yield "\n", ""
+    yield "mindc explain CODE says more; mindc kinds lists the kinds and the drivers.\n", "dim"
+
+
+def kind_list(articles: Iterable[Article]) -> Iterator[Segment]:
+    """Kinds and drivers by their sort, a line each."""
+    known = list(articles)
+    wide = max(len(each.name) for each in known)
+    for (sort, chapter), group in groupby(known, key=lambda each: (each.sort, each.chapter)):
+        yield (f"Drivers {chapter[0].lower()}{chapter[1:]}" if sort.startswith("driver") else chapter), "bold"
+        yield "\n", ""
+        for each in group:
+            yield f"  {each.name:{wide}}", "cyan"
+            yield f"  {each.summary}\n", ""
+        yield "\n", ""
+    yield "mindc explain NAME says more of one.\n", "dim"
+
+
+def as_data(article: Article) -> dict[str, Any]:
+    """An article as plain data."""
+    return {
+        "name": article.name,
+        "noun": article.noun,
+        "sort": article.sort,
+        "chapter": article.chapter,
+        "summary": article.summary,
+        "text": article.text,
+        "arguments": [
+            {"key": each.key, "takes": each.meaning, "default": each.default or None} for each in article.parameters
+        ],
+        "scale": dict(article.scale),
+        "wrong": list(article.wrong),
+        "right": list(article.right),
+    }

@@ -1,0 +1,72 @@
+"""Every driver is explained with all of its options, and its example is a wire that mindc build takes."""
+
+import re
+from pathlib import Path
+
+import pytest
+
+from mindlang.compiler.diagnostic import Findings
+from mindlang.compiler.source import Source
+from mindlang.explaining.article import Article
+from mindlang.explaining.drivers import NOUNS, driver_articles
+from mindlang.explaining.markdown import card, page
+from mindlang.explaining.sections import sections
+from mindlang.explaining.terminal import COLUMNS, article_text
+from mindlang.wiring.driver import wired
+from mindlang.wiring.nodes import Table
+from mindlang.wiring.options import driver_options, drivers
+from mindlang.wiring.read import read
+
+every_driver = pytest.mark.parametrize("article", driver_articles(), ids=lambda each: f"{each.sort}-{each.name}")
+
+
+def noun_of(article: Article) -> str:
+    """Of what a driver is."""
+    return next(noun for noun in NOUNS if article.chapter == f"For {noun}s")
+
+
+def printed(article: Article) -> str:
+    """An article as a terminal has it."""
+    return "".join(text for text, _ in article_text(article))
+
+
+def test_every_driver_has_an_article_and_nothing_else_has() -> None:
+    known = [(noun, name) for noun in NOUNS for name in sorted(drivers(noun))]
+    assert [(noun_of(each), each.name) for each in driver_articles()] == known
+    assert sorted((each.chapter, each.name) for each in sections("drivers.md")) == sorted(known)
+
+
+@every_driver
+def test_a_driver_says_what_it_is(article: Article) -> None:
+    assert article.summary.endswith(".")
+    assert article.text
+    assert max(map(len, printed(article).splitlines())) <= COLUMNS
+
+
+@every_driver
+def test_every_door_has_each_option(article: Article) -> None:
+    for option in driver_options(drivers(noun_of(article))[article.name]):
+        assert f"  {option.key} " in printed(article)
+        assert f"- `{option.key}` " in card(article)
+        assert f"| `{option.key}` |" in page("Drivers", "", [article])
+
+
+@every_driver
+def test_an_example_is_a_wire(article: Article) -> None:
+    assert article.right
+    findings = Findings()
+    for text in article.right:
+        table = read(Source("robot.yaml", text, Path()), findings)
+        assert isinstance(table, Table), [each.message for each in findings.diagnostics]
+        (entry,) = table.entries
+        assert isinstance(entry.value, Table)
+        found = wired(noun_of(article), entry.key, entry.value, findings)
+        assert [each.message for each in findings.diagnostics] == []
+        assert found is not None
+        assert isinstance(found.driver, drivers(noun_of(article))[article.name])
+
+
+@every_driver
+def test_a_driver_speaks_of_options_that_there_are(article: Article) -> None:
+    """`low` and `high` are called `from` and `to` in a robot.yaml."""
+    assert not {"low", "high"} & set(re.findall(r"`(\w+)`", card(article)))

@@ -1,0 +1,92 @@
+"""Every kind is explained whole: what 0, 0.5 and 1 are, each argument by every door, and an example that compiles."""
+
+from itertools import chain
+from pathlib import Path
+
+import pytest
+from mindrun.registry import arguments, kinds
+
+from mindlang.compiler.compile import load
+from mindlang.explaining.article import SCALE_MARKS, Article
+from mindlang.explaining.kinds import NOUNS, kind_articles
+from mindlang.explaining.markdown import card, page
+from mindlang.explaining.sections import sections
+from mindlang.explaining.terminal import COLUMNS, article_text, kind_list
+from tests.explain.examples import write_among
+
+SENTENCE_CHARACTERS = 60  # with which a line of mindc kinds fits a terminal
+SCALED = ("actuator", "sensor", "memory")
+every_kind = pytest.mark.parametrize("article", kind_articles(), ids=lambda each: f"{each.noun}-{each.name}")
+
+
+def printed(article: Article) -> str:
+    """An article as a terminal has it."""
+    return "".join(text for text, _ in article_text(article))
+
+
+def test_every_kind_has_an_article_and_nothing_else_has() -> None:
+    known = {(noun, name) for noun, of in NOUNS.items() for name in kinds(of)}
+    assert {(each.noun, each.name) for each in kind_articles()} == known
+    assert [(each.chapter, each.name) for each in sections("kinds.md")] == list(
+        dict.fromkeys((each.chapter, each.name) for each in sections("kinds.md"))
+    )
+    assert {(each.chapter, each.name) for each in sections("kinds.md")} == known
+
+
+@every_kind
+def test_a_kind_says_in_a_sentence_what_it_is(article: Article) -> None:
+    assert article.summary.endswith("."), f"kinds.md has no sentence of {article.name}"
+    assert len(article.summary) <= SENTENCE_CHARACTERS
+    assert article.text
+
+
+@every_kind
+def test_what_has_readings_or_commands_says_what_0_and_a_half_and_1_are(article: Article) -> None:
+    assert tuple(article.scale) == (SCALE_MARKS if article.noun in SCALED else ())
+    assert all(article.scale.values())
+
+
+@every_kind
+def test_every_door_has_each_argument(article: Article) -> None:
+    said = {argument.key for argument in arguments(kinds(NOUNS[article.noun])[article.name])}
+    assert {each.key for each in article.parameters} == said
+    doors = printed(article), card(article), page("Kinds", "", [article])
+    for parameter in article.parameters:
+        lines = [line for text in doors for line in text.splitlines() if parameter.key in line]
+        assert len(lines) >= len(doors), parameter.key
+        assert all(_unwrapped(parameter.meaning) in _unwrapped(text) for text in doors)
+        assert all(_unwrapped(parameter.default or "") in _unwrapped(text) for text in doors)
+    assert all(meaning in text for meaning in article.scale.values() for text in doors)
+    assert all(line in text for line in chain(*map(str.splitlines, article.right)) for text in doors)
+
+
+def _unwrapped(text: str) -> str:
+    return " ".join(text.split())
+
+
+@every_kind
+def test_an_example_compiles_and_has_the_kind(article: Article, tmp_path: Path) -> None:
+    assert article.right, f"kinds.md has no example of {article.name}"
+    for text in article.right:
+        if "gymnasium" in text:
+            pytest.importorskip("gymnasium")
+        assert f" {article.name}" in text
+        assert [each.message for each in load(write_among(text, tmp_path)).diagnostics] == []
+
+
+@every_kind
+def test_it_fits_a_terminal(article: Article) -> None:
+    assert max(map(len, printed(article).splitlines())) <= COLUMNS
+
+
+def test_the_list_of_kinds_fits_a_terminal() -> None:
+    lines = "".join(text for text, _ in kind_list(kind_articles())).splitlines()
+    assert max(map(len, lines)) <= COLUMNS
+    assert all(f"  {each.name} " in "\n".join(lines) for each in kind_articles())
+
+
+def test_a_kind_that_nobody_wrote_about_is_explained_all_the_same() -> None:
+    """The tests above ask for more; a program that runs says what it knows."""
+    bare = Article("sonar", "sensor", "kind of sensor", "Sensors", "")
+    assert printed(bare).startswith("sonar (kind of sensor)\n")
+    assert card(bare) == "**sonar**, a kind of sensor"
