@@ -6,14 +6,14 @@ from collections.abc import Iterator
 import click
 
 from mindlang.explaining.article import Article, Parameter
-from mindlang.explaining.markdown import page
+from mindlang.explaining.markdown import reference
 from mindlang.explaining.pages import COMMANDS
 from mindlang.explaining.sections import in_lines
 
 
-def commands_page() -> str:
+def command_reference() -> str:
     """All of them as a page of reference, Markdown."""
-    return page("Commands", COMMANDS, command_articles())
+    return reference("Commands", COMMANDS, command_articles())
 
 
 def command_articles() -> Iterator[Article]:

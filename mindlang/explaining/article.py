@@ -26,12 +26,35 @@ class Parameter:
 
 
 @dataclass(frozen=True, slots=True)
+class Wire:
+    """From what to which terminal of a device: a pin of the Raspberry Pi, or something else where it has none."""
+
+    source: str
+    pin: int | None
+    terminal: str
+
+    @property
+    def begin(self) -> str:
+        """Where it begins, with the number of the pin on the header."""
+        return f"{self.source} (pin {self.pin})" if self.pin else self.source
+
+
+@dataclass(frozen=True, slots=True)
+class Wiring:
+    """What is connected to the terminals of a device, with the pins of an example."""
+
+    device: str
+    wires: tuple[Wire, ...]
+
+
+@dataclass(frozen=True, slots=True)
 class Article:
     """A name and what it is: in a sentence, at length, and by examples.
 
     `noun` is what tells it from others of its name: "sensor", "driver", "error". `sort` says it to people, `chapter` is
     where it stands among others. `text` has paragraphs, each of them one line. `scale` has what a reading or command
     of 0, 0.5 and 1 means. `wrong` and `right` are texts in `language`; further files of one stand below `-- NAME --`.
+    `wiring` is that of the device in the example.
     """
 
     name: str
@@ -45,6 +68,7 @@ class Article:
     wrong: tuple[str, ...] = ()
     right: tuple[str, ...] = ()
     language: str = "mind"
+    wiring: Wiring | None = None
 
     @property
     def paragraphs(self) -> list[str]:

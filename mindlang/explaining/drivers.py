@@ -6,6 +6,7 @@ from inspect import cleandoc
 from mindlang.explaining.article import Article
 from mindlang.explaining.parameters import parameter
 from mindlang.explaining.sections import Section, in_lines, sections
+from mindlang.explaining.wiring import wiring_of
 from mindlang.wiring.options import driver_options, drivers
 
 NOUNS = ("sensor", "actuator")
@@ -20,6 +21,7 @@ def driver_articles() -> tuple[Article, ...]:
 
 def _article(noun: str, name: str, more: Section | None) -> Article:
     cls = drivers(noun)[name]
+    right = more.labelled("yaml") if more else ()
     return Article(
         name,
         "driver",
@@ -28,6 +30,7 @@ def _article(noun: str, name: str, more: Section | None) -> Article:
         more.title if more else "",
         in_lines(cleandoc(cls.__doc__ or "")),
         tuple(parameter(each) for each in driver_options(cls)),
-        right=more.labelled("yaml") if more else (),
+        right=right,
         language="yaml",
+        wiring=next(map(wiring_of, more.labelled("wiring"), right), None) if more else None,
     )

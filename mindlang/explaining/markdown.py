@@ -1,13 +1,15 @@
 """Articles as Markdown: what an editor shows under the mouse, and the pages of reference in docs/."""
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from itertools import groupby
 from textwrap import fill
+from types import MappingProxyType
 
 from mindlang.compiler.diagnostic import a
 from mindlang.explaining.article import Article, Parameter
 
 LINE_CHARACTERS = 120  # of a page
+NO_PICTURES: Mapping[str, str] = MappingProxyType({})
 CELL = str.maketrans({"|": "\\|"})
 
 
@@ -30,19 +32,22 @@ def parameter_card(parameter: Parameter, of: Article) -> str:
     return "\n\n".join([parameter_line(parameter), f"of **{of.name}**: {of.summary}", *of.paragraphs])
 
 
-def page(title: str, about: str, articles: Iterable[Article]) -> str:
-    """A page of reference: chapters, and a section for each article."""
+def reference(title: str, about: str, articles: Iterable[Article], pictures: Mapping[str, str] = NO_PICTURES) -> str:
+    """A page of reference: chapters, and a section for each article; `pictures` are paths by noun and name."""
     text = f"# {title}\n\n{about}"
     for chapter, group in groupby(articles, key=lambda each: each.chapter):
-        text += f"\n## {chapter}\n\n" + "\n".join("\n".join(_section(each)) for each in group)
+        text += f"\n## {chapter}\n\n" + "\n".join("\n".join(_section(each, pictures)) for each in group)
     return text
 
 
-def _section(article: Article) -> Iterator[str]:
+def _section(article: Article, pictures: Mapping[str, str]) -> Iterator[str]:
     """The lines of an article in a page."""
     yield from (f"### `{article.name}`", "", article.summary, "")
     for paragraph in article.paragraphs:
         yield from (fill(paragraph, LINE_CHARACTERS, break_long_words=False, break_on_hyphens=False), "")
+    if drawn := pictures.get(f"{article.noun} {article.name}"):
+        about = f"How to wire the {article.wiring.device}" if article.wiring else f"{article.name}: {article.summary}"
+        yield from (f"![{about}]({drawn})", "")
     if article.scale:
         yield from (f"| {' | '.join(article.scale)} |", "|---" * len(article.scale) + "|")
         yield from (f"| {' | '.join(each.translate(CELL) for each in article.scale.values())} |", "")

@@ -1,11 +1,13 @@
 """The pages of reference in docs/, made of the articles."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 
+from mindlang.explaining.article import Article
 from mindlang.explaining.codes import codes
 from mindlang.explaining.drivers import driver_articles
 from mindlang.explaining.kinds import kind_articles
-from mindlang.explaining.markdown import page
+from mindlang.explaining.markdown import reference
+from mindlang.explaining.pictures.collection import picture_file, pictures
 from mindlang.explaining.words import word_articles
 
 COMMANDS = """\
@@ -31,9 +33,23 @@ The codes that stand in brackets at the end of a message: what each means, and w
 one of them, `mindc explain` lists them. Made from what `mindc` knows: {MADE}
 """
 
+
+def all_pictures() -> Mapping[str, Callable[[], str]]:
+    """What draws each picture of the pages, by its path in docs/."""
+    drawn = pictures((*kind_articles(), *driver_articles()))
+    return {f"pictures/{name}": draw for name, draw in drawn.items()}
+
+
+def _paths(articles: Iterable[Article]) -> Mapping[str, str]:
+    """The pictures that there are of some articles, by noun and name."""
+    known = all_pictures()
+    paths = {f"{each.noun} {each.name}": f"pictures/{picture_file(each)}" for each in articles}
+    return {name: path for name, path in paths.items() if path in known}
+
+
 PAGES: Mapping[str, Callable[[], str]] = {
-    "kinds.md": lambda: page("Kinds", KINDS, kind_articles()),
-    "drivers.md": lambda: page("Drivers", DRIVERS, driver_articles()),
-    "words.md": lambda: page("Words", WORDS, word_articles().values()),
-    "codes.md": lambda: page("Codes", CODES, codes().values()),
+    "kinds.md": lambda: reference("Kinds", KINDS, kind_articles(), _paths(kind_articles())),
+    "drivers.md": lambda: reference("Drivers", DRIVERS, driver_articles(), _paths(driver_articles())),
+    "words.md": lambda: reference("Words", WORDS, word_articles().values()),
+    "codes.md": lambda: reference("Codes", CODES, codes().values()),
 }

@@ -8,8 +8,8 @@ from typing import Any
 from mindlang.explaining.article import Article
 from mindlang.explaining.codes import ERROR
 
-COLUMNS = 80
-NARROW = 12  # columns of a name, at least
+LINE_COLUMNS = 80
+NAME_COLUMNS = 12  # columns of a name, at least
 Segment = tuple[str, str]  # text and style
 
 
@@ -17,23 +17,26 @@ def article_text(article: Article) -> Iterator[Segment]:
     """One article, whole."""
     yield article.name, "bold"
     yield f" ({article.sort})\n", "dim"
-    yield f"{fill(article.summary, COLUMNS, break_on_hyphens=False)}\n", ""
+    yield f"{fill(article.summary, LINE_COLUMNS, break_on_hyphens=False)}\n", ""
     for paragraph in article.paragraphs:
-        yield f"\n{fill(paragraph, COLUMNS, break_on_hyphens=False)}\n", ""
+        yield f"\n{fill(paragraph, LINE_COLUMNS, break_on_hyphens=False)}\n", ""
     if article.scale:
         yield "\n", ""
         yield from _rows([(mark, meaning, "") for mark, meaning in article.scale.items()], 4)
     if article.parameters:
         yield f"\n{'Options' if article.noun in ('driver', 'command') else 'Arguments'}:\n", "bold"
-        yield from _rows([(each.key, each.meaning, each.otherwise) for each in article.parameters], NARROW)
+        yield from _rows([(each.key, each.meaning, each.otherwise) for each in article.parameters], NAME_COLUMNS)
     yield from _examples(article)
+    if article.wiring:
+        yield f"\nWires to the {article.wiring.device}:\n", "bold"
+        yield from _rows([(each.begin, each.terminal, "") for each in article.wiring.wires], NAME_COLUMNS)
 
 
 def _rows(rows: list[tuple[str, str, str]], least: int) -> Iterator[Segment]:
     """A name, what there is to say of it, and a remark behind it, below one another."""
     wide = max(least, *(len(key) for key, _, _ in rows))
     for key, text, remark in rows:
-        lines = fill(f"{text}{remark}", COLUMNS - wide - 4, break_on_hyphens=False).split("\n")
+        lines = fill(f"{text}{remark}", LINE_COLUMNS - wide - 4, break_on_hyphens=False).split("\n")
         yield f"  {key:{wide}}", "cyan"
         yield "  " + f"\n{'':{wide + 4}}".join(lines) + "\n", ""
 

@@ -9,9 +9,9 @@ from mindrun.registry import arguments, kinds
 from mindlang.compiler.compile import load
 from mindlang.explaining.article import SCALE_MARKS, Article
 from mindlang.explaining.kinds import NOUNS, kind_articles
-from mindlang.explaining.markdown import card, page
+from mindlang.explaining.markdown import card, reference
 from mindlang.explaining.sections import sections
-from mindlang.explaining.terminal import COLUMNS, article_text, kind_list
+from mindlang.explaining.terminal import LINE_COLUMNS, article_text, kind_list
 from tests.explain.examples import write_among
 
 SENTENCE_CHARACTERS = 60  # with which a line of mindc kinds fits a terminal
@@ -50,7 +50,7 @@ def test_what_has_readings_or_commands_says_what_0_and_a_half_and_1_are(article:
 def test_every_door_has_each_argument(article: Article) -> None:
     said = {argument.key for argument in arguments(kinds(NOUNS[article.noun])[article.name])}
     assert {each.key for each in article.parameters} == said
-    doors = printed(article), card(article), page("Kinds", "", [article])
+    doors = printed(article), card(article), reference("Kinds", "", [article])
     for parameter in article.parameters:
         lines = [line for text in doors for line in text.splitlines() if parameter.key in line]
         assert len(lines) >= len(doors), parameter.key
@@ -76,12 +76,12 @@ def test_an_example_compiles_and_has_the_kind(article: Article, tmp_path: Path) 
 
 @every_kind
 def test_it_fits_a_terminal(article: Article) -> None:
-    assert max(map(len, printed(article).splitlines())) <= COLUMNS
+    assert max(map(len, printed(article).splitlines())) <= LINE_COLUMNS
 
 
 def test_the_list_of_kinds_fits_a_terminal() -> None:
     lines = "".join(text for text, _ in kind_list(kind_articles())).splitlines()
-    assert max(map(len, lines)) <= COLUMNS
+    assert max(map(len, lines)) <= LINE_COLUMNS
     assert all(f"  {each.name} " in "\n".join(lines) for each in kind_articles())
 
 

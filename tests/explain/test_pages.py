@@ -1,15 +1,17 @@
 """The pages of reference in docs/ are what the program says of itself."""
 
 import os
+from xml.etree import ElementTree
 
 import pytest
 
-from mindlang.cli._command_articles import commands_page
+from mindlang.cli._command_articles import command_reference
 from mindlang.explaining.collection import articles
-from mindlang.explaining.pages import PAGES
+from mindlang.explaining.pages import PAGES, all_pictures
 from tests.project.sources import ROOT
 
-ALL = {**PAGES, "commands.md": commands_page}
+PICTURE_BYTES = 16_000
+ALL = {**PAGES, "commands.md": command_reference}
 
 
 @pytest.mark.parametrize("name", ALL)
@@ -18,6 +20,24 @@ def test_what_is_published_is_what_the_program_says(name: str) -> None:
     if os.environ.get("UPDATE"):
         published.write_text(ALL[name](), encoding="utf-8")
     assert published.read_text(encoding="utf-8") == ALL[name]()
+
+
+@pytest.mark.parametrize("name", all_pictures())
+def test_what_is_drawn_is_what_the_program_draws(name: str) -> None:
+    drawn, published = all_pictures()[name](), ROOT / "docs" / name
+    if os.environ.get("UPDATE"):
+        published.parent.mkdir(exist_ok=True)
+        published.write_text(drawn, encoding="utf-8")
+    assert published.read_text(encoding="utf-8") == drawn
+    assert len(drawn) < PICTURE_BYTES
+    assert ElementTree.fromstring(drawn).findtext("{http://www.w3.org/2000/svg}title")
+
+
+def test_no_picture_is_left_over_and_each_is_shown() -> None:
+    published = {f"pictures/{path.name}" for path in (ROOT / "docs" / "pictures").iterdir()}
+    assert published == set(all_pictures())
+    text = "".join(make() for make in PAGES.values())
+    assert all(f"]({name})" in text for name in published)
 
 
 def test_every_article_stands_in_a_page() -> None:

@@ -7,7 +7,7 @@ import pytest
 from mindlang.compiler.compile import load
 from mindlang.explaining.article import Article
 from mindlang.explaining.kinds import NOUNS, kind_articles
-from mindlang.explaining.terminal import COLUMNS, article_text
+from mindlang.explaining.terminal import LINE_COLUMNS, article_text
 from mindlang.explaining.words import language_words, word_articles, words_of
 from tests.explain.examples import write_among
 
@@ -27,7 +27,7 @@ def test_an_example_compiles_and_has_the_word(article: Article, tmp_path: Path) 
 @every_word
 def test_a_word_fits_a_terminal(article: Article) -> None:
     lines = "".join(text for text, _ in article_text(article)).splitlines()
-    assert max(map(len, lines)) <= COLUMNS
+    assert max(map(len, lines)) <= LINE_COLUMNS
 
 
 @pytest.mark.parametrize("noun", NOUNS)

@@ -141,7 +141,7 @@ def test_offers(place, line, wanted, unwanted):
 
 def test_kinds_and_arguments_are_explained():
     assert "perceptron" in offered(BELOW_AVOID, "skill X is |")["mlp"]
-    assert "default 12" in offered(BELOW_AVOID, "sensor x is range_finder |")["range"]
+    assert "default: 12" in offered(BELOW_AVOID, "sensor x is range_finder |")["range"]
 
 
 def test_a_title_with_a_plus_is_replaced_as_a_whole(tmp_path: Path):
