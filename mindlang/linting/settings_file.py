@@ -36,7 +36,7 @@ def why_no_rule(code: str) -> tuple[str, str] | None:
 
     if code in all_rules():
         return None
-    if any(code == error.code for error in errors()):
+    if any(code == error.name for error in errors()):
         return f"{code} is an error, not a rule: errors are always reported.", ""
     return f"There is no rule called {code}.", did_you_mean(code, all_rules()) or "mindc explain lists them."
 

@@ -4,6 +4,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping
 from functools import partial
 
 from mindlang.explaining.article import Article
+from mindlang.explaining.pictures.of_kinds import OF_KINDS
 from mindlang.explaining.pictures.wiring import wiring_picture
 
 Draw = Callable[[], str]
@@ -20,5 +21,7 @@ def picture_file(article: Article) -> str:
 
 
 def _drawn(article: Article) -> Iterator[Draw]:
+    if draw := OF_KINDS.get((article.noun, article.name)):
+        yield partial(draw, article)
     if article.wiring:
         yield partial(wiring_picture, article.wiring)

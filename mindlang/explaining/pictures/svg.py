@@ -5,6 +5,7 @@ from html import escape
 
 INK, FAINT, PAPER, PANEL = "#23272f", "#666c78", "#fdfcf9", "#f1eee6"
 RED, BLUE, GREEN, ORANGE, PURPLE = "#c0392b", "#2b6cb0", "#2f855a", "#b7791f", "#6b46c1"
+ROCK = "#c3c7cf"
 Point = tuple[float, float]
 
 
