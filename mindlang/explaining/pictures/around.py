@@ -26,7 +26,7 @@ def rays(title: str, at: Sequence[float], reach: float, rocks: Sequence[Rock], c
         label = _along(angle, RIM_UNITS + far + 18 / scale, scale)
         shapes.append(svg.line(begin, end, svg.RED if far < reach else svg.BLUE, 1.5, dashed=far == reach))
         shapes.append(svg.words((label[0], label[1] + 4), f"{far / reach:.2g}", "middle", size=11, bold=True))
-    return svg.document(WIDTH, HEIGHT, [*shapes, *robot(MIDDLE, RIM_UNITS * scale)], title)
+    return svg.document(WIDTH, MIDDLE[1] + 30, [*shapes, *robot(MIDDLE, RIM_UNITS * scale)], title)
 
 
 def dial(title: str, remark: str) -> str:

@@ -1,0 +1,64 @@
+"""Pictures say what the kinds say: a ray that meets something is as long as its reading, a mark has its caption."""
+
+import re
+from math import isclose
+from xml.etree import ElementTree
+
+import pytest
+
+from mindlang.explaining.kinds import NOUNS, kind_articles
+from mindlang.explaining.pictures import around, marks, svg
+from mindlang.explaining.pictures.of_kinds import OF_KINDS
+
+ARTICLES = {(each.noun, each.name): each for each in kind_articles()}
+SVG = "{http://www.w3.org/2000/svg}"
+
+
+def texts(drawn: str) -> list[str]:
+    """The words of a picture."""
+    return [each.text or "" for each in ElementTree.fromstring(drawn).iter(f"{SVG}text")]
+
+
+@pytest.mark.parametrize(("noun", "name"), OF_KINDS)
+def test_a_picture_is_of_a_kind_and_names_it(noun: str, name: str) -> None:
+    assert noun in NOUNS
+    drawn = OF_KINDS[noun, name](ARTICLES[noun, name])
+    assert drawn == OF_KINDS[noun, name](ARTICLES[noun, name])
+    title = ElementTree.fromstring(drawn).findtext(f"{SVG}title") or ""
+    assert title.startswith(f"{name}: ")
+    said = [value for each in ElementTree.fromstring(drawn).iter() for value in each.attrib.values()]
+    assert not [value for value in said if re.search(r"nan|inf|\d\.\d\d", value)]
+
+
+def test_a_ray_reads_what_it_is_long() -> None:
+    """A disc of radius 2 whose middle is 8 ahead of the middle of a robot of radius 1: 5 of 10."""
+    drawn = around.rays("rays", (0.0, 1.5), 10.0, [(8.0, 0.0, 2.0)], svg.ROCK)
+    assert texts(drawn) == ["0.5", "1"]
+
+
+def test_a_dial_reads_as_a_bearing_does() -> None:
+    said = texts(around.dial("dial", "remark"))
+    assert said[0] == "remark"
+    for mark in ("0.25", "0.5", "0.75"):
+        assert mark in said
+    shown = ElementTree.fromstring(around.dial("dial", "")).iter(f"{SVG}text")
+    places = {each.text: float(each.get("x", 0)) for each in shown}
+    assert places["0.25"] < places["0.5"] < places["0.75"]  # the left is left
+    assert places["0"] < places["1"]
+
+
+def test_every_mark_has_its_caption() -> None:
+    article = ARTICLES["actuator", "wheel"]
+    assert texts(marks.marks(article, marks.wheel)) == ["0", "full reverse", "0.5", "stopped", "1", "full forward"]
+
+
+@pytest.mark.parametrize(("value", "sign"), [(0.0, 1), (1.0, -1)])
+def test_forward_is_up(value: float, sign: int) -> None:
+    shaft = next(each for each in marks.pushed((0.0, 0.0), value) if svg.RED in each)
+    end = re.findall(r"-?[\d.]+", shaft.partition("L")[2])[1]
+    assert isclose(float(end), sign * marks.ARROW_PIXELS)
+
+
+def test_text_cannot_break_a_picture() -> None:
+    drawn = svg.document(10, 10, [svg.words((0, 0), "a < b & c")], 'a "<" b')
+    assert texts(drawn) == ["a < b & c"]
