@@ -1,0 +1,58 @@
+"""The public names of a package as a page of reference: signatures and docstrings, read from the sources."""
+
+import ast
+from collections.abc import Iterator
+from inspect import cleandoc, getsource, isclass, isroutine
+from textwrap import dedent
+from types import ModuleType
+
+Function = ast.FunctionDef | ast.AsyncFunctionDef
+
+
+def python_reference(package: ModuleType) -> Iterator[str]:
+    """The lines of a package's chapter: each public name with its signature, its fields and its methods."""
+    yield from (f"## `{package.__name__}`", "")
+    for name in package.__all__:
+        value = getattr(package, name)
+        if isclass(value) or isroutine(value):
+            (node,) = ast.parse(dedent(getsource(value))).body
+            yield from (f"### `{package.__name__}.{name}`", "")
+            yield from _class(node) if isinstance(node, ast.ClassDef) else _function(node)
+
+
+def _class(node: ast.ClassDef) -> Iterator[str]:
+    bases = ", ".join(ast.unparse(base) for base in node.bases)
+    fields = [ast.unparse(each) for each in node.body if isinstance(each, ast.AnnAssign) and _is_public(each.target)]
+    yield from _code(
+        f"class {node.name}({bases})" if bases else f"class {node.name}", *(f"    {each}" for each in fields)
+    )
+    yield from _documented(node)
+    for each in node.body:
+        if isinstance(each, Function) and _is_public(each):
+            yield from (f"#### `{node.name}.{each.name}`", "")
+            yield from _function(each)
+
+
+def _function(node: ast.AST) -> Iterator[str]:
+    """A function with its decorators, of which property and staticmethod say how it is called."""
+    if isinstance(node, Function):
+        said = [f"@{ast.unparse(each)}" for each in node.decorator_list if isinstance(each, ast.Name)]
+        result = f" -> {ast.unparse(node.returns)}" if node.returns else ""
+        yield from _code(*said, f"def {node.name}({ast.unparse(node.args)}){result}")
+        yield from _documented(node)
+
+
+def _documented(node: Function | ast.ClassDef) -> Iterator[str]:
+    if text := ast.get_docstring(node):
+        yield from (cleandoc(text), "")
+
+
+def _code(*lines: str) -> Iterator[str]:
+    yield from ("```python", *lines, "```", "")
+
+
+def _is_public(node: ast.AST) -> bool:
+    match node:
+        case ast.Name(id=name) | ast.FunctionDef(name=name) | ast.AsyncFunctionDef(name=name):
+            return not name.startswith("_")
+    return False
