@@ -7,8 +7,8 @@ from mindrun.arithmetic import F, bearing
 
 from mindlang.explaining.pictures import svg
 
-WIDTH, HEIGHT = 420, 280
-MIDDLE = (210.0, 170.0)
+WIDTH_PIXELS, HEIGHT_PIXELS = 420, 280
+MIDDLE_PIXELS = (210.0, 170.0)
 RIM_UNITS = 1.0  # of a disc of size 2
 RAYS_PIXELS, DIAL_PIXELS = 130.0, 105.0  # from the middle
 DIAL_DEGREES = 45
@@ -26,12 +26,12 @@ def rays(title: str, at: Sequence[float], reach: float, rocks: Sequence[Rock], c
         label = _along(angle, RIM_UNITS + far + 18 / scale, scale)
         shapes.append(svg.line(begin, end, svg.RED if far < reach else svg.BLUE, 1.5, dashed=far == reach))
         shapes.append(svg.words((label[0], label[1] + 4), f"{far / reach:.2g}", "middle", size=11, bold=True))
-    return svg.document(WIDTH, MIDDLE[1] + 30, [*shapes, *robot(MIDDLE, RIM_UNITS * scale)], title)
+    return svg.document(WIDTH_PIXELS, MIDDLE_PIXELS[1] + 30, [*shapes, *robot(MIDDLE_PIXELS, RIM_UNITS * scale)], title)
 
 
 def dial(title: str, remark: str) -> str:
     """What a bearing reads of something in each direction."""
-    shapes = [svg.circle(MIDDLE, DIAL_PIXELS, colour=svg.FAINT, width=1), svg.words((10, 20), remark, size=11)]
+    shapes = [svg.circle(MIDDLE_PIXELS, DIAL_PIXELS, colour=svg.FAINT, width=1), svg.words((10, 20), remark, size=11)]
     for degrees in range(-180 + DIAL_DEGREES, 180, DIAL_DEGREES):
         angle = degrees * pi / 180
         at, label = (_along(angle, away, 1.0) for away in (DIAL_PIXELS, DIAL_PIXELS + 24))
@@ -39,10 +39,10 @@ def dial(title: str, remark: str) -> str:
         shapes.append(svg.circle(at, 5, svg.ORANGE, svg.PAPER))
         shapes.append(svg.words((label[0], label[1] + 4), f"{value:.3g}", "middle", size=11, bold=degrees == 0))
     x, y = _along(pi, DIAL_PIXELS, 1.0)
-    shapes.append(svg.line((x, y - 14), (x, HEIGHT), svg.FAINT, 1, dashed=True))
+    shapes.append(svg.line((x, y - 14), (x, HEIGHT_PIXELS), svg.FAINT, 1, dashed=True))
     for side, anchor, mark in ((8, "start", "0"), (-8, "end", "1")):
         shapes.append(svg.words((x - side, y - 8), mark, "end" if anchor == "start" else "start", size=11))
-    return svg.document(WIDTH, HEIGHT, [*shapes, *robot(MIDDLE, 20)], title)
+    return svg.document(WIDTH_PIXELS, HEIGHT_PIXELS, [*shapes, *robot(MIDDLE_PIXELS, 20)], title)
 
 
 def sectors(title: str, at: Sequence[float], width: float, touched: int) -> str:
@@ -57,21 +57,21 @@ def sectors(title: str, at: Sequence[float], width: float, touched: int) -> str:
     x, y = _along(at[touched], 69.0, 1.0)
     aside = (80 * cos(at[touched]), 80 * sin(at[touched]))
     wall = svg.line((x - aside[0], y + aside[1]), (x + aside[0], y - aside[1]), svg.FAINT, 6)
-    return svg.document(WIDTH, HEIGHT, [*robot(MIDDLE, 59), wall, *shapes], title)
+    return svg.document(WIDTH_PIXELS, HEIGHT_PIXELS, [*robot(MIDDLE_PIXELS, 59), wall, *shapes], title)
 
 
 def spots(title: str, at: Sequence[float], ahead: float) -> str:
     """Sensors that look down on a bar ahead of the robot, the leftmost of them above a line."""
     scale = 46.0
     x = _place(ahead, max(at), scale)[0]
-    shapes = [svg.path([(x - 46, 0), (x, 90), (x, HEIGHT)], LINE_COLOUR, 20)]
+    shapes = [svg.path([(x - 46, 0), (x, 90), (x, HEIGHT_PIXELS)], LINE_COLOUR, 20)]
     bar = [_place(ahead, side, scale) for side in (max(at), min(at))]
-    shapes += [svg.line(MIDDLE, _place(ahead, 0.0, scale), svg.FAINT, 2), svg.line(bar[0], bar[1], svg.FAINT, 3)]
+    shapes += [svg.line(MIDDLE_PIXELS, _place(ahead, 0.0, scale), svg.FAINT, 2), svg.line(bar[0], bar[1], svg.FAINT, 3)]
     for side in at:
         place, is_above = _place(ahead, side, scale), side == max(at)
         shapes.append(svg.circle(place, 6, svg.RED if is_above else svg.PAPER, svg.INK))
         shapes.append(svg.words((place[0], place[1] - 12), f"{is_above:d}", "middle", bold=True))
-    return svg.document(WIDTH, HEIGHT, [*shapes, *robot(MIDDLE, RIM_UNITS * scale)], title)
+    return svg.document(WIDTH_PIXELS, HEIGHT_PIXELS, [*shapes, *robot(MIDDLE_PIXELS, RIM_UNITS * scale)], title)
 
 
 def robot(at: svg.Point, radius: float) -> Iterator[str]:
@@ -89,7 +89,7 @@ def _meets(angle: float, rock: Rock) -> float:
 
 
 def _place(ahead: float, left: float, scale: float) -> svg.Point:
-    return MIDDLE[0] - left * scale, MIDDLE[1] - ahead * scale
+    return MIDDLE_PIXELS[0] - left * scale, MIDDLE_PIXELS[1] - ahead * scale
 
 
 def _along(angle: float, away: float, scale: float) -> svg.Point:

@@ -9,7 +9,7 @@ from mindlang.explaining.article import Article
 from mindlang.explaining.pictures import svg
 from mindlang.explaining.pictures.around import robot
 
-PANEL_PIXELS, HEIGHT = 170, 190
+PANEL_PIXELS, HEIGHT_PIXELS = 170, 190
 CAPTION_CHARACTERS = 27
 ROBOT_Y, RADIUS_PIXELS = 92.0, 24.0
 ARROW_PIXELS = 44.0  # of full force or speed
@@ -25,8 +25,8 @@ def marks(article: Article, drawn: Drawn) -> str:
         x = PANEL_PIXELS * (number + 0.5)
         shapes += [svg.words((x, 22), mark, "middle", size=14, bold=True), *drawn((x, ROBOT_Y), float(mark))]
         for row, text in enumerate(wrap(meaning.replace("`", ""), CAPTION_CHARACTERS)):
-            shapes.append(svg.words((x, HEIGHT - 34 + 13 * row), text, "middle", svg.FAINT, 10.5))
-    return svg.document(3 * PANEL_PIXELS, HEIGHT, shapes, f"{article.name}: what 0, 0.5 and 1 are")
+            shapes.append(svg.words((x, HEIGHT_PIXELS - 34 + 13 * row), text, "middle", svg.FAINT, 10.5))
+    return svg.document(3 * PANEL_PIXELS, HEIGHT_PIXELS, shapes, f"{article.name}: what 0, 0.5 and 1 are")
 
 
 def pushed(at: svg.Point, value: float, aside: float = 0.0) -> Shapes:

@@ -8,8 +8,8 @@ from mindrun.sensors.sensor import Readings, Scene, SensorKind
 
 from mindlang.explaining.pictures import svg
 
-WIDTH, HEIGHT = 520, 170
-LEFT, RIGHT, TOP, FLOOR = 44, 500, 28, 136
+WIDTH_PIXELS, HEIGHT_PIXELS = 520, 170
+LEFT_PIXELS, RIGHT_PIXELS, TOP_PIXELS, FLOOR_PIXELS = 44, 500, 28, 136
 TICK_SECONDS, END_SECONDS = 1 / 20, 8
 SOURCE = "moving"
 GRID_COLOUR = "#ddd8cc"
@@ -22,8 +22,12 @@ def over_time(title: str, sensor: SensorKind) -> str:
     shapes = [*_axes()]
     if sensor.source:
         shapes += [_curve(source, svg.FAINT, 1.5)]
-        shapes += [svg.words((RIGHT, TOP - 10), f"grey: {SOURCE}; red: this sensor", "end", svg.FAINT, 10)]
-    return svg.document(WIDTH, HEIGHT, [*shapes, _curve([*_readings(sensor, source)], svg.RED, 2.5)], title)
+        shapes += [
+            svg.words((RIGHT_PIXELS, TOP_PIXELS - 10), f"grey: {SOURCE}; red: this sensor", "end", svg.FAINT, 10)
+        ]
+    return svg.document(
+        WIDTH_PIXELS, HEIGHT_PIXELS, [*shapes, _curve([*_readings(sensor, source)], svg.RED, 2.5)], title
+    )
 
 
 def _source(time: float) -> float:
@@ -42,17 +46,17 @@ def _readings(sensor: SensorKind, source: list[float]) -> Iterator[float]:
 
 def _axes() -> Iterator[str]:
     for mark in (0.0, 0.5, 1.0):
-        yield svg.line((LEFT, _y(mark)), (RIGHT, _y(mark)), GRID_COLOUR, 1)
-        yield svg.words((LEFT - 8, _y(mark) + 4), f"{mark:g}", "end", size=11)
+        yield svg.line((LEFT_PIXELS, _y(mark)), (RIGHT_PIXELS, _y(mark)), GRID_COLOUR, 1)
+        yield svg.words((LEFT_PIXELS - 8, _y(mark) + 4), f"{mark:g}", "end", size=11)
     for second in range(0, END_SECONDS + 1, 2):
-        x = LEFT + (RIGHT - LEFT) * second / END_SECONDS
-        yield svg.words((x, FLOOR + 20), f"{second} s", "middle", svg.FAINT, 10)
+        x = LEFT_PIXELS + (RIGHT_PIXELS - LEFT_PIXELS) * second / END_SECONDS
+        yield svg.words((x, FLOOR_PIXELS + 20), f"{second} s", "middle", svg.FAINT, 10)
 
 
 def _curve(values: list[float], colour: str, width: float) -> str:
-    step = (RIGHT - LEFT) / (len(values) - 1)
-    return svg.path([(LEFT + step * number, _y(value)) for number, value in enumerate(values)], colour, width)
+    step = (RIGHT_PIXELS - LEFT_PIXELS) / (len(values) - 1)
+    return svg.path([(LEFT_PIXELS + step * number, _y(value)) for number, value in enumerate(values)], colour, width)
 
 
 def _y(value: float) -> float:
-    return FLOOR - (FLOOR - TOP) * value
+    return FLOOR_PIXELS - (FLOOR_PIXELS - TOP_PIXELS) * value

@@ -7,7 +7,7 @@ from mindlang.explaining.article import Wire, Wiring
 from mindlang.explaining.pictures import svg
 from mindlang.explaining.wiring import HEADER_PINS
 
-WIDTH, TOP, ROW = 640, 46, 14
+WIDTH_PIXELS, TOP_PIXELS, ROW_PIXELS = 640, 46, 14
 ODD_X, EVEN_X = 60, 74  # the two columns of the header
 TERMINAL_X, TERMINAL_ROW = 230, 22
 SOURCE_CHARACTER = 6  # pixels, of the longest source, which stands before the terminals
@@ -18,17 +18,17 @@ COLOURS = (svg.BLUE, svg.GREEN, svg.ORANGE, svg.PURPLE)
 def wiring_picture(wiring: Wiring) -> str:
     """A device beside the header, each wire in its colour."""
     wires = sorted(wiring.wires, key=lambda each: each.pin or HEADER_PINS + 1)
-    height = TOP + ROW * HEADER_PINS / 2 + 14
+    height = TOP_PIXELS + ROW_PIXELS * HEADER_PINS / 2 + 14
     shapes = [*_header(wires), *_device(wiring.device, wires, height), *_wires(wires, height)]
-    return svg.document(WIDTH, height, shapes, f"How to wire the {wiring.device}")
+    return svg.document(WIDTH_PIXELS, height, shapes, f"How to wire the {wiring.device}")
 
 
 def _header(wires: Sequence[Wire]) -> Iterator[str]:
     used = {wire.pin for wire in wires}
-    height = ROW * HEADER_PINS / 2 + 6
-    yield svg.words(((ODD_X + EVEN_X) / 2, TOP - 26), "Raspberry Pi", "middle", bold=True)
-    yield svg.words(((ODD_X + EVEN_X) / 2, TOP - 11), "header, seen from above", "middle", svg.FAINT, 10)
-    yield svg.rectangle(ODD_X - 11, TOP - 4, EVEN_X - ODD_X + 22, height, svg.PANEL, svg.FAINT)
+    height = ROW_PIXELS * HEADER_PINS / 2 + 6
+    yield svg.words(((ODD_X + EVEN_X) / 2, TOP_PIXELS - 26), "Raspberry Pi", "middle", bold=True)
+    yield svg.words(((ODD_X + EVEN_X) / 2, TOP_PIXELS - 11), "header, seen from above", "middle", svg.FAINT, 10)
+    yield svg.rectangle(ODD_X - 11, TOP_PIXELS - 4, EVEN_X - ODD_X + 22, height, svg.PANEL, svg.FAINT)
     for pin in range(1, HEADER_PINS + 1):
         if pin not in used:
             yield svg.circle(_place(pin), 3.5, svg.PAPER, svg.FAINT, 1)
@@ -37,7 +37,9 @@ def _header(wires: Sequence[Wire]) -> Iterator[str]:
 def _device(name: str, wires: Sequence[Wire], height: float) -> Iterator[str]:
     top = _terminal(0, len(wires), height)[1] - 18
     yield svg.words((TERMINAL_X, top - 8), name, bold=True)
-    yield svg.rectangle(TERMINAL_X, top, WIDTH - TERMINAL_X - 14, TERMINAL_ROW * len(wires) + 12, svg.PANEL, svg.FAINT)
+    yield svg.rectangle(
+        TERMINAL_X, top, WIDTH_PIXELS - TERMINAL_X - 14, TERMINAL_ROW * len(wires) + 12, svg.PANEL, svg.FAINT
+    )
 
 
 def _wires(wires: Sequence[Wire], height: float) -> Iterator[str]:
@@ -57,8 +59,8 @@ def _wire(pin: int, end: svg.Point, colour: str) -> Iterator[str]:
     """From a pin out of the header, those of the left column between two rows, and over to the device."""
     x, y = _place(pin)
     is_odd = pin % 2 == 1
-    out = (EVEN_X + 16, y + ROW / 2 * is_odd)
-    yield svg.path([(x, y), (x + ROW / 2, out[1]), out] if is_odd else [(x, y), out], colour, 2)
+    out = (EVEN_X + 16, y + ROW_PIXELS / 2 * is_odd)
+    yield svg.path([(x, y), (x + ROW_PIXELS / 2, out[1]), out] if is_odd else [(x, y), out], colour, 2)
     yield svg.bow(out, end, colour)
     yield svg.circle((x, y), 4.5, colour, svg.PAPER, 1)
     number = (ODD_X - 15, y + 3.5) if is_odd else (EVEN_X + 13, y - 3)
@@ -67,7 +69,7 @@ def _wire(pin: int, end: svg.Point, colour: str) -> Iterator[str]:
 
 def _place(pin: int) -> svg.Point:
     """Where a pin of the header is: odd ones left, even ones right."""
-    return (ODD_X if pin % 2 else EVEN_X), TOP + 6 + ROW * ((pin - 1) // 2)
+    return (ODD_X if pin % 2 else EVEN_X), TOP_PIXELS + 6 + ROW_PIXELS * ((pin - 1) // 2)
 
 
 def _terminal(number: int, of: int, height: float) -> svg.Point:
