@@ -11,8 +11,8 @@ from mindlang.explaining.article import Article
 from mindlang.explaining.pictures import around, marks, svg
 from mindlang.explaining.pictures.over_time import over_time
 
-ROCKS = ((6.0, 5.6, 2.2), (0.4, -7.0, 2.0))
-GEMS = ((8.0, 4.0, 2.2), (2.5, -7.0, 2.0))
+ROCK_PLACES = ((6.0, 5.6, 2.2), (0.4, -7.0, 2.0))
+GEM_PLACES = ((8.0, 4.0, 2.2), (2.5, -7.0, 2.0))
 Draw = Callable[[Article], str]
 
 
@@ -44,8 +44,8 @@ OF_KINDS: Mapping[tuple[str, str], Draw] = {
     ("sensor", "odometer"): _marked(marks.wheel),
     ("sensor", "turn_rate"): _marked(marks.turned),
     ("sensor", "distance"): _marked(marks.away),
-    ("sensor", "range_finder"): _titled(around.rays, _angles(-90, -45, 0, 45, 90), 12.0, ROCKS, svg.ROCK),
-    ("sensor", "eye"): _titled(around.rays, _angles(-60, -30, 0, 30, 60), 12.0, GEMS, svg.ORANGE),
+    ("sensor", "range_finder"): _titled(around.rays, _angles(-90, -45, 0, 45, 90), 12.0, ROCK_PLACES, svg.ROCK),
+    ("sensor", "eye"): _titled(around.rays, _angles(-60, -30, 0, 30, 60), 12.0, GEM_PLACES, svg.ORANGE),
     ("sensor", "bearing"): _titled(around.dial, "what it reads of a thing there"),
     ("sensor", "compass"): _titled(around.dial, "what it reads with north there"),
     ("sensor", "bumper"): _titled(around.sectors, _angles(-45, 0, 45), *_angles(45), 2),
