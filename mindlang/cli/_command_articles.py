@@ -7,13 +7,17 @@ import click
 
 from mindlang.explaining.article import Article, Parameter
 from mindlang.explaining.markdown import reference
-from mindlang.explaining.pages import COMMANDS
 from mindlang.explaining.sections import in_lines
+
+ABOUT = """\
+The commands of `mindc`, each with its options and examples, as `mindc COMMAND --help` has them. Those of `mindrun`
+are in `mindrun --help`.
+"""
 
 
 def command_reference() -> str:
     """All of them as a page of reference, Markdown."""
-    return reference("Commands", COMMANDS, command_articles())
+    return reference("Commands", ABOUT, command_articles())
 
 
 def command_articles() -> Iterator[Article]:

@@ -10,10 +10,6 @@ from mindlang.explaining.markdown import reference
 from mindlang.explaining.pictures.collection import picture_file, pictures
 from mindlang.explaining.words import word_articles
 
-COMMANDS = """\
-The commands of `mindc`, each with its options and examples, as `mindc COMMAND --help` has them. Those of `mindrun`
-are in `mindrun --help`.
-"""
 MADE = "UPDATE=1 pytest tests/explain/test_pages.py"
 KINDS = f"""\
 What stands behind `is` in a `.mind` ([language.md](language.md)): what it is, what a reading or command of 0, 0.5 and
