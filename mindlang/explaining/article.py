@@ -8,7 +8,7 @@ SCALE_MARKS = ("0", "0.5", "1")
 
 @dataclass(frozen=True, slots=True)
 class Parameter:
-    """What can be said to a kind, a driver or a command: what it takes, and what holds where it is not said.
+    """What can be said to a kind, a driver or a command: what it takes, what for, and what holds where it is not said.
 
     The default is None where it has to be said, and empty where there is nothing to say about it.
     """
@@ -16,6 +16,12 @@ class Parameter:
     key: str
     meaning: str
     default: str | None = None
+    purpose: str = ""
+
+    @property
+    def words(self) -> str:
+        """What it is for and what it takes."""
+        return ": ".join(filter(None, (self.purpose, self.meaning)))
 
     @property
     def otherwise(self) -> str:

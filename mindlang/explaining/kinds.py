@@ -59,7 +59,7 @@ def kind_article(of: str, name: str) -> Article:
         CHAPTERS[noun],
         more.title if more else "",
         "\n\n".join(_texts(cls)),
-        tuple(parameter(each) for each in arguments(cls)),
+        tuple(parameter(each, _purpose(noun, name, each.key)) for each in arguments(cls)),
         more.scale if more else {},
         right=more.labelled("mind") if more else (),
     )
@@ -68,6 +68,17 @@ def kind_article(of: str, name: str) -> Article:
 @cache
 def _more() -> Mapping[tuple[str, str], Section]:
     return {(each.chapter, each.name): each for each in sections("kinds.md")}
+
+
+def _purpose(noun: str, name: str, key: str) -> str:
+    """What an argument is for, as `arguments.md` says it of the kind, else of its noun, else of every kind."""
+    chapters = (f"{noun} {name}", noun, "every kind")
+    return next((_purposes()[chapter, key] for chapter in chapters if (chapter, key) in _purposes()), "")
+
+
+@cache
+def _purposes() -> Mapping[tuple[str, str], str]:
+    return {(each.chapter, each.name): each.title for each in sections("arguments.md")}
 
 
 def _texts(cls: type[Any]) -> Iterator[str]:

@@ -24,7 +24,7 @@ def card(article: Article) -> str:
 
 def parameter_line(parameter: Parameter) -> str:
     """An argument in a line: what it takes, and its default."""
-    return f"`{parameter.key}` {parameter.meaning}{parameter.otherwise}"
+    return f"`{parameter.key}` {parameter.words}{parameter.otherwise}"
 
 
 def parameter_card(parameter: Parameter, of: Article) -> str:
@@ -54,7 +54,7 @@ def _section(article: Article, pictures: Mapping[str, str]) -> Iterator[str]:
     if article.parameters:
         yield from (f"| of `{article.name}` | | if it is not said |", "|---|---|---|")
         for each in article.parameters:
-            yield f"| `{each.key}` | {each.meaning.translate(CELL)} | {_default(each)} |"
+            yield f"| `{each.key}` | {each.words.translate(CELL)} | {_default(each)} |"
         yield ""
     for heading, texts in (("Wrong:", article.wrong), ("Right:" if article.wrong else "", article.right)):
         for text in texts:

@@ -23,12 +23,12 @@ SHAPES = {
 }
 DECLARED = ("thing", "sensor")  # what has a name in a mind
 LEAST_SAID, MOST_SAID, MOST_DEGREES = 1e-3, 99_999.0, 360.0  # bounds beyond these are for machines
-UNLIMITED_NAMES = ("between", "whether")  # of quantities that say their bounds themselves
+UNLIMITED_NAMES = ("between", "at least", "up to")  # of quantities that say their bounds themselves
 
 
-def parameter(asked: Asked) -> Parameter:
-    """An argument or option in words."""
-    return Parameter(asked.key, meaning(asked), None if asked.required else _default(asked))
+def parameter(asked: Asked, purpose: str = "") -> Parameter:
+    """An argument or option in words: what it is for, where that is known, and what it takes."""
+    return Parameter(asked.key, meaning(asked), None if asked.required else _default(asked), purpose)
 
 
 def meaning(asked: Asked) -> str:

@@ -25,7 +25,7 @@ def article_text(article: Article) -> Iterator[Segment]:
         yield from _rows([(mark, meaning, "") for mark, meaning in article.scale.items()], 4)
     if article.parameters:
         yield f"\n{'Options' if article.noun in ('driver', 'command') else 'Arguments'}:\n", "bold"
-        yield from _rows([(each.key, each.meaning, each.otherwise) for each in article.parameters], NAME_COLUMNS)
+        yield from _rows([(each.key, each.words, each.otherwise) for each in article.parameters], NAME_COLUMNS)
     yield from _examples(article)
     if article.wiring:
         yield f"\nWires to the {article.wiring.device}:\n", "bold"
@@ -86,7 +86,8 @@ def as_data(article: Article) -> dict[str, Any]:
         "summary": article.summary,
         "text": article.text,
         "arguments": [
-            {"key": each.key, "takes": each.meaning, "default": each.default or None} for each in article.parameters
+            {"key": each.key, "for": each.purpose, "takes": each.meaning, "default": each.default or None}
+            for each in article.parameters
         ],
         "scale": dict(article.scale),
         "wrong": list(article.wrong),

@@ -100,12 +100,9 @@ def _owned(path: list[Any]) -> tuple[Any, ...]:
 
 
 def _argument(noun: str, kind: str, argument: Argument) -> Hover | None:
-    cls = kinds(noun).get(kind)
-    parameters = {each.key: each for each in arguments(cls)} if cls else {}
-    if cls is None or argument.key.text not in parameters:
-        return None
-    said = parameter(parameters[argument.key.text])
-    return Hover(markdown.parameter_card(said, kind_article(noun, kind)), argument.span)
+    article = kind_article(noun, kind) if kind in kinds(noun) else None
+    said = next((each for each in article.parameters if each.key == argument.key.text), None) if article else None
+    return Hover(markdown.parameter_card(said, article), argument.span) if article and said else None
 
 
 def _word(view: MindView, file: File, offset: int) -> Hover | None:

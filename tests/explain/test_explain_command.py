@@ -51,8 +51,8 @@ def test_a_kind_is_explained_with_its_arguments_and_what_its_commands_mean(mindc
     assert said.out.startswith("wheel (kind of actuator)\nWhat drives one side of the robot.\n")
     for line in (
         "  0.5   stopped",
-        "  side          left or right (required)",
-        "  thrust        a force (default: 80)",
+        "  side          on which side of the robot it is: left or right (required)",
+        "  thrust        the force at the command 1: a force (default: 80)",
     ):
         assert f"\n{line}\n" in said.out
     assert said.out.endswith("Example:\n  actuator left_wheel is wheel side left neutral 0.5 thrust 80\n")
@@ -89,7 +89,12 @@ def test_json_is_one_document(mindc: Call) -> None:
     assert [each["noun"] for each in json.loads(mindc("explain", "box", "--json").out)["articles"]] == ["body", "thing"]
     (wheel,) = json.loads(mindc("explain", "wheel", "--json").out)["articles"]
     assert wheel["scale"] == {"0": "full reverse", "0.5": "stopped", "1": "full forward"}
-    assert wheel["arguments"][0] == {"key": "side", "takes": "left or right", "default": None}
+    assert wheel["arguments"][0] == {
+        "key": "side",
+        "for": "on which side of the robot it is",
+        "takes": "left or right",
+        "default": None,
+    }
 
 
 def test_a_name_of_nothing_is_answered_by_one_that_is_near(mindc: Call) -> None:
@@ -127,5 +132,5 @@ def test_the_explanations_are_in_the_wheel(tmp_path: Path) -> None:
     done = subprocess.run(build, cwd=ROOT, capture_output=True, text=True)
     assert done.returncode == 0, done.stderr
     with ZipFile(next(tmp_path.glob("*.whl"))) as wheel:
-        texts = {f"mindlang/explaining/{name}.md" for name in ("errors", "kinds", "drivers", "words")}
+        texts = {f"mindlang/explaining/{name}.md" for name in ("arguments", "errors", "kinds", "drivers", "words")}
         assert texts <= set(wheel.namelist())

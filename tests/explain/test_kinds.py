@@ -54,7 +54,7 @@ def test_every_door_has_each_argument(article: Article) -> None:
     for parameter in article.parameters:
         lines = [line for text in doors for line in text.splitlines() if parameter.key in line]
         assert len(lines) >= len(doors), parameter.key
-        assert all(_unwrapped(parameter.meaning) in _unwrapped(text) for text in doors)
+        assert all(_unwrapped(parameter.words) in _unwrapped(text) for text in doors)
         assert all(_unwrapped(parameter.default or "") in _unwrapped(text) for text in doors)
     assert all(meaning in text for meaning in article.scale.values() for text in doors)
     assert all(line in text for line in chain(*map(str.splitlines, article.right)) for text in doors)
@@ -62,6 +62,20 @@ def test_every_door_has_each_argument(article: Article) -> None:
 
 def _unwrapped(text: str) -> str:
     return " ".join(text.split())
+
+
+def test_every_argument_says_what_it_is_for_and_nothing_else_does() -> None:
+    said = {(each.chapter, each.name): each.title for each in sections("arguments.md")}
+    used = set()
+    for article in kind_articles():
+        for parameter in article.parameters:
+            chapters = (f"{article.noun} {article.name}", article.noun, "every kind")
+            found = next(((each, parameter.key) for each in chapters if (each, parameter.key) in said), None)
+            assert found, f"arguments.md does not say what {parameter.key} of {article.name} is for"
+            assert parameter.purpose == said[found]
+            used.add(found)
+    assert set(said) == used
+    assert not [purpose for purpose in said.values() if purpose.endswith(".") or "\n" in purpose]
 
 
 @every_kind
