@@ -18,7 +18,7 @@ Examples:
 @click.argument("name", nargs=-1)
 @click.option("--json", "as_json", is_flag=True, help="One JSON document instead: mindc explain comma --json")
 def command(name: tuple[str, ...], as_json: bool) -> None:
-    """Say what a NAME of the language is; without NAME list all codes.
+    """Say what NAME means; without NAME list all codes.
 
     NAME is a kind (wheel), a driver (ultrasonic), a word of the language (teaches), a command (train), or the code in
     brackets at the end of a message. Where several things have the name, all are said; a noun before it chooses one:
