@@ -5,6 +5,8 @@ import tomllib
 from collections.abc import Iterator
 from pathlib import Path
 
+from mindrun import VERSION
+
 from tests.project.sources import ROOT
 
 PLACES = [
@@ -61,7 +63,7 @@ def test_the_readme_has_them_all() -> None:
 
 
 def test_what_both_projects_need_is_the_same() -> None:
-    assert MINDLANG["version"] == MINDRUN["version"]
+    assert MINDLANG["version"] == MINDRUN["version"] == VERSION
     assert MINDLANG["requires-python"] == MINDRUN["requires-python"]
     assert MINDLANG["optional-dependencies"]["robot"] == MINDRUN["optional-dependencies"]["robot"]
     assert set(map(name, MINDRUN["dependencies"])) <= set(map(name, MINDLANG["dependencies"]))
