@@ -1,0 +1,143 @@
+"""`mindc new`: a project to begin with, a robot and a task put together."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+from click.shell_completion import CompletionItem
+
+if TYPE_CHECKING:
+    from mindlang.templates.catalogue import Robot, Task
+
+EXAMPLES = """\b
+Examples:
+  mindc new rover
+  mindc new rover --robot differential --task patrol
+  mindc new porter --task fetch
+  mindc new --list
+  mindc new --list --json
+"""
+
+
+def _names(context: click.Context, parameter: click.Parameter, begun: str) -> list[CompletionItem]:
+    """What a shell may complete an option with."""
+    from mindlang.templates.catalogue import robots, tasks
+
+    known = robots() if parameter.name == "robot" else tasks()
+    return [CompletionItem(name, help=each.about) for name, each in known.items() if name.startswith(begun)]
+
+
+@click.command(epilog=EXAMPLES)
+@click.argument("name", required=False)
+@click.option("--robot", metavar="ROBOT", shell_complete=_names, help="What it is: --robot differential")
+@click.option("--task", metavar="TASK", shell_complete=_names, help="What it is to learn: --task patrol")
+@click.option("--list", "as_list", is_flag=True, help="Print which robots and tasks there are: --list")
+@click.option("--json", "as_json", is_flag=True, help="Print that as one JSON document: --list --json")
+def command(name: str | None, robot: str | None, task: str | None, as_list: bool, as_json: bool) -> None:
+    """Make a folder NAME with a robot that learns a task.
+
+    In it are a mind that is checked and ready to be taught, the robot.yaml that wires it, a test, and a README.md that
+    says how to go on. On a terminal whatever is not said is asked; elsewhere it is a differential robot on patrol, or
+    what goes together with what is said. Nothing is ever overwritten: where NAME is there and not empty it ends with 2.
+    """
+    from mindrun.errors import MindError
+
+    from mindlang.cli._terminal import MISUSE, fail
+    from mindlang.templates.new_folder import check_free, check_name, make_folder
+    from mindlang.templates.project import project
+
+    if as_list:
+        _print_list(as_json)
+        return
+    if as_json:
+        fail("--json goes with --list.", "mindc new --list --json", MISUSE)
+    try:
+        if name is not None:
+            check_name(name)
+            check_free(Path(name))
+        chosen_robot, chosen_task = _chosen(robot, task)
+        if name is None:
+            name = _asked_name()
+            check_name(name)
+        make_folder(Path(name), project(name, chosen_robot, chosen_task))
+    except MindError as error:
+        fail(str(error), error.hint, MISUSE)
+    _say_what_is_next(name, chosen_robot, chosen_task)
+
+
+def _chosen(robot: str | None, task: str | None) -> tuple[Robot, Task]:
+    """The robot and the task that are said, asked for, or go together with what is said."""
+    from mindlang.templates.catalogue import robots, robots_for, tasks, tasks_of
+    from mindlang.templates.choice import fitting, known_robot, known_task
+
+    the_robot = None if robot is None else known_robot(robot)
+    the_task = None if task is None else known_task(task)
+    if _asks() and the_robot is None:
+        about = {each: robots()[each].about for each in (robots_for(the_task) if the_task else robots())}
+        the_robot = robots()[_asked("Which robot?", about)]
+    if _asks() and the_task is None and the_robot is not None:
+        the_task = tasks()[_asked("Which task?", {each: tasks()[each].about for each in tasks_of(the_robot)})]
+    return fitting(the_robot, the_task)
+
+
+def _asks() -> bool:
+    """Whether there is somebody to answer."""
+    return sys.stdin.isatty() and sys.stderr.isatty()
+
+
+def _asked(question: str, choices: dict[str, str]) -> str:
+    """One of the names, by its name or its number; the first where nothing is typed."""
+    names = list(choices)
+    if len(names) == 1:
+        return names[0]
+    click.echo(question, err=True)
+    for number, (name, about) in enumerate(choices.items(), 1):
+        click.echo(f"  {number}  {name:<12}  {about}", err=True)
+    numbers = [str(number) for number in range(1, len(names) + 1)]
+    answer: Any = click.prompt(
+        "", type=click.Choice([*numbers, *names]), default="1", show_choices=False, prompt_suffix="> ", err=True
+    )
+    return names[int(answer) - 1] if answer in numbers else str(answer)
+
+
+def _asked_name() -> str:
+    """A name for the project, where somebody can be asked for it."""
+    from mindlang.cli._terminal import MISUSE, fail
+
+    if not _asks():
+        fail("The project has no name.", "mindc new rover", MISUSE)
+    return str(click.prompt("What is it called?", default="rover", err=True))
+
+
+def _say_what_is_next(name: str, robot: Robot, task: Task) -> None:
+    """Which folder was made, and the commands to go on with."""
+    click.echo(f"{name}: a {robot.name} robot, and how it learns to {task.name}", err=True)
+    click.echo(f"  cd {name}", err=True)
+    click.echo(f"  mindc train {name}.mind --seed 1     # in about a minute", err=True)
+    click.echo(f"  mindc run {name}.mind --seed {task.picture_seed} --picture {name}.png", err=True)
+    click.echo("README.md says how to go on.", err=True)
+
+
+def _print_list(as_json: bool) -> None:
+    """Which robots and tasks there are, and what goes together."""
+    from mindlang.cli._terminal import print_json
+    from mindlang.templates.catalogue import robots, robots_for, tasks, tasks_of
+
+    if as_json:
+        print_json(
+            {
+                "robots": [{"name": r.name, "about": r.about, "tasks": tasks_of(r)} for r in robots().values()],
+                "tasks": [{"name": t.name, "about": t.about, "robots": robots_for(t)} for t in tasks().values()],
+            }
+        )
+        return
+    for noun, known in (("robot", robots()), ("task", tasks())):
+        click.echo(f"--{noun}")
+        for name, each in known.items():
+            click.echo(f"  {name:<13} {each.about}")
+    click.echo("together")
+    for robot in robots().values():
+        click.echo(f"  {robot.name:<13} {', '.join(tasks_of(robot))}")
