@@ -17,7 +17,12 @@ from tests.pages.transcript import INDENT, Command, steps
 from tests.project.sources import ROOT
 
 ALL = sorted([ROOT / "README.md", *(ROOT / "docs").rglob("*.md"), *(ROOT / "examples").rglob("README.md")])
-RUN = [ROOT / "docs" / "tutorial.md", *sorted((ROOT / "docs" / "guides").glob("[a-z]*.md"))]
+RUN = [
+    ROOT / "README.md",
+    ROOT / "docs" / "tutorial.md",
+    ROOT / "docs" / "tour.md",
+    *sorted((ROOT / "docs" / "guides").glob("[a-z]*.md")),
+]
 SLOW: set[str] = set()  # pages that take more than some ten seconds of a core
 PICTURE_BYTES = 180_000
 LEFT = {"docs/tutorial.md": "rover"}  # what a page ends with, as an example
