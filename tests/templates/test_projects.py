@@ -11,10 +11,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from mindlang.api import load, loads
-from mindlang.compiler.compile import load as compiled
-from mindlang.compiler.format import formatted
 from mindlang.compiler.source import Source
-from mindlang.linting.lint_file import linted
 from mindlang.templates.catalogue import can, robots, tasks
 from mindlang.templates.new_folder import NAME, make_folder
 from mindlang.templates.project import project
@@ -37,11 +34,11 @@ def mind(request: pytest.FixtureRequest, tmp_path: Path, monkeypatch: pytest.Mon
     return Path("rover.mind")
 
 
-def test_a_project_is_checked_linted_and_tidy(mind: Path) -> None:
-    assert linted(str(mind), compiled(mind), [], [], False).diagnostics == ()
-    text = mind.read_text(encoding="utf-8")
-    assert text == formatted(text)
-    assert "$" not in text
+def test_a_project_is_checked_linted_and_tidy(mindc: Call, mind: Path) -> None:
+    assert mindc("check", mind).err == "nothing wrong\n"
+    assert mindc("lint", mind).err == "nothing found\n"
+    assert mindc("fmt", "--check", mind).code == 0
+    assert "$" not in mind.read_text(encoding="utf-8")
 
 
 def test_a_project_is_built_with_its_wiring(mindc: Call, mind: Path) -> None:
