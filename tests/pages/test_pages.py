@@ -16,7 +16,6 @@ from tests.pages.running import Reader
 from tests.pages.transcript import INDENT, Command, steps
 from tests.project.sources import ROOT
 
-ALL = sorted([ROOT / "README.md", *(ROOT / "docs").rglob("*.md"), *(ROOT / "examples").rglob("README.md")])
 RUN = [
     ROOT / "README.md",
     ROOT / "docs" / "tutorial.md",
@@ -94,7 +93,7 @@ def test_there_is_something_to_run(page: Path) -> None:
     assert any(isinstance(step, Command) for step in steps(page.read_text(encoding="utf-8")))
 
 
-@pytest.mark.parametrize("page", ALL, ids=name)
+@pytest.mark.parametrize("page", RUN, ids=name)
 def test_what_is_shown_of_the_language_is_part_of_a_file(page: Path) -> None:
     """So that it is compiled: ```mind has the name of a file behind it."""
     assert "```mind\n" not in page.read_text(encoding="utf-8")
