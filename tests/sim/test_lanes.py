@@ -22,7 +22,7 @@ from mindrun.sim.lanes.placement import uniform
 from mindrun.sim.lanes.step import CONTACT_TICKS
 from mindrun.sim.rollout import Rollout
 from mindrun.sim.trace import trace
-from mindrun.things import Item, Obstacle, Power, Zone
+from mindrun.things import Item, LooseBox, Obstacle, Power, Zone
 
 from tests.hierarchies import doubling
 from tests.minds import CLAW, always, mind, rule, skill
@@ -149,7 +149,7 @@ def test_lanes_that_close_ranks_keep_what_waits() -> None:
     rewards = (Reward("", (("number", 1.0),), 0), Reward("", (("reading", 0),), None))
     world = task(300, scene=Arena(30.0), things=things, events=events, ends=(End(1),), rewards=rewards, counts=(0,))
     graph = replace(base, sensors=(bearing,), tasks=(world,))
-    seeds = list(range(24))
+    seeds = list(range(40))
     alone = Rollout(Policy(graph, {}), "World", "Top", lanes=1).score(NOBODY, seeds)
     assert len(np.unique(alone.ticks)) > 5
     together = Rollout(Policy(graph, {}), "World", "Top", lanes=32).score(NOBODY, seeds)
@@ -259,6 +259,34 @@ def test_everything_is_placed_clear_of_everything(scene: Plain | Arena) -> None:
     assert max(angles) > 5.0
     assert (max(places) == 0) == isinstance(scene, Plain)
     assert max(places) <= 27.0
+
+
+def test_where_not_all_finds_a_place_the_robot_has_its_own() -> None:
+    """More stones than fit with the robot's width between crowd each other, and never the robot."""
+    things = (Thing("stone", Obstacle(Span(3.0, 6.0), count=20)), Thing("object", Item(Span(2.0, 2.0))))
+    graph = replace(mind(rule("Top"), actuators=(CLAW,)), tasks=(task(1, scene=Arena(40.0), things=things),))
+    crowded = 0
+    for seed in range(100):
+        run = trace(Rollout(Policy(graph, {}), "World", "Top"), seed)
+        gaps = np.abs(run.boxes[:, None, :2] - run.boxes[None, :, :2]).max(axis=2)
+        gaps += np.diag(np.full(len(gaps), np.inf))
+        crowded += bool((gaps < run.boxes[:, 2] + run.boxes[:, None, 2]).any())
+        assert (np.abs(run.boxes[:, :2] - run.begin[:2]).max(axis=1) >= run.boxes[:, 2] + 3.0).all()
+        assert np.hypot(*(run.things[0, :2] - run.begin[:2])) >= 10.0
+    assert crowded > 30
+
+
+def test_no_obstacle_stands_on_what_has_a_place() -> None:
+    things = (
+        Thing("stone", Obstacle(Span(3.0, 4.0), count=4)),
+        Thing("dock", Zone(Span(9.0, 9.0), at=((8.0, 5.0),))),
+        Thing("crate", LooseBox(Span(3.0, 3.0), at=((-10.0, -10.0),))),
+    )
+    graph = replace(mind(rule("Top")), tasks=(task(1, scene=Arena(60.0), things=things),))
+    for seed in range(60):
+        boxes = trace(Rollout(Policy(graph, {}), "World", "Top"), seed).boxes
+        assert (np.abs(boxes[:, :2] - [8.0, 5.0]).max(axis=1) >= 4.5 + boxes[:, 2]).all()
+        assert (np.abs(boxes[:, :2] + 10.0).max(axis=1) >= 1.5 + boxes[:, 2]).all()
 
 
 def test_things_of_any_size_stand_beside_each_other() -> None:

@@ -32,7 +32,7 @@ def uniform(random, lane, low, high):
 
 @compiled
 def draw(tables, world, lane):
-    """A fresh world in a lane: obstacles with a place, the robot, other obstacles, things with a place, other things.
+    """A fresh world in a lane: obstacles with a place, the robot, things with a place, other obstacles, other things.
 
     Of each the first in the source come first.
     """
@@ -41,17 +41,18 @@ def draw(tables, world, lane):
     for i in range(len(tables.obstacles)):
         box = draw_grid(world, tables.obstacles[i], box, lane)
     start(tables, world, lane)
-    for i in range(len(tables.obstacles)):
-        obstacle = tables.obstacles[i]
-        for _ in range(obstacle.count):
-            size = uniform(world.random, lane, obstacle.first, obstacle.last)
-            x, y = find(tables, world, obstacle.low, obstacle.high, size / 2, -1, lane)
-            put_box(world.boxes, box, x, y, size / 2, lane)
-            box += 1
     for i in range(len(tables.things)):
         if tables.things[i].is_fixed:
             draw_size(tables, world, i, lane)
             put_at(tables, world, i, tables.things[i].x, tables.things[i].y, lane)
+    for i in range(len(tables.obstacles)):
+        obstacle = tables.obstacles[i]
+        for _ in range(obstacle.count):
+            size = uniform(world.random, lane, obstacle.first, obstacle.last)
+            room = size / 2 + 3 * tables.world[0].radius
+            x, y = find(tables, world, obstacle.low, obstacle.high, room, size / 2, -1, lane)
+            put_box(world.boxes, box, x, y, size / 2, lane)
+            box += 1
     for i in range(len(tables.things)):
         if not tables.things[i].is_fixed:
             draw_size(tables, world, i, lane)
@@ -108,20 +109,33 @@ def draw_grid(world, obstacle, box, lane):
 
 @compiled
 def start(tables, world, lane):
-    """The robot at rest: where its task says, or in the origin of a plain scene, or anywhere clear in an arena."""
+    """The robot at rest: where its task says, or in the origin of a plain scene, or anywhere clear in an arena.
+
+    Clear by its own width all around; where no try succeeds, the last one where it touches nothing.
+    """
     body, random, constants, radius = world.body, world.random, tables.world[0], tables.world[0].radius
     room_x, room_y = constants.half_x - 3 * radius, constants.half_y - 3 * radius
     body[:, lane] = 0.0
     if constants.is_placed:
         body[X, lane], body[Y, lane] = constants.start_x, constants.start_y
     elif constants.half_x < ENDLESS_UNITS:
+        best = 0
         for _ in range(MAX_TRIES):
-            body[X, lane] = uniform(random, lane, -room_x, room_x)
-            body[Y, lane] = uniform(random, lane, -room_y, room_y)
-            is_clear = clear(world.boxes, body[X, lane], body[Y, lane], 3 * radius, lane)
-            if is_clear and clear_of_loose(tables, body[X, lane], body[Y, lane], 3 * radius):
+            x, y = uniform(random, lane, -room_x, room_x), uniform(random, lane, -room_y, room_y)
+            fits = 0
+            if clear_of_all(tables, world, x, y, radius, lane):
+                fits = 2 if clear_of_all(tables, world, x, y, 3 * radius, lane) else 1
+            if fits >= best:
+                best, body[X, lane], body[Y, lane] = fits, x, y
+            if fits == 2:
                 break
     body[ANGLE, lane] = constants.facing if constants.is_faced else uniform(random, lane, 0.0, 2 * np.pi)
+
+
+@compiled
+def clear_of_all(tables, world, x, y, margin, lane):
+    """Whether nothing solid that stands already comes within `margin` of a point, along the axes."""
+    return clear(world.boxes, x, y, margin, lane) and clear_of_loose(tables, x, y, margin)
 
 
 @compiled
@@ -147,13 +161,15 @@ def clear_of_loose(tables, x, y, margin):
 
 
 @compiled
-def find(tables, world, low, high, extent, but, lane):
+def find(tables, world, low, high, room, extent, but, lane):
     """A place for something of that half size: low..high from the robot, clear of obstacles, walls and other things.
 
-    The last one tried where no try succeeds.
+    Along one of the axes it is at least `room` from the robot's centre.
+    Where no try succeeds the last of the best: what is nearer to the robot than it may be is worse than what stands in
+    an obstacle, and that is worse than what covers a thing.
     """
     constants, margin, body = tables.world[0], extent + 2 * tables.world[0].radius, world.body
-    x, y = 0.0, 0.0
+    best, best_x, best_y = 0, 0.0, 0.0
     for _ in range(MAX_TRIES):
         if constants.half_x < ENDLESS_UNITS:
             room_x = max(constants.half_x - extent - 2 * constants.radius, 0.0)
@@ -165,10 +181,16 @@ def find(tables, world, low, high, extent, but, lane):
             x, y = body[X, lane] + far * cosine, body[Y, lane] + far * sine
         dx, dy = x - body[X, lane], y - body[Y, lane]
         far = np.sqrt(dx * dx + dy * dy)
-        fits = far > low - 1e-9 and far < high + 1e-9 and clear(world.boxes, x, y, margin, lane)
-        if fits and clear_of_things(world.things, x, y, extent, but, lane):
+        fits = 0
+        if far > low - 1e-9 and far < high + 1e-9 and max(abs(dx), abs(dy)) >= room:
+            fits = 1
+            if clear(world.boxes, x, y, margin, lane):
+                fits = 3 if clear_of_things(world.things, x, y, extent, but, lane) else 2
+        if fits >= best:
+            best, best_x, best_y = fits, x, y
+        if fits == 3:
             break
-    return x, y
+    return best_x, best_y
 
 
 @compiled
@@ -186,7 +208,7 @@ def clear_of_things(things, x, y, extent, but, lane):
 def put(tables, world, i, lane):
     """Thing i somewhere else."""
     thing, rows = tables.things[i], THING_ROWS * i
-    x, y = find(tables, world, thing.low, thing.high, world.things[rows + SIZE, lane] / 2, i, lane)
+    x, y = find(tables, world, thing.low, thing.high, 0.0, world.things[rows + SIZE, lane] / 2, i, lane)
     put_at(tables, world, i, x, y, lane)
 
 
