@@ -138,7 +138,7 @@ def test_what_does_not_go_together(mindc: Call, folder: Path) -> None:
     assert said.code == 2
     assert said.err == (
         "patrol needs ranges and bearing, which the robot photocell has not.\n"
-        "  patrol goes with --robot differential, photocell with --task light.\n"
+        "  patrol goes with --robot differential or car, photocell with --task light.\n"
     )
     assert lying(folder) == []
 
