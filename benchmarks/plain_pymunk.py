@@ -6,8 +6,8 @@ from collections.abc import Mapping
 import numpy as np
 import pymunk
 from mindrun.functions import Mlp
-from mindrun.functions.mlp import matrices
 from mindrun.graph import Graph, Skill
+from mindrun.network import matrices
 from mindrun.sim.trace import Trace
 from numpy.typing import NDArray
 

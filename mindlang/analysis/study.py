@@ -138,7 +138,7 @@ class Study:
 
     def learners(self, lesson: Lesson) -> tuple[str, ...]:
         """The skills that a lesson of the graph teaches."""
-        from mindrun.weights import learners
+        from mindrun.skill_sets import learners
 
         return learners(self.graph, lesson)
 

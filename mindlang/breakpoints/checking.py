@@ -1,14 +1,19 @@
 """A .break file held against a mind or a bundle before anything runs, or where there is none, read line by line."""
 
+from __future__ import annotations
+
 from collections.abc import Mapping
 from pathlib import Path
+from typing import TYPE_CHECKING
 
-from mindrun.bundle import Bundle
 from mindrun.named_readings import physical
 
 from mindlang.breakpoints.subject import Subject
 from mindlang.compiler.compile import Compiled, load
-from mindlang.run.setup import master_of, task_of
+from mindlang.run.chosen_task import master_of, task_of
+
+if TYPE_CHECKING:
+    from mindrun.bundle import Bundle
 
 
 def mind_of(path: str, given: Mapping[str, Compiled]) -> Compiled | None:

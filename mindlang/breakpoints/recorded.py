@@ -12,7 +12,7 @@ from mindrun.think import hierarchy
 from numpy.typing import NDArray
 
 from mindlang.breakpoints.breakpoint import Breakpoint
-from mindlang.breakpoints.robot_events import robot_events, times
+from mindlang.breakpoints.robot_events import robot_events
 from mindlang.breakpoints.subject import Subject
 from mindlang.breakpoints.watch import Part, Stop, Watcher
 from mindlang.run.running_bundle import task_of
@@ -43,3 +43,13 @@ class RecordingWatcher:
 def recording_subject(of: About, mind: Bundle) -> Subject:
     """What the breakpoints of a recording are about, made with the mind of this bundle."""
     return Subject.of_recording(mind.graph, of.master, of.sensors, task_of(of, mind))
+
+
+def times(stopped: NDArray[np.bool_], faults: NDArray[np.bool_]) -> NDArray[np.int64]:
+    """How often each event begins in each row [rows, events]; of rows and the one before them.
+
+    `stopped` [1 + rows] says where the robot had to stop, `faults` [1 + rows, sensors] which sensors were faulty.
+    """
+    begins = np.column_stack([stopped, faults]).astype(np.int64)
+    begins = np.maximum(np.diff(begins, axis=0), 0)
+    return np.insert(begins, 1, begins[:, 1:].sum(axis=1), axis=1)

@@ -8,7 +8,7 @@ from mindrun.expression import Program
 from mindrun.graph import Receiver
 from mindrun.quantity import Quantity
 from mindrun.registry import kinds
-from mindrun.weights import reachable
+from mindrun.skill_sets import reachable
 
 from mindlang.breakpoints.breakpoint import Breakpoint, Happens, Holds, Reaches, Transmission
 from mindlang.breakpoints.robot_events import WORDS, RobotEvent, robot_event

@@ -3,9 +3,6 @@
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-import numpy as np
-from numpy.typing import NDArray
-
 from mindlang.compiler.diagnostic import Findings, listed
 from mindlang.compiler.resolve.kinds import a_name
 from mindlang.compiler.syntax import Phrase
@@ -32,16 +29,6 @@ RobotEvent = Stopped | Fault
 def robot_events(sensors: Sequence[str]) -> tuple[RobotEvent, ...]:
     """All events of a robot with these wired sensors, in the order of the columns of `times`."""
     return Stopped(), Fault(), *map(Fault, sensors)
-
-
-def times(stopped: NDArray[np.bool_], faults: NDArray[np.bool_]) -> NDArray[np.int64]:
-    """How often each event begins in each row [rows, events]; of rows and the one before them.
-
-    `stopped` [1 + rows] says where the robot had to stop, `faults` [1 + rows, sensors] which sensors were faulty.
-    """
-    begins = np.column_stack([stopped, faults]).astype(np.int64)
-    begins = np.maximum(np.diff(begins, axis=0), 0)
-    return np.insert(begins, 1, begins[:, 1:].sum(axis=1), axis=1)
 
 
 def robot_event(written: Phrase, sensors: Sequence[str] | None, findings: Findings) -> RobotEvent | None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
+from typing import TYPE_CHECKING
 
 from mindrun.graph import Graph, Task
 from mindrun.registry import names as kind_names
@@ -14,7 +15,9 @@ from mindlang.compiler.resolve.kinds import Scope
 from mindlang.compiler.resolve.tasks import World
 from mindlang.compiler.source import Source, Span
 from mindlang.compiler.syntax import Declaration, Header, Name
-from mindlang.run.setup import RunSetup
+
+if TYPE_CHECKING:
+    from mindlang.run.setup import RunSetup
 
 NOWHERE = Span(Source("", ""), 0, 0)  # where what is in a graph was declared
 

@@ -8,8 +8,9 @@ from typing import Any, Protocol
 
 import numpy as np
 from mindrun.engine import procedure_sources
+from mindrun.evaluation import OPERATORS
 from mindrun.events import EventKind
-from mindrun.expression import OPERATORS, Program, fold
+from mindrun.expression import Program, fold
 from mindrun.think import Hierarchy, hierarchy
 from numpy.typing import NDArray
 

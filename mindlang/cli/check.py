@@ -11,6 +11,8 @@ from typing import TYPE_CHECKING
 import click
 
 if TYPE_CHECKING:
+    from mindrun.bundle import Bundle
+
     from mindlang.compiler.compile import Compiled
     from mindlang.compiler.diagnostic import Diagnostic
 
@@ -92,7 +94,6 @@ def _breakpoints(
     """The files of breakpoints, each against every bundle, or else a mind; it is said where there is neither."""
     if not files:
         return
-    from mindrun.bundle import read_bundle
     from mindrun.errors import MindError
 
     from mindlang.breakpoints.checking import mind_of, subject_of_bundle, subject_of_mind
@@ -102,7 +103,7 @@ def _breakpoints(
     for file in dict.fromkeys(files):
         mind = None if bundles else mind_of(file, given)
         try:
-            subjects = [subject_of_bundle(read_bundle(Path(bundle)), task, master) for bundle in bundles]
+            subjects = [subject_of_bundle(_bundle(path), task, master) for path in bundles]
             subjects += [subject_of_mind(mind, task, master)] if mind else []
         except MindError as error:
             fail(str(error), error.hint, MISUSE)
@@ -112,3 +113,9 @@ def _breakpoints(
         for subject in subjects or (None,):
             found = load_breakpoints(file, subject).diagnostics
             yield _Checked(file, found, all(each.span for each in found))
+
+
+def _bundle(path: str) -> Bundle:
+    from mindrun.bundle import read_bundle  # which needs numpy
+
+    return read_bundle(Path(path))

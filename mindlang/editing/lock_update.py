@@ -1,17 +1,22 @@
 """Updates locks after an edit: trained weights follow renamed, replaced and widened skills."""
 
+from __future__ import annotations
+
 from collections.abc import Iterable, Mapping, Set
 from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from mindrun.graph import Graph
-from mindrun.weights import Weights
 
 from mindlang.editing.project import MindChange, Replaced
 from mindlang.editing.unshared import with_copy
 from mindlang.editing.widen import widen_locks
 from mindlang.editing.world_names import relabelled
 from mindlang.lock import Entry, Lock, lock_path, read_lock
+
+if TYPE_CHECKING:
+    from mindrun.arrays import Weights
 
 Locks = Mapping[Path, Lock]  # by the path of the lock
 Names = Mapping[str, Mapping[str, str]]  # what is called otherwise now, by noun

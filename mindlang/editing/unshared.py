@@ -4,7 +4,7 @@ from collections.abc import Mapping
 from dataclasses import replace
 
 from mindrun.graph import Graph
-from mindrun.weights import owners, reachable
+from mindrun.skill_sets import owners, reachable
 
 from mindlang.editing.project import Unshared
 from mindlang.lock import Entry, Lock, Signature

@@ -1,18 +1,22 @@
 """Widens trained weights: a skill reads and influences more than before, and still computes the same."""
 
+from __future__ import annotations
+
 from collections.abc import Mapping
 from dataclasses import replace
 from pathlib import Path
-from typing import NoReturn
+from typing import TYPE_CHECKING, NoReturn
 
 from mindrun.graph import Graph, Skill
-from mindrun.weights import Weights
 
 from mindlang.editing.project import EditError
 from mindlang.lock import Entry, Lock, Signature
 from mindlang.lock.blobs import blob, digest, load_weights
 from mindlang.lock.signature import signature
 from mindlang.lock.status import Stale, Trained, status
+
+if TYPE_CHECKING:
+    from mindrun.arrays import Weights
 
 Locks = Mapping[Path, Lock]
 

@@ -5,7 +5,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from mindrun.graph import Graph, Lesson
-from mindrun.weights import learners, owner_of, owners, reachable
+from mindrun.skill_sets import learners, owner_of, owners, reachable
 
 from mindlang.lock import Entry, Lock, LockError, lock_path, read_lock, read_locks, write_lock
 from mindlang.lock.blobs import FOLDER, exclusive_folder

@@ -1,10 +1,13 @@
 """Files of weights beside a lock: read and held against it, and new ones kept."""
 
+from __future__ import annotations
+
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import replace
 from hashlib import sha256
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from mindrun import atomic_write
 from mindrun.atomic_write import write
@@ -12,12 +15,15 @@ from mindrun.errors import WeightsError
 from mindrun.graph import Graph, Skill
 from mindrun.npy import to_npy
 from mindrun.regular_files import read_whole
-from mindrun.weights import Weights, owners, reachable, read_weights, weights_of
+from mindrun.skill_sets import owners, reachable
 
 from mindlang.compiler.diagnostic import listed
 from mindlang.lock import Entry, Lock, LockError, Taught, read_lock, write_lock
 from mindlang.lock.signature import signature
 from mindlang.lock.training_world import TrainingWorld
+
+if TYPE_CHECKING:
+    from mindrun.arrays import Weights
 
 FOLDER = "weights"
 MAX_WEIGHTS_BYTES = 1 << 27  # of the weights of a skill; a bundle cannot hold more than half of that
@@ -28,6 +34,8 @@ NO_ORIGINS: Mapping[str, Origin] = {}
 
 def load_weights(entry: Entry, skill: Skill) -> Weights:
     """The weights of an entry, held against its hash and its skill; LockError where they are not those."""
+    from mindrun.weights import read_weights, weights_of  # which need numpy
+
     path = blob(entry.folder, entry.weights)
     remedy = f"get it back, or train {entry.skill} --from-scratch"
     try:

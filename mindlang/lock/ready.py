@@ -1,17 +1,22 @@
 """A mind with the weights that it needs to act: what `build`, `run` and `bench` begin with."""
 
+from __future__ import annotations
+
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
 
 from mindrun.graph import Graph
-from mindrun.policy import Policy
-from mindrun.weights import reachable
+from mindrun.skill_sets import reachable
 
 from mindlang.compiler.diagnostic import listed
 from mindlang.compiler.source import Source
 from mindlang.lock import lock_sources, read_locks
 from mindlang.lock.arrange import arrange
 from mindlang.lock.status import UNKNOWN, Status, Trained, status, trained_weights
+
+if TYPE_CHECKING:
+    from mindrun.policy import Policy
 
 
 @dataclass(frozen=True, slots=True)
@@ -28,6 +33,8 @@ class ReadyMind:
 
 def make_ready(graph: Graph, sources: Iterable[Source], master: str | None = None) -> ReadyMind:
     """The graph of these sources with the weights of their locks; LockError where a lock or weights are damaged."""
+    from mindrun.policy import Policy  # which needs numpy
+
     sources = tuple(sources)
     lock = read_locks(lock_sources(sources))
     graph = replace(arrange(graph, lock), master=master or graph.master)

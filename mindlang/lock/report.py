@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from mindrun.graph import Graph, Skill
-from mindrun.weights import reachable
+from mindrun.skill_sets import reachable
 
 from mindlang.compiler.diagnostic import listed
 from mindlang.lock import LockError, Taught, read_locks

@@ -1,12 +1,15 @@
 """Which skills of a mind have weights that fit, and what is different about those that do not."""
 
+from __future__ import annotations
+
 from collections.abc import Collection, Iterator
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from mindrun.graph import Graph, Lesson
-from mindrun.weights import Weights, below, genes, learners, owners, reachable
+from mindrun.skill_sets import below, genes, learners, owners, reachable
 
 from mindlang.lock import Entry, Lock
 from mindlang.lock.blobs import load_weights
@@ -14,6 +17,9 @@ from mindlang.lock.signature import differences, reordered, signature
 from mindlang.lock.training_world import LessonKey, TrainingWorld
 from mindlang.lock.world_changes import changes
 from mindlang.lock.world_facts import Worlds, in_question, key_of, key_of_taught, last_lesson
+
+if TYPE_CHECKING:
+    from mindrun.arrays import Weights
 
 UNKNOWN = "in a world that the lock does not know (mindc status --accept says that it is this one)"
 

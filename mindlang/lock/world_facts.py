@@ -21,7 +21,7 @@ from mindrun.graph import Edge, Graph, Lesson, Reward, Skill, Start, Task
 from mindrun.reachability import reached_from
 from mindrun.registry import names
 from mindrun.sensors import SensorKind
-from mindrun.weights import genes, reachable
+from mindrun.skill_sets import genes, reachable
 
 from mindlang.compiler.drawing import phrase
 from mindlang.lock import Taught

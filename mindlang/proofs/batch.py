@@ -6,9 +6,10 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
-from mindrun.expression import OPERATORS, fold
-from mindrun.functions.mlp import perceive
+from mindrun.evaluation import OPERATORS
+from mindrun.expression import fold
 from mindrun.graph import Gate, Graph, Program, Skill
+from mindrun.network import perceive
 from mindrun.weights import Weights, reachable
 
 from mindlang.proofs.interval import Doubles, Singles, perceptron

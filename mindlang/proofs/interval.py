@@ -11,9 +11,10 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from mindrun.expression import OPERATORS, fold
-from mindrun.functions.mlp import matrices
+from mindrun.evaluation import OPERATORS
+from mindrun.expression import fold
 from mindrun.graph import Gate, Program, Skill
+from mindrun.network import matrices
 from mindrun.sigmoid import sigmoid
 from mindrun.weights import Weights, genes
 from numpy.typing import NDArray

@@ -3,6 +3,7 @@
 Plain functions, which `mindrun.sim.arithmetic` compiles: the kinds of sensors say in their terms what they read.
 """
 
+from types import FunctionType
 from typing import Any
 
 import numpy as np
@@ -178,3 +179,12 @@ def store(array: Any, row: Any, lane: Any, value: Any) -> None:
 def sigmoids(values: Any) -> Any:
     """The sigmoid in sixteen lanes."""
     return sigmoid(values)
+
+
+def terms(function: FunctionType) -> dict[str, Any]:
+    """What the names in a function of a kind's file stand for: what that file has, else what stands here.
+
+    And what attributes in it would stand for, were they names.
+    """
+    known = globals() | function.__globals__
+    return {name: known[name] for name in function.__code__.co_names if name in known}

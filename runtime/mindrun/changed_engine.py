@@ -3,9 +3,9 @@
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from mindrun.arrays import Reader, Readings
 from mindrun.changes import Changed
 from mindrun.engine import Engine
-from mindrun.sensors.sensor import Reader, Readings
 from mindrun.think import Thought, think
 
 UNCHANGED = Changed()

@@ -1,7 +1,7 @@
 """The task on which a mind is run where nobody names one."""
 
 from mindrun.graph import Graph, Task
-from mindrun.weights import reachable
+from mindrun.skill_sets import reachable
 
 
 def default_task(graph: Graph) -> tuple[Task, str]:

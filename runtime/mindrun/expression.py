@@ -1,11 +1,7 @@
-"""Expressions of the language as postfix programs, computed in float64."""
+"""Expressions of the language as postfix programs; `mindrun.evaluation` computes them."""
 
 from collections.abc import Callable, Iterable, Mapping
-from operator import add, mul, sub, truediv
 from typing import Any, TypeVar
-
-import numpy as np
-from numpy.typing import NDArray
 
 T = TypeVar("T")
 
@@ -16,29 +12,7 @@ Program = tuple[tuple[str, float | int], ...]
 
 Formula = tuple[tuple[str, float | int | str], ...]  # a program in which readings stand by their names
 TRUTHS = ("<", "<=", ">", ">=", "and", "or")
-
-
-def _known(holds: Any, left: Any, right: Any) -> Any:
-    return np.where(np.isnan(left) | np.isnan(right), np.nan, holds)[()]
-
-
-def least(left: Any, right: Any) -> Any:
-    """The smaller of two numbers; NaN where one of them is NaN."""
-    return np.where((right < left) | np.isnan(right), right, left)[()]
-
-
-def greatest(left: Any, right: Any) -> Any:
-    """The larger of two numbers; NaN where one of them is NaN."""
-    return np.where((right > left) | np.isnan(right), right, left)[()]
-
-
-OPERATORS: dict[str, Callable[[Any, Any], Any]] = {
-    "+": add, "-": sub, "*": mul, "/": truediv, "least": least, "greatest": greatest, "and": least, "or": greatest,
-    "<": lambda left, right: _known(left < right, left, right),
-    "<=": lambda left, right: _known(left <= right, left, right),
-    ">": lambda left, right: _known(left > right, left, right),
-    ">=": lambda left, right: _known(left >= right, left, right),
-}  # fmt: skip
+OPERATORS = frozenset({"+", "-", "*", "/", "least", "greatest", *TRUTHS})
 
 
 def fold(
@@ -58,26 +32,6 @@ def fold(
             stack.append(combined(word, stack.pop(), right))
         else:
             stack.append(negated(stack.pop()) if word == "negate" else leaf(word, operand))
-    return stack.pop()
-
-
-def evaluate(program: Program, readings: NDArray[np.float32]) -> np.float64:
-    """The value of an `at` expression over the readings; a division by zero gives inf or NaN, as numpy has it.
-
-    A `fold` written out: a robot computes this in every tick, and it takes two thirds of the time.
-    """
-    stack: list[np.float64] = []
-    for word, operand in program:
-        match word:
-            case "number":
-                stack.append(np.float64(operand))
-            case "reading":
-                stack.append(np.float64(readings[int(operand)]))
-            case "negate":
-                stack.append(-stack.pop())
-            case _:
-                right = stack.pop()
-                stack.append(OPERATORS[word](stack.pop(), right))
     return stack.pop()
 
 

@@ -3,7 +3,7 @@
 from collections.abc import Container
 
 from mindrun.graph import Graph
-from mindrun.weights import reachable
+from mindrun.skill_sets import reachable
 
 
 def movers(graph: Graph, master: str) -> dict[str, int]:

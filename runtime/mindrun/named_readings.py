@@ -1,15 +1,18 @@
 """Readings by name: what each is called, and what people and other programs write as the engine's vector."""
 
+from __future__ import annotations
+
 from collections.abc import Container, Mapping
 from difflib import get_close_matches
-from typing import Any
-
-import numpy as np
-from numpy.typing import NDArray
+from typing import TYPE_CHECKING, Any
 
 from mindrun.errors import ReadingsError
 from mindrun.graph import Graph, Sensor
 from mindrun.sensors import Physical
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
 
 
 def physical(graph: Graph) -> dict[str, Sensor]:
@@ -35,6 +38,8 @@ def vector(
     One that is not `needed`, since nobody reads it, may be missing anyway. NaN stands for a reading that failed. Raises
     ReadingsError for anything else that is not a number in 0..1.
     """
+    import numpy as np
+
     sensors = physical(graph)
     for name in given:
         if name not in sensors:

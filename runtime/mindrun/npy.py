@@ -4,10 +4,14 @@ The header of such a file is Python, and numpy evaluates it. Here it is compared
 stands there can be anything else.
 """
 
-import re
+from __future__ import annotations
 
-import numpy as np
-from numpy.typing import NDArray
+import re
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
 
 MAGIC = b"\x93NUMPY\x01\x00"
 LENGTH_BYTES = 2  # of the header's length
@@ -17,6 +21,8 @@ GROWTH_COLUMNS, HEADER_ALIGNMENT = 21, 64  # columns that numpy leaves for the n
 
 def to_npy(vector: NDArray[np.float32]) -> bytes:
     """A vector as a .npy file; the same bytes with any version of numpy."""
+    import numpy as np
+
     size = str(len(vector))
     header = f"{{'descr': '<f4', 'fortran_order': False, 'shape': ({size},), }}{' ' * (GROWTH_COLUMNS - len(size))}"
     before = len(MAGIC) + LENGTH_BYTES
@@ -32,6 +38,8 @@ def to_npy(vector: NDArray[np.float32]) -> bytes:
 
 def from_npy(data: bytes) -> NDArray[np.float32]:
     """The vector in a .npy file; ValueError unless it is one of finite float32, as it is written here."""
+    import numpy as np
+
     begin = len(MAGIC) + LENGTH_BYTES
     end = begin + int.from_bytes(data[len(MAGIC) : begin], "little")
     found = HEADER.fullmatch(data[begin:end])

@@ -3,9 +3,8 @@
 Plain functions, which `sim/` compiles: those of sensors that are computed call them, too.
 """
 
+from math import isnan, nan
 from typing import Any
-
-import numpy as np
 
 NUMBER, READING, EACH, MEASURE, COMMAND, NEGATE, ADD, SUBTRACT, MULTIPLY, DIVIDE = range(10)
 LESS, LESS_EQUAL, GREATER, GREATER_EQUAL, LEAST, GREATEST = range(10, 16)
@@ -83,10 +82,10 @@ def combine(op: Any, left: Any, right: Any, count: Any) -> None:
             left[k] = left[k] / right[k]
     elif op == LEAST:
         for k in range(count):
-            left[k] = right[k] if right[k] < left[k] or np.isnan(right[k]) else left[k]
+            left[k] = right[k] if right[k] < left[k] or isnan(right[k]) else left[k]
     elif op == GREATEST:
         for k in range(count):
-            left[k] = right[k] if right[k] > left[k] or np.isnan(right[k]) else left[k]
+            left[k] = right[k] if right[k] > left[k] or isnan(right[k]) else left[k]
     else:
         compare(op, left, right, count)
 
@@ -110,4 +109,4 @@ def compare(op: Any, left: Any, right: Any, count: Any) -> None:
 def _held(holds: Any, a: Any, b: Any) -> Any:
     """A comparison as a number; without a branch, so that lanes go side by side."""
     found = 1.0 if holds else 0.0
-    return np.nan if (a != a) | (b != b) else found
+    return nan if (a != a) | (b != b) else found

@@ -11,8 +11,8 @@ from types import MappingProxyType
 import numpy as np
 from numpy.typing import NDArray
 
-from mindrun.expression import evaluate
-from mindrun.functions import Compute
+from mindrun.arrays import Compute
+from mindrun.evaluation import evaluate
 from mindrun.graph import Edge, Gate, Program
 from mindrun.policy import Policy
 from mindrun.weights import reachable, weights_of

@@ -1,8 +1,15 @@
 """Virtual sensors: the readings that the engine computes from other readings and from the time."""
 
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
 from mindrun.graph import Graph
-from mindrun.sensors.sensor import Reader, Scene
+from mindrun.sensors.sensor import Scene
 from mindrun.validate import depths
+
+if TYPE_CHECKING:
+    from mindrun.arrays import Reader
 
 
 def scene_of(graph: Graph) -> Scene:

@@ -4,18 +4,18 @@ from collections.abc import Iterable, Mapping
 
 import numpy as np
 
+from mindrun.arrays import Weights as Weights
 from mindrun.errors import WeightsError
-from mindrun.functions.function import Weights as Weights
-from mindrun.graph import Graph, Lesson, Skill
+from mindrun.graph import Graph, Skill
 from mindrun.npy import from_npy
-from mindrun.reachability import reached_from
+from mindrun.skill_sets import below as below
+from mindrun.skill_sets import genes as genes
+from mindrun.skill_sets import learners as learners
+from mindrun.skill_sets import owner_of as owner_of
+from mindrun.skill_sets import owners as owners
+from mindrun.skill_sets import reachable as reachable
 
 NO_WEIGHTS = np.zeros(0, np.float32)
-
-
-def genes(skill: Skill) -> int:
-    """How many weights a skill learns; 0 where it does not learn."""
-    return skill.function.genome_length(len(skill.inputs), skill.outputs)
 
 
 def weights_of(skill: Skill, weights: Mapping[str, Weights]) -> Weights:
@@ -36,37 +36,6 @@ def checked(skill: Skill, found: Weights) -> Weights:
     if not np.isfinite(found).all():
         raise WeightsError(f"skill {skill.name} has weights that are not finite")
     return np.ascontiguousarray(found)
-
-
-def reachable(graph: Graph, master: str) -> tuple[Skill, ...]:
-    """The skills that can have influence when `master` is in charge, parents first."""
-    return below(graph, next(index for index, skill in enumerate(graph.skills) if skill.name == master))
-
-
-def below(graph: Graph, index: int) -> tuple[Skill, ...]:
-    """The skill of an index and all that it can influence, parents first."""
-
-    def influenced(index: int) -> Iterable[int]:
-        return (edge.target for edge in graph.skills[index].edges if edge.to == "skill")
-
-    return tuple(graph.skills[number] for number in sorted(reached_from([index], influenced)))
-
-
-def owners(skills: Iterable[Skill]) -> tuple[str, ...]:
-    """The names under which the weights of these skills stand, each once: skills that are like one another share."""
-    return tuple(dict.fromkeys(skill.owner for skill in skills if genes(skill)))
-
-
-def owner_of(graph: Graph, name: str) -> str:
-    """The skill under whose name the weights of the skill of this name stand."""
-    return next((skill.owner for skill in graph.skills if skill.name == name), name)
-
-
-def learners(graph: Graph, lesson: Lesson) -> tuple[str, ...]:
-    """The skills that a lesson teaches, in the order of its genome; none where all of them are frozen."""
-    taught = reachable(graph, lesson.skill) if lesson.with_subskills else reachable(graph, lesson.skill)[:1]
-    names = {*owners(taught)}
-    return tuple(skill.name for skill in graph.skills if skill.name in names and not skill.frozen)
 
 
 def parts(graph: Graph, names: Iterable[str], genome: Weights) -> dict[str, Weights]:

@@ -13,7 +13,7 @@ from mindrun.graph import Graph
 from mindrun.named_readings import physical
 from mindrun.quantity import NUMBER, RATIO, Quantity, Reference
 from mindrun.reachability import reached_from
-from mindrun.weights import reachable
+from mindrun.skill_sets import reachable
 
 VALUES = Quantity("a number of values", {"": 1.0}, low=1, high=15, whole=True)
 HERTZ = Quantity("a rate", {"Hz": 1.0}, low=0.01, high=1000)

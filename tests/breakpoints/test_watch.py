@@ -7,8 +7,9 @@ import numpy as np
 from hypothesis import given
 from hypothesis import strategies as st
 from mindrun.engine import procedure_sources
+from mindrun.evaluation import evaluate
 from mindrun.events import Collision, Exhaustion
-from mindrun.expression import Program, evaluate
+from mindrun.expression import Program
 from mindrun.policy import Policy
 from mindrun.think import Hierarchy, hierarchy, think
 from numpy.typing import NDArray

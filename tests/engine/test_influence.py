@@ -7,9 +7,9 @@ import pytest
 from mindrun.engine import Engine
 from mindrun.errors import MindError, ReadingsError, WeightsError
 from mindrun.functions import Mlp
-from mindrun.functions.mlp import matrices
 from mindrun.graph import Edge, Sensor
 from mindrun.memory import Cell
+from mindrun.network import matrices
 from mindrun.policy import Policy
 from mindrun.sensors import Battery, Derivative, Sine
 from mindrun.sensors.sensor import Scene

@@ -128,7 +128,7 @@ def _check_environment(
     `which` says which one it is, where there are others. One that has its module before it is not asked: that would run
     the text of the module.
     """
-    from mindrun.sim.outside import fitting, making
+    from mindrun.sim.outside import making
 
     name, header = task.scene.environment, task.declaration.header
     if ":" in name or not making.is_there():
@@ -142,6 +142,8 @@ def _check_environment(
         return
     except MindError:
         return  # what it needs is not installed here: a run says so
+    from mindrun.sim.outside import fitting  # which needs numpy
+
     spans = {part.name: part.span for part in (*sensors, *actuators)} | {"": header.span}
     ours = ({part.name: slot for part in parts if (slot := part.kind.slot)} for parts in (sensors, actuators))
     for found in fitting.misfits(observed, acted, *ours):

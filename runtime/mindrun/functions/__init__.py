@@ -1,6 +1,6 @@
 """Kinds of internal functions (Eq. 1): what turns a skill's inputs into its outputs. One kind a file."""
 
-from mindrun.functions.function import Compute, Function
+from mindrun.functions.function import Function
 from mindrun.functions.mlp import Mlp
 from mindrun.functions.procedure import Procedure
 from mindrun.functions.rule import Rule
@@ -8,4 +8,4 @@ from mindrun.registry import register_all
 
 register_all(__name__, __path__)
 
-__all__ = ["Compute", "Function", "Mlp", "Procedure", "Rule"]
+__all__ = ["Function", "Mlp", "Procedure", "Rule"]

@@ -1,17 +1,21 @@
 """A recurrent network: what its hidden neurons said in the tick before is among their inputs (Elman, 1990)."""
 
+from __future__ import annotations
+
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field, replace
-from typing import Annotated, Any
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Annotated, Any
 
-import numpy as np
-from numpy.typing import NDArray
-
-from mindrun.arithmetic import ZERO
-from mindrun.functions.function import Compute, Function, Layers, Weights
-from mindrun.functions.mlp import WIDTH, Mlp, dense, dense_own, matrices, perceive
+from mindrun.functions.function import Function, Layers
+from mindrun.functions.mlp import WIDTH, Mlp, dense, dense_own
 from mindrun.registry import kind
-from mindrun.sigmoid import sigmoid
+
+if TYPE_CHECKING:  # a lane is given its terms when it is compiled
+    import numpy as np
+    from numpy.typing import NDArray
+
+    from mindrun.arithmetic import ZERO
+    from mindrun.arrays import Compute, Weights
 
 
 @kind("skill", "elman")
@@ -33,7 +37,7 @@ class Elman(Function):
         """The width, where Eq. 5 says it."""
         return () if self.width else ("width",)
 
-    def explicit(self, inputs: int, outputs: int) -> "Elman":
+    def explicit(self, inputs: int, outputs: int) -> Elman:
         """The network with its width said."""
         return replace(self, width=self.state_length(inputs, outputs)) if inputs and outputs else self
 
@@ -57,6 +61,10 @@ class Elman(Function):
         self, weights: Weights, before: tuple[int, int], now: Function, after: tuple[int, int]
     ) -> Weights | None:
         """The genome in a larger one whose other weights are 0; None where anything is smaller."""
+        import numpy as np
+
+        from mindrun.network import genome
+
         old, new = (self.state_length(*before), *before), (now.state_length(*after), *after)
         if any(more < less for more, less in zip(new, old, strict=True)):
             return None
@@ -65,7 +73,7 @@ class Elman(Function):
         into, out = np.zeros((large, more + large), np.float32), np.zeros((outputs, large), np.float32)
         into[:small, :inputs], into[:small, more : more + small] = hidden[:, :inputs], hidden[:, inputs:]
         out[: before[1], :small] = last
-        return np.concatenate([into.ravel(), out.ravel()])
+        return genome((into, out))
 
     def reordered(self, weights: Weights, inputs: Sequence[int], outputs: Sequence[int]) -> Weights:
         """As a perceptron that has the hidden neurons among its inputs, which stay where they are."""
@@ -76,6 +84,8 @@ class Elman(Function):
 
     def ready(self, inputs: int, outputs: int, weights: Weights, sources: Mapping[str, str]) -> Compute:
         """Eq. 1 with these weights, from tick to tick."""
+        from mindrun.network import Recurrent
+
         if not self.state_length(inputs, outputs):
             return Function.ready(self, inputs, outputs, weights, sources)
         return Recurrent(*self._matrices(weights, inputs, outputs))
@@ -108,29 +118,9 @@ class Elman(Function):
 
     def _matrices(self, weights: Weights, inputs: int, outputs: int) -> tuple[NDArray[np.float32], ...]:
         """Those of the hidden neurons [width, inputs + width] and of the outputs [outputs, width]."""
+        from mindrun.network import matrices
+
         return matrices(weights, self.matrix_shapes(inputs, outputs))
 
     def _unrolled(self, inputs: int, outputs: int) -> Mlp:
         return Mlp(1, self.state_length(inputs, outputs))
-
-
-@dataclass(slots=True)
-class Recurrent:
-    """A network at work: its matrices [values out, values in], and what its hidden neurons said last."""
-
-    hidden: NDArray[np.float32]
-    last: NDArray[np.float32]
-    said: NDArray[np.float32] = field(init=False)
-
-    def __post_init__(self) -> None:
-        """Begin with nothing said."""
-        self.reset()
-
-    def reset(self) -> None:
-        """Forget."""
-        self.said = np.zeros(len(self.hidden), np.float32)
-
-    def __call__(self, inputs: NDArray[np.float32]) -> NDArray[np.float32]:
-        """Its outputs, before the clamp."""
-        self.said = sigmoid(perceive((self.hidden,), np.concatenate([inputs, self.said])))
-        return perceive((self.last,), self.said)

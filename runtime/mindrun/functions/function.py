@@ -1,15 +1,17 @@
 """What every kind of internal function says of itself (Eq. 1); the rest of the program asks, and knows no kind."""
 
-from collections.abc import Callable, Mapping, Sequence
-from typing import Any, Protocol, Self, runtime_checkable
+from __future__ import annotations
 
-import numpy as np
-from numpy.typing import NDArray
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING, Any, Protocol, Self, runtime_checkable
 
 from mindrun.registry import base
 
-Compute = Callable[[NDArray[np.float32]], NDArray[np.float32]]
-Weights = NDArray[np.float32]  # of one skill: [genes]
+if TYPE_CHECKING:
+    import numpy as np
+
+    from mindrun.arrays import Compute, Weights
+
 Layers = tuple[tuple[int, int], ...]  # (values in, values out) of each
 
 
@@ -72,9 +74,9 @@ class Function:
     def lane(t: Any, s: Any, skill: Any, n: int) -> int:
         """Write its outputs in n simulated worlds into rows of `s.hidden`; return the first of these rows.
 
-        Compiled, in the terms of `mindrun.arithmetic`. The inputs stand in `s.gathered`, the weights from
-        `skill.weights` on: with `skill.own` in the rows of `s.genome`, else in `t.weights`. World number k is lane
-        `s.active[k]`; what it remembers stands in `s.recurrent` from `skill.state` on.
+        Compiled, in the terms of `mindrun.arithmetic`, which it is given then. The inputs stand in `s.gathered`, the
+        weights from `skill.weights` on: with `skill.own` in the rows of `s.genome`, else in `t.weights`. World number k
+        is lane `s.active[k]`; what it remembers stands in `s.recurrent` from `skill.state` on.
         """
         return 0
 
@@ -84,6 +86,8 @@ class Function:
 
     def draw(self, inputs: int, outputs: int, count: int, rng: np.random.Generator) -> Weights:
         """Random genomes [count, weights] for learning to begin with."""
+        import numpy as np
+
         return np.empty((count, 0), np.float32)
 
     def widened(self, weights: Weights, before: tuple[int, int], now: Self, after: tuple[int, int]) -> Weights | None:
@@ -96,4 +100,6 @@ class Function:
 
     def ready(self, inputs: int, outputs: int, weights: Weights, sources: Mapping[str, str]) -> Compute:
         """Its float32 inputs to its float32 outputs, not yet clamped; `sources` are the texts of modules by name."""
+        import numpy as np
+
         return lambda values: np.zeros(outputs, np.float32)

@@ -1,19 +1,21 @@
 """The multi-layer perceptron of the paper (4.1): no biases, sigmoid hidden layers, a linear last layer in 0..1."""
 
+from __future__ import annotations
+
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
-from functools import partial
 from itertools import pairwise
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
-import numpy as np
-from numpy.typing import NDArray
-
-from mindrun.arithmetic import LANES, ZERO, broadcast, load, sigmoids, splat, store
-from mindrun.functions.function import Compute, Function, Layers, Weights
+from mindrun.functions.function import Function, Layers
 from mindrun.quantity import Quantity
 from mindrun.registry import kind
-from mindrun.sigmoid import sigmoid
+
+if TYPE_CHECKING:  # a lane is given its terms when it is compiled
+    import numpy as np
+
+    from mindrun.arithmetic import LANES, ZERO, broadcast, load, sigmoids, splat, store
+    from mindrun.arrays import Compute, Weights
 
 WIDTH = Quantity("a whole number", {"": 1.0}, low=0, high=1000, whole=True)
 # Of the weights that learning begins with, 4: without biases, small weights leave every sigmoid near 1/2. Tried on a
@@ -38,7 +40,7 @@ class Mlp(Function):
         """The width, where Eq. 5 says it."""
         return () if self.width else ("width",)
 
-    def explicit(self, inputs: int, outputs: int) -> "Mlp":
+    def explicit(self, inputs: int, outputs: int) -> Mlp:
         """The perceptron with its width said; it has none without a hidden layer."""
         shape = self.layers(inputs, outputs)
         return replace(self, width=shape[0][1]) if len(shape) > 1 else self
@@ -83,6 +85,8 @@ class Mlp(Function):
 
         Without biases the outputs would otherwise lie anywhere, most beyond 0..1, where they answer to no input.
         """
+        import numpy as np
+
         genomes = INITIAL_SPREAD * rng.standard_normal((count, self.genome_length(inputs, outputs)), np.float32)
         for before, after in self.layers(inputs, outputs)[-1:]:
             last = genomes[:, -before * after :].reshape(count, after, before)
@@ -96,55 +100,27 @@ class Mlp(Function):
         small, large = self.layers(*before), now.layers(*after)
         if len(small) != len(large) or any(a < b or c < d for (a, c), (b, d) in zip(large, small, strict=True)):
             return None
-        found = [np.zeros((out, into), np.float32) for into, out in large]
-        for matrix, old in zip(found, matrices(weights, small), strict=True):
-            matrix[: old.shape[0], : old.shape[1]] = old
-        return np.concatenate([matrix.ravel() for matrix in found])
+        from mindrun.network import genome, matrices, padded
+
+        return genome(map(padded, matrices(weights, small), large))
 
     def reordered(self, weights: Weights, inputs: Sequence[int], outputs: Sequence[int]) -> Weights:
         """The columns of the first matrix and the rows of the last in this order."""
+        from mindrun.network import genome, matrices
+
         found = list(matrices(weights, self.layers(len(inputs), len(outputs))))
         if not found:
             return weights
         found[0] = found[0][:, list(inputs)]
         found[-1] = found[-1][list(outputs)]
-        return np.concatenate([matrix.ravel() for matrix in found])
+        return genome(found)
 
     def ready(self, inputs: int, outputs: int, weights: Weights, sources: Mapping[str, str]) -> Compute:
         """Eq. 1 with these weights."""
+        from mindrun.network import perceptron
+
         shape = self.layers(inputs, outputs)
-        return (
-            partial(perceive, matrices(weights, shape))
-            if shape
-            else Function.ready(self, inputs, outputs, weights, sources)
-        )
-
-
-def matrices(weights: Weights, shape: Layers) -> tuple[NDArray[np.float32], ...]:
-    """A genome as one matrix [values out, values in] per layer: it holds them layer by layer, row by row."""
-    ends = np.cumsum([before * after for before, after in shape])[:-1]
-    parts = np.split(weights, ends) if shape else []
-    return tuple(part.reshape(after, before) for part, (before, after) in zip(parts, shape, strict=True))
-
-
-def perceive(layer_matrices: tuple[NDArray[np.float32], ...], inputs: NDArray[np.float32]) -> NDArray[np.float32]:
-    """The outputs [..., outputs] for float32 inputs [..., inputs], one or two axes (Eq. 1), before the clamp."""
-    *hidden, last = layer_matrices
-    values = inputs
-    for matrix in hidden:
-        values = sigmoid(_dense(matrix, values))
-    return _dense(last, values)
-
-
-def _dense(matrix: NDArray[np.float32], values: NDArray[np.float32]) -> NDArray[np.float32]:
-    # Strictly from left to right: sum and @ leave the order, and with it the last bit, open.
-    if values.ndim == 1:
-        return np.add.accumulate(matrix * values, axis=1)[:, -1]
-    columns = np.ascontiguousarray(values.T)
-    total: NDArray[np.float32] = matrix[:, :1] * columns[0]
-    for j in range(1, len(columns)):
-        total += matrix[:, j : j + 1] * columns[j]
-    return total.T
+        return perceptron(weights, shape) if shape else Function.ready(self, inputs, outputs, weights, sources)
 
 
 def dense(w: Any, source: Any, inputs: int, target: Any, outputs: int, last: bool, n: int) -> None:

@@ -3,16 +3,19 @@
 A frame is an array [row, column, blue green red] of bytes. Angles are in degrees, to the left and upwards positive.
 """
 
+from __future__ import annotations
+
 from dataclasses import dataclass
 from math import atan2, degrees, hypot, pi, radians, tan
-from typing import Any
-
-import numpy as np
-from numpy.typing import NDArray
+from typing import TYPE_CHECKING, Any
 
 from mindrun.robot.driver_support import library
 
-Frame = NDArray[np.uint8]
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+    Frame = NDArray[np.uint8]
 
 BLACK_BRIGHTNESS = 12  # a brightness at and below which there is no light
 WHITE_BRIGHTNESS = 250  # a brightness from which there is only light
@@ -68,6 +71,7 @@ def blindness(frame: Frame) -> str:
 
 def find_ball(frame: Frame, target: BallTarget) -> Ball | None:
     """The largest round thing that is bright and of the right colour, None where there is none."""
+
     height, width = frame.shape[:2]
     if blindness(frame):
         return None
@@ -93,6 +97,8 @@ def focal_length(width: int, view: float) -> float:
 
 def blobs(frame: Frame, target: BallTarget) -> list[Blob]:
     """Everything bright that has the colour, or is overexposed and has it around its rim."""
+    import numpy as np
+
     cv2 = library("cv2")
     hsv = cv2.cvtColor(cv2.GaussianBlur(frame, (5, 5), 0), cv2.COLOR_BGR2HSV)
     coloured = in_colour(cv2, hsv, target)
@@ -105,6 +111,8 @@ def blobs(frame: Frame, target: BallTarget) -> list[Blob]:
 
 def in_colour(cv2: Any, hsv: Frame, target: BallTarget) -> Frame:
     """Which pixels are bright and of the colour; hues go round, and OpenCV counts them in steps of two degrees."""
+    import numpy as np
+
     floor = round(target.colour * 255), round(target.brightness * 255)
     first, last = round((target.hue - target.tolerance) / 2) % 180, round((target.hue + target.tolerance) / 2) % 180
     if first <= last:
@@ -117,6 +125,8 @@ def in_colour(cv2: Any, hsv: Frame, target: BallTarget) -> Frame:
 
 def is_coloured(cv2: Any, contour: Any, coloured: Frame) -> bool:
     """Whether most of a contour has the colour: a white lamp has it nowhere, an overexposed ball around its rim."""
+    import numpy as np
+
     points = contour[:, 0]
     return float(np.count_nonzero(coloured[points[:, 1], points[:, 0]])) > 0.6 * len(points)
 

@@ -1,18 +1,21 @@
 """A camera that a thread of its own watches, and turns after a ball, so that one that hangs holds up nobody."""
 
+from __future__ import annotations
+
 from collections.abc import Callable
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from threading import Condition, Event
 from time import monotonic, sleep
-from typing import Any, Protocol
-
-import numpy as np
+from typing import TYPE_CHECKING, Any, Protocol
 
 from mindrun.driver import ActuatorDevice, DeviceError
-from mindrun.robot.ball_detection import Aim, Ball, BallTarget, Frame, PanTiltLimits, blindness, find_ball, follow
+from mindrun.robot.ball_detection import Aim, Ball, BallTarget, PanTiltLimits, blindness, find_ball, follow
 from mindrun.robot.driver_support import library
+
+if TYPE_CHECKING:
+    from mindrun.robot.ball_detection import Frame
 
 STALE_SECONDS = 0.2  # for which the same frame may come
 RETRY_SECONDS = 0.02  # between two questions to a camera that has no frame
@@ -122,6 +125,8 @@ class TrackingCamera:
 
     def see(self, frame: Frame) -> BallSighting:
         """What is in a frame; turns the camera after it."""
+        import numpy as np
+
         now = monotonic()
         sample = frame[::STILL_IMAGE_STRIDE, ::STILL_IMAGE_STRIDE]
         if self.sample is None or not np.array_equal(sample, self.sample):

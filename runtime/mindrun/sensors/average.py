@@ -1,14 +1,17 @@
 """The mean of a sensor over some ticks."""
 
+from __future__ import annotations
+
 from dataclasses import dataclass
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
-import numpy as np
-
-from mindrun.arithmetic import F
 from mindrun.quantity import SENSOR, WINDOW
 from mindrun.registry import kind
-from mindrun.sensors.sensor import Reader, Readings, Row, Scene, SensorKind
+from mindrun.sensors.sensor import Row, Scene, SensorKind
+
+if TYPE_CHECKING:  # a lane is given these when it is compiled
+    from mindrun.arithmetic import F
+    from mindrun.arrays import Reader, Readings
 
 
 @kind("sensor", "average")
@@ -39,6 +42,8 @@ class Average(SensorKind):
 
     def reader(self, scene: Scene) -> Reader:
         """The sum in float64, in the order in which the last readings lie in a ring, over how many they are."""
+        import numpy as np
+
         source = scene.places[self.of]
         ring: list[Readings] = []
 

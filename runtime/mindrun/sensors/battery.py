@@ -1,12 +1,14 @@
 """How full the battery is."""
 
 from dataclasses import dataclass
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
-from mindrun.arithmetic import F
 from mindrun.quantity import RATE, RATIO
 from mindrun.registry import kind
 from mindrun.sensors.sensor import BatteryModel, Physical, World
+
+if TYPE_CHECKING:  # a lane is given these when it is compiled
+    from mindrun.arithmetic import F
 
 
 @kind("sensor", "battery")

@@ -2,13 +2,15 @@
 
 from dataclasses import dataclass
 from math import inf
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
-from mindrun.arithmetic import COSINE, DISTANCE, HALF, SINE, F, X, Y, bearing, nearest
 from mindrun.quantity import LENGTH, RATIO, THING
 from mindrun.registry import kind
 from mindrun.sensors.sensor import Physical, Row, Scene, World
 from mindrun.things.thing import ThingKind
+
+if TYPE_CHECKING:  # a lane is given these when it is compiled
+    from mindrun.arithmetic import COSINE, DISTANCE, HALF, SINE, F, X, Y, bearing, nearest
 
 
 @kind("sensor", "bearing")

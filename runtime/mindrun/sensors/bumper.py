@@ -2,30 +2,32 @@
 
 from dataclasses import dataclass
 from math import pi
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
-import numpy as np
-
-from mindrun.arithmetic import (
-    BOX_COLUMNS,
-    COSINE,
-    HALF_X,
-    HALF_Y,
-    LOOSE_ROWS,
-    ONE,
-    SINE,
-    SIZE,
-    THING_ROWS,
-    TURN,
-    ZERO,
-    X,
-    Y,
-    sine_cosine,
-)
 from mindrun.quantity import ANGLE, Quantity
 from mindrun.registry import kind
 from mindrun.sensors.sensor import Physical, World
 from mindrun.trigonometry import cosine, sine
+
+if TYPE_CHECKING:  # a lane is given these when it is compiled
+    import numpy as np
+
+    from mindrun.arithmetic import (
+        BOX_COLUMNS,
+        COSINE,
+        HALF_X,
+        HALF_Y,
+        LOOSE_ROWS,
+        ONE,
+        SINE,
+        SIZE,
+        THING_ROWS,
+        TURN,
+        ZERO,
+        X,
+        Y,
+        sine_cosine,
+    )
 
 WIDTH = Quantity("an angle", {"deg": pi / 180}, low=pi / 180, high=2 * pi)
 

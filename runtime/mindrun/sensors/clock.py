@@ -1,15 +1,20 @@
 """How much of a period has gone by."""
 
+from __future__ import annotations
+
 from dataclasses import dataclass
 from math import floor
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
-import numpy as np
-
-from mindrun.arithmetic import F
 from mindrun.quantity import SECONDS
 from mindrun.registry import kind
-from mindrun.sensors.sensor import Reader, Readings, Row, Scene, SensorKind, World
+from mindrun.sensors.sensor import Row, Scene, SensorKind, World
+
+if TYPE_CHECKING:  # a lane is given these when it is compiled
+    import numpy as np
+
+    from mindrun.arithmetic import F
+    from mindrun.arrays import Reader, Readings
 
 
 @kind("sensor", "clock")
@@ -27,6 +32,8 @@ class Clock(SensorKind):
 
     def reader(self, scene: Scene) -> Reader:
         """t/period without its whole part, t in seconds since the first tick."""
+        import numpy as np
+
         period = self.period / scene.tick
 
         def read(number: int, now: Readings, before: Readings | None) -> np.float32:

@@ -1,12 +1,14 @@
 """In which direction north is."""
 
 from dataclasses import dataclass
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
-from mindrun.arithmetic import COSINE, HALF, SINE, F, bearing
 from mindrun.quantity import RATIO
 from mindrun.registry import kind
 from mindrun.sensors.sensor import Physical, Row, Scene, World
+
+if TYPE_CHECKING:  # a lane is given these when it is compiled
+    from mindrun.arithmetic import COSINE, HALF, SINE, F, bearing
 
 
 @kind("sensor", "compass")

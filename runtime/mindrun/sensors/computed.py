@@ -1,18 +1,24 @@
 """An expression over other readings."""
 
+from __future__ import annotations
+
 from collections.abc import Mapping
 from dataclasses import dataclass
 from math import isfinite
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
-import numpy as np
-
-from mindrun.arithmetic import NAN, F, clamp, finite
-from mindrun.expression import Formula, evaluate, is_valid_program, named, placed
+from mindrun.constant_value import constant_value, single
+from mindrun.expression import Formula, is_valid_program, named, placed
 from mindrun.quantity import EXPRESSION
 from mindrun.registry import kind
-from mindrun.sensors.sensor import Flaw, Reader, Readings, Scene, SensorKind, World
+from mindrun.sensors.sensor import Flaw, Scene, SensorKind, World
 from mindrun.stack_machine import evaluate as run_program
+
+if TYPE_CHECKING:  # a lane is given these when it is compiled
+    import numpy as np
+
+    from mindrun.arithmetic import NAN, F, clamp, finite
+    from mindrun.arrays import Reader, Readings
 
 
 @kind("sensor", "computed")
@@ -45,12 +51,16 @@ class Computed(SensorKind):
         """Its value where it names nothing."""
         if self.sources:
             return None
-        with np.errstate(all="ignore"):
-            value = float(self.reader(Scene(world.tick, {}))(0, np.zeros(0, np.float32), None))
-        return value if isfinite(value) else None
+        value = single(constant_value(placed(self.at, {})))
+        return min(max(0.0, value), 1.0) if isfinite(value) else None
 
     def reader(self, scene: Scene) -> Reader:
         """Its value as a float32, clamped; NaN where that is not finite."""
+        import numpy as np
+
+        from mindrun.arithmetic import NAN, clamp
+        from mindrun.evaluation import evaluate
+
         program = placed(self.at, scene.starts)
 
         def read(number: int, now: Readings, before: Readings | None) -> np.float32:

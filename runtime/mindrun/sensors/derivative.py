@@ -1,16 +1,19 @@
 """How fast another sensor changes."""
 
+from __future__ import annotations
+
 from dataclasses import dataclass
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
-import numpy as np
-
-from mindrun.arithmetic import HALF, NAN, F, clamp, finite
 from mindrun.quantity import POSITIVE, RATIO, SENSOR
 from mindrun.registry import kind
-from mindrun.sensors.sensor import Reader, Readings, Row, Scene, SensorKind, World
+from mindrun.sensors.sensor import Row, Scene, SensorKind, World
 
-_HALF, _ONE, _NAN = np.float32(0.5), np.float32(1.0), np.float32(np.nan)
+if TYPE_CHECKING:  # a lane is given these when it is compiled
+    import numpy as np
+
+    from mindrun.arithmetic import HALF, NAN, F, clamp, finite
+    from mindrun.arrays import Reader, Readings
 
 
 @kind("sensor", "derivative")
@@ -47,19 +50,23 @@ class Derivative(SensorKind):
 
     def reader(self, scene: Scene) -> Reader:
         """0.5 in the first tick, NaN where a reading of the source is not finite now or was not."""
+        import numpy as np
+
+        from mindrun.arithmetic import HALF, NAN, ONE
+
         gain, dead_zone = np.float32(0.5 / (scene.tick * self.range)), np.float32(self.dead_zone)
         source, turns = scene.places[self.of], self.of in scene.circular
 
         def read(number: int, now: Readings, before: Readings | None) -> Readings | np.float32:
             if before is None:
-                return _HALF
+                return HALF
             change = now[source] - before[source]
             is_finite = np.isfinite(now[source]) & np.isfinite(before[source])
             if turns:
-                change = np.where(change > _HALF, change - _ONE, np.where(change < -_HALF, change + _ONE, change))
-            value = np.fmin(np.fmax(_HALF + change * gain, np.float32(0.0)), _ONE)
-            value = np.where(np.abs(value - _HALF) < dead_zone, _HALF, value)
-            return np.where(is_finite, value, _NAN)
+                change = np.where(change > HALF, change - ONE, np.where(change < -HALF, change + ONE, change))
+            value = np.fmin(np.fmax(HALF + change * gain, np.float32(0.0)), ONE)
+            value = np.where(np.abs(value - HALF) < dead_zone, HALF, value)
+            return np.where(is_finite, value, NAN)
 
         return read
 

@@ -1,15 +1,17 @@
 """How far away a thing is."""
 
 from dataclasses import dataclass
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
-import numpy as np
-
-from mindrun.arithmetic import COSINE, DISTANCE, ONE, SINE, SIZE, F, X, Y, clamp, nearest
 from mindrun.quantity import POSITIVE, THING
 from mindrun.registry import kind
 from mindrun.sensors.sensor import Physical, Row, Scene, World
 from mindrun.things.thing import ThingKind
+
+if TYPE_CHECKING:  # a lane is given these when it is compiled
+    import numpy as np
+
+    from mindrun.arithmetic import COSINE, DISTANCE, ONE, SINE, SIZE, F, X, Y, clamp, nearest
 
 
 @kind("sensor", "distance")

@@ -1,30 +1,32 @@
 """How far a thing is in some directions: one line of a camera that sees its colour alone."""
 
 from dataclasses import dataclass
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
-import numpy as np
-
-from mindrun.arithmetic import (
-    BOX_COLUMNS,
-    COSINE,
-    HALF_X,
-    HALF_Y,
-    MAX_FLOAT32,
-    ONE,
-    SINE,
-    SIZE,
-    THING_ROWS,
-    ZERO,
-    F,
-    X,
-    Y,
-    clamp,
-)
 from mindrun.quantity import ANGLE, POSITIVE, THING
 from mindrun.registry import kind
 from mindrun.sensors.sensor import Physical, Row, Scene, World
 from mindrun.things.thing import ThingKind
+
+if TYPE_CHECKING:  # a lane is given these when it is compiled
+    import numpy as np
+
+    from mindrun.arithmetic import (
+        BOX_COLUMNS,
+        COSINE,
+        HALF_X,
+        HALF_Y,
+        MAX_FLOAT32,
+        ONE,
+        SINE,
+        SIZE,
+        THING_ROWS,
+        ZERO,
+        F,
+        X,
+        Y,
+        clamp,
+    )
 
 
 @kind("sensor", "eye")

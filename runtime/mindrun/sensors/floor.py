@@ -1,13 +1,15 @@
 """What lies under some points of the robot."""
 
 from dataclasses import dataclass
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
-from mindrun.arithmetic import COSINE, ONE, SINE, SIZE, THING_ROWS, ZERO, X, Y, inside
 from mindrun.quantity import THING, Quantity
 from mindrun.registry import kind
 from mindrun.sensors.sensor import Physical, World
 from mindrun.things import ThingKind
+
+if TYPE_CHECKING:  # a lane is given these when it is compiled
+    from mindrun.arithmetic import COSINE, ONE, SINE, SIZE, THING_ROWS, ZERO, X, Y, inside
 
 OFFSET = Quantity("a length in world units", {"": 1.0}, low=-1000.0, high=1000.0)
 

@@ -1,13 +1,15 @@
 """Whether the claw holds a thing."""
 
 from dataclasses import dataclass
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
-from mindrun.arithmetic import ONE, ZERO
 from mindrun.quantity import THING
 from mindrun.registry import kind
 from mindrun.sensors.sensor import Physical, World
 from mindrun.things import ThingKind
+
+if TYPE_CHECKING:  # a lane is given these when it is compiled
+    from mindrun.arithmetic import ONE, ZERO
 
 
 @kind("sensor", "held")

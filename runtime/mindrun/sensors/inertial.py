@@ -1,14 +1,16 @@
 """Whether the robot moves."""
 
 from dataclasses import dataclass
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
-import numpy as np
-
-from mindrun.arithmetic import ZERO, F, X, Y, clamp
 from mindrun.quantity import POSITIVE, RATIO
 from mindrun.registry import kind
 from mindrun.sensors.sensor import Physical, Row, Scene
+
+if TYPE_CHECKING:  # a lane is given these when it is compiled
+    import numpy as np
+
+    from mindrun.arithmetic import ZERO, F, X, Y, clamp
 
 TRAIL_TICKS = 20  # over which the displacement is taken
 

@@ -1,15 +1,18 @@
 """A threshold with two sides."""
 
+from __future__ import annotations
+
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
-import numpy as np
-
-from mindrun.arithmetic import NAN, ONE, ZERO, finite
 from mindrun.quantity import RATIO, SENSOR
 from mindrun.registry import kind
-from mindrun.sensors.sensor import Flaw, Reader, Readings, Row, Scene, SensorKind
+from mindrun.sensors.sensor import Flaw, Row, Scene, SensorKind
+
+if TYPE_CHECKING:  # a lane is given these when it is compiled
+    from mindrun.arithmetic import NAN, ONE, ZERO, finite
+    from mindrun.arrays import Reader, Readings
 
 
 @kind("sensor", "latch")
@@ -46,6 +49,8 @@ class Latch(SensorKind):
 
     def reader(self, scene: Scene) -> Reader:
         """1 below, 0 above, between them what it was."""
+        import numpy as np
+
         source, below, above = scene.places[self.of], np.float32(self.below), np.float32(self.above)
         held = np.zeros(source.stop - source.start, np.float32)
 

@@ -1,29 +1,31 @@
 """How bright a thing is from where the robot is."""
 
 from dataclasses import dataclass
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
-import numpy as np
-
-from mindrun.arithmetic import (
-    BOX_COLUMNS,
-    DISTANCE,
-    HALF_X,
-    HALF_Y,
-    LOOSE_ROWS,
-    SIZE,
-    THING_ROWS,
-    TURN,
-    ZERO,
-    F,
-    X,
-    Y,
-    nearest,
-    sine_cosine,
-)
 from mindrun.quantity import POSITIVE, THING
 from mindrun.registry import kind
 from mindrun.sensors.sensor import Physical, Row, Scene, World
+
+if TYPE_CHECKING:  # a lane is given these when it is compiled
+    import numpy as np
+
+    from mindrun.arithmetic import (
+        BOX_COLUMNS,
+        DISTANCE,
+        HALF_X,
+        HALF_Y,
+        LOOSE_ROWS,
+        SIZE,
+        THING_ROWS,
+        TURN,
+        ZERO,
+        F,
+        X,
+        Y,
+        nearest,
+        sine_cosine,
+    )
 
 
 @kind("sensor", "light")

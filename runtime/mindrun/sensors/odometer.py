@@ -1,14 +1,16 @@
 """How fast a wheel rolls."""
 
 from dataclasses import dataclass
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 from mindrun.actuators import Side
 from mindrun.actuators.wheel import SIDE
-from mindrun.arithmetic import COSINE, HALF, SINE, SPEED_X, SPEED_Y, SPIN, F, clamp
 from mindrun.quantity import POSITIVE
 from mindrun.registry import kind
 from mindrun.sensors.sensor import Physical, Row, Scene
+
+if TYPE_CHECKING:  # a lane is given these when it is compiled
+    from mindrun.arithmetic import COSINE, HALF, SINE, SPEED_X, SPEED_Y, SPIN, F, clamp
 
 
 @kind("sensor", "odometer")

@@ -1,12 +1,14 @@
 """Where the robot is along an axis of its world."""
 
 from dataclasses import dataclass
-from typing import Annotated, Any, Literal, get_args
+from typing import TYPE_CHECKING, Annotated, Any, Literal, get_args
 
-from mindrun.arithmetic import HALF, F, X, Y, clamp
 from mindrun.quantity import POSITIVE, Reference
 from mindrun.registry import kind
 from mindrun.sensors.sensor import Physical, Row, Scene
+
+if TYPE_CHECKING:  # a lane is given these when it is compiled
+    from mindrun.arithmetic import HALF, F, X, Y, clamp
 
 Axis = Literal["x", "y"]
 

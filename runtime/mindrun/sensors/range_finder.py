@@ -1,12 +1,14 @@
 """How far it is to what stands in the way, in some directions."""
 
 from dataclasses import dataclass
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
-from mindrun.arithmetic import ONE, ZERO, F, clamp
 from mindrun.quantity import ANGLE, POSITIVE, RATIO
 from mindrun.registry import kind
 from mindrun.sensors.sensor import Physical, Row, Scene, World
+
+if TYPE_CHECKING:  # a lane is given these when it is compiled
+    from mindrun.arithmetic import ONE, ZERO, F, clamp
 
 
 @kind("sensor", "range_finder")

@@ -1,12 +1,17 @@
 """One reading of a wide sensor."""
 
+from __future__ import annotations
+
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 from mindrun.quantity import COUNT, SENSOR
 from mindrun.registry import kind
-from mindrun.sensors.sensor import Flaw, Reader, Readings, Row, Scene, SensorKind
+from mindrun.sensors.sensor import Flaw, Row, Scene, SensorKind
+
+if TYPE_CHECKING:
+    from mindrun.arrays import Reader, Readings
 
 
 @kind("sensor", "reading")

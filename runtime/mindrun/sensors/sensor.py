@@ -1,11 +1,10 @@
 """What every kind of sensor says of itself: the rest of the program asks, and knows no kind by name."""
 
-from collections.abc import Callable, Mapping, Set
-from dataclasses import dataclass
-from typing import Annotated, Any, NamedTuple, Protocol
+from __future__ import annotations
 
-import numpy as np
-from numpy.typing import NDArray
+from collections.abc import Mapping, Set
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Annotated, Any, NamedTuple, Protocol
 
 from mindrun.expression import Formula
 from mindrun.quantity import RATIO, TICKS
@@ -13,8 +12,9 @@ from mindrun.registry import base
 from mindrun.slot import Slot
 from mindrun.things.about import AboutThing
 
-Readings = NDArray[np.float32]
-Reader = Callable[[int, Readings, Readings | None], Readings | np.float32]
+if TYPE_CHECKING:
+    from mindrun.arrays import Reader
+
 Row = Mapping[str, float]  # columns of the lanes' table of sensors
 
 
@@ -183,8 +183,9 @@ class SensorKind(AboutThing):
     def lane(t: Any, s: Any, n: int, clock: int, sensor: Any) -> None:
         """Write its readings in n lanes of a simulated world: `s.readings[sensor.start, p]`.
 
-        Compiled, in the terms of `mindrun.arithmetic`. `t` are the tables of the program, `s` is the state of the
-        lanes (`sim/state.py` has every array), `clock` counts ticks, `sensor` is the row of the table.
+        Compiled, in the terms of `mindrun.arithmetic`, which it is given then: its file imports them for checkers of
+        types alone, since whoever reads a mind has no numpy. `t` are the tables of the program, `s` is the state of
+        the lanes (`sim/state.py` has every array), `clock` counts ticks, `sensor` is the row of the table.
         """
 
     def constant(self, world: World) -> float | None:

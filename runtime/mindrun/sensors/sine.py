@@ -1,16 +1,21 @@
 """A wave, for what should happen again and again."""
 
+from __future__ import annotations
+
 from dataclasses import dataclass
 from math import floor, isclose, pi
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
-import numpy as np
-
-from mindrun.arithmetic import F, sine_cosine
 from mindrun.quantity import SECONDS
 from mindrun.registry import kind
-from mindrun.sensors.sensor import Reader, Readings, Row, Scene, SensorKind, World
+from mindrun.sensors.sensor import Row, Scene, SensorKind, World
 from mindrun.trigonometry import sine
+
+if TYPE_CHECKING:  # a lane is given these when it is compiled
+    import numpy as np
+
+    from mindrun.arithmetic import F, sine_cosine
+    from mindrun.arrays import Reader, Readings
 
 
 @kind("sensor", "sine")
@@ -29,6 +34,8 @@ class Sine(SensorKind):
 
     def reader(self, scene: Scene) -> Reader:
         """0.5 + 0.5 sin(2πt/period), t in seconds since the first tick."""
+        import numpy as np
+
         period = self.period / scene.tick
 
         def read(number: int, now: Readings, before: Readings | None) -> np.float32:

@@ -1,12 +1,14 @@
 """How fast the robot drives."""
 
 from dataclasses import dataclass
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
-from mindrun.arithmetic import COSINE, HALF, SINE, SPEED_X, SPEED_Y, F, clamp
 from mindrun.quantity import POSITIVE, RATIO
 from mindrun.registry import kind
 from mindrun.sensors.sensor import Physical, Row, Scene, World
+
+if TYPE_CHECKING:  # a lane is given these when it is compiled
+    from mindrun.arithmetic import COSINE, HALF, SINE, SPEED_X, SPEED_Y, F, clamp
 
 
 @kind("sensor", "speed")

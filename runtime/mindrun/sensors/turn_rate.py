@@ -2,12 +2,14 @@
 
 from dataclasses import dataclass
 from math import pi
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
-from mindrun.arithmetic import HALF, SPIN, F, clamp
 from mindrun.quantity import RATIO, Quantity
 from mindrun.registry import kind
 from mindrun.sensors.sensor import Physical, Row, Scene, World
+
+if TYPE_CHECKING:  # a lane is given these when it is compiled
+    from mindrun.arithmetic import HALF, SPIN, F, clamp
 
 TURNING = Quantity("an angle a second", {"deg": pi / 180}, low=pi / 1800, high=2000 * pi)
 

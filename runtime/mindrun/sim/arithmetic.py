@@ -40,11 +40,9 @@ def compiled_lane(function: Any) -> Callable[..., Any]:
 
 def _calling_compiled(function: Any) -> FunctionType:
     """The same function, which calls what is compiled."""
-    known = function.__globals__
-    called = {name: known[name] for name in function.__code__.co_names if name in known}  # and attributes of that name
     names = {
         name: compiled_lane(value) if isinstance(value, FunctionType) and value is not function else value
-        for name, value in called.items()
+        for name, value in arithmetic.terms(function).items()
     }
     plain = FunctionType(function.__code__, names, function.__name__)
     plain.__module__, plain.__qualname__ = function.__module__, function.__qualname__

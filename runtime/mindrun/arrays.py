@@ -1,0 +1,11 @@
+"""The arrays that kinds, engine and learning hand to one another, and what makes one of another."""
+
+from collections.abc import Callable
+
+import numpy as np
+from numpy.typing import NDArray
+
+Readings = NDArray[np.float32]
+Reader = Callable[[int, Readings, Readings | None], Readings | np.float32]  # the tick's number, readings now and before
+Weights = NDArray[np.float32]  # of one skill: [genes]
+Compute = Callable[[NDArray[np.float32]], NDArray[np.float32]]  # a skill's inputs to its outputs

@@ -1,0 +1,82 @@
+"""What reads text needs none of what computes: it says the same in a Python in which importing numpy fails."""
+
+import subprocess
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+
+import pytest
+
+from tests.project.sources import ROOT
+
+PROGRAM = """
+import sys
+
+class Refuse:
+    def find_spec(self, name, path=None, target=None):
+        if name.partition(".")[0] in {names}:
+            raise ImportError(f"there is no {{name}} here")
+
+sys.meta_path.insert(0, Refuse())
+{then}
+"""
+COMPUTING = {"numpy", "numba", "llvmlite", "pymunk", "cv2", "PIL", "networkx", "matplotlib", "websockets"}
+COMMAND = "from mindlang.cli import main; main()"
+EDITOR = """
+from pathlib import Path
+import mindlang.server.server
+from mindlang.server.session import Session
+
+path = Path(sys.argv[1]).resolve()
+session = Session()
+session.set(path.as_uri(), 1, path.read_text().replace("reads proximity", "reads proximty"))
+for news in session.news():
+    print(news.uri, *((each.code, each.message, each.range) for each in news.diagnostics), sep="\\n")
+"""
+
+
+COLLECT = "examples/collect/collect.mind"
+
+
+def run(program: str, words: Sequence[str], refused: set[str]) -> tuple[int, str, str]:
+    """How a program ends in a Python without these packages, and what it prints."""
+    text = PROGRAM.format(names=refused or {""}, then=program)
+    done = subprocess.run([sys.executable, "-c", text, *words], capture_output=True, text=True, cwd=ROOT)
+    return done.returncode, done.stdout, done.stderr
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        ("check", COLLECT),
+        ("check", "examples/lander/lander.mind", "examples/collect/collect.break"),
+        ("lint", COLLECT, "examples/collect/monolith.mind"),
+        ("fmt", "--diff", "examples/maze/maze.mind"),
+        ("explain",),
+        ("explain", "unread-sensor"),
+        ("explain", "ultrasonic"),
+        ("show", "examples/braitenberg.mind"),
+        ("show", COLLECT, "--dot"),
+        ("schema",),
+    ],
+    ids=" ".join,
+)
+def test_a_command_says_the_same(words: tuple[str, ...]) -> None:
+    found = run(COMMAND, words, COMPUTING)
+    assert "there is no" not in found[2]
+    assert found == run(COMMAND, words, set())
+
+
+def test_lint_knows_what_is_constant(tmp_path: Path) -> None:
+    text = (ROOT / "examples/braitenberg.mind").read_text()
+    mind = tmp_path / "constant.mind"
+    mind.write_text(f"{text}\nsensor always is computed at greatest of 0.1 (1 / 0)\n")
+    found = run(COMMAND, ("lint", str(mind)), COMPUTING)
+    assert found == run(COMMAND, ("lint", str(mind)), set())
+
+
+def test_an_editor_is_told_the_same() -> None:
+    pytest.importorskip("pygls")
+    found = run(EDITOR, (COLLECT,), COMPUTING)
+    assert "unknown-sensor" in found[1]
+    assert found == run(EDITOR, (COLLECT,), set())
