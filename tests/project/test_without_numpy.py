@@ -1,5 +1,6 @@
 """What reads text needs none of what computes: it says the same in a Python in which importing numpy fails."""
 
+import ast
 import subprocess
 import sys
 from collections.abc import Sequence
@@ -7,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.project.sources import ROOT
+from tests.project.sources import ROOT, RUNTIME, modules, tree
 
 PROGRAM = """
 import sys
@@ -80,3 +81,25 @@ def test_an_editor_is_told_the_same() -> None:
     found = run(EDITOR, (COLLECT,), COMPUTING)
     assert "unknown-sensor" in found[1]
     assert found == run(EDITOR, (COLLECT,), set())
+
+
+@pytest.mark.parametrize("path", modules(RUNTIME / "sensors", RUNTIME / "functions"), ids=lambda path: path.stem)
+def test_the_methods_of_a_kind_import_what_they_use(path: Path) -> None:
+    """What a file imports for checkers of types is there in a lane alone, which is given it when it is compiled."""
+    guarded = {name for node in tree(path).body if isinstance(node, ast.If) for name in bound(node)}
+    methods = (each for kind in tree(path).body if isinstance(kind, ast.ClassDef) for each in kind.body)
+    named = [each for each in methods if isinstance(each, ast.FunctionDef) and each.name != "lane"]
+    assert {each.name: lacks for each in named if (lacks := (used(each) & guarded) - bound(each))} == {}
+
+
+def bound(within: ast.AST) -> set[str]:
+    """The names that are imported in it."""
+    imports = (node for node in ast.walk(within) if isinstance(node, ast.Import | ast.ImportFrom))
+    return {alias.asname or alias.name for node in imports for alias in node.names}
+
+
+def used(function: ast.FunctionDef) -> set[str]:
+    """The names in its statements, without those of annotations."""
+    noted = [getattr(node, field, None) for node in ast.walk(function) for field in ("annotation", "returns")]
+    left_out = {id(node) for each in noted if isinstance(each, ast.AST) for node in ast.walk(each)}
+    return {node.id for node in ast.walk(function) if isinstance(node, ast.Name) and id(node) not in left_out}

@@ -8,7 +8,7 @@ from mindrun.registry import kind
 from mindrun.sensors.sensor import Physical, Row, Scene
 
 if TYPE_CHECKING:  # a lane is given these when it is compiled
-    from mindrun.arithmetic import HALF, F, X, Y, clamp
+    from mindrun.arithmetic import HALF, F, clamp
 
 Axis = Literal["x", "y"]
 
@@ -35,6 +35,8 @@ class Position(Physical):
 
     def row(self, scene: Scene) -> Row:
         """What a unit adds, and the axis as a row of the body."""
+        from mindrun.arithmetic import X, Y
+
         return {"gain": 0.5 / self.range, "part": X if self.along == "x" else Y}
 
     @staticmethod
