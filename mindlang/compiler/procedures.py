@@ -5,7 +5,7 @@ from pathlib import Path
 
 from mindrun.errors import ProcedureError
 from mindrun.functions.procedure import module_source
-from mindrun.functions.procedure_text import file_of, fit, imports
+from mindrun.procedure_text import file_of, fit, imports
 from mindrun.skill_sets import reachable
 
 from mindlang.compiler.compile import Compiled

@@ -7,7 +7,7 @@ import shutil
 from typing import TYPE_CHECKING
 
 from mindrun.errors import ProcedureError
-from mindrun.functions.procedure_text import fit, module_of
+from mindrun.procedure_text import fit, module_of
 from mindrun.weights import reachable
 
 from mindlang.deploying import DeployError

@@ -5,8 +5,8 @@ from dataclasses import dataclass
 from itertools import accumulate
 
 import numpy as np
+from mindrun.arrays import Layers
 from mindrun.errors import WeightsError
-from mindrun.functions.function import Layers
 from mindrun.graph import Graph, Skill
 from mindrun.printable import visible
 from mindrun.weights import Weights, genes

@@ -9,9 +9,9 @@ from numpy.typing import ArrayLike, NDArray
 from mindrun.errors import MindError, ReadingsError
 from mindrun.functions.function import Stateful
 from mindrun.functions.procedure import module_source
-from mindrun.functions.procedure_text import module_of
 from mindrun.graph import Graph
 from mindrun.policy import Policy
+from mindrun.procedure_text import module_of
 from mindrun.think import Thought, hierarchy, think
 from mindrun.virtual_sensors import virtual_sensors
 from mindrun.weights import reachable

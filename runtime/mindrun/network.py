@@ -7,8 +7,7 @@ from functools import partial
 import numpy as np
 from numpy.typing import NDArray
 
-from mindrun.arrays import Compute, Weights
-from mindrun.functions.function import Layers
+from mindrun.arrays import Compute, Layers, Weights
 from mindrun.sigmoid import sigmoid
 
 

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mindrun.errors import ProcedureError
-from mindrun.functions.procedure_text import examine, file_of, module_of
+from mindrun.procedure_text import examine, file_of, module_of
 
 
 @dataclass(slots=True)

@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pytest
 from mindrun.errors import ProcedureError
-from mindrun.functions.procedure_text import fit
+from mindrun.procedure_text import fit
 
 from tests.calling import RULES, Call
 

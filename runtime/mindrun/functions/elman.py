@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Annotated, Any
 
-from mindrun.functions.function import Function, Layers
+from mindrun.functions.function import Function
 from mindrun.functions.mlp import WIDTH, Mlp, dense, dense_own
 from mindrun.registry import kind
 
@@ -15,7 +15,7 @@ if TYPE_CHECKING:  # a lane is given its terms when it is compiled
     from numpy.typing import NDArray
 
     from mindrun.arithmetic import ZERO
-    from mindrun.arrays import Compute, Weights
+    from mindrun.arrays import Compute, Layers, Weights
 
 
 @kind("skill", "elman")

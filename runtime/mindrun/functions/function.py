@@ -10,9 +10,7 @@ from mindrun.registry import base
 if TYPE_CHECKING:
     import numpy as np
 
-    from mindrun.arrays import Compute, Weights
-
-Layers = tuple[tuple[int, int], ...]  # (values in, values out) of each
+    from mindrun.arrays import Compute, Layers, Weights
 
 
 @runtime_checkable

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from itertools import pairwise
 from typing import TYPE_CHECKING, Annotated, Any
 
-from mindrun.functions.function import Function, Layers
+from mindrun.functions.function import Function
 from mindrun.quantity import Quantity
 from mindrun.registry import kind
 
@@ -15,7 +15,7 @@ if TYPE_CHECKING:  # a lane is given its terms when it is compiled
     import numpy as np
 
     from mindrun.arithmetic import LANES, ZERO, broadcast, load, sigmoids, splat, store
-    from mindrun.arrays import Compute, Weights
+    from mindrun.arrays import Compute, Layers, Weights
 
 WIDTH = Quantity("a whole number", {"": 1.0}, low=0, high=1000, whole=True)
 # Of the weights that learning begins with, 4: without biases, small weights leave every sigmoid near 1/2. Tried on a

@@ -19,10 +19,10 @@ from numpy.typing import NDArray
 
 from mindrun.engine import procedure_sources
 from mindrun.errors import ProcedureError
-from mindrun.functions.procedure_text import module_of
 from mindrun.graph import Graph, Skill
 from mindrun.procedure_call import call as ask
 from mindrun.procedure_call import load
+from mindrun.procedure_text import module_of
 from mindrun.sim.arithmetic import F
 from mindrun.sim.compiling import compiled
 from mindrun.sim.exact import exactly
