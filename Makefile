@@ -17,7 +17,7 @@ RUNGS ?= 0
 TO ?= runs/paper
 
 .DEFAULT_GOAL := help
-.PHONY: help demo test test-slow bench bench-learning paper paper-train wheel clean
+.PHONY: help demo test test-slow bench bench-learning paper paper-train docs wheel clean
 
 help:  ## what there is to make
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  make %-14s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
@@ -42,6 +42,9 @@ paper: $(READY)  ## tables 1 to 3 and figures 11 to 15 of the paper, from the sh
 
 paper-train: $(READY)  ## the paper's whole protocol from nothing, goes on where it was stopped: ATTEMPTS= SCALE= SEED= RUNGS= TO=
 	$(BIN)/python examples/collect/paper/teach.py --attempts $(ATTEMPTS) --others $(OTHERS) --scale $(SCALE) --seed $(SEED) --rungs $(RUNGS) --out $(TO)
+
+docs: $(READY)  ## the site, in build/site: nothing of it comes from the network, and a dead link is an error
+	$(BIN)/sphinx-build --quiet --fail-on-warning --keep-going --conf-dir docs --doctree-dir build/doctrees . build/site
 
 wheel: $(READY)  ## a wheel with machine code for processors like this one, in dist/
 	MIND_COMPILED=1 $(BIN)/python -m hatchling build -t wheel

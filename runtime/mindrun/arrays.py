@@ -10,3 +10,4 @@ Reader = Callable[[int, Readings, Readings | None], Readings | np.float32]  # th
 Weights = NDArray[np.float32]  # of one skill: [genes]
 Layers = tuple[tuple[int, int], ...]  # of a network: (values in, values out) of each
 Compute = Callable[[NDArray[np.float32]], NDArray[np.float32]]  # a skill's inputs to its outputs
+Frame = NDArray[np.uint8]  # of a camera: [row, column, blue green red]

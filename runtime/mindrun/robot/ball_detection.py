@@ -12,10 +12,7 @@ from typing import TYPE_CHECKING, Any
 from mindrun.robot.driver_support import library
 
 if TYPE_CHECKING:
-    import numpy as np
-    from numpy.typing import NDArray
-
-    Frame = NDArray[np.uint8]
+    from mindrun.arrays import Frame
 
 BLACK_BRIGHTNESS = 12  # a brightness at and below which there is no light
 WHITE_BRIGHTNESS = 250  # a brightness from which there is only light
@@ -63,6 +60,8 @@ class Blob:
 
 def blindness(frame: Frame) -> str:
     """Why nothing could be seen in a frame, "" where something could."""
+    import numpy as np
+
     brightest = library("cv2").cvtColor(frame, library("cv2").COLOR_BGR2GRAY)
     if np.count_nonzero(brightest > BLACK_BRIGHTNESS) < BLIND_SHARES[0] * brightest.size:
         return "black"

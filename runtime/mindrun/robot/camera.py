@@ -15,7 +15,7 @@ from mindrun.robot.ball_detection import Aim, Ball, BallTarget, PanTiltLimits, b
 from mindrun.robot.driver_support import library
 
 if TYPE_CHECKING:
-    from mindrun.robot.ball_detection import Frame
+    from mindrun.arrays import Frame
 
 STALE_SECONDS = 0.2  # for which the same frame may come
 RETRY_SECONDS = 0.02  # between two questions to a camera that has no frame

@@ -8,10 +8,11 @@ from time import monotonic, sleep
 import cv2
 import numpy as np
 import pytest
+from mindrun.arrays import Frame
 from mindrun.driver import DeviceError
 from mindrun.robot import camera as watched
 from mindrun.robot import driver_support
-from mindrun.robot.ball_detection import Aim, Frame, focal_length
+from mindrun.robot.ball_detection import Aim, focal_length
 from mindrun.robot.drivers import ball_tracker
 from mindrun.robot.drivers.ball_tracker import BallTracker
 from mindrun.wiring import SensorWire, reading

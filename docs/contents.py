@@ -1,0 +1,45 @@
+"""What stands where on the site: a page that is in none of these lists is an error when it is built."""
+
+from collections.abc import Iterator, Mapping, Sequence
+from pathlib import Path
+
+INDEX, DECISIONS = "docs/index", "docs/decisions/README"
+# Under each heading the pages that there are, in this order, as they are seen from the page that leads to them.
+PAGES: Mapping[str, Mapping[str, Sequence[str]]] = {
+    INDEX: {
+        "Begin": ["tutorial", "tutorial/*", "guides/*"],
+        "Reference": [
+            "language",
+            "kinds",
+            "words",
+            "codes",
+            "commands",
+            "reference/*",
+            "lint",
+            "edits",
+            "python",
+            "glossary",
+        ],
+        "Train and measure": ["learning", "logs", "cluster", "locks", "weights", "gymnasium"],
+        "See and ask": ["view", "why", "whatif", "breakpoints", "proofs"],
+        "On the robot": ["robot", "robot-yaml", "drivers", "drivers/*", "safety", "deploy"],
+        "Examples": ["../examples/*/README", "../examples/*/RESULTS"],
+        "Around it": ["editors", "playground", "versions", "../CHANGELOG"],
+        "How it is made": ["design", "decisions/README", "../CONTRIBUTING"],
+    },
+    DECISIONS: {"Decisions": ["[!R]*"]},
+}
+
+
+def with_contents(page: str, text: str, root: Path) -> str:
+    """The text of a page with the lists of those that it leads to, as a code host need not see them."""
+    return "\n".join([text, *_lists(page, root)])
+
+
+def _lists(page: str, root: Path) -> Iterator[str]:
+    folder = (root / page).parent
+    for heading, patterns in PAGES.get(page, {}).items():
+        found = [path for pattern in patterns for path in sorted(folder.glob(f"{pattern}.md"))]
+        entries = [path.resolve().relative_to(root.resolve()).with_suffix("").as_posix() for path in found]
+        hidden = ":hidden:\n" if page == DECISIONS else ""  # it lists them itself, with a sentence each
+        yield f"```{{toctree}}\n:caption: {heading}\n{hidden}\n" + "".join(f"/{entry}\n" for entry in entries) + "```\n"

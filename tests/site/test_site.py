@@ -1,0 +1,98 @@
+"""The site: every page is there and is found, and none of them asks anybody else for anything."""
+
+import re
+from collections.abc import Iterator
+from html.parser import HTMLParser
+from pathlib import Path
+
+import pytest
+
+from tests.project.sources import ROOT
+from tests.view.browser import chromium
+
+ELSEWHERE = re.compile(r"^(?:[a-z][a-z0-9+.-]*:)?//", re.IGNORECASE)
+LOADING = {"src", "srcset", "data", "poster", "background", "action"}
+LINKS_THAT_LOAD = {
+    "stylesheet",
+    "icon",
+    "preload",
+    "modulepreload",
+    "manifest",
+    "prefetch",
+    "preconnect",
+    "dns-prefetch",
+}
+
+
+class Loads(HTMLParser):
+    """What a page loads as soon as it is opened."""
+
+    def __init__(self, page: Path) -> None:
+        super().__init__()
+        self.found: list[str] = []
+        self.feed(page.read_text(encoding="utf-8"))
+
+    def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
+        given = {name: value or "" for name, value in attrs}
+        self.found += [value for name, value in given.items() if name in LOADING]
+        if tag == "link" and LINKS_THAT_LOAD & {*given.get("rel", "").split()}:
+            self.found.append(given.get("href", ""))
+        self.found += re.findall(r"url\(([^)]*)\)", given.get("style", ""))
+
+
+def loads(folder: Path) -> Iterator[tuple[str, str]]:
+    """Each page or style sheet, and what it loads."""
+    for page in folder.rglob("*.html"):
+        yield from ((page.name, address) for address in Loads(page).found)
+    for sheet in folder.rglob("*.css"):
+        text = sheet.read_text(encoding="utf-8")
+        addresses = re.findall(r"url\(([^)]*)\)|@import\s+([^;]+);", text)
+        yield from ((sheet.name, (one or other).strip("'\" ")) for one, other in addresses)
+
+
+def test_no_page_loads_anything_from_elsewhere(site: Path) -> None:
+    found = [*loads(site)]
+    assert len(found) > 100
+    assert [each for each in found if ELSEWHERE.match(each[1])] == []
+
+
+def test_every_page_of_the_project_is_there(site: Path) -> None:
+    pages = [path.relative_to(ROOT).with_suffix(".html") for path in (ROOT / "docs").rglob("*.md")]
+    assert len(pages) > 50
+    assert [page for page in pages if not (site / page).exists()] == []
+
+
+def test_what_a_page_loads_is_there(site: Path) -> None:
+    for page in site.rglob("*.html"):
+        found = (address.partition("?")[0].partition("#")[0] for address in Loads(page).found)
+        local = [address for address in found if address and not address.startswith(("data:", "#"))]
+        assert [each for each in local if not (page.parent / each).exists()] == []
+
+
+def test_the_language_has_its_colours(site: Path) -> None:
+    text = (site / "docs" / "index.html").read_text(encoding="utf-8")
+    assert 'class="highlight-mind' in text
+    assert '<span class="kd">skill</span>' in text
+    assert '<span class="k">reads</span>' in text
+
+
+@pytest.fixture(scope="module")
+def browser() -> Iterator[object]:
+    with chromium() as found:
+        yield found
+
+
+def test_a_search_finds_range_finder_without_a_network(site: Path, browser: object) -> None:
+    context = browser.new_context(offline=True)  # type: ignore[attr-defined]
+    page, asked, errors = context.new_page(), [], []
+    page.on("request", lambda request: asked.append(request.url))
+    page.on("pageerror", lambda error: errors.append(str(error)))
+    page.goto((site / "docs" / "index.html").as_uri())
+    page.fill("input[name=q]", "range_finder")
+    page.press("input[name=q]", "Enter")
+    page.wait_for_selector("#search-results li a")
+    found = page.locator("#search-results li a").all_inner_texts()
+    assert "Kinds > range_finder" in found or "range_finder" in " ".join(found)
+    assert [each for each in asked if not each.startswith("file:")] == []
+    assert errors == []
+    context.close()
