@@ -2,7 +2,8 @@
 
 from collections.abc import Iterable, Mapping
 from heapq import heapify, heappop, heappush
-from typing import Any, TypeVar
+from itertools import pairwise
+from typing import TypeVar
 
 from mindrun.reachability import reached_from
 
@@ -10,18 +11,6 @@ from mindlang.compiler.diagnostic import Findings, Label
 from mindlang.compiler.model import Skill
 
 T = TypeVar("T", int, str)
-
-
-def digraph(skills: tuple[Skill, ...]) -> Any:
-    """The influences as a networkx graph; an edge carries its `edge`, a skill its `skill`."""
-    import networkx as nx  # slow to import, and a mind without cycles does without it
-
-    graph = nx.DiGraph()
-    for skill in skills:
-        graph.add_node(skill.name, skill=skill)
-    for skill in skills:
-        graph.add_edges_from((skill.name, edge.target, {"edge": edge}) for edge in skill.edges if edge.to == "skill")
-    return graph
 
 
 def in_order(skills: tuple[Skill, ...]) -> tuple[Skill, ...]:
@@ -67,12 +56,27 @@ def check_cycles(skills: tuple[Skill, ...], findings: Findings) -> None:
     """Report a cycle of influence with its whole path."""
     if len(in_order(skills)) == len(skills):
         return
-    import networkx as nx
-
-    graph = digraph(skills)
-    steps = nx.find_cycle(graph)
-    path = " → ".join([steps[0][0], *(target for _, target in steps)])
-    spans = [graph.edges[step]["edge"].fact.span for step in steps]
+    round_trip = _circle({skill.name: skill.subskills for skill in skills})
+    path = " → ".join(round_trip)
+    edges = {(skill.name, edge.target): edge for skill in skills for edge in skill.edges if edge.to == "skill"}
+    spans = [edges[step].fact.span for step in pairwise(round_trip)]
     labels = (Label(span, "and from there on") for span in spans[1:])
     hint = "Influence flows one way, from the master down: take one of these lines out."
     findings.error("influence-cycle", spans[0], f"Skills influence one another in a circle: {path}.", hint, *labels)
+
+
+def _circle(children: Mapping[str, Iterable[str]]) -> list[str]:
+    """The first way down that comes back to where it has been: from there to there."""
+    done: set[str] = set()
+    for top in children:
+        path, waiting = [top], [iter(children[top])]
+        while path:
+            if (child := next(waiting[-1], None)) is None:
+                done.add(path.pop())
+                waiting.pop()
+            elif child in path:
+                return [*path[path.index(child) :], child]
+            elif child not in done:
+                path.append(child)
+                waiting.append(iter(children[child]))
+    raise ValueError("there is no circle")

@@ -14,7 +14,7 @@ from tests.calling import Call
 from tests.language.examples import COLLECT, EXAMPLES, RIGHT, TOUR
 
 WRONG = Path(__file__).parent / "wrong" / "unknown-sensor.mind"
-HEAVY = {"numba", "numpy.testing", "cv2", "pymunk", "networkx", "yaml", "llvmlite"}
+HEAVY = {"numba", "numpy.testing", "cv2", "pymunk", "yaml", "llvmlite"}
 
 
 def process(*arguments: object, text: str = "", **environment: str) -> subprocess.CompletedProcess[str]:

@@ -140,7 +140,7 @@ def test_only_curves_need_matplotlib() -> None:
 
 @pytest.mark.parametrize("words", [("--help",), ("check", "--help"), ("train", "--help"), ("plot", "--help")])
 def test_help_loads_nothing_heavy(words: tuple[str, ...]) -> None:
-    heavy = WORKSTATION | {"networkx", "numpy", "lark", "rich", "yaml", "matplotlib"}
+    heavy = WORKSTATION | {"numpy", "lark", "rich", "yaml", "matplotlib"}
     assert loaded_by(*words) & heavy == set()
 
 

@@ -21,7 +21,7 @@ class Refuse:
 sys.meta_path.insert(0, Refuse())
 {then}
 """
-COMPUTING = {"numpy", "numba", "llvmlite", "pymunk", "cv2", "PIL", "networkx", "matplotlib", "websockets"}
+COMPUTING = {"numpy", "numba", "llvmlite", "pymunk", "cv2", "PIL", "matplotlib", "websockets"}
 COMMAND = "from mindlang.cli import main; main()"
 EDITOR = """
 from pathlib import Path
@@ -56,6 +56,7 @@ def run(program: str, words: Sequence[str], refused: set[str]) -> tuple[int, str
         ("explain",),
         ("explain", "unread-sensor"),
         ("explain", "ultrasonic"),
+        ("check", "tests/language/wrong/influence-cycle.mind"),
         ("show", "examples/braitenberg.mind"),
         ("show", COLLECT, "--dot"),
         ("schema",),
