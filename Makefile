@@ -17,7 +17,7 @@ RUNGS ?= 0
 TO ?= runs/paper
 
 .DEFAULT_GOAL := help
-.PHONY: help demo test test-slow bench bench-learning paper paper-train docs wheel clean
+.PHONY: help demo test test-slow bench bench-learning paper paper-train docs playground wheel clean
 
 help:  ## what there is to make
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  make %-14s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
@@ -45,6 +45,11 @@ paper-train: $(READY)  ## the paper's whole protocol from nothing, goes on where
 
 docs: $(READY)  ## the site, in build/site: nothing of it comes from the network, and a dead link is an error
 	$(BIN)/sphinx-build --quiet --fail-on-warning --keep-going --conf-dir docs --doctree-dir build/doctrees . build/site
+
+playground: $(READY)  ## the page on which minds are written in a browser, in build/site/playground; needs npm
+	cd playground && npm ci --silent --no-audit --no-fund && npm run --silent check
+	$(BIN)/python playground/pack.py build/playground
+	cd playground && node build.mjs
 
 wheel: $(READY)  ## a wheel with machine code for processors like this one, in dist/
 	MIND_COMPILED=1 $(BIN)/python -m hatchling build -t wheel

@@ -9,12 +9,12 @@ from mindrun.arithmetic import terms
 
 
 @cache
-def plain(function: Any) -> Callable[..., Any]:
+def plain_lane(function: Any) -> Callable[..., Any]:
     """A function of a kind's file that can be called as it stands."""
     if not isinstance(function, FunctionType) or function.__module__ == "mindrun.arithmetic":
         return function  # type: ignore[no-any-return]
     found: dict[str, Any] = {"__builtins__": __builtins__}
     made = FunctionType(function.__code__, found, function.__name__)
     for name, value in terms(function).items():
-        found[name] = plain(value) if isinstance(value, FunctionType) and value is not function else value
+        found[name] = plain_lane(value) if isinstance(value, FunctionType) and value is not function else value
     return made

@@ -18,7 +18,7 @@ from mindrun.sim.trace import trace
 from mindrun.things import Item, Map, Obstacle, ThingKind, Wall, Zone
 
 from tests.minds import always, mind, rule
-from tests.sensors.plain_lanes import plain
+from tests.sensors.plain_lanes import plain_lane
 
 AWAY = st.sampled_from([0.0, 1.0, 1.0, 2.0, 3.0, np.nan])
 
@@ -83,7 +83,7 @@ def test_it_is_held_where_one_of_its_name_is() -> None:
     for held in range(-1, 6):
         lanes, sensor = state([1.0] * 6, 6, 2, 3)
         lanes.held[0] = held
-        plain(Held.lane)(None, lanes, 1, 0, sensor)
+        plain_lane(Held.lane)(None, lanes, 1, 0, sensor)
         assert lanes.readings[0, 0] == (held in (2, 3, 4))
 
 
@@ -94,7 +94,7 @@ def test_it_is_inside_and_in_contact_where_one_of_its_name_is() -> None:
         lanes.things[:] = 50.0
         lanes.things[THING_ROWS * near : THING_ROWS * near + 3, 0] = 2.0, 0.0, 6.0
         for kind in (Inside, Contact):
-            plain(kind.lane)(world, lanes, 1, 0, sensor)
+            plain_lane(kind.lane)(world, lanes, 1, 0, sensor)
             assert lanes.readings[0, 0] == (near in (2, 3, 4))
 
 
@@ -102,8 +102,8 @@ def test_a_bearing_points_to_the_nearest_within_range() -> None:
     lanes, _ = state([9.0, 2.0, 4.0], 3)
     lanes.things[0::THING_ROWS, 0], lanes.things[1::THING_ROWS, 0] = (9.0, 0.0, -4.0), (0.0, 2.0, 0.0)
     sensor = SimpleNamespace(thing=0, things=3, boxes=0, start=0, range=3.0, dead_zone=np.float32(0))
-    plain(Bearing.lane)(None, lanes, 1, 0, sensor)
+    plain_lane(Bearing.lane)(None, lanes, 1, 0, sensor)
     assert lanes.readings[0, 0] == np.float32(0.25)
     sensor.range = 1.9
-    plain(Bearing.lane)(None, lanes, 1, 0, sensor)
+    plain_lane(Bearing.lane)(None, lanes, 1, 0, sensor)
     assert lanes.readings[0, 0] == 0.5

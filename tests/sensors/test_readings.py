@@ -30,7 +30,7 @@ from mindrun.trigonometry import cosine, sine
 
 from tests.hierarchies import WORLDLY
 from tests.minds import always, mind, rule
-from tests.sensors.plain_lanes import plain
+from tests.sensors.plain_lanes import plain_lane
 from tests.sensors.test_constants import World
 from tests.sim.worlds import random_world
 
@@ -95,7 +95,7 @@ class Place:
         row |= {"ray": 0, "number": 0}
         scene = SimpleNamespace(tick=TICK, starts={})
         with np.errstate(divide="ignore"):
-            plain(kind.lane)(tables, senses, 1, 0, SimpleNamespace(**row, **kind.row(scene)))
+            plain_lane(kind.lane)(tables, senses, 1, 0, SimpleNamespace(**row, **kind.row(scene)))
         return senses.readings[:, 0].tolist()
 
 
@@ -257,7 +257,7 @@ def test_compiled_lanes_read_the_bits_of_plain_python(
         )  # fmt: skip
         with np.errstate(all="ignore"):
             for row, kind in zip(rows["sensors"], chosen, strict=True):
-                plain(kind.lane)(SimpleNamespace(**rows), senses, 1, 0, row)
+                plain_lane(kind.lane)(SimpleNamespace(**rows), senses, 1, 0, row)
         assert np.array_equal(plain[: graph.width, 0], state.mind.readings[: graph.width, 0]), chosen
         for sensor, constant in constants:
             assert (plain[sensor.start : sensor.start + sensor.width, 0] == F(constant)).all(), sensor
