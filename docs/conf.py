@@ -3,6 +3,7 @@
 The folder that Sphinx reads is the repository, so that a link between two pages is the same here and on a code host.
 """
 
+import re
 import sys
 from pathlib import Path
 
@@ -17,7 +18,7 @@ project, author = "mind", "the authors of mind"
 html_title = "mind"
 root_doc = "docs/index"
 extensions = ["myst_parser"]
-include_patterns = ["docs/**.md", "examples/*/*.md", "CHANGELOG.md", "CONTRIBUTING.md"]
+include_patterns = ["README.md", "docs/**.md", "examples/*/*.md", "CHANGELOG.md", "CONTRIBUTING.md"]
 exclude_patterns = ["build", "dist", ".venv", "**/node_modules", "**/runs", "**/weights", "**/*.template.md"]
 
 # Every dead link, every heading that is not there and every page that no other leads to is an error (with -W).
@@ -43,4 +44,5 @@ def setup(app: Sphinx) -> None:
 
 
 def _add_contents(_: Sphinx, page: str, text: list[str]) -> None:
-    text[0] = with_contents(page, text[0], HERE.parent)
+    linked = re.sub(r'(<a href="[^":]+)\.md(?=["#])', r"\1.html", text[0])  # of HTML in a page Sphinx knows no links
+    text[0] = with_contents(page, linked, HERE.parent)

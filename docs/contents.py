@@ -7,7 +7,7 @@ INDEX, DECISIONS = "docs/index", "docs/decisions/README"
 # Under each heading the pages that there are, in this order, as they are seen from the page that leads to them.
 PAGES: Mapping[str, Mapping[str, Sequence[str]]] = {
     INDEX: {
-        "Begin": ["tutorial", "tutorial/*", "guides/*"],
+        "Begin": ["../README", "tutorial", "tutorial/*", "guides/*"],
         "Reference": [
             "language",
             "kinds",
@@ -17,7 +17,7 @@ PAGES: Mapping[str, Mapping[str, Sequence[str]]] = {
             "reference/*",
             "lint",
             "edits",
-            "python",
+            "python*",
             "glossary",
         ],
         "Train and measure": ["learning", "logs", "cluster", "locks", "weights", "gymnasium"],

@@ -3,13 +3,14 @@
 from pygments.lexer import RegexLexer, bygroups, words
 from pygments.token import Comment, Keyword, Name, Number, Operator, String, Text, Whitespace
 
-from mindlang.server.words import JOINTS, NOUNS, SETTINGS, UNITS, VERBS
+from mindlang.explaining.words import words_of
 
-BEGINNINGS = rf"^([ \t]*)({'|'.join([*SETTINGS, *VERBS, 'stop'])})\b"
-DECLARATION = rf"^([ \t]*)({'|'.join(NOUNS)})([ \t]+)([\w.+]+)([ \t]+)(is|in)([ \t]+)([\w.]+)"
+NOUN = "|".join(words_of("Nouns"))
+BEGINNINGS = rf"^([ \t]*)({'|'.join((*words_of('Settings'), *words_of('Verbs'), 'stop'))})\b"
+DECLARATION = rf"^([ \t]*)({NOUN})([ \t]+)([\w.+]+)([ \t]+)(is|in)([ \t]+)([\w.]+)"
 DECLARED = Keyword.Declaration, Name.Function, Keyword, Name.Class  # the words of a declaration
-JOINING = sorted({word for phrase in JOINTS for word in phrase.split()})
-UNIT = "|".join(unit for unit in UNITS if unit != "%")
+JOINING = sorted({word for phrase in words_of("Words") for word in phrase.split()})
+UNIT = "|".join(unit for unit in words_of("Units") if unit != "%")
 
 
 class MindLexer(RegexLexer):
@@ -36,7 +37,7 @@ class MindLexer(RegexLexer):
                 ),
             ),
             (BEGINNINGS, bygroups(Whitespace, Keyword)),
-            (rf"^([ \t]*)({'|'.join(NOUNS)})\b", bygroups(Whitespace, Keyword.Declaration)),
+            (rf"^([ \t]*)({NOUN})\b", bygroups(Whitespace, Keyword.Declaration)),
             (rf"(\d+(?:\.\d+)?(?:/\d+)?)([ \t]*)(%|(?:{UNIT})\b)", bygroups(Number, Whitespace, Keyword.Type)),
             (r"\d+(?:\.\d+)?(?:/\d+)?", Number),
             (words(JOINING, prefix=r"\b", suffix=r"\b"), Operator.Word),

@@ -15,7 +15,7 @@ sys.path[:0] = [str(ROOT), str(ROOT / "runtime")]
 
 import lark  # noqa: E402
 
-from mindlang.server.words import JOINTS, NOUNS, SETTINGS, UNITS, VERBS  # noqa: E402
+from mindlang.explaining.words import words_of  # noqa: E402
 
 EXAMPLES = {
     "Braitenberg's wanderer, by rules": "braitenberg.mind",
@@ -47,8 +47,9 @@ def files() -> Iterator[tuple[str, Path]]:
 
 def words() -> dict[str, list[str]]:
     """The words of the language by what they are for: those that the site and the editors know."""
-    joints = sorted({word for phrase in JOINTS for word in phrase.split()})
-    return {"nouns": [*NOUNS], "settings": [*SETTINGS], "verbs": [*VERBS], "joints": joints, "units": [*UNITS]}
+    joints = sorted({word for phrase in words_of("Words") for word in phrase.split()})
+    chapters = ("Nouns", "Settings", "Verbs", "Units")
+    return {chapter.lower(): [*words_of(chapter)] for chapter in chapters} | {"joints": joints}
 
 
 def main(folder: Path) -> None:

@@ -69,6 +69,14 @@ def test_what_a_page_loads_is_there(site: Path) -> None:
         assert [each for each in local if not (page.parent / each).exists()] == []
 
 
+def test_no_link_leads_to_a_source(site: Path) -> None:
+    """A code host shows it; a browser would save it."""
+    pages = {page: page.read_text(encoding="utf-8") for page in site.rglob("*.html")}
+    assert {
+        page.name: found for page, text in pages.items() if (found := re.findall(r'href="[^":]*\.md["#]', text))
+    } == {}
+
+
 def test_the_language_has_its_colours(site: Path) -> None:
     text = (site / "docs" / "index.html").read_text(encoding="utf-8")
     assert 'class="highlight-mind' in text
