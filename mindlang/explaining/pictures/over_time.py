@@ -4,7 +4,8 @@ from collections.abc import Iterator
 from math import nan, sin
 
 import numpy as np
-from mindrun.sensors.sensor import Readings, Scene, SensorKind
+from mindrun.arrays import Readings
+from mindrun.sensors.sensor import Scene, SensorKind
 
 from mindlang.explaining.pictures import svg
 
