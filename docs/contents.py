@@ -7,7 +7,7 @@ INDEX, DECISIONS = "docs/index", "docs/decisions/README"
 # Under each heading the pages that there are, in this order, as they are seen from the page that leads to them.
 PAGES: Mapping[str, Mapping[str, Sequence[str]]] = {
     INDEX: {
-        "Begin": ["../README", "tutorial", "tutorial/*", "guides/*"],
+        "Begin": ["../README", "new", "tutorial", "tour", "tutorial/*", "guides/*"],
         "Reference": [
             "language",
             "kinds",
