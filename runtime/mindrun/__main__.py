@@ -30,9 +30,7 @@ def main() -> None:
     """Run the command line; whatever happens ends in one message and an exit code."""
     standard_streams.prepare(standard_streams.Printable)
     tool = len(sys.argv) > 1 and sys.argv[1] in tools()
-    code = guarded(
-        (lambda: run_tool(sys.argv[1], sys.argv[2:])) if tool else (lambda: run(driving_parser().parse_args()))
-    )
+    code = guarded((lambda: run_tool(sys.argv[1], sys.argv[2:])) if tool else _drive_or_describe)
     if why := standard_streams.finish():
         _say(why)
         code = code or FAILED

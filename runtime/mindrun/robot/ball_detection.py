@@ -70,7 +70,6 @@ def blindness(frame: Frame) -> str:
 
 def find_ball(frame: Frame, target: BallTarget) -> Ball | None:
     """The largest round thing that is bright and of the right colour, None where there is none."""
-
     height, width = frame.shape[:2]
     if blindness(frame):
         return None
