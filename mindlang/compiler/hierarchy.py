@@ -69,14 +69,15 @@ def _circle(children: Mapping[str, Iterable[str]]) -> list[str]:
     """The first way down that comes back to where it has been: from there to there."""
     done: set[str] = set()
     for top in children:
-        path, waiting = [top], [iter(children[top])]
+        path, waiting = {top: None}, [iter(children[top])]
         while path:
             if (child := next(waiting[-1], None)) is None:
-                done.add(path.pop())
+                done.add(path.popitem()[0])
                 waiting.pop()
             elif child in path:
-                return [*path[path.index(child) :], child]
+                way = list(path)
+                return [*way[way.index(child) :], child]
             elif child not in done:
-                path.append(child)
+                path[child] = None
                 waiting.append(iter(children[child]))
     raise ValueError("there is no circle")
