@@ -26,10 +26,10 @@ demo: $(READY)  ## check, show, train and run a skill, in a few minutes
 	@PATH="$(CURDIR)/$(BIN):$$PATH" sh examples/demo.sh build/demo
 
 test: $(READY)  ## the whole test suite, with the same random cases each time
-	$(BIN)/pytest --numprocesses auto --dist worksteal
+	$(BIN)/pytest --numprocesses auto
 
 test-slow: $(READY)  ## the longer checks, too, with new random cases
-	$(BIN)/pytest --numprocesses auto --dist worksteal --hypothesis-profile explore -m "slow or not slow"
+	$(BIN)/pytest --numprocesses auto --hypothesis-profile explore -m "slow or not slow"
 
 bench: $(READY)  ## how fast it is, beside plain pymunk
 	@for name in check engine rollout; do echo "$$name"; $(BIN)/python benchmarks/$$name.py || exit; done

@@ -35,6 +35,17 @@ def pytest_sessionstart(session: pytest.Session) -> None:
         subprocess.Popen([sys.executable, "-m", "mindrun.sim.warmup"], stdin=subprocess.DEVNULL)
 
 
+# Folders here: what needs no simulator is tested while that is compiled, what takes long is not left for the end.
+WITHOUT_SIMULATOR = ("language", "lint", "fmt", "explain", "server", "proofs", "lock", "wiring", "deploy", "formats")
+LONG = ("work", "cluster", "outside", "pages", "train", "sim", "engine", "functions", "environments", "robot")
+
+
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """Set the order of the tests, in which processes take them."""
+    ranks = dict.fromkeys(WITHOUT_SIMULATOR, 0) | dict.fromkeys(LONG, 1)
+    items.sort(key=lambda item: ranks.get(item.path.relative_to(Path(__file__).parent).parts[0], 2))
+
+
 @pytest.fixture
 def mindc(capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) -> Call:
     """Mindc called in this process."""

@@ -62,7 +62,7 @@ def world(ticks: int, outcome: str = "") -> Rollout:
     return Rollout(Policy(graph, {}), "World", "Push")
 
 
-@pytest.mark.parametrize("seed", range(12))
+@pytest.mark.parametrize("seed", [*range(6), *(pytest.param(seed, marks=pytest.mark.slow) for seed in range(6, 12))])
 def test_pushes_equal_plain_pymunk(seed: int) -> None:
     """A robot that drives about between walls, obstacles and loose things, which it pushes against all of them."""
     rollout = world(5_000, ("", "delivered stays", "delivered vanishes")[seed % 3])

@@ -10,6 +10,7 @@ from mindrun.arithmetic import ANGLE, BOX_COLUMNS, HALF_X, HALF_Y, SIZE, THING_R
 from mindrun.sim.arithmetic import sine_cosine
 from mindrun.sim.codes import FAR
 from mindrun.sim.compiling import compiled
+from mindrun.sim.lanes.clear_places import clear, clear_of_all, clear_of_things
 from mindrun.sim.lanes.loose import stand
 
 GOLDEN, MIX_1, MIX_2 = np.uint64(0x9E3779B97F4A7C15), np.uint64(0xBF58476D1CE4E5B9), np.uint64(0x94D049BB133111EB)
@@ -133,34 +134,6 @@ def start(tables, world, lane):
 
 
 @compiled
-def clear_of_all(tables, world, x, y, margin, lane):
-    """Whether nothing solid that stands already comes within `margin` of a point, along the axes."""
-    return clear(world.boxes, x, y, margin, lane) and clear_of_loose(tables, x, y, margin)
-
-
-@compiled
-def clear(boxes, x, y, margin, lane):
-    """Whether no obstacle comes within `margin` of a point, along the axes."""
-    for b in range(boxes.shape[1] // BOX_COLUMNS):
-        box = BOX_COLUMNS * b
-        wide, high = boxes[lane, box + HALF_X] + margin, boxes[lane, box + HALF_Y] + margin
-        if abs(boxes[lane, box + X] - x) < wide and abs(boxes[lane, box + Y] - y) < high:
-            return False
-    return True
-
-
-@compiled
-def clear_of_loose(tables, x, y, margin):
-    """Whether no box or ball with a place of its own comes within `margin` of a point, along the axes."""
-    for i in range(len(tables.loose)):
-        thing = tables.things[tables.loose[i].thing]
-        gap = max(thing.first, thing.last) / 2 + margin
-        if thing.is_fixed and abs(thing.x - x) < gap and abs(thing.y - y) < gap:
-            return False
-    return True
-
-
-@compiled
 def find(tables, world, low, high, room, extent, but, lane):
     """A place for something of that half size: low..high from the robot, clear of obstacles, walls and other things.
 
@@ -191,17 +164,6 @@ def find(tables, world, low, high, room, extent, but, lane):
         if fits == 3:
             break
     return best_x, best_y
-
-
-@compiled
-def clear_of_things(things, x, y, extent, but, lane):
-    """Whether something of that half size would cover no thing at a place, thing number `but` aside."""
-    for i in range(things.shape[0] // THING_ROWS):
-        thing = THING_ROWS * i
-        gap = extent + things[thing + SIZE, lane] / 2
-        if i != but and abs(things[thing + X, lane] - x) < gap and abs(things[thing + Y, lane] - y) < gap:
-            return False
-    return True
 
 
 @compiled

@@ -5,7 +5,8 @@ import numpy as np
 from mindrun.arithmetic import SIZE, THING_ROWS, X, Y
 from mindrun.sim.arithmetic import sine_cosine
 from mindrun.sim.compiling import compiled
-from mindrun.sim.lanes.placement import clear, uniform
+from mindrun.sim.lanes.clear_places import clear
+from mindrun.sim.lanes.placement import uniform
 from mindrun.sim.lanes.places import within
 
 
