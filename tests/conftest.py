@@ -36,7 +36,7 @@ def pytest_sessionstart(session: pytest.Session) -> None:
 
 
 # Folders here: what needs no simulator is tested while that is compiled, what takes long is not left for the end.
-WITHOUT_SIMULATOR = ("language", "lint", "fmt", "explain", "server", "proofs", "lock", "wiring", "deploy", "formats")
+WITHOUT_SIMULATOR = ("language", "lint", "fmt", "explain", "server", "proofs", "wiring", "deploy", "formats")
 LONG = ("work", "cluster", "outside", "pages", "train", "sim", "engine", "functions", "environments", "robot")
 
 

@@ -19,9 +19,11 @@ from mindrun.train.run_folder import create
 from mindrun.train.segment import Segment
 from mindrun.train.training import train
 from mindrun.work import WorkError
+from mindrun.work.child import Child
 from mindrun.work.crew import MAX_LOSSES, Crew, Place
 from mindrun.work.executor import StretchExecutor
 from mindrun.work.frame import Frame, pack
+from mindrun.work.pipes import LostError
 
 from tests.train.climbing import LENGTH, Sphere, lesson, manifest, unwatched
 from tests.work.working import ASSIGNMENT, FAULTS
@@ -183,3 +185,13 @@ def test_nothing_is_said_of_workers_that_are_there(monkeypatch: pytest.MonkeyPat
     finally:
         there.close()
     assert said == []
+
+
+def test_a_worker_that_is_killed_before_it_begins_ends(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A crew may end at once, while its threads begin their workers."""
+    monkeypatch.setattr("mindrun.work.child.START_SECONDS", 5.0)
+    child = Child(Place("a place", (sys.executable, "-c", "input()")))
+    child.kill()
+    with pytest.raises(LostError, match="it ended"):
+        child.begin()
+    child.end()

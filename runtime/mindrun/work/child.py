@@ -28,6 +28,7 @@ class Child:
         self.process: subprocess.Popen[bytes] | None = None
         self._pipes: Pipes | None = None
         self._at = ""
+        self._is_over = False
 
     def begin(self) -> None:
         """Begin the process, unless it is there, and wait until it says that it takes jobs."""
@@ -41,6 +42,8 @@ class Child:
             )
         except OSError as error:
             raise LostError(f"{error.strerror}") from error
+        if self._is_over:  # it was killed while it was begun
+            self._end_process()
         self._pipes = Pipes(self.process, START_SECONDS)
         self._pipes.silent_seconds = _silent_seconds(self._heard(self._pipes))
 
@@ -59,19 +62,23 @@ class Child:
         return answer
 
     def kill(self) -> None:
-        """End the process; whoever waits for it is told by its pipes."""
-        if (process := self.process) is not None:
-            with suppress(OSError):
-                process.kill()
+        """End the process, and one that is just being begun; whoever waits for it is told by its pipes."""
+        self._is_over = True
+        self._end_process()
 
     def end(self) -> None:
         """End the process, whatever it does."""
-        self.kill()
+        self._end_process()
         pipes, self._pipes = self._pipes, None
         if pipes is not None:
             pipes.close()
         if self.process is not None:
             self.process.wait()
+
+    def _end_process(self) -> None:
+        if (process := self.process) is not None:
+            with suppress(OSError):
+                process.kill()
 
     def _heard(self, pipes: Pipes) -> Frame:
         try:
