@@ -1,5 +1,6 @@
 """Calling mindc inside the test's own process, and the small mind that most calls are about."""
 
+import random
 import sys
 from collections.abc import Callable
 from pathlib import Path
@@ -62,7 +63,8 @@ Call = Callable[..., Said]
 
 
 def caller(capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) -> Call:
-    """A function that calls mindc with its arguments."""
+    """A function that calls mindc with its arguments. What it draws at random is the same whenever a test runs."""
+    monkeypatch.setattr("secrets.randbits", random.Random(1).getrandbits)  # the seed of whoever gives none
 
     def call(*arguments: object) -> Said:
         terminal.console.cache_clear()
