@@ -131,6 +131,8 @@ influences A cuts below limit
 drives w at least of a b (1 - c) - greatest of 1 c
 starts at 0 -0 facing 90 deg
 starts facing -east
+rewards least of its reward 0 (x - 1) its reward per tick when least of its end x > its reward
+ends when greatest of x its end > 0
 varies thrust of left_wheel 60 to 90
 varies size of Robot low to 90%
 fails left_wheel 1% per s
