@@ -12,6 +12,7 @@ export function editor(parent: HTMLElement, text: string, changed: (text: string
     history(),
     drawSelection(),
     highlightActiveLine(),
+    EditorView.lineWrapping, // what is said below a line would else be as wide as the longest one
     keymap.of([...defaultKeymap, ...historyKeymap]),
     mind,
     findingsShown,

@@ -16,7 +16,9 @@ class Words extends WidgetType {
   }
 
   override toDOM(): HTMLElement {
-    const place = document.createElement("div");
+    const whole = document.createElement("div"); // with room around the words: CodeMirror does not measure margins
+    whole.className = "below";
+    const place = whole.appendChild(document.createElement("div"));
     place.className = `words ${this.finding.severity}`;
     const message = place.appendChild(document.createElement("span"));
     message.className = "message";
@@ -24,7 +26,7 @@ class Words extends WidgetType {
     if (this.finding.hint) place.appendChild(document.createElement("span")).textContent = this.finding.hint;
     const code = place.appendChild(document.createElement("code"));
     code.textContent = this.finding.code;
-    return place;
+    return whole;
   }
 }
 

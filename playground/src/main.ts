@@ -53,7 +53,10 @@ function show({ findings, hierarchy, tidy: tidyText }: Answer): void {
   state.className = errors ? "error" : warnings ? "warning" : "good";
   tidied = tidyText;
   tidy.disabled = tidyText === null || tidyText === text();
-  if (hierarchy) draw(picture, hierarchy, declared);
+  if (hierarchy) {
+    draw(picture, hierarchy, declared);
+    picture.querySelector(".master")?.scrollIntoView({ block: "nearest", inline: "center" }); // of what is too wide
+  }
   picture.classList.toggle("old", !hierarchy); // of the text as it last compiled
   empty.hidden = hierarchy !== null || picture.childElementCount > 0;
 }

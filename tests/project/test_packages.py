@@ -19,6 +19,8 @@ from tests.project.sources import ROOT
 PROJECTS = {"mindlang": ROOT, "mindrun": ROOT / "runtime"}
 NEEDED_TO_WORK_ON_IT = ("Makefile", "CONTRIBUTING.md", "CHANGELOG.md", "Containerfile", "editors/vscode/package.json")
 NEEDED_BY_TESTS = (
+    "playground/package-lock.json",
+    "playground/src/index.html",
     "tests/formats/0.1.0/rover.bundle",
     "examples/collect/collect.lock",
     "tests/robot/recordings/version3.rec",
