@@ -1,0 +1,111 @@
+"""A world of a task drawn as `mindrun.sim.lanes.placement` draws it, in plain Python: does everything find a place?"""
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, field
+from itertools import product
+from math import cos, hypot, pi, sin
+from random import Random
+
+from mindrun.quantity import Place, Span
+from mindrun.scenes import SceneKind
+from mindrun.things import ThingKind
+from mindrun.things.rectangle import Rectangle
+
+from mindlang.compiler.model import Task
+
+MAX_TRIES = 200  # for one thing; the lanes try 1000 times
+ROBOT = "the robot"
+
+
+@dataclass(slots=True)
+class DrawnWorld:
+    """What stands already: what is solid, all other things, and the robot, which is as wide as twice its radius.
+
+    `looks` counts how often two of them were held against each other: what drawing costs.
+    """
+
+    scene: SceneKind
+    radius: float
+    random: Random
+    solid: list[Rectangle] = field(default_factory=list)
+    things: list[Rectangle] = field(default_factory=list)
+    robot: Place = (0.0, 0.0)
+    looks: int = 0
+
+    def draw(self, task: Task) -> str:
+        """Put everything down, in the order of the lanes; the name of what finds no place, empty where all do."""
+        for thing in task.things:
+            self.solid += [*thing.kind.walls, *(self._grid(thing.kind) if thing.kind.is_obstacle else ())]
+        if not self._start(task.start.at):
+            return ROBOT
+        obstacles, others = ([each for each in task.things if each.kind.is_obstacle is one] for one in (True, False))
+        for kind in (each.kind for each in others):
+            self.things += [_square(place, kind.largest / 2) for place in kind.places[: kind.copies]]
+        for name, kind in ((each.name, each.kind) for each in obstacles):
+            for _ in range(sum(int(row["count"]) for row in kind.rows(self.scene))):
+                half = self._size(kind.size) / 2
+                if not self._put(self.solid, kind, half, half + 3 * self.radius):
+                    return name
+        for name, kind in ((each.name, each.kind) for each in others if not each.kind.places):
+            for _ in range(kind.copies):
+                if not self._put(self.things, kind, self._size(kind.size) / 2, 0.0):
+                    return name
+        return ""
+
+    def _grid(self, kind: ThingKind) -> Iterator[Rectangle]:
+        """The obstacles of a kind that stand at places, each off by its jitter."""
+        for row in kind.rows(self.scene):
+            columns, rows, spacing = int(row["columns"]), int(row["rows"]), row["grid"]
+            for column, line in product(range(columns), range(rows)) if not row["count"] else ():
+                x = row["x"] + (column - (columns - 1) / 2) * spacing + row["jitter"] * self.random.uniform(-1, 1)
+                y = row["y"] + (line - (rows - 1) / 2) * spacing + row["jitter"] * self.random.uniform(-1, 1)
+                yield _square((x, y), self._size(kind.size) / 2)
+
+    def _start(self, at: Place | None) -> bool:
+        """Put the robot where its task says, or in the middle of a plain scene, or where it touches nothing."""
+        if at or not self.scene.is_bounded:
+            self.robot = at or self.robot
+            return True
+        for _ in range(MAX_TRIES):
+            self.robot = self._anywhere(3 * self.radius)
+            if self._is_clear(self.solid, self.robot, self.radius):
+                return True
+        return False
+
+    def _put(self, where: list[Rectangle], kind: ThingKind, half: float, room: float) -> bool:
+        """Put a thing down, at least `room` from the robot along one of the axes; False where no try succeeds."""
+        low, high = kind.distances(self.scene)
+        for _ in range(MAX_TRIES):
+            place = self._anywhere(half + 2 * self.radius) if self.scene.is_bounded else self._around(low, high)
+            x, y = place[0] - self.robot[0], place[1] - self.robot[1]
+            is_far = low <= hypot(x, y) + 1e-9 and hypot(x, y) <= high + 1e-9 and max(abs(x), abs(y)) >= room
+            clear = is_far and self._is_clear(self.solid, place, half + 2 * self.radius)
+            if clear and self._is_clear(self.things, place, half):
+                where.append(_square(place, half))
+                return True
+        return False
+
+    def _anywhere(self, margin: float) -> Place:
+        """A place in an arena, so far from its walls."""
+        x, y = (max(side / 2 - margin, 0.0) for side in self.scene.sides)
+        return self.random.uniform(-x, x), self.random.uniform(-y, y)
+
+    def _around(self, low: float, high: float) -> Place:
+        """A place in a plain scene, so far from the robot."""
+        angle, far = self.random.uniform(0.0, 2 * pi), self.random.uniform(low, high)
+        return self.robot[0] + far * cos(angle), self.robot[1] + far * sin(angle)
+
+    def _is_clear(self, of: Sequence[Rectangle], place: Place, margin: float) -> bool:
+        """Whether none of these comes within a margin of a place, along the axes."""
+        x, y = place
+        self.looks += len(of)
+        return not any(abs(x - each.x) < each.half_x + margin and abs(y - each.y) < each.half_y + margin for each in of)
+
+    def _size(self, of: Span) -> float:
+        """A size: drawn where it is, and of a schedule the largest."""
+        is_drawn = of.by is None and of.first != of.last
+        return self.random.uniform(of.first, of.last) if is_drawn else max(of.first, of.last)
+
+
+def _square(place: Place, half: float) -> Rectangle:
+    return Rectangle(*place, half, half)
