@@ -103,7 +103,7 @@ def copy(robot: FakeRobot, to: FakeRobot) -> FakeRobot:
 def deployed(robot: FakeRobot, bundle: Path) -> int:
     """The exit code of a deployment by a program of its own, which may be that of a kill."""
     process = program(robot, "deploy", bundle, HOST, "--watch", 0)
-    process.communicate(timeout=60)
+    process.communicate(timeout=600)
     return process.returncode
 
 

@@ -31,7 +31,7 @@ def killed_at_random(robot: FakeRobot, bundle: Path, moment: float) -> bool:
     going_on = process.poll() is None
     if going_on:
         os.killpg(process.pid, signal.SIGKILL)
-    process.communicate(timeout=60)
+    process.communicate(timeout=600)
     settled(robot)
     robot.clean()
     return going_on
@@ -141,7 +141,7 @@ def test_ctrl_c(old: str, robot: FakeRobot, bundles: Bundles) -> None:
     while process.poll() is None and not any(line.startswith("start") for line in robot.log("systemctl.log")):
         time.sleep(0.02)
     os.killpg(process.pid, signal.SIGINT)
-    said, _ = process.communicate(timeout=60)
+    said, _ = process.communicate(timeout=600)
     assert process.returncode == 130
     assert "The same command goes on" in said
     assert "Traceback" not in said

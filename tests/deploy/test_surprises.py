@@ -63,7 +63,7 @@ def test_no_number_that_sh_cannot_compare_removes_a_release(old: str, robot: Fak
 
 def test_of_two_at_once_one_waits(old: str, robot: FakeRobot, bundles: Bundles) -> None:
     both = [program(robot, "deploy", bundle, HOST, *NOW) for bundle in bundles[1:]]
-    said = [process.communicate(timeout=120)[0] for process in both]
+    said = [process.communicate(timeout=600)[0] for process in both]
     assert [process.returncode for process in both] == [0, 0], said
     assert len(robot.releases()) == 3
     assert robot.master() in {"Chase", "Turn"}
@@ -71,7 +71,7 @@ def test_of_two_at_once_one_waits(old: str, robot: FakeRobot, bundles: Bundles) 
 
 def test_of_one_bundle_twice_at_once_both_are_right(old: str, robot: FakeRobot, bundles: Bundles) -> None:
     both = [program(robot, "deploy", bundles[1], HOST, *NOW) for _ in range(2)]
-    said = [process.communicate(timeout=120)[0] for process in both]
+    said = [process.communicate(timeout=600)[0] for process in both]
     assert [process.returncode for process in both] == [0, 0], said
     assert sum("has this release already" in each for each in said) == 1
     assert len(robot.releases()) == 2

@@ -35,7 +35,7 @@ def bundle(tmp_path: Path) -> Path:
 def mindrun(*words: object, text: str = "") -> subprocess.CompletedProcess[str]:
     """Run the command with a standard input."""
     command = [sys.executable, "-m", "mindrun", *map(str, words)]
-    return subprocess.run(command, input=text, capture_output=True, text=True, timeout=60, check=False)
+    return subprocess.run(command, input=text, capture_output=True, text=True, timeout=600, check=False)
 
 
 def test_it_says_what_a_bundle_holds(bundle: Path) -> None:

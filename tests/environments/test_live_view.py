@@ -183,7 +183,7 @@ def test_a_program_that_forgets_to_close_it_ends_all_the_same(roam: Path) -> Non
         "for _ in range(5): env.step(np.full(2, 0.5, np.float32))\n"
     )
     words = [sys.executable, "-c", program, str(roam)]
-    done = subprocess.run(words, capture_output=True, text=True, timeout=300, env=os.environ | {"DISPLAY": ""})
+    done = subprocess.run(words, capture_output=True, text=True, timeout=600, env=os.environ | {"DISPLAY": ""})
     assert done.returncode == 0, done.stderr
     assert done.stdout == ""
     assert [line.partition(" at ")[0] for line in done.stderr.splitlines()] in ([], ["the environment is seen"])

@@ -63,7 +63,7 @@ def source(tmp_path: Path) -> Path:
 def build(*words: object) -> subprocess.CompletedProcess[str]:
     """Run mindc build."""
     command = [sys.executable, "-c", "from mindlang.cli import main; main()", "build", *map(str, words)]
-    return subprocess.run(command, capture_output=True, text=True, timeout=60, check=False)
+    return subprocess.run(command, capture_output=True, text=True, timeout=600, check=False)
 
 
 def test_a_bundle_is_built_and_runs(source: Path) -> None:

@@ -160,7 +160,7 @@ def test_what_code_in_c_prints_is_not_in_the_document(tmp_path: Path, command: s
         capture_output=True,
         text=True,
         check=False,
-        timeout=300,
+        timeout=600,
     )
     assert done.returncode == 0, done.stderr
     assert json.loads(done.stdout)

@@ -12,7 +12,7 @@ from tests.pages.transcript import Command, Write
 from tests.project.sources import ROOT
 
 PROGRAMS = {"mindc": "from mindlang.cli import main; main()", "mindrun": "from mindrun.__main__ import main; main()"}
-LONGEST_SECONDS = 500
+LONGEST_SECONDS = 1800
 
 
 @dataclass

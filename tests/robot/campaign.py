@@ -32,7 +32,7 @@ from tests.robot.guardian.scenes import patient
 NEUTRALS = {"left_wheel": 0.5, "right_wheel": 0.5, "claw": 0.0}
 SIGNALS = (signal.SIGKILL, signal.SIGKILL, signal.SIGSTOP, signal.SIGSTOP, signal.SIGTERM, signal.SIGCONT)
 NEUTRAL = (sys.executable, "-P", "-m", "mindrun.robot.guardian", "--neutral")  # what the service does in the end
-PATIENCE = 120.0
+PATIENCE = 600.0
 
 
 @dataclass(slots=True)

@@ -18,7 +18,7 @@ from tests.sim.minds import compile_text
 
 MINDRUN = (sys.executable, "-m", "mindrun")
 NAME = f"mock {os.getpid()}"  # no other test of this computer drives it
-PATIENCE = 60.0
+PATIENCE = 600.0  # seconds; the simulator may have to be compiled
 PROCEDURE = "procedure from own.f"
 
 

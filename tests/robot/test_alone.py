@@ -47,7 +47,7 @@ def test_whatever_happens_to_files_nobody_drives_beside(
         assert said.returncode == 2
         assert f"this robot is driven already, by process {first.pid}" in said.stderr
     first.terminate()
-    first.communicate(timeout=60)
+    first.communicate(timeout=600)
     assert mindrun(bundle, "--arm", "--ticks", 2).returncode == 0
 
 

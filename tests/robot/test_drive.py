@@ -68,7 +68,7 @@ def test_a_signal_ends_it_and_keeps_the_recording(bundle: Path, tmp_path: Path, 
     while not day.exists() or day.stat().st_size < 2000:
         assert process.poll() is None
     process.send_signal(number)
-    _, err = process.communicate(timeout=30)
+    _, err = process.communicate(timeout=600)
     assert process.returncode == 0, err
     assert "ticks of 50.0 ms" in err
     assert mindrun("replay", day, bundle).returncode == 0
@@ -107,7 +107,7 @@ def test_two_never_drive_one_robot(bundle: Path, tmp_path: Path) -> None:
     assert said.returncode == 2
     assert f"this robot is driven already, by process {first.pid}" in said.stderr
     first.terminate()
-    first.communicate(timeout=30)
+    first.communicate(timeout=600)
     assert mindrun(bundle, "--ticks", 2).returncode == 0
 
 
@@ -136,7 +136,7 @@ def test_the_second_signal_ends_what_hangs(bundle: Path, tmp_path: Path) -> None
     process.send_signal(signal.SIGINT)
     sleep(0.5)
     process.send_signal(signal.SIGINT)
-    process.communicate(timeout=30)
+    process.communicate(timeout=600)
     assert process.returncode == 130
 
 
@@ -270,7 +270,7 @@ def test_a_dry_run_ends_when_its_world_does(bundle: Path) -> None:
         sleep(0.1)
     sleep(1)
     os.kill(worlds[0], signal.SIGKILL)
-    _, err = process.communicate(timeout=60)
+    _, err = process.communicate(timeout=600)
     assert process.returncode == 2
     assert "does not come to neutral" in err
     assert "guardian holds every actuator" in err

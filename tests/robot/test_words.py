@@ -45,7 +45,7 @@ def test_it_drives_on_where_nobody_listens(bundle: Path, tmp_path: Path, deaf: i
     day, words = tmp_path / "day.rec", ("--arm", "--ticks", 60, "--record", tmp_path / "day.rec")
     if deaf is None:
         line = " ".join(map(str, (*MINDRUN, bundle, *words, ">&- 2>&-")))
-        assert subprocess.run(["sh", "-c", line], timeout=60).returncode == 0
+        assert subprocess.run(["sh", "-c", line], timeout=600).returncode == 0
     else:
         assert mindrun(bundle, *words, stderr=deaf).returncode == 0
     rows = np.concatenate(list(read(day)[1]))
@@ -84,10 +84,10 @@ def test_who_listens_hears_all_of_it(bundle: Path) -> None:
 
 def test_standard_output_need_not_be_there(bundle: Path) -> None:
     line = f"exec {' '.join(MINDRUN)} {bundle} --arm --ticks 5 >&-"
-    said = subprocess.run(["sh", "-c", line], capture_output=True, text=True, timeout=60)
+    said = subprocess.run(["sh", "-c", line], capture_output=True, text=True, timeout=600)
     assert said.returncode == 0
     assert "5 ticks" in said.stderr
-    said = subprocess.run(["sh", "-c", f"{' '.join(MINDRUN)} doctor >&-"], capture_output=True, text=True, timeout=60)
+    said = subprocess.run(["sh", "-c", f"{' '.join(MINDRUN)} doctor >&-"], capture_output=True, text=True, timeout=600)
     assert said.stderr == "mindrun: standard output cannot be written: it is closed\n"
 
 

@@ -42,7 +42,7 @@ from tests.calling import RULES, write_rules
 from tests.sim.test_rollout import some_weights
 
 COLLECT = Path(__file__).parents[2] / "examples" / "collect"
-PATIENCE = 60.0  # seconds; nothing here should take one
+PATIENCE = 600.0  # seconds; the simulator may have to be compiled
 STILL = """task Still in plain
   contains ball is item size 2
   lasts 3 ticks

@@ -15,7 +15,7 @@ from queue import Empty, Queue
 from typing import Any
 
 ROOT = Path(__file__).parents[2]
-WAIT = 30
+WAIT = 300
 CAPABILITIES = {
     "workspace": {
         "applyEdit": True,

@@ -46,7 +46,7 @@ def completed(script: Path, words: str) -> list[str]:
     program = words.split()[0]
     function = {"mindc": "_mindc_completion", "mindrun": "_mindrun"}[program]
     text = COMPLETE.format(words=words, function=function, program=program)
-    ran = subprocess.run(["bash", "-c", text, "bash", script], capture_output=True, text=True, check=True, timeout=60)
+    ran = subprocess.run(["bash", "-c", text, "bash", script], capture_output=True, text=True, check=True, timeout=600)
     return ran.stdout.split("\n")[:-1]
 
 

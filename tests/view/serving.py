@@ -21,7 +21,7 @@ from mindlang.view.viewed import Viewed
 from mindlang.view.viewed_champion import Champions
 from mindlang.view.viewed_run import ViewedRun
 
-ANSWER_SECONDS = 120.0  # at which a test gives up: the simulator may have to be compiled
+ANSWER_SECONDS = 600.0  # at which a test gives up: the simulator may have to be compiled
 ENTERS = "\r\n"
 UPGRADE = {
     "Upgrade": "websocket",

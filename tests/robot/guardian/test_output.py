@@ -19,7 +19,7 @@ from mindrun.robot.guardian.plan import Channel
 
 from tests.robot.guardian.faked import TICK, Faked, faked
 
-PATIENCE = 20.0  # seconds for a thread to do what it has to
+PATIENCE = 300.0  # seconds for a thread to do what it has to
 REST = 0.5
 
 
