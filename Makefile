@@ -43,7 +43,7 @@ paper: $(READY)  ## tables 1 to 3 and figures 11 to 15 of the paper, from the sh
 paper-train: $(READY)  ## the paper's whole protocol from nothing, goes on where it was stopped: ATTEMPTS= SCALE= SEED= RUNGS= TO=
 	$(BIN)/python examples/collect/paper/teach.py --attempts $(ATTEMPTS) --others $(OTHERS) --scale $(SCALE) --seed $(SEED) --rungs $(RUNGS) --out $(TO)
 
-docs: $(READY)  ## the site, in build/site: nothing of it comes from the network, and a dead link is an error
+docs: $(READY) $(filter playground,$(MAKECMDGOALS))  ## the site, in build/site: nothing of it comes from the network, and a dead link is an error
 	$(BIN)/sphinx-build --quiet --fail-on-warning --keep-going --conf-dir docs --doctree-dir build/doctrees . build/site
 
 playground: $(READY)  ## the page on which minds are written in a browser, in build/site/playground; needs npm

@@ -31,6 +31,8 @@ html_static_path = ["_static"]
 html_css_files = ["site.css"]
 templates_path = ["_templates"]
 html_additional_pages = {"index": "begin.html"}
+SIDEBAR = ("brand", "search", "playground", "scroll-start", "navigation", "scroll-end")
+html_sidebars = {"**": [f"sidebar/{part}.html" for part in SIDEBAR]}
 html_copy_source = html_show_sourcelink = False
 html_show_sphinx = html_show_copyright = False
 highlight_language = "text"
@@ -38,8 +40,9 @@ pygments_style, pygments_dark_style = "friendly", "github-dark"
 
 
 def setup(app: Sphinx) -> None:
-    """Text of the language has the language's colours, and every page is in a list."""
+    """Text of the language has the language's colours, every page is in a list, and the playground if it is there."""
     app.add_lexer("mind", MindLexer)
+    app.config.html_context["playground"] = (Path(app.outdir) / "playground" / "index.html").exists()
     app.connect("source-read", _add_contents)
 
 

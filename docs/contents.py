@@ -7,28 +7,19 @@ INDEX, DECISIONS = "docs/index", "docs/decisions/README"
 # Under each heading the pages that there are, in this order, as they are seen from the page that leads to them.
 PAGES: Mapping[str, Mapping[str, Sequence[str]]] = {
     INDEX: {
-        "Begin": ["../README", "new", "tutorial", "tour", "tutorial/*", "guides/*"],
-        "Reference": [
-            "language",
-            "kinds",
-            "words",
-            "codes",
-            "commands",
-            "reference/*",
-            "lint",
-            "edits",
-            "python*",
-            "glossary",
-        ],
+        "Begin": ["../README", "new", "tutorial", "tour", "guides/*"],
+        "Reference": ["language", "kinds", "words", "codes", "commands", "lint", "edits", "python*", "glossary"],
         "Train and measure": ["learning", "logs", "cluster", "locks", "weights", "gymnasium"],
         "See and ask": ["view", "why", "whatif", "breakpoints", "proofs"],
-        "On the robot": ["robot", "robot-yaml", "drivers", "drivers/*", "safety", "deploy"],
+        "On the robot": ["robot", "robot-yaml", "drivers", "safety", "deploy"],
         "Examples": ["../examples/*/README", "../examples/*/RESULTS"],
         "Around it": ["editors", "playground", "versions", "../CHANGELOG"],
         "How it is made": ["design", "decisions/README", "../CONTRIBUTING"],
     },
     DECISIONS: {"Decisions": ["[!R]*"]},
 }
+# The page that a code host shows first has the name of the whole, as has the index.
+TITLES: Mapping[str, str] = {"README": "Install, and first steps"}
 
 
 def with_contents(page: str, text: str, root: Path) -> str:
@@ -42,4 +33,8 @@ def _lists(page: str, root: Path) -> Iterator[str]:
         found = [path for pattern in patterns for path in sorted(folder.glob(f"{pattern}.md"))]
         entries = [path.resolve().relative_to(root.resolve()).with_suffix("").as_posix() for path in found]
         hidden = ":hidden:\n" if page == DECISIONS else ""  # it lists them itself, with a sentence each
-        yield f"```{{toctree}}\n:caption: {heading}\n{hidden}\n" + "".join(f"/{entry}\n" for entry in entries) + "```\n"
+        yield f"```{{toctree}}\n:caption: {heading}\n{hidden}\n" + "".join(map(_entry, entries)) + "```\n"
+
+
+def _entry(page: str) -> str:
+    return f"{TITLES[page]} </{page}>\n" if page in TITLES else f"/{page}\n"

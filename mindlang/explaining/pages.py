@@ -10,23 +10,26 @@ from mindlang.explaining.markdown import reference
 from mindlang.explaining.pictures.collection import picture_file, pictures
 from mindlang.explaining.words import word_articles
 
-MADE = "UPDATE=1 pytest tests/explain/test_pages.py"
+MADE = "\n<!-- made from what mindc knows: UPDATE=1 pytest tests/explain/test_pages.py -->"
 KINDS = f"""\
 What stands behind `is` in a `.mind` ([language.md](language.md)): what it is, what a reading or command of 0, 0.5 and
-1 means, what it takes, and an example. `mindc explain wheel` prints one of them, `mindc kinds` lists them. Made from
-the kinds themselves: {MADE}
+1 means, what it takes, and an example. `mindc explain wheel` prints one of them, `mindc kinds` lists them.
+{MADE}
 """
 DRIVERS = f"""\
 What `driver:` can be in a `robot.yaml` ([robot-yaml.md](robot-yaml.md)), and the options of each; `mindc explain
-ultrasonic` prints one of them. Made from the drivers themselves: {MADE}
+ultrasonic` prints one of them.
+{MADE}
 """
 WORDS = f"""\
 What each word of the language is for, and a few terms; [language.md](language.md) has all of it together. `mindc
-explain teaches` prints one of them. Made from the words that `mindc` and the editor know: {MADE}
+explain teaches` prints one of them.
+{MADE}
 """
 CODES = f"""\
 The codes that stand in brackets at the end of a message: what each means, and what to do. `mindc explain CODE` prints
-one of them, `mindc explain` lists them. Made from what `mindc` knows: {MADE}
+one of them, `mindc explain` lists them.
+{MADE}
 """
 
 

@@ -1,11 +1,14 @@
 """The public names of a package as a page of reference: signatures and docstrings, read from the sources."""
 
 import ast
+import re
 from collections.abc import Iterator
 from inspect import cleandoc, getsource, isclass, isroutine
 from textwrap import dedent
 from types import ModuleType
 
+LINE_CHARACTERS = 100  # of a signature
+ARGUMENT = re.compile(r", (?=\w+[:=]|\*)")  # before the next one: no comma of a type
 Function = ast.FunctionDef | ast.AsyncFunctionDef
 
 
@@ -38,8 +41,19 @@ def _function(node: ast.AST) -> Iterator[str]:
     if isinstance(node, Function):
         said = [f"@{ast.unparse(each)}" for each in node.decorator_list if isinstance(each, ast.Name)]
         result = f" -> {ast.unparse(node.returns)}" if node.returns else ""
-        yield from _code(*said, f"def {node.name}({ast.unparse(node.args)}){result}")
+        yield from _code(*said, *_signature(node.name, ast.unparse(node.args), result))
         yield from _documented(node)
+
+
+def _signature(name: str, arguments: str, result: str) -> Iterator[str]:
+    """In one line, or where that is too long a line for each argument."""
+    line = f"def {name}({arguments}){result}"
+    if len(line) <= LINE_CHARACTERS:
+        yield line
+        return
+    yield f"def {name}("
+    yield from (f"    {each}," for each in ARGUMENT.split(arguments))
+    yield f"){result}"
 
 
 def _documented(node: Function | ast.ClassDef) -> Iterator[str]:

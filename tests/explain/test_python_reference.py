@@ -13,8 +13,9 @@ PUBLISHED = ROOT / "docs" / "python-reference.md"
 ABOUT = """\
 # Python, name by name
 
-The public names of `mindlang` and `mindrun`, which stay; [python.md](python.md) shows what they are for. Made from the
-sources: UPDATE=1 pytest tests/explain/test_python_reference.py
+The public names of `mindlang` and `mindrun`, which stay; [python.md](python.md) shows what they are for.
+
+<!-- made from the sources: UPDATE=1 pytest tests/explain/test_python_reference.py -->
 """
 
 
@@ -40,5 +41,5 @@ def test_every_public_name_is_there(package) -> None:
 def test_a_function_has_its_types_and_what_it_says() -> None:
     text = "\n".join(python_reference(mindlang))
     assert "### `mindlang.load`\n\n```python\ndef load(path: " in text
-    assert "#### `Mind.bench`\n\n```python\ndef bench(self, " in text
+    assert "#### `Mind.bench`\n\n```python\ndef bench(\n    self,\n    task: str | None=None,\n" in text
     assert "._" not in text.replace("...", "")

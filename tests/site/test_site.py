@@ -1,10 +1,13 @@
 """The site: every page is there and is found, and none of them asks anybody else for anything."""
 
 import re
+import subprocess
+import sys
 from collections.abc import Iterator
 from html.parser import HTMLParser
 from pathlib import Path
 from typing import Any
+from urllib.parse import unquote, urlsplit
 
 import pytest
 
@@ -52,6 +55,12 @@ def loads(folder: Path) -> Iterator[tuple[str, str]]:
         yield from ((sheet.name, (one or other).strip("'\" ")) for one, other in addresses)
 
 
+@pytest.fixture(scope="module")
+def browser() -> Iterator[Any]:
+    with chromium() as found:
+        yield found
+
+
 def test_no_page_loads_anything_from_elsewhere(site: Path) -> None:
     found = [*loads(site)]
     assert len(found) > 100
@@ -79,17 +88,44 @@ def test_no_link_leads_to_a_source(site: Path) -> None:
     } == {}
 
 
+def test_every_link_leads_somewhere(site: Path) -> None:
+    """Links of HTML in a page, too, of which Sphinx knows nothing."""
+    text = {page: page.read_text(encoding="utf-8") for page in site.rglob("*.html")}
+    headings = {page: {"", *re.findall(r'\s(?:id|name)="([^"]+)"', each)} for page, each in text.items()}
+    for page in text:
+        for link in map(urlsplit, re.findall(r'href="([^"]+)"', text[page])):
+            if not link.scheme and not link.netloc:
+                to = (page.parent / unquote(link.path)).resolve() if link.path else page
+                assert to.is_file(), (page, link)
+                assert unquote(link.fragment) in headings.get(to, {link.fragment}), (page, link)
+
+
+def test_no_page_is_wider_than_a_phone(site: Path, browser: Any) -> None:
+    """Code and tables that are wider scroll by themselves, below the words about them."""
+    pages = ["docs/index", "docs/kinds", "docs/codes", "docs/commands", "README", "examples/collect/RESULTS"]
+    with served(site) as address, alone(browser, address) as page:
+        page.set_viewport_size({"width": 390, "height": 844})
+        for name in pages:
+            page.goto(f"{address}/{name}.html")
+            assert page.evaluate("document.documentElement.scrollWidth") == 390, name
+
+
+@pytest.mark.parametrize("there", [True, False])
+def test_the_playground_is_linked_where_there_is_one(there: bool, tmp_path: Path) -> None:
+    pytest.importorskip("sphinx")
+    if there:
+        (tmp_path / "site" / "playground").mkdir(parents=True)
+        (tmp_path / "site" / "playground" / "index.html").touch()
+    words = ["-m", "sphinx", "-Q", "-D", "include_patterns=docs/index.md", "-c", "docs", "-d", tmp_path / "doctrees"]
+    subprocess.run([sys.executable, *words, ".", tmp_path / "site"], cwd=ROOT, check=True)
+    assert ("playground/index.html" in (tmp_path / "site" / "docs" / "index.html").read_text("utf-8")) is there
+
+
 def test_the_language_has_its_colours(site: Path) -> None:
     text = (site / "docs" / "index.html").read_text(encoding="utf-8")
     assert 'class="highlight-mind' in text
     assert '<span class="kd">skill</span>' in text
     assert '<span class="k">reads</span>' in text
-
-
-@pytest.fixture(scope="module")
-def browser() -> Iterator[Any]:
-    with chromium() as found:
-        yield found
 
 
 def test_a_search_finds_range_finder(site: Path, browser: Any) -> None:
