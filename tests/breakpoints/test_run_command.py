@@ -1,8 +1,8 @@
 """`mindc run --break`: the run ends where the first line of the file stops it."""
 
 import json
+import shutil
 from pathlib import Path
-from textwrap import dedent
 from typing import Any
 
 import numpy as np
@@ -53,19 +53,15 @@ def test_the_document_in_python_stops_where_the_command_does(
     mindc: Call, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """Of a mind whose lock has its skills in another order than they are declared in."""
-    code = (
-        (ROOT / "docs" / "breakpoints.md").read_text().partition("## From Python\n")[2].partition("\nOf a recording")[0]
-    )
+    shutil.copytree(COLLECT.parent, tmp_path, ignore=shutil.ignore_patterns("runs"), dirs_exist_ok=True)
+    code = (ROOT / "docs" / "breakpoints.md").read_text().partition("```python\n")[2].partition("```")[0]
     path, text = tmp_path / "collect.break", "stop when Avoid influences left_wheel above 70% and holding > 0.5\n"
     monkeypatch.chdir(tmp_path)
     data = found(mindc, COLLECT, path, text, "--task", "Collect", "--seed", 3)
-    compiled = load(COLLECT)
-    setup = set_up(str(COLLECT), compiled, "Collect", None)
-    assert compiled.graph
-    assert compiled.graph.skills != setup.ready.policy.graph.skills
-    scope = {"compiled": compiled, "setup": setup, "rows": record_run(setup, setup.rollout(), 3)}
-    exec(dedent(code), scope)
-    assert scope["stops"][0].tick == data["stopped"]["tick"]  # type: ignore[attr-defined]
+    scope: dict[str, Any] = {}
+    exec(code, scope)
+    assert scope["compiled"].graph.skills != scope["setup"].ready.policy.graph.skills
+    assert scope["stops"][0].tick == data["stopped"]["tick"]
 
 
 def test_it_says_where_why_and_what_has_come_of_the_run(mindc: Call, rules: Path, breaks: Path) -> None:

@@ -23,8 +23,8 @@ class Reader:
     folder: Path
 
     @classmethod
-    def beginning(cls, home: Path) -> "Reader":
-        """With a copy of the examples and the two programs."""
+    def beginning(cls, home: Path, folder: str = ".") -> "Reader":
+        """With a copy of the examples and the two programs, in a folder of these."""
         shutil.copytree(ROOT / "examples", home / "examples", ignore=shutil.ignore_patterns("runs"))
         (home / "bin").mkdir()
         for name, code in PROGRAMS.items():
@@ -33,7 +33,7 @@ class Reader:
                 f'#!/bin/sh\nexec {shlex.quote(sys.executable)} -c {shlex.quote(code)} "$@"\n', encoding="utf-8"
             )
             program.chmod(0o755)
-        return cls(home, home)
+        return cls(home, home / folder)
 
     def write(self, step: Write) -> None:
         """Write a file of the page, or change it."""
@@ -51,6 +51,12 @@ class Reader:
         )  # fmt: skip
         self.folder = Path(there.read_text(encoding="utf-8").strip())
         return done.returncode, done.stdout
+
+    def program(self, text: str) -> tuple[int, str]:
+        """The exit status of a program in Python and all that it printed."""
+        path = self.home / "program.py"
+        path.write_text(text, encoding="utf-8")
+        return self.run(Command(f"python {shlex.quote(str(path))}", "", 0, 0))
 
     def _environment(self) -> dict[str, str]:
         path = os.pathsep.join([str(self.home / "bin"), str(Path(sys.executable).parent), os.environ["PATH"]])

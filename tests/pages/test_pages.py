@@ -11,17 +11,22 @@ import cv2
 import numpy as np
 import pytest
 
+from tests.pages.blocks import MADE, pages
 from tests.pages.comparing import MEANWHILE, fits
+from tests.pages.programs import runnable
 from tests.pages.running import Reader
-from tests.pages.transcript import INDENT, Command, steps
+from tests.pages.transcript import INDENT, Command, Program, Write, steps
 from tests.project.sources import ROOT
 
 RUN = [
-    ROOT / "README.md",
-    ROOT / "docs" / "tutorial.md",
-    ROOT / "docs" / "tour.md",
-    *sorted((ROOT / "docs" / "guides").glob("[a-z]*.md")),
+    ROOT / page
+    for page in pages()
+    if page not in MADE
+    and any(isinstance(step, Command | Program) for step in steps((ROOT / page).read_text(encoding="utf-8")))
 ]
+COLLECT = {
+    f"docs/{name}.md" for name in ("breakpoints", "gymnasium", "locks", "logs", "python", "weights", "whatif", "why")
+}
 SLOW = {"docs/tour.md"}  # pages that take more than some ten seconds of a core and are not the first ones read
 PICTURE_BYTES = 180_000
 LEFT = {"docs/tutorial.md": "rover"}  # what a page ends with, as an example
@@ -33,24 +38,27 @@ def name(page: Path) -> str:
     return str(page.relative_to(ROOT))
 
 
-def pages() -> list[object]:
-    """Those with commands, the long ones marked."""
+def marked() -> list[object]:
+    """Those with something to run, the long ones marked."""
     return [pytest.param(page, id=name(page), marks=[pytest.mark.slow] if name(page) in SLOW else []) for page in RUN]
 
 
-@pytest.mark.parametrize("page", pages())
+@pytest.mark.parametrize("page", marked())
 def test_a_page_does_what_it_says(tmp_path: Path, page: Path) -> None:
-    reader = Reader.beginning(tmp_path)
+    reader = Reader.beginning(tmp_path, "examples/collect" if name(page) in COLLECT else ".")
     text = page.read_text(encoding="utf-8")
-    lines, wrong = text.splitlines(), []
+    lines, wrong, parts = text.splitlines(), [], []
     for step in steps(text):
-        if not isinstance(step, Command):
-            reader.write(step)
-            continue
-        status, printed = reader.run(step)
-        assert status in (0, 1), f"$ {step.line}\n{printed}"
-        if not fits(step.output, printed):
-            wrong.append((step, printed))
+        match step:
+            case Write():
+                reader.write(step)
+            case Program(part):
+                parts.append(part)
+            case Command():
+                status, printed = reader.run(step)
+                assert status in (0, 1), f"$ {step.line}\n{printed}"
+                if not fits(step.output, printed):
+                    wrong.append((step, printed))
     if os.environ.get("UPDATE"):
         for step, printed in reversed(wrong):
             now = MEANWHILE.sub("", printed).rstrip("\n").splitlines()
@@ -61,6 +69,11 @@ def test_a_page_does_what_it_says(tmp_path: Path, page: Path) -> None:
     keep_or_compare(reader.folder, page)
     if name(page) in LEFT:
         compare_example(ROOT / "examples" / LEFT[name(page)], reader.folder)
+    program, missing = runnable(parts)
+    status, printed = reader.program(program)
+    assert status == 0, printed
+    if missing:
+        pytest.skip(f"all but what needs {', '.join(missing)} has been run")
 
 
 def keep_or_compare(folder: Path, page: Path) -> None:
@@ -88,12 +101,6 @@ def differ(one: Path, other: Path) -> bool:
     return a.shape != b.shape or float(np.abs(a.astype(int) - b).mean()) > SAME_PIXELS
 
 
-@pytest.mark.parametrize("page", RUN, ids=name)
-def test_there_is_something_to_run(page: Path) -> None:
-    assert any(isinstance(step, Command) for step in steps(page.read_text(encoding="utf-8")))
-
-
-@pytest.mark.parametrize("page", RUN, ids=name)
-def test_what_is_shown_of_the_language_is_part_of_a_file(page: Path) -> None:
-    """So that it is compiled: ```mind has the name of a file behind it."""
-    assert "```mind\n" not in page.read_text(encoding="utf-8")
+@pytest.mark.parametrize("page", ["README.md", "docs/tutorial.md", "docs/tour.md", "docs/python.md"])
+def test_there_is_something_to_run(page: str) -> None:
+    assert ROOT / page in RUN

@@ -3,11 +3,12 @@
     ```mind rover.mind          the whole file
     ```mind rover.mind add      lines that come below what is there
     ```diff rover.mind          lines that take the place of others
+    ```python                   a part of the page's program
         $ mindc check rover.mind
         nothing wrong
 
-A command is an indented line that begins with `$ `; what is shown without is not meant to be run by a test. What it
-prints stands below it, up to the next command or the end of the block.
+A command is an indented line that begins with `$ `; what is shown without is only held against the program
+(`command_lines`). What it prints stands below it, up to the next command or the end of the block.
 """
 
 import re
@@ -44,6 +45,13 @@ class Command:
     end: int
 
 
+@dataclass(frozen=True)
+class Program:
+    """Lines of Python, which go on where those above them on the page ended."""
+
+    text: str
+
+
 def changed(before: str, diff: str) -> str:
     """A text in which the lines of a diff without line numbers have been exchanged; they have to be there once."""
     lines = diff.splitlines()
@@ -54,15 +62,17 @@ def changed(before: str, diff: str) -> str:
     return f"\n{before}".replace(f"\n{old}", f"\n{new}")[1:]
 
 
-def steps(page: str) -> Iterator[Write | Command]:
+def steps(page: str) -> Iterator[Write | Command | Program]:
     """What the reader of a page does, in order."""
     lines, at = page.splitlines(), 0
     while at < len(lines):
         fence = FENCE.match(lines[at])
         if lines[at].startswith("```"):
             end = lines.index("```", at + 1)
-            if fence and fence["path"]:
-                text = "".join(f"{line}\n" for line in lines[at + 1 : end])
+            text = "".join(f"{line}\n" for line in lines[at + 1 : end])
+            if lines[at] == "```python":
+                yield Program(text)
+            elif fence and fence["path"]:
                 yield Write(fence["path"], text, bool(fence["add"]), fence["language"] == "diff")
             at = end + 1
         elif lines[at].startswith(f"{INDENT}$ "):

@@ -16,7 +16,7 @@ WALK = (ROOT / "docs" / "tour.md").read_text(encoding="utf-8")
 
 
 def test_the_excerpt_is_part_of_the_example() -> None:
-    excerpt = README.split("```\n")[1]
+    excerpt = README.partition("```mind\n")[2].partition("```\n")[0]
     example = (ROOT / "examples" / "collect" / "collect.mind").read_text(encoding="utf-8")
     assert all(part.strip() in example for part in excerpt.split("\n\n"))
 

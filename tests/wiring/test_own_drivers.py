@@ -315,8 +315,8 @@ def test_a_file_comes_before_a_package(mindc: Call, rules: Path, installed: Path
 
 def test_the_example_of_the_documentation_is_whole(mindc: Call, rules: Path, tmp_path: Path) -> None:
     page = (ROOT / "docs" / "robot-yaml.md").read_text(encoding="utf-8")
-    text = page[page.index("    # heat.py") : page.index("and in `robot.yaml`:\n\n    sensors:\n      warmth")]
-    (tmp_path / "heat.py").write_text(dedent(text))
+    text = page.partition("```python heat.py\n")[2].partition("```")[0]
+    (tmp_path / "heat.py").write_text(text)
     (tmp_path / "temperature").write_text("51500\n")
     rules.write_text(rules.read_text().replace("range_finder at 0 30 330 deg", "battery"))
     sensor = f"heat.Heat\n    path: {tmp_path / 'temperature'}\n    from: 40 °C"

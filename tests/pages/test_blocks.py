@@ -1,0 +1,123 @@
+"""All code of all pages is run or held against what it is for; what is not, stands below with the reason why.
+
+What is run is in `test_pages`; the pages that tests/explain makes are compiled there.
+"""
+
+import json
+import subprocess
+import tomllib
+from pathlib import Path
+
+import pytest
+import yaml
+from jsonschema import Draft202012Validator
+
+from mindlang.compiler.compile import load
+from mindlang.linting.settings_file import settings_of
+from mindlang.wiring.schema import schema
+from mindlang.wiring.wire import load_wiring
+from tests.pages.blocks import MADE, TERMINAL, Block, blocks, pages
+from tests.pages.command_lines import PROGRAMS, calls, program_of, refused, typed
+from tests.pages.programs import runnable
+from tests.project.sources import ROOT
+
+COLLECT = ROOT / "examples" / "collect"
+NOT_HELD = {  # languages that nothing here reads
+    "text": "pictures and formulas",
+    "lua": "Neovim",
+    "elisp": "Emacs",
+}
+NOT_OURS = {  # programs of which it is only tried that the line is one of a shell
+    ". alias cat cd code cp cut do done echo export grep mkdir rm sed until": "the shell's and the system's own",
+    "apt i2cdetect raspi-config sudo systemctl": "a Raspberry Pi",
+    "openssl podman sbatch tensorboard": "not installed here, or begun by tests of their own",
+    "mypy npm pip pytest ruff": "the network, or the tests themselves; the extras of pip are in tests/project",
+}
+EXCERPTS = {"README.md", "docs/index.md"}  # what they show of the language is part of an example
+OF_A_PART = {"unwired-sensor", "unwired-actuator", "unknown-sensor"}  # what a robot.yaml lacks of which a part is shown
+ALL = [block for page in pages() if page not in MADE for block in blocks(page)]
+
+
+def of(language: str, rest: str = "") -> list[object]:
+    """The blocks in a language, for pytest."""
+    return [
+        pytest.param(each, id=str(each)) for each in ALL if each.language == language and each.rest.startswith(rest)
+    ]
+
+
+def test_every_block_is_in_a_language_that_is_held_or_listed() -> None:
+    held = {TERMINAL, "mind", "diff", "python", "yaml", "toml", "json", *NOT_HELD}
+    assert [str(each) for each in ALL if each.language not in held] == []
+    assert {each.language for each in ALL} == held
+
+
+@pytest.mark.parametrize("block", of("text"))
+def test_what_is_no_code_has_no_command(block: Block) -> None:
+    assert [line for line in block.text.splitlines() if line.split()[:1] in (["$"], ["mindc"], ["mindrun"])] == []
+
+
+@pytest.mark.parametrize("block", of(TERMINAL))
+def test_what_is_typed_is_what_the_programs_take(block: Block, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    Path("scheduler.json").write_text('{"address": "tls://head:8786"}')  # at which --on looks at once
+    Path("tls.pem").touch()
+    lines = typed(block.text)
+    assert lines
+    assert subprocess.run(["bash", "-n"], input="\n".join(lines), text=True, check=False).returncode == 0
+    words = [call for line in lines for call in calls(line)]
+    foreign = {name for names in NOT_OURS for name in names.split()}
+    assert {program_of(call) for call in words} <= foreign | PROGRAMS.keys()
+    assert [(call, why) for call in words if (why := refused(call))] == []
+
+
+@pytest.mark.parametrize("block", of("mind"))
+def test_what_is_shown_of_the_language_is_a_file_that_is_run_or_part_of_an_example(block: Block) -> None:
+    example = (COLLECT / "collect.mind").read_text(encoding="utf-8")
+    if block.page in EXCERPTS:
+        assert all(part.strip() in example for part in block.text.split("\n\n"))
+    else:
+        assert block.rest
+
+
+@pytest.mark.parametrize("block", of("python"))
+def test_a_program_is_python(block: Block) -> None:
+    """What of it can be run here is, in `test_pages`."""
+    compile(block.text, str(block), "exec")
+    assert runnable([block.text])[1] in ([], ["gymnasium"], ["stable_baselines3"], ["torch"])
+
+
+def test_robots_are_wired_as_the_schema_and_the_compiler_have_it(tmp_path: Path) -> None:
+    here = [each for each in ALL if each.page == "docs/robot-yaml.md"]
+    whole, part = (each.text for each in here if each.rest == "robot.yaml")
+    for each in here:
+        if each.language == "python":
+            (tmp_path / each.rest).write_text(each.text, encoding="utf-8")
+    graph = load(COLLECT / "ball.mind").graph
+    assert graph
+    for text in (whole, whole.replace("sensors:\n", part)):
+        (tmp_path / "robot.yaml").write_text(text, encoding="utf-8")
+        assert list(Draft202012Validator(schema()).iter_errors(yaml.safe_load(text))) == []
+        assert {each.code for each in load_wiring(tmp_path / "robot.yaml", graph).diagnostics} <= OF_A_PART
+
+
+@pytest.mark.parametrize("block", of("toml", "mind.toml"))
+def test_settings_are_read_by_what_reads_settings(block: Block, tmp_path: Path) -> None:
+    (tmp_path / "mind.toml").write_text(block.text, encoding="utf-8")
+    assert settings_of(tmp_path / "mind.toml")
+
+
+@pytest.mark.parametrize("block", [*of("toml"), *of("json"), *of("yaml")])
+def test_what_other_programs_read_has_their_form(block: Block) -> None:
+    match block.language:
+        case "toml":
+            assert tomllib.loads(block.text)
+        case "json":
+            assert json.loads(f"{{{block.text}}}")
+        case "yaml":
+            yaml.safe_load(block.text)
+
+
+def test_the_hooks_before_a_commit_are_there() -> None:
+    there = yaml.safe_load((ROOT / ".pre-commit-hooks.yaml").read_text(encoding="utf-8"))
+    [shown] = [yaml.safe_load(each.text)["repos"] for each in ALL if each.language == "yaml" and "repos" in each.text]
+    assert {hook["id"] for repo in shown for hook in repo["hooks"]} == {hook["id"] for hook in there}
