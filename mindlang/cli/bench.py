@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from mindlang import bounds
+from mindlang.cli._declared_names import SKILLS, TASKS
 from mindlang.cli._options import IN_CHARGE, ON, SEED, WORKERS, NewFile, WholeOption, refuse_ineffective
 
 if TYPE_CHECKING:
@@ -30,7 +31,9 @@ Examples:
 
 @click.command(epilog=EXAMPLES)
 @click.argument("files", nargs=-1, required=True, metavar="FILE [OTHER]")
-@click.option("--task", metavar="TASK", help="Default: that on which the master is taught, or of its name.")
+@click.option(
+    "--task", metavar="TASK", shell_complete=TASKS, help="Default: that on which the master is taught, or of its name."
+)
 @click.option(
     "--runs",
     type=WholeOption(*bounds.RUN_BOUNDS),
@@ -44,6 +47,7 @@ Examples:
     "--master",
     "masters",
     metavar="SKILL",
+    shell_complete=SKILLS,
     multiple=True,
     help=f"{IN_CHARGE} Twice: both are compared.",
 )

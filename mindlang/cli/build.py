@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 import click
 
+from mindlang.cli._declared_names import SKILLS
 from mindlang.cli._options import NewFile
 
 if TYPE_CHECKING:
@@ -29,7 +30,7 @@ Examples:
 @click.command(epilog=EXAMPLES)
 @click.argument("file")
 @click.option("-o", "--output", required=True, type=NewFile(), help="The bundle: -o collect.bundle")
-@click.option("--master", metavar="SKILL", help="Another skill in charge: --master Avoid")
+@click.option("--master", metavar="SKILL", shell_complete=SKILLS, help="Another skill in charge: --master Avoid")
 @click.option(
     "--robot", type=click.Path(path_type=Path), metavar="FILE", help="What it is wired to: --robot robot.yaml"
 )

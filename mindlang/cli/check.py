@@ -10,6 +10,8 @@ from typing import TYPE_CHECKING
 
 import click
 
+from mindlang.cli._declared_names import SKILLS, TASKS
+
 if TYPE_CHECKING:
     from mindrun.bundle import Bundle
 
@@ -40,8 +42,12 @@ class _Checked:
 
 @click.command(epilog=EXAMPLES)
 @click.argument("files", nargs=-1, required=True, metavar="FILE_OR_FOLDER…")
-@click.option("--task", metavar="TASK", help="What .break files are about. Default: as of mindc run.")
-@click.option("--master", metavar="SKILL", help="Who is in charge then. Default: as of mindc run.")
+@click.option(
+    "--task", metavar="TASK", shell_complete=TASKS, help="What .break files are about. Default: as of mindc run."
+)
+@click.option(
+    "--master", metavar="SKILL", shell_complete=SKILLS, help="Who is in charge then. Default: as of mindc run."
+)
 @click.option("--json", "as_json", is_flag=True, help="One JSON document instead: mindc check collect.mind --json")
 def command(files: tuple[str, ...], task: str | None, master: str | None, as_json: bool) -> None:
     """Read files, and report everything that is wrong in them.

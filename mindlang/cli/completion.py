@@ -24,9 +24,9 @@ SHELLS = ("bash", "zsh", "fish")
 def command(shell: str | None, install: bool) -> None:
     """Let a shell complete the words of mindc and mindrun.
 
-    Commands, options and files. Prints a script for SHELL, or installs it: for fish in its folder of completions; for
-    bash and zsh in your data folder, with a line in ~/.bashrc or ~/.zshrc that reads it. Without SHELL it is that of
-    $SHELL.
+    Commands, options, files, and the names in the mind that stands on the line. Prints a script for SHELL, or installs
+    it: for fish in its folder of completions; for bash and zsh in your data folder, with a line in ~/.bashrc or
+    ~/.zshrc that reads it. Without SHELL it is that of $SHELL.
     """
     from mindlang.cli._terminal import MISUSE, fail, print_document, talk, write_file
     from mindlang.compiler.diagnostic import listed

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from mindlang.cli import Suggesting
+from mindlang.cli._declared_names import SKILLS, declared
 
 if TYPE_CHECKING:
     from mindlang.edits import Edit, EditOption
@@ -20,6 +21,12 @@ Examples:
 """
 
 UNDO = "undo"
+# What a shell completes the parameters of edits with; whatever is not among them is not declared yet.
+NAMED = {
+    **dict.fromkeys(("skill", "parent", "subskills", "--with"), SKILLS),
+    **dict.fromkeys(("target", "what", "old", "names", "--to", "--from"), declared()),
+    "--reads": declared("sensor", "memory"),
+}
 
 
 class Edits(Suggesting):
@@ -63,7 +70,10 @@ def _command(of: Edit) -> click.Command:
 
     parameters = [
         click.Argument(["file"]),
-        *(click.Argument([name], nargs=-1 if many else 1, required=True) for name, many in of.arguments),
+        *(
+            click.Argument([name], nargs=-1 if many else 1, required=True, shell_complete=NAMED.get(name))
+            for name, many in of.arguments
+        ),
         *(_option(option) for option in of.options),
         click.Option(["--write"], is_flag=True, help="Make the edit, and not only print it."),
         click.Option(
@@ -107,4 +117,5 @@ def _option(option: EditOption) -> click.Option:
     flags = [f"--{option.name.strip('_').replace('_', '-')}", option.name]
     if isinstance(option.default, bool):
         return click.Option(flags, is_flag=True, help=option.help)
-    return click.Option(flags, multiple=option.many, default=None if option.many else option.default, help=option.help)
+    default, names = None if option.many else option.default, NAMED.get(flags[0])
+    return click.Option(flags, multiple=option.many, default=default, help=option.help, shell_complete=names)

@@ -1,6 +1,7 @@
 """`mindc explain`: what is this, and what is to be done about it?"""
 
 import click
+from click.shell_completion import CompletionItem
 
 EXAMPLES = """\b
 Examples:
@@ -14,8 +15,17 @@ Examples:
 """
 
 
+def _names(context: click.Context, parameter: click.Parameter, begun: str) -> list[CompletionItem]:
+    """What a shell may complete: whatever there is an article of."""
+    from mindlang.cli._command_articles import command_articles
+    from mindlang.explaining.collection import articles
+
+    known = {each.name: each.sort for each in (*command_articles(), *articles())}
+    return [CompletionItem(name, help=sort) for name, sort in known.items() if name.startswith(begun)]
+
+
 @click.command(epilog=EXAMPLES)
-@click.argument("name", nargs=-1)
+@click.argument("name", nargs=-1, shell_complete=_names)
 @click.option("--json", "as_json", is_flag=True, help="One JSON document instead: mindc explain comma --json")
 def command(name: tuple[str, ...], as_json: bool) -> None:
     """Say what NAME means; without NAME list all codes.

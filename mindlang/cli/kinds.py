@@ -1,6 +1,7 @@
 """`mindc kinds`: which kinds and drivers are there?"""
 
 import click
+from click.shell_completion import CompletionItem
 
 EXAMPLES = """\b
 Examples:
@@ -11,8 +12,17 @@ Examples:
 """
 
 
+def _nouns(context: click.Context, parameter: click.Parameter, begun: str) -> list[CompletionItem]:
+    """What a shell may complete."""
+    from mindlang.explaining.drivers import driver_articles
+    from mindlang.explaining.kinds import kind_articles
+
+    nouns = dict.fromkeys(each.noun for each in (*kind_articles(), *driver_articles()))
+    return [CompletionItem(noun) for noun in nouns if noun.startswith(begun)]
+
+
 @click.command(epilog=EXAMPLES)
-@click.argument("noun", required=False)
+@click.argument("noun", required=False, shell_complete=_nouns)
 @click.option("--json", "as_json", is_flag=True, help="One JSON document instead: mindc kinds sensor --json")
 def command(noun: str | None, as_json: bool) -> None:
     """List the kinds of the language and the drivers.

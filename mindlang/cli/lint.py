@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 import click
+from click.shell_completion import CompletionItem
 
 if TYPE_CHECKING:
     from mindlang.compiler.diagnostic import Diagnostic
@@ -25,11 +26,27 @@ Examples:
 FORMATS = ("text", "json", "github", "sarif")
 
 
+def _rules(context: click.Context, parameter: click.Parameter, begun: str) -> list[CompletionItem]:
+    """What a shell may complete: the last of several codes with commas between them."""
+    from mindlang.rules import all_rules
+
+    before, comma, last = begun.rpartition(",")
+    return [CompletionItem(f"{before}{comma}{code}") for code in all_rules() if code.startswith(last)]
+
+
 @click.command(epilog=EXAMPLES)
 @click.argument("files", nargs=-1, required=True, metavar="FILE_OR_FOLDER…")
 @click.option("--fix", is_flag=True, help="Make the fixes that never change what the robot does.")
-@click.option("--select", multiple=True, metavar="CODES", help="Only these rules: --select unread-sensor,edge-at-zero")
-@click.option("--ignore", multiple=True, metavar="CODES", help="Not these rules: --ignore untaught-skill")
+@click.option(
+    "--select",
+    multiple=True,
+    metavar="CODES",
+    shell_complete=_rules,
+    help="Only these rules: --select unread-sensor,edge-at-zero",
+)
+@click.option(
+    "--ignore", multiple=True, metavar="CODES", shell_complete=_rules, help="Not these rules: --ignore untaught-skill"
+)
 @click.option("--format", "as_", type=click.Choice(FORMATS), default="text", show_default=True, help="Of the findings.")
 def command(files: tuple[str, ...], fix: bool, select: tuple[str, ...], ignore: tuple[str, ...], as_: str) -> None:
     """Report what is wrong in files, and what is hardly meant so.

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import click
 
+from mindlang.cli._declared_names import SKILLS, TASKS
 from mindlang.cli._options import LAYOUT, NumberOption
 
 EXAMPLES = """\b
@@ -25,9 +26,11 @@ Examples:
     metavar="δ",
     help="What a learnt line sends where it should send 0. Default: 0.01.",
 )
-@click.option("--master", metavar="SKILL", help="Who is in charge. Default: the mind's master.")
+@click.option("--master", metavar="SKILL", shell_complete=SKILLS, help="Who is in charge. Default: the mind's master.")
 @click.option("--run", "with_run", is_flag=True, help="Run a task, too, and count ticks without influence.")
-@click.option("--task", metavar="TASK", help="Of the run. Default: the one that `mindc run` takes.")
+@click.option(
+    "--task", metavar="TASK", shell_complete=TASKS, help="Of the run. Default: the one that `mindc run` takes."
+)
 @click.option("--seed", type=LAYOUT, default=1, help="Of the run. Default: 1.")
 @click.option("--json", "as_json", is_flag=True, help="Print one JSON document instead.")
 def command(

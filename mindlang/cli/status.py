@@ -9,6 +9,8 @@ from typing import TYPE_CHECKING
 
 import click
 
+from mindlang.cli._declared_names import SKILLS
+
 if TYPE_CHECKING:
     from mindrun.graph import Graph
 
@@ -23,7 +25,7 @@ Examples:
 
 @click.command(epilog=EXAMPLES)
 @click.argument("file")
-@click.argument("skills", nargs=-1, metavar="[SKILL]...")
+@click.argument("skills", nargs=-1, metavar="[SKILL]...", shell_complete=SKILLS)
 @click.option("--accept", is_flag=True, help="Their weights will do in the mind as it is now: --accept Avoid Collect")
 @click.option("--json", "as_json", is_flag=True, help="One JSON document instead: mindc status collect.mind --json")
 def command(file: str, skills: tuple[str, ...], accept: bool, as_json: bool) -> None:

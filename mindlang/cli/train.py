@@ -8,6 +8,7 @@ from typing import Any
 import click
 
 from mindlang import bounds
+from mindlang.cli._declared_names import SKILLS, declared
 from mindlang.cli._options import ON, SEED, WORKERS, NumberOption, WholeOption
 from mindlang.cli._terminal import INTERRUPTED, MISUSE, OK, fail
 
@@ -33,8 +34,13 @@ A cluster with SLURM (what tls.pem is, and other ways: docs/cluster.md):
 
 @click.command(epilog=EXAMPLES)
 @click.argument("file", required=False)
-@click.argument("skills", nargs=-1, metavar="[SKILL]...")
-@click.option("--curriculum", metavar="NAME", help="Whose lessons to teach (default: the first in the file).")
+@click.argument("skills", nargs=-1, metavar="[SKILL]...", shell_complete=SKILLS)
+@click.option(
+    "--curriculum",
+    metavar="NAME",
+    shell_complete=declared("curriculum"),
+    help="Whose lessons to teach (default: the first in the file).",
+)
 @click.option("--generations", type=WholeOption(*bounds.GENERATION_BOUNDS), help="Instead of what the lesson says.")
 @click.option("--scale", type=NumberOption(0, 1000, min_open=True), default=1.0, help="Times so many generations.")
 @click.option("--population", type=WholeOption(*bounds.POPULATION_BOUNDS), help="Genomes in a generation.")

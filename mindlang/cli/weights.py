@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import click
 
 from mindlang.cli import Suggesting
+from mindlang.cli._declared_names import SKILLS
 
 if TYPE_CHECKING:
     from mindlang.training.subject import Subject
@@ -39,7 +40,7 @@ def command() -> None:
 
 @command.command("import", epilog=IMPORT_EXAMPLES)
 @click.argument("file")
-@click.argument("skill")
+@click.argument("skill", shell_complete=SKILLS)
 @click.argument("weights", metavar="WEIGHTS.safetensors", type=click.Path(path_type=Path))
 @click.option(
     "--recording", metavar="DAY.rec[,BUNDLE]", help="Compare on what was read there. Default: in a run of the task."
@@ -66,7 +67,7 @@ def import_weights(
 
 @command.command("export", epilog=EXPORT_EXAMPLES)
 @click.argument("file")
-@click.argument("skill")
+@click.argument("skill", shell_complete=SKILLS)
 @click.argument("weights", metavar="WEIGHTS.safetensors", type=click.Path(path_type=Path))
 def export_weights(file: str, skill: str, weights: Path) -> None:
     """Write the weights that SKILL of FILE was taught to a file.

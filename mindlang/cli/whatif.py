@@ -6,6 +6,7 @@ from pathlib import Path
 
 import click
 
+from mindlang.cli._declared_names import SKILLS, TASKS, declared
 from mindlang.cli._options import IN_CHARGE, LAYOUT, OF_A_RUN, OF_RUNS_ALONE, NewFile, WholeOption, refuse_ineffective
 
 EXAMPLES = """\b
@@ -23,15 +24,23 @@ Examples:
 @click.command(epilog=EXAMPLES)
 @click.argument("file")
 @click.argument("bundle", required=False, type=click.Path(path_type=Path))
-@click.option("--task", metavar="TASK", help="Default: that on which the master is taught, or of its name.")
+@click.option(
+    "--task", metavar="TASK", shell_complete=TASKS, help="Default: that on which the master is taught, or of its name."
+)
 @click.option("--seed", type=LAYOUT, help="Of the run. Default: 1.")
-@click.option("--master", metavar="SKILL", help=IN_CHARGE)
+@click.option("--master", metavar="SKILL", shell_complete=SKILLS, help=IN_CHARGE)
 @click.option("--no-interruption", is_flag=True, help="Go on to the last tick, whatever would end the run.")
 @click.option("--tick", type=WholeOption(1, 2**53), default=1, help="The first tick that is changed. Default: 1.")
 @click.option("--ticks", type=WholeOption(1, 2**53), help="How many are. Default: all that follow; one with --set.")
-@click.option("--without", multiple=True, metavar="SKILL", help="Silence a skill: it has no influence.")
 @click.option(
-    "--sensor", multiple=True, metavar="NAME=0.5", help="What a sensor reads: NAME=0.5, NAME=1,0.5,1, NAME=day.rec"
+    "--without", multiple=True, metavar="SKILL", shell_complete=SKILLS, help="Silence a skill: it has no influence."
+)
+@click.option(
+    "--sensor",
+    multiple=True,
+    metavar="NAME=0.5",
+    shell_complete=declared("sensor"),
+    help="What a sensor reads: NAME=0.5, NAME=1,0.5,1, NAME=day.rec",
 )
 @click.option(
     "--set", "settings", multiple=True, metavar="NAME=0.5", help="A reading, a memory or an influence, for one tick."

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import click
 
+from mindlang.cli._declared_names import SKILLS, TASKS, declared
 from mindlang.cli._options import IN_CHARGE, LAYOUT, OF_A_RUN, OF_RUNS_ALONE, TickSpan, WholeOption, refuse_ineffective
 
 EXAMPLES = """\b
@@ -18,10 +19,18 @@ Examples:
 
 
 @click.command(epilog=EXAMPLES)
-@click.argument("words", nargs=-1, required=True, metavar="FILE [BUNDLE] WHAT")
-@click.option("--task", metavar="TASK", help="Default: that on which the master is taught, or of its name.")
+@click.argument(
+    "words",
+    nargs=-1,
+    required=True,
+    metavar="FILE [BUNDLE] WHAT",
+    shell_complete=declared("actuator", "memory", "skill"),
+)
+@click.option(
+    "--task", metavar="TASK", shell_complete=TASKS, help="Default: that on which the master is taught, or of its name."
+)
 @click.option("--seed", type=LAYOUT, help="Of the run. Default: 1.")
-@click.option("--master", metavar="SKILL", help=IN_CHARGE)
+@click.option("--master", metavar="SKILL", shell_complete=SKILLS, help=IN_CHARGE)
 @click.option("--no-interruption", is_flag=True, help="Go on to the last tick, whatever would end the run.")
 @click.option("--tick", type=TickSpan(), metavar="T or T..U", help="Which ticks, from 1. Default: all of them.")
 @click.option("--paths", type=WholeOption(1, 1000), help="How many are named. Default: 10.")

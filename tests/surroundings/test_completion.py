@@ -62,6 +62,48 @@ def test_bash_completes_both_programs(bash: Path) -> None:
     assert completed(bash, "mindrun report --js") == ["--json"]
 
 
+MIND = """
+mind 1
+use "wheels.mind" as base
+sensor front is range_finder at 0 deg
+skill Wander is rule
+  drives left_wheel at 1
+skill Watch is rule
+  raeds front
+task Walk in plain
+task Wait in plain
+curriculum School is genetic
+"""
+
+
+@pytest.mark.skipif(shutil.which("bash") is None, reason="needs bash")
+@pytest.mark.parametrize(
+    ("words", "found"),
+    [
+        ("mindc run a.mind --task W", ["Walk", "Wait"]),
+        ("mindc run --task Wal", ["Walk"]),
+        ("mindc bench a.mind --master W", ["Wander", "Watch"]),
+        ("mindc train a.mind Wander Wa", ["Watch"]),
+        ("mindc train a.mind --curriculum S", ["School"]),
+        ("mindc whatif a.mind --sensor f", ["front"]),
+        ("mindc why a.mind base.l", ["base.left_wheel"]),
+        ("mindc edit rename a.mind fr", ["front"]),
+        ("mindc edit connect a.mind Watch base.", ["base.left_wheel"]),
+        ("mindc edit encapsulate a.mind Wander New --with Wat", ["Watch"]),
+        ("mindc explain ultras", ["ultrasonic"]),
+        ("mindc kinds act", ["actuator"]),
+        ("mindc lint --select few-ticks,unread-s", ["few-ticks,unread-sensor"]),
+        ("mindc run absent.mind --task W", ["compopt -o", "default"]),
+        ("mindc why a", ["compopt -o", "default"]),
+    ],
+)
+def test_bash_completes_what_the_mind_declares(bash: Path, words: str, found: list[str]) -> None:
+    """Although two lines of it are wrong."""
+    Path("a.mind").write_text(MIND)
+    Path("wheels.mind").write_text("actuator left_wheel is wheel side left\n")
+    assert completed(bash, words)[: len(found)] == found
+
+
 def test_it_is_installed_once(home: Path, mindc: Call) -> None:
     (home / ".zshrc").write_text("alias l=ls")
     for _ in range(2):
