@@ -1,4 +1,4 @@
-"""The commands of mindc as articles, from what click knows of them."""
+"""The commands of mindc as articles, from what click knows of them; with those of mindrun a page."""
 
 import re
 from collections.abc import Iterator
@@ -10,8 +10,8 @@ from mindlang.explaining.markdown import reference
 from mindlang.explaining.sections import in_lines
 
 ABOUT = """\
-The commands of `mindc`, each with its options and examples, as `mindc COMMAND --help` has them. Those of `mindrun`
-are in `mindrun --help`.
+The commands of `mindc`, and what `mindrun` does on a robot, each with its options and examples, as `--help` has them.
+`mindc explain train` and `mindc explain mindrun replay` print one of them.
 """
 
 
@@ -21,13 +21,15 @@ def command_reference() -> str:
 
 
 def command_articles() -> Iterator[Article]:
-    """Every command, and those of a group one by one: edit rename."""
+    """Every command of mindc, and those of a group one by one: edit rename; then mindrun's."""
     from mindlang.cli import commands
+    from mindlang.cli._mindrun_articles import mindrun_articles
 
     context = click.Context(commands, info_name="mindc")
     for name in commands.list_commands(context):
         if found := commands.get_command(context, name):
             yield from _articles(name, found, context)
+    yield from mindrun_articles()
 
 
 def _articles(name: str, command: click.Command, parent: click.Context) -> Iterator[Article]:
@@ -47,7 +49,7 @@ def _article(name: str, command: click.Command, context: click.Context) -> Artic
         name,
         "command",
         "command",
-        "Commands",
+        "mindc",
         f"{first.removesuffix('.')}.",
         "\n\n".join(filter(None, (rest, text))),
         tuple(_option(each, context) for each in options),

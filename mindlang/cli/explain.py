@@ -10,6 +10,7 @@ Examples:
   mindc explain sensor light
   mindc explain ultrasonic
   mindc explain teaches
+  mindc explain mindrun replay
   mindc explain influence-cycle
   mindc explain unread-sensor --json
 """
@@ -30,9 +31,10 @@ def _names(context: click.Context, parameter: click.Parameter, begun: str) -> li
 def command(name: tuple[str, ...], as_json: bool) -> None:
     """Say what NAME means; without NAME list all codes.
 
-    NAME is a kind (wheel), a driver (ultrasonic), a word of the language (teaches), a command (train), or the code in
-    brackets at the end of a message. Where several things have the name, all are said; a noun before it chooses one:
-    sensor light. Ends with 0, or with 2 where there is nothing of that name.
+    NAME is a kind (wheel), a driver (ultrasonic), a word of the language (teaches), a command of mindc or mindrun
+    (train, replay), or the code in brackets at the end of a message. Where several things have the name, all are said;
+    a noun before it chooses one: sensor light, mindrun doctor. Ends with 0, or with 2 where there is nothing of that
+    name.
     """
     from mindrun.printable import visible
     from rich.text import Text

@@ -10,7 +10,12 @@ from mindlang.explaining.drivers import driver_articles
 from mindlang.explaining.kinds import kind_articles
 from mindlang.explaining.words import word_articles
 
-ALSO_CALLED = {"task": "scene", "content": "thing", "function": "skill"}  # nouns of kinds that people say as well
+ALSO_CALLED = {
+    "task": "scene",
+    "content": "thing",
+    "function": "skill",
+    "mindc": "command",
+}  # nouns of kinds that people say as well
 NAMED_OWNERS = 4  # of an argument, so many of whose kinds are named
 
 

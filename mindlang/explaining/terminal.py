@@ -9,6 +9,7 @@ from mindlang.explaining.article import Article
 from mindlang.explaining.codes import ERROR
 
 LINE_COLUMNS = 80
+WITH_OPTIONS = ("driver", "command", "program", "mindrun")  # nouns
 NAME_COLUMNS = 12  # columns of a name, at least
 Segment = tuple[str, str]  # text and style
 
@@ -24,7 +25,7 @@ def article_text(article: Article) -> Iterator[Segment]:
         yield "\n", ""
         yield from _rows([(mark, meaning, "") for mark, meaning in article.scale.items()], 4)
     if article.parameters:
-        yield f"\n{'Options' if article.noun in ('driver', 'command') else 'Arguments'}:\n", "bold"
+        yield f"\n{'Options' if article.noun in WITH_OPTIONS else 'Arguments'}:\n", "bold"
         yield from _rows([(each.key, each.words, each.otherwise) for each in article.parameters], NAME_COLUMNS)
     yield from _examples(article)
     if article.wiring:

@@ -10,22 +10,25 @@ MAX_PORT = 65535
 MAX_TICK = 2**63 - 1  # tick
 
 EXAMPLES = """examples:
-  mindrun ball.bundle                                       on its robot, nothing moves yet
-  mindrun ball.bundle --arm --record day.rec                everything moves, and every tick is recorded
-  mindrun ball.bundle --arm --view                          and seen in a browser while it drives
-  mindrun ball.bundle --arm --view --break day.break        the page pauses where a line holds, the robot never
-  mindrun ball.bundle --dry --arm                           in a simulated world, without hardware
-  mindrun ball.bundle --describe                            what it holds (a bundle without wiring does this anyway)
-  mindrun collect.bundle --json                             the same as JSON
-  mindrun collect.bundle --readings log.jsonl               one line of commands for each line of readings
-  mindrun collect.bundle --readings - --fill 0.5            readings from standard input, missing ones 0.5
-  mindrun collect.bundle --readings - --influence           with the influence of each skill
-  mindrun collect.bundle --readings - --master Avoid        another skill in charge
+  mindrun ball.bundle                              on its robot, nothing moves
+  mindrun ball.bundle --arm --record day.rec       moves, and records every tick
+  mindrun ball.bundle --arm --view                 seen in a browser meanwhile
+  mindrun ball.bundle --arm --view --break day.break   a page that pauses there
+  mindrun ball.bundle --dry --arm                  in a simulated world
+  mindrun ball.bundle --describe                   what it holds
+  mindrun collect.bundle --json                    the same as JSON
+  mindrun collect.bundle --readings log.jsonl      a line of commands for each
+  mindrun collect.bundle --readings - --fill 0.5       missing readings are 0.5
+  mindrun collect.bundle --readings - --influence      with each influence
+  mindrun collect.bundle --readings - --master Avoid   another skill in charge
 
-A line of readings: {"proximity": [1, 1, 0.4], "object_bearing": 0.5}; NaN is a reading that failed.
+A line of readings, in which NaN is one that failed:
+{"proximity": [1, 1, 0.4], "object_bearing": 0.5}
+
 A line of commands: {"commands": {"left_wheel": 0.7, "right_wheel": 0.5}}
 
-tools: mindrun adopt | calibrate | completion | doctor | replay | report | work, each with --help"""
+tools: mindrun adopt | calibrate | completion | doctor | replay | report | work,
+each with --help"""
 
 
 def driving_parser() -> ArgumentParser:

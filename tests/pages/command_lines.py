@@ -6,6 +6,7 @@ import subprocess
 import sys
 from collections.abc import Iterator
 from functools import cache
+from itertools import takewhile
 from pathlib import Path
 from unittest.mock import patch
 
@@ -43,7 +44,7 @@ def calls(line: str) -> Iterator[list[str]]:
             words.append(word)
             continue
         if words:
-            yield words[: words.index(">")] if ">" in words else words
+            yield list(takewhile(lambda each: each not in (">", ">>"), words))
         words = []
 
 
@@ -128,3 +129,18 @@ PROGRAMS = {
     "python3": _of_python,
     "sh": _of_sh,
 }
+
+
+def is_known(said: str) -> bool:
+    """Whether a program has the command that a sentence names, and the options, whatever is left out of the rest."""
+    program, *words = said.split()
+    options = {word.partition("=")[0] for word in words if word.startswith("--")} - {"--help", "--version"}
+    if program == "mindrun":
+        parser = tool_parser(words[0]) if words[0] in tools() else driving_parser()
+        return options <= {name for action in parser._actions for name in action.option_strings}
+    command: click.Command | None = commands
+    while isinstance(command, click.Group) and words and words[0].islower() and not words[0].startswith("-"):
+        command = command.get_command(click.Context(command), words.pop(0))
+    return command is not None and options <= {
+        name for each in command.params for name in (*each.opts, *each.secondary_opts)
+    }

@@ -4,6 +4,7 @@ What is run is in `test_pages`; the pages that tests/explain makes are compiled 
 """
 
 import json
+import re
 import subprocess
 import tomllib
 from pathlib import Path
@@ -17,7 +18,7 @@ from mindlang.linting.settings_file import settings_of
 from mindlang.wiring.schema import schema
 from mindlang.wiring.wire import load_wiring
 from tests.pages.blocks import MADE, TERMINAL, Block, blocks, pages
-from tests.pages.command_lines import PROGRAMS, calls, program_of, refused, typed
+from tests.pages.command_lines import PROGRAMS, calls, is_known, program_of, refused, typed
 from tests.pages.programs import runnable
 from tests.project.sources import ROOT
 
@@ -121,3 +122,24 @@ def test_the_hooks_before_a_commit_are_there() -> None:
     there = yaml.safe_load((ROOT / ".pre-commit-hooks.yaml").read_text(encoding="utf-8"))
     [shown] = [yaml.safe_load(each.text)["repos"] for each in ALL if each.language == "yaml" and "repos" in each.text]
     assert {hook["id"] for repo in shown for hook in repo["hooks"]} == {hook["id"] for hook in there}
+
+
+def test_the_examples_of_each_command_are_what_it_takes(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Those of its help, as docs/commands.md has them: words, and behind two spaces what they are for."""
+    monkeypatch.chdir(tmp_path)
+    Path("scheduler.json").write_text('{"address": "tls://head:8786"}')
+    text = "\n".join(each.text.partition("\n")[2] for each in blocks("docs/commands.md"))
+    lines = text.replace("\\\n", "").splitlines()
+    words = [call for line in lines for call in calls(line.partition("  ")[0])]
+    assert {program_of(call) for call in words} == {"mindc", "mindrun", "dot"}
+    assert [(call, why) for call in words if (why := refused(call))] == []
+
+
+SAID = re.compile(r"`(mind(?:c|run) [a-z]+(?: [^`]+)?)`")
+
+
+@pytest.mark.parametrize("page", [page for page in pages() if page not in MADE])
+def test_what_sentences_say_of_the_programs_is_there(page: str) -> None:
+    """`mindc run --video`: the command, and each of its options."""
+    text = re.sub(r"^ *```.*?^ *```$", "", (ROOT / page).read_text(encoding="utf-8"), flags=re.DOTALL | re.MULTILINE)
+    assert [said for said in SAID.findall(text) if not is_known(said)] == []

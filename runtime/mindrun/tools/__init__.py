@@ -3,8 +3,12 @@
 from argparse import ArgumentParser
 from importlib import import_module
 from pkgutil import iter_modules
+from textwrap import fill
 
 from mindrun.arguments import parser
+
+EXAMPLES = "examples:\n"  # what the paragraph of a tool's help begins with that keeps its lines
+LINE_COLUMNS = 80
 
 
 def tools() -> list[str]:
@@ -16,9 +20,15 @@ def tool_parser(name: str) -> ArgumentParser:
     """The parser of a tool, with its help."""
     module = import_module(f"{__name__}.{name}")
     summary, _, rest = (module.__doc__ or "").partition("\n\n")
-    known = parser(f"mindrun {name}", summary.strip(), rest.strip())
+    known = parser(f"mindrun {name}", _filled(summary), _filled(rest))
     module.options(known)
     return known
+
+
+def _filled(text: str) -> str:
+    """The paragraphs of a text in lines for a terminal."""
+    parts = text.strip().split("\n\n")
+    return "\n\n".join(part if part.startswith(EXAMPLES) else fill(part, LINE_COLUMNS) for part in parts)
 
 
 def run_tool(name: str, words: list[str]) -> int:

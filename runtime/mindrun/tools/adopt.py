@@ -14,7 +14,7 @@ from mindrun.robot.identity import adopt
 
 def options(parser: argparse.ArgumentParser) -> None:
     """The arguments."""
-    parser.add_argument("bundle", type=Path)
+    parser.add_argument("bundle", type=Path, help="what `mindc build --robot` wrote")
 
 
 def run(options: argparse.Namespace) -> int:

@@ -30,8 +30,8 @@ NOISE_VALUES = 10  # that follow one another, over which noise is measured
 
 def options(parser: argparse.ArgumentParser) -> None:
     """The arguments."""
-    parser.add_argument("bundle", type=Path)
-    parser.add_argument("sensor")
+    parser.add_argument("bundle", type=Path, help="what `mindc build --robot` wrote")
+    parser.add_argument("sensor", help="one that is wired")
     parser.add_argument(
         "--seconds", type=real(0, MAX_SECONDS), default=20.0, metavar="S", help="how long to watch (default: 20)"
     )

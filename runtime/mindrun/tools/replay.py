@@ -14,7 +14,7 @@ from mindrun.standard_streams import draw
 
 def options(parser: argparse.ArgumentParser) -> None:
     """The arguments."""
-    parser.add_argument("recording", type=Path)
+    parser.add_argument("recording", type=Path, help="what mindrun --record wrote")
     parser.add_argument("bundle", type=Path, help="the bundle that was running")
 
 

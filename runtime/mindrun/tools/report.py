@@ -17,7 +17,7 @@ from mindrun.standard_streams import document
 
 def options(parser: argparse.ArgumentParser) -> None:
     """The arguments."""
-    parser.add_argument("recording", type=Path)
+    parser.add_argument("recording", type=Path, help="what mindrun --record wrote")
     parser.add_argument("bundle", type=Path, help="the bundle that was running")
     parser.add_argument("--json", action="store_true", help="one JSON document instead")
 

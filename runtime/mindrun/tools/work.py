@@ -4,8 +4,8 @@ It is begun by mindc train and mindc bench, with --on, and ends when they do. It
 that it is sent: whoever can write to its standard input can run code here, as with any ssh.
 
 examples:
-  mindc train collect.mind --on ssh:a,b              begins `mindrun work` on the machines a and b
-  mindc train collect.mind --on command:"docker run -i mind mindrun work --threads 4"
+  mindc train collect.mind --on ssh:a,b        begins it on the machines a and b
+  mindc train collect.mind --on command:"docker run -i mind mindrun work"
 """
 
 import argparse
