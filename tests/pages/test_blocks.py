@@ -23,7 +23,7 @@ from tests.pages.programs import runnable
 from tests.project.sources import ROOT
 
 COLLECT = ROOT / "examples" / "collect"
-NOT_HELD = {  # languages that nothing here reads
+NOT_HELD = {  # languages that nothing here reads; what runs them is tests/server/test_in_other_editors.py
     "text": "pictures and formulas",
     "lua": "Neovim",
     "elisp": "Emacs",
