@@ -9,7 +9,7 @@ from collections.abc import Callable
 from contextlib import AbstractContextManager
 from typing import Any
 
-from llvmlite.binding import Linkage
+from llvmlite.binding import Linkage, ModulePassManager, create_new_module_pass_manager
 from numba import _dynfunc
 from numba.core.caching import _Cache
 from numba.core.ccallback import CFunc
@@ -28,6 +28,7 @@ class Lowered(JITCodeLibrary):  # type: ignore[misc]
     def add_llvm_module(self, ll_module: Any) -> None:
         """Take the code of the function itself."""
         ll_module.data_layout = self._codegen._data_layout
+        without_variables_in_memory(ll_module, self._codegen, create_new_module_pass_manager())  # once, not per caller
         self._final_module.link_in(ll_module)
 
     def finalize(self) -> None:
@@ -49,13 +50,19 @@ class Whole(JITCodeLibrary):  # type: ignore[misc]
                 function.linkage = "internal"  # nobody else calls it: what it is handed and does not need falls away
         # Numba prunes reference counts between two passes, and turns loops round before; there are none here, and LLVM
         # does better with variables out of memory (docs/decisions/whole-ticks-compiled.md).
-        first, builder = self._codegen._module_pass_manager(opt=0, loop_vectorize=False)
-        first.add_sroa_pass()
-        first.add_instruction_combine_pass()
-        first.add_simplify_cfg_pass()
-        first.run(self._final_module, builder)
-        full, builder = self._codegen._module_pass_manager()
-        full.run(self._final_module, builder)
+        inlining, _ = self._codegen._module_pass_manager(opt=0, loop_vectorize=False)
+        without_variables_in_memory(self._final_module, self._codegen, inlining)
+        builder = self._codegen._pass_builder()
+        builder._pto.loop_unrolling = False  # it takes long, and lanes gain nothing by it
+        builder.getModulePassManager().run(self._final_module, builder)
+
+
+def without_variables_in_memory(module: Any, codegen: Any, passes: ModulePassManager) -> None:
+    """Let `passes` go over a module, and then take variables out of memory: callers have less to optimise."""
+    passes.add_sroa_pass()
+    passes.add_instruction_combine_pass()
+    passes.add_simplify_cfg_pass()
+    passes.run(module, codegen._pass_builder(opt=0, loop_vectorize=False))
 
 
 @register_pass(mutates_CFG=True, analysis_only=False)
