@@ -70,6 +70,7 @@ def _option(option: click.Option, context: click.Context) -> Parameter:
 def _examples(command: click.Command, context: click.Context) -> Iterator[str]:
     """How it is called, and the lines of its examples."""
     usage = command.get_usage(context).removeprefix("Usage: ")
-    lines = [line.strip() for line in (command.epilog or "").splitlines()]
+    whole = re.sub(r" *\\\n *", " ", command.epilog or "")  # a line may go on in the next one
+    lines = [line.strip() for line in whole.splitlines()]
     calls = [line for line in lines if re.match(r"mind(c|run) ", line)]
     yield "\n".join([" ".join(usage.split()), *(calls and ["", *calls])])

@@ -128,8 +128,7 @@ def test_the_examples_of_each_command_are_what_it_takes(tmp_path: Path, monkeypa
     """Those of its help, as docs/commands.md has them: words, and behind two spaces what they are for."""
     monkeypatch.chdir(tmp_path)
     Path("scheduler.json").write_text('{"address": "tls://head:8786"}')
-    text = "\n".join(each.text.partition("\n")[2] for each in blocks("docs/commands.md"))
-    lines = text.replace("\\\n", "").splitlines()
+    lines = [line for each in blocks("docs/commands.md") for line in each.text.splitlines()[1:]]
     words = [call for line in lines for call in calls(line.partition("  ")[0])]
     assert {program_of(call) for call in words} == {"mindc", "mindrun", "dot"}
     assert [(call, why) for call in words if (why := refused(call))] == []
