@@ -7,10 +7,13 @@ from xml.etree import ElementTree
 import pytest
 
 from mindlang.explaining.kinds import NOUNS, kind_articles
-from mindlang.explaining.pictures import around, marks, svg
+from mindlang.explaining.pictures import around, bodies, marks, svg
 from mindlang.explaining.pictures.of_kinds import OF_KINDS
 
 ARTICLES = {(each.noun, each.name): each for each in kind_articles()}
+WITHOUT_PICTURE = {  # a number of their own, or of the environment's
+    "battery", "computed", "contact", "held", "inertial", "inside", "light", "observation", "position", "reading",
+}  # fmt: skip
 SVG = "{http://www.w3.org/2000/svg}"
 
 
@@ -62,3 +65,28 @@ def test_forward_is_up(value: float, sign: int) -> None:
 def test_text_cannot_break_a_picture() -> None:
     drawn = svg.document(10, 10, [svg.words((0, 0), "a < b & c")], 'a "<" b')
     assert texts(drawn) == ["a < b & c"]
+
+
+def test_a_body_is_as_large_as_it_says() -> None:
+    """Its length, its width, and how far apart its axles are, of that length."""
+    assert texts(bodies.disc("disc", 1.5)) == ["1.5"]
+    assert sorted(texts(bodies.car("car", (2.5, 1.0), 0.4))) == ["1", "2.5", "40%"]
+    long, wide = (bodies.UNIT_PIXELS * each for each in (2.5, 1.0))
+    hull = [*ElementTree.fromstring(bodies.box("box", (2.5, 1.0))).iter(f"{SVG}rect")][1]
+    assert (float(hull.get("height", 0)), float(hull.get("width", 0))) == (long, wide)
+
+
+def test_the_wheels_of_a_car_turn_as_one_steers_to_the_left() -> None:
+    drawn = bodies.car("car", (3.0, 2.0), 0.6)
+    red = re.findall(rf'd="M([\d.]+) [\d.]+ L([\d.]+) [\d.]+"[^>]*{svg.RED}', drawn)
+    assert len(red) == 2
+    assert all(float(rear) > float(front) for rear, front in red)
+
+
+def test_what_has_no_picture_is_what_has_nothing_to_draw() -> None:
+    """A new body, actuator or sensor gets one, or stands here."""
+    drawn = {(each.noun, each.name) for each in kind_articles() if each.noun in ("body", "actuator", "sensor")}
+    assert drawn - OF_KINDS.keys() == {
+        *(("actuator", name) for name in ("action", "choice")),
+        *(("sensor", name) for name in WITHOUT_PICTURE),
+    }

@@ -88,6 +88,25 @@ def gripped(at: svg.Point, value: float) -> Shapes:
         yield svg.path([(x + side * 7, y + 1), (x + side * 13, y - 9), (x + side * tip, y - 21)], svg.INK, 3)
 
 
+def lit(at: svg.Point, value: float) -> Shapes:
+    """A lamp, with rays as long as it is bright."""
+    yield from robot(at, RADIUS_PIXELS)
+    for degrees in range(0, 360, 45) if value else ():
+        way = (cos(degrees * pi / 180), sin(degrees * pi / 180))
+        begin, end = ((at[0] + far * way[0], at[1] + far * way[1]) for far in (12, 12 + 28 * value))
+        yield svg.line(begin, end, svg.ORANGE, 3)
+    yield svg.circle(at, 8, svg.ORANGE if value else svg.PANEL, svg.INK)
+
+
+def swung(at: svg.Point, value: float) -> Shapes:
+    """The arm of a servo, which goes half a turn."""
+    yield svg.rectangle(at[0] - 13, at[1] - 9, 26, 40, svg.PANEL, svg.INK)
+    angle = pi * (value - 0.5)
+    end = (at[0] + 40 * sin(angle), at[1] - 40 * cos(angle))
+    yield svg.line(at, end, svg.RED, 6)
+    yield svg.circle(at, 6, svg.PAPER, svg.INK)
+
+
 def away(at: svg.Point, value: float) -> Shapes:
     """A thing, the farther away the larger the value."""
     x, y = at[0] - 46, at[1]

@@ -8,7 +8,7 @@ from typing import Any
 from mindrun.registry import kinds
 
 from mindlang.explaining.article import Article
-from mindlang.explaining.pictures import around, marks, svg
+from mindlang.explaining.pictures import around, bodies, marks, svg
 from mindlang.explaining.pictures.over_time import over_time
 
 ROCK_PLACES = ((6.0, 5.6, 2.2), (0.4, -7.0, 2.0))
@@ -34,7 +34,19 @@ def _computed(name: str, **arguments: Any) -> Draw:
     return _titled(over_time, kinds("sensor")[name](**arguments))
 
 
+def _measured(draw: Callable[..., str], name: str, *said: str) -> Draw:
+    """A body with the sizes that it has where nothing is said."""
+    body = kinds("body")[name]()
+    return _titled(draw, *(getattr(body, each) for each in said))
+
+
 OF_KINDS: Mapping[tuple[str, str], Draw] = {
+    ("body", "disc"): _measured(bodies.disc, "disc", "size"),
+    ("body", "box"): _measured(bodies.box, "box", "size"),
+    ("body", "car"): _measured(bodies.car, "car", "size", "wheelbase"),
+    ("body", "holonomic"): _measured(bodies.holonomic, "holonomic", "size"),
+    ("actuator", "lamp"): _marked(marks.lit),
+    ("actuator", "servo"): _marked(marks.swung),
     ("actuator", "wheel"): _marked(marks.wheel),
     ("actuator", "motor"): _marked(marks.driven),
     ("actuator", "steering"): _marked(marks.steered),
