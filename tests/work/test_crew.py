@@ -172,7 +172,9 @@ def test_workers_that_are_long_in_coming_are_said_once(monkeypatch: pytest.Monke
         assert [late.take() for _ in range(5)] == [None] * 5
     finally:
         late.close()
-    assert said == ["no worker has begun yet (head and 1 more): waiting for one (Ctrl-C stops)"]
+    assert said == [
+        "no worker has begun yet (head and 1 more): waiting until mindrun work is ready there (Ctrl-C stops)"
+    ]
 
 
 def test_nothing_is_said_of_workers_that_are_there(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -84,6 +84,30 @@ def test_who_never_says_a_word_is_given_up(monkeypatch: pytest.MonkeyPatch) -> N
     assert "it has said nothing for 1 seconds" in str(error.value)
 
 
+@pytest.mark.parametrize(
+    ("program", "began"),
+    [
+        ("while words := os.read(0, 9): os.write(1, words)", "\\n"),  # as cat does
+        ("os.write(1, b'Hi'); os.read(0, 9); os.read(0, 9)", "Hi"),  # too short for a frame's beginning, and no more
+        ("os.write(1, b'mindfrm2'); os.read(0, 9); os.read(0, 9)", "mindfrm2"),  # of another version
+        ("os.write(1, b'Welcome to the cluster\\n')", "Welcome "),
+    ],
+)
+def test_who_says_something_else_is_refused_at_its_first_bytes(
+    program: str, began: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """With a patience that would never end, and without being begun again."""
+    monkeypatch.setattr(child, "START_SECONDS", 1e6)
+    begun = tmp_path / "begun"
+    words = f"import os; open({str(begun)!r}, 'a').write('.')\n{program}"
+    genomes, seeds = drawn((1, 1))
+    with scorer_at(Place("cat", (sys.executable, "-c", words))) as scorer, pytest.raises(WorkError) as error:
+        scorer.score(genomes, seeds)
+    said = f"no worker is left; the last, at cat, is none: its answer is no frame: it begins with b'{began}'"
+    assert str(error.value).replace('b"', "b'") == said
+    assert begun.read_text() == "."
+
+
 def test_simulated_workers_come_to_the_same(monkeypatch: pytest.MonkeyPatch) -> None:
     from benchmarks import simulated_workers
 

@@ -1,11 +1,11 @@
 """A worker that is a process: begun at its place, asked with frames, and never waited for in vain."""
 
 import subprocess
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
 
-from mindrun.work.frame import DIGEST_BYTES, Frame, FrameError, read, unpack
+from mindrun.work.frame import DIGEST_BYTES, LINE_END, Frame, FrameError, Stream, read, read_first, unpack
 from mindrun.work.pipes import LostError, Pipes
 from mindrun.work.worker import ALIVE, MAX_SILENT_SECONDS, READY
 
@@ -18,6 +18,10 @@ class Place:
 
     name: str
     command: Sequence[str]
+
+
+class NoFrameError(LostError):
+    """Who was asked speaks of something else; one that begins with that is no worker, now or the next time."""
 
 
 class Child:
@@ -45,7 +49,7 @@ class Child:
         if self._is_over:  # it was killed while it was begun
             self._end_process()
         self._pipes = Pipes(self.process, START_SECONDS)
-        self._pipes.silent_seconds = _silent_seconds(self._heard(self._pipes))
+        self._pipes.silent_seconds = _silent_seconds(self._first(self._pipes))
 
     def ask(self, data: bytes) -> Frame:
         """The answer to a frame; in between it may say that it is alive."""
@@ -80,16 +84,22 @@ class Child:
             with suppress(OSError):
                 process.kill()
 
-    def _heard(self, pipes: Pipes) -> Frame:
+    def _first(self, pipes: Pipes) -> Frame:
+        """What it says first. It is given the end of a line, which a worker passes over, and others answer."""
+        with suppress(OSError):  # one that has ended may have said why
+            pipes.write(LINE_END)
+        return self._heard(pipes, read_first)
+
+    def _heard(self, pipes: Pipes, take: Callable[[Stream], bytes | None] = read) -> Frame:
         try:
-            data = read(pipes)
+            data = take(pipes)
             if data is None:
                 raise self._ended("it ended")
             return unpack(data)
         except LostError as error:
             raise LostError(f"{error}, {self._at}" if self._at else f"{error}") from error
         except FrameError as error:
-            raise LostError(f"its answer is no frame: {error}") from error
+            raise NoFrameError(f"its answer is no frame: {error}") from error
         except OSError as error:
             raise self._ended(f"{error.strerror}") from error
 
@@ -101,4 +111,4 @@ def _silent_seconds(first: Frame) -> float:
     match first.kind, first.about:
         case kind, {"silent_seconds": int(seconds)} if kind == READY and 0 < seconds <= MAX_SILENT_SECONDS:
             return float(seconds)
-    raise LostError("what it says first is not that it is ready")
+    raise NoFrameError("what it says first is not that it is ready")

@@ -12,7 +12,7 @@ from typing import Any
 
 from mindrun.work import WorkError
 from mindrun.work.assignment import Assignment
-from mindrun.work.child import Child, Place
+from mindrun.work.child import Child, NoFrameError, Place
 from mindrun.work.executor import Read
 from mindrun.work.frame import Frame, FrameError
 from mindrun.work.pipes import LostError
@@ -93,7 +93,7 @@ class Crew:
         self._takes += 1
         if self._takes == PATIENCE_TAKES and not self._has_begun:
             names = self.children[0].place.name + (f" and {more} more" if (more := len(self.children) - 1) else "")
-            self._say(f"no worker has begun yet ({names}): waiting for one (Ctrl-C stops)")
+            self._say(f"no worker has begun yet ({names}): waiting until mindrun work is ready there (Ctrl-C stops)")
 
     def close(self) -> None:
         """End all workers, whatever they do."""
@@ -127,8 +127,12 @@ class Crew:
                 return False
             try:
                 child.begin()
+            except NoFrameError as error:
+                why = f"is none: {error}"
+                child.end()
+                break
             except LostError as error:
-                why = f"{error}"
+                why = f"ended: {error}"
                 child.end()
             else:
                 self._has_begun = True
@@ -164,8 +168,8 @@ class Crew:
         with self._lock:
             self._left -= 1
         if self._left == 0 and not self._ended:
-            message = f"no worker is left; the last, at {place.name}, ended: {why}"
-            self._answers.put(WorkError(message, "see that the command runs there"))
+            message = f"no worker is left; the last, at {place.name}, {why}"
+            self._answers.put(WorkError(message, "see that the command runs there, and prints nothing of its own"))
 
 
 def refusal(where: str, answer: Frame) -> WorkError | None:

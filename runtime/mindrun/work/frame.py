@@ -79,13 +79,24 @@ class Stream(Protocol):
 
 def read(stream: Stream) -> bytes | None:
     """The bytes of the next frame of a stream, None where it ends before one; FrameError where something else comes."""
-    prefix = _exactly(stream, len(MAGIC))
-    if prefix.startswith(LINE_END):  # of the frame before
-        prefix = prefix[len(LINE_END) :] + _exactly(stream, len(LINE_END))
-    if not prefix:
+    start = stream.read(len(MAGIC))
+    if start.startswith(LINE_END):  # of the frame before
+        start = start[len(LINE_END) :] or stream.read(len(MAGIC))
+    return _begun(stream, start)
+
+
+def read_first(stream: Stream) -> bytes | None:
+    """As `read`, of a stream that has said nothing: no line has ended in it, either."""
+    return _begun(stream, stream.read(len(MAGIC)))
+
+
+def _begun(stream: Stream, start: bytes) -> bytes | None:
+    """The bytes of a frame, of which these were the first; what is none is refused without waiting for more."""
+    if not start:
         return None
-    if prefix == MAGIC:  # else who speaks may say no more, and wait
-        prefix += _exactly(stream, LENGTHS.size)
+    while start != MAGIC and MAGIC.startswith(start) and (part := stream.read(len(MAGIC) - len(start))):
+        start += part
+    prefix = start + _exactly(stream, LENGTHS.size) if start == MAGIC else start
     rest = sum(_lengths(prefix)) + DIGEST_BYTES
     data = prefix + _exactly(stream, rest)
     if len(data) < PREFIX_BYTES + rest:
