@@ -13,6 +13,13 @@ from tests.project.sources import ROOT
 
 PROGRAMS = {"mindc": "from mindlang.cli import main; main()", "mindrun": "from mindrun.__main__ import main; main()"}
 LONGEST_SECONDS = 1800
+OF_COLLECT = {  # pages whose reader is in the folder of examples/collect
+    f"docs/{name}.md"
+    for name in (
+        "breakpoints", "edits", "gymnasium", "lint", "locks", "logs", "proofs", "python", "view", "weights", "whatif",
+        "why",
+    )
+}  # fmt: skip
 
 
 @dataclass
@@ -23,8 +30,8 @@ class Reader:
     folder: Path
 
     @classmethod
-    def beginning(cls, home: Path, folder: str = ".") -> "Reader":
-        """With a copy of the examples and the two programs, in a folder of these."""
+    def of(cls, page: str, home: Path) -> "Reader":
+        """With a copy of the examples and the two programs, in the folder of these that the page speaks of."""
         shutil.copytree(ROOT / "examples", home / "examples", ignore=shutil.ignore_patterns("runs"))
         (home / "bin").mkdir()
         for name, code in PROGRAMS.items():
@@ -33,7 +40,7 @@ class Reader:
                 f'#!/bin/sh\nexec {shlex.quote(sys.executable)} -c {shlex.quote(code)} "$@"\n', encoding="utf-8"
             )
             program.chmod(0o755)
-        return cls(home, home / folder)
+        return cls(home, home / "examples" / "collect" if page in OF_COLLECT else home)
 
     def write(self, step: Write) -> None:
         """Write a file of the page, or change it."""

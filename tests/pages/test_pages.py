@@ -24,9 +24,6 @@ RUN = [
     if page not in MADE
     and any(isinstance(step, Command | Program) for step in steps((ROOT / page).read_text(encoding="utf-8")))
 ]
-COLLECT = {
-    f"docs/{name}.md" for name in ("breakpoints", "gymnasium", "locks", "logs", "python", "weights", "whatif", "why")
-}
 SLOW = {"docs/tour.md"}  # pages that take more than some ten seconds of a core and are not the first ones read
 PICTURE_BYTES = 180_000
 LEFT = {"docs/tutorial.md": "rover"}  # what a page ends with, as an example
@@ -45,7 +42,7 @@ def marked() -> list[object]:
 
 @pytest.mark.parametrize("page", marked())
 def test_a_page_does_what_it_says(tmp_path: Path, page: Path) -> None:
-    reader = Reader.beginning(tmp_path, "examples/collect" if name(page) in COLLECT else ".")
+    reader = Reader.of(name(page), tmp_path)
     text = page.read_text(encoding="utf-8")
     lines, wrong, parts = text.splitlines(), [], []
     for step in steps(text):
