@@ -73,9 +73,13 @@ def command(file: str, output: Path, master: str | None, robot: Path | None, as_
     if as_json:
         print_json(_built(output, digest, ready, wiring))
     elif not quiet:
-        policy = ready.policy
         wired = f", wired to {wiring.robot}" if wiring else ""
-        click.echo(f"{output}: {policy.graph.master} in charge, {len(policy.weights)} trained skills{wired}", err=True)
+        click.echo(f"{output}: {ready.policy.graph.master} in charge, {_taught(ready)}{wired}", err=True)
+
+
+def _taught(ready: ReadyMind) -> str:
+    number = len(ready.policy.weights)
+    return "1 trained skill" if number == 1 else f"{number} trained skills"
 
 
 def _refuse_missing(ready: ReadyMind, file: str) -> None:

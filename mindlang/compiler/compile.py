@@ -9,7 +9,7 @@ from mindrun.atomic_write import descriptor_of
 from mindrun.errors import reason
 from mindrun.graph import Graph
 
-from mindlang.compiler.diagnostic import Diagnostic, Findings
+from mindlang.compiler.diagnostic import Diagnostic, Findings, near_file
 from mindlang.compiler.lower import lower
 from mindlang.compiler.model import Mind
 from mindlang.compiler.resolve import resolve
@@ -61,7 +61,7 @@ def read_main(path: Path | str, texts: Mapping[Path, str] = NO_TEXTS) -> Source 
         return read(Path(path), str(path))
     except (OSError, RuntimeError) as error:
         # a loop of links is a RuntimeError
-        name, hint = (STDIN, "") if str(path) == "-" else (path, "Is the path right?")
+        name, hint = (STDIN, "") if str(path) == "-" else (path, near_file(Path(path)))
         return Diagnostic("unreadable", f"{name} cannot be read: {reason(error)}.", None, hint)
     except ValueError as error:
         hint = f"A .mind file is UTF-8 text of at most {MAX_SOURCE_BYTES >> 20} MiB."

@@ -5,6 +5,7 @@ from contextlib import contextmanager
 from dataclasses import dataclass, field
 from difflib import get_close_matches
 from itertools import chain
+from pathlib import Path
 from typing import Literal
 
 from mindlang.compiler.source import Span
@@ -105,6 +106,16 @@ def did_you_mean(word: str, known: Iterable[str]) -> str:
     """A question that names the known word nearest to `word`, or nothing."""
     near = nearest(f"{word}", known)  # a program may ask for anything
     return f"Did you mean {near}?" if near else ""
+
+
+def near_file(path: Path) -> str:
+    """What to do where a file cannot be read: perhaps one beside it, which ends alike, has nearly this name."""
+    try:
+        beside = [each.name for each in path.parent.iterdir() if each.suffix[:2] == path.suffix[:2]]
+    except OSError:
+        beside = []
+    near = nearest(path.name, beside)
+    return f"Did you mean {path.with_name(near)}?" if near and near != path.name else "Is the path right?"
 
 
 def a(noun: str) -> str:

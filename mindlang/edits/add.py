@@ -26,7 +26,8 @@ def add(
     They are said as in a file, a line each. A declaration stands below the last of its noun, a fact below the
     last of its verb.
 
-    Example: mindc edit add collect.mind "skill Wait is rule" "drives left_wheel at 1/2" "drives right_wheel at 1/2"
+    Example: mindc edit add collect.mind "skill Wait is rule" \\
+      "drives left_wheel at 1/2" "drives right_wheel at 1/2"
     """
     said = [line.strip() for text in lines for line in text.splitlines()]
     if to:

@@ -21,7 +21,8 @@ def encapsulate(
     No line of the old one changes. Where it was master the new one is, and skills that influenced it influence
     the new one.
 
-    Example: mindc edit encapsulate collect.mind Collect CarefulCollect --with Avoid --reads proximity
+    Example: mindc edit encapsulate collect.mind Collect CarefulCollect \\
+      --with Avoid --reads proximity
     """
     project.find(skill, "skill")
     for other in with_:

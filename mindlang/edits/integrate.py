@@ -19,7 +19,8 @@ def integrate(
     This is the paper's other way to extend a hierarchy. The skill is stale then. With --keep-weights it goes on
     as before until it is taught again.
 
-    Example: mindc edit integrate collect.mind Collect --with Avoid --reads proximity --reads pulse
+    Example: mindc edit integrate collect.mind Collect \\
+      --with Avoid --reads proximity --reads pulse
     """
     if not with_ and not reads:
         raise EditError("Nothing is to be integrated.", "Say what: --with SKILL, --reads SENSOR.")

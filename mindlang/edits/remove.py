@@ -23,7 +23,8 @@ def remove(
     Nothing may name the declaration any more, which is said by its name alone, or as "sensor pulse" ("number sight");
     the fact is said as it stands.
 
-    Example: mindc edit remove collect.mind "rewards 0.01 * forward per tick" --from GoToObject --noun task
+    Example: mindc edit remove collect.mind "rewards 0.01 * forward per tick" \\
+      --from GoToObject --noun task
     """
     words = " ".join(what).split()
     if from_:

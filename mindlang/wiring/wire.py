@@ -8,7 +8,7 @@ from mindrun.graph import Graph
 from mindrun.regular_files import read_regular
 from mindrun.wiring import Wiring
 
-from mindlang.compiler.diagnostic import Diagnostic, Findings, errors, nearest
+from mindlang.compiler.diagnostic import Diagnostic, Findings, errors, near_file, nearest
 from mindlang.compiler.source import Source, decode
 from mindlang.wiring.claims import check_claims
 from mindlang.wiring.nodes import Node, TableEntry, report_error
@@ -46,7 +46,7 @@ def load_wiring(path: Path, graph: Graph, unit_metres: float | None = None) -> C
             raise ValueError(f"is larger than {MAX_WIRING_BYTES >> 10} kB")
         return check_wiring(Source(str(path), decode(data), path.resolve().parent), graph, unit_metres)
     except (OSError, RuntimeError) as error:  # a loop of links is a RuntimeError
-        return _unreadable(f"{path} cannot be read: {reason(error)}.", "Is the path right?")
+        return _unreadable(f"{path} cannot be read: {reason(error)}.", near_file(path))
     except ValueError as error:
         return _unreadable(f"{path} {error}.", f"A robot.yaml is UTF-8 text of at most {MAX_WIRING_BYTES >> 10} kB.")
 

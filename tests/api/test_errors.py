@@ -28,6 +28,13 @@ def test_what_is_no_file_is_a_mind_with_a_diagnostic(path: str, message: str, hi
     assert caught.value.hint.startswith(hint)
 
 
+def test_a_file_that_is_called_nearly_so_is_named(tmp_path: Path) -> None:
+    for name in ("rover.mind", "rover.lock", "other.mind"):
+        (tmp_path / name).touch()
+    (found,) = mindlang.load(tmp_path / "rovr.mnd").diagnostics
+    assert found.hint == f"Did you mean {tmp_path / 'rover.mind'}?"
+
+
 @pytest.mark.parametrize(
     "ask", ["graph", "policy", "engine", "rollout", "trace", "trace_table", "bench", "train", "edit", "bundle"]
 )

@@ -9,6 +9,7 @@ from pathlib import Path
 import click
 import pytest
 
+from mindlang import edits
 from mindlang.cli import commands
 from tests.calling import Call
 from tests.language.examples import COLLECT, EXAMPLES, RIGHT, TOUR
@@ -151,7 +152,10 @@ def test_colours_only_on_a_terminal() -> None:
     assert "\x1b" not in process("check", WRONG, NO_COLOR="", FORCE_COLOR="").stderr
 
 
-@pytest.mark.parametrize("command", ["", *commands.list_commands(click.Context(commands))])
+@pytest.mark.parametrize(
+    "command",
+    ["", *commands.list_commands(click.Context(commands)), *(f"edit {name}" for name in [*edits.names(), "undo"])],
+)
 def test_help_fits_into_80_columns(mindc: Call, monkeypatch: pytest.MonkeyPatch, command: str) -> None:
     monkeypatch.setenv("COLUMNS", "80")
     said = mindc(*command.split(), "--help")
