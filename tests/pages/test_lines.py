@@ -20,7 +20,11 @@ NOT_RUN = {  # what cannot be, by what it begins with or contains
     r"day\.rec|run\.rec|a\.mind|old/|day\.break": "files of the reader's own",
     r"^mindc (lint \. --fix|fmt \. --check)|plot runs|edit undo": "nothing to be done where all is as it should be",
 }
-NEEDS = {"examples/doorkey/README.md": "minigrid", "examples/lander/README.md": "Box2D"}
+NEEDS = {
+    "examples/doorkey/README.md": "minigrid",
+    "examples/lander/README.md": "Box2D",
+    "examples/walker/README.md": "Box2D",
+}
 
 
 def lines(page: str) -> list[str]:
