@@ -10,6 +10,7 @@ import click
 from click.core import ParameterSource
 
 from mindlang import bounds
+from mindlang.cli._declared_names import SKILLS, TASKS
 
 SHOWN_CHARACTERS = 20  # of what is refused
 MAX_TICK_DIGITS = 15
@@ -122,6 +123,10 @@ LAYOUT = LayoutOption(*bounds.LAYOUT_BOUNDS)
 WORKERS = WholeOption(*bounds.WORKER_BOUNDS)
 ON = WhereOption()
 IN_CHARGE = "Who is in charge. Default: the mind's master if a lesson on the task is under it, else that of the first."
+UNDER_MASTER = click.option("--master", metavar="SKILL", shell_complete=SKILLS, help=IN_CHARGE)
+OF_TASK = click.option(
+    "--task", metavar="TASK", shell_complete=TASKS, help="Default: that on which the master is taught, or of its name."
+)
 OF_A_CAST = "task", "master", "no_interruption"  # who does what in a run
 OF_A_RUN = (*OF_A_CAST, "seed")
 OF_RUNS_ALONE = "of runs, not of recordings"

@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from mindlang import bounds
-from mindlang.cli._declared_names import SKILLS, TASKS
-from mindlang.cli._options import IN_CHARGE, ON, SEED, WORKERS, NewFile, WholeOption, refuse_ineffective
+from mindlang.cli._declared_names import SKILLS
+from mindlang.cli._options import IN_CHARGE, OF_TASK, ON, SEED, WORKERS, NewFile, WholeOption, refuse_ineffective
 
 if TYPE_CHECKING:
     from mindlang.cli._bench_pair import Contender
@@ -31,9 +31,7 @@ Examples:
 
 @click.command(epilog=EXAMPLES)
 @click.argument("files", nargs=-1, required=True, metavar="FILE [OTHER]")
-@click.option(
-    "--task", metavar="TASK", shell_complete=TASKS, help="Default: that on which the master is taught, or of its name."
-)
+@OF_TASK
 @click.option(
     "--runs",
     type=WholeOption(*bounds.RUN_BOUNDS),

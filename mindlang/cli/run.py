@@ -7,8 +7,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from mindlang.cli._declared_names import SKILLS, TASKS
-from mindlang.cli._options import IN_CHARGE, LAYOUT, NewFile, NumberOption, refuse_ineffective
+from mindlang.cli._options import LAYOUT, OF_TASK, UNDER_MASTER, NewFile, NumberOption, refuse_ineffective
 
 if TYPE_CHECKING:
     from mindlang.cli._run_files import RunFiles
@@ -31,11 +30,9 @@ Examples:
 
 @click.command(epilog=EXAMPLES)
 @click.argument("file")
-@click.option(
-    "--task", metavar="TASK", shell_complete=TASKS, help="Default: that on which the master is taught, or of its name."
-)
+@OF_TASK
 @click.option("--seed", type=LAYOUT, help="The same seed gives the same run. Default: drawn, and printed.")
-@click.option("--master", metavar="SKILL", shell_complete=SKILLS, help=IN_CHARGE)
+@UNDER_MASTER
 @click.option("--no-interruption", is_flag=True, help="Go on to the last tick, whatever would end the run.")
 @click.option("--picture", type=NewFile(), metavar="PATH.png", help="Draw the world and the path that the robot took.")
 @click.option(

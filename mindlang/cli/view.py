@@ -7,13 +7,13 @@ from typing import TYPE_CHECKING
 
 import click
 
-from mindlang.cli._declared_names import SKILLS, TASKS
 from mindlang.cli._options import (
-    IN_CHARGE,
     LAYOUT,
     OF_A_CAST,
     OF_A_RUN,
     OF_RUNS_ALONE,
+    OF_TASK,
+    UNDER_MASTER,
     NewFile,
     WholeOption,
     refuse_ineffective,
@@ -43,11 +43,9 @@ PATH = click.Path(path_type=Path)
 @click.command(epilog=EXAMPLES)
 @click.argument("file")
 @click.argument("bundle", required=False)
-@click.option(
-    "--task", metavar="TASK", shell_complete=TASKS, help="Default: that on which the master is taught, or of its name."
-)
+@OF_TASK
 @click.option("--seed", type=LAYOUT, help="The same seed gives the same run. Default: drawn.")
-@click.option("--master", metavar="SKILL", shell_complete=SKILLS, help=IN_CHARGE)
+@UNDER_MASTER
 @click.option("--no-interruption", is_flag=True, help="Go on to the last tick, whatever would end the run.")
 @click.option("--break", "breaks", type=PATH, metavar="PATH.break", help="Pause the page where a line of it says.")
 @click.option(

@@ -6,8 +6,17 @@ from pathlib import Path
 
 import click
 
-from mindlang.cli._declared_names import SKILLS, TASKS, declared
-from mindlang.cli._options import IN_CHARGE, LAYOUT, OF_A_RUN, OF_RUNS_ALONE, NewFile, WholeOption, refuse_ineffective
+from mindlang.cli._declared_names import SKILLS, declared
+from mindlang.cli._options import (
+    LAYOUT,
+    OF_A_RUN,
+    OF_RUNS_ALONE,
+    OF_TASK,
+    UNDER_MASTER,
+    NewFile,
+    WholeOption,
+    refuse_ineffective,
+)
 
 EXAMPLES = """\b
 Examples:
@@ -24,11 +33,9 @@ Examples:
 @click.command(epilog=EXAMPLES)
 @click.argument("file")
 @click.argument("bundle", required=False, type=click.Path(path_type=Path))
-@click.option(
-    "--task", metavar="TASK", shell_complete=TASKS, help="Default: that on which the master is taught, or of its name."
-)
+@OF_TASK
 @click.option("--seed", type=LAYOUT, help="Of the run. Default: 1.")
-@click.option("--master", metavar="SKILL", shell_complete=SKILLS, help=IN_CHARGE)
+@UNDER_MASTER
 @click.option("--no-interruption", is_flag=True, help="Go on to the last tick, whatever would end the run.")
 @click.option("--tick", type=WholeOption(1, 2**53), default=1, help="The first tick that is changed. Default: 1.")
 @click.option("--ticks", type=WholeOption(1, 2**53), help="How many are. Default: all that follow; one with --set.")

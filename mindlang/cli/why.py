@@ -4,8 +4,17 @@ from __future__ import annotations
 
 import click
 
-from mindlang.cli._declared_names import SKILLS, TASKS, declared
-from mindlang.cli._options import IN_CHARGE, LAYOUT, OF_A_RUN, OF_RUNS_ALONE, TickSpan, WholeOption, refuse_ineffective
+from mindlang.cli._declared_names import declared
+from mindlang.cli._options import (
+    LAYOUT,
+    OF_A_RUN,
+    OF_RUNS_ALONE,
+    OF_TASK,
+    UNDER_MASTER,
+    TickSpan,
+    WholeOption,
+    refuse_ineffective,
+)
 
 EXAMPLES = """\b
 Examples:
@@ -26,11 +35,9 @@ Examples:
     metavar="FILE [BUNDLE] WHAT",
     shell_complete=declared("actuator", "memory", "skill"),
 )
-@click.option(
-    "--task", metavar="TASK", shell_complete=TASKS, help="Default: that on which the master is taught, or of its name."
-)
+@OF_TASK
 @click.option("--seed", type=LAYOUT, help="Of the run. Default: 1.")
-@click.option("--master", metavar="SKILL", shell_complete=SKILLS, help=IN_CHARGE)
+@UNDER_MASTER
 @click.option("--no-interruption", is_flag=True, help="Go on to the last tick, whatever would end the run.")
 @click.option("--tick", type=TickSpan(), metavar="T or T..U", help="Which ticks, from 1. Default: all of them.")
 @click.option("--paths", type=WholeOption(1, 1000), help="How many are named. Default: 10.")
