@@ -6,7 +6,6 @@ the first: 2 is linear, 4 is quadratic. Only what is above 2.8 is printed.
 
 import argparse
 import gc
-import sys
 import time
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
@@ -17,6 +16,7 @@ from tempfile import TemporaryDirectory
 from mindrun.codec import encode
 from rich.console import Console
 
+from benchmarks.call_count import CallCount
 from benchmarks.shapes import SHAPES
 from mindlang.cli._diagnostic_printer import as_data, print_report
 from mindlang.compiler.comparison import differences
@@ -203,21 +203,12 @@ def seconds(command: str, shape: str, lines: int) -> float:
 
 def calls(command: str, shape: str, lines: int) -> int:
     """How many functions a command calls for a shape of so many lines: its work, on any machine."""
-    number = 0
-
-    def count(_: object, event: str, __: object) -> None:
-        nonlocal number
-        number += event in ("call", "c_call")
-
     with TemporaryDirectory() as folder:
         case = Case(Path(folder), SHAPES[shape](lines))
         COMMANDS[command](case)  # what is remembered from now on
-        sys.setprofile(count)
-        try:
+        with CallCount() as count:
             COMMANDS[command](case)
-        finally:
-            sys.setprofile(None)
-    return number
+    return count.number
 
 
 def growth(figures: Sequence[float]) -> float:

@@ -15,6 +15,7 @@ from urllib.parse import unquote
 
 from mindrun.atomic_write import write
 from mindrun.errors import MindError
+from mindrun.printable import visible
 from mindrun.regular_files import read_regular
 
 from mindlang.compiler.source import Source
@@ -180,7 +181,7 @@ def read_lock(path: Path) -> dict[str, Entry]:
     for number, line in enumerate(lines[:end], 2):
         entry = Entry.of(line, path.parent, worlds)
         if entry is None or entry.skill in entries:
-            why = "this is not what mindc wrote" if entry is None else f"{entry.skill} has two lines"
+            why = "this is not what mindc wrote" if entry is None else f"{visible(entry.skill)} has two lines"
             raise LockError(f"{path}:{number} is damaged: {why}; get it back, or delete the line and train")
         entries[entry.skill] = entry
     return entries
@@ -200,7 +201,7 @@ def _worlds(path: Path, lines: Sequence[str], start: int) -> dict[str, TrainingW
             worlds[heading["name"]] = world_of(heading["name"], lines[start + 1 : end])
     except ValueError as error:
         number = min(start, len(lines) - 1) + 2
-        message = f"{path}:{number} is damaged: {error}; get it back, or delete it and train"
+        message = f"{path}:{number} is damaged: {visible(str(error))}; get it back, or delete it and train"
         raise LockError(message) from error
     return worlds
 

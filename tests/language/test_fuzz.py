@@ -1,14 +1,10 @@
 """Ten thousand sources, none of them meant well: every one gets a graph or messages, and gets them soon."""
 
-import gc
 import re
 import shutil
-from collections.abc import Iterator
-from contextlib import contextmanager
 from functools import cache
 from pathlib import Path
 from random import Random
-from time import thread_time
 
 import pytest
 from hypothesis import HealthCheck, given, settings
@@ -16,6 +12,7 @@ from hypothesis import strategies as st
 from hypothesis.extra.lark import from_lark
 from lark import UnexpectedInput
 
+from benchmarks.call_count import CallCount
 from mindlang.cli._diagnostic_printer import as_data, plain
 from mindlang.compiler.compile import Compiled, compile_source, load
 from mindlang.compiler.diagnostic import Findings
@@ -27,21 +24,9 @@ from tests.language.examples import EXAMPLES, RIGHT, TOUR
 
 SEEDS = [RIGHT, *EXAMPLES]
 WORD = re.compile(rb"\w+|\s+|.", re.DOTALL)
-SOON = 1.0  # seconds of the processor in this thread, so that a busy machine changes nothing
+MOST_CALLS = 3_000_000  # what is drawn here takes 300,000 at most: ten times as many is another order of work
 
 relaxed = settings(max_examples=1500, suppress_health_check=list(HealthCheck), database=None, derandomize=True)
-
-
-@contextmanager
-def soon() -> Iterator[None]:
-    """What is done within takes no longer than SOON, whatever other tests have left to be collected."""
-    gc.disable()
-    start = thread_time()
-    try:
-        yield
-        assert thread_time() - start < SOON
-    finally:
-        gc.enable()
 
 
 def sane(found: Compiled) -> None:
@@ -105,7 +90,7 @@ def test_mutations_of_the_examples(chunk: int, project: Path) -> None:
         for _ in range(rng.randint(1, 4)):
             data = rng.choice((flip, delete, duplicate, swap_lines, splice, insert))(data, rng) or b" "
         path.write_bytes(data)
-        with soon():
+        with CallCount(MOST_CALLS):
             sane(load(path))
 
 
@@ -140,7 +125,7 @@ def from_grammar(start: str) -> st.SearchStrategy[str]:
 @relaxed
 @given(from_grammar("start"))
 def test_programs_from_the_grammar(text: str) -> None:
-    with soon():
+    with CallCount(MOST_CALLS):
         sane(compile_source(Source("fuzz.mind", text, Path(__file__).parent)))
 
 
@@ -148,7 +133,7 @@ def test_programs_from_the_grammar(text: str) -> None:
 @given(st.lists(from_grammar("line"), min_size=1, max_size=3))
 def test_lines_from_the_grammar_below_a_right_program(lines: list[str]) -> None:
     text = RIGHT.read_text(encoding="utf-8") + "\n".join(lines)
-    with soon():
+    with CallCount(MOST_CALLS):
         sane(compile_source(Source("fuzz.mind", text, Path(__file__).parent)))
 
 

@@ -3,11 +3,11 @@
 import os
 from pathlib import Path
 from random import Random
-from time import thread_time
 from typing import NamedTuple
 
 import pytest
 
+from benchmarks.call_count import CallCount
 from mindlang.cli._diagnostic_printer import plain
 from mindlang.compiler.compile import compile_source
 from mindlang.compiler.format import formatted
@@ -17,7 +17,7 @@ from tests.fmt.test_format import comments, meaning
 from tests.language.test_fuzz import SEEDS, delete, duplicate, flip, insert, splice, swap_lines
 
 OFTEN, SELDOM = 100_000, 2_000  # in the slow suite, and in the other
-SOON = 1.0  # seconds of the processor
+MOST_CALLS = 3_000_000  # a mutant takes 300,000 at most: ten times as many is another order of work
 HERE = Path(__file__).parent
 
 
@@ -40,18 +40,10 @@ def mutants(seeds: range) -> Tally:
             text = decode(data)
         except ValueError:
             continue
-        tally, seconds = held(text)
-        assert seconds < SOON or held(text)[1] < SOON, text  # once may be the garbage of other tests
-        compiled += tally.compiled
-        read += tally.read
+        with CallCount(MOST_CALLS):
+            compiled += linted(text)
+            read += tidied(text)
     return Tally(compiled, read)
-
-
-def held(text: str) -> tuple[Tally, float]:
-    """What comes of a text, and the seconds that this takes of a processor."""
-    begin = thread_time()
-    tally = Tally(linted(text), tidied(text))
-    return tally, thread_time() - begin
 
 
 def linted(text: str) -> bool:

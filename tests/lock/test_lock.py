@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from mindlang.lock import Entry, LockError, Signature, Taught, read_lock, read_locks, write_lock
+from mindlang.lock import HEADER, Entry, LockError, Signature, Taught, read_lock, read_locks, write_lock
 
 NAMES = st.text("abcxyzABC_+:0123456789", min_size=1, max_size=8)
 HASHES = st.text("0123456789abcdef", min_size=64, max_size=64)
@@ -94,6 +94,14 @@ def test_a_damaged_lock_is_refused(tmp_path: Path, damage, message: str) -> None
     path.write_text(damage(path.read_text()))
     with pytest.raises(LockError, match=message):
         read_lock(path)
+
+
+def test_what_is_said_of_a_damaged_lock_commands_no_terminal(tmp_path: Path) -> None:
+    path = tmp_path / "a.lock"
+    path.write_text(f"{HEADER}\n\nworld 0123456789abcdef\n  \x1b[2J Go = 1\n")
+    with pytest.raises(LockError, match=r"u001b\[2J Go cannot be so") as error:
+        read_lock(path)
+    assert str(error.value).isprintable()
 
 
 @pytest.mark.parametrize("data", [b"\xff\xfe", b"\0" * 100, b"# mind lock 1: \xff\n"])

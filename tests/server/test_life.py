@@ -1,13 +1,14 @@
 """The server as a program: how it begins and ends, and that no text and no place bring it down."""
 
+import asyncio
 import random
 import subprocess
 import sys
-import time
 from pathlib import Path
 
 import pytest
 
+from mindlang.server.server import TYPING_PAUSE_SECONDS, MindServer
 from tests.calling import Call
 from tests.language.examples import EXAMPLES
 from tests.server.client import WAIT, Editor, ServerError, editing, uri
@@ -62,16 +63,35 @@ def test_no_procedure_is_run(tmp_path: Path) -> None:
     assert not ran.exists()
 
 
-def test_it_checks_while_one_types_fast(tmp_path: Path) -> None:
+def test_who_types_fast_is_waited_for(monkeypatch: pytest.MonkeyPatch) -> None:
+    server, checked = MindServer(), asyncio.Event()
+    checks: list[None] = []
+
+    def check() -> None:
+        checks.append(None)
+        checked.set()
+
+    async def type_fast() -> None:
+        for _ in range(40):
+            server.check_soon()
+        assert not checks
+        await checked.wait()
+        await asyncio.sleep(2 * TYPING_PAUSE_SECONDS)
+
+    monkeypatch.setattr(server, "check", check)
+    asyncio.run(type_fast())
+    assert len(checks) == 1
+
+
+def test_what_was_typed_fast_is_checked_as_it_is_in_the_end(tmp_path: Path) -> None:
     path = tmp_path.resolve() / "collect.mind"
     text = next(each for each in EXAMPLES if each.stem == "collect").read_text(encoding="utf-8")
     with editing(tmp_path) as editor:
         editor.open(path, text)
-        begun = time.monotonic()
         for length in range(1, 41):
             editor.change(path, text + "# " + "x" * length)
-        editor.settle(path)
-        assert time.monotonic() - begun < 5
+        editor.change(path, text + "x")
+        assert [each["range"]["start"]["line"] for each in editor.settle(path)] == [text.count("\n")]
 
 
 @pytest.mark.parametrize("seed", range(3))
