@@ -52,7 +52,7 @@ class Crew:
         say: Callable[[str], object] = lambda words: None,
     ) -> None:
         self.assignment = assignment
-        self._say, self._takes, self._has_begun = say, 0, False
+        self._say, self._takes, self.has_begun = say, 0, False
         self._jobs: PriorityQueue[Job] = PriorityQueue()
         self._answers: Queue[tuple[int, Any] | WorkError] = Queue()
         self.children = [begin(place) for place in places]
@@ -91,7 +91,7 @@ class Crew:
     def _tell(self) -> None:
         """Say once that nobody has begun: others may have to leave their machine first, or no frame may ever come."""
         self._takes += 1
-        if self._takes == PATIENCE_TAKES and not self._has_begun:
+        if self._takes == PATIENCE_TAKES and not self.has_begun:
             names = self.children[0].place.name + (f" and {more} more" if (more := len(self.children) - 1) else "")
             self._say(f"no worker has begun yet ({names}): waiting until mindrun work is ready there (Ctrl-C stops)")
 
@@ -135,7 +135,7 @@ class Crew:
                 why = f"ended: {error}"
                 child.end()
             else:
-                self._has_begun = True
+                self.has_begun = True
                 return True
         self._given_up(child.place, why)
         return False
