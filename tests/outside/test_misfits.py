@@ -19,6 +19,8 @@ LATE = "sensor late is observation late 0 range 0 to 1"
     [
         (minds.text(scene="tests/Lime-v0"), "gymnasium tests/Lime-v0",
          "Gymnasium has no environment called tests/Lime-v0.", "Did you mean tests/Line-v0?"),
+        (minds.text(scene="tests/Line"), "gymnasium tests/Line",
+         "Gymnasium has no environment called tests/Line.", "Say which version: gymnasium tests/Line-v0."),
         (minds.text("sensor place is observation 2 range 0 to 1"), "place", "The environment has no observation 2.",
          "It has 2 numbers: 0 to 1."),
         (minds.text("sensor place is observation 0 0 range 0 to 1"), "place", "The environment has no observation 0 0.",
@@ -58,6 +60,17 @@ def test_of_another_package_nothing_is_run_before_the_rollout() -> None:
     with pytest.raises(MindError, match="no environment called surely_not_there:Line-v0") as found:
         minds.rollout_of(source)
     assert found.value.hint == "There is no module surely_not_there, neither installed nor beside the mind."
+
+
+def test_the_newest_version_is_not_taken_for_one_that_is_not_said() -> None:
+    """Of a module that nobody asks before a run: tomorrow it has another one."""
+    source = minds.text(scene="tests.outside.kept:tests/Line")
+    assert minds.compiled(source).diagnostics == ()
+    with pytest.raises(
+        MindError, match=r"Gymnasium has no environment called tests\.outside\.kept:tests/Line\."
+    ) as found:
+        minds.rollout_of(source)
+    assert found.value.hint == "Say which version: gymnasium tests.outside.kept:tests/Line-v0."
 
 
 def test_without_gymnasium_a_sentence_says_what_to_install(monkeypatch: pytest.MonkeyPatch) -> None:

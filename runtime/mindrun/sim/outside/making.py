@@ -63,7 +63,8 @@ def make(name: str, folder: Path | None = None, is_seen: bool = False) -> Any:
     _set(WITHOUT_SCREEN if is_seen else {})
     try:
         with _silence(), foreign_code():
-            return gymnasium.make(name, max_episode_steps=NO_TIME_LIMIT, disable_env_checker=True, **drawn)
+            made = gymnasium.make(name, max_episode_steps=NO_TIME_LIMIT, disable_env_checker=True, **drawn)
+            taken = made.unwrapped.spec.id
     except (gymnasium.error.UnregisteredEnv, gymnasium.error.DeprecatedEnv):
         raise UnknownEnvironmentError(
             f"Gymnasium has no environment called {name}.", _instead(name, gymnasium.registry)
@@ -74,6 +75,11 @@ def make(name: str, folder: Path | None = None, is_seen: bool = False) -> Any:
             raise UnknownEnvironmentError(f"Gymnasium has no environment called {name}.", hint) from None
         cause = error.__cause__ if isinstance(error, ModuleNotFoundError) and error.__cause__ else error
         raise BrokenEnvironmentError(f"The environment {name} cannot be made.", first_line(cause)) from None
+    if taken != name.rpartition(":")[2]:
+        close(made)  # Gymnasium takes the newest version where none is said, tomorrow another one
+        hint = f"Say which version: gymnasium {name.removesuffix(name.rpartition(':')[2])}{taken}."
+        raise UnknownEnvironmentError(f"Gymnasium has no environment called {name}.", hint)
+    return made
 
 
 def registered() -> list[str]:
