@@ -14,8 +14,9 @@ import sys
 from dataclasses import replace
 from pathlib import Path
 from time import perf_counter
-from typing import Any
+from typing import Any, NoReturn
 
+from mindrun import standard_streams
 from mindrun.arguments import whole
 from mindrun.errors import MindError
 from mindrun.work.assigned import drop, scorer_of
@@ -68,5 +69,12 @@ def run(options: argparse.Namespace) -> int:
     except FrameError as error:
         raise MindError(f"standard input is no frame: {error}", BEGUN_BY) from error
     except BrokenPipeError:
-        return 0  # nobody waits for the answer any more
-    return 0
+        pass  # nobody waits for the answer any more
+    _end()
+
+
+def _end() -> NoReturn:
+    """End the process, whatever threads an environment or a procedure has left: Python itself would wait for them."""
+    standard_streams.finish()
+    standard_streams.flush_standard_error()
+    os._exit(0)
