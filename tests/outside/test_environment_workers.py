@@ -129,7 +129,8 @@ def test_a_worker_ends_with_its_jobs_whatever_threads_an_environment_has_left() 
     try:
         assert (JobScorer(rollout, jobs).score(np.zeros((1, 0), np.float32), [1]).ticks > 0).all()
         process = jobs.children[0].process
-        assert process is not None and process.stdin is not None
+        assert process is not None
+        assert process.stdin is not None
         process.stdin.close()
         assert process.wait(60) == 0
     finally:

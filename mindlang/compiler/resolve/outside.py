@@ -133,8 +133,10 @@ def _check_environment(
     name, header = task.scene.environment, task.declaration.header
     if ":" in name or not making.is_there():
         return
+    from mindrun.sim.outside.steppers import known_spaces  # which needs numpy
+
     try:
-        observed, acted = making.spaces(name)
+        spaces = known_spaces(name)
     except making.UnknownEnvironmentError as error:
         findings.error(
             "unknown-environment", header.phrase.span if header.phrase else header.span, str(error), error.hint
@@ -142,10 +144,10 @@ def _check_environment(
         return
     except MindError:
         return  # what it needs is not installed here: a run says so
-    from mindrun.sim.outside import fitting  # which needs numpy
+    from mindrun.sim.outside import fitting
 
     spans = {part.name: part.span for part in (*sensors, *actuators)} | {"": header.span}
     ours = ({part.name: slot for part in parts if (slot := part.kind.slot)} for parts in (sensors, actuators))
-    for found in fitting.misfits(observed, acted, *ours):
+    for found in fitting.misfits(spaces, *ours):
         message = found.message.replace("environment", which or "environment", 1)
         findings.error(found.code, spans[found.name], message, found.hint)

@@ -23,7 +23,7 @@ MAX_FALSE_STARTS = 3  # workers in succession that end at a place before they ha
 TAKE_SECONDS = 0.2  # to wait for an answer before who asks may look at something else
 PATIENCE_TAKES = 50  # in vain, before it is said that no worker has begun yet
 END_SECONDS = 5.0  # to wait for workers that were killed
-FATAL = "the same job ends whoever does it: see there whether memory runs out, or a procedure ends the process"
+FATAL = "the same job ends whoever does it: memory may run out there, or a procedure or an environment end the process"
 MAX_WORDS_CHARACTERS = 2000  # of why a worker has not done a job
 
 

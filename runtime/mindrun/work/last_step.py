@@ -1,0 +1,47 @@
+"""The step of an environment that a worker is at, in memory that outlives it.
+
+The worker writes it at each step, without a call of the system; who has begun it reads that when it has ended.
+"""
+
+from mmap import mmap
+from struct import Struct
+from tempfile import TemporaryFile
+
+STEP = Struct("<?QQH")  # whether it is at one, the seed, how many steps, the bytes of the name behind it
+BYTES = 4096
+MAX_NAME_BYTES = 1024
+
+
+class LastStep:
+    """The memory behind a descriptor, or that of a new file without a name."""
+
+    def __init__(self, descriptor: int | None = None) -> None:
+        self._file = None
+        if descriptor is None:
+            self._file = TemporaryFile()  # noqa: SIM115  # it is closed with this
+            self._file.truncate(BYTES)
+            descriptor = self._file.fileno()
+        self.descriptor = descriptor
+        self._memory = mmap(descriptor, BYTES)
+
+    def write(self, environment: bytes, seed: int, steps: int) -> None:
+        """It begins now; the name has MAX_NAME_BYTES at most."""
+        said = STEP.pack(True, seed, steps, len(environment)) + environment
+        self._memory[: len(said)] = said
+
+    def clear(self) -> None:
+        """It has ended."""
+        self._memory[0] = 0
+
+    def read(self) -> tuple[str, int, int] | None:
+        """The environment, the seed and the number of steps; None where it is at none."""
+        is_open, seed, steps, length = STEP.unpack_from(self._memory)
+        if not is_open:
+            return None
+        name = self._memory[STEP.size : STEP.size + min(length, MAX_NAME_BYTES)]
+        return name.decode(errors="replace"), seed, steps
+
+
+def place_of(seed: int, steps: int) -> str:
+    """Where in a run something was, in words."""
+    return f"step {steps} of the run of seed {seed}" if steps else f"the beginning of the run of seed {seed}"
