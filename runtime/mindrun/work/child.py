@@ -91,7 +91,9 @@ class Child:
         code = self.process.poll() if self.process is not None else None
         if code is None:
             return ""
-        return f"exit code {code}" if code >= 0 else Signals(-code).name
+        if code >= 0:
+            return f"exit code {code}"
+        return Signals(-code).name if -code in {*Signals} else f"signal {-code}"
 
     def kill(self) -> None:
         """End the process, and one that is just being begun; whoever waits for it is told by its pipes."""
@@ -104,6 +106,9 @@ class Child:
         pipes, self._pipes = self._pipes, None
         if pipes is not None:
             pipes.close()
+        last_step, self.last_step = self.last_step, None
+        if last_step is not None:
+            last_step.close()
         if self.process is not None:
             self.process.wait()
 

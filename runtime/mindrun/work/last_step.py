@@ -8,7 +8,7 @@ from struct import Struct
 from tempfile import TemporaryFile
 
 STEP = Struct("<?QQH")  # whether it is at one, the seed, how many steps, the bytes of the name behind it
-BYTES = 4096
+MEMORY_BYTES = 4096
 MAX_NAME_BYTES = 1024
 
 
@@ -18,11 +18,11 @@ class LastStep:
     def __init__(self, descriptor: int | None = None) -> None:
         self._file = None
         if descriptor is None:
-            self._file = TemporaryFile()  # noqa: SIM115  # it is closed with this
-            self._file.truncate(BYTES)
+            self._file = TemporaryFile()  # noqa: SIM115  # it is closed below
+            self._file.truncate(MEMORY_BYTES)
             descriptor = self._file.fileno()
         self.descriptor = descriptor
-        self._memory = mmap(descriptor, BYTES)
+        self._memory = mmap(descriptor, MEMORY_BYTES)
 
     def write(self, environment: bytes, seed: int, steps: int) -> None:
         """It begins now; the name has MAX_NAME_BYTES at most."""
@@ -40,6 +40,12 @@ class LastStep:
             return None
         name = self._memory[STEP.size : STEP.size + min(length, MAX_NAME_BYTES)]
         return name.decode(errors="replace"), seed, steps
+
+    def close(self) -> None:
+        """Give the memory back."""
+        self._memory.close()
+        if self._file is not None:
+            self._file.close()
 
 
 def place_of(seed: int, steps: int) -> str:

@@ -12,9 +12,8 @@ from mindrun.sim.outside.parts import Part, Spaces
 from mindrun.work.frame import Frame, FrameError
 from mindrun.work.worker import FAILED
 
-SPACES, REGISTERED, OPEN, BEGIN, STEP, IMAGE, CLOSE = (
-    *("spaces", "registered", "open", "begin", "step", "image", "close"),
-)
+SPACES, REGISTERED = "spaces", "registered"  # of the environment of a name, and which names there are
+OPEN, BEGIN, STEP, IMAGE, CLOSE = "open", "begin", "step", "image", "close"  # of runs
 OBSERVED, CLOSED = "observed", "closed"  # answers
 
 Floats = NDArray[np.float64]
