@@ -17,6 +17,8 @@ from mindrun.sim.outside.apart import Apart
 from mindrun.sim.outside.here import Here
 from mindrun.sim.outside.rollout import EnvironmentRollout
 from mindrun.sim.outside.steppers import is_own, stepper_for
+from mindrun.sim.takeover import take_over
+from mindrun.sim.trace import trace
 
 import mindlang
 from tests.outside import minds, worlds
@@ -80,6 +82,14 @@ def test_it_comes_to_the_same_bits_there_as_here(name: str) -> None:
         scores = rollout.score(minds.genomes(rollout, 4), [1, 2**64 - 1])
         found.append((scores.total.tobytes(), scores.ticks.tobytes(), rollout.tally().tobytes()))
     assert found[0] == found[1]
+
+
+def test_a_run_that_another_mind_takes_over_is_stepped_where_it_was_begun() -> None:
+    graph = minds.graph_of(MINDS["numbers"].replace("gymnasium ", "gymnasium tests.outside.kept:"))
+    policy = Policy(graph, {"Go": minds.genomes(minds.rollout_of(MINDS["numbers"]), 1)[0]})
+    ours, theirs = (EnvironmentRollout(policy, "Go", "Go", steppers=Apart) for _ in range(2))
+    plain = [moment.readings.tolist() for moment in trace(ours, 7).moments]
+    assert [moment.readings.tolist() for moment in take_over(ours, 7, 4, theirs).moments] == plain[3:]
 
 
 def test_what_a_program_registers_itself_is_stepped_there() -> None:

@@ -93,7 +93,7 @@ class RemoteRun:
     """An environment there, in the run of a seed."""
 
     def __init__(self, apart: "Apart", number: int, slots: int) -> None:
-        self._apart, self.number = apart, number
+        self.apart, self.number = apart, number
         self.observed = np.zeros(slots)
         self.reward, self.is_terminated, self.is_truncated = 0.0, False, False
 
@@ -104,15 +104,15 @@ class RemoteRun:
 
     def begin(self) -> None:
         """Begin the run."""
-        take_observed(self._apart.ask(BEGIN, {"run": self.number}), [self])
+        take_observed(self.apart.ask(BEGIN, {"run": self.number}), [self])
 
     def image(self) -> Any:
         """What is seen of it now [height, width, 3], red first."""
-        return self._apart.ask(IMAGE, {"run": self.number}).arrays["image"]
+        return self.apart.ask(IMAGE, {"run": self.number}).arrays["image"]
 
     def close(self) -> None:
         """Give back what it holds; with its process it has done so."""
-        self._apart.close(self.number)
+        self.apart.close(self.number)
 
 
 class Apart:
@@ -136,10 +136,15 @@ class Apart:
         return RemoteRun(self, number, len(places))
 
     def step(self, runs: Sequence[RemoteRun], actions: Sequence[Mapping[str, Any]]) -> None:
-        """Step all of them."""
-        if runs:
-            numbers = [run.number for run in runs]
-            take_observed(self.ask(STEP, {"runs": numbers}, actions=numbers_of(actions)), runs)
+        """Step all of them, each where it was begun: another mind may have taken over."""
+        for apart in dict.fromkeys(run.apart for run in runs):
+            chosen = [number for number, run in enumerate(runs) if run.apart is apart]
+            apart.step_own([runs[number] for number in chosen], [actions[number] for number in chosen])
+
+    def step_own(self, runs: Sequence[RemoteRun], actions: Sequence[Mapping[str, Any]]) -> None:
+        """Step some of its own with one question."""
+        about = {"runs": [run.number for run in runs]}
+        take_observed(self.ask(STEP, about, actions=numbers_of(actions)), runs)
 
     def ask(self, kind: str, about: Mapping[str, Any], **arrays: Any) -> Frame:
         """The answer to a question."""
