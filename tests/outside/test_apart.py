@@ -1,5 +1,6 @@
 """Environments that end their process, or do something else to it: one sentence, and who asked goes on."""
 
+import gc
 import os
 import signal
 import subprocess
@@ -42,7 +43,7 @@ def scored(way: str, place: str, seed: int = 5) -> "np.ndarray[tuple[int, ...], 
 @pytest.mark.parametrize("way", ENDS)
 @pytest.mark.parametrize(
     ("place", "where"),
-    [("make", ""), ("reset", "in the beginning of the run of seed 5"), ("step", "in step 3 of the run of seed 5")],
+    [("make", ""), ("reset", "the beginning of the run of seed 5"), ("step", "step 3 of the run of seed 5")],
 )
 def test_an_environment_that_ends_its_process_is_told_with_step_and_seed(way: str, place: str, where: str) -> None:
     with pytest.raises(MindError, match=f"environment {deadly(way, place)} ") as found:
@@ -67,10 +68,20 @@ def test_what_it_does_to_its_process_it_does_to_no_other(capfd: pytest.CaptureFi
         np.testing.assert_array_equal(scored(way, "step"), undisturbed)
     assert Path.cwd() == folder
     assert [signal.getsignal(number) for number in (signal.SIGINT, signal.SIGTERM)] == handlers
-    assert workers_of(folder) == workers_of(folder)  # none hangs
     said = capfd.readouterr()
     assert said.out == ""
     assert said.err == "from Python: ü\nfrom C\n"
+
+
+def test_its_process_ends_with_it_whatever_thread_an_environment_has_left() -> None:
+    apart = Apart(deadly("Thread", "make"))
+    apart.run([("", 0)], 5).begin()
+    process = apart._process._child.process
+    assert process is not None
+    assert process.poll() is None
+    del apart
+    gc.collect()
+    assert process.poll() is not None
 
 
 @pytest.mark.parametrize("name", MINDS)
@@ -121,7 +132,7 @@ def test_commands_say_so_and_end_as_for_any_other_fault(tmp_path: Path, words: t
     done = mindc(tmp_path, *words)
     said = " ".join(done.stderr.split())
     assert (done.returncode, done.stdout) == (1, "")
-    assert "in step 3 of the run of seed" in said
+    assert "step 3 of the run of seed" in said
     assert deadly("Fault", "step") in said
     assert "SIGSEGV" in said
     assert "Traceback" not in said

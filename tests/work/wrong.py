@@ -28,7 +28,7 @@ def never(answer: bytes) -> bytes:
 
 
 def only_alive(answer: bytes) -> bytes:
-    sys.stdout.buffer.write(pack(Frame(ALIVE, {"at": "step 7 of the run of seed 3"})))
+    sys.stdout.buffer.write(pack(Frame(ALIVE, {"at": "in step 7 of the run of seed 3"})))
     sys.stdout.buffer.flush()
     return never(answer)
 

@@ -133,16 +133,16 @@ def _check_environment(
     name, header = task.scene.environment, task.declaration.header
     if ":" in name or not making.is_there():
         return
-    from mindrun.sim.outside.steppers import known_spaces  # which needs numpy
-
     try:
+        from mindrun.sim.outside.steppers import known_spaces  # which needs numpy
+
         spaces = known_spaces(name)
     except making.UnknownEnvironmentError as error:
         findings.error(
             "unknown-environment", header.phrase.span if header.phrase else header.span, str(error), error.hint
         )
         return
-    except MindError:
+    except (ImportError, MindError):
         return  # what it needs is not installed here: a run says so
     from mindrun.sim.outside import fitting
 

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from signal import Signals
 
 from mindrun.work.frame import DIGEST_BYTES, LINE_END, Frame, FrameError, Stream, read, read_first, unpack
-from mindrun.work.last_step import LastStep, place_of
+from mindrun.work.last_step import LastStep
 from mindrun.work.pipes import LostError, Pipes
 from mindrun.work.worker import ALIVE, MAX_SILENT_SECONDS, READY
 
@@ -80,10 +80,9 @@ class Child:
         return answer
 
     def where(self) -> str:
-        """At which step of an environment it is, as far as is known, in words; nothing where at none."""
+        """In or after which step of an environment it is, as far as is known, in words; else nothing."""
         if self.last_step is not None and (found := self.last_step.read()):
-            environment, seed, steps = found
-            return f"{place_of(seed, steps)} in {environment}"
+            return " in ".join(found)
         return self._at
 
     def ending(self) -> str:
@@ -149,7 +148,7 @@ class Child:
                 raise self._ended("it ended")
             return unpack(data)
         except LostError as error:
-            raise LostError(f"{error}, in {where}" if (where := self.where()) else f"{error}") from error
+            raise LostError(f"{error}, {where}" if (where := self.where()) else f"{error}") from error
         except FrameError as error:
             raise NoFrameError(f"its answer is no frame: {error}") from error
         except OSError as error:

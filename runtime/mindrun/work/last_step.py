@@ -33,13 +33,16 @@ class LastStep:
         """It has ended."""
         self._memory[0] = 0
 
-    def read(self) -> tuple[str, int, int] | None:
-        """The environment, the seed and the number of steps; None where it is at none."""
+    def read(self) -> tuple[str, str] | None:
+        """When in which run that was, in words, and the environment; None where it has been at none.
+
+        After a step where it has ended: who kills its process from another thread, or by a signal, may come so late.
+        """
         is_open, seed, steps, length = STEP.unpack_from(self._memory)
-        if not is_open:
+        if not length:
             return None
         name = self._memory[STEP.size : STEP.size + min(length, MAX_NAME_BYTES)]
-        return name.decode(errors="replace"), seed, steps
+        return f"{'in' if is_open else 'after'} {place_of(seed, steps)}", name.decode(errors="replace")
 
     def close(self) -> None:
         """Give the memory back."""

@@ -72,7 +72,7 @@ class Serving:
                     message = f"the environment {now.environment} does not come back from {now.where}"
                     self.say(answer_to(job, failure(f"{message}, in {self.step_seconds} seconds", HINT)))
                     self.end()
-                self.say(pack(Frame(ALIVE, {"at": f"{now.where} in {now.environment}"} if now else {})))
+                self.say(pack(Frame(ALIVE, {"at": f"in {now.where} in {now.environment}"} if now else {})))
             except OSError:
                 self.end()
 

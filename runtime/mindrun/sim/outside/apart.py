@@ -39,7 +39,7 @@ from mindrun.sim.outside.taking import Place
 from mindrun.work.child import Child
 from mindrun.work.child import Place as Command
 from mindrun.work.frame import Frame, pack
-from mindrun.work.last_step import LastStep, place_of
+from mindrun.work.last_step import LastStep
 from mindrun.work.pipes import LostError
 from mindrun.work.worker import FAILED
 
@@ -85,7 +85,7 @@ class EnvironmentProcess:
         if at is None:
             message = f"The environment {environment} cannot be made."
             return BrokenEnvironmentError(message, f"It has ended the process that asked it ({how}).")
-        why = f"It was in {place_of(*at[1:])}, and the fault is the environment's: {how}."
+        why = f"It was {at[0]}, and the fault is the environment's: {how}."
         return BrokenEnvironmentError(f"the environment {environment} has ended its process", why, why)
 
 
