@@ -1,6 +1,7 @@
 """What processes cost where the worlds are environments: python benchmarks/environment_workers.py [--generations 5].
 
-A generation is 40 genomes on 3 layouts, and is scored in this process, and by 1, 2 and 4 workers, which are warm. CPU
+A generation is 40 genomes on 3 layouts, and is scored here, with the environments in this process or apart, in another
+one, and by 1, 2 and 4 workers, which are warm. CPU
 is that of all processes, and is the figure to trust on a machine that others use, too. The last column is what a job
 takes beyond its runs: frames, pipes, and the lanes that a smaller job leaves empty.
 """
@@ -16,6 +17,8 @@ import gymnasium
 import numpy as np
 from mindrun.bundle import Bundle, pack
 from mindrun.policy import Policy
+from mindrun.sim.outside.apart import Apart
+from mindrun.sim.outside.here import Here
 from mindrun.sim.rollouts import rollout_for
 from mindrun.work.assignment import Assignment
 from mindrun.work.crew import Crew
@@ -56,6 +59,12 @@ def cpu_seconds(process: str) -> float:
     return (int(fields[11]) + int(fields[12])) / TICKS_PER_SECOND
 
 
+def cpu_of_all() -> float:
+    """What this process and those that it has begun have taken so far."""
+    children = Path(f"/proc/self/task/{os.getpid()}/children").read_text().split()
+    return sum(map(cpu_seconds, ["self", *children]))
+
+
 def source(name: str) -> str:
     """A mind for an environment: one skill, which reads and drives everything."""
     made = gymnasium.make(name)
@@ -75,21 +84,23 @@ def source(name: str) -> str:
 def measured(name: str, generations: int) -> None:
     """Score the same generations in this process and in others."""
     graph = mindlang.loads(source(name)).graph
-    rollout = rollout_for(Policy(graph, {}), "Go", "Go", ["Go"])
-    rollout.compile()
+    here, apart = (rollout_for(Policy(graph, {}), "Go", "Go", ["Go"], steppers=steppers) for steppers in (Here, Apart))
+    here.compile()
     rng = np.random.default_rng(1)
-    drawn = [rollout.draw(GENERATION_GENOMES, rng) for _ in range(generations)]
+    drawn = [here.draw(GENERATION_GENOMES, rng) for _ in range(generations)]
     seeds = [[*range(GENERATION_LAYOUTS * each, GENERATION_LAYOUTS * (each + 1))] for each in range(generations)]
-    rollout.score(drawn[0], seeds[0])
-    began, cpu = perf_counter(), cpu_seconds("self")
-    ticks = sum(int(rollout.score(*each).ticks.sum()) for each in zip(drawn, seeds, strict=True))
-    alone = cpu_seconds("self") - cpu
-    said = {"name": name, "rate": ticks / (perf_counter() - began), "cpu": ticks / alone}
-    print(LINE.format(where="here", jobs=0, cost=0.0, **said), flush=True)
+    alone, ticks = 0.0, 0
+    for where, rollout in (("apart", apart), ("here", here)):
+        rollout.score(drawn[0], seeds[0])
+        began, cpu = perf_counter(), cpu_of_all()
+        ticks = sum(int(rollout.score(*each).ticks.sum()) for each in zip(drawn, seeds, strict=True))
+        alone = cpu_of_all() - cpu
+        said = {"name": name, "rate": ticks / (perf_counter() - began), "cpu": ticks / alone}
+        print(LINE.format(where=where, jobs=0, cost=0.0, **said), flush=True)
     assignment = Assignment(pack(Bundle(Policy(graph, {}), {})), "Go", "Go", ("Go",))
     for count in (1, 2, 4):
         crew = CountingCrew(local_workers(count, 1, assignment))
-        scorer = JobScorer(rollout, crew)  # type: ignore[arg-type]  # it has all that the crew has
+        scorer = JobScorer(here, crew)  # type: ignore[arg-type]  # it has all that the crew has
         for _ in range(2):
             scorer.score(drawn[0], seeds[0])
         crew.jobs, began, cpu = 0, perf_counter(), crew.cpu_seconds()

@@ -20,6 +20,7 @@ from mindrun.train.lesson_state import LessonState, Record
 from mindrun.train.run_folder import RunFolder, open_run, read_result
 from mindrun.train.scoring import Scorer
 from mindrun.train.training import Watch, train
+from mindrun.work.job_scorer import JobScorer
 
 from mindlang.cli._simulator_compilation import ensure_compiled
 from mindlang.cli._terminal import load_compiled, procedures_talk, talk
@@ -101,8 +102,11 @@ class Trainer:
         rollout = self._rollout(run, subject)
         by = self.where, self.workers or cores(), self._say, perf_counter
         with workers_of(run, subject, rollout, *by) as (scorer, executor):
-            state = self._watched(run, scorer, executor)
-            if not has_ended(run, state):
+            try:
+                state = self._watched(run, scorer, executor)
+            except StoppedError:
+                state = None
+            if state is None or not has_ended(run, state):
                 talk.print(f"saved; to go on: {self._command(run)}", markup=False)
                 return False
             taught = self._finished(run, subject, state, scorer, force)
@@ -139,6 +143,8 @@ class Trainer:
 
         def asked() -> None:
             watcher.close()
+            if isinstance(scorer, JobScorer) and not scorer.jobs.has_begun:
+                raise StoppedError
             what = "saving; what workers are at is done again then" if executor else "finishing this generation"
             self._say(f"{what}; Ctrl-C again stops at once, to go on then: {self._command(run)}")
 
@@ -172,6 +178,10 @@ class Trainer:
     def _print(self, result: Result) -> None:
         if self.as_json:
             print(json.dumps(result, allow_nan=False), flush=True)
+
+
+class StoppedError(KeyboardInterrupt):
+    """Nobody is at work yet, so that there is nothing to wait for when a run is to be stopped."""
 
 
 class Interruption:

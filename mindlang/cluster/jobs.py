@@ -62,6 +62,7 @@ class ClusterJobs:
         self._slots, self._looked = 0, float("-inf")
         self._missed_since: float | None = None
         self._has_said = False
+        self.has_begun = False
 
     @property
     def workers(self) -> int:
@@ -167,6 +168,7 @@ class ClusterJobs:
     def _tell(self, now: float) -> None:
         """Say that there is no worker, and later that there is one."""
         if self._slots:
+            self.has_begun = True
             if self._has_said:
                 self._say("there are workers again")
             self._missed_since, self._has_said = None, False

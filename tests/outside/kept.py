@@ -42,5 +42,16 @@ class Talking(worlds.Line):
         return super().observed()
 
 
-worlds.ALL = (*worlds.ALL, Hanging, Dying, Talking)  # type: ignore[assignment]
+class Threaded(worlds.Line):
+    """The same, which leaves a thread that Python waits for at its end."""
+
+    def reset(self, *, seed: int | None = None, options: Any = None) -> tuple[Any, dict[str, Any]]:
+        """As ever."""
+        import threading
+
+        threading.Thread(target=threading.Event().wait, daemon=False).start()
+        return super().reset(seed=seed)
+
+
+worlds.ALL = (*worlds.ALL, Hanging, Dying, Talking, Threaded)  # type: ignore[assignment]
 worlds.register()

@@ -12,6 +12,14 @@ import pytest
 
 pytest.importorskip("gymnasium")
 
+import numpy as np
+from mindrun.bundle import Bundle
+from mindrun.bundle import pack as pack_bundle
+from mindrun.policy import Policy
+from mindrun.work.assignment import Assignment
+from mindrun.work.job_scorer import JobScorer
+from mindrun.work.local import local_workers
+
 from tests.outside import minds
 
 ROOT = Path(__file__).parents[2]
@@ -112,6 +120,21 @@ def test_workers_end_with_who_asked_them_even_in_a_step_that_hangs(tmp_path: Pat
     asking.kill()
     asking.wait()
     until(lambda: workers_of(folder) == [])
+
+
+def test_a_worker_ends_with_its_jobs_whatever_threads_an_environment_has_left() -> None:
+    rollout = minds.rollout_of(minds.text(scene="tests.outside.kept:tests/Threaded-v0"))
+    bundle = pack_bundle(Bundle(Policy(rollout.graph, {"Go": minds.genomes(rollout, 1)[0]}), {}))
+    jobs = local_workers(1, 1, Assignment(bundle, "Go", "Go", folder=ROOT))
+    try:
+        assert (JobScorer(rollout, jobs).score(np.zeros((1, 0), np.float32), [1]).ticks > 0).all()
+        process = jobs.children[0].process
+        assert process is not None
+        assert process.stdin is not None
+        process.stdin.close()
+        assert process.wait(60) == 0
+    finally:
+        jobs.close()
 
 
 def until(holds: Callable[[], bool]) -> None:

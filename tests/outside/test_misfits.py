@@ -19,6 +19,8 @@ LATE = "sensor late is observation late 0 range 0 to 1"
     [
         (minds.text(scene="tests/Lime-v0"), "gymnasium tests/Lime-v0",
          "Gymnasium has no environment called tests/Lime-v0.", "Did you mean tests/Line-v0?"),
+        (minds.text(scene="tests/Line"), "gymnasium tests/Line",
+         "Gymnasium has no environment called tests/Line.", "Say which version: gymnasium tests/Line-v0."),
         (minds.text("sensor place is observation 2 range 0 to 1"), "place", "The environment has no observation 2.",
          "It has 2 numbers: 0 to 1."),
         (minds.text("sensor place is observation 0 0 range 0 to 1"), "place", "The environment has no observation 0 0.",
@@ -60,6 +62,17 @@ def test_of_another_package_nothing_is_run_before_the_rollout() -> None:
     assert found.value.hint == "There is no module surely_not_there, neither installed nor beside the mind."
 
 
+def test_the_newest_version_is_not_taken_for_one_that_is_not_said() -> None:
+    """Of a module that nobody asks before a run: tomorrow it has another one."""
+    source = minds.text(scene="tests.outside.kept:tests/Line")
+    assert minds.compiled(source).diagnostics == ()
+    with pytest.raises(
+        MindError, match=r"Gymnasium has no environment called tests\.outside\.kept:tests/Line\."
+    ) as found:
+        minds.rollout_of(source)
+    assert found.value.hint == "Say which version: gymnasium tests.outside.kept:tests/Line-v0."
+
+
 def test_without_gymnasium_a_sentence_says_what_to_install(monkeypatch: pytest.MonkeyPatch) -> None:
     graph_source = minds.text()
     assert minds.compiled(graph_source).graph is not None
@@ -98,9 +111,11 @@ def test_an_environment_may_be_that_of_a_scene() -> None:
 def test_what_is_of_two_values_has_two_choices() -> None:
     from gymnasium.spaces import MultiBinary
     from mindrun.sim.outside.fitting import misfits
+    from mindrun.sim.outside.parts import spaces_of
     from mindrun.slot import Slot
 
+    both = spaces_of(MultiBinary(2), MultiBinary(2))
     each = {f"push{i}{chosen}": Slot("", (i,), chosen=chosen) for i in range(2) for chosen in range(2)}
-    assert [*misfits(MultiBinary(2), MultiBinary(2), {}, each)] == []
-    found = [*misfits(MultiBinary(2), MultiBinary(2), {}, each | {"more": Slot("", (1,), chosen=2)})]
+    assert [*misfits(both, {}, each)] == []
+    found = [*misfits(both, {}, each | {"more": Slot("", (1,), chosen=2)})]
     assert [(wrong.name, wrong.hint) for wrong in found] == [("more", "Its choices are 0 to 1.")]

@@ -22,6 +22,8 @@ COMMANDS = {  # of the runtime, and why each may speak
     "robot/guardian/__main__.py": "the guardian, a program of its own",
     "robot/guardian/client.py": "a child that was forked ends before it can touch what is its parent's",
     "robot/simulated_world/__main__.py": "the simulated world, a program of its own",
+    "sim/outside/__main__.py": "python -m mindrun.sim.outside: the process that steps environments",
+    "sim/outside/apart.py": "what an environment prints in its process is talk of this one",
     "sim/outside/making.py": "what an environment's package says when it is imported is no answer of a command",
     "sim/warmup.py": "python -m mindrun.sim.warmup: the process that compiles",
     "tools/adopt.py": "mindrun adopt",

@@ -165,6 +165,25 @@ def test_stopped_with_ctrl_c_it_goes_on_to_the_same_weights_there_or_here(
     }
 
 
+def test_the_first_ctrl_c_stops_where_no_worker_has_begun(tmp_path: Path) -> None:
+    (tmp_path / "drive.mind").write_text(MIND)
+    silent = f"{sys.executable} -c 'import sys; sys.stdin.read()'"
+    words = ["train", *TAUGHT, "--attempts", "1", "--on", f"command:{silent}"]
+    command = [sys.executable, "-c", "from mindlang.cli import main; main()", *words]
+    with subprocess.Popen(command, cwd=tmp_path, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as process:
+        while process.poll() is None and not [*tmp_path.glob(f"{RUN}/progress.jsonl")]:
+            sleep(0.005)
+        process.send_signal(signal.SIGINT)
+        try:
+            _, talk = process.communicate(timeout=60)
+        finally:
+            process.kill()
+    assert process.returncode == 130, talk
+    assert "Ctrl-C again" not in talk
+    assert f"saved; to go on: mindc train --resume {next(tmp_path.glob(RUN)).relative_to(tmp_path)}" in talk
+    assert mindc(tmp_path, "--resume", str(next(tmp_path.glob(RUN)))).returncode == 0
+
+
 @pytest.mark.parametrize("where", [("--workers", "2"), ("--on", "processes:2")])
 def test_killed_it_goes_on_to_the_same_weights(tmp_path: Path, where: tuple[str, ...]) -> None:
     (tmp_path / "drive.mind").write_text(MIND)

@@ -134,18 +134,20 @@ def _check_environment(
     if ":" in name or not making.is_there():
         return
     try:
-        observed, acted = making.spaces(name)
+        from mindrun.sim.outside.steppers import known_spaces  # which needs numpy
+
+        spaces = known_spaces(name)
     except making.UnknownEnvironmentError as error:
         findings.error(
             "unknown-environment", header.phrase.span if header.phrase else header.span, str(error), error.hint
         )
         return
-    except MindError:
+    except (ImportError, MindError):
         return  # what it needs is not installed here: a run says so
-    from mindrun.sim.outside import fitting  # which needs numpy
+    from mindrun.sim.outside import fitting
 
     spans = {part.name: part.span for part in (*sensors, *actuators)} | {"": header.span}
     ours = ({part.name: slot for part in parts if (slot := part.kind.slot)} for parts in (sensors, actuators))
-    for found in fitting.misfits(observed, acted, *ours):
+    for found in fitting.misfits(spaces, *ours):
         message = found.message.replace("environment", which or "environment", 1)
         findings.error(found.code, spans[found.name], message, found.hint)

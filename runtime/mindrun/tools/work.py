@@ -14,18 +14,21 @@ import sys
 from dataclasses import replace
 from pathlib import Path
 from time import perf_counter
-from typing import Any
+from typing import Any, NoReturn
 
+from mindrun import standard_streams
 from mindrun.arguments import whole
 from mindrun.errors import MindError
 from mindrun.work.assigned import drop, scorer_of
 from mindrun.work.assignment import Assignment
 from mindrun.work.frame import FrameError
-from mindrun.work.serving import STEP_SECONDS, Serving
+from mindrun.work.last_step import LastStep
+from mindrun.work.serving import STEP_SECONDS, Serving, own_streams
 from mindrun.work.worker import Worker
 
 MAX_THREADS = 1024
 MAX_STEP_SECONDS = 86_000  # of a step of an environment
+MAX_DESCRIPTOR = 1 << 20
 BEGUN_BY = "it is begun by mindc train FILE --on ssh:a,b"
 
 
@@ -45,22 +48,25 @@ def options(parser: argparse.ArgumentParser) -> None:
         metavar="S",
         help=f"how long a step of an environment may take, before the job has failed (default: {STEP_SECONDS})",
     )
+    parser.add_argument("--last-step", type=whole(0, MAX_DESCRIPTOR), help=argparse.SUPPRESS)  # between our processes
 
 
 def run(options: argparse.Namespace) -> int:
     """Answer frames until no more come; the exit code."""
     if sys.stdin.isatty():
         raise MindError("mindrun work is begun by another program, which sends it jobs", BEGUN_BY)
-    requests, answers = os.fdopen(os.dup(0), "rb"), os.fdopen(os.dup(1), "wb")
-    nothing = os.open(os.devnull, os.O_RDONLY)
-    os.dup2(nothing, 0)  # a procedure that reads takes no job away,
-    os.dup2(2, 1)  # and what it prints is no answer
+    requests, answers = own_streams()
     sys.path += [f"{options.folder}"] if options.folder else []
     threads = options.threads or len(os.sched_getaffinity(0))
     seconds = options.step_seconds
 
+    last_step = None if options.last_step is None else LastStep(options.last_step)
+
     def made(assignment: Assignment) -> Any:
-        return scorer_of(replace(assignment, folder=options.folder), threads, seconds)
+        scorer = scorer_of(replace(assignment, folder=options.folder), threads, seconds)
+        if last_step and hasattr(scorer, "write_steps"):
+            scorer.write_steps(last_step)
+        return scorer
 
     worker = Worker(made, perf_counter, drop)
     try:
@@ -68,5 +74,12 @@ def run(options: argparse.Namespace) -> int:
     except FrameError as error:
         raise MindError(f"standard input is no frame: {error}", BEGUN_BY) from error
     except BrokenPipeError:
-        return 0  # nobody waits for the answer any more
-    return 0
+        pass  # nobody waits for the answer any more
+    _end()
+
+
+def _end() -> NoReturn:
+    """End the process, whatever threads an environment or a procedure has left: Python itself would wait for them."""
+    standard_streams.finish()
+    standard_streams.flush_standard_error()
+    os._exit(0)

@@ -1,11 +1,14 @@
 """A worker that is a process: begun at its place, asked with frames, and never waited for in vain."""
 
+import os
 import subprocess
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+from signal import Signals
 
 from mindrun.work.frame import DIGEST_BYTES, LINE_END, Frame, FrameError, Stream, read, read_first, unpack
+from mindrun.work.last_step import LastStep
 from mindrun.work.pipes import LostError, Pipes
 from mindrun.work.worker import ALIVE, MAX_SILENT_SECONDS, READY
 
@@ -14,10 +17,15 @@ START_SECONDS = 600.0  # until a worker is there: others may have to leave their
 
 @dataclass(frozen=True, slots=True)
 class Place:
-    """Where a worker runs: what to call it, and the command that is one."""
+    """Where a worker runs: what to call it, and the command that is one, with variables of its surroundings.
+
+    One of this machine, which `writes_step`, is told with --last-step behind which descriptor.
+    """
 
     name: str
     command: Sequence[str]
+    variables: Mapping[str, str] = field(default_factory=dict)
+    writes_step: bool = False
 
 
 class NoFrameError(LostError):
@@ -25,30 +33,36 @@ class NoFrameError(LostError):
 
 
 class Child:
-    """The worker at a place. LostError where it has ended, has been silent for too long, or answers nonsense."""
+    """The worker at a place; `hear` takes what it says on standard error.
 
-    def __init__(self, place: Place) -> None:
-        self.place = place
+    LostError where it has ended, has been silent for too long, or answers nonsense.
+    """
+
+    def __init__(self, place: Place, hear: Callable[[bytes], object] = lambda part: None) -> None:
+        self.place, self._hear = place, hear
         self.process: subprocess.Popen[bytes] | None = None
         self._pipes: Pipes | None = None
         self._at = ""
+        self.last_step: LastStep | None = None
         self._is_over = False
+
+    @property
+    def has_begun(self) -> bool:
+        """Whether its process is there."""
+        return self._pipes is not None
 
     def begin(self) -> None:
         """Begin the process, unless it is there, and wait until it says that it takes jobs."""
         if self._pipes is not None:
             return
-        # A session of its own: Ctrl-C at the terminal is for who asks, who lets the work go on to be saved.
-        pipe = subprocess.PIPE
+        self._at = ""
         try:
-            self.process = subprocess.Popen(
-                self.place.command, stdin=pipe, stdout=pipe, stderr=pipe, bufsize=0, start_new_session=True
-            )
+            self.process = self._begun()
         except OSError as error:
             raise LostError(f"{error.strerror}") from error
         if self._is_over:  # it was killed while it was begun
             self._end_process()
-        self._pipes = Pipes(self.process, START_SECONDS)
+        self._pipes = Pipes(self.process, START_SECONDS, self._hear)
         self._pipes.silent_seconds = _silent_seconds(self._first(self._pipes))
 
     def ask(self, data: bytes) -> Frame:
@@ -65,6 +79,21 @@ class Child:
             raise LostError("it answers another job than it was asked")
         return answer
 
+    def where(self) -> str:
+        """In or after which step of an environment it is, as far as is known, in words; else nothing."""
+        if self.last_step is not None and (found := self.last_step.read()):
+            return " in ".join(found)
+        return self._at
+
+    def ending(self) -> str:
+        """How its process has ended: an exit code or a signal; nothing where that is not known."""
+        code = self.process.poll() if self.process is not None else None
+        if code is None:
+            return ""
+        if code >= 0:
+            return f"exit code {code}"
+        return Signals(-code).name if -code in {*Signals} else f"signal {-code}"
+
     def kill(self) -> None:
         """End the process, and one that is just being begun; whoever waits for it is told by its pipes."""
         self._is_over = True
@@ -76,8 +105,30 @@ class Child:
         pipes, self._pipes = self._pipes, None
         if pipes is not None:
             pipes.close()
+        last_step, self.last_step = self.last_step, None
+        if last_step is not None:
+            last_step.close()
         if self.process is not None:
             self.process.wait()
+
+    def _begun(self) -> "subprocess.Popen[bytes]":
+        command, inherited = [*self.place.command], list[int]()
+        if self.place.writes_step:
+            self.last_step = LastStep()
+            inherited.append(self.last_step.descriptor)
+            command += ["--last-step", f"{self.last_step.descriptor}"]
+        # A session of its own: Ctrl-C at the terminal is for who asks, who lets the work go on to be saved.
+        pipe = subprocess.PIPE
+        return subprocess.Popen(
+            command,
+            stdin=pipe,
+            stdout=pipe,
+            stderr=pipe,
+            bufsize=0,
+            start_new_session=True,
+            env={**os.environ, **self.place.variables},
+            pass_fds=inherited,
+        )
 
     def _end_process(self) -> None:
         if (process := self.process) is not None:
@@ -97,14 +148,15 @@ class Child:
                 raise self._ended("it ended")
             return unpack(data)
         except LostError as error:
-            raise LostError(f"{error}, {self._at}" if self._at else f"{error}") from error
+            raise LostError(f"{error}, {where}" if (where := self.where()) else f"{error}") from error
         except FrameError as error:
             raise NoFrameError(f"its answer is no frame: {error}") from error
         except OSError as error:
             raise self._ended(f"{error.strerror}") from error
 
     def _ended(self, otherwise: str) -> LostError:
-        return LostError((self._pipes.last_line() if self._pipes else "") or otherwise)
+        said = (self._pipes.last_line() if self._pipes else "") or otherwise
+        return LostError(f"{said} ({how})" if (how := self.ending()) else said)
 
 
 def _silent_seconds(first: Frame) -> float:

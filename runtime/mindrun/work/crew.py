@@ -23,7 +23,7 @@ MAX_FALSE_STARTS = 3  # workers in succession that end at a place before they ha
 TAKE_SECONDS = 0.2  # to wait for an answer before who asks may look at something else
 PATIENCE_TAKES = 50  # in vain, before it is said that no worker has begun yet
 END_SECONDS = 5.0  # to wait for workers that were killed
-FATAL = "the same job ends whoever does it: see there whether memory runs out, or a procedure ends the process"
+FATAL = "the same job ends whoever does it: memory may run out there, or a procedure or an environment end the process"
 MAX_WORDS_CHARACTERS = 2000  # of why a worker has not done a job
 
 
@@ -52,7 +52,7 @@ class Crew:
         say: Callable[[str], object] = lambda words: None,
     ) -> None:
         self.assignment = assignment
-        self._say, self._takes, self._has_begun = say, 0, False
+        self._say, self._takes, self.has_begun = say, 0, False
         self._jobs: PriorityQueue[Job] = PriorityQueue()
         self._answers: Queue[tuple[int, Any] | WorkError] = Queue()
         self.children = [begin(place) for place in places]
@@ -91,7 +91,7 @@ class Crew:
     def _tell(self) -> None:
         """Say once that nobody has begun: others may have to leave their machine first, or no frame may ever come."""
         self._takes += 1
-        if self._takes == PATIENCE_TAKES and not self._has_begun:
+        if self._takes == PATIENCE_TAKES and not self.has_begun:
             names = self.children[0].place.name + (f" and {more} more" if (more := len(self.children) - 1) else "")
             self._say(f"no worker has begun yet ({names}): waiting until mindrun work is ready there (Ctrl-C stops)")
 
@@ -135,7 +135,7 @@ class Crew:
                 why = f"ended: {error}"
                 child.end()
             else:
-                self._has_begun = True
+                self.has_begun = True
                 return True
         self._given_up(child.place, why)
         return False

@@ -26,6 +26,10 @@ class JobExecutor(Protocol):
     def workers(self) -> int:
         """How many jobs can be at work at once, as far as is known; it may change."""
 
+    @property
+    def has_begun(self) -> bool:
+        """Whether a worker has been there by now: before, nobody has done anything."""
+
     def has_room(self) -> bool:
         """Whether a worker would wait without another job."""
 

@@ -14,4 +14,5 @@ def local_workers(count: int, threads: int, assignment: Assignment, step_seconds
     if assignment.folder:
         options += ["--folder", f"{assignment.folder.absolute()}"]
     command = (sys.executable, "-m", "mindrun", "work", *options)
-    return Crew([Place(f"process {number}", command) for number in range(1, count + 1)], assignment)
+    places = [Place(f"process {number}", command, writes_step=True) for number in range(1, count + 1)]
+    return Crew(places, assignment)

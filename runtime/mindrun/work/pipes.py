@@ -3,6 +3,7 @@
 import os
 import select
 import subprocess
+from collections.abc import Callable
 from contextlib import suppress
 from typing import IO
 
@@ -21,11 +22,16 @@ class LostError(MindError):
 class Pipes:
     """Standard input, output and error of a process; a wait ends with LostError after `silent_seconds`.
 
-    What it says on standard error is read meanwhile, so that it never waits for that, and its end is kept.
+    What it says on standard error is read meanwhile, so that it never waits for that; its end is kept, and `hear` told.
     """
 
-    def __init__(self, process: subprocess.Popen[bytes], silent_seconds: float) -> None:
-        self.silent_seconds = silent_seconds
+    def __init__(
+        self,
+        process: subprocess.Popen[bytes],
+        silent_seconds: float,
+        hear: Callable[[bytes], object] = lambda part: None,
+    ) -> None:
+        self.silent_seconds, self._told = silent_seconds, hear
         self._process, self._said = process, b""
         self._input, self._output, self._error = (_unblocked(each) for each in _streams(process))
         self._hears = True
@@ -78,6 +84,7 @@ class Pipes:
         except BlockingIOError:
             return False
         self._hears = bool(part)
+        self._told(part)
         self._said = (self._said + part)[-KEPT_BYTES:]
         return self._hears
 

@@ -3,13 +3,14 @@
 A step of an environment that takes for ever is noticed here: the job has failed, and the worker ends with it.
 """
 
+import os
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from threading import Event, Lock, Thread
-from typing import IO, Any
+from typing import IO, Any, Protocol
 
 from mindrun.work.frame import LINE_END, Frame, Stream, pack, read
-from mindrun.work.worker import ALIVE, READY, Worker, answer_to, failure
+from mindrun.work.worker import ALIVE, READY, answer_to, failure
 
 ALIVE_SECONDS = 1.0  # between two signs of life
 STEP_SECONDS = 60  # that a step of an environment may take
@@ -17,11 +18,20 @@ SPARE_SECONDS = 30  # of silence beyond that: the code of a step may let nobody 
 HINT = "environments that slow take --on with: mindrun work --step-seconds"
 
 
+class Answerer(Protocol):
+    """What answers frames with frames; what is `at_work` may be asked what an environment has been asked."""
+
+    at_work: Any
+
+    def answer(self, data: bytes) -> bytes:
+        """The answer to a frame."""
+
+
 @dataclass(slots=True)
 class Serving:
     """A worker that answers on a stream; `end` ends the process, whatever it is doing."""
 
-    worker: Worker
+    worker: Answerer
     answers: IO[bytes]
     end: Callable[[], None]
     step_seconds: int = STEP_SECONDS
@@ -65,6 +75,15 @@ class Serving:
                 self.say(pack(Frame(ALIVE, {"at": f"in {now.where} in {now.environment}"} if now else {})))
             except OSError:
                 self.end()
+
+
+def own_streams() -> tuple[IO[bytes], IO[bytes]]:
+    """Where jobs come from and answers go to, once and for all: nothing else does from here on."""
+    requests, answers = os.fdopen(os.dup(0), "rb"), os.fdopen(os.dup(1), "wb")
+    nothing = os.open(os.devnull, os.O_RDONLY)
+    os.dup2(nothing, 0)  # code of somebody else that reads takes no job away,
+    os.dup2(2, 1)  # and what it prints is no answer
+    return requests, answers
 
 
 def asked(scorer: Any) -> Any:

@@ -2,6 +2,8 @@
 
 from dataclasses import dataclass
 
+from mindrun.work.last_step import MAX_NAME_BYTES, LastStep, place_of
+
 
 @dataclass(frozen=True, slots=True)
 class Asked:
@@ -13,18 +15,32 @@ class Asked:
 
 
 class Asking:
-    """The question at hand; who steps writes it, and another thread may look at it."""
+    """The question at hand; who steps writes it, and another thread may look at it.
 
-    def __init__(self, environment: str) -> None:
-        self.environment, self.number, self.seed, self.steps, self.is_open = environment, 0, 0, 0, False
+    Where there is a `last_step`, another process may, too, and does when this one has ended.
+    """
+
+    def __init__(self, environment: str, last_step: LastStep | None = None) -> None:
+        self.environment, self.last_step = environment, last_step
+        self._name = environment.encode(errors="replace")[:MAX_NAME_BYTES]
+        self._number, self._seed, self._steps, self._is_open = 0, 0, 0, False
+
+    def begin(self, seed: int, steps: int) -> None:
+        """A question begins: the step after so many of a run, 0 for its beginning."""
+        self._seed, self._steps = seed, steps
+        self._number += 1
+        self._is_open = True
+        if self.last_step is not None:
+            self.last_step.write(self._name, seed, steps)
+
+    def end(self) -> None:
+        """It has been answered."""
+        self._is_open = False
+        if self.last_step is not None:
+            self.last_step.clear()
 
     def asked(self) -> Asked | None:
         """What has not been answered; None where everything has been."""
-        if not self.is_open:
+        if not self._is_open:
             return None
-        return Asked(self.environment, place_of(self.seed, self.steps), self.number)
-
-
-def place_of(seed: int, steps: int) -> str:
-    """Where in a run something was, in words."""
-    return f"step {steps} of the run of seed {seed}" if steps else f"the beginning of the run of seed {seed}"
+        return Asked(self.environment, place_of(self._seed, self._steps), self._number)

@@ -1,11 +1,11 @@
 """Whether sensors and actuators fit an environment: what is wrong with each, before anything is stepped."""
 
 from collections.abc import Collection, Iterator, Mapping
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
-from mindrun.sim.outside.parts import Part, found, others_of, parts_of
+from mindrun.sim.outside.parts import Part, Spaces, found
 from mindrun.slot import Slot
 
 WRAP = "Wrap the environment in one that has numbers instead, registered in a module beside the mind."
@@ -20,13 +20,13 @@ class Misfit(NamedTuple):
     hint: str
 
 
-def misfits(observed: Any, acted: Any, sensors: Mapping[str, Slot], actuators: Mapping[str, Slot]) -> Iterator[Misfit]:
+def misfits(spaces: Spaces, sensors: Mapping[str, Slot], actuators: Mapping[str, Slot]) -> Iterator[Misfit]:
     """What does not fit the spaces of an environment."""
-    parts, sinks = parts_of(observed), parts_of(acted)
+    parts, sinks = spaces.observed, spaces.acted
     for name, slot in sensors.items():
         yield from _of_place(name, "observation", slot, parts)
     wrong = [misfit for name, slot in actuators.items() for misfit in _of_actuator(name, slot, sinks)]
-    for other in () if wrong else others_of(acted):
+    for other in () if wrong else spaces.others:
         yield Misfit("unfit-action", "", f"The environment takes {other or 'something'}, which is no number.", WRAP)
     yield from wrong or _of_all(actuators.values(), sinks)
 

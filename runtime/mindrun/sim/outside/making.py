@@ -26,7 +26,11 @@ _texts: dict[Path, bytes] = {}  # of the modules beside minds, as this program h
 
 
 class BrokenEnvironmentError(MindError):
-    """An environment that cannot be made, or that does what none may do."""
+    """An environment that cannot be made, or that does what none may do; `why` is what it said to that itself."""
+
+    def __init__(self, message: str, hint: str = "", why: str = "") -> None:
+        super().__init__(message, hint)
+        self.why = why
 
 
 class UnknownEnvironmentError(BrokenEnvironmentError):
@@ -63,7 +67,9 @@ def make(name: str, folder: Path | None = None, is_seen: bool = False) -> Any:
     _set(WITHOUT_SCREEN if is_seen else {})
     try:
         with _silence(), foreign_code():
-            return gymnasium.make(name, max_episode_steps=NO_TIME_LIMIT, disable_env_checker=True, **drawn)
+            newest = _newest(name, gymnasium)
+            if newest is None:
+                return gymnasium.make(name, max_episode_steps=NO_TIME_LIMIT, disable_env_checker=True, **drawn)
     except (gymnasium.error.UnregisteredEnv, gymnasium.error.DeprecatedEnv):
         raise UnknownEnvironmentError(
             f"Gymnasium has no environment called {name}.", _instead(name, gymnasium.registry)
@@ -74,6 +80,8 @@ def make(name: str, folder: Path | None = None, is_seen: bool = False) -> Any:
             raise UnknownEnvironmentError(f"Gymnasium has no environment called {name}.", hint) from None
         cause = error.__cause__ if isinstance(error, ModuleNotFoundError) and error.__cause__ else error
         raise BrokenEnvironmentError(f"The environment {name} cannot be made.", first_line(cause)) from None
+    hint = f"Say which version: gymnasium {newest}."
+    raise UnknownEnvironmentError(f"Gymnasium has no environment called {name}.", hint)
 
 
 def registered() -> list[str]:
@@ -108,6 +116,18 @@ def _silence() -> Iterator[None]:
     with warnings.catch_warnings(), redirect_stdout(sys.stderr):
         warnings.simplefilter("ignore")
         yield
+
+
+def _newest(name: str, gymnasium: Any) -> str | None:
+    """Which version of a name that says none Gymnasium would take, tomorrow another one; None where it says one."""
+    module, colon, own = name.rpartition(":")
+    if colon:
+        import_module(module)  # registers it
+    registration = gymnasium.envs.registration
+    space, plain, version = registration.parse_env_id(own)
+    if version is not None or (highest := registration.find_highest_version(space, plain)) is None:
+        return None
+    return f"{module}{colon}{registration.get_env_id(space, plain, highest)}"
 
 
 def _refuse_another(name: str, path: Path) -> None:

@@ -41,6 +41,20 @@ class Part:
         return " and ".join(f"0 to {n - 1}" if n > 1 else "0" for n in self.axes)
 
 
+@dataclass(frozen=True, slots=True)
+class Spaces:
+    """The parts of what an environment observes and of what it takes; `others` are of what it takes, and no numbers."""
+
+    observed: Mapping[str, Part]
+    acted: Mapping[str, Part]
+    others: tuple[str, ...] = ()
+
+
+def spaces_of(observed: Any, acted: Any) -> Spaces:
+    """The parts of both spaces of an environment."""
+    return Spaces(parts_of(observed), parts_of(acted), tuple(others_of(acted)))
+
+
 def parts_of(space: Any) -> dict[str, Part]:
     """The parts of a space by their names, `a.b` for one in another; of a text or a graph there are none.
 

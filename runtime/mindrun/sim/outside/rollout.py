@@ -1,6 +1,6 @@
 """Rollouts whose worlds are environments: these are stepped one by one, and the skills think in lanes between."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -12,11 +12,13 @@ from numpy.typing import NDArray
 from mindrun.policy import Policy
 from mindrun.sim.codes import BROKEN_OFF
 from mindrun.sim.lanes.stages import act, before, conclude, run_skills
-from mindrun.sim.outside.asking import Asked, Asking
-from mindrun.sim.outside.episode import Episode
+from mindrun.sim.outside.asking import Asked
+from mindrun.sim.outside.stepper import Run, Stepper
+from mindrun.sim.outside.steppers import stepper_for
 from mindrun.sim.outside.wiring import Wiring, wiring_of
 from mindrun.sim.rollout import SLOW_SLICE_TICKS, Rollout, Tile
 from mindrun.sim.state import Jobs, State
+from mindrun.work.last_step import LastStep
 
 ENVIRONMENT_LANES = 64  # environments side by side: so many share one call of what is compiled
 LEAST_SHARE = 0.001  # of the ticks, that is said as a number
@@ -27,13 +29,14 @@ class Episodes:
     """The environment of each run that goes on, by the number of its job; `native` is what a tile keeps anyway."""
 
     native: Any
-    going_on: dict[int, Episode] = field(default_factory=dict)
+    going_on: dict[int, Run] = field(default_factory=dict)
 
 
 class EnvironmentRollout(Rollout):
     """As `Rollout`, for a task in an environment: a run of a seed begins with its `reset(seed)`.
 
-    Every run has an environment of its own, and all are stepped in this thread. `clipped` counts for each observed
+    Every run has an environment of its own, and this thread has all of them stepped, in the process that
+    `steppers` says. `clipped` counts for each observed
     sensor how many of the `observed` numbers were beyond its range.
     """
 
@@ -49,13 +52,14 @@ class EnvironmentRollout(Rollout):
         procedures: Path | None = None,
         interrupt: bool = True,
         lanes: int = ENVIRONMENT_LANES,
+        steppers: Callable[[str, Path | None], Stepper] | None = None,
     ) -> None:
         super().__init__(policy, task, master, learners, procedures=procedures, interrupt=interrupt, lanes=lanes)
-        self.wiring: Wiring = wiring_of(self.graph, self.task.scene.environment, procedures)
+        self._stepper = (steppers or stepper_for)(self.task.scene.environment, procedures)
+        self.wiring: Wiring = wiring_of(self.graph, self._stepper.spaces)
         self.slice_ticks = SLOW_SLICE_TICKS
         self.observed, self.clipped = 0, np.zeros(len(self.wiring.rows), np.int64)
-        self._asking = Asking(self.wiring.environment)
-        self._open: set[Episode] = set()
+        self._open: set[Run] = set()
         finalize(self, _close, self._open)
         self._rough = np.array([bool(row["is_rough"]) for row in self.tables.actuators], bool)
         self._rewards = [i for i, measure in enumerate(self.task.measures) if measure.is_outside]
@@ -63,7 +67,11 @@ class EnvironmentRollout(Rollout):
 
     def asked(self) -> Asked | None:
         """What an environment has been asked and has not answered, seen from another thread."""
-        return self._asking.asked()
+        return self._stepper.asked()
+
+    def write_steps(self, last_step: LastStep) -> None:
+        """Write each step there from now on, for who looks on from outside."""
+        self._stepper.write_steps(last_step)
 
     def tally(self) -> NDArray[np.int64]:
         """How often was observed, and for each sensor how often beyond its range."""
@@ -132,8 +140,7 @@ class EnvironmentRollout(Rollout):
         state, lanes = tile.state, int(jobs.lanes[0])
         act(self.tables, state, np.int64(lanes), jobs.clock[0])
         episodes = self._episodes(tile, jobs)
-        for episode, action in zip(episodes, self.wiring.actions(self._commands(state, lanes)), strict=True):
-            episode.step(action)
+        self._stepper.step(episodes, self.wiring.actions(self._commands(state, lanes)))
         judge, ended = state.judge, state.run.ended
         judge.measures[self._rewards, :lanes] = [episode.reward for episode in episodes]
         judge.events[self._ends, :lanes] = [episode.is_terminated for episode in episodes]
@@ -146,16 +153,17 @@ class EnvironmentRollout(Rollout):
         commands[self._rough] = state.world.acting[:count, :lanes][self._rough]
         return commands
 
-    def _episodes(self, tile: Tile, jobs: Jobs) -> list[Episode]:
+    def _episodes(self, tile: Tile, jobs: Jobs) -> list[Run]:
         """The environments of the lanes at work; a run that has not begun in one begins."""
         working, going_on = tile.state.run.job[: jobs.lanes[0]].tolist(), tile.kept.going_on
         begun = [job for job in working if job not in going_on]
         if begun:
             self._release(tile.kept, {*working})
         for job in begun:
-            episode = Episode(self.wiring, asking=self._asking)  # a new one: some (BipedalWalker) are worn by each run
+            seed = int(jobs.seeds[jobs.seed[job]])
+            episode = self._stepper.run(self.wiring.places, seed)  # a new one: BipedalWalker is worn by each run
             self._open.add(episode)
-            episode.begin(int(jobs.seeds[jobs.seed[job]]))
+            episode.begin()
             going_on[job] = episode
         return [going_on[job] for job in working]
 
@@ -167,7 +175,7 @@ class EnvironmentRollout(Rollout):
             episode.close()
 
 
-def _close(episodes: set[Episode]) -> None:
+def _close(episodes: set[Run]) -> None:
     for episode in episodes:
         episode.close()
 

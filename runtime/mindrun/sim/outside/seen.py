@@ -8,9 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mindrun.graph import Graph
-from mindrun.sim.outside.episode import Episode
-from mindrun.sim.outside.foreign import first_line
 from mindrun.sim.outside.making import BrokenEnvironmentError
+from mindrun.sim.outside.steppers import stepper_for
 from mindrun.sim.outside.wiring import wiring_of
 
 WITHOUT_PICTURES = "mindc run --trace and --record need no pictures of it."
@@ -28,9 +27,10 @@ class SeenEpisode:
     """
 
     def __init__(self, graph: Graph, environment: str, folder: Path | None, seed: int, sent: Sent) -> None:
-        self._name, self._seed, self._sent = environment, seed, sent
-        self._wiring = wiring_of(graph, environment, folder)
-        self._episode = Episode(self._wiring, is_seen=True)
+        self._name, self._sent = environment, sent
+        self._stepper = stepper_for(environment, folder)
+        self._wiring = wiring_of(graph, self._stepper.spaces)
+        self._episode = self._stepper.run(self._wiring.places, seed, is_seen=True)
         self._tick = -1  # it has not begun
         self._image: NDArray[np.uint8] | None = None  # after that tick
         finalize(self, self._episode.close)
@@ -42,13 +42,13 @@ class SeenEpisode:
         if tick == self._tick and self._image is not None:
             return self._image
         if not 0 <= self._tick <= tick:
-            self._episode.begin(self._seed)
+            self._episode.begin()
             self._tick = 0
         for number, action in enumerate(self._wiring.actions(self._sent(self._tick, tick).T), self._tick + 1):
             if self._episode.is_over:
                 said = f"the environment {self._name} does not do the same again: there is no picture of this run"
                 raise BrokenEnvironmentError(said, f"It was over after tick {self._tick:,} now. {WITHOUT_PICTURES}")
-            self._episode.step(action)
+            self._stepper.step([self._episode], [action])
             self._tick, self._image = number, None
             if tick - TICKS_DRAWN_BEFORE <= number < tick:
                 self._drawn()
@@ -59,10 +59,8 @@ class SeenEpisode:
         try:
             found: NDArray[np.uint8] = np.asarray(self._episode.image())
         except BrokenEnvironmentError as error:
-            why = first_line(error.__cause__) if error.__cause__ else str(error)
-            raise BrokenEnvironmentError(
-                f"the environment {self._name} cannot be drawn", f"{why} {WITHOUT_PICTURES}"
-            ) from error
+            hint = f"{error.why or error} {WITHOUT_PICTURES}"
+            raise BrokenEnvironmentError(f"the environment {self._name} cannot be drawn", hint) from error
         if found.ndim != 3 or found.shape[2] != 3 or 0 in found.shape or found.dtype != np.uint8:
             raise BrokenEnvironmentError(f"the environment {self._name} draws no pictures", WITHOUT_PICTURES)
         return found

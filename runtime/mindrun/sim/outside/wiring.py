@@ -2,7 +2,6 @@
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -10,24 +9,14 @@ from numpy.typing import NDArray
 
 from mindrun.errors import MindError
 from mindrun.graph import Graph
-from mindrun.sim.outside import making
 from mindrun.sim.outside.fitting import misfits
-from mindrun.sim.outside.parts import Part, formed, found, parts_of
+from mindrun.sim.outside.parts import Part, Spaces, found
+from mindrun.sim.outside.taking import Place
 from mindrun.slot import Slot
 
 Floats = NDArray[np.float64]
 Commands = NDArray[np.float32]  # [actuators, lanes]
-NUMBERS = "biuf"  # kinds of arrays: truth values, whole numbers, others
-
-
-@dataclass(frozen=True, slots=True)
-class Source:
-    """Numbers that are taken out of one part of an observation, at `places`, to the slots `to`."""
-
-    name: str
-    part: Part
-    places: NDArray[np.int64]
-    to: NDArray[np.int64]
+Action = Mapping[str, Any]  # the values of the parts of an action, by their names
 
 
 @dataclass(frozen=True, slots=True)
@@ -64,67 +53,47 @@ class Sink:
 
 @dataclass(frozen=True, slots=True)
 class Wiring:
-    """The slots that are observed, in the order of the sensors that read them: their rows among the readings.
-
-    `folder` is where a module before the name of the environment is looked for first, `acted` the space of actions.
+    """The slots that are observed, in the order of the sensors that read them: their rows among the readings, and the
+    `places` of their numbers in an observation.
     """
 
-    environment: str
-    folder: Path | None
     rows: NDArray[np.int64]
     names: tuple[str, ...]
     low: Floats
     high: Floats
-    sources: tuple[Source, ...]
+    places: tuple[Place, ...]
     sinks: tuple[Sink, ...]
-    acted: Any
 
-    def take(self, observation: Any, out: Floats) -> None:
-        """The numbers of an observation that are read, into `out` [slots]; ValueError where it has another shape."""
-        for source in self.sources:
-            seen = np.asarray(_inside(observation, source.part.path))
-            if seen.shape != source.part.shape or seen.dtype.kind not in NUMBERS:
-                raise ValueError(_flaw(source, seen))
-            out[source.to] = seen.reshape(-1)[source.places]
-
-    def actions(self, commands: Commands) -> Sequence[Any]:
+    def actions(self, commands: Commands) -> Sequence[Action]:
         """One action for each lane."""
         parts = {sink.name: sink.of(commands) for sink in self.sinks}
-        lanes = range(commands.shape[1])
-        return [formed(self.acted, {name: values[lane] for name, values in parts.items()}) for lane in lanes]
+        return [{name: values[lane] for name, values in parts.items()} for lane in range(commands.shape[1])]
 
 
-def wiring_of(graph: Graph, environment: str, folder: Path | None = None) -> Wiring:
-    """How a mind is wired to an environment; MindError where it does not fit."""
-    observed, acted = making.spaces(environment, folder)
+def wiring_of(graph: Graph, spaces: Spaces) -> Wiring:
+    """How a mind is wired to an environment of these spaces; MindError where it does not fit."""
     sensors = {sensor.name: slot for sensor in graph.sensors if (slot := sensor.kind.slot)}
     actuators = {actuator.name: slot for actuator in graph.actuators if (slot := actuator.kind.slot)}
-    for misfit in misfits(observed, acted, sensors, actuators):
+    for misfit in misfits(spaces, sensors, actuators):
         raise MindError(f"{misfit.name}: {misfit.message}".removeprefix(": "), misfit.hint)
     rows = [sensor.start for sensor in graph.sensors if sensor.name in sensors]
     ends = np.array([_ends(slot) for slot in sensors.values()], np.float64).reshape(-1, 2)
     driven = [(row, actuators[each.name]) for row, each in enumerate(graph.actuators) if each.name in actuators]
-    sinks = parts_of(acted)
     return Wiring(
-        environment,
-        folder,
         np.array(rows, np.int64),
         tuple(sensors),
         ends[:, 0],
         ends[:, 1],
-        _sources(parts_of(observed), list(sensors.values())),
-        tuple(_sink(name, sinks, driven) for name in sinks),
-        acted,
+        tuple(_place(spaces.observed, slot) for slot in sensors.values()),
+        tuple(_sink(name, spaces.acted, driven) for name in spaces.acted),
     )
 
 
-def _sources(parts: Mapping[str, Part], slots: Sequence[Slot]) -> tuple[Source, ...]:
-    sources, there = [], [found(parts, slot) for slot in slots]
-    for name in dict.fromkeys(name for name, _, _ in there):
-        to = [number for number, (of, _, _) in enumerate(there) if of == name]
-        places = [parts[name].place(there[number][2]) for number in to]
-        sources.append(Source(name, parts[name], np.array(places, np.int64), np.array(to, np.int64)))
-    return tuple(sources)
+def _place(parts: Mapping[str, Part], slot: Slot) -> Place:
+    name, part, index = found(parts, slot)
+    place = part.place(index) if part else None
+    assert place is not None
+    return name, place
 
 
 def _sink(name: str, parts: Mapping[str, Part], driven: Sequence[tuple[int, Slot]]) -> Sink:
@@ -138,20 +107,6 @@ def _sink(name: str, parts: Mapping[str, Part], driven: Sequence[tuple[int, Slot
     return Sink(name, part, np.array(rows, np.int64), places, low, high, numbers)
 
 
-def _flaw(source: Source, seen: NDArray[Any]) -> str:
-    """What is wrong with what was seen in the place of a part."""
-    what = f"the part {source.name} of an observation" if source.name else "an observation"
-    if seen.shape != source.part.shape:
-        return f"{what} has the shape {seen.shape}, and its space says {source.part.shape}"
-    return f"{what} is of {seen.dtype}, which are no real numbers"
-
-
 def _ends(slot: Slot) -> tuple[float, float]:
     assert slot.range is not None
     return slot.range.first, slot.range.last
-
-
-def _inside(observation: Any, path: Sequence[Any]) -> Any:
-    for key in path:
-        observation = observation[key]
-    return observation

@@ -1,0 +1,56 @@
+"""The step of an environment that a worker is at, in memory that outlives it.
+
+The worker writes it at each step, without a call of the system; who has begun it reads that when it has ended.
+"""
+
+from mmap import mmap
+from struct import Struct
+from tempfile import TemporaryFile
+
+STEP = Struct("<?QQH")  # whether it is at one, the seed, how many steps, the bytes of the name behind it
+MEMORY_BYTES = 4096
+MAX_NAME_BYTES = 1024
+
+
+class LastStep:
+    """The memory behind a descriptor, or that of a new file without a name."""
+
+    def __init__(self, descriptor: int | None = None) -> None:
+        self._file = None
+        if descriptor is None:
+            self._file = TemporaryFile()  # noqa: SIM115  # it is closed below
+            self._file.truncate(MEMORY_BYTES)
+            descriptor = self._file.fileno()
+        self.descriptor = descriptor
+        self._memory = mmap(descriptor, MEMORY_BYTES)
+
+    def write(self, environment: bytes, seed: int, steps: int) -> None:
+        """It begins now; the name has MAX_NAME_BYTES at most."""
+        said = STEP.pack(True, seed, steps, len(environment)) + environment
+        self._memory[: len(said)] = said
+
+    def clear(self) -> None:
+        """It has ended."""
+        self._memory[0] = 0
+
+    def read(self) -> tuple[str, str] | None:
+        """When in which run that was, in words, and the environment; None where it has been at none.
+
+        After a step where it has ended: who kills its process from another thread, or by a signal, may come so late.
+        """
+        is_open, seed, steps, length = STEP.unpack_from(self._memory)
+        if not length:
+            return None
+        name = self._memory[STEP.size : STEP.size + min(length, MAX_NAME_BYTES)]
+        return f"{'in' if is_open else 'after'} {place_of(seed, steps)}", name.decode(errors="replace")
+
+    def close(self) -> None:
+        """Give the memory back."""
+        self._memory.close()
+        if self._file is not None:
+            self._file.close()
+
+
+def place_of(seed: int, steps: int) -> str:
+    """Where in a run something was, in words."""
+    return f"step {steps} of the run of seed {seed}" if steps else f"the beginning of the run of seed {seed}"

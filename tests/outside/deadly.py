@@ -1,0 +1,85 @@
+"""Environments that do something to their process: `gymnasium tests.outside.deadly:deadly/WAY-PLACE-v0`.
+
+No test imports this: what a program has registered itself is stepped in its own process.
+"""
+
+import os
+import signal
+import sys
+import threading
+from collections.abc import Callable
+from functools import partial
+from typing import Any
+
+import gymnasium
+
+from tests.outside import worlds
+
+
+def segmentation_fault() -> None:
+    """As code in C makes one."""
+    os.kill(os.getpid(), signal.SIGSEGV)
+
+
+def print_twice() -> None:
+    """On both ways to standard output."""
+    print("from Python: ü")
+    os.write(1, b"from C\n")
+
+
+def take_signals() -> None:
+    """What ends others ends this no more."""
+    for number in (signal.SIGINT, signal.SIGTERM):
+        signal.signal(number, signal.SIG_IGN)
+
+
+def leave_thread() -> None:
+    """One that Python waits for at its end."""
+    threading.Thread(target=threading.Event().wait).start()
+
+
+WAYS: dict[str, Callable[[], object]] = {
+    "Exit": partial(os._exit, 3),
+    "Fault": segmentation_fault,
+    "Leave": sys.exit,
+    "Print": print_twice,
+    "Move": partial(os.chdir, "/"),
+    "Signals": take_signals,
+    "Thread": leave_thread,
+}
+PLACES = "make", "reset", "step", "render"
+
+
+class Deadly(worlds.Line):
+    """Does it in one place: when it is made, when a run begins, in its third step, or when it is drawn."""
+
+    def __init__(self, render_mode: str | None = None, way: str = "", place: str = "") -> None:
+        self._way, self._place = way, place
+        super().__init__(render_mode)
+        self._do("make")
+
+    def _do(self, place: str) -> None:
+        if self._place == place:
+            WAYS[self._way]()
+
+    def reset(self, *, seed: int | None = None, options: Any = None) -> tuple[Any, dict[str, Any]]:
+        """As ever."""
+        self._do("reset")
+        return super().reset(seed=seed)
+
+    def step(self, action: Any) -> tuple[Any, Any, bool, bool, dict[str, Any]]:
+        """As ever."""
+        found = super().step(action)
+        if self.steps == 3:
+            self._do("step")
+        return found
+
+    def render(self) -> Any:
+        """As ever."""
+        self._do("render")
+        return super().render()
+
+
+for way in WAYS:
+    for place in PLACES:
+        gymnasium.register(f"deadly/{way}-{place}-v0", Deadly, kwargs={"way": way, "place": place})

@@ -1,0 +1,194 @@
+"""Environments that end their process, or do something else to it: one sentence, and who asked goes on."""
+
+import gc
+import os
+import signal
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+pytest.importorskip("gymnasium")
+
+import numpy as np
+from mindrun.errors import MindError
+from mindrun.policy import Policy
+from mindrun.sim.outside.apart import Apart
+from mindrun.sim.outside.here import Here
+from mindrun.sim.outside.rollout import EnvironmentRollout
+from mindrun.sim.outside.steppers import is_own, stepper_for
+from mindrun.sim.takeover import take_over
+from mindrun.sim.trace import trace
+
+import mindlang
+from tests.outside import minds, worlds
+from tests.outside.test_commands import RULES
+from tests.outside.test_environment_workers import LESSON, mindc, workers_of
+from tests.outside.test_outside_rollout import MINDS
+
+ENDS = {"Exit": "exit code 3", "Fault": "SIGSEGV", "Leave": "SystemExit"}
+
+
+def deadly(way: str, place: str) -> str:
+    return f"tests.outside.deadly:deadly/{way}-{place}-v0"
+
+
+def scored(way: str, place: str, seed: int = 5) -> "np.ndarray[tuple[int, ...], np.dtype[np.float64]]":
+    """What a run comes to there."""
+    rollout = minds.rollout_of(minds.text(scene=deadly(way, place)))
+    return rollout.score(np.zeros((1, rollout.genome_length), np.float32), [seed]).total
+
+
+@pytest.mark.parametrize("way", ENDS)
+@pytest.mark.parametrize(
+    ("place", "where"),
+    [("make", ""), ("reset", "the beginning of the run of seed 5"), ("step", "step 3 of the run of seed 5")],
+)
+def test_an_environment_that_ends_its_process_is_told_with_step_and_seed(way: str, place: str, where: str) -> None:
+    with pytest.raises(MindError, match=f"environment {deadly(way, place)} ") as found:
+        scored(way, place)
+    assert where in found.value.hint
+    assert ENDS[way] in found.value.hint
+
+
+def test_a_program_goes_on_with_other_environments_and_with_the_same() -> None:
+    rollout = minds.rollout_of(minds.text(scene=deadly("Exit", "step")))
+    for seed in (5, 6):
+        with pytest.raises(MindError, match="has ended its process") as found:
+            rollout.score(np.zeros((1, rollout.genome_length), np.float32), [seed])
+        assert f"in step 3 of the run of seed {seed}" in found.value.hint
+    np.testing.assert_array_equal(scored("Exit", "render"), scored("Fault", "render"))
+
+
+def test_what_it_does_to_its_process_it_does_to_no_other(capfd: pytest.CaptureFixture[str]) -> None:
+    folder, handlers = Path.cwd(), [signal.getsignal(number) for number in (signal.SIGINT, signal.SIGTERM)]
+    undisturbed = scored("Exit", "render")
+    for way in ("Print", "Move", "Signals", "Thread"):
+        np.testing.assert_array_equal(scored(way, "step"), undisturbed)
+    assert Path.cwd() == folder
+    assert [signal.getsignal(number) for number in (signal.SIGINT, signal.SIGTERM)] == handlers
+    said = capfd.readouterr()
+    assert said.out == ""
+    assert said.err == "from Python: ü\nfrom C\n"
+
+
+def test_its_process_ends_with_it_whatever_thread_an_environment_has_left() -> None:
+    apart = Apart(deadly("Thread", "make"))
+    apart.run([("", 0)], 5).begin()
+    process = apart._process._child.process
+    assert process is not None
+    assert process.poll() is None
+    del apart
+    gc.collect()
+    assert process.poll() is not None
+
+
+@pytest.mark.parametrize("name", MINDS)
+def test_it_comes_to_the_same_bits_there_as_here(name: str) -> None:
+    source = MINDS[name].replace("gymnasium ", "gymnasium tests.outside.kept:")
+    policy, found = Policy(minds.graph_of(source), {}), []
+    for steppers in (Here, Apart):
+        rollout = EnvironmentRollout(policy, "Go", "Go", ["Go"], lanes=3, steppers=steppers)
+        scores = rollout.score(minds.genomes(rollout, 4), [1, 2**64 - 1])
+        found.append((scores.total.tobytes(), scores.ticks.tobytes(), rollout.tally().tobytes()))
+    assert found[0] == found[1]
+
+
+def test_a_run_that_another_mind_takes_over_is_stepped_where_it_was_begun() -> None:
+    graph = minds.graph_of(MINDS["numbers"].replace("gymnasium ", "gymnasium tests.outside.kept:"))
+    policy = Policy(graph, {"Go": minds.genomes(minds.rollout_of(MINDS["numbers"]), 1)[0]})
+    ours, theirs = (EnvironmentRollout(policy, "Go", "Go", steppers=Apart) for _ in range(2))
+    plain = [moment.readings.tolist() for moment in trace(ours, 7).moments]
+    assert [moment.readings.tolist() for moment in take_over(ours, 7, 4, theirs).moments] == plain[3:]
+
+
+def test_what_a_program_registers_itself_is_stepped_there() -> None:
+    worlds.register()
+    assert is_own(worlds.name(worlds.Line))
+    assert isinstance(stepper_for(worlds.name(worlds.Line)), Here)
+    assert not is_own("CartPole-v1")
+    assert isinstance(stepper_for("CartPole-v1"), Apart)
+
+
+def rules(folder: Path, world: str, lesson: str = "") -> Path:
+    """A mind there as a file."""
+    path = folder / "go.mind"
+    path.write_text(RULES.replace("WORLD", world) + lesson)
+    return path
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        ("run", "go.mind", "--seed", "5"),
+        ("view", "go.mind", "--seed", "5", "--export", "run.html"),
+        ("why", "go.mind", "--seed", "5", "--tick", "5", "push"),
+        ("bench", "go.mind", "--runs", "2", "--workers", "1"),
+    ],
+)
+def test_commands_say_so_and_end_as_for_any_other_fault(tmp_path: Path, words: tuple[str, ...]) -> None:
+    rules(tmp_path, deadly("Fault", "step"))
+    done = mindc(tmp_path, *words)
+    said = " ".join(done.stderr.split())
+    assert (done.returncode, done.stdout) == (1, "")
+    assert "step 3 of the run of seed" in said
+    assert deadly("Fault", "step") in said
+    assert "SIGSEGV" in said
+    assert "Traceback" not in said
+    assert workers_of(tmp_path) == []
+
+
+def test_an_image_that_ends_the_process_is_a_sentence(tmp_path: Path) -> None:
+    rules(tmp_path, deadly("Exit", "render"))
+    done = mindc(tmp_path, "run", "go.mind", "--seed", "5", "--picture", "run.png")
+    assert done.returncode == 2
+    assert f"the environment {deadly('Exit', 'render')} cannot be drawn" in done.stderr
+    assert "of the run of seed 5, and the fault is the environment's: exit code 3." in done.stderr
+    assert not (tmp_path / "run.png").exists()
+
+
+def test_a_training_says_at_which_step_of_which_run_and_can_go_on(tmp_path: Path) -> None:
+    (tmp_path / "go.mind").write_text(minds.text(scene=deadly("Exit", "step")) + LESSON)
+    done = mindc(tmp_path, "train", "go.mind", "--seed", "1", "--workers", "1")
+    said = " ".join(done.stderr.split())
+    assert done.returncode == 1
+    assert "it ended (exit code 3), in step 3 of the run of seed" in said
+    assert f"in {deadly('Exit', 'step')}" in said
+    assert "to go on: mindc train --resume runs/" in said
+    assert not (tmp_path / "go.lock").exists()
+
+
+def test_a_program_is_told_by_an_exception(tmp_path: Path) -> None:
+    mind = mindlang.load(rules(tmp_path, deadly("Exit", "step")))
+    for ask in (lambda: mind.bench(runs=3), lambda: [*mind.trace(seed=5).moments]):
+        with pytest.raises(MindError, match="has ended its process"):
+            ask()
+
+
+EVERYWHERE = """\
+import gymnasium, os
+
+class Ending(gymnasium.Env):
+    def __init__(self):
+        os._exit(3)
+
+gymnasium.register("Ending-v0", Ending)
+"""
+
+
+def test_check_goes_on_where_an_environment_of_this_machine_ends_the_process(tmp_path: Path) -> None:
+    """It cannot be made here, which is no mistake of the file."""
+    (tmp_path / "sitecustomize.py").write_text(EVERYWHERE)  # which every Python imports when it begins
+    rules(tmp_path, "Ending-v0")
+    found = {}
+    for command in ("check", "run"):
+        words = [sys.executable, "-c", "from mindlang.cli import main; main()", command, "go.mind"]
+        surroundings = {**os.environ, "PYTHONPATH": os.pathsep.join([str(tmp_path), *filter(None, sys.path)])}
+        found[command] = subprocess.run(
+            words, cwd=tmp_path, env=surroundings, capture_output=True, text=True, check=False, timeout=600
+        )
+    assert (found["check"].returncode, "Ending" in found["check"].stderr) == (0, False)
+    assert found["run"].returncode == 2
+    assert "The environment Ending-v0 cannot be made." in found["run"].stderr
+    assert "(exit code 3)" in found["run"].stderr
