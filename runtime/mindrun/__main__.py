@@ -19,6 +19,7 @@ from mindrun.engine import Engine
 from mindrun.errors import MindError, ProcedureError, ReadingsError, surroundings
 from mindrun.named_readings import vector
 from mindrun.printable import visible
+from mindrun.shell_completion import reply, variable
 from mindrun.tools import run_tool, tools
 from mindrun.wiring import read_by
 
@@ -30,7 +31,9 @@ def main() -> None:
     """Run the command line; whatever happens ends in one message and an exit code."""
     standard_streams.prepare(standard_streams.Printable)
     tool = len(sys.argv) > 1 and sys.argv[1] in tools()
-    code = guarded((lambda: run_tool(sys.argv[1], sys.argv[2:])) if tool else _drive_or_describe)
+    command = (lambda: run_tool(sys.argv[1], sys.argv[2:])) if tool else _drive_or_describe
+    shell = os.environ.get(variable("mindrun"))
+    code = guarded((lambda: _complete(shell)) if shell else command)
     if why := standard_streams.finish():
         _say(why)
         code = code or FAILED
@@ -56,6 +59,14 @@ def guarded(command: Callable[[], int]) -> int:
         if why := surroundings(error):
             return _say(why)
         return _say(f"failed: {type(error).__name__}: {error}", "Set MIND_DEBUG=1 to see where, and please report it.")
+
+
+def _complete(shell: str) -> int:
+    """Answer a shell that asks what may come next."""
+    from mindrun.completing import answers
+
+    standard_streams.document(reply(shell, sys.argv[1:], answers))
+    return OK
 
 
 def _drive_or_describe() -> int:
