@@ -10,6 +10,7 @@ from threading import active_count
 
 import click
 from mindrun import standard_streams
+from mindrun.arguments import emptiness
 
 from mindlang.cli._terminal import FINDINGS, INTERRUPTED, MISUSE, OK, say
 
@@ -37,6 +38,12 @@ class Suggesting(click.Group):
 
 class Commands(Suggesting):
     """The modules of this package as commands; each defines a click command called `command`."""
+
+    def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
+        """As click does it; ClickException where a word is empty, which is no name, no number and no file."""
+        if not ctx.resilient_parsing and (flaw := emptiness(args)):
+            raise click.ClickException(f"{flaw[0].upper()}{flaw[1:]}.\n  Write something there, or leave it out.")
+        return super().parse_args(ctx, args)
 
     def list_commands(self, ctx: click.Context) -> list[str]:
         """The names of all commands; what they share has a name that begins with _."""
