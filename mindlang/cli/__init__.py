@@ -2,6 +2,7 @@
 
 import os
 import sys
+from functools import partial
 from gc import set_threshold
 from importlib import import_module
 from pkgutil import iter_modules
@@ -9,6 +10,7 @@ from threading import active_count
 
 import click
 from mindrun import standard_streams
+from mindrun.arguments import emptiness
 
 from mindlang.cli._terminal import FINDINGS, INTERRUPTED, MISUSE, OK, say
 
@@ -36,6 +38,12 @@ class Suggesting(click.Group):
 
 class Commands(Suggesting):
     """The modules of this package as commands; each defines a click command called `command`."""
+
+    def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
+        """As click does it; ClickException where a word is empty, which is no name, no number and no file."""
+        if not ctx.resilient_parsing and (flaw := emptiness(args)):
+            raise click.ClickException(f"{flaw[0].upper()}{flaw[1:]}.\n  Write something there, or leave it out.")
+        return super().parse_args(ctx, args)
 
     def list_commands(self, ctx: click.Context) -> list[str]:
         """The names of all commands; what they share has a name that begins with _."""
@@ -73,12 +81,9 @@ def main() -> None:
 
 
 def _run() -> int:
-    if "_MINDC_COMPLETE" in os.environ:  # a shell asks
-        from mindlang.cli._completing import complete_files
-
-        complete_files()
     try:
-        code = commands.main(prog_name="mindc", standalone_mode=False)
+        shell = os.environ.get("_MINDC_COMPLETE")
+        code = _complete(shell) if shell else commands.main(prog_name="mindc", standalone_mode=False)
     except SystemExit as stop:
         code = stop.code
     except click.exceptions.Exit as stop:
@@ -91,6 +96,17 @@ def _run() -> int:
     except Exception as error:
         code = _unforeseen(error)
     return code if isinstance(code, int) else OK
+
+
+def _complete(shell: str) -> int:
+    """Answer a shell that asks what may come next."""
+    from mindrun.shell_completion import reply
+
+    from mindlang.cli._completing import answers
+    from mindlang.cli._terminal import print_document
+
+    print_document(reply(shell, sys.argv[1:], partial(answers, commands)))
+    return OK
 
 
 def _unforeseen(error: Exception) -> int:

@@ -2,49 +2,27 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 import click
-from click.shell_completion import (
-    BashComplete,
-    CompletionItem,
-    FishComplete,
-    ShellComplete,
-    ZshComplete,
-    add_completion_class,
-)
+from click.shell_completion import ShellComplete
+from mindrun.shell_completion import BEGINNING, FILES, WORD, Answer, variable
 
-COMPLETE_VARIABLE = "_MINDC_COMPLETE"  # of the environment, in which a shell says what it wants
+PROGRAM = "mindc"
 
 
-class _WithFiles(ShellComplete):
-    def get_completions(self, args: list[str], incomplete: str) -> list[CompletionItem]:
-        """As click finds them, and files where an argument or an option takes any word."""
-        found = super().get_completions(args, incomplete)
-        return found if found or incomplete.startswith("-") else [CompletionItem(incomplete, type="file")]
+def answers(commands: click.Command, before: list[str], begun: str) -> Iterator[Answer]:
+    """As click finds them, and files where an argument or an option takes any word.
 
-
-class _Bash(_WithFiles, BashComplete):
-    @staticmethod
-    def _check_version() -> None:
-        """An old bash completes less, and says nothing of it in the middle of a line."""
-
-
-class _Zsh(_WithFiles, ZshComplete):
-    pass
-
-
-class _Fish(_WithFiles, FishComplete):
-    pass
-
-
-SHELLS: dict[str, type[ShellComplete]] = {"bash": _Bash, "zsh": _Zsh, "fish": _Fish}
-
-
-def complete_files() -> None:
-    """Let click answer with these from now on."""
-    for name, shell in SHELLS.items():
-        add_completion_class(shell, name)
-
-
-def script(shell: str, commands: click.Command) -> str:
-    """What a shell reads so that it completes mindc."""
-    return SHELLS[shell](commands, {}, "mindc", COMPLETE_VARIABLE).source().strip() + "\n"
+    An item of type `file` may say how a name `ends` and `behind` which part of the word it stands, a plain one that the
+    word `goes_on`; any other type says that nothing is known.
+    """
+    found = ShellComplete(commands, {}, PROGRAM, variable(PROGRAM)).get_completions(before, begun)
+    for item in found:
+        match item.type:
+            case "file" | "dir":
+                yield Answer(item.ends or "", item.behind or "", FILES)
+            case "plain":
+                yield Answer(item.value, item.help or "", BEGINNING if item.goes_on else WORD)
+    if not found and not begun.startswith("-"):
+        yield Answer("", kind=FILES)

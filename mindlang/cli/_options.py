@@ -8,6 +8,7 @@ from typing import Any
 
 import click
 from click.core import ParameterSource
+from click.shell_completion import CompletionItem
 
 from mindlang import bounds
 from mindlang.cli._declared_names import SKILLS, TASKS
@@ -90,6 +91,27 @@ class WhereOption(click.ParamType[Any]):
             return where(str(value))
         except MindError as error:
             return self.fail(f"{error}; {error.hint}.", param, ctx)
+
+    def shell_complete(self, ctx: click.Context, param: click.Parameter, incomplete: str) -> list[CompletionItem]:
+        """The kinds, and what is known of what is said of one."""
+        from mindrun.shell_completion import FILES
+
+        from mindlang.executors import THREADS, completed, kinds_by_usage
+
+        kind, colon, argument = incomplete.partition(":")
+        if not colon:
+            known = [CompletionItem(THREADS, help="of this process"), *(
+                CompletionItem(f"{name}:", help=usage, goes_on=True) for name, usage in kinds_by_usage().items()
+            )]  # fmt: skip
+            return [item for item in known if item.value.startswith(kind)]
+        before = f"{kind}:"
+        found = completed(kind, argument)
+        return [
+            CompletionItem("", type="file", ends=each.text, behind=before)
+            if each.kind == FILES
+            else CompletionItem(before + each.text, help=each.about)
+            for each in found
+        ] or [CompletionItem("", type="unknown")]
 
 
 class NewFile(click.Path):

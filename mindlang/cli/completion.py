@@ -51,12 +51,9 @@ def command(shell: str | None, install: bool) -> None:
 
 def _scripts(shell: str) -> dict[Path, str]:
     """What completes both programs, by the files into which it is installed."""
-    from mindrun.tools.completion import script_of_mindrun
+    from mindrun.shell_completion import script
 
-    from mindlang.cli import commands
-    from mindlang.cli._completing import script
-
-    mindc, mindrun = script(shell, commands), script_of_mindrun(shell)
+    mindc, mindrun = script(shell, "mindc"), script(shell, "mindrun")
     if shell == "fish":
         folder = Path(os.environ.get("XDG_CONFIG_HOME") or Path.home() / ".config") / "fish" / "completions"
         return {folder / "mindc.fish": mindc, folder / "mindrun.fish": mindrun}

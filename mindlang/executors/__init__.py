@@ -10,6 +10,7 @@ from pkgutil import iter_modules
 from typing import TYPE_CHECKING
 
 from mindrun.errors import MindError
+from mindrun.shell_completion import Answer
 from mindrun.work.assignment import Assignment
 from mindrun.work.executor import JobExecutor
 from mindrun.work.job_scorer import JobScorer
@@ -84,4 +85,14 @@ def where(text: str) -> Where | None:
 
 def usages() -> str:
     """How each kind is said."""
-    return ", ".join(import_module(f"{__name__}.{kind}").USAGE for kind in kinds())
+    return ", ".join(kinds_by_usage().values())
+
+
+def kinds_by_usage() -> dict[str, str]:
+    """How each kind is said, by its name."""
+    return {kind: import_module(f"{__name__}.{kind}").USAGE for kind in kinds()}
+
+
+def completed(kind: str, argument: str) -> list[Answer]:
+    """What a shell may write behind the colon of a kind, where something of it is written."""
+    return [*import_module(f"{__name__}.{kind}").completed(argument)] if kind in kinds() else []

@@ -1,7 +1,9 @@
 """Processes on this machine, which share its cores."""
 
 from collections.abc import Callable
+from os import sched_getaffinity
 
+from mindrun.shell_completion import Answer
 from mindrun.work.assignment import Assignment
 from mindrun.work.executor import JobExecutor
 from mindrun.work.local import local_workers
@@ -16,6 +18,13 @@ def flaw(argument: str) -> str:
     if not (argument.isascii() and argument.isdigit() and len(argument) <= MAX_DIGITS):
         return "it is no whole number"
     return "" if 1 <= int(argument) <= MAX_PROCESSES else f"it is not from 1 to {MAX_PROCESSES}"
+
+
+def completed(argument: str) -> list[Answer]:
+    """As many as there are cores, and half as many, and half of them."""
+    cores = len(sched_getaffinity(0))
+    counts = [cores >> halved for halved in range(cores.bit_length())]
+    return [Answer(f"{count}", "processes") for count in counts if f"{count}".startswith(argument)]
 
 
 def begin(argument: str, assignment: Assignment, say: Callable[[str], object]) -> JobExecutor:

@@ -12,6 +12,7 @@ from contextlib import redirect_stdout
 from typing import Any
 
 from mindrun import standard_streams
+from mindrun.arguments import emptiness
 from mindrun.bundle import read_bundle
 from mindrun.describe import contents, describe
 from mindrun.driving_arguments import driving_parser
@@ -19,6 +20,7 @@ from mindrun.engine import Engine
 from mindrun.errors import MindError, ProcedureError, ReadingsError, surroundings
 from mindrun.named_readings import vector
 from mindrun.printable import visible
+from mindrun.shell_completion import reply, variable
 from mindrun.tools import run_tool, tools
 from mindrun.wiring import read_by
 
@@ -29,8 +31,8 @@ MAX_LINE_CHARACTERS = 1 << 20  # of one line of readings
 def main() -> None:
     """Run the command line; whatever happens ends in one message and an exit code."""
     standard_streams.prepare(standard_streams.Printable)
-    tool = len(sys.argv) > 1 and sys.argv[1] in tools()
-    code = guarded((lambda: run_tool(sys.argv[1], sys.argv[2:])) if tool else _drive_or_describe)
+    shell = os.environ.get(variable("mindrun"))
+    code = guarded((lambda: _complete(shell)) if shell else _command)
     if why := standard_streams.finish():
         _say(why)
         code = code or FAILED
@@ -58,8 +60,20 @@ def guarded(command: Callable[[], int]) -> int:
         return _say(f"failed: {type(error).__name__}: {error}", "Set MIND_DEBUG=1 to see where, and please report it.")
 
 
-def _drive_or_describe() -> int:
-    return run(driving_parser().parse_args())
+def _complete(shell: str) -> int:
+    """Answer a shell that asks what may come next."""
+    from mindrun.completing import answers
+
+    standard_streams.document(reply(shell, sys.argv[1:], answers))
+    return OK
+
+
+def _command() -> int:
+    """A tool, or driving."""
+    words = sys.argv[1:]
+    if flaw := emptiness(words):
+        raise MindError(flaw, "write something there, or leave it out")
+    return run_tool(words[0], words[1:]) if words and words[0] in tools() else run(driving_parser().parse_args())
 
 
 def run(options: argparse.Namespace) -> int:

@@ -1,7 +1,7 @@
 """What the command lines of mindrun share: parsers that take no half-said option, and types that say their bounds."""
 
 import argparse
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from math import isfinite
 from pathlib import Path
 
@@ -49,6 +49,20 @@ def new_file(text: str) -> Path:
     if text.endswith("/") or Path(text).name in ("", ".."):
         raise argparse.ArgumentTypeError(f"{text!r} names no file")
     return Path(text)
+
+
+def emptiness(words: Sequence[str]) -> str:
+    """What is wrong with the words of a command line where one is empty or blank; nothing where none is.
+
+    No argument of ours may be: most often it is a variable of a shell that was never set.
+    """
+    for before, word in zip(["", *words], words, strict=False):
+        option, equals, value = word.partition("=")
+        if equals and option.startswith("--") and not value.strip():
+            return f"what stands behind {option} is empty"
+        if not word.strip():
+            return f"what stands behind {before} is empty" if before else "the first word is empty"
+    return ""
 
 
 def shortened(text: str) -> str:

@@ -23,8 +23,11 @@ ASSIGNED = re.compile(r"^(\w+)=(.*)$")
 
 
 def typed(text: str) -> list[str]:
-    """The lines of a terminal that somebody types: those behind `$ `, or where there are none, all."""
-    lines = [line for line in text.splitlines() if line]
+    """The lines of a terminal that somebody types: those behind `$ `, or where there are none, all but comments.
+
+    One that ends in a backslash goes on in the next.
+    """
+    lines = [line for line in re.sub(r"\\\n *", "", text).splitlines() if line and not line.startswith("#")]
     return [line[2:] for line in lines if line.startswith("$ ")] or lines
 
 

@@ -1,8 +1,20 @@
-"""The program that the Python of a page is, and what it needs that is not installed here."""
+"""The program that the Python of a page is, what it needs that is not installed here, and what it shows of its output.
+
+print(skill.reads)  # ('object_bearing',)
+"""
 
 import ast
+import re
 from collections.abc import Iterable, Iterator
 from importlib.util import find_spec
+
+MARK = "\N{SYMBOL FOR RECORD SEPARATOR}"  # in the output, around what a line prints that shows it
+REMARKS = {  # behind a line that prints, which say what it is and not how it looks
+    "of each skill in this tick": "an array, of which the order matters and not the bits",
+    "the fitness of ten genomes": "an array, of random genomes",
+    "None: the same to the bit": "there is no recording of that day here",
+    "its SHA-256": "a number that says nothing to a reader",
+}
 
 
 def runnable(parts: Iterable[str]) -> tuple[str, list[str]]:
@@ -10,6 +22,28 @@ def runnable(parts: Iterable[str]) -> tuple[str, list[str]]:
     known = [(part, [name for name in _imported(part) if find_spec(name) is None]) for part in parts]
     missing = sorted({name for _, names in known for name in names})
     return "\n".join(part for part, names in known if not names), missing
+
+
+def with_marks(program: str) -> tuple[str, list[str]]:
+    """A program whose output has a mark before and behind what a line prints that shows it, and what these show."""
+    lines, comments = program.splitlines(), []
+    for node in ast.walk(ast.parse(program)):
+        match node:
+            case ast.Expr(value=ast.Call(func=ast.Name(id="print")), lineno=first, end_lineno=last) if first == last:
+                line, start, end = lines[first - 1].encode(), node.col_offset, node.end_col_offset
+                before, call, behind = line[:start].decode(), line[start:end].decode(), line[end:].decode()
+                comment = behind.strip().removeprefix("#").strip()
+                if comment and comment not in REMARKS:
+                    number = len(comments)
+                    comments.append(comment)
+                    lines[first - 1] = f'{before}print("{MARK}{number}"); {call}; print("{MARK}"){behind}'
+    return "\n".join(lines), comments
+
+
+def printed_by(output: str, number: int) -> str:
+    """What the line has printed that shows something as the one with this number."""
+    found = re.findall(rf"^{MARK}{number}\n(.*?)^{MARK}\n", output, re.DOTALL | re.MULTILINE)
+    return "".join(found)
 
 
 def _imported(code: str) -> Iterator[str]:

@@ -3,6 +3,7 @@
 import pytest
 
 from tests.pages.comparing import fits
+from tests.pages.programs import MARK, printed_by, with_marks
 from tests.pages.transcript import Command, Write, changed, steps
 
 SAME = {
@@ -87,3 +88,22 @@ def test_files_grow() -> None:
 def test_a_line_that_is_changed_is_there_once(before: str) -> None:
     with pytest.raises(AssertionError, match="not there once"):
         changed(before, "-two\n+2\n")
+
+
+PROGRAM = """print(1 + 1)  # 2
+for word in ("ä", "b"):
+    print(word)
+    print(f"{word}!")  # ä!
+print(print)  # its SHA-256
+print("x", end="")
+"""
+
+
+def test_what_a_program_shows_of_its_output_is_found(capsys: pytest.CaptureFixture[str]) -> None:
+    program, comments = with_marks(PROGRAM)
+    assert comments == ["2", "ä!"]
+    exec(compile(program, "program", "exec"), {})
+    printed = capsys.readouterr().out
+    assert [printed_by(printed, number) for number in (0, 1, 2)] == ["2\n", "ä!\nb!\n", ""]
+    assert MARK not in printed_by(printed, 1)
+    assert not fits(comments[1], printed_by(printed, 1))

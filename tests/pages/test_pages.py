@@ -13,7 +13,7 @@ import pytest
 
 from tests.pages.blocks import MADE, pages
 from tests.pages.comparing import MEANWHILE, fits
-from tests.pages.programs import runnable
+from tests.pages.programs import printed_by, runnable, with_marks
 from tests.pages.running import Reader
 from tests.pages.transcript import INDENT, Command, Program, Write, steps
 from tests.project.sources import ROOT
@@ -67,8 +67,11 @@ def test_a_page_does_what_it_says(tmp_path: Path, page: Path) -> None:
     if name(page) in LEFT:
         compare_example(ROOT / "examples" / LEFT[name(page)], reader.folder)
     program, missing = runnable(parts)
+    program, comments = with_marks(program)
     status, printed = reader.program(program)
     assert status == 0, printed
+    said = [(comment, printed_by(printed, number)) for number, comment in enumerate(comments)]
+    assert [f"{seen}\nand not\n{comment}" for comment, seen in said if not fits(comment, seen)] == []
     if missing:
         pytest.skip(f"all but what needs {', '.join(missing)} has been run")
 

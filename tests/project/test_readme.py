@@ -60,3 +60,15 @@ def test_a_page_shows_the_commands() -> None:
 
 def test_the_moving_picture_is_small() -> None:
     assert (ROOT / "docs" / "collect.gif").stat().st_size < 500_000
+
+
+PRINTED = re.compile(r"^    \$ .*\n(?:    (?!\$ ).*\n|\n(?=    ))*", re.MULTILINE)  # a command, and what it prints
+TOO_LONG = re.compile(r"^(?:!\[.*\]\(.*\)|<a href=.*</a>)$")  # pictures, of which a terminal shows the words
+COLUMNS = 80
+
+
+def test_it_can_be_read_in_a_terminal() -> None:
+    """But for what programs print, which is as wide as it is."""
+    lines = PRINTED.sub("", README).splitlines()
+    assert len(lines) > 100
+    assert [line for line in lines if len(line) > COLUMNS and not TOO_LONG.match(line)] == []

@@ -98,3 +98,26 @@ def test_a_word_runs_in_a_terminal(page: Any) -> None:
     page.wait_for_function(
         "document.querySelector('.terminal-tab, .single-terminal-tab')?.innerText.includes('mindc run')"
     )
+
+
+def test_an_edit_is_asked_for_and_made(page: Any) -> None:
+    """From the palette, with its questions one after the other."""
+    page.locator(".view-line", has_text="skill").first.click()
+    page.keyboard.press("F1")
+    page.keyboard.type("mind: Edit the hierarchy")
+    page.locator(".quick-input-widget .monaco-list-row.focused", has_text="Edit the hierarchy").click()
+    answer(page, "Edit the hierarchy", "rename", ".monaco-list-row.focused")
+    for argument, text in (("old", "Turn"), ("new", "Spin"), ("noun", "")):
+        answer(page, f"rename: {argument}", text)
+    page.locator(".view-line", has_text="Spin").nth(1).wait_for()
+    assert page.locator(".view-line", has_text="Turn").count() == 0
+
+
+def answer(page: Any, title: str, text: str, row: str = "") -> None:
+    """Type what a question is answered with, once the question is there, and where there are rows, that one."""
+    question = page.locator(".quick-input-widget")
+    question.locator(".quick-input-title", has_text=title).wait_for()
+    page.keyboard.type(text)
+    if row:
+        question.locator(row, has_text=text).wait_for()
+    page.keyboard.press("Enter")

@@ -107,7 +107,7 @@ def test_what_is_no_port_is_refused(rules: Path, mindc: Call, port: object) -> N
 def test_a_bundle_without_a_name_is_no_run(rules: Path, mindc: Call) -> None:
     said = mindc("view", rules, "", "--no-browser")
     assert said.code == 2
-    assert "is no recording" in said.err
+    assert f"What stands behind {rules} is empty." in said.err
 
 
 def test_a_browser_with_windows_is_opened_and_no_other(monkeypatch: pytest.MonkeyPatch) -> None:

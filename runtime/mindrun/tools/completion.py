@@ -8,10 +8,8 @@ examples:
 
 import argparse
 
-from mindrun.driving_arguments import driving_parser
 from mindrun.shell_completion import SHELLS, script
 from mindrun.standard_streams import document
-from mindrun.tools import tool_parser, tools
 
 
 def options(parser: argparse.ArgumentParser) -> None:
@@ -21,10 +19,5 @@ def options(parser: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> int:
     """Print it."""
-    document(script_of_mindrun(options.shell))
+    document(script(options.shell, "mindrun"))
     return 0
-
-
-def script_of_mindrun(shell: str) -> str:
-    """The script for a shell, with all that may be said to mindrun now."""
-    return script(shell, {name: tool_parser(name) for name in tools()} | {"": driving_parser()})
