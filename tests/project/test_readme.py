@@ -32,6 +32,11 @@ def test_every_target_is_in_the_makefile() -> None:
     assert set(re.findall(r"\bmake ([\w-]+)(?=`|  )", README)) <= targets
 
 
+def test_what_ci_runs_stands_in_the_readme() -> None:
+    command = (ROOT / ".ci" / "run").read_text(encoding="utf-8").splitlines()[-1].removeprefix("exec ")
+    assert f"\n    {command} " in README
+
+
 def test_every_extra_is_there() -> None:
     project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
     table = README.partition("| extra | for |")[2].partition("\n\n")[0]
