@@ -48,7 +48,12 @@ def options(parser: argparse.ArgumentParser) -> None:
         metavar="S",
         help=f"how long a step of an environment may take, before the job has failed (default: {STEP_SECONDS})",
     )
-    parser.add_argument("--last-step", type=whole(0, MAX_DESCRIPTOR), help=argparse.SUPPRESS)  # between our processes
+    parser.add_argument(
+        "--last-step",
+        type=whole(0, MAX_DESCRIPTOR),
+        metavar="N",
+        help="a descriptor of memory that mindc reads when this has ended: at which step of an environment it was",
+    )
 
 
 def run(options: argparse.Namespace) -> int:
