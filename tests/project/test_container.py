@@ -1,6 +1,7 @@
 """The container: built from the files that it is given and no more; where there is a builder, built and used."""
 
 import fnmatch
+import os
 import re
 import shutil
 import subprocess
@@ -28,16 +29,44 @@ def builder() -> str | None:
     return next((name for name in asked if not subprocess.run([name, "info"], capture_output=True).returncode), None)
 
 
-def test_what_it_is_given_is_there_and_enough_for_the_wheel(tmp_path: Path) -> None:
+def copy_given(folder: Path) -> None:
+    """The files that a builder is given, in a folder."""
+    folder.mkdir(exist_ok=True)
     for name in given():
         path = ROOT / name
         if path.is_dir():
-            shutil.copytree(path, tmp_path / name, ignore=shutil.ignore_patterns("__pycache__", "compiled"))
+            shutil.copytree(path, folder / name, ignore=shutil.ignore_patterns("__pycache__", "compiled"))
         else:
-            shutil.copy(path, tmp_path / name)
+            shutil.copy(path, folder)
+
+
+def test_what_it_is_given_is_there_and_enough_for_the_wheel(tmp_path: Path) -> None:
+    copy_given(tmp_path)
     command = [sys.executable, "-m", "hatchling", "build", "-t", "wheel"]
     subprocess.run(command, cwd=tmp_path, check=True, capture_output=True)
     assert [path for path in (tmp_path / "dist").iterdir() if fnmatch.fnmatch(path.name, "mindlang-*.whl")]
+
+
+@pytest.mark.slow
+def test_its_steps_work_in_an_empty_environment(tmp_path: Path) -> None:
+    """Its RUN lines, one after the other, where there is nothing but Python, in folders of their own."""
+    venv, work = tmp_path / "venv", tmp_path / "work"
+    subprocess.run([sys.executable, "-m", "venv", venv], check=True)
+    path, cache = f"{venv / 'bin'}:/usr/bin:/bin", f"{tmp_path / 'cache'}"
+    environment = {"PATH": path, "HOME": f"{tmp_path}", "NUMBA_CACHE_DIR": cache}
+    environment |= {name: value for name, value in os.environ.items() if name.startswith(("PIP_", "SSL_"))}
+    asked = ["pip", "download", "-q", "--no-deps", "-d", f"{tmp_path}", "click"]
+    if subprocess.run(asked, env=environment, capture_output=True).returncode:
+        pytest.skip("there is no package index")
+    copy_given(tmp_path / "source")
+    lines = re.findall(r"^RUN ((?:.*\\\n)*.*)$", (ROOT / "Containerfile").read_text(encoding="utf-8"), re.MULTILINE)
+    assert len(lines) == 2
+    for line in lines:
+        here = re.sub(r"(?<= )/(source|wheels|cache|work)\b", rf"{tmp_path}/\1", line)
+        subprocess.run(["sh", "-c", here], env=environment, check=True, capture_output=True)
+    assert not (tmp_path / "wheels").exists()
+    shutil.copy(ROOT / "examples" / "collect" / "collect.mind", work)
+    subprocess.run(["mindc", "check", "collect.mind"], cwd=work, env=environment, check=True)
 
 
 def test_docker_is_given_the_same() -> None:
