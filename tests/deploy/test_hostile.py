@@ -19,7 +19,6 @@ HOSTS = [
     "$(touch pwned)",
     "a:b",
     "pi@",
-    "",
     "ö",
 ]
 NAME = """-rf it's; "$(touch pwned)" `touch pwned`\n.bundle"""

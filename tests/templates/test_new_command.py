@@ -109,7 +109,6 @@ def test_what_is_no_folder_stays(mindc: Call, folder: Path, what: str) -> None:
         ("rover.mind", "Write rover_mind instead."),
         ("räuber", "Write r_uber instead."),
         ("..", "Write rover, for example."),
-        ("", "Write rover, for example."),
         ("机器人", "Write rover, for example."),
         ("_x", "Write x instead."),
     ],
