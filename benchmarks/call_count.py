@@ -1,6 +1,7 @@
 """Work counted in calls of functions, Python's and C's: the same number on any machine, however busy it is."""
 
 import sys
+from contextlib import AbstractContextManager, nullcontext
 from types import TracebackType
 from typing import Self
 
@@ -32,3 +33,8 @@ class CallCount:
 
     def _hold(self) -> None:
         assert self.number <= self.most, f"{self.number:,} calls of functions, more than {self.most:,}"
+
+
+def one_in_eight(number: int, most: float) -> AbstractContextManager[object]:
+    """A CallCount for every eighth of many cases: to count takes twice as long as what is counted."""
+    return nullcontext() if number % 8 else CallCount(most)

@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from hypothesis.extra.lark import from_lark
 from lark import UnexpectedInput
 
-from benchmarks.call_count import CallCount
+from benchmarks.call_count import one_in_eight
 from mindlang.cli._diagnostic_printer import as_data, plain
 from mindlang.compiler.compile import Compiled, compile_source, load
 from mindlang.compiler.diagnostic import Findings
@@ -90,7 +90,7 @@ def test_mutations_of_the_examples(chunk: int, project: Path) -> None:
         for _ in range(rng.randint(1, 4)):
             data = rng.choice((flip, delete, duplicate, swap_lines, splice, insert))(data, rng) or b" "
         path.write_bytes(data)
-        with CallCount(MOST_CALLS):
+        with one_in_eight(seed, MOST_CALLS):
             sane(load(path))
 
 
@@ -125,7 +125,7 @@ def from_grammar(start: str) -> st.SearchStrategy[str]:
 @relaxed
 @given(from_grammar("start"))
 def test_programs_from_the_grammar(text: str) -> None:
-    with CallCount(MOST_CALLS):
+    with one_in_eight(len(text), MOST_CALLS):
         sane(compile_source(Source("fuzz.mind", text, Path(__file__).parent)))
 
 
@@ -133,7 +133,7 @@ def test_programs_from_the_grammar(text: str) -> None:
 @given(st.lists(from_grammar("line"), min_size=1, max_size=3))
 def test_lines_from_the_grammar_below_a_right_program(lines: list[str]) -> None:
     text = RIGHT.read_text(encoding="utf-8") + "\n".join(lines)
-    with CallCount(MOST_CALLS):
+    with one_in_eight(len(text), MOST_CALLS):
         sane(compile_source(Source("fuzz.mind", text, Path(__file__).parent)))
 
 

@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 import pytest
 
-from benchmarks.call_count import CallCount
+from benchmarks.call_count import one_in_eight
 from mindlang.cli._diagnostic_printer import plain
 from mindlang.compiler.compile import compile_source
 from mindlang.compiler.format import formatted
@@ -40,7 +40,7 @@ def mutants(seeds: range) -> Tally:
             text = decode(data)
         except ValueError:
             continue
-        with CallCount(MOST_CALLS):
+        with one_in_eight(seed, MOST_CALLS):
             compiled += linted(text)
             read += tidied(text)
     return Tally(compiled, read)
