@@ -119,7 +119,12 @@ def main() -> None:
     parser.add_argument("--generations", type=int, default=5)
     options = parser.parse_args()
     for name in ENVIRONMENTS:
-        measured(name, options.generations)
+        try:
+            gymnasium.make(name).close()
+        except gymnasium.error.DependencyNotInstalled as error:
+            print(f"{name}: {error}")
+        else:
+            measured(name, options.generations)
 
 
 if __name__ == "__main__":
