@@ -7,7 +7,7 @@ INDEX, DECISIONS = "docs/index", "docs/decisions/README"
 # Under each heading the pages that there are, in this order, as they are seen from the page that leads to them.
 PAGES: Mapping[str, Mapping[str, Sequence[str]]] = {
     INDEX: {
-        "Begin": ["../README", "new", "tutorial", "tour", "guides/*"],
+        "Begin": ["../README", "install", "new", "tutorial", "tour", "guides/*"],
         "Reference": ["language", "kinds", "words", "codes", "commands", "lint", "edits", "python*", "glossary"],
         "Train and measure": ["learning", "logs", "cluster", "locks", "weights", "gymnasium"],
         "See and ask": ["view", "why", "whatif", "breakpoints", "proofs"],
