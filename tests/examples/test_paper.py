@@ -123,6 +123,11 @@ class Shipped:
     master: str
     objects: float
     runtime: float
+    folder: Path = COLLECT
+
+    def __str__(self) -> str:
+        """As the case of a test is named."""
+        return f"{self.folder.name}-{self.file}-{self.master}"
 
 
 SHIPPED = (
@@ -134,6 +139,7 @@ SHIPPED = (
     Shipped("power.mind", "CollectAndPower", 6.0, 0.54),
     Shipped("power_on_the_job.mind", "CollectWithPower", 11.0, 0.90),
     Shipped("power_on_the_job.mind", "CollectAndPower", 9.0, 0.80),
+    Shipped("monolith.mind", "Monolith", 17.0, 0.85, COLLECT / "scale_1"),
 )
 
 
@@ -144,14 +150,19 @@ def paper(monkeypatch: pytest.MonkeyPatch) -> Any:
     return SimpleNamespace(measure=import_module("measure"), tables=import_module("protocol").TABLES)
 
 
-@pytest.mark.parametrize("shipped", SHIPPED, ids=lambda shipped: f"{shipped.file}-{shipped.master}")
+@pytest.mark.parametrize("shipped", SHIPPED, ids=str)
 def test_the_shipped_weights_collect(shipped: Shipped, paper: Any) -> None:
     cases = [case for table in paper.tables for case in table.cases]
     case = next(case for case in cases if (case.file, case.master) == (shipped.file, shipped.master))
-    assert paper.measure.is_taught(COLLECT, case)
-    found = paper.measure.measure(COLLECT, case, 40, 7)
+    assert paper.measure.is_taught(shipped.folder, case)
+    found = paper.measure.measure(shipped.folder, case, 40, 7)
     assert found.objects > shipped.objects
     assert found.runtime > shipped.runtime
+
+
+def test_the_paper_s_generations_are_of_the_same_files() -> None:
+    for path in (COLLECT / "scale_1").glob("*.mind"):
+        assert path.read_bytes() == (COLLECT / path.name).read_bytes()
 
 
 def test_the_final_task_alone_teaches_nobody_to_collect(paper: Any) -> None:

@@ -42,7 +42,8 @@ class Close(FilmImages):
 
 def passage(folder: Path) -> Image | None:
     """Five steps one below the other: the world at the left, the hierarchy at the right; None where there is none."""
-    path = folder / FILE
+    if not (path := folder / FILE).exists():
+        return None
     try:
         found = set_up(str(path), compiled(path), TASK, MASTER)
     except SetupError:
