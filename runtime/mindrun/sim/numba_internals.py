@@ -4,9 +4,10 @@ How a function is compiled into one piece of machine code with all that it calls
 what is more is in numba's documentation, above all `numba.extending`.
 """
 
+import gc
 from abc import abstractmethod
-from collections.abc import Callable
-from contextlib import AbstractContextManager
+from collections.abc import Callable, Iterator
+from contextlib import AbstractContextManager, contextmanager
 from typing import Any
 
 from llvmlite.binding import Linkage, ModulePassManager, create_new_module_pass_manager
@@ -20,6 +21,8 @@ from numba.core.compiler_machinery import PassManager, register_pass
 from numba.core.serialize import dumps
 from numba.core.sigutils import normalize_signature
 from numba.core.typed_passes import NativeLowering
+
+COLLECTION_OBJECTS = 100_000  # made between two looks for garbage, while numba compiles; Python's own are 700
 
 
 class Lowered(JITCodeLibrary):  # type: ignore[misc]
@@ -132,6 +135,17 @@ class KeptCode(_Cache):  # type: ignore[misc]
         """For looking and, where nothing is found, compiling: no other process compiles the same meanwhile."""
 
 
+@contextmanager
+def rare_collections() -> Iterator[None]:
+    """Looks for garbage are rare: compiling makes millions of objects, most of which are needed until it is done."""
+    before = gc.get_threshold()
+    gc.set_threshold(COLLECTION_OBJECTS, *before[1:])
+    try:
+        yield
+    finally:
+        gc.set_threshold(*before)
+
+
 def keep_code(dispatcher: Any, code: KeptCode) -> None:
     """A compiled function asks `code`, and is compiled by one process at a time."""
     dispatcher._cache = code
@@ -139,7 +153,7 @@ def keep_code(dispatcher: Any, code: KeptCode) -> None:
 
     def compile_exclusively(signature: Any) -> Any:
         # Numba's lock first: who compiles a caller has it already when the turn of another way in comes.
-        with global_compiler_lock, code.exclusive(signature, dispatcher.targetctx):
+        with global_compiler_lock, code.exclusive(signature, dispatcher.targetctx), rare_collections():
             return find_or_compile(signature)
 
     dispatcher.compile = compile_exclusively
@@ -154,7 +168,7 @@ def callback_of(function: Callable[..., Any], signature: Any, code: KeptCode) ->
     """A function for C, which calls its `address`."""
     made: Any = CFunc(function, normalize_signature(signature), locals={}, options={})
     made._cache = code
-    with global_compiler_lock, code.exclusive(made._sig, made._targetdescr.target_context):
+    with global_compiler_lock, code.exclusive(made._sig, made._targetdescr.target_context), rare_collections():
         made.compile()
     return made
 
