@@ -21,7 +21,7 @@ PLACES = [
 PLACES += ["mindlang/**/*.py", "runtime/**/*.py", "runtime/*.md", "editors/vscode/*.js*", "editors/vscode/*.md"]
 NAMED = re.compile(r"(?P<project>mindlang|mindrun|(?<=['\"])\.)\[(?P<extras>[a-z0-9]+(?:, *[a-z0-9]+)*)\]")
 HERE = "."  # the folder in which one stands
-WHERE_HERE = {"README.md", "CONTRIBUTING.md", "Makefile", "docs/install.md"}  # of whoever works on the sources
+WHERE_HERE = {"README.md", "CONTRIBUTING.md", "Makefile"}  # of whoever works on the sources
 
 
 def project(folder: Path) -> dict:

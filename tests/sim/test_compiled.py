@@ -1,5 +1,6 @@
 """The compiled lanes as numba has made them: no reference is counted, which took half of the time of a tick."""
 
+import gc
 from collections.abc import Iterator
 from typing import Any
 
@@ -7,6 +8,7 @@ import pytest
 from mindrun.policy import Policy
 from mindrun.sim.lanes.advance import advance
 from mindrun.sim.lanes.runs import fill
+from mindrun.sim.numba_internals import COLLECTION_OBJECTS, rare_collections
 from mindrun.sim.rollout import Rollout
 
 from mindlang.compiler.compile import load
@@ -34,3 +36,17 @@ def test_no_reference_is_counted(function: Any) -> None:
         module = each.library._get_module_for_linking()
         assert any(not f.is_declaration for f in module.functions)
         assert [name for name in counted(module) if not name.startswith(WRAPPER)] == []
+
+
+def test_garbage_is_looked_for_as_before_once_it_is_compiled() -> None:
+    before, inside = gc.get_threshold(), []
+
+    @rare_collections()
+    def compiling() -> None:
+        inside.append(gc.get_threshold())
+        raise ZeroDivisionError
+
+    with pytest.raises(ZeroDivisionError):
+        compiling()
+    assert inside == [(COLLECTION_OBJECTS, *before[1:])]
+    assert gc.get_threshold() == before

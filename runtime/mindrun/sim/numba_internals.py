@@ -22,7 +22,7 @@ from numba.core.serialize import dumps
 from numba.core.sigutils import normalize_signature
 from numba.core.typed_passes import NativeLowering
 
-COLLECTION_OBJECTS = 100_000  # made between two looks for garbage, while numba compiles; Python's own are 700
+COLLECTION_OBJECTS = 100_000  # made between two looks for garbage, while numba compiles; Python 3.11 looks after 700
 
 
 class Lowered(JITCodeLibrary):  # type: ignore[misc]
