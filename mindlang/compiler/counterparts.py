@@ -4,21 +4,19 @@ from collections.abc import Sequence
 
 
 def counterparts(of: Sequence[str], among: Sequence[str]) -> dict[str, str] | None:
-    """For each of these names the other skill's that it stands for; None where that cannot be told.
+    """For each of these names the other skill's that it stands for, none where it is new; None if it cannot be told.
 
-    The same name stands for itself. What only one of the two has stands for the only one of the same width that only
-    the other one has. Names say their width as in a lock: proximity:10.
+    The same name stands for itself. What only the other one has is stood for by the only one of the same width that
+    the other does not have. Of a width of which nothing is missing then, all that is left is new. Names say their width
+    as in a lock: proximity:10.
     """
-    if len(of) != len(among):
-        return None
     found = {name: name for name in of if name in among}
-    left = {_width(name): name for name in among if name not in of}
-    for name in of:
-        if name not in found:
-            counterpart = left.pop(_width(name), None)
-            if counterpart is None:
-                return None
-            found[name] = counterpart
+    own = [name for name in of if name not in found]
+    for missing in (name for name in among if name not in found):
+        standing = [name for name in own if _width(name) == _width(missing) and name not in found]
+        if len(standing) != 1:
+            return None
+        found[standing[0]] = missing
     return found
 
 

@@ -1,5 +1,6 @@
 """The weights of another skill with a copy of which a lesson begins."""
 
+from itertools import accumulate
 from pathlib import Path
 
 from mindrun.graph import Graph, Lesson, Skill
@@ -36,23 +37,22 @@ def origin_of(graph: Graph, lock: Lock, lesson: Lesson) -> Origin | None:
 
 
 def _brought(graph: Graph, learner: Skill, origin: Skill, weights: Weights) -> Weights:
-    """Weights of one skill in the order in which another reads and sends what stands for the same."""
+    """Weights of one skill in the order in which another reads and sends what stands for the same; 0 for the new."""
     own, its = signature(graph, learner), signature(graph, origin)
     inputs, outputs = _places(own.reads, its.reads), _places(own.sends, its.sends)
-    return origin.function.reordered(weights, inputs, outputs)
+    before = sum(map(_width, its.reads)), len(its.sends)
+    wide = origin.function.widened(weights, before, learner.function, (len(inputs), len(outputs)))
+    return learner.function.reordered(weights if wide is None else wide, inputs, outputs)
 
 
 def _places(of: tuple[str, ...], among: tuple[str, ...]) -> list[int]:
-    """For each reading or output of these names its place among those of the other names."""
-    starts: dict[str, int] = {}
-    at = 0
-    for name in among:
-        starts[name] = at
-        at += _width(name)
+    """For each reading or output of these names its place among those of the other names, behind which new ones are."""
     found = counterparts(of, among)
     if found is None:
         raise RunError("these weights do not fit", "run mindc check")
-    return [starts[found[name]] + number for name in of for number in range(_width(name))]
+    order = (*among, *(name for name in of if name not in found))
+    starts = dict(zip(order, accumulate(map(_width, order), initial=0), strict=False))
+    return [starts[found.get(name, name)] + number for name in of for number in range(_width(name))]
 
 
 def _width(name: str) -> int:

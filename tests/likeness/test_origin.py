@@ -1,6 +1,7 @@
 """Lessons that begin with a copy of another skill's weights: brought into the order of the skill that is taught."""
 
 from pathlib import Path
+from tempfile import TemporaryDirectory
 
 import numpy as np
 import pytest
@@ -31,6 +32,14 @@ def test_what_stands_for_what() -> None:
     assert counterparts(("a", "c"), ("d", "b")) is None
     assert counterparts(("a", "c:3"), ("a", "c:4")) is None
     assert counterparts(("a",), ("a", "b")) is None
+    assert counterparts(("a", "d", "e"), ("b", "c")) is None
+
+
+def test_what_is_new_stands_for_nothing() -> None:
+    assert counterparts(("b", "a"), ("a",)) == {"a": "a"}
+    assert counterparts(("a", "c:3", "d:3"), ("a",)) == {"a": "a"}
+    assert counterparts(("a", "c:3"), ("b",)) == {"a": "b"}
+    assert counterparts(("a", "b"), ("c",)) is None
 
 
 @given(
@@ -64,6 +73,38 @@ def test_weights_are_copied_into_the_order_of_the_learner(tmp_path: Path) -> Non
     assert np.allclose(one(np.concatenate([eyes, near])), two(np.concatenate([near, eyes])), atol=1e-6)
 
 
+@given(
+    st.sampled_from(["mlp hidden 0", "mlp hidden 1", "mlp hidden 2", "mlp hidden 3 width 6", "elman", "elman width 5"]),
+    st.permutations(["near", "eyes", "ears", "charge"]),
+    st.permutations(["influences Back", "influences Own", "drives left_wheel"]),
+    st.integers(0, 2**32 - 1),
+)
+@settings(max_examples=60)
+def test_who_reads_and_influences_more_does_the_same_at_first(
+    function: str, reads: list[str], sends: list[str], seed: int
+) -> None:
+    """The command is the same but for rounding, since sums are taken in another order, and what is new sends 0."""
+    reading = "".join(f"  reads {name}\n" for name in reads)
+    sending = "".join(f"  {line}\n" for line in sends)
+    few = f"\nskill Few is {function}\n  reads eyes\n  reads near\n  drives left_wheel\n"
+    many = f"\nskill Many is {function}\n{reading}{sending}"
+    lesson = "  teaches Many on Roam for 10 generations from Few\n"
+    mind = arrange(graph(GO, GO.replace("Go", "Own"), few, many, ALIKE, TOP, SCHOOL, lesson), {})
+    known, learner = (named(mind, name) for name in ("Few", "Many"))
+    rng = np.random.default_rng(seed)
+    with TemporaryDirectory() as folder:
+        weights = teach(Path(folder) / "mind.lock", mind, "Few", seed)
+        copy = origin_weights(mind, read_lock(Path(folder) / "mind.lock"), mind.lessons[0], FILE)["Many"]
+    one, other = known.function.ready(3, 1, weights, {}), learner.function.ready(6, 3, copy, {})
+    sizes = {"near": 1, "eyes": 2, "ears": 2, "charge": 1}
+    for _ in range(3):
+        at = {name: rng.random(size, np.float32) for name, size in sizes.items()}
+        sent = other(np.concatenate([at[name] for name in reads]))
+        command = sends.index("drives left_wheel")
+        assert np.allclose(sent[command], one(np.concatenate([at["eyes"], at["near"]])), atol=1e-5)
+        assert np.delete(sent, command).tolist() == [0, 0]
+
+
 def test_a_lesson_waits_for_the_weights_that_it_begins_with(tmp_path: Path) -> None:
     mind = arrange(graph(GO, FAR, ALIKE, TOP, SCHOOL, LESSONS), {})
     with pytest.raises(RunError, match="Far cannot begin with the weights of Go: Go has not been taught") as refused:
@@ -91,7 +132,8 @@ def test_who_is_alike_is_not_taught_by_itself() -> None:
         (FAR.replace("mlp", "elman"), "their functions differ"),
         (FAR.replace("mlp", "mlp hidden 1"), "their functions differ"),
         (FAR.replace("reads far", "reads far\n  reads charge"), "which stands for which cannot be told"),
-        (FAR.replace("left_wheel at far / 2", "left_wheel"), "which stands for which cannot be told"),
+        (FAR.replace("mlp", "mlp width 4").replace("reads far", "reads far\n  reads ears"), "their functions differ"),
+        (FAR.replace("left_wheel at far / 2", "left_wheel"), "Far drives right_wheel, too, and a command of 0 is one"),
     ],
 )
 def test_weights_of_another_shape_are_refused(far: str, why: str) -> None:

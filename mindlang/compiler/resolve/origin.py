@@ -1,6 +1,9 @@
 """The skill with a copy of whose weights a lesson begins: whether they fit the skill that is taught."""
 
+from __future__ import annotations
+
 from collections.abc import Iterator, Mapping, Sequence
+from typing import TYPE_CHECKING
 
 from mindrun.functions import Function
 
@@ -8,6 +11,9 @@ from mindlang.compiler import model
 from mindlang.compiler.counterparts import counterparts
 from mindlang.compiler.diagnostic import Findings, listed
 from mindlang.compiler.syntax import Name
+
+if TYPE_CHECKING:
+    from mindrun.arrays import Layers
 
 
 def check_origin(
@@ -26,7 +32,10 @@ def check_origin(
         findings.error("own-origin", origin.span, message, f"Leave from {origin.text} out: it begins with its weights.")
         return
     for difference in _differences(learner, other, widths):
-        hint = "Weights fit the same function of as many readings and outputs, of each of which one may be another."
+        hint = (
+            "Weights fit the same function. Of its readings and outputs one each may be another, and what is read or "
+            "influenced beside them is new."
+        )
         message = f"{learner.name} cannot begin with the weights of {other.name}: {difference}."
         findings.error("other-shape", origin.span, message, hint)
         return
@@ -37,7 +46,6 @@ def _differences(learner: model.Skill, other: model.Skill, widths: Mapping[str, 
     if not other.function.learns:
         yield f"{other.name} learns nothing"
         return
-    own, its = (_sized(skill, widths) for skill in (learner, other))
     pairs = (
         ("reads", *([f"{name}:{widths.get(name, 1)}" for name in skill.reads] for skill in (learner, other))),
         ("sends to", *(_sends(skill) for skill in (learner, other))),
@@ -48,13 +56,34 @@ def _differences(learner: model.Skill, other: model.Skill, widths: Mapping[str, 
                 f"{learner.name} {verb} {_words(mine, others)} where {other.name} {verb} {_words(others, mine)}, and "
                 "which stands for which cannot be told"
             )
-    if own != its:
+            return
+    if driven := _driven_anew(learner, other):
+        yield f"{learner.name} drives {listed(driven, 'and')}, too, and a command of 0 is one"
+    if not _holds(learner, other, widths):
         yield "their functions differ"
 
 
-def _sized(skill: model.Skill, widths: Mapping[str, int]) -> Function:
-    inputs = sum(widths.get(name, 1) for name in skill.reads)
-    return skill.function.explicit(inputs, len(_sends(skill)))
+def _driven_anew(learner: model.Skill, other: model.Skill) -> list[str]:
+    """The actuators for which the other skill has no output, nor one that they stand for."""
+    found = counterparts(_sends(learner), _sends(other)) or {}
+    return [
+        edge.target for edge in learner.edges if edge.at is None and edge.to == "actuator" and edge.target not in found
+    ]
+
+
+def _holds(learner: model.Skill, other: model.Skill, widths: Mapping[str, int]) -> bool:
+    """Whether the learner computes what the other does once some of its weights are 0: no layer of it is smaller."""
+    (own, its), (large, small) = zip(*(_sized(skill, widths) for skill in (learner, other)), strict=True)
+    if own == its:
+        return True
+    holds = all(a >= b for more, less in zip(large, small, strict=False) for a, b in zip(more, less, strict=True))
+    return type(own) is type(its) and 0 < len(large) == len(small) and holds
+
+
+def _sized(skill: model.Skill, widths: Mapping[str, int]) -> tuple[Function, Layers]:
+    """Its function with every argument said, and the shapes of the matrices in which its weights lie."""
+    size = sum(widths.get(name, 1) for name in skill.reads), len(_sends(skill))
+    return skill.function.explicit(*size), skill.function.matrix_shapes(*size)
 
 
 def _sends(skill: model.Skill) -> list[str]:
