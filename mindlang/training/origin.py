@@ -1,5 +1,6 @@
 """The weights of another skill with a copy of which a lesson begins."""
 
+from collections.abc import Mapping
 from itertools import accumulate
 from pathlib import Path
 
@@ -27,7 +28,7 @@ def origin_weights(graph: Graph, lock: Lock, lesson: Lesson, shown: Path) -> dic
     if refusals:
         message = f"{lesson.skill} cannot begin with the weights of {origin.name}: {refusals[0]}"
         raise RunError(message, f"first: mindc train {shown} {origin.owner}")
-    return {lesson.skill: _brought(graph, skills[lesson.skill], origin, weights[origin.owner])}
+    return {lesson.skill: _brought(graph, lesson, origin, weights[origin.owner])}
 
 
 def origin_of(graph: Graph, lock: Lock, lesson: Lesson) -> Origin | None:
@@ -36,18 +37,21 @@ def origin_of(graph: Graph, lock: Lock, lesson: Lesson) -> Origin | None:
     return (lesson.starts_from, lock[owner].weights) if owner in lock else None
 
 
-def _brought(graph: Graph, learner: Skill, origin: Skill, weights: Weights) -> Weights:
+def _brought(graph: Graph, lesson: Lesson, origin: Skill, weights: Weights) -> Weights:
     """Weights of one skill in the order in which another reads and sends what stands for the same; 0 for the new."""
+    learner = next(skill for skill in graph.skills if skill.name == lesson.skill)
     own, its = signature(graph, learner), signature(graph, origin)
-    inputs, outputs = _places(own.reads, its.reads), _places(own.sends, its.sends)
+    begun = (each for each in graph.lessons if each.curriculum == lesson.curriculum and each.starts_from)
+    heirs = {each.skill: each.starts_from for each in begun}
+    inputs, outputs = (_places(*names, heirs) for names in ((own.reads, its.reads), (own.sends, its.sends)))
     before = sum(map(_width, its.reads)), len(its.sends)
     wide = origin.function.widened(weights, before, learner.function, (len(inputs), len(outputs)))
     return learner.function.reordered(weights if wide is None else wide, inputs, outputs)
 
 
-def _places(of: tuple[str, ...], among: tuple[str, ...]) -> list[int]:
+def _places(of: tuple[str, ...], among: tuple[str, ...], heirs: Mapping[str, str]) -> list[int]:
     """For each reading or output of these names its place among those of the other names, behind which new ones are."""
-    found = counterparts(of, among)
+    found = counterparts(of, among, heirs)
     if found is None:
         raise RunError("these weights do not fit", "run mindc check")
     order = (*among, *(name for name in of if name not in found))

@@ -26,20 +26,28 @@ LESSONS = "  teaches Go on Roam for 10 generations\n  teaches Far on Roam for 10
 
 
 def test_what_stands_for_what() -> None:
-    assert counterparts(("a", "b"), ("b", "a")) == {"a": "a", "b": "b"}
-    assert counterparts(("a", "c:3"), ("c:3", "b")) == {"a": "b", "c:3": "c:3"}
-    assert counterparts(("a", "c:3"), ("d:3", "b")) == {"a": "b", "c:3": "d:3"}
-    assert counterparts(("a", "c"), ("d", "b")) is None
-    assert counterparts(("a", "c:3"), ("a", "c:4")) is None
-    assert counterparts(("a",), ("a", "b")) is None
-    assert counterparts(("a", "d", "e"), ("b", "c")) is None
+    assert counterparts(("a", "b"), ("b", "a"), {}) == {"a": "a", "b": "b"}
+    assert counterparts(("a", "c:3"), ("c:3", "b"), {}) == {"a": "b", "c:3": "c:3"}
+    assert counterparts(("a", "c:3"), ("d:3", "b"), {}) == {"a": "b", "c:3": "d:3"}
+    assert counterparts(("a", "c"), ("d", "b"), {}) is None
+    assert counterparts(("a", "c:3"), ("a", "c:4"), {}) is None
+    assert counterparts(("a",), ("a", "b"), {}) is None
+    assert counterparts(("a", "d", "e"), ("b", "c"), {}) is None
 
 
 def test_what_is_new_stands_for_nothing() -> None:
-    assert counterparts(("b", "a"), ("a",)) == {"a": "a"}
-    assert counterparts(("a", "c:3", "d:3"), ("a",)) == {"a": "a"}
-    assert counterparts(("a", "c:3"), ("b",)) == {"a": "b"}
-    assert counterparts(("a", "b"), ("c",)) is None
+    assert counterparts(("b", "a"), ("a",), {}) == {"a": "a"}
+    assert counterparts(("a", "c:3", "d:3"), ("a",), {}) == {"a": "a"}
+    assert counterparts(("a", "c:3"), ("b",), {}) == {"a": "b"}
+    assert counterparts(("a", "b"), ("c",), {}) is None
+
+
+def test_a_skill_stands_for_the_one_that_it_began_as() -> None:
+    heirs = {"New": "Old", "Other": "Older"}
+    assert counterparts(("New", "Other"), ("Older", "Old"), heirs) == {"New": "Old", "Other": "Older"}
+    assert counterparts(("New", "Some"), ("Old", "Older"), heirs) == {"New": "Old", "Some": "Older"}
+    assert counterparts(("New", "Old"), ("Old",), heirs) == {"Old": "Old"}
+    assert counterparts(("New", "Newer"), ("Old",), heirs | {"Newer": "Old"}) is None
 
 
 @given(
@@ -103,6 +111,25 @@ def test_who_reads_and_influences_more_does_the_same_at_first(
         command = sends.index("drives left_wheel")
         assert np.allclose(sent[command], one(np.concatenate([at["eyes"], at["near"]])), atol=1e-5)
         assert np.delete(sent, command).tolist() == [0, 0]
+
+
+def test_a_hierarchy_begins_as_another_one(tmp_path: Path) -> None:
+    """Which of two subskills stands for which of two others, their lessons say."""
+    lock, drives = tmp_path / "mind.lock", "  drives left_wheel\n  drives right_wheel\n"
+    under = [
+        f"\nskill {name} is mlp\n  reads {read}\n{drives}"
+        for name, read in zip(["A", "B"], ["near", "far"], strict=True)
+    ]
+    above = "\nskill AB is mlp\n  reads eyes\n  influences A\n  influences B\n"
+    new = [text.replace("skill ", "skill New").replace("reads", "reads ears\n  reads") for text in under]
+    over = "\nskill NewAB is mlp\n  reads eyes\n  influences NewB\n  influences NewA\n"
+    lessons = "".join(f"  teaches New{name} on Roam for 10 generations from {name}\n" for name in ("A", "B", "AB"))
+    mind = arrange(graph(GO, ALIKE, TOP, *under, above, *new, over, SCHOOL, lessons), {})
+    weights = teach(lock, mind, "AB")
+    copy = origin_weights(mind, read_lock(lock), mind.lessons[2], FILE)["NewAB"]
+    both = named(mind, "AB").function
+    for eyes in np.random.default_rng(1).random((3, 2), np.float32):
+        assert np.allclose(both.ready(2, 2, weights, {})(eyes)[::-1], both.ready(2, 2, copy, {})(eyes), atol=1e-6)
 
 
 def test_a_lesson_waits_for_the_weights_that_it_begins_with(tmp_path: Path) -> None:

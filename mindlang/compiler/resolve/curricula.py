@@ -35,20 +35,25 @@ def lessons(
         refuse_facts(declaration, (Teaches,), findings)
         phrase = declaration.header.phrase
         learner = make("curriculum", phrase, Scope(names, None), findings) if phrase else None
-        taught = (fact for fact in declaration.facts if isinstance(fact, Teaches))
-        curriculum = _Curriculum(name, learner, names, by_name, widths, findings)
+        taught = [fact for fact in declaration.facts if isinstance(fact, Teaches)]
+        heirs = {fact.skill.text: origin.text for fact in taught if (origin := _origin(fact))}
+        curriculum = _Curriculum(name, learner, names, by_name, widths, heirs, findings)
         yield from filter(None, (curriculum.lesson(number, fact) for number, fact in enumerate(taught, 1)))
 
 
 @dataclass(frozen=True, slots=True)
 class _Curriculum:
-    """What its lessons are held against: its learner, None where that is wrong, and the mind's names and skills."""
+    """What its lessons are held against: its learner, None where that is wrong, and the mind's names and skills.
+
+    `heirs` are those of its skills that begin with another's weights, with the names of these.
+    """
 
     name: str
     learner: Any
     names: Names
     skills: Mapping[str, model.Skill]
     widths: Mapping[str, int]
+    heirs: Mapping[str, str]
     findings: Findings
 
     def lesson(self, number: int, fact: Teaches) -> model.Lesson | None:
@@ -70,7 +75,8 @@ class _Curriculum:
         if None not in found:
             _check_reached(fact, master, self.skills, self.findings)
             if starts_from:
-                check_origin(starts_from, self.skills[fact.skill.text], self.skills, self.widths, self.findings)
+                taught = self.skills[fact.skill.text]
+                check_origin(starts_from, taught, self.skills, self.widths, self.heirs, self.findings)
         if learner is None or generations is None or len(self.findings.diagnostics) > before:
             return None
         return model.Lesson(

@@ -21,9 +21,13 @@ def check_origin(
     learner: model.Skill,
     skills: Mapping[str, model.Skill],
     widths: Mapping[str, int],
+    heirs: Mapping[str, str],
     findings: Findings,
 ) -> None:
-    """Report weights with which a lesson cannot begin."""
+    """Report weights with which a lesson cannot begin.
+
+    `heirs` are the skills that begin with another's weights in the same curriculum, which they stand for.
+    """
     other = skills[origin.text]
     if not learner.function or not other.function:
         return
@@ -31,7 +35,7 @@ def check_origin(
         message = f"{learner.name} has these weights already."
         findings.error("own-origin", origin.span, message, f"Leave from {origin.text} out: it begins with its weights.")
         return
-    for difference in _differences(learner, other, widths):
+    for difference in _differences(learner, other, widths, heirs):
         hint = (
             "Weights fit the same function. Of its readings and outputs one each may be another, and what is read or "
             "influenced beside them is new."
@@ -41,34 +45,30 @@ def check_origin(
         return
 
 
-def _differences(learner: model.Skill, other: model.Skill, widths: Mapping[str, int]) -> Iterator[str]:
+def _differences(
+    learner: model.Skill, other: model.Skill, widths: Mapping[str, int], heirs: Mapping[str, str]
+) -> Iterator[str]:
     """Why weights of one skill do not fit another."""
     if not other.function.learns:
         yield f"{other.name} learns nothing"
         return
-    pairs = (
+    found: dict[str, str] = {}
+    for verb, mine, others in (
         ("reads", *([f"{name}:{widths.get(name, 1)}" for name in skill.reads] for skill in (learner, other))),
         ("sends to", *(_sends(skill) for skill in (learner, other))),
-    )
-    for verb, mine, others in pairs:
-        if counterparts(mine, others) is None:
+    ):
+        stands = counterparts(mine, others, heirs)
+        if stands is None:
             yield (
                 f"{learner.name} {verb} {_words(mine, others)} where {other.name} {verb} {_words(others, mine)}, and "
                 "which stands for which cannot be told"
             )
             return
-    if driven := _driven_anew(learner, other):
+        found |= stands
+    if driven := [edge.target for edge in _outputs(learner) if edge.to == "actuator" and edge.target not in found]:
         yield f"{learner.name} drives {listed(driven, 'and')}, too, and a command of 0 is one"
     if not _holds(learner, other, widths):
         yield "their functions differ"
-
-
-def _driven_anew(learner: model.Skill, other: model.Skill) -> list[str]:
-    """The actuators for which the other skill has no output, nor one that they stand for."""
-    found = counterparts(_sends(learner), _sends(other)) or {}
-    return [
-        edge.target for edge in learner.edges if edge.at is None and edge.to == "actuator" and edge.target not in found
-    ]
 
 
 def _holds(learner: model.Skill, other: model.Skill, widths: Mapping[str, int]) -> bool:
@@ -86,8 +86,12 @@ def _sized(skill: model.Skill, widths: Mapping[str, int]) -> tuple[Function, Lay
     return skill.function.explicit(*size), skill.function.matrix_shapes(*size)
 
 
+def _outputs(skill: model.Skill) -> list[model.Edge]:
+    return [edge for edge in skill.edges if edge.at is None]
+
+
 def _sends(skill: model.Skill) -> list[str]:
-    return [edge.target for edge in skill.edges if edge.at is None]
+    return [edge.target for edge in _outputs(skill)]
 
 
 def _words(names: Sequence[str], but: Sequence[str]) -> str:
