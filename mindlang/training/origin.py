@@ -18,17 +18,22 @@ from mindlang.lock.status import trained_weights
 def origin_weights(graph: Graph, lock: Lock, lesson: Lesson, shown: Path) -> dict[str, Weights]:
     """The weights with which its skill begins; none where the lesson starts from no other. The graph is `arrange`d.
 
-    RunError where the other skill has none that fit, and how to teach it in the file that is `shown`.
+    RunError where the other skill, or one that learns with the learner, has none that fit, and how to teach it in the
+    file that is `shown`.
     """
     skills = {skill.name: skill for skill in graph.skills}
-    if not lesson.starts_from or lesson.skill not in learners(graph, lesson):
+    together = learners(graph, lesson)
+    if not lesson.starts_from or lesson.skill not in together:
         return {}
     origin = skills[lesson.starts_from]
-    weights, refusals = trained_weights(graph, lock, [origin.name])
-    if refusals:
-        message = f"{lesson.skill} cannot begin with the weights of {origin.name}: {refusals[0]}"
-        raise RunError(message, f"first: mindc train {shown} {origin.owner}")
-    return {lesson.skill: _brought(graph, lesson, origin, weights[origin.owner])}
+    known: dict[str, Weights] = {}
+    for needed in (origin.name, *(name for name in together if name != lesson.skill)):
+        weights, refusals = trained_weights(graph, lock, [needed])
+        if refusals:
+            message = f"{lesson.skill} cannot begin with the weights of {origin.name}: {refusals[0]}"
+            raise RunError(message, f"first: mindc train {shown} {skills[needed].owner}")
+        known |= weights
+    return {lesson.skill: _brought(graph, lesson, origin, known[origin.owner])}
 
 
 def origin_of(graph: Graph, lock: Lock, lesson: Lesson) -> Origin | None:

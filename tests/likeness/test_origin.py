@@ -140,6 +140,21 @@ def test_a_lesson_waits_for_the_weights_that_it_begins_with(tmp_path: Path) -> N
     assert origin_weights(mind, {}, mind.lessons[0], FILE) == {}
 
 
+def test_a_lesson_waits_for_those_that_learn_with_it(tmp_path: Path) -> None:
+    """Else all would begin from scratch, where the file says from what."""
+    over = TOP.replace("skill Top is rule\n  influences Back at 1", "skill Over is mlp\n  reads far\n  influences Far")
+    under = "\nskill Under is mlp\n  reads far\n  influences Go\n"
+    lessons = "  teaches Over on Roam for 10 generations with subskills from Under\n" + LESSONS
+    mind = arrange(graph(GO, FAR, ALIKE, TOP, over, under, SCHOOL, lessons), {})
+    lock = tmp_path / "mind.lock"
+    teach(lock, mind, "Under")
+    with pytest.raises(RunError, match="with the weights of Under: Far has not been taught") as refused:
+        origin_weights(mind, read_lock(lock), mind.lessons[0], FILE)
+    assert refused.value.hint == "first: mindc train far.mind Far"
+    teach(lock, mind, "Far")
+    assert list(origin_weights(mind, read_lock(lock), mind.lessons[0], FILE)) == ["Over"]
+
+
 def test_from_scratch_on_the_command_line_begins_with_nothing() -> None:
     mind = graph(GO, FAR, ALIKE, TOP, SCHOOL, LESSONS)
     lesson = TrainOptions(from_scratch=True).applied(mind.lessons[1])
