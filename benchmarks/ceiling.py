@@ -132,7 +132,7 @@ def driven(runs: int, backwards: bool) -> tuple[Array, float, float]:
 def delivered(name: str, runs: int) -> Array:
     """Objects of each run under a shipped mind, on the same layouts; collisions end nothing."""
     ready = shipped(name)
-    rollout = Rollout(ready.policy, "Collect", "Collect", interrupt=False)
+    rollout = Rollout(ready.policy, "Collect", ready.policy.graph.master, interrupt=False)
     none = np.zeros((1, 0), np.float32)
     objects: Array = rollout.score(none, [*range(1, runs + 1)]).counts[0].astype(float)
     return objects

@@ -1,7 +1,8 @@
-"""From nothing to Collect: python benchmarks/curriculum.py [--seeds 5] [--file best.mind --curriculum Best] [--json].
+"""From nothing to Collect: python benchmarks/curriculum.py [--seeds 5] [--file best.mind --curriculum Best --force].
 
 Every seed teaches the whole curriculum with `mindc train` in a folder of its own, on all cores, and what it has learnt
-runs on 200 layouts that the training has not seen. The first compilation is not counted; starting Python is.
+runs on 200 layouts that the training has not seen. What the file's own lock knows is forgotten, what those of the files
+know that it uses is there. The first compilation is not counted; starting Python is.
 """
 
 import argparse
@@ -11,24 +12,26 @@ import sys
 import time
 from collections.abc import Sequence
 from pathlib import Path
-from shutil import copy
+from shutil import copy, copytree
 from tempfile import TemporaryDirectory
 from typing import Any
 
 from benchmarks.learning import prepared
 from benchmarks.workloads import COLLECT, collect
+from mindlang.compiler.compile import load
 
 MINDC = (sys.executable, "-c", "from mindlang.cli import main; main()")
 LINE = "seed {seed:>3}: {seconds:5.0f} s, {objects:5.2f} ± {error:.2f} objects, {runtime:.0%} of the run"
 
 
-def learn(file: str, curriculum: str, seed: int, runs: int) -> dict[str, Any]:
+def learn(file: str, curriculum: str, seed: int, runs: int, force: bool) -> dict[str, Any]:
     """One seed: how long it took, and what came of it."""
     with TemporaryDirectory() as folder:
-        for path in {COLLECT, COLLECT.with_name(file)}:
-            copy(path, folder)
+        for source in load(COLLECT.with_name(file)).sources:
+            bring(Path(source.name), Path(folder), known=Path(source.name).name != file)
         begin = time.perf_counter()
-        lines = mindc(folder, "train", file, "--curriculum", curriculum, "--seed", str(seed))
+        options = ("--force",) if force else ()
+        lines = mindc(folder, "train", file, "--curriculum", curriculum, "--seed", str(seed), *options)
         seconds = time.perf_counter() - begin
         (found,) = mindc(folder, "bench", file, "--task", "Collect", "--runs", str(runs), "--seed", "20211121")
     return {
@@ -39,6 +42,15 @@ def learn(file: str, curriculum: str, seed: int, runs: int) -> dict[str, Any]:
         "runtime": found["runtime_mean"],
         "lessons": {line["lesson"]: round(line["seconds"], 1) for line in lines},
     }
+
+
+def bring(mind: Path, folder: Path, known: bool) -> None:
+    """Copy a file into a folder and, where what was learnt there is known, its lock with the weights."""
+    copy(mind, folder)
+    lock = mind.with_suffix(".lock")
+    if known and lock.exists():
+        copy(lock, folder)
+        copytree(mind.parent / "weights", folder / "weights", dirs_exist_ok=True)
 
 
 def mindc(folder: str, *arguments: str) -> Sequence[dict[str, Any]]:
@@ -63,13 +75,14 @@ def main() -> None:
     parser.add_argument("--first-seed", type=int, default=1)
     parser.add_argument("--runs", type=int, default=200)
     parser.add_argument("--at-least", type=float, default=4.63, help="objects from which a seed has succeeded")
+    parser.add_argument("--force", action="store_true", help="go on from what does worse than what was known, too")
     parser.add_argument("--json", action="store_true")
     options = parser.parse_args()
     graph, weights, _ = collect()
     prepared(graph, weights, "Collect", 1)
     runs = []
     for seed in range(options.first_seed, options.first_seed + options.seeds):
-        runs.append(learn(options.file, options.curriculum, seed, options.runs))
+        runs.append(learn(options.file, options.curriculum, seed, options.runs, options.force))
         if not options.json:
             print(LINE.format(**runs[-1]), runs[-1]["lessons"], flush=True)
     succeeded = sum(run["objects"] >= options.at_least for run in runs)

@@ -23,7 +23,7 @@ Floats = NDArray[np.float64]
 Intervals = Callable[[Floats, Floats, np.random.Generator], tuple[Floats, Floats]]  # of scores [comparisons, runs]
 COLLECT = Path(__file__).resolve().parent.parent / "examples" / "collect"
 PAIRS = {  # task: two minds, each with its master
-    "Collect": (("collect.mind", "Collect"), ("best.mind", "Collect")),
+    "Collect": (("collect.mind", "Collect"), ("best.mind", "Deliver")),
     "GoToObject": (("collect.mind", "GoToObject"), ("collect.mind", "Collect")),
     "Avoid": (("collect.mind", "Avoid"), ("best.mind", "Avoid")),
 }
