@@ -12,7 +12,7 @@ from mindrun.graph import Graph, Skill
 from mindlang.editing.project import EditError
 from mindlang.lock import Entry, Lock, Signature
 from mindlang.lock.blobs import blob, digest, load_weights
-from mindlang.lock.signature import signature
+from mindlang.lock.signature import signature, width
 from mindlang.lock.status import Stale, Trained, status
 
 if TYPE_CHECKING:
@@ -86,7 +86,7 @@ def widen(entry: Entry, old: Skill, graph: Graph, new: Skill) -> tuple[Entry, We
     influenced = {graph.named("skill", edge.target) for edge in new.edges if edge.to == "skill"}
     if reads is None or sends is None or not set(sends[len(was.sends) :]) <= influenced:
         return None
-    before, after = (_width(was.reads), len(was.sends)), (_width(reads), len(sends))
+    before, after = (sum(map(width, was.reads)), len(was.sends)), (sum(map(width, reads)), len(sends))
     if type(old.function) is not type(new.function):
         return None
     weights = old.function.widened(load_weights(entry, old), before, new.function, after)
@@ -99,7 +99,3 @@ def widen(entry: Entry, old: Skill, graph: Graph, new: Skill) -> tuple[Entry, We
 def _longer(old: tuple[str, ...], new: tuple[str, ...]) -> tuple[str, ...] | None:
     """The old names in their order, then those that are new; None where one is gone."""
     return (*old, *(name for name in new if name not in old)) if set(old) <= set(new) else None
-
-
-def _width(reads: tuple[str, ...]) -> int:
-    return sum(int(width) if width else 1 for _, _, width in (read.partition(":") for read in reads))

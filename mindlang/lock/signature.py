@@ -1,6 +1,7 @@
 """What a genome fits, by name: taken from a graph, and compared with another."""
 
-from collections.abc import Collection, Iterator
+from collections.abc import Collection, Iterator, Mapping, Sequence
+from itertools import accumulate
 from typing import Any
 
 from mindrun.graph import Graph, Skill
@@ -14,7 +15,7 @@ MAX_WIDTH_DIGITS = 9  # of how many readings a sensor has, where a text from out
 
 def signature(graph: Graph, skill: Skill) -> Signature:
     """The signature of a skill that learns."""
-    reads = (f"{name}:{width}" if width > 1 else name for name, width in _reads(graph, skill))
+    reads = (f"{name}:{many}" if many > 1 else name for name, many in _reads(graph, skill))
     sends = (graph.named(edge.to, edge.target) for edge in skill.edges if edge.output is not None)
     return Signature(_function(skill), tuple(reads), tuple(sends))
 
@@ -46,6 +47,21 @@ def reordered(entry: Entry, graph: Graph) -> tuple[str, ...]:
     )
 
 
+def width(name: str) -> int:
+    """How many values a name in a signature stands for: proximity:7 for seven, bearing for one."""
+    digits = name.partition(":")[2]
+    return int(digits[:MAX_WIDTH_DIGITS]) if digits.isdecimal() else 1
+
+
+def places(of: Sequence[str], among: Sequence[str], counterparts: Mapping[str, str]) -> list[int]:
+    """For each value that these names stand for its place among those of the other names, in their order.
+
+    `counterparts` are the names among the others of those that are called otherwise there.
+    """
+    starts = dict(zip(among, accumulate(map(width, among), initial=0), strict=False))
+    return [starts[counterparts.get(name, name)] + number for name in of for number in range(width(name))]
+
+
 def _is_reordered(old: Any, now: SensorKind | None) -> bool:
     """Whether a sensor measures at the same angles, in another order."""
     if not isinstance(old, list) or now is None:
@@ -73,8 +89,7 @@ def _arguments(of: Signature) -> tuple[str, dict[str, str]]:
 
 
 def _widths(of: Signature) -> dict[str, int]:
-    parts = (read.partition(":") for read in of.reads)
-    return {name: int(width[:MAX_WIDTH_DIGITS]) if width.isdecimal() else 1 for name, _, width in parts}
+    return {read.partition(":")[0]: width(read) for read in of.reads}
 
 
 def _read_differences(old: dict[str, int], new: dict[str, int]) -> Iterator[str]:

@@ -1,7 +1,6 @@
 """The weights of another skill with a copy of which a lesson begins."""
 
 from collections.abc import Mapping
-from itertools import accumulate
 from pathlib import Path
 
 from mindrun.graph import Graph, Lesson, Skill
@@ -11,7 +10,7 @@ from mindrun.weights import Weights, learners, owner_of
 from mindlang.compiler.counterparts import counterparts
 from mindlang.lock import Lock
 from mindlang.lock.blobs import Origin
-from mindlang.lock.signature import signature
+from mindlang.lock.signature import places, signature, width
 from mindlang.lock.status import trained_weights
 
 
@@ -49,20 +48,14 @@ def _brought(graph: Graph, lesson: Lesson, origin: Skill, weights: Weights) -> W
     begun = (each for each in graph.lessons if each.curriculum == lesson.curriculum and each.starts_from)
     heirs = {each.skill: each.starts_from for each in begun}
     inputs, outputs = (_places(*names, heirs) for names in ((own.reads, its.reads), (own.sends, its.sends)))
-    before = sum(map(_width, its.reads)), len(its.sends)
+    before = sum(map(width, its.reads)), len(its.sends)
     wide = origin.function.widened(weights, before, learner.function, (len(inputs), len(outputs)))
     return learner.function.reordered(weights if wide is None else wide, inputs, outputs)
 
 
 def _places(of: tuple[str, ...], among: tuple[str, ...], heirs: Mapping[str, str]) -> list[int]:
-    """For each reading or output of these names its place among those of the other names, behind which new ones are."""
+    """For each value of these names its place among those of the other names, behind which new ones are."""
     found = counterparts(of, among, heirs)
     if found is None:
         raise RunError("these weights do not fit", "run mindc check")
-    order = (*among, *(name for name in of if name not in found))
-    starts = dict(zip(order, accumulate(map(_width, order), initial=0), strict=False))
-    return [starts[found.get(name, name)] + number for name in of for number in range(_width(name))]
-
-
-def _width(name: str) -> int:
-    return int(name.partition(":")[2] or 1)
+    return places(of, (*among, *(name for name in of if name not in found)), found)

@@ -12,7 +12,7 @@ from mindrun.printable import visible
 from mindrun.weights import Weights, genes
 
 from mindlang.lock import Signature
-from mindlang.lock.signature import differences, signature
+from mindlang.lock.signature import differences, places, signature
 from mindlang.weights.safetensors import Matrix, Tensors
 
 MAX_SHOWN = 400  # characters of what another program wrote
@@ -121,16 +121,9 @@ def _in_order(network: Network, tensors: Tensors, genome: Weights) -> Weights:
     if sorted(its.reads) != sorted(own.reads) or sorted(its.sends) != sorted(own.sends):
         said = f"{' '.join(own.reads)} and {' '.join(own.sends)}, in any order"
         raise WeightsError("its __metadata__ says twice or otherwise what it reads or sends", f"they are {said}")
-    return network.skill.function.reordered(genome, _places(own.reads, its.reads), _places(own.sends, its.sends))
+    inputs, outputs = places(own.reads, its.reads, {}), places(own.sends, its.sends, {})
+    return network.skill.function.reordered(genome, inputs, outputs)
 
 
 def _shortened(text: str) -> str:
     return visible(text if len(text) <= MAX_SHOWN else f"{text[:MAX_SHOWN]}…")
-
-
-def _places(of: Sequence[str], among: Sequence[str]) -> list[int]:
-    """For each reading or output of these names its place among those of the same names in another order."""
-    widths = [int(name.partition(":")[2] or 1) for name in among]
-    begins = dict(zip(among, accumulate(widths, initial=0), strict=False))
-    many = dict(zip(among, widths, strict=True))
-    return [begins[name] + number for name in of for number in range(many[name])]
