@@ -139,6 +139,7 @@ SHIPPED = (
     Shipped("power.mind", "CollectAndPower", 6.0, 0.54),
     Shipped("power_on_the_job.mind", "CollectWithPower", 11.0, 0.90),
     Shipped("power_on_the_job.mind", "CollectAndPower", 9.0, 0.80),
+    Shipped("collect.mind", "Collect", 10.0, 0.60, COLLECT / "scale_1"),
     Shipped("monolith.mind", "Monolith", 17.0, 0.85, COLLECT / "scale_1"),
 )
 
