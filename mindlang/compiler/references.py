@@ -7,6 +7,7 @@ from typing import Any
 from mindrun.quantity import Quantity
 from mindrun.quantity import Reference as Noun
 from mindrun.registry import arguments, kinds
+from mindrun.variation import VARIED_NOUNS
 
 from mindlang.compiler.names import Names
 from mindlang.compiler.source import Span
@@ -37,7 +38,6 @@ from mindlang.compiler.syntax import (
 
 READABLE_NOUNS = ("sensor", "memory")
 VALUE_NOUNS = (*READABLE_NOUNS, "number", "actuator")  # an actuator is its command, in a task
-VARYING_NOUNS = ("actuator", "sensor", "body", "memory")
 DRIVABLE_NOUNS = ("actuator", "memory")
 
 
@@ -98,8 +98,8 @@ class _Reader:
 
     def varying(self, of: Name) -> Iterator[Mention]:
         """What a number is of that varies: a part of the robot, or a thing."""
-        if self.names.noun_of(of.text, VARYING_NOUNS):
-            yield from self.first_declared(of, *VARYING_NOUNS)
+        if self.names.noun_of(of.text, VARIED_NOUNS):
+            yield from self.first_declared(of, *VARIED_NOUNS)
         else:
             yield Mention("thing", of, self.by)
 
@@ -173,8 +173,8 @@ def mentions(files: Iterable[File], names: Names) -> Iterator[Mention]:
             yield from _declaration(declaration, _Reader(names, declaration))
 
 
-def names_in(fact: Fact, names: Names, by: Declaration) -> Iterator[Mention]:
-    """The names in a fact of a declaration."""
+def names_in(fact: Fact, names: Names, by: Declaration | None) -> Iterator[Mention]:
+    """The names in a fact, of a declaration where that is known."""
     return _Reader(names, by).fact(fact)
 
 

@@ -10,7 +10,8 @@ from mindlang.compiler.compile import Compiled, compile_source, load
 from mindlang.compiler.diagnostic import Diagnostic
 from mindlang.compiler.source import Span
 from mindlang.compiler.splice import spliced
-from mindlang.editing.lock_update import Locks, UpdatedLocks, locks_of, update_locks
+from mindlang.editing.graph_names import Name, NounNames, now_called, renamed
+from mindlang.editing.lock_update import Locks, UpdatedLocks, locks_of, new_names, update_locks
 from mindlang.editing.project import EditError, MindChange, Project
 from mindlang.lock import LockError
 
@@ -52,6 +53,7 @@ def apply_edit(project: Project, change: MindChange, keep_weights: bool) -> Edit
     _refuse_under_alias(change)
     texts = _texts(change)
     graph = _compiled(project, texts)
+    _refuse_captured(project, change, graph)
     locks = locks_of([*project.taught, *change.created])
     beside = []
     for other in _concerned(project, change):
@@ -62,7 +64,8 @@ def apply_edit(project: Project, change: MindChange, keep_weights: bool) -> Edit
         except LockError as error:
             damage = str(error)
         beside.append(EditedNeighbour(other, load(main, texts), damage))
-    followed = update_locks(locks, project.graph, graph, change, keep_weights)
+    neighbours = [each.before.graph for each in beside]
+    followed = update_locks(locks, project.graph, graph, change, keep_weights, neighbours)
     return Edited(project, change, texts, graph, tuple(beside), locks, followed)
 
 
@@ -85,6 +88,18 @@ def _refuse_under_alias(change: MindChange) -> None:
             raise EditError(
                 message, f"Edit it by itself: mindc edit … {name}", Span(splice.source, splice.start, splice.end)
             )
+
+
+def _refuse_captured(project: Project, change: MindChange, graph: Graph) -> None:
+    """EditError where a rename makes a line mean something else: the new name is that of something else there."""
+    names = new_names(change)
+    if any(names.values()) and renamed(project.graph, _called(names)) != renamed(graph, _called({})):
+        old, new = change.renamed[0].old, change.renamed[0].new
+        raise EditError(f"If {old} is called {new}, a line means something else.", "Choose another name.")
+
+
+def _called(names: NounNames) -> Name:
+    return lambda text, *nouns: now_called(text, names, *nouns)
 
 
 def _texts(change: MindChange) -> dict[Path, str]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Set
+from collections.abc import Iterable, Mapping, Sequence, Set
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -12,14 +12,13 @@ from mindrun.graph import Graph
 from mindlang.editing.project import MindChange, Replaced
 from mindlang.editing.unshared import with_copy
 from mindlang.editing.widen import widen_locks
-from mindlang.editing.world_names import relabelled
+from mindlang.editing.world_names import Renaming
 from mindlang.lock import Entry, Lock, lock_path, read_lock
 
 if TYPE_CHECKING:
     from mindrun.arrays import Weights
 
 Locks = Mapping[Path, Lock]  # by the path of the lock
-Names = Mapping[str, Mapping[str, str]]  # what is called otherwise now, by noun
 
 
 @dataclass(frozen=True, slots=True)
@@ -43,15 +42,23 @@ def merged(locks: Locks, sources: Iterable[Path]) -> Lock:
     return known
 
 
-def update_locks(locks: Locks, before: Graph, after: Graph, change: MindChange, keep_weights: bool) -> UpdatedLocks:
+def update_locks(
+    locks: Locks,
+    before: Graph,
+    after: Graph,
+    change: MindChange,
+    keep_weights: bool,
+    neighbours: Sequence[Graph] = (),
+) -> UpdatedLocks:
     """The locks after an edit; with `keep_weights`, a skill that reads or influences more goes on as before.
 
-    EditError where a skill cannot.
+    Some may be those of `neighbours`. EditError where a skill cannot.
     """
     names = new_names(change)
     gone = {names["skill"].get(skill.name, skill.name) for skill in before.skills}
     gone -= {skill.name for skill in after.skills}
-    kept = {path: _relabelled(lock, names, gone) for path, lock in locks.items()}
+    renaming = Renaming(names, (before, *neighbours))
+    kept = {path: _relabelled(lock, renaming, gone) for path, lock in locks.items()}
     if change.replaced:
         own = {skill.name for skill in before.skills} - {change.replaced.new}
         kept = {path: _moved(lock, change.replaced, own) for path, lock in kept.items()}
@@ -72,41 +79,38 @@ def new_names(change: MindChange) -> dict[str, dict[str, str]]:
     return names
 
 
-def now_called(name: str, names: Names, *nouns: str) -> str:
-    """The new name of something with one of these nouns; the old one where it was not renamed."""
-    return next((names[noun][name] for noun in nouns if name in names.get(noun, {})), name)
-
-
-def _relabelled(lock: Lock, names: Names, gone: set[str]) -> dict[str, Entry]:
+def _relabelled(lock: Lock, renaming: Renaming, gone: set[str]) -> dict[str, Entry]:
     """A lock with new names, without the lines of skills that are gone."""
-    taken = set(names["skill"].values())  # by a line of a skill that was there once
-    entries = (_entry(entry, names) for name, entry in lock.items() if name not in taken)
+    taken = set(renaming.names["skill"].values())  # by a line of a skill that was there once
+    entries = (_entry(entry, renaming) for name, entry in lock.items() if name not in taken)
     return {entry.skill: entry for entry in entries if entry.skill not in gone}
 
 
-def _entry(entry: Entry, names: Names) -> Entry:
+def _entry(entry: Entry, renaming: Renaming) -> Entry:
+    called = renaming.name
+
     def read(text: str) -> str:
         name, colon, width = text.partition(":")
-        return f"{now_called(name, names, 'sensor', 'memory')}{colon}{width}"
+        return f"{called(name, 'sensor', 'memory')}{colon}{width}"
 
     def skill(name: str) -> str:
-        return now_called(name, names, "skill")
+        return called(name, "skill")
 
     signature, taught = entry.signature, entry.taught
-    sends = (now_called(name, names, "skill", "actuator", "memory") for name in signature.sends)
+    sends = (called(name, "skill", "actuator", "memory") for name in signature.sends)
     return replace(
         entry,
         skill=skill(entry.skill),
         signature=replace(signature, reads=tuple(map(read, signature.reads)), sends=tuple(sends)),
         taught=replace(
             taught,
-            task=now_called(taught.task, names, "task"),
+            task=called(taught.task, "task"),
             master=skill(taught.master),
-            curriculum=now_called(taught.curriculum, names, "curriculum"),
+            curriculum=called(taught.curriculum, "curriculum"),
         ),
         subskills=tuple(sorted((skill(name), weights) for name, weights in entry.subskills)),
         origin=entry.origin and (skill(entry.origin[0]), entry.origin[1]),
-        worlds=tuple(relabelled(world, names) for world in entry.worlds),
+        worlds=tuple(map(renaming.relabelled, entry.worlds)),
     )
 
 

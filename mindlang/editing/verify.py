@@ -17,7 +17,8 @@ from numpy.typing import NDArray
 
 from mindlang.compiler.references import READABLE_NOUNS
 from mindlang.editing.apply import Edited
-from mindlang.editing.lock_update import Names, merged, new_names, now_called
+from mindlang.editing.graph_names import NounNames, now_called
+from mindlang.editing.lock_update import merged, new_names
 from mindlang.editing.project import EditError
 from mindlang.lock import Lock
 from mindlang.lock.arrange import arrange
@@ -84,7 +85,7 @@ def verify_unchanged(edited: Edited, prepare: Callable[[Rollout], None] = Rollou
     return done
 
 
-def _is_untouched(before: MindVersion, after: MindVersion, skill: str, master: str, names: Names) -> bool:
+def _is_untouched(before: MindVersion, after: MindVersion, skill: str, master: str, names: NounNames) -> bool:
     """Whether all that a skill reaches is declared as before, or has been widened to do as before; and can act."""
     old, new = before.weights(skill), owner_of(after.graph, master) in after.lock and after.weights(master)
     if not old or not new:
@@ -101,7 +102,7 @@ def _is_untouched(before: MindVersion, after: MindVersion, skill: str, master: s
     return True
 
 
-def _shape(side: MindVersion, skill: Skill, names: Names) -> object:
+def _shape(side: MindVersion, skill: Skill, names: NounNames) -> object:
     """What a skill reads and sends, by name."""
     readings = _readings(side.graph)
 
@@ -128,7 +129,7 @@ def _readings(graph: Graph) -> list[tuple[str, int]]:
 
 
 def _hold(
-    recorded: NDArray[np.float32], before: MindVersion, after: MindVersion, skill: str, master: str, names: Names
+    recorded: NDArray[np.float32], before: MindVersion, after: MindVersion, skill: str, master: str, names: NounNames
 ) -> None:
     """Run a skill before and after on the same readings; EditError at the first tick that differs."""
     columns = {

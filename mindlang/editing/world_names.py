@@ -1,101 +1,150 @@
-"""Renames inside of a training world: the facts of a lock after sensors, tasks or skills have been renamed."""
+"""Renames inside of a training world: the facts of a lock after sensors, tasks or skills have been renamed.
+
+A fact is renamed as the mind says it now, whatever its sentence looks like: the worlds of the mind are made once more
+with a mark for each renamed name, and say of every text what it was and what it becomes. Only what the mind does not
+say any more is read as a line of the language.
+"""
 
 import re
-from collections.abc import Callable, Mapping
-from typing import Any
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from itertools import count
+from typing import Any, cast
 
-from mindrun.quantity import Reference
-from mindrun.registry import arguments, kinds
+from lark import UnexpectedInput
+from mindrun.graph import Graph
 
-from mindlang.compiler.references import READABLE_NOUNS
+from mindlang.compiler.names import Names
+from mindlang.compiler.parse.shape import parse_line
+from mindlang.compiler.references import READABLE_NOUNS, names_in
+from mindlang.compiler.source import Source
+from mindlang.compiler.splice import spliced
+from mindlang.compiler.syntax import Declaration, Fact
+from mindlang.editing.graph_names import NounNames, now_called, renamed
+from mindlang.editing.insertion import instead
 from mindlang.lock.training_world import TrainingWorld
+from mindlang.lock.world_facts import Worlds
 
-NounNames = Mapping[str, Mapping[str, str]]  # what is called otherwise now, by noun
-ENDS = ("ends", "succeeds")
-OF_THINGS = {"of", "toward", "from"}  # words before the name of a thing, in a phrase
-_WORD = re.compile(r"[^\s()]+")
-
-Name = Callable[..., str]
-
-
-def relabelled(world: TrainingWorld, names: NounNames) -> TrainingWorld:
-    """A training world with these renames applied to its facts."""
-
-    def name(text: str, *nouns: str) -> str:
-        return next((names[noun][text] for noun in nouns if text in names.get(noun, {})), text)
-
-    return TrainingWorld(
-        {_subject(subject, name): _fact(subject, value, name) for subject, value in world.facts.items()}
-    )
+Role = tuple[str | int, ...]  # where a text stands: the noun of its fact, and the keys and numbers that lead to it
+_MARK = re.compile("\0([0-9]+)\0")  # no name has such a character
+_TITLE = re.compile(r"([a-z]\w*\.)?[A-Z]")
+_AROUND: Mapping[Role, Callable[[str], tuple[str, str]]] = {
+    ("skill", "reads"): lambda _: ("reads ", ""),
+    ("skill", "sends"): lambda text: ("influences " if _TITLE.match(text) else "drives ", ""),
+    ("task", "ends"): lambda text: ("ends " if text.startswith("when ") else "ends on ", ""),
+    ("task", "succeeds"): lambda text: ("ends " if text.startswith("when ") else "ends on ", ""),
+    ("varying",): lambda _: ("", ""),
+    ("rewards", 0): lambda _: ("rewards ", " per tick"),
+    ("rewards", 1): lambda _: ("rewards 1 ", ""),
+}  # what stands before and after a text of a lock where it is a fact of a mind
 
 
-def _subject(subject: str, name: Name) -> str:
-    noun, space, named = subject.partition(" ")
-    return f"{noun}{space}{name(named, noun)}"
+@dataclass(frozen=True)
+class Renaming:
+    """New names, and the minds, with the old names or the new ones, whose worlds say where they stand."""
+
+    names: NounNames
+    minds: Sequence[Graph]
+
+    def name(self, text: str, *nouns: str) -> str:
+        """What something with one of these nouns is called now."""
+        return now_called(text, self.names, *nouns)
+
+    def relabelled(self, world: TrainingWorld) -> TrainingWorld:
+        """A training world with these names in its facts."""
+        if not self._pairs:
+            return world
+        said = self._said(world)
+
+        def text(role: Role, old: str) -> str:
+            return said.get((role, old)) or self._read_again(role, old)
+
+        facts = world.facts.items()
+        now = {self._subject(subject): _mapped(value, (_noun(subject),), text) for subject, value in facts}
+        lesson = world.facts["lesson"]
+        nouns = {"task": "task", "master": "skill", "starts_from": "skill"}
+        named = {key: self.name(lesson[key], noun) for key, noun in nouns.items() if key in lesson}
+        return TrainingWorld({**now, "lesson": {**lesson, **named}})
+
+    def _subject(self, subject: str) -> str:
+        noun, space, named = subject.partition(" ")
+        return f"{noun}{space}{self.name(named, noun)}"
+
+    def _said(self, world: TrainingWorld) -> dict[tuple[Role, str], str]:
+        """Every text in the world of the same lesson, where a mind has it, by its role and as it was: as it is now."""
+        found: dict[tuple[Role, str], str] = {}
+
+        def noted(role: Role, text: str) -> str:
+            found.setdefault((role, self._unmarked(text, 0)), self._unmarked(text, 1))
+            return text
+
+        for mind in self._marked:
+            lesson = world.lesson
+            task, master = self._mark(lesson.task, "task"), self._mark(lesson.master, "skill")
+            if {task} <= {each.name for each in mind.graph.tasks} and master in mind.graph.skill_numbers:
+                facts = mind.of_gone(type(lesson)(task, master, lesson.jointly), {}).facts
+                for subject, value in facts.items():
+                    _mapped(value, (_noun(subject),), noted)
+        return found
+
+    @cached_property
+    def _pairs(self) -> list[tuple[str, str]]:
+        return [pair for named in self.names.values() for pair in named.items()]
+
+    @cached_property
+    def _marks(self) -> NounNames:
+        """The mark of each name, as it was and as it is now."""
+        numbers = count()
+        numbered = {noun: [(pair, next(numbers)) for pair in named.items()] for noun, named in self.names.items()}
+        return {noun: {name: f"\0{i}\0" for pair, i in pairs for name in pair} for noun, pairs in numbered.items()}
+
+    def _mark(self, text: str, *nouns: str) -> str:
+        return now_called(text, self._marks, *nouns)
+
+    @cached_property
+    def _marked(self) -> list[Worlds]:
+        return [Worlds(renamed(mind, self._mark), None) for mind in self.minds]
+
+    def _unmarked(self, text: str, which: int) -> str:
+        return _MARK.sub(lambda found: self._pairs[int(found[1])][which], text)
+
+    def _read_again(self, role: Role, text: str) -> str:
+        """A text that no mind says now, read as the fact that it was once, with other names."""
+        if role not in _AROUND:
+            is_name = role[-1] != "is" and role[0] != "lesson"
+            return self.name(text, "skill", "actuator", *READABLE_NOUNS, "thing") if is_name else text
+        before, after = _AROUND[role](text)
+        source = Source("a fact", f"{before}{text}{after}")
+        try:
+            fact = cast(Fact, parse_line(source.text, source, 0))
+        except UnexpectedInput:
+            return text
+        mentions = names_in(fact, self._known, None)
+        splices = (instead(each.name.span, self.name(each.name.text, each.noun)) for each in mentions)
+        return spliced(source, splices).removeprefix(before).removesuffix(after)
+
+    @cached_property
+    def _known(self) -> Names:
+        return Names({noun: cast(dict[str, Declaration], named) for noun, named in self.names.items()})
 
 
-def _fact(subject: str, value: Any, name: Name) -> Any:
-    match subject.partition(" ")[0]:
-        case "sensor":
-            nouns = _named_by(value["is"])
-            return {key: _renamed(part, nouns[key], name) if key in nouns else part for key, part in value.items()}
-        case "skill":
-            return {key: _skill_part(key, part, name) for key, part in value.items()}
-        case "task":
-            ends = {key: sorted(_phrase(event, name) for event in value[key]) for key in ENDS if key in value}
-            return {**value, **ends}
-        case "rewards":
-            return sorted([_phrase(part, name) for part in reward] for reward in value)
-        case "lesson":
-            renamed = {"task": name(value["task"], "task"), "master": name(value["master"], "skill")}
-            if "starts_from" in value:
-                renamed["starts_from"] = name(value["starts_from"], "skill")
-            return {**value, **renamed}
+def _noun(subject: str) -> str:
+    return subject.partition(" ")[0]
+
+
+def _mapped(value: Any, role: Role, text: Callable[[Role, str], str]) -> Any:
+    """A fact's value with other texts; those in a list have one role, those in a list of one their places, too."""
+    match value:
+        case str():
+            return text(role, value)
+        case dict():
+            return {key: _mapped(part, (*role, key), text) for key, part in value.items()}
+        case list():
+            return [
+                [_mapped(each, (*role, i), text) for i, each in enumerate(part)]
+                if isinstance(part, list)
+                else _mapped(part, role, text)
+                for part in value
+            ]
     return value
-
-
-def _renamed(part: Any, noun: str, name: Name) -> Any:
-    """The name that an argument says, or the readings in its expression."""
-    if noun == "expression":
-        return [[word, name(x, *READABLE_NOUNS) if isinstance(x, str) else x] for word, x in part]
-    return name(part, *(READABLE_NOUNS if noun == "sensor" else (noun,)))
-
-
-def _named_by(kind: str) -> dict[str, str]:
-    """The arguments of a kind of sensor that name something, with its noun."""
-    known = kinds("sensor").get(kind)
-    taken = arguments(known) if known else ()
-    return {each.field: each.type.noun for each in taken if isinstance(each.type, Reference)}
-
-
-def _skill_part(key: str, value: Any, name: Name) -> Any:
-    if key == "like":
-        return name(value, "skill")
-    if key == "reads":
-        return [_read(each, name) for each in value]
-    if key not in ("sends", "answers"):
-        return value
-    return [_sent(each, name) for each in value]
-
-
-def _read(text: str, name: Name) -> str:
-    """What a skill reads, and in place of what where it is like another."""
-    return " for ".join(name(each, "sensor", "memory") for each in text.split(" for "))
-
-
-def _sent(text: str, name: Name) -> str:
-    target, at, value = text.partition(" at ")
-    return f"{name(target, 'skill', 'actuator', 'memory')}{at}{_phrase(value, name)}"
-
-
-def _phrase(text: str, name: Name) -> str:
-    """An expression, an event or a measure with other names."""
-    before = ""
-
-    def instead(found: re.Match[str]) -> str:
-        nonlocal before
-        nouns = ("thing",) if before in OF_THINGS else ("sensor", "memory")
-        before = found.group()
-        return name(before, *nouns)
-
-    return _WORD.sub(instead, text)

@@ -58,7 +58,8 @@ def _followed(minds: Sequence[Compiled], locks: Locks, change: MindChange) -> Lo
     """The locks that are others with these names; none where the minds do not have these names."""
     first = minds[0].graph
     assert first is not None
-    followed = update_locks(locks, first, first, change, keep_weights=False).locks
+    graphs = [mind.graph for mind in minds if mind.graph]
+    followed = update_locks(locks, first, first, change, keep_weights=False, neighbours=graphs[1:]).locks
     fit, would_fit = _fitting(minds, locks), _fitting(minds, followed)
     is_whole = all(len(followed[path]) == len(locks[path]) for path in locks)
     if would_fit < fit or (would_fit == fit and not (is_whole and _is_renamed(minds[0], change))):

@@ -1,0 +1,125 @@
+"""A rename of anything in any mind: what was learnt, the world in which it was, and what the mind does stay."""
+
+from collections.abc import Iterator, Mapping
+from dataclasses import replace
+from pathlib import Path
+from random import Random
+
+import pytest
+from hypothesis import event, given, settings
+from hypothesis import strategies as st
+from mindrun.graph import Graph
+from mindrun.weights import genes, owners, reachable
+
+from mindlang.compiler.compile import load
+from mindlang.compiler.references import introductions
+from mindlang.editing.apply import apply_edit
+from mindlang.editing.graph_names import now_called
+from mindlang.editing.lock_update import new_names, update_locks
+from mindlang.editing.project import EditError, Project, open_project
+from mindlang.edits import edit
+from mindlang.lock import Entry, Lock, Taught, lock_sources, lock_text, read_locks
+from mindlang.lock.signature import signature
+from mindlang.lock.status import Status, Trained, status
+from mindlang.lock.world_facts import Worlds
+from tests.edits.sources import MAIN, Texts, minds
+from tests.language.examples import ROOT
+
+OFTEN, SELDOM = 3000, 60  # cases of each test in the slow suite, and in the other
+NEW = {False: ("fresh", "fresh", "p", "on", "when", "of", "ball", "eye", "left_wheel", "mood"), True: ("Fresh", "Fresh", "Go", "World")}
+OTHERWISE = (("< 0.7", "< 0.6"), ("> 0.5", "> 0.4"), ("rewards 10 ", "rewards 11 "), ("1% per s", "2% per s"))
+SHIPPED = ("tour/tour", "collect/collect", "collect/power", "sort/sort", "rover/rover", "soccer/soccer", "maze/maze")
+
+
+def taught(graph: Graph) -> Lock:
+    """A lock as if every lesson of a mind had been taught, each skill with those that learn below it."""
+    known: dict[str, Entry] = {}
+    for lesson in graph.lessons:
+        skill = next(each for each in graph.skills if each.name == lesson.skill)
+        below = {*owners(reachable(graph, skill.name))} - {skill.name}
+        how = Taught(lesson.task, lesson.master, lesson.with_subskills, 3, 8, 1, 2.5, lesson.number, lesson.curriculum)
+        world = Worlds(graph, None).of(lesson)
+        known[skill.name] = Entry(
+            skill.name,
+            signature(graph, skill),
+            "0" * 64,
+            how,
+            tuple(sorted((name, "0" * 64) for name in below)),
+            (world,) if genes(skill) else (),
+        )
+    return known
+
+
+def names_of(project: Project) -> list[tuple[str, str]]:
+    """Everything that has a name, with its noun."""
+    return list(dict.fromkeys((mention.noun, mention.name.text) for mention in introductions(project.files)))
+
+
+def changes(states: Mapping[str, Status]) -> dict[str, tuple[type, int]]:
+    """How every skill stands, and how much has changed since it was taught."""
+    return {skill: (type(s), len(s.changes) if isinstance(s, Trained) else 0) for skill, s in states.items()}
+
+
+def holds(project: Project, lock: Lock, noun: str, old: str, new: str) -> tuple[Mapping[Path, str], Lock]:
+    """A rename leaves how skills stand, and the mind but for its names; the texts and the lock after it."""
+    change = edit("rename").function(project, old=old, new=new, noun=noun)
+    edited = apply_edit(project, change, keep_weights=False)
+    path = project.main.source.path
+    followed = update_locks({path: lock}, project.graph, edited.graph, change, keep_weights=False).locks[path]
+    names = new_names(change)
+    before = {now_called(s, names, "skill"): how for s, how in changes(status(project.graph, lock)).items()}
+    assert changes(status(edited.graph, followed)) == before, f"{noun} {old} is {new}"
+    return edited.texts, followed
+
+
+def all_renames_hold(texts: Texts, lock: Lock, rng: Random, most: int) -> Iterator[str]:
+    """Rename some of what has a name and back: the texts and the lock are the same to the byte then."""
+    project = texts.project()
+    known = names_of(project)
+    for noun, old in rng.sample(known, min(most, len(known))):
+        new = rng.choice(NEW[old[0].isupper()])
+        try:
+            after, followed = holds(project, lock, noun, old, new)
+        except EditError:
+            assert new not in ("fresh", "Fresh"), "what nothing is called can be a name"
+            yield "refused"
+            continue
+        yield noun
+        there = texts.changed(dict(after))
+        back, again = holds(there.project(), followed, noun, new, old)
+        assert there.changed(dict(back)).files == texts.files
+        assert lock_text(again) == lock_text(lock)
+
+
+@pytest.mark.parametrize("cases", [SELDOM, pytest.param(OFTEN, marks=pytest.mark.slow)])
+def test_a_rename_of_anything_in_any_mind(cases: int) -> None:
+    """Taught in the mind as it is, or in one of which a few sentences were others."""
+
+    @settings(max_examples=cases, deadline=None)
+    @given(minds(), st.integers(0, 2**32 - 1))
+    def every(texts: Texts, seed: int) -> None:
+        rng = Random(seed)
+        older = texts
+        if rng.random() < 0.3:
+            text = texts.files[MAIN]
+            for now, then in OTHERWISE:
+                text = text.replace(now, then)
+            older = texts.changed({MAIN: text})
+        graph = older.compiled().graph
+        assert graph
+        for said in all_renames_hold(texts, taught(graph), rng, 4):
+            event(said)
+
+    every()
+
+
+@pytest.mark.parametrize("name", SHIPPED)
+def test_every_name_of_the_examples(name: str) -> None:
+    """As they were taught, and where they were not, as if they had been."""
+    compiled = load(ROOT / "examples" / f"{name}.mind")
+    project = open_project(compiled)
+    project = replace(project, neighbours=())
+    lock = read_locks(lock_sources(compiled.sources)) or taught(project.graph)
+    assert lock
+    for noun, old in names_of(project):
+        holds(project, lock, noun, old, f"{old}9")  # a map knows things by their first letter
