@@ -26,7 +26,10 @@ from tests.edits.sources import MAIN, Texts, minds
 from tests.language.examples import ROOT
 
 OFTEN, SELDOM = 3000, 60  # cases of each test in the slow suite, and in the other
-NEW = {False: ("fresh", "fresh", "p", "on", "when", "of", "ball", "eye", "left_wheel", "mood"), True: ("Fresh", "Fresh", "Go", "World")}
+NEW = {
+    False: ("fresh", "fresh", "p", "on", "when", "of", "ball", "eye", "left_wheel", "mood"),
+    True: ("Fresh", "Fresh", "Go", "World"),
+}
 OTHERWISE = (("< 0.7", "< 0.6"), ("> 0.5", "> 0.4"), ("rewards 10 ", "rewards 11 "), ("1% per s", "2% per s"))
 SHIPPED = ("tour/tour", "collect/collect", "collect/power", "sort/sort", "rover/rover", "soccer/soccer", "maze/maze")
 
