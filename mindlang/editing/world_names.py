@@ -55,10 +55,10 @@ class Renaming:
         """A training world with these names in its facts."""
         if not self._pairs:
             return world
-        said = self._said(world)
+        texts = self._texts(world)
 
         def text(role: Role, old: str) -> str:
-            return said.get((role, old)) or self._read_again(role, old)
+            return texts.get((role, old)) or self._read_again(role, old)
 
         facts = world.facts.items()
         now = {self._subject(subject): _mapped(value, (_noun(subject),), text) for subject, value in facts}
@@ -71,7 +71,7 @@ class Renaming:
         noun, space, named = subject.partition(" ")
         return f"{noun}{space}{self.name(named, noun)}"
 
-    def _said(self, world: TrainingWorld) -> dict[tuple[Role, str], str]:
+    def _texts(self, world: TrainingWorld) -> dict[tuple[Role, str], str]:
         """Every text in the world of the same lesson, where a mind has it, by its role and as it was: as it is now."""
         found: dict[tuple[Role, str], str] = {}
 
