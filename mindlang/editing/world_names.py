@@ -29,7 +29,7 @@ from mindlang.lock.world_facts import Worlds
 Role = tuple[str | int, ...]  # where a text stands: the noun of its fact, and the keys and numbers that lead to it
 _MARK = re.compile("\0([0-9]+)\0")  # no name has such a character
 _TITLE = re.compile(r"([a-z]\w*\.)?[A-Z]")
-_AROUND: Mapping[Role, Callable[[str], tuple[str, str]]] = {
+_AROUND_SENTENCE: Mapping[Role, Callable[[str], tuple[str, str]]] = {
     ("skill", "reads"): lambda _: ("reads ", ""),
     ("skill", "sends"): lambda text: ("influences " if _TITLE.match(text) else "drives ", ""),
     ("task", "ends"): lambda text: ("ends " if text.startswith("when ") else "ends on ", ""),
@@ -111,10 +111,10 @@ class Renaming:
 
     def _read_again(self, role: Role, text: str) -> str:
         """A text that no mind says now, read as the fact that it was once, with other names."""
-        if role not in _AROUND:
+        if role not in _AROUND_SENTENCE:
             is_name = role[-1] != "is" and role[0] != "lesson"
             return self.name(text, "skill", "actuator", *READABLE_NOUNS, "thing") if is_name else text
-        before, after = _AROUND[role](text)
+        before, after = _AROUND_SENTENCE[role](text)
         source = Source("a fact", f"{before}{text}{after}")
         try:
             fact = cast(Fact, parse_line(source.text, source, 0))
