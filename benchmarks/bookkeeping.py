@@ -60,7 +60,7 @@ class MadeUp:
             Record(stretch.number + 1, at, 0.0, 0.0, None, None, 1, 0.0, 0) for at in range(before + 1, after + 1)
         )
         champions = np.zeros((after - before, WEIGHT_COUNT), np.float32)
-        return job, Segment(state, records, champions, Verdict(np.zeros(2), 1, 0) if after == end else None)
+        return job, Segment(state, records, champions, Verdict(np.zeros(2), True, 1, 0) if after == end else None)
 
 
 class Cost(NamedTuple):

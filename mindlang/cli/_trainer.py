@@ -73,7 +73,10 @@ class Trainer:
                 frozen += 1
                 self._say(f"{lesson.skill} is frozen, and is not taught")
             elif skills or force or is_due(subject.graph, lesson, standing):
-                run = begin_run(subject, options.applied(lesson), seed, runs, datetime.now(UTC), command)
+                wished = options.applied(lesson)
+                if lesson.needs and not wished.needs:
+                    self._say(f"{lesson.skill} has fewer generations than its lesson says: nothing is needed of it")
+                run = begin_run(subject, wished, seed, runs, datetime.now(UTC), command)
                 taught += 1
                 if not self._teach(run, subject, force):
                     return False

@@ -171,4 +171,5 @@ def _lesson(lesson: model.Lesson) -> graph.Lesson:
         lesson.learner,
         lesson.number,
         lesson.starts_from,
+        lesson.needs,
     )

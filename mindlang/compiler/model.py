@@ -8,7 +8,7 @@ from mindrun.actuators import ActuatorKind
 from mindrun.bodies import BodyKind
 from mindrun.events import EventKind
 from mindrun.functions import Function
-from mindrun.graph import Failure, Receiver, Start, Variation
+from mindrun.graph import Failure, Need, Receiver, Start, Variation
 from mindrun.learners import Learner
 from mindrun.measures import MeasureKind
 from mindrun.memory import Cell
@@ -239,6 +239,7 @@ class Lesson:
     learner: Learner
     number: int
     starts_from: str
+    needs: tuple[Need, ...]
     fact: Teaches
 
 

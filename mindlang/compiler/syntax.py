@@ -302,6 +302,16 @@ class Counts:
 
 
 @dataclass(frozen=True, slots=True)
+class Needs:
+    """`needs MEASURE > NUMBER`, of a lesson."""
+
+    measure: Name
+    compare: str
+    above: Amount
+    span: Span
+
+
+@dataclass(frozen=True, slots=True)
 class Teaches:
     """`teaches SKILL on TASK [under MASTER] for GENERATIONS …`"""
 
@@ -310,6 +320,7 @@ class Teaches:
     master: Name | None
     generations: Amount
     arguments: tuple[Argument, ...]
+    needs: tuple[Needs, ...]
     span: Span
 
 

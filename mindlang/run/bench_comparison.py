@@ -8,10 +8,11 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from mindrun.graph import Task
+from mindrun.train.scoring import succeeded
 from numpy.typing import NDArray
 
 from mindlang.run.conclusion import SCORE, SUCCESS, conclusion
-from mindlang.run.outcome import events, succeeded
+from mindlang.run.outcome import events
 from mindlang.run.paired_difference import CONFIDENCE_LEVEL, Difference, difference
 
 if TYPE_CHECKING:

@@ -11,6 +11,7 @@ import numpy as np
 from mindrun.graph import Task
 from mindrun.reward_sums import paid_by_text, score_of
 from mindrun.sim.codes import BROKEN_OFF, GOING_ON, LOST
+from mindrun.train.scoring import succeeded
 from numpy.typing import NDArray
 
 from mindlang.compiler.drawing import phrase
@@ -108,12 +109,6 @@ def bench_data(task: Task, scores: Scores, seeds: Sequence[int], seconds: float)
         "seconds": round(seconds, 3),
         "ticks_per_second": round(ticks / max(seconds, 1e-9)),
     }
-
-
-def succeeded(task: Task, scores: Scores) -> NDArray[np.bool_]:
-    """Which runs [genomes, seeds] are a success: one came before any other end, whether or not it ended them."""
-    successes = [number for number, end in enumerate(task.ends) if end.succeeds]
-    return np.isin(scores.met, successes)
 
 
 def _spread(of: str, values: NDArray[Any]) -> dict[str, float | None]:

@@ -7,9 +7,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 from mindrun.graph import Task
+from mindrun.train.scoring import succeeded
 
 from mindlang.run.columns import Column, columns
-from mindlang.run.outcome import TIME, ended_by, events, succeeded
+from mindlang.run.outcome import TIME, ended_by, events
 
 if TYPE_CHECKING:
     from mindrun.run_scores import Scores

@@ -145,11 +145,13 @@ def _lesson(line: CursorLine, rest: Sequence[str]) -> list[Offer]:
             return [Offer("scratch", "word"), *names(line.view, "skill")]
         case [*_, "with"]:
             return [Offer("subskills", "word")]
+        case [*_, "needs"]:
+            return words("score", "success")
         case [*_, "using"]:
             return kinds_of("curriculum")
     phrase = line.above.header.phrase if line.above else None
     learner = rest[rest.index("using") + 1] if "using" in rest else phrase.kind.text if phrase else ""
-    switches = words("from scratch", "with subskills", "using")
+    switches = words("from scratch", "with subskills", "using", "needs")
     switches = [offer for offer in switches if offer.label.split()[0] not in rest]
     if learner not in kinds("curriculum"):
         return switches

@@ -45,16 +45,18 @@ class TrainOptions:
             raise MindError(f"scale cannot be {self.scale!r}", f"scale is a number above 0, and at most {MAX_SCALE}")
 
     def applied(self, lesson: Lesson) -> Lesson:
-        """The lesson as it is wished for."""
+        """The lesson as it is wished for; of one with fewer generations than it says, nothing is needed."""
         learner = replace(
             lesson.learner,
             population=self.population or lesson.learner.population,
             attempts=self.attempts or lesson.learner.attempts,
             rungs=lesson.learner.rungs if self.rungs is None else self.rungs,
         )
+        generations = max(1, round(self.scale * (self.generations or lesson.generations)))
         return replace(
             lesson,
-            generations=max(1, round(self.scale * (self.generations or lesson.generations))),
+            generations=generations,
+            needs=lesson.needs if generations >= lesson.generations else (),
             from_scratch=self.from_scratch or lesson.from_scratch,
             starts_from="" if self.from_scratch else lesson.starts_from,
             learner=learner,

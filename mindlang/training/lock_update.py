@@ -9,11 +9,12 @@ from mindrun.graph import Lesson
 from mindrun.train import RunError
 from mindrun.train.lesson_state import LessonState
 from mindrun.train.population import Genomes
-from mindrun.train.run_folder import RunFolder
+from mindrun.train.run_folder import WEIGHTS, RunFolder
 from mindrun.train.scoring import Scorer, mark
 from mindrun.train.seeds import Purpose, layouts
 from mindrun.weights import parts
 
+from mindlang.compiler.diagnostic import listed
 from mindlang.lock import Entry, LockError, Taught, read_lock
 from mindlang.lock.blobs import record
 from mindlang.lock.status import Trained, trained_weights
@@ -58,9 +59,10 @@ class Kept:
 def keep(run: RunFolder, subject: Subject, state: LessonState, scorer: Scorer, force: bool) -> Kept:
     """Put what was learnt into the lock, or with `force` even where it is worse than what is there.
 
-    RunError where nothing was learnt. LockError where the lock cannot be read or written.
+    RunError where nothing was learnt, or not what the lesson needs. LockError where the lock cannot be read or written.
     """
     refuse_nothing(run.manifest.lesson, state)
+    refuse_failed(run, state)
     old = _genome_there(run, subject)
     if old is None or np.array_equal(old, state.kept[0]):
         return Kept(_record(run, subject, state, state.kept[0], state.reevaluated), None, True)
@@ -90,6 +92,20 @@ def refuse_nothing(lesson: Lesson, state: LessonState) -> None:
     else:
         return
     raise RunError(f"{lesson.skill} has learnt nothing: {why}; the lock stays as it is", hint)
+
+
+def refuse_failed(run: RunFolder, state: LessonState) -> None:
+    """RunError where no attempt has met what its lesson needs: nothing is to be taught on top of that."""
+    lesson = run.manifest.lesson
+    if not lesson.needs or state.passed.any():
+        return
+    which = "its only attempt" if state.attempt == 1 else f"the best of {state.attempt} attempts"
+    needed = listed(map(str, lesson.needs), "and")
+    raise RunError(
+        f"{lesson.skill} has failed its lesson, which needs {needed} on fresh layouts: {which} scored "
+        f"{number(state.reevaluated)} there; the lock stays as it is, and nothing is taught on top of it",
+        f"try more --attempts, more generations or another --seed; what it has learnt is in {run.folder / WEIGHTS}",
+    )
 
 
 def compare(run: RunFolder, scorer: Scorer, genomes: Genomes) -> Comparison:

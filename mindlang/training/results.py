@@ -28,7 +28,7 @@ def result_of(run: RunFolder, state: LessonState, kept: Kept) -> Result:
         "generations": lesson.generations,
         "bred": state.generations,
         "population": lesson.learner.population,
-        "attempts": lesson.learner.attempts,
+        "attempts": state.attempt,
         "seed": run.manifest.seed,
         "best": state.best,
         "reevaluated": state.reevaluated,

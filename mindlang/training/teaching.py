@@ -11,7 +11,7 @@ from mindrun.policy import Policy
 from mindrun.sim.rollout import Rollout
 from mindrun.sim.rollouts import rollout_for
 from mindrun.train.lesson import Clock
-from mindrun.train.lesson_state import Course, LessonState
+from mindrun.train.lesson_state import Course, LessonState, is_over
 from mindrun.train.population import founder_count
 from mindrun.train.run_folder import RunFolder, keep_result, read_result
 from mindrun.train.scoring import Scorer
@@ -98,12 +98,16 @@ def workers_of(
 def stretches_of(
     course: Course, rollout: Rollout, scorer: Scorer, clock: Clock
 ) -> StretchExecutor | StretchThreads | None:
-    """Who does several attempts side by side: the workers of a scorer, else threads; None where nobody does."""
+    """Who does several attempts side by side: the workers of a scorer, else threads; None where nobody does.
+
+    Attempts of a lesson that ends with the first that passes go one by one here: the others would be for nothing.
+    """
     if course.lesson.learner.attempts == 1:
         return None
     if isinstance(scorer, JobScorer):
         return StretchExecutor(course, scorer.jobs, rollout)
-    return StretchThreads(course, rollout.workers, rollout.on, clock) if rollout.workers > 1 else None
+    side_by_side = rollout.workers > 1 and not course.lesson.needs
+    return StretchThreads(course, rollout.workers, rollout.on, clock) if side_by_side else None
 
 
 @contextmanager
@@ -144,4 +148,4 @@ def finish(run: RunFolder, subject: Subject, state: LessonState, scorer: Scorer,
 
 def has_ended(run: RunFolder, state: LessonState) -> bool:
     """Whether a run has come to its end; it was stopped otherwise."""
-    return state.attempt == run.manifest.lesson.learner.attempts
+    return is_over(run.manifest.lesson, state)

@@ -48,10 +48,10 @@ def with_whole_lessons(graph: Any) -> Any:
 
 
 def _lesson(lesson: Any) -> Any:
-    """A lesson from before it had a number or could start from a skill, and its learner some of their arguments."""
+    """A lesson from before it had a number, needs, or another skill to start from, and its learner all arguments."""
     learner = lesson["learner"]
     usual = {field.name: field.default for field in fields(kinds("curriculum")[learner["is"]])}
-    return {"number": 0, "starts_from": ""} | lesson | {"learner": usual | learner}
+    return {"number": 0, "starts_from": "", "needs": []} | lesson | {"learner": usual | learner}
 
 
 def _task(task: Any) -> Any:

@@ -202,12 +202,25 @@ class Task:
 
 
 @dataclass(frozen=True, slots=True)
+class Need:
+    """What a lesson has to reach on fresh layouts: a mean `score` or a share of `success` `above` a number."""
+
+    measure: Literal["score", "success"]
+    above: float
+
+    def __str__(self) -> str:
+        """In the words of the language."""
+        return f"{self.measure} > " + (f"{100 * self.above:g}%" if self.measure == "success" else f"{self.above:g}")
+
+
+@dataclass(frozen=True, slots=True)
 class Lesson:
     """Who learns (`skill`), on which task, driven by which master, for how long, and how (`learner`).
 
     With `with_subskills`, all that learn below the skill and are not frozen learn with it, as one genome. `number` is
     its place in its curriculum, from 1; 0 in what was made before lessons had one. One that `starts_from` another skill
-    begins with a copy of its weights.
+    begins with a copy of its weights. One with `needs` has failed where its last attempt does not meet them all: it
+    ends with the first attempt that does, and what has failed is not taught.
     """
 
     curriculum: str
@@ -220,6 +233,7 @@ class Lesson:
     learner: Learner
     number: int = 0
     starts_from: str = ""
+    needs: tuple[Need, ...] = ()
 
     @property
     def name(self) -> str:

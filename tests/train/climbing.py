@@ -4,8 +4,10 @@ from dataclasses import dataclass
 from time import perf_counter
 
 import numpy as np
-from mindrun.graph import Lesson
+from mindrun.events.collision import Collision
+from mindrun.graph import End, Lesson, Need, Task
 from mindrun.learners import Genetic
+from mindrun.scenes.plain import Plain
 from mindrun.train.manifest import Manifest, hashes
 from mindrun.train.training import Watch
 from numpy.typing import NDArray
@@ -18,14 +20,19 @@ class Results:
     total: NDArray[np.float64]
     ticks: NDArray[np.int64]
     faults: NDArray[np.int64]
+    met: NDArray[np.int64]
 
 
 @dataclass(frozen=True, slots=True)
 class Sphere:
-    """The score of a genome is minus its squared distance from all ones, give or take `noise`."""
+    """The score of a genome is minus its squared distance from all ones, give or take `noise`; near is a success."""
 
     genome_length: int = LENGTH
     noise: float = 0.5
+
+    @property
+    def task(self) -> Task:
+        return Task("Climb", Plain(), (), 100, (), (Collision(),), (End(0), End(0, succeeds=True)), (), ())
 
     def draw(self, count: int, rng: np.random.Generator) -> NDArray[np.float32]:
         return 4 * rng.standard_normal((count, self.genome_length), np.float32)
@@ -34,7 +41,9 @@ class Sphere:
         distance = ((genomes.astype(np.float64) - 1.0) ** 2).sum(axis=1)
         luck = self.noise * np.sin(np.outer(distance, 1.0 + np.asarray(seeds) % 97))
         total = -distance[:, None] + luck
-        return Results(total, np.full(total.shape, 100), np.zeros(total.shape, np.int64))
+        return Results(
+            total, np.full(total.shape, 100), np.zeros(total.shape, np.int64), (total > -LENGTH).astype(np.int64)
+        )
 
 
 @dataclass(frozen=True, slots=True)
@@ -47,7 +56,7 @@ class Faulty(Sphere):
         results = Sphere.score(self, genomes, seeds)
         bad = genomes[:, 0] > self.above
         total = np.where(bad[:, None], np.nan, results.total)
-        return Results(total, results.ticks, results.faults + bad[:, None])
+        return Results(total, results.ticks, results.faults + bad[:, None], results.met)
 
 
 @dataclass(frozen=True, slots=True)
@@ -56,13 +65,12 @@ class Flat(Sphere):
 
     def score(self, genomes: NDArray[np.float32], seeds: NDArray[np.uint64]) -> Results:
         results = Sphere.score(self, genomes, seeds)
-        return Results(np.zeros_like(results.total), results.ticks, results.faults)
+        return Results(np.zeros_like(results.total), results.ticks, results.faults, results.met)
 
 
-def lesson(generations: int = 30, **learner: float) -> Lesson:
-    return Lesson(
-        "School", "Climb", "Climb", "Climb", generations, False, False, Genetic(**{"population": 20, **learner})
-    )
+def lesson(generations: int = 30, needs: tuple[Need, ...] = (), **learner: float) -> Lesson:
+    genetic = Genetic(**{"population": 20, **learner})
+    return Lesson("School", "Climb", "Climb", "Climb", generations, False, False, genetic, needs=needs)
 
 
 def manifest(lesson: Lesson, seed: int = 1, weights: dict[str, NDArray[np.float32]] | None = None) -> Manifest:

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from mindrun.graph import Need
 from mindrun.train.attempts import Attempts, side_by_side
 from mindrun.train.checkpoint import pack
 from mindrun.train.lesson import teach
@@ -29,6 +30,10 @@ COURSES = st.builds(
     rungs=st.integers(0, 4),
     patience=st.sampled_from((0, 0, 1, 3, 5)),
     population=st.just(5),
+    needs=st.lists(
+        st.builds(Need, st.just("score"), st.floats(-60.0, 0.0)) | st.builds(Need, st.just("success"), st.floats(0, 1)),
+        max_size=2,
+    ).map(tuple),
 )
 
 

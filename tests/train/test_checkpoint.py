@@ -78,6 +78,7 @@ BROKEN: dict[str, Callable[[LessonState], LessonState]] = {
     "rungs of an attempt too few": lambda s: replace(s, rungs=s.rungs[:-1]),
     "a length too many": lambda s: replace(s, lengths=np.repeat(s.lengths, 2)),
     "a verdict too few": lambda s: replace(s, verdicts=s.verdicts[:0]),
+    "a pass too few": lambda s: replace(s, passed=s.passed[:0]),
     "half a verdict": lambda s: replace(s, verdicts=s.verdicts[:, :1]),
     "a genome that is not finite": lambda s: of(s, genomes=among(s.now.population.genomes, np.inf)),
     "a genome that is no number": lambda s: of(s, genomes=among(s.now.population.genomes, np.nan)),

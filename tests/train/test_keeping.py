@@ -63,6 +63,25 @@ def test_all_faults_have_taught_nothing(mindc: Call, drive: Path) -> None:
     assert "Go has learnt nothing: the rewards of every genome were not finite numbers" in said.err
 
 
+def test_a_lesson_that_fails_keeps_nothing_and_nothing_is_taught_on_top_of_it(mindc: Call, drive: Path) -> None:
+    """It ends with the first attempt that does what is needed; a shortened one is held to nothing, and says so."""
+    text = drive.read_text().replace("Go on Reach for 3 generations", "Go on Reach for 3 generations NEEDS attempts 4")
+    drive.write_text(text.replace("NEEDS", "needs score > 1000"))
+    said = mindc("train", drive, "--seed", 1, "--force")
+    assert said.code == 1
+    assert "Go has failed its lesson, which needs score > 1000 on fresh layouts: the best of 4 attempts" in said.err
+    assert not lock_path(drive).exists()
+    assert [each.name for each in (drive.parent / "runs").iterdir()] == ["Go-on-Reach"]
+    drive.write_text(text.replace("NEEDS", "needs score > -1000"))
+    taught = mindc("train", drive, "--seed", 1, "--json")
+    assert taught.code == 0, taught.err
+    assert [json.loads(line)["attempts"] for line in taught.out.splitlines()] == [1, 1]
+    drive.write_text(text.replace("NEEDS", "needs score > 1000"))
+    shortened = mindc("train", drive, "Go", "--seed", 1, "--generations", 2)
+    assert shortened.code == 0, shortened.err
+    assert "Go has fewer generations than its lesson says: nothing is needed of it" in shortened.err
+
+
 def test_train_is_like_make(mindc: Call, drive: Path) -> None:
     """What has changed since is taught again, and then there is nothing to do; options of once are no change."""
     small = ("--population", "4", "--attempts", "1", *QUICK)

@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from mindrun.graph import Need
 from mindrun.train.attempt import (
     REEVALUATED_CANDIDATES,
     REEVALUATION_GENERATIONS,
@@ -14,7 +15,7 @@ from mindrun.train.attempt import (
     try_again,
 )
 from mindrun.train.lesson import generation, teach
-from mindrun.train.lesson_state import AttemptState, Course, LessonState, Record, begin, begin_attempt
+from mindrun.train.lesson_state import AttemptState, Course, LessonState, Record, begin, begin_attempt, is_over
 from mindrun.train.population import Population
 from mindrun.train.rungs import is_behind, rung_at
 from mindrun.train.scoring import mark
@@ -49,6 +50,27 @@ def test_the_reevaluated_score_is_not_the_biased_maximum() -> None:
     honest = Sphere(noise=5.0).score(state.kept, np.arange(10_000)).total.mean()
     assert abs(state.reevaluated - honest) < 2.0
     assert state.best > state.reevaluated
+
+
+@pytest.mark.parametrize("needs", [(Need("score", -20.0),), (Need("success", 0.2),), (Need("score", 1.0),)], ids=str)
+def test_attempts_end_with_the_first_that_does_all_that_the_lesson_needs(needs: tuple[Need, ...]) -> None:
+    """It is met on both halves of the layouts; each attempt is judged as if it were alone."""
+    course, scorer = Course(lesson(8, needs, attempts=9), 2, UNKNOWN), Sphere(noise=9.0)
+    state, _ = taught(course, scorer)
+    everybody, _ = taught(replace(course, lesson=lesson(8, attempts=9)), scorer)
+    seeds = layouts(2, 0, 8, 2 * VERDICT_LAYOUTS, Purpose.VERDICT)
+    measured = [scorer.score(champion[None], seeds) for champion in everybody.champions]
+    halves = [
+        (each.total if needs[0].measure == "score" else each.met == 1)[0].reshape(2, VERDICT_LAYOUTS).mean(axis=1)
+        for each in measured
+    ]
+    passed = [bool((each > needs[0].above).all()) for each in halves]
+    count = passed.index(True) + 1 if True in passed else 9
+    assert state.passed.tolist() == passed[:count]
+    kept = count - 1 if True in passed else int(everybody.verdicts[:, 0].argmax())
+    assert state.kept.tobytes() == everybody.champions[kept].tobytes()
+    assert is_over(course.lesson, state)
+    assert count == (9 if needs[0].above == 1.0 else 8), "the second attempt meets it on one half alone"
 
 
 def test_several_attempts_keep_the_best_of_them() -> None:
@@ -226,10 +248,12 @@ def test_one_half_of_a_verdict_decides_and_the_other_is_reported() -> None:
     state = begin(Course(lesson(5), 1, UNKNOWN))
     genomes = np.arange(3 * LENGTH, dtype=np.float32).reshape(3, LENGTH)
     verdicts = np.array([[1.0, 9.0], [3.0, 2.0], [3.0, 5.0]])
-    ended = replace(state, champions=genomes, lengths=np.array([7, 8, 9]), verdicts=verdicts)
+    passed = np.array([False, False, False])
+    ended = replace(state, champions=genomes, lengths=np.array([7, 8, 9]), verdicts=verdicts, passed=passed)
     assert ended.kept.tobytes() == genomes[1].tobytes()
     assert ended.kept_after == 8
     assert ended.reevaluated == 2.0
+    assert replace(ended, passed=np.array([True, False, False])).kept_after == 7, "who passed, before who did better"
 
 
 class Listed(Sphere):
@@ -242,7 +266,7 @@ class Listed(Sphere):
     def score(self, genomes: np.ndarray, seeds: np.ndarray) -> Results:
         total = np.repeat(genomes[:, :1].astype(np.float64), len(seeds), axis=1)
         faults = (genomes[:, 1:2] > 0) & np.array([int(seed) in self.faulty_on for seed in seeds])
-        return Results(total, np.ones(total.shape, np.int64), faults.astype(np.int64))
+        return Results(total, np.ones(total.shape, np.int64), faults.astype(np.int64), faults - 1)
 
 
 def genomes_of(*firsts: float, faulty: float = 0.0) -> np.ndarray:

@@ -29,7 +29,7 @@ class Told:
     """A scorer that is told how many cores it has, and asks after each genome whether to go on."""
 
     def __init__(self, scorer: Sphere) -> None:
-        self.scorer, self.genome_length = scorer, scorer.genome_length
+        self.scorer, self.genome_length, self.task = scorer, scorer.genome_length, scorer.task
         self.cores: list[int] = []
         self.draw = scorer.draw
 

@@ -188,10 +188,16 @@ class Builder(Transformer_NonRecursive[Token, Any]):
     def teaches(self, meta: Any, parts: list[Any]) -> syntax.Teaches:
         skill, task, *rest = parts
         master = rest.pop(0) if isinstance(rest[0], Name) else None
-        generations, *arguments = rest
+        generations, *more = rest
+        arguments = tuple(part for part in more if isinstance(part, syntax.Argument))
+        needs = tuple(part for part in more if isinstance(part, syntax.Needs))
         return syntax.Teaches(
-            self._name(skill), self._name(task), master, generations, tuple(arguments), self._span(meta)
+            self._name(skill), self._name(task), master, generations, arguments, needs, self._span(meta)
         )
+
+    def needs(self, meta: Any, parts: list[Any]) -> syntax.Needs:
+        measure, compare, above = parts
+        return syntax.Needs(self._name(measure), str(compare), above, self._span(meta))
 
     def each(self, meta: Any, parts: list[Any]) -> syntax.Each:
         return syntax.Each(self._name(parts[0]), self._name(parts[1]), self._span(meta))

@@ -41,7 +41,7 @@ def resolve(files: Sequence[File], findings: Findings) -> model.Mind | None:
     robot = RobotFacts(names, width, tick, files[0].source.folder, body, actuators, known_sensors)
     known_tasks = tasks(robot, findings)
     check_outside(known_tasks, known_sensors, actuators, findings)
-    known_lessons = tuple(lessons(names, known_skills, width, findings))
+    known_lessons = tuple(lessons(names, known_skills, known_tasks, width, findings))
     if body and not outside:
         check_drives(body, actuators, findings)
     head = master(files[0], names, findings)

@@ -1,10 +1,11 @@
 """Curricula: who is taught what, under which master, for how long."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Set
 from dataclasses import dataclass, replace
-from typing import Any
+from typing import Any, cast
 
-from mindrun.quantity import GENERATIONS
+from mindrun.graph import Need
+from mindrun.quantity import GENERATIONS, NUMBER, RATIO, Quantity
 from mindrun.registry import kinds
 
 from mindlang.compiler import model
@@ -15,7 +16,7 @@ from mindlang.compiler.resolve.kinds import Scope, a_name, make, once, overrides
 from mindlang.compiler.resolve.origin import check_origin
 from mindlang.compiler.resolve.parts import refuse_facts
 from mindlang.compiler.resolve.quantities import convert
-from mindlang.compiler.syntax import Argument, Name, Phrase, Teaches
+from mindlang.compiler.syntax import Argument, Name, Needs, Phrase, Teaches
 
 # Words that a lesson says beside the arguments of its learner.
 FROM, SCRATCH = "from", "scratch"
@@ -23,21 +24,27 @@ SWITCHES = {
     FROM: (SCRATCH, "A lesson starts from scratch, from another skill or, without this, from the skill's own weights."),
     "with": ("subskills", "A lesson teaches one skill or, with subskills, all that learn below it together with it."),
 }
+MEASURED: Mapping[Any, Quantity] = {"score": NUMBER, "success": RATIO}  # what a lesson can need
 USING = "using"  # a kind of learner other than the curriculum's
 
 
 def lessons(
-    names: Names, skills: tuple[model.Skill, ...], widths: Mapping[str, int], findings: Findings
+    names: Names,
+    skills: tuple[model.Skill, ...],
+    tasks: tuple[model.Task, ...],
+    widths: Mapping[str, int],
+    findings: Findings,
 ) -> Iterator[model.Lesson]:
     """Every lesson of every curriculum that is well said, in order."""
     by_name = {skill.name: skill for skill in skills}
+    hopeless = {each.name for each in tasks if each.declaration.whole and not any(end.succeeds for end in each.ends)}
     for name, declaration in names.declarations("curriculum"):
         refuse_facts(declaration, (Teaches,), findings)
         phrase = declaration.header.phrase
         learner = make("curriculum", phrase, Scope(names, None), findings) if phrase else None
         taught = [fact for fact in declaration.facts if isinstance(fact, Teaches)]
         heirs = {fact.skill.text: origin.text for fact in taught if (origin := _origin(fact))}
-        curriculum = _Curriculum(name, learner, names, by_name, widths, heirs, findings)
+        curriculum = _Curriculum(name, learner, names, by_name, hopeless, widths, heirs, findings)
         yield from filter(None, (curriculum.lesson(number, fact) for number, fact in enumerate(taught, 1)))
 
 
@@ -45,13 +52,15 @@ def lessons(
 class _Curriculum:
     """What its lessons are held against: its learner, None where that is wrong, and the mind's names and skills.
 
-    `heirs` are those of its skills that begin with another's weights, with the names of these.
+    `hopeless` are the tasks that say no success, `heirs` the skills that begin with another's weights, with the names
+    of these.
     """
 
     name: str
     learner: Any
     names: Names
     skills: Mapping[str, model.Skill]
+    hopeless: Set[str]
     widths: Mapping[str, int]
     heirs: Mapping[str, str]
     findings: Findings
@@ -77,6 +86,7 @@ class _Curriculum:
             if starts_from:
                 taught = self.skills[fact.skill.text]
                 check_origin(starts_from, taught, self.skills, self.widths, self.heirs, self.findings)
+        needs = tuple(filter(None, (self._need(need, fact.task.text) for need in fact.needs)))
         if learner is None or generations is None or len(self.findings.diagnostics) > before:
             return None
         return model.Lesson(
@@ -90,6 +100,7 @@ class _Curriculum:
             learner=learner,
             number=number,
             starts_from=starts_from.text if starts_from else "",
+            needs=needs,
             fact=fact,
         )
 
@@ -109,6 +120,24 @@ class _Curriculum:
             return None
         own = (argument for argument in fact.arguments if argument.key.text not in {*SWITCHES, USING})
         return replace(learner, **overrides(type(learner), said_by, own, self.findings))
+
+    def _need(self, need: Needs, task: str) -> Need | None:
+        """What a lesson on a task needs; None after reporting what is wrong with it."""
+        before, (measure, span) = len(self.findings.diagnostics), (need.measure.text, need.measure.span)
+        if measure not in MEASURED:
+            hint = self.findings.suggest(measure, MEASURED) or "Write needs score > 300, or needs success > 50%."
+            self.findings.error("unknown-need", span, f"A lesson cannot need {measure}.", hint)
+            return None
+        above = convert(need.above, MEASURED[measure], self.findings)
+        if need.compare != ">":
+            message = f"A lesson needs more than a number: the greater {measure} is, the better."
+            self.findings.error("needs-more", need.span, message, f"Write needs {measure} > {need.above.span.text}.")
+        if measure == "success" and task in self.hopeless:
+            hint = "Add a line to it: succeeds on 5 delivery of red; or write needs score > 300."
+            self.findings.error("needs-success", need.span, f"{task} does not say what a success is.", hint)
+        if above is None or len(self.findings.diagnostics) > before:
+            return None
+        return Need(cast(Any, measure), above)
 
 
 def _origin(fact: Teaches) -> Name | None:

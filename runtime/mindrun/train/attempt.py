@@ -2,8 +2,10 @@
 
 from dataclasses import dataclass, replace
 from math import inf
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from mindrun.graph import Lesson
 from mindrun.learners import Learner
@@ -11,7 +13,7 @@ from mindrun.train.ask_and_tell import ask, kept_count, tell
 from mindrun.train.lesson_state import AttemptState, Course, Record
 from mindrun.train.population import Scores, order
 from mindrun.train.rungs import rung_at
-from mindrun.train.scoring import Marks, Scorer, mark
+from mindrun.train.scoring import Marks, Scorer, mark, marks_of, succeeded
 from mindrun.train.seeds import Purpose, Seeds, breeding_generator, layouts
 
 REEVALUATION_GENERATIONS = 10  # between two re-evaluations
@@ -22,9 +24,13 @@ VERDICT_LAYOUTS = 50  # layouts on which attempts are compared, and as many othe
 
 @dataclass(frozen=True, slots=True)
 class Verdict:
-    """What the champion of an attempt scores in its end: `scores` [2] decide between attempts, and are reported."""
+    """What the champion of an attempt comes to in its end: `scores` [2] decide between attempts, and are reported.
+
+    `passed` says whether it meets all that the lesson needs, on the layouts of the one score and on those of the other.
+    """
 
     scores: Scores
+    passed: bool
     ticks: int
     faults: int
 
@@ -86,8 +92,20 @@ def try_again(state: AttemptState, scorer: Scorer, fresh: Seeds) -> tuple[Attemp
 def judge(course: Course, scorer: Scorer, state: AttemptState) -> Verdict:
     """The end of an attempt: its champion tried on layouts common to all attempts."""
     seeds = layouts(course.seed, 0, course.lesson.generations, 2 * VERDICT_LAYOUTS, Purpose.VERDICT)
-    marks = mark(scorer, state.champion, seeds)
-    return Verdict(marks.each[0].reshape(2, VERDICT_LAYOUTS).mean(axis=1), marks.ticks, marks.faults)
+    results = scorer.score(state.champion, seeds)
+    marks = marks_of(results)
+    scores = _of_halves(marks.each)
+    passed = all(
+        (scores if need.measure == "score" else _of_halves(succeeded(scorer.task, results))).min() > need.above
+        for need in course.lesson.needs
+    )
+    return Verdict(scores, passed, marks.ticks, marks.faults)
+
+
+def _of_halves(values: NDArray[Any]) -> Scores:
+    """The means [2] of a genome's values [1, 2 * VERDICT_LAYOUTS] on either half of the layouts."""
+    means: Scores = values[0].reshape(2, VERDICT_LAYOUTS).mean(axis=1)
+    return means
 
 
 def is_better(scores: Scores, than: Scores) -> bool:

@@ -14,7 +14,7 @@ import numpy as np
 
 from mindrun.train.attempt import Verdict
 from mindrun.train.lesson import ended, gone_on, judged
-from mindrun.train.lesson_state import AttemptState, Course, LessonState, begin_attempt
+from mindrun.train.lesson_state import AttemptState, Course, LessonState, begin_attempt, is_over
 from mindrun.train.rungs import heights, is_behind, rung_at
 from mindrun.train.segment import Joined, Segment, Stretch
 from mindrun.train.step import Ahead, Step
@@ -108,7 +108,7 @@ class Attempts:
     def steps(self) -> Iterator[Step]:
         """What the lesson comes to by what is known now, in its order."""
         while (track := self.tracks.get(self.lesson.attempt)) and track.segments:
-            if self._is_open(track, track.segments[0]):
+            if is_over(self.course.lesson, self.lesson) or self._is_open(track, track.segments[0]):
                 return
             yield self._gone_on(track, track.segments.popleft().whole())
 
@@ -186,7 +186,7 @@ def side_by_side(
 ) -> Iterator[Step]:
     """The steps of a lesson whose attempts an executor does; who iterates may stop after any of them."""
     attempts = Attempts(course, state)
-    while attempts.lesson.attempt < course.lesson.learner.attempts and not stop():
+    while not is_over(course.lesson, attempts.lesson) and not stop():
         while executor.has_room() and (job := attempts.next_stretch()):
             executor.submit(*job)
         if (done := executor.take()) is not None:

@@ -22,7 +22,7 @@ from mindrun.train.lesson_state import AttemptState, LessonState
 from mindrun.train.population import Population
 
 NAME, PREVIOUS = "checkpoint", "checkpoint.previous"
-MAGIC = b"mind checkpoint 5\n"
+MAGIC = b"mind checkpoint 6\n"
 DIGEST_BYTES = 32
 MAX_CHECKPOINT_BYTES = 1 << 32
 MAX_COUNT = 2**53  # of any count
@@ -37,6 +37,7 @@ TYPES = {  # of each array in the order of the file: what its numbers are, and h
     "champions": ("<f4", 2),
     "lengths": ("<i8", 1),
     "verdicts": ("<f8", 2),
+    "passed": ("<i8", 1),
     "floats": ("<f8", 1),
     "counts": ("<i8", 1),
 }
@@ -84,6 +85,7 @@ def pack(state: LessonState, run: str) -> bytes:
         "champions": state.champions,
         "lengths": state.lengths,
         "verdicts": state.verdicts,
+        "passed": state.passed.astype(np.int64),
         "floats": np.array([state.best, state.seconds]),
         "counts": np.array(_counts(state), np.int64),
     }
@@ -141,7 +143,8 @@ def _hold_together(arrays: Arrays) -> bool:
         arrays["scores"].shape == (population,)
         and all(arrays[name].shape[1] == weights for name in ("champion", "rival", "champions"))
         and max(len(arrays["champion"]), len(arrays["rival"])) <= 1
-        and (arrays["lengths"].shape, arrays["verdicts"].shape) == ((ended,), (ended, 2))
+        and all(arrays[name].shape == (ended,) for name in ("lengths", "passed"))
+        and arrays["verdicts"].shape == (ended, 2)
         and len(arrays["rungs"]) == ended + 1
         and (arrays["floats"].shape, arrays["counts"].shape) == ((2,), (7,))
     )
@@ -154,6 +157,7 @@ def _hold_together(arrays: Arrays) -> bool:
         and all(((arrays[name] >= 0) & (arrays[name] <= MAX_COUNT)).all() for name in ("lengths", "counts"))
         and (attempt, generation > 0) == (ended, population > 0)
         and told_apart <= 1
+        and np.isin(arrays["passed"], (0, 1)).all()
     )
 
 
@@ -163,7 +167,7 @@ def _state(arrays: Arrays) -> LessonState:
     population = Population(arrays["genomes"], arrays["scores"], generation)
     rungs, climbed = arrays["rungs"][:-1], arrays["rungs"][-1]
     now = AttemptState(population, arrays["champion"], arrays["rival"], since, climbed, bool(told_apart))
-    ended = rungs, arrays["champions"], arrays["lengths"], arrays["verdicts"]
+    ended = rungs, arrays["champions"], arrays["lengths"], arrays["verdicts"], arrays["passed"] == 1
     return LessonState(attempt, now, *ended, best, generations, ticks, seconds, faults, bool(told_apart))
 
 

@@ -8,7 +8,7 @@ import numpy as np
 from mindrun.graph import Lesson
 from mindrun.train import attempt
 from mindrun.train.attempt import Verdict, ends_by_itself, judge
-from mindrun.train.lesson_state import AttemptState, Course, LessonState, Record, begin_attempt
+from mindrun.train.lesson_state import AttemptState, Course, LessonState, Record, begin_attempt, is_over
 from mindrun.train.rungs import is_behind, rung_at
 from mindrun.train.scoring import Scorer
 
@@ -17,7 +17,7 @@ Clock = Callable[[], float]
 
 def teach(course: Course, scorer: Scorer, state: LessonState, clock: Clock) -> Iterator[tuple[LessonState, Record]]:
     """The state and the record after each generation that is left; who iterates may stop after any of them."""
-    while state.attempt < course.lesson.learner.attempts:
+    while not is_over(course.lesson, state):
         began = clock()
         state, record = generation(course, scorer, state)
         seconds = clock() - began
@@ -73,4 +73,5 @@ def ended(course: Course, state: LessonState, verdict: Verdict) -> LessonState:
         champions=np.concatenate([state.champions, state.now.champion]),
         lengths=np.append(state.lengths, state.now.population.generation),
         verdicts=np.concatenate([state.verdicts, verdict.scores[None]]),
+        passed=np.append(state.passed, verdict.passed),
     )

@@ -51,7 +51,8 @@ class LessonState:
 
     Of the attempts that have ended, `champions` [ended, weights] are the best, `lengths` [ended] their generations,
     `rungs` [ended, rungs] how they had climbed, and `verdicts` [ended, 2] their scores on layouts that chose nothing
-    before: the first decides between the attempts, the second, on yet others, is what is reported.
+    before: the first decides between the attempts, the second, on yet others, is what is reported. `passed` [ended]
+    says of each whether it meets what the lesson needs.
 
     The other numbers are of all attempts together. Where `told_apart` is False, there was nothing to learn from.
     """
@@ -62,6 +63,7 @@ class LessonState:
     champions: Genomes
     lengths: NDArray[np.int64]
     verdicts: Scores
+    passed: NDArray[np.bool_]
     best: float
     generations: int
     ticks: int
@@ -71,8 +73,9 @@ class LessonState:
 
     @property
     def _best(self) -> NDArray[np.intp]:
-        """Which attempt is kept [0 or 1]: the one that did best, the first of equals."""
-        return order(self.verdicts[:, 0])[:1]
+        """Which attempt is kept [0 or 1]: of those that passed, else of all, the first that did best."""
+        eligible = np.flatnonzero(self.passed) if self.passed.any() else np.arange(len(self.passed))
+        return eligible[order(self.verdicts[eligible, 0])[:1]]
 
     @property
     def kept(self) -> Genomes:
@@ -117,8 +120,13 @@ def begin_attempt(course: Course) -> AttemptState:
 def begin(course: Course) -> LessonState:
     """The state before the first generation."""
     rungs = np.empty((0, course.lesson.learner.rungs))
-    ended = rungs, course.start[:0], np.empty(0, np.int64), np.empty((0, 2))
+    ended = rungs, course.start[:0], np.empty(0, np.int64), np.empty((0, 2)), np.empty(0, np.bool_)
     return LessonState(0, begin_attempt(course), *ended, -inf, 0, 0, 0.0, 0, False)
+
+
+def is_over(lesson: Lesson, state: LessonState) -> bool:
+    """Whether a lesson has come to its end: after all its attempts, or the first that meets what it needs."""
+    return state.attempt >= lesson.learner.attempts or bool(lesson.needs and state.passed.any())
 
 
 def could_be(course: Course, state: LessonState) -> bool:

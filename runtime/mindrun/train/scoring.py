@@ -8,6 +8,7 @@ from typing import Any, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
+from mindrun.graph import Task
 from mindrun.train.population import Genomes, Scores
 from mindrun.train.seeds import Seeds
 
@@ -27,6 +28,10 @@ class Results(Protocol):
     def faults(self) -> NDArray[np.int64]:
         """How many numbers were not finite."""
 
+    @property
+    def met(self) -> NDArray[np.int64]:
+        """The end of the task that came first; -1 where none did."""
+
 
 class Scorer(Protocol):
     """What scores genomes: `mindrun.sim.rollout.Rollout`, or anything of its shape."""
@@ -34,6 +39,10 @@ class Scorer(Protocol):
     @property
     def genome_length(self) -> int:
         """How many weights the learner has."""
+
+    @property
+    def task(self) -> Task:
+        """What the genomes are scored in."""
 
     def draw(self, count: int, rng: np.random.Generator) -> Genomes:
         """Random genomes [count, genome_length] for learning to begin with."""
@@ -54,7 +63,17 @@ class Marks:
 
 def mark(scorer: Scorer, genomes: Genomes, seeds: Seeds | Sequence[int]) -> Marks:
     """Score every genome on every seed; a genome with a fault anywhere has -inf."""
-    results = scorer.score(genomes, seeds)
+    return marks_of(scorer.score(genomes, seeds))
+
+
+def marks_of(results: Results) -> Marks:
+    """The scores in what was measured; a genome with a fault anywhere has -inf."""
     faulty = (results.faults > 0) | ~np.isfinite(results.total)
     each = np.where(faulty, -inf, results.total)
     return Marks(each, each.mean(axis=1), int(results.ticks.sum()), int(faulty.sum()))
+
+
+def succeeded(task: Task, results: Results) -> NDArray[np.bool_]:
+    """Which runs [genomes, seeds] are a success: one came before any other end, whether or not it ended them."""
+    successes = [number for number, end in enumerate(task.ends) if end.succeeds]
+    return np.isin(results.met, successes)

@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from mindrun.graph import Task
 from mindrun.train.lesson import Clock
 from mindrun.train.lesson_state import Course
 from mindrun.train.population import Genomes
@@ -76,6 +77,7 @@ class Stoppable:
     def __init__(self, scorer: Any, stop: Event) -> None:
         self._scorer, self._stop = scorer, stop
         self.genome_length: int = scorer.genome_length
+        self.task: Task = scorer.task
 
     def draw(self, count: int, rng: np.random.Generator) -> Genomes:
         """Random genomes [count, genome_length] for learning to begin with."""

@@ -68,11 +68,11 @@ def segment_frame(number: int, segment: Segment) -> Frame:
     """A segment as a frame."""
     rows = [[nan if value is None else float(value) for value in astuple(record)] for record in segment.records]
     verdict = segment.verdict
-    ends = [] if verdict is None else [[*verdict.scores.tolist(), float(verdict.ticks), float(verdict.faults)]]
+    ends = [] if verdict is None else [[*verdict.scores, verdict.passed, verdict.ticks, verdict.faults]]
     more: dict[str, NDArray[Any]] = {
         "champions": segment.champions,
         "records": np.array(rows, np.float64).reshape(-1, RECORD_NUMBERS),
-        "verdict": np.array(ends, np.float64).reshape(-1, 4),
+        "verdict": np.array(ends, np.float64).reshape(-1, 5),
     }
     return Frame(SEGMENT, _about(number, segment.state), _state(segment.state) | more)
 
@@ -91,15 +91,15 @@ def segment_of(frame: Frame, course: Course, stretch: Stretch, most: int = SEGME
         or champions.shape != (len(rows), course.start.shape[1])
         or not np.isfinite(champions).all()
         or rows.shape[1] != RECORD_NUMBERS
-        or ends.shape not in ((0, 4), (1, 4))
+        or ends.shape not in ((0, 5), (1, 5))
         or np.isnan(ends).any()
     ):
         raise FrameError("it is not what was asked for")
     records = tuple(_record(row, number, before + place) for place, row in enumerate(rows.tolist(), 1))
     if not len(ends):
         return Segment(state, records, champions, None)
-    ticks, faults = (_count(value) for value in ends[0, 2:].tolist())
-    return Segment(state, records, champions, Verdict(ends[0, :2].copy(), ticks, faults))
+    passed, ticks, faults = (_count(value) for value in ends[0, 2:].tolist())
+    return Segment(state, records, champions, Verdict(ends[0, :2].copy(), bool(passed), ticks, faults))
 
 
 def _about(number: int, state: AttemptState) -> dict[str, Any]:
