@@ -47,6 +47,7 @@ NAMES = {  # by the rule in which they stand, and there by their place among the
     "stays": [VALUE],
     "contains": [DECLARED],
     "each": [DECLARED, PART],
+    "needs": [FUNCTION],
 }
 
 
