@@ -13,6 +13,7 @@ from mindrun.engine import Engine, procedure_sources
 from mindrun.errors import MindError
 from mindrun.graph import Graph
 from mindrun.policy import Policy
+from mindrun.short_repr import ShortRepr
 from mindrun.sim.rollout import Rollout
 from mindrun.sim.rollouts import rollout_for
 from mindrun.sim.trace import Trace, trace
@@ -45,8 +46,8 @@ from mindlang.training.subject import begin_run, open_subject, refuse_frozen
 from mindlang.training.teaching import teach
 
 
-@dataclass(frozen=True, slots=True)
-class Mind:
+@dataclass(frozen=True, slots=True, repr=False)
+class Mind(ShortRepr):
     """A file of the mind language, and those that it uses, as they were when it was loaded.
 
     All but `diagnostics` and `is_valid` raise MindError where the file has errors, and where weights are needed that
@@ -206,8 +207,8 @@ class Mind:
         return MindError(ready.refusals[-1], f"mind.train() teaches it, or: mindc train {self.path}")
 
 
-@dataclass(frozen=True, slots=True)
-class EditedMind:
+@dataclass(frozen=True, slots=True, repr=False)
+class EditedMind(ShortRepr):
     """A mind after an edit, in memory: nothing has been written yet."""
 
     path: Path

@@ -113,11 +113,15 @@ class Plain:
 
     def spread(self):
         """Equation 2 and the sums of Equation 3."""
-        self.influence = [f(skill.name == self.master) for skill in self.graph.skills]
+        reached = {self.master}
+        for skill in self.graph.skills:  # parents first
+            if skill.name in reached:
+                reached |= {self.graph.skills[edge.target].name for edge in skill.edges if edge.to == "skill"}
+        self.influence = [f(s.name == self.master) if s.name in reached else f(np.nan) for s in self.graph.skills]
         self.com = {"actuator": [f(0)] * len(self.graph.actuators), "memory": [f(0)] * len(self.graph.memories)}
         self.total = {noun: list(zeros) for noun, zeros in self.com.items()}
         for skill, own in zip(self.graph.skills, self.influence, strict=True):
-            if own == 0:
+            if own == 0 or skill.name not in reached:
                 continue
             inputs = [self.readings[i] for i in skill.inputs]
             if not all(map(math.isfinite, inputs)):

@@ -1,10 +1,11 @@
 """The range in which the value of an expression must lie, by interval arithmetic."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable, Iterator
 from itertools import product
 from math import inf, isnan
+from typing import Any
 
-from mindrun.expression import fold
+from mindrun.expression import Formula, fold
 
 from mindlang.compiler.model import Command, Expression, Measured, Number, Reading, Term
 from mindlang.compiler.syntax import Operator
@@ -21,7 +22,38 @@ def share(name: str) -> Interval:
 
 def interval(of: Expression, reading: Callable[[str], Interval] = share, each: Interval = UNIT_INTERVAL) -> Interval:
     """The range of an expression whose readings have these ranges, that of `for each` the range `each`."""
+    return fold(_words(of), _leaf(reading, each), _negated, _combined)
 
+
+def divisors(
+    of: Expression, reading: Callable[[str], Interval] = share, each: Interval = UNIT_INTERVAL
+) -> list[Interval]:
+    """The ranges of all that an expression divides by."""
+    return _divisors(_words(of), _leaf(reading, each))
+
+
+def formula_divisors(of: Formula, reading: Callable[[str], Interval] = share) -> list[Interval]:
+    """The ranges of all that the formula of a sensor divides by."""
+    return _divisors(of, lambda word, term: (term, term) if word == "number" else reading(term))
+
+
+def _divisors(words: Iterable[tuple[str, Any]], leaf: Callable[[str, Any], Interval]) -> list[Interval]:
+    found: list[Interval] = []
+
+    def combined(symbol: str, left: Interval, right: Interval) -> Interval:
+        if symbol == "/":
+            found.append(right)
+        return _combined(symbol, left, right)
+
+    fold(words, leaf, _negated, combined)
+    return found
+
+
+def _words(of: Expression) -> Iterator[tuple[str, Term]]:
+    return ((term.symbol if isinstance(term, Operator) else "term", term) for term in of.terms)
+
+
+def _leaf(reading: Callable[[str], Interval], each: Interval) -> Callable[[str, Term], Interval]:
     def leaf(_: str, term: Term) -> Interval:
         match term:
             case Number(value):
@@ -34,8 +66,11 @@ def interval(of: Expression, reading: Callable[[str], Interval] = share, each: I
                 return UNIT_INTERVAL
         return each
 
-    words = ((term.symbol if isinstance(term, Operator) else "term", term) for term in of.terms)
-    return fold(words, leaf, lambda value: (-value[1], -value[0]), _combined)
+    return leaf
+
+
+def _negated(of: Interval) -> Interval:
+    return -of[1], -of[0]
 
 
 def is_constant(of: Expression) -> bool:

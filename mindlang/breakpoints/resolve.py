@@ -4,7 +4,7 @@ from collections.abc import Iterable, Iterator
 from dataclasses import replace
 
 from mindrun.events import EventKind
-from mindrun.expression import Program
+from mindrun.expression import Program, leaves
 from mindrun.graph import Receiver
 from mindrun.quantity import Quantity
 from mindrun.registry import kinds
@@ -120,6 +120,11 @@ def _holds(when: syntax.When, subject: Subject, findings: Findings) -> Holds:
         return Holds((), (), ())
     places = replace(subject.places, measures={})
     program = lower.condition(found, places)
+    asked = leaves(program, "reading")
+    for name in subject.unmeasured:
+        if subject.places.readings[name][0] in asked:
+            hint = f"Name a sensor that a skill below {subject.master} or a reward reads, or that is wired."
+            findings.error("unmeasured-reading", when.span, f"Nobody measures {name} in this run.", hint)
     transmissions = tuple(places.measures)
     return Holds(program, transmissions, tuple(_named(program, transmissions, subject)))
 

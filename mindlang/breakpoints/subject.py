@@ -7,6 +7,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING
 
 from mindrun.graph import Graph, Task
+from mindrun.measured import measured_in_world, measured_on_robot
 from mindrun.registry import names as kind_names
 
 from mindlang.compiler import lower, model
@@ -53,6 +54,13 @@ class Subject:
         readings = {each.name: (each.start, each.width) for each in self.graph.sensors}
         readings |= {each.name: (each.start, 1) for each in self.graph.memories}
         return lower.Places(readings, {each.name: place for place, each in enumerate(self.graph.actuators)})
+
+    @cached_property
+    def unmeasured(self) -> set[str]:
+        """The sensors that neither a run of the task measures nor a robot with those that are wired."""
+        in_world = measured_in_world(self.graph, self.master, self.task) if self.task else []
+        known = [*in_world, *measured_on_robot(self.graph, self.sensors or ())]
+        return {sensor.name for sensor in self.graph.sensors} - {sensor.name for sensor in known}
 
     @cached_property
     def world(self) -> World | None:

@@ -7,7 +7,15 @@ from typing import TYPE_CHECKING
 
 from mindrun.errors import MindError
 
-from mindlang.cli._terminal import FINDINGS, MISUSE, console, fail, load_compiled, print_json, procedures_talk
+from mindlang.cli._terminal import (
+    FINDINGS,
+    MISUSE,
+    fail,
+    load_compiled,
+    print_json,
+    print_table,
+    procedures_talk,
+)
 from mindlang.compiler.compile import Compiled
 from mindlang.compiler.diagnostic import did_you_mean
 from mindlang.lock import lock_sources, read_locks
@@ -44,7 +52,7 @@ def perform(file: str, options: ProofOptions) -> None:
     if options.as_json:
         print_json(as_data(proof, hashes, run))
     else:
-        console().print(report(proof, hashes, run))
+        print_table(report(proof, hashes, run))
 
 
 def _under(compiled: Compiled, master: str | None) -> Compiled:

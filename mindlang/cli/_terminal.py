@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any, NoReturn
 
 if TYPE_CHECKING:
     from mindrun.atomic_write import Data
-    from rich.console import Console
+    from rich.console import Console, RenderableType
 
     from mindlang.compiler.compile import Compiled
 
@@ -53,6 +53,15 @@ def fail(message: str, hint: str = "", code: int = FINDINGS) -> NoReturn:
     """Print a message and what to do about it on stderr, and end with `code`."""
     say(message, hint)
     sys.exit(code)
+
+
+def print_table(table: RenderableType) -> None:
+    """A table on stdout; in a file or a pipe no line of it ends in blanks."""
+    out = console()
+    with out.capture() as captured:
+        out.print(table)
+    text = captured.get()
+    print_document(text if out.is_terminal else "".join(f"{line.rstrip()}\n" for line in text.splitlines()))
 
 
 def print_json(value: object) -> None:

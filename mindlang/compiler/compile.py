@@ -8,6 +8,7 @@ from pathlib import Path
 from mindrun.atomic_write import descriptor_of
 from mindrun.errors import reason
 from mindrun.graph import Graph
+from mindrun.short_repr import ShortRepr
 
 from mindlang.compiler.diagnostic import Diagnostic, Findings, near_file
 from mindlang.compiler.lower import lower
@@ -21,8 +22,8 @@ STDIN = "<stdin>"
 NO_TEXTS: Mapping[Path, str] = {}
 
 
-@dataclass(frozen=True, slots=True)
-class Compiled:
+@dataclass(frozen=True, slots=True, repr=False)
+class Compiled(ShortRepr):
     """What became of a file. `graph` and `mind` are None where the diagnostics hold an error."""
 
     graph: Graph | None

@@ -8,6 +8,8 @@ from itertools import chain
 from pathlib import Path
 from typing import Literal
 
+from mindrun.short_repr import ShortRepr
+
 from mindlang.compiler.source import Span
 from mindlang.compiler.splice import Splice
 
@@ -34,8 +36,8 @@ class Fix:
     is_safe: bool = True
 
 
-@dataclass(frozen=True, slots=True)
-class Diagnostic:
+@dataclass(frozen=True, slots=True, repr=False)
+class Diagnostic(ShortRepr):
     """One finding. `code` is stable, `message` says what is wrong, `hint` what to do.
 
     Without a span it is about a file that could not be read.

@@ -7,6 +7,7 @@ from functools import lru_cache
 from pathlib import Path
 
 from mindrun.regular_files import read_regular
+from mindrun.short_repr import ShortRepr
 
 MAX_SOURCE_BYTES = 1 << 20
 TOO_LARGE = f"is larger than {MAX_SOURCE_BYTES >> 20} MiB"
@@ -14,8 +15,8 @@ BOM = b"\xef\xbb\xbf"
 CACHED_SOURCES = 64  # whose line starts are remembered
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Source:
+@dataclass(frozen=True, slots=True, repr=False, eq=False)
+class Source(ShortRepr):
     """The text of one file. `name` is what the user called it, `folder` where its relative paths begin.
 
     `alias` is what stands before the names that it declares, for other files.
@@ -38,8 +39,8 @@ class Source:
         return self.text[start : end if end >= 0 else len(self.text)].rstrip("\r")
 
 
-@dataclass(frozen=True, slots=True)
-class Span:
+@dataclass(frozen=True, slots=True, repr=False)
+class Span(ShortRepr):
     """The part of a source from offset `start` up to `end`, in characters."""
 
     source: Source = field(repr=False)

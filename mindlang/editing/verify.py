@@ -155,11 +155,13 @@ def _hold(
 
 
 def _recorded(side: MindVersion, skill: str, state: Trained, prepare: Callable[[Rollout], None]) -> NDArray[np.float32]:
-    """What a skill reads [ticks, graph.width] in a run of the task on which it was taught."""
+    """What a skill reads [ticks, graph.width] in a run of the task on which it was taught; 0 of what it does not."""
     tasks = [task.name for task in side.graph.tasks]
     task = state.entry.taught.task if state.entry.taught.task in tasks else tasks[0]
     weights = side.weights(skill)
     assert weights is not None
     rollout = rollout_for(Policy(side.graph, weights), task, skill, procedures=side.folder)
     prepare(rollout)
-    return np.array([moment.readings for moment in islice(trace(rollout, VERIFIED_SEED).moments, VERIFIED_TICKS)])
+    moments = islice(trace(rollout, VERIFIED_SEED).moments, VERIFIED_TICKS)
+    readings = np.array([moment.readings for moment in moments])
+    return np.where(np.isnan(readings), np.float32(0.0), readings)

@@ -52,12 +52,12 @@ class Episodes:
         return rewards, terminated, self._lanes.timed_out & ~terminated
 
     def outcome(self, lane: int) -> dict[str, Any]:
-        """What is said of a run that has ended: all that `mindc run` says of it, in numbers."""
+        """What is said of a run that has ended: as numbers what `mindc run` says; a `count` where one is kept."""
         task, lanes = self.agent.setup.task, self._lanes
         return {
             "layout": int(self.seeds[lane]),
             "score": float(lanes.scores[lane]),
-            "count": int(lanes.counts[lane, list(task.counts)].sum()),
+            **({"count": int(lanes.counts[lane, list(task.counts)].sum())} if task.counts else {}),
             "ended_by": ended_by(task, int(lanes.ended_by[lane])),
         }
 

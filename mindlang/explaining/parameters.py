@@ -93,4 +93,5 @@ def _default(asked: Asked) -> str:
 
 def _figures(asked: Asked, *numbers: Any) -> str:
     unit, factor = _unit(asked.type)
-    return " ".join([*(f"{each / factor:g}" for each in numbers), unit]).strip()
+    figures = [f"{each / factor:g}" for each in numbers]
+    return " ".join([*figures, unit.removesuffix("s") if unit == "ticks" and figures == ["1"] else unit]).strip()

@@ -6,7 +6,7 @@ from typing import Any
 from mindlang.number_format import score
 from mindlang.pictures.canvas import Canvas, square, text_width
 from mindlang.pictures.ending import draw_rings
-from mindlang.pictures.path import MIN_CONTROL_SHARE, Path, draw_cross
+from mindlang.pictures.path import MIN_CONTROL_SHARE, Path, Stroke, draw_cross
 from mindlang.pictures.scene import thing_colours
 from mindlang.pictures.theme import Theme, mixed
 from mindlang.run.recorded_run import RecordedRun
@@ -83,8 +83,8 @@ def _places(widths: Sequence[float], room: float) -> list[tuple[float, int]]:
 
 
 def _entries(canvas: Canvas, run: RecordedRun, found: dict[str, Any], path: Path, theme: Theme) -> list[Any]:
-    def bar(colour: Any) -> Any:
-        return lambda x, y: canvas.line([(x, y), (x + 18, y)], colour, 3.0)
+    def bar(stroke: Stroke) -> Any:
+        return lambda x, y: stroke.draw(canvas, [(x, y), (x + 18, y)], 3.0)
 
     def ramp(x: float, y: float) -> None:
         for i in range(18):
@@ -95,8 +95,8 @@ def _entries(canvas: Canvas, run: RecordedRun, found: dict[str, Any], path: Path
 
     seconds, colours = run.ticks * run.graph.tick, thing_colours(run.contents, theme)
     entries: list[Any] = [
-        (bar(colour), f"{name} {share:.0%}")
-        for colour, (name, share) in zip(path.colours, path.shares.items(), strict=False)
+        (bar(stroke), f"{name} {share:.0%}")
+        for stroke, (name, share) in zip(path.strokes, path.shares.items(), strict=False)
         if share >= MIN_CONTROL_SHARE
     ] or [(ramp, f"path, 0 to {seconds:.0f} s")]
     entries.append((lambda x, y: canvas.disc(x + 9, y, 4.5, theme.ink, width=1.6), "start"))

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 from itertools import pairwise
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from mindlang.pictures.canvas import Canvas, square
 from mindlang.pictures.scene import thing_colours
@@ -12,40 +12,66 @@ from mindlang.pictures.theme import Colour, Theme, mixed
 from mindlang.run.recorded_run import RecordedRun
 
 TIME_SHADES = 64  # shades of a path by time
+NOBODY = "no skill"  # what the legend calls ticks in which no skill has influence
+NOBODY_SHADE = 0.3  # from the floor to ink
+CORE_SHARES = 2.0, 0.6  # of the width: a line that has another one in its middle, and that one
 MIN_CONTROL_SHARE = 0.005  # of the run: a skill that was in control for less does not count
 MOST_NUMBERED = 40
 
 
 @dataclass(frozen=True, slots=True)
-class Path:
-    """The robot's places [ticks + 1, 2], and per tick which of the `colours` the path has.
+class Stroke:
+    """How a line looks: a colour, and in its middle another one where there are more lines than colours."""
 
-    `shares` says how much of the run each skill was in control, by name; it is empty for a path by time.
+    colour: Colour
+    core: Colour | None = None
+
+    def draw(self, canvas: Canvas, points: ArrayLike, width: float) -> None:
+        """A line through points; a wider one where it has a core."""
+        outer, inner = CORE_SHARES
+        canvas.line(points, self.colour, width * (outer if self.core else 1.0))
+        if self.core:
+            canvas.line(points, self.core, width * inner)
+
+
+@dataclass(frozen=True, slots=True)
+class Path:
+    """The robot's places [ticks + 1, 2], and per tick which of the `strokes` the path has.
+
+    `shares` says how much of the run each skill was in control, and none, by name; it is empty for a path by time.
     """
 
     places: NDArray[np.float64]
     keys: NDArray[np.int64]
-    colours: list[Colour]
+    strokes: list[Stroke]
     shares: dict[str, float]
 
     @classmethod
     def of(cls, run: RecordedRun, theme: Theme) -> "Path":
         """By skill, where several were in control."""
-        movers = [*run.movers]
-        places = run.body[:, :2]
-        keys = run.in_control() if movers else np.zeros(run.ticks, np.int64)
-        shares = np.bincount(keys, minlength=len(movers)) / max(1, run.ticks)
+        names = [*run.movers, NOBODY]
+        places, keys = run.body[:, :2], run.in_control()
+        shares = np.bincount(keys, minlength=len(names)) / max(1, run.ticks)
         if np.count_nonzero(shares >= MIN_CONTROL_SHARE) > 1:
-            colours = [theme.skills[i % len(theme.skills)] for i in range(len(movers))]
-            return cls(places, keys, colours, dict(zip(movers, shares.tolist(), strict=True)))
+            nobody = Stroke(mixed(theme.floor, theme.ink, NOBODY_SHADE))
+            each = [*strokes_of(theme, len(run.movers)), nobody]
+            return cls(places, keys, each, dict(zip(names, shares.tolist(), strict=True)))
         keys = np.arange(run.ticks) * TIME_SHADES // max(1, run.ticks)
-        return cls(places, keys, [mixed(theme.early, theme.late, i / TIME_SHADES) for i in range(TIME_SHADES)], {})
+        shades = [Stroke(mixed(theme.early, theme.late, i / TIME_SHADES)) for i in range(TIME_SHADES)]
+        return cls(places, keys, shades, {})
 
     def draw(self, canvas: Canvas, first: int, last: int, width: float) -> None:
         """The path from tick `first` to tick `last`."""
         keys = self.keys[first:last]
         for begin, end in _stretches(keys):
-            canvas.line(self.places[first + begin : first + end + 1], self.colours[keys[begin]], width)
+            self.strokes[keys[begin]].draw(canvas, self.places[first + begin : first + end + 1], width)
+
+
+def strokes_of(theme: Theme, count: int) -> list[Stroke]:
+    """A stroke for each of so many skills: each colour alone, then each around another one."""
+    cores = (None, theme.floor, theme.ink)
+    many = len(theme.skills)
+    return [Stroke(theme.skills[i % many], cores[i // many % len(cores)]) for i in range(count)]
 
 
 def _stretches(keys: NDArray[np.int64]) -> list[tuple[int, int]]:

@@ -15,12 +15,11 @@ SECTOR_PIXELS = 3.0  # the width of that line
 def draw_rays(canvas: Canvas, run: RecordedRun, theme: Theme, tick: int) -> None:
     """Each ray as far as it went."""
     x, y, angle = run.body[tick]
-    for sensor in run.graph.sensors:
+    for sensor in (each for each in run.graph.sensors if each.kind.rays):
         rows = slice(sensor.start, sensor.start + sensor.width)
-        if not sensor.kind.rays or not run.readings[:, rows].any():  # nobody reads it
-            continue
         for at, reading in zip(sensor.kind.rays, run.readings[tick - 1, rows], strict=True):
-            if sensor.kind.thing and reading == 1.0:  # how far an eye saw is not known: something may be in the way
+            # How far an eye saw is not known: something may be in the way; nor what was not measured.
+            if np.isnan(reading) or (sensor.kind.thing and reading == 1.0):
                 continue
             way = np.array([np.cos(angle + at), np.sin(angle + at)])
             rim = run.graph.body.rim(at)
@@ -37,6 +36,7 @@ def draw_touches(canvas: Canvas, run: RecordedRun, theme: Theme, tick: int) -> N
         for sensor in run.graph.sensors
         if sensor.kind.sector
         for at, reading in zip(sensor.kind.directions, _readings(run, sensor.start, sensor.width, tick), strict=True)
+        if not np.isnan(reading)
     ]
     for reading, points in sorted(shown, key=lambda switch: switch[0]):
         line = placed(points, run.body[tick])
@@ -51,8 +51,9 @@ def draw_spots(canvas: Canvas, run: RecordedRun, theme: Theme, tick: int) -> Non
         if sensor.kind.spots:
             readings = _readings(run, sensor.start, sensor.width, tick)
             for (x, y), reading in zip(placed(sensor.kind.spots, run.body[tick]), readings, strict=True):
-                canvas.disc(x, y, radius, theme.ray if reading > 0.5 else theme.floor)
-                canvas.disc(x, y, radius, theme.ray, width=1.0)
+                if not np.isnan(reading):
+                    canvas.disc(x, y, radius, theme.ray if reading > 0.5 else theme.floor)
+                    canvas.disc(x, y, radius, theme.ray, width=1.0)
 
 
 def _readings(run: RecordedRun, start: int, width: int, tick: int) -> Floats:

@@ -39,7 +39,8 @@ def record(setup: RunSetup, seed: int, prepare: Callable[[Rollout], None] = Roll
     prepare(rollout)
     run = trace(rollout, seed)
     ticks = joined(run.chunks)
-    total = ticks.influence @ _drivers(rollout)
+    reached = rollout.tables.skills["index"]
+    total = ticks.influence[:, reached] @ _drivers(rollout)[reached]
     actuators = (_undriven(total[:, place], ticks.commands[:, place]) for place in range(total.shape[1]))
     return Recorded(setup.task.name, seed, len(ticks), int(run.jobs.faults[0]), tuple(actuators))
 

@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from mindlang.run.recorded_run import RecordedRun
 
 TIME = "time"
+NOTHING = np.zeros(0)
 OTHERWISE = {LOST: "flight out of bounds", BROKEN_OFF: "its environment"}  # beyond 1e9 units, or nowhere; truncated
 
 
@@ -44,10 +45,10 @@ def ended_by(task: Task, number: int) -> str | None:
 
 
 def run_data(task: Task, scores: Scores) -> dict[str, Any]:
-    """The single run of `scores`; a sum that is not a finite number is None, `counts` is the sum of `by_event`."""
+    """The single run of `scores`; a sum that is not a finite number is None, `counts` the sum of `by_event` if any."""
     return {
         **rewards_data(task, scores.by_line[0, 0]),
-        "counts": int(scores.counts[0, 0]),
+        "counts": int(scores.counts[0, 0]) if task.counts else None,
         "counted": [events(task)[event] for event in task.counts],
         "by_event": {events(task)[event]: int(scores.by_event[0, 0, event]) for event in task.counts},
         "ticks": int(scores.ticks[0, 0]),
@@ -64,7 +65,7 @@ def data_so_far(run: RecordedRun) -> dict[str, Any]:
     counts = dict(zip([events(task)[event] for event in task.counts], run.counts[-1].tolist(), strict=True))
     return {
         **rewards_data(task, run.lines[-1]),
-        "counts": sum(counts.values()),
+        "counts": sum(counts.values()) if counts else None,
         "counted": [*counts],
         "by_event": counts,
         "ticks": run.ticks,
@@ -86,14 +87,14 @@ def bench_data(task: Task, scores: Scores, seeds: Sequence[int], seconds: float)
     """All runs of one genome; the best and the worst run are named by their number, from 1 on, and seed.
 
     A `std` is that of the sample, how far single runs are apart; a `standard_error` how far the mean may be off. One
-    run knows neither.
+    run knows neither, and where nothing is counted there is no count: None.
     """
     totals, ticks = scores.total[0], int(scores.ticks.sum())
     happened, ended = events(task), Counter(scores.ended_by[0].tolist())
     numbers = [*range(len(task.ends)), *OTHERWISE, GOING_ON]
     return {
         "runs": len(seeds),
-        **_spread("count_", scores.counts[0]),
+        **_spread("count_", scores.counts[0] if task.counts else NOTHING),
         "counted": [happened[event] for event in task.counts],
         "by_event": {happened[event]: _spread("", scores.by_event[0, :, event]) for event in task.counts},
         **({"success": _spread("", succeeded(task, scores)[0].astype(float))} if task.can_succeed else {}),
@@ -114,7 +115,8 @@ def bench_data(task: Task, scores: Scores, seeds: Sequence[int], seconds: float)
 def _spread(of: str, values: NDArray[Any]) -> dict[str, float | None]:
     deviation = float(values.std(ddof=1)) if len(values) > 1 and np.isfinite(values).all() else None
     error = None if deviation is None else deviation / sqrt(len(values))
-    return {f"{of}mean": _number(values.mean()), f"{of}std": deviation, f"{of}standard_error": error}
+    mean = _number(values.mean()) if len(values) else None
+    return {f"{of}mean": mean, f"{of}std": deviation, f"{of}standard_error": error}
 
 
 def _number(value: float) -> float | None:

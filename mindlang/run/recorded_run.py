@@ -114,10 +114,11 @@ class RecordedRun:
         return movers(self.graph, self.setup.master)
 
     def in_control(self) -> NDArray[np.int64]:
-        """Per tick the mover with the most influence, as a place in `movers`."""
-        columns = [*self.movers.values()]
-        chosen: NDArray[np.int64] = np.argmax(self.influence[:, columns], axis=1)
-        return chosen
+        """Per tick the mover with the most influence, as a place in `movers`; behind all of them where none has any."""
+        influence = self.influence[:, [*self.movers.values()]]
+        nobody = np.full((self.ticks, 1), np.finfo(np.float32).smallest_subnormal)
+        chosen: NDArray[np.int64] = np.argmax(np.concatenate([nobody, influence], axis=1), axis=1) - 1
+        return np.where(chosen < 0, influence.shape[1], chosen)
 
 
 def record_run(setup: RunSetup, rollout: Rollout, seed: int) -> RecordedRun:

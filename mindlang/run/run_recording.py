@@ -13,12 +13,13 @@ from mindrun.graph import Task
 from mindrun.named_readings import physical
 from mindrun.robot.recording import recording_bytes
 from mindrun.robot.recording_header import GOES_ON, POSE_COLUMNS, THING_COLUMNS, About, RecordedWorld
+from mindrun.skill_sets import reachable
 from mindrun.wiring import read_by
 from numpy.typing import NDArray
 
 from mindlang.lock.ready import ReadyMind
 from mindlang.run.recorded_run import Floats, RecordedRun
-from mindlang.run.running_bundle import bundle_digest, task_of
+from mindlang.run.running_bundle import bundle_digest, measured_in, task_of
 from mindlang.run.setup import RunSetup
 
 Rows = NDArray[Any]
@@ -90,7 +91,7 @@ def recorded_rows(about: About, first: int, written: Written, events: NDArray[np
     rows = np.zeros(len(events), about.row)
     rows["tick"] = np.arange(first - 1, first - 1 + len(rows))
     rows["time"] = np.arange(first, first + len(rows)) * about.tick
-    rows["armed"] = 1
+    rows["armed"], rows["ages"] = 1, np.nan  # what is simulated has no age
     rows["readings"] = written.readings[:, : about.readings]
     rows["influence"] = written.influence[:, : len(about.skills)]
     rows["commands"] = rows["sent"] = written.commands
@@ -109,6 +110,7 @@ def run_of(about: About, rows: Rows, mind: Bundle, folder: Path) -> RecordedRun:
     assert said
     assert task
     begin = np.array(said.begin, np.float64)
+    reached = np.isin(about.skills, [skill.name for skill in reachable(mind.graph, about.master)])
     things = np.concatenate([begin[POSE_COLUMNS:].reshape(1, -1, THING_COLUMNS), world["things"]])
     return RecordedRun(
         RunSetup(task, about.master, ReadyMind(mind.policy, (), ()), folder),
@@ -117,8 +119,8 @@ def run_of(about: About, rows: Rows, mind: Bundle, folder: Path) -> RecordedRun:
         things[:, :, :-1],
         things[:, :, -1],
         np.concatenate([[-1], world["held"]]),
-        rows["readings"],
-        rows["influence"],
+        np.where(measured_in(about, mind), rows["readings"], np.float32(np.nan)),
+        np.where(reached, rows["influence"], np.float32(np.nan)),
         rows["sent"],
         world["rewards"],
         world["touching"] != 0,

@@ -5,10 +5,13 @@ from __future__ import annotations
 from hashlib import sha256
 from pathlib import Path
 
+import numpy as np
 from mindrun.bundle import Bundle, digest, pack, read_bundle
 from mindrun.engine import procedure_sources
 from mindrun.graph import Task
+from mindrun.measured import measured_in_world, measured_on_robot, rows_of
 from mindrun.robot.recording_header import About, RecordingError
+from numpy.typing import NDArray
 
 from mindlang.compiler.compile import load
 from mindlang.lock.ready import ReadyMind, make_ready
@@ -35,6 +38,13 @@ def running_bundle(path: Path, of: About) -> Bundle:
 def task_of(of: About, mind: Bundle) -> Task | None:
     """The task in whose world a recording was made, with the mind of this bundle; None of a robot's."""
     return next((task for task in mind.graph.tasks if of.world and task.name == of.world.task), None)
+
+
+def measured_in(of: About, mind: Bundle) -> NDArray[np.bool_]:
+    """The readings [graph.width] that a recording made with this bundle has measured: 0.1.0 wrote 0 for all others."""
+    task = task_of(of, mind)
+    simulated = measured_in_world(mind.graph, of.master, task) if task else []
+    return rows_of(mind.graph, [*measured_on_robot(mind.graph, of.sensors), *simulated])
 
 
 def bundle_digest(ready: ReadyMind, folder: Path) -> str:

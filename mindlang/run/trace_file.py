@@ -19,9 +19,11 @@ def trace_table(run: RecordedRun) -> dict[str, Column]:
     """The columns of a run by name, each with a row for each tick.
 
     `tick` from 1 and `time` in seconds; where the robot is (`x`, `y` in units, `angle` in radians), each thing
-    (`ball x`, NaN while it is nowhere) and what the claw holds, all of it but in environments; `reading`, `influence`
-    and `command` of each name, 0 to 1; `event`, how often it happened in this tick; `total`, the sum of each reward
-    line so far, and of them all. A name that several have is numbered, from 1 on.
+    (`ball x`, NaN while it is nowhere), what the claw holds and the `battery`, as they are after the step of the tick,
+    all of it but in environments; `reading`, `influence` and `command` of each name, 0 to 1, from before the step;
+    `event`, how often it happened in this tick; `total`, the sum of each reward line so far, and of them all. What was
+    not measured is NaN: a sensor that neither a skill below the master nor a reward reads, the influence of a skill
+    that is not below it, a battery that nobody asks for. A name that several have is numbered, from 1 on.
     """
     world = () if run.task.scene.environment else _world(run)
     return columns([*_time(run), *world, *_mind(run), *_task(run)])
@@ -76,5 +78,6 @@ def _parquet(table: dict[str, Column]) -> bytes:
     except ImportError as error:
         raise MindError("parquet files need pyarrow", "pip install 'mindlang[parquet]', or a name with .csv") from error
     file = BytesIO()
-    parquet.write_table(pyarrow.table(table), file)
+    empty_where_nan = {name: pyarrow.array(column, from_pandas=True) for name, column in table.items()}
+    parquet.write_table(pyarrow.table(empty_where_nan), file)
     return file.getvalue()

@@ -7,6 +7,7 @@ from math import isfinite
 import numpy as np
 from mindrun.graph import Lesson
 from mindrun.train import RunError
+from mindrun.train.attempt import VERDICT_LAYOUTS
 from mindrun.train.lesson_state import LessonState
 from mindrun.train.population import Genomes
 from mindrun.train.run_folder import WEIGHTS, RunFolder
@@ -61,7 +62,7 @@ def keep(run: RunFolder, subject: Subject, state: LessonState, scorer: Scorer, f
 
     RunError where nothing was learnt, or not what the lesson needs. LockError where the lock cannot be read or written.
     """
-    refuse_nothing(run.manifest.lesson, state)
+    refuse_nothing(run, state, scorer)
     refuse_failed(run, state)
     old = _genome_there(run, subject)
     if old is None or np.array_equal(old, state.kept[0]):
@@ -76,13 +77,14 @@ def keep(run: RunFolder, subject: Subject, state: LessonState, scorer: Scorer, f
     return Kept({skill: known[skill] for skill in run.manifest.learners}, found, False)
 
 
-def refuse_nothing(lesson: Lesson, state: LessonState) -> None:
-    """RunError where a lesson has taught nothing: no score was a finite number, or all were the same."""
+def refuse_nothing(run: RunFolder, state: LessonState, scorer: Scorer) -> None:
+    """RunError where a lesson has taught nothing: the best had no score in the end, or all scores were the same."""
+    lesson = run.manifest.lesson
     if not isfinite(state.reevaluated):
-        why, hint = (
-            "the rewards of every genome were not finite numbers",
-            f"look at the rewards of the task {lesson.task}",
-        )
+        seeds = layouts(run.manifest.seed, 0, lesson.generations, 2 * VERDICT_LAYOUTS, Purpose.VERDICT)
+        faulty = mark(scorer, state.kept, seeds).faults
+        why = f"on {faulty} of {len(seeds)} fresh layouts a reward or a command of the best genome was no finite number"
+        hint = f"look at the rewards of the task {lesson.task}: mindc lint says what is divided by what can be 0"
     elif not state.told_apart:
         why = f"every genome of a generation scored the same, {number(state.best)} at best"
         hint = (

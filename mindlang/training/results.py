@@ -5,20 +5,24 @@ from typing import Any
 
 from mindrun.train.lesson_state import LessonState
 from mindrun.train.run_folder import WEIGHTS, RunFolder
+from mindrun.weights import parts
 
+from mindlang.lock.blobs import digest
 from mindlang.number_format import duration, number, rate
 from mindlang.training.lock_update import Kept
+from mindlang.training.subject import Subject
 
 Result = dict[str, Any]
 
 
-def result_of(run: RunFolder, state: LessonState, kept: Kept) -> Result:
-    """A finished run as plain data; `weights` has the SHA-256 of what the lock says now of each skill.
+def result_of(run: RunFolder, subject: Subject, state: LessonState, kept: Kept) -> Result:
+    """A finished run as plain data; `weights` has the SHA-256 of what was learnt of each skill.
 
-    Where it had weights before, `compared` are their score and that of the new ones on common fresh layouts; `kept`
-    says whether the new ones are in the lock.
+    `kept` says whether that is in the lock now. Where this had weights before, `compared` are their score and that of
+    the new ones on common fresh layouts.
     """
     lesson = run.manifest.lesson
+    learnt = parts(subject.graph, run.manifest.learners, state.kept[0])
     return {
         "lesson": run.manifest.name,
         "curriculum": lesson.curriculum,
@@ -37,7 +41,7 @@ def result_of(run: RunFolder, state: LessonState, kept: Kept) -> Result:
         "ticks_per_second": round(state.ticks / max(state.seconds, 1e-9)),
         "faults": state.faults,
         "verdicts": [_finite(verdict) for verdict in state.verdicts[:, 1]],
-        "weights": {skill: entry.weights for skill, entry in kept.entries.items()},
+        "weights": {skill: digest(weights) for skill, weights in learnt.items()},
         "kept": kept.is_new,
         "compared": None if kept.comparison is None else [_finite(kept.comparison.old), _finite(kept.comparison.new)],
         "run": str(run.folder),

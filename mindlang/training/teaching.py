@@ -141,7 +141,7 @@ def finish(run: RunFolder, subject: Subject, state: LessonState, scorer: Scorer,
     MindError where nothing was learnt, or the lock is damaged.
     """
     kept = keep(run, subject, state, scorer, force)
-    result = result_of(run, state, kept)
+    result = result_of(run, subject, state, kept)
     keep_result(run.folder, result)
     return TeachingResult(result, kept)
 

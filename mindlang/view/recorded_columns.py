@@ -13,6 +13,7 @@ from mindlang.view.row_blocks import Chunk, Doubles, Singles
 
 Rows = NDArray[Any]
 NOTHING_HELD = -1
+UNKNOWN_AT_FIRST = "readings", "commands", "sent"
 
 
 def world_columns(things: int, rewards: int) -> tuple[dict[str, int], dict[str, int]]:
@@ -25,6 +26,8 @@ def beginning(columns: Columns, world: RecordedWorld | None) -> Chunk:
     """The row of tick 0, in which nothing has been read, thought or sent."""
     doubles = np.full((1, columns.width(DOUBLE_BLOCK)), np.nan)
     singles = np.zeros((1, columns.kept_singles), np.float32)
+    for group in (columns.groups[name] for name in UNKNOWN_AT_FIRST if name in columns.groups):
+        singles[0, group.first : group.first + group.count] = np.nan
     if world is not None:
         begin = np.array(world.begin, np.float64)  # None becomes NaN
         values = (*begin, np.nan, *np.zeros(world.rewards))

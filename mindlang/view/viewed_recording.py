@@ -19,7 +19,7 @@ from mindrun.virtual_sensors import virtual_sensors
 from numpy.typing import NDArray
 
 from mindlang.run import outcome
-from mindlang.run.running_bundle import running_bundle, task_of
+from mindlang.run.running_bundle import measured_in, running_bundle, task_of
 from mindlang.view.about_hierarchy import HierarchyData
 from mindlang.view.about_world import run_data
 from mindlang.view.columns import FLOW, Columns
@@ -36,6 +36,7 @@ if TYPE_CHECKING:
     from mindlang.breakpoints.recorded import RecordingWatcher
 
 CHUNK_TICKS = 1000
+NOTHING = np.float32(np.nan)  # the reading of what was not measured
 BEGIN_COLUMN = 1  # of the events: stopped, began anew, and a fault of each sensor
 Rows = NDArray[Any]
 Watching = Callable[[About, Bundle], "RecordingWatcher"]
@@ -186,9 +187,10 @@ def _filled(path: Path, of: About, parts: Iterator[Rows], mind: Bundle) -> Itera
     RecordingError where a row is damaged, or is not what the mind computes, behind all that are before it. Where there
     is nothing to fill in nothing is computed again, which would take 30 times as long.
     """
+    is_measured = measured_in(of, mind)
     some = (part[first : first + CHUNK_TICKS] for part in parts for first in range(0, max(1, len(part)), CHUNK_TICKS))
     if not of.lacks_readings or not (virtual_sensors(mind.graph) or mind.graph.memories):
-        yield from ((rows, rows["readings"]) for rows in some)
+        yield from ((rows, np.where(is_measured, rows["readings"], NOTHING)) for rows in some)
         return
     engine, number = Engine(mind.policy, mind.procedures, of.master), 1
     for rows in some:
@@ -198,7 +200,7 @@ def _filled(path: Path, of: About, parts: Iterator[Rows], mind: Bundle) -> Itera
                 readings[known] = row.readings
                 known += 1
         finally:
-            yield rows[:known], readings[:known]
+            yield rows[:known], np.where(is_measured, readings[:known], NOTHING)
         number += known
 
 

@@ -51,9 +51,9 @@ def _after(rest: RecordedRun, name: str) -> NDArray[Any]:
 
 
 def _influence(was: RecordedRun, rest: RecordedRun) -> NDArray[np.float32]:
-    """The influence [ticks, skills] of a run in the columns of another mind: 0 of skills that it has alone."""
+    """The influence [ticks, skills] of a run in the columns of another mind: NaN of skills that it has alone."""
     known = was.graph.skill_numbers
-    found = np.zeros((was.ticks, len(rest.graph.skills)), np.float32)
+    found = np.full((was.ticks, len(rest.graph.skills)), np.nan, np.float32)
     for column, skill in enumerate(rest.graph.skills):
         if skill.name in known:
             found[:, column] = was.influence[:, known[skill.name]]

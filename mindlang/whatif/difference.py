@@ -56,9 +56,10 @@ def _unlike(a: Array, b: Array) -> NDArray[np.bool_]:
 
 
 def mind_columns(graph: Graph, readings: Array, influence: Array, commands: Array) -> dict[str, Columns]:
-    """What a mind reads, thinks and sends in each tick, by name."""
-    return {
-        "reading": dict(zip(reading_names(graph), readings.T, strict=True)),
-        "influence": dict(zip((skill.name for skill in graph.skills), influence.T, strict=True)),
-        "command": dict(zip((actuator.name for actuator in graph.actuators), commands.T, strict=True)),
+    """What a mind reads, thinks and sends in each tick, by name: not what nobody has measured in any."""
+    named = {
+        "reading": zip(reading_names(graph), readings.T, strict=True),
+        "influence": zip((skill.name for skill in graph.skills), influence.T, strict=True),
+        "command": zip((actuator.name for actuator in graph.actuators), commands.T, strict=True),
     }
+    return {kind: {name: rows for name, rows in of if not np.isnan(rows).all()} for kind, of in named.items()}

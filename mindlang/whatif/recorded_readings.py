@@ -12,7 +12,7 @@ from mindrun.named_readings import physical
 from mindrun.robot.recording import read
 from mindrun.robot.recording_header import About, RecordingError
 
-from mindlang.run.running_bundle import running_bundle
+from mindlang.run.running_bundle import measured_in, running_bundle
 
 RECORDING_SUFFIX = ".rec"
 
@@ -34,7 +34,8 @@ def recorded_readings(
     path = Path(file)
     [begin, *_] = change_of(graph, "reading", name, [[0.0]], first, last)  # or it says what is wrong
     about, parts = read(path)
-    sensor = _sensor(path, about, _bundle(path, about, Path(bundle) if bundle else own, name, bool(bundle)), name)
+    mind = _bundle(path, about, Path(bundle) if bundle else own, name, bool(bundle))
+    sensor = _sensor(path, about, mind, name)
     ours = next(each for each in graph.sensors if each.name == name)
     if sensor.width != ours.width:
         many = "1 reading" if sensor.width == 1 else f"{sensor.width} readings"
@@ -71,6 +72,7 @@ def _sensor(path: Path, about: About, mind: Bundle, name: str) -> Sensor:
     """A sensor whose readings are in a recording."""
     is_physical = name in physical(mind.graph)
     found = next((sensor for sensor in mind.graph.sensors if sensor.name == name), None)
-    if found is None or (name not in about.sensors if is_physical else about.lacks_readings):
+    is_there = found is not None and measured_in(about, mind)[found.start]
+    if found is None or not is_there or (about.lacks_readings and not is_physical):
         raise ChangeError(f"{path} has no readings of {name}", f"it has those of {', '.join(about.sensors)}")
     return found

@@ -9,6 +9,7 @@ import os
 import sys
 from collections.abc import Callable, Iterator
 from contextlib import redirect_stdout
+from math import isnan
 from typing import Any
 
 from mindrun import standard_streams
@@ -131,7 +132,8 @@ def _run(engine: Engine, options: argparse.Namespace) -> None:
             raise ReadingsError(f"{source}, line {number}: {error}") from error
         line: dict[str, Any] = {"commands": dict(zip(names, commands.tolist(), strict=True))}
         if options.influence:
-            line["influence"] = dict(zip(skills, engine.influence.tolist(), strict=True))
+            influence = (None if isnan(number) else number for number in engine.influence.tolist())
+            line["influence"] = dict(zip(skills, influence, strict=True))
         standard_streams.document(_json(line))
         if standard_streams.lost():
             break

@@ -20,6 +20,7 @@ from mindrun.graph import Graph
 from mindrun.npy import to_npy
 from mindrun.policy import Policy
 from mindrun.regular_files import read_whole
+from mindrun.short_repr import ShortRepr
 from mindrun.strict_json import parsed
 from mindrun.weights import genes, read_weights
 from mindrun.wiring import Wiring
@@ -38,8 +39,8 @@ MAX_JSON_BYTES = (
 DIGEST_CHARACTERS = 64
 
 
-@dataclass(frozen=True, slots=True)
-class Bundle:
+@dataclass(frozen=True, slots=True, repr=False)
+class Bundle(ShortRepr):
     """What is in a bundle: `procedures` has the text of each module by dotted name; not every mind has a robot."""
 
     policy: Policy

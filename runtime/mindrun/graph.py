@@ -15,6 +15,7 @@ from mindrun.memory import Cell
 from mindrun.quantity import ANGLE, COORDINATE, Place
 from mindrun.scenes import SceneKind
 from mindrun.sensors import SensorKind
+from mindrun.short_repr import ShortRepr
 from mindrun.things import ThingKind
 from mindrun.variation import Failure as Failure
 from mindrun.variation import Variation as Variation
@@ -242,8 +243,8 @@ class Lesson:
         return f"{self.skill}{where}{'-with-subskills' * self.with_subskills}"
 
 
-@dataclass(frozen=True, slots=True)
-class Graph:
+@dataclass(frozen=True, slots=True, repr=False)
+class Graph(ShortRepr):
     """A whole mind, compiled. `tick` is in seconds; `skills` stand in topological order, parents first."""
 
     tick: float

@@ -5,11 +5,12 @@ from dataclasses import dataclass
 
 from mindrun.errors import WeightsError
 from mindrun.graph import Graph, Skill
+from mindrun.short_repr import ShortRepr
 from mindrun.weights import Weights, checked
 
 
-@dataclass(frozen=True, slots=True)
-class Policy:
+@dataclass(frozen=True, slots=True, repr=False)
+class Policy(ShortRepr):
     """What an engine runs and a rollout simulates: a graph, and the weights of its skills.
 
     `weights` are float32 [genes] by skill, in the order in which `graph` says what the skill reads and sends. A skill

@@ -5,9 +5,11 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from mindrun.short_repr import ShortRepr
 
-@dataclass(frozen=True, slots=True)
-class Scores:
+
+@dataclass(frozen=True, slots=True, repr=False)
+class Scores(ShortRepr):
     """What came of every genome on every seed: arrays [genomes, seeds].
 
     `total` is −∞ where a reward was not a number; `by_line` [genomes, seeds, lines] sums each reward line; `counts` are

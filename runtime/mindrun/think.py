@@ -44,10 +44,13 @@ class Ready:
 
 @dataclass(frozen=True, slots=True)
 class Hierarchy:
-    """The skills that a master reaches, made ready. Commands go over the actuators, then the memories."""
+    """The skills that a master reaches, made ready. Commands go over the actuators, then the memories.
+
+    `calm` [skills] is the influence before any is sent: 0, and NaN of skills that are not reached.
+    """
 
     skills: tuple[Ready, ...]
-    count: int
+    calm: NDArray[np.float32]
     master: int
     commands: int
 
@@ -66,6 +69,8 @@ def hierarchy(policy: Policy, sources: Mapping[str, str], master: str) -> Hierar
     """Make every skill ready that `master` reaches; WeightsError or ProcedureError where one cannot be."""
     graph = policy.graph
     numbers = graph.skill_numbers
+    calm = np.full(len(numbers), np.nan, np.float32)
+    calm[[numbers[skill.name] for skill in reachable(graph, master)]] = _ZERO
     return Hierarchy(
         tuple(
             Ready(
@@ -76,7 +81,7 @@ def hierarchy(policy: Policy, sources: Mapping[str, str], master: str) -> Hierar
             )
             for skill in reachable(graph, master)
         ),
-        len(graph.skills),
+        calm,
         numbers[master],
         len(graph.actuators) + len(graph.memories),
     )
@@ -94,7 +99,7 @@ def think(
 
     Influence that is `replaced`, by the index of its skill, is this, whatever all above it send.
     """
-    influence = np.zeros(mind.count, np.float32)
+    influence = mind.calm.copy()
     influence[mind.master] = _ONE
     commands, influences = np.zeros((2, mind.commands), np.float32)
     faults = 0

@@ -20,7 +20,7 @@ from mindlang.breakpoints.watch import Part, Stop, Watcher, part
 from tests.hierarchies import PROCEDURES, Case, conditions, programs, random_case
 
 WIDTH, TICKS = 3, 12
-NO_SKILLS = Hierarchy((), 0, 0, 0)
+NO_SKILLS = Hierarchy((), np.zeros(0, np.float32), 0, 0)
 READINGS = st.sampled_from([0.0, 0.1, 0.25, 1.0, np.nan, np.inf, -1.0]) | st.floats(0, 1, width=32)
 
 

@@ -81,7 +81,7 @@ def diagnostics(explanation: Article, text: str, folder: Path) -> tuple[Diagnost
     if explanation.chapter == ENVIRONMENTS:
         pytest.importorskip("gymnasium")
     if explanation.chapter == "Breakpoints":
-        master = "Seek" if explanation.name == "skill-not-in-run" else "Go"
+        master = "Seek" if explanation.name in ("skill-not-in-run", "unmeasured-reading") else "Go"
         return breakpoints_of(Source("example", text), subject(master)).diagnostics
     return load(write(explanation, text, folder)).diagnostics
 

@@ -1,6 +1,7 @@
 """`mindc run --picture`: what its pixels show, and paths that cannot be written."""
 
 import json
+from dataclasses import replace
 from itertools import pairwise
 from pathlib import Path
 from typing import Any
@@ -15,7 +16,8 @@ from mindlang.compiler.compile import load
 from mindlang.pictures.canvas import Canvas, Image, Viewport, blank
 from mindlang.pictures.caption import LEGEND_LINES, MIN_TEXT_PIXELS, fitted
 from mindlang.pictures.ending import MARK_PIXELS
-from mindlang.pictures.path import draw_former
+from mindlang.pictures.path import NOBODY, draw_former, strokes_of
+from mindlang.pictures.path import Path as Path_
 from mindlang.pictures.picture import BOTTOM_PIXELS, PICTURE_PIXELS, SIDE_PIXELS, TOP_PIXELS, picture, view_of
 from mindlang.pictures.scene import thing_colours
 from mindlang.pictures.theme import NIGHT, PAPER, Theme, mixed
@@ -160,6 +162,18 @@ def test_a_walker_stands_where_it_has_come_to_at_the_end_of_its_way(rules: Path)
     assert near(pixel(story, image, *story.things[-1, cat, :2]), colour)
     beside = [pixel(story, image, 15 + aside / 20, 13) for aside in range(-10, 11)]
     assert any(near(found, mixed(PAPER.floor, colour, 0.5)) for found in beside)
+
+
+def test_ticks_in_which_nobody_has_influence_are_nobodys(rules: Path) -> None:
+    """And no path of ten skills looks like another one."""
+    run, _ = told(rules, "Roam")
+    movers = [*run.movers.values()]
+    silent = run.influence.copy()
+    silent[: run.ticks // 2, movers] = 0.0
+    path = Path_.of(replace(run, influence=silent), PAPER)
+    assert path.shares[NOBODY] == pytest.approx(0.5, abs=0.01)
+    assert sum(path.shares.values()) == pytest.approx(1.0)
+    assert len({*strokes_of(PAPER, 10)}) == 10
 
 
 def test_more_things_than_colours_begin_again() -> None:

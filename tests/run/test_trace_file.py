@@ -71,7 +71,10 @@ def test_parquet_says_the_same(rules: Path) -> None:
     expected = trace_table(run)
     assert list(table) == list(expected)
     for name, column in expected.items():
-        assert np.array_equal(np.array(table[name], column.dtype), column), name
+        is_number = column.dtype.kind == "f"
+        assert np.array_equal(np.array(table[name], column.dtype), column, equal_nan=is_number), name
+        is_empty = np.isnan(column) if is_number else np.zeros(len(column), bool)
+        assert [value is None for value in table[name]] == is_empty.tolist(), name
 
 
 @pytest.mark.parametrize("precision", [np.float32, np.float64])

@@ -31,7 +31,7 @@ def follow(graph: Graph, weights: dict[str, np.ndarray], task: str, master: str,
     for moment in run.moments:
         commands = engine.tick(moment.readings)
         assert np.array_equal(engine.readings[read], moment.readings[read], equal_nan=True)  # 0 / 0 is computed, too
-        assert np.array_equal(engine.influence, moment.influence)
+        assert np.array_equal(engine.influence, moment.influence, equal_nan=True)
         assert np.array_equal(commands, moment.commands)
         if moment.tick == most:
             return

@@ -1,10 +1,13 @@
 """What a lesson has taught goes to the lock, unless it is nothing, or what is there does better."""
 
 import json
+import re
 from pathlib import Path
 
+import numpy as np
+
 from mindlang.lock import lock_path
-from mindlang.lock.blobs import blob
+from mindlang.lock.blobs import blob, digest
 from tests.calling import Call
 from tests.edits.taught import recorded, teach
 from tests.train.test_train_command import MIND
@@ -18,7 +21,9 @@ def test_worse_weights_take_no_place_without_force(mindc: Call, drive: Path) -> 
     said = mindc("train", drive, "Go", "--from-scratch", "--json", *QUICK)
     assert (said.code, recorded(drive)) == (0, good)
     result = json.loads(said.out)
-    assert (result["kept"], result["weights"]) == (False, {"Go": good})
+    learnt = np.load(drive.parent / result["run"] / "weights.npy")
+    assert (result["kept"], result["weights"]) == (False, {"Go": digest(learnt)})
+    assert recorded(drive) == good
     assert result["compared"][0] > result["compared"][1]
     assert "the weights that were there do better" in said.err
     assert "--force puts them there" in said.err
@@ -60,7 +65,18 @@ def test_a_lesson_that_tells_nobody_apart_has_taught_nothing(mindc: Call, drive:
 def test_all_faults_have_taught_nothing(mindc: Call, drive: Path) -> None:
     said = mindc("train", drive, "--curriculum", "Rest", *QUICK)
     assert said.code == 1
-    assert "Go has learnt nothing: the rewards of every genome were not finite numbers" in said.err
+    assert "on 100 of 100 fresh layouts a reward or a command of the best genome was no finite number" in said.err
+
+
+def test_faults_on_some_layouts_are_counted(mindc: Call, drive: Path) -> None:
+    """A bearing is 0.5 where its thing is beyond its range, which of 10 to 40 units are those beyond 25."""
+    text = MIND.replace("task Reach", "sensor near is bearing of object range 25\ntask Reach")
+    drive.write_text(text.replace("1 / (forward - forward) per tick", "1 / (near - 0.5) per tick"))
+    said = mindc("train", drive, "--curriculum", "Rest", *QUICK)
+    assert said.code == 1
+    found = re.search(r"on (\d+) of 100 fresh layouts a reward or a command of the best genome", said.err)
+    assert found
+    assert 20 < int(found[1]) < 80
 
 
 def test_a_lesson_that_fails_keeps_nothing_and_nothing_is_taught_on_top_of_it(mindc: Call, drive: Path) -> None:

@@ -96,7 +96,7 @@ def test_any_number_of_workers_gives_the_same_bits(project: Path) -> None:
         (("drive.mind", "Drive"), 1, "first: mindc train"),
         (("drive.mind", "Goo"), 2, "Did you mean Go?"),
         (("drive.mind", "--curriculum", "Scool"), 2, "Did you mean School?"),
-        (("drive.mind", "--curriculum", "Rest", "Go"), 1, "were not finite numbers"),
+        (("drive.mind", "--curriculum", "Rest", "Go"), 1, "was no finite number"),
         (("none.mind",), 2, "cannot be read"),
         ((), 2, "Say what to train"),
         (("--resume", "nowhere"), 2, "is not a run"),

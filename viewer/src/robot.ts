@@ -164,6 +164,7 @@ function jets({ context, robot, row, theme, pixel }: Pen): void {
 /** The switches of a bumper along the rim, red where they are pressed. */
 function switches({ context, robot, row, theme, pixel }: Pen): void {
   for (const { angle, width, column } of robot.switches) {
+    if (!Number.isFinite(valueAt(row, column))) continue;
     context.beginPath();
     context.arc(0, 0, robot.radius || robot.front, angle - width / 2, angle + width / 2);
     context.lineWidth = 3 * pixel;
@@ -175,6 +176,7 @@ function switches({ context, robot, row, theme, pixel }: Pen): void {
 /** The points of the floor that a sensor looks down at, filled where it sees what it looks for. */
 function spots({ context, robot, row, theme, pixel }: Pen): void {
   for (const { x, y, column } of robot.spots) {
+    if (!Number.isFinite(valueAt(row, column))) continue;
     disc(context, x, y, 3.6 * pixel, theme.ray);
     if (valueAt(row, column) <= 0.5) disc(context, x, y, 2.4 * pixel, theme.floor);
   }

@@ -101,7 +101,7 @@ def _dry(options: argparse.Namespace, bundle: Bundle, drive_options: DriveOption
     for sentence in beginning(bundle.graph, task, master, options.seed):
         line.tell(sentence)
     with simulated(options.bundle, task.name, options.seed, master=options.master or "") as socket:
-        wiring = dry(bundle.graph, socket)
+        wiring = dry(bundle.graph, socket, master)
         run = DryRun(bundle.graph, task, master, socket, line)
         with run.shown(), _watched(task, options.seed, socket, drive_options) as watched:
             watch = partial(_goes_on, run, watched.world, iter(range(MAX_END_TICKS)))

@@ -89,8 +89,9 @@ class Loop:
 
     def _record(self, done: TickResult) -> None:
         if self.recorder:
+            readings = np.where(self.senses.measured, self.engine.readings, np.float32(np.nan))
             self.recorder.write(
                 tick=done.number, time=done.time, stopped=done.stopped, armed=self.armed, faults=done.sensed.faults,
-                ages=done.sensed.ages, readings=self.engine.readings, influence=self.engine.influence,
+                ages=done.sensed.ages, readings=readings, influence=self.engine.influence,
                 commands=done.commands, sent=done.sent,
             )  # fmt: skip

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mindrun.graph import Graph, Sensor
+from mindrun.measured import measured_on_robot, rows_of
 from mindrun.robot.sampling import Sample
 from mindrun.wiring import SensorWire, reading
 
@@ -53,18 +54,19 @@ class _State:
 
 
 class ReadingFilter:
-    """The wired sensors of a mind."""
+    """The wired sensors of a mind; `measured` [graph.width] says which readings come of them, or of time alone."""
 
     def __init__(self, graph: Graph, sources: Sequence[SampleSource]) -> None:
         sensors = {sensor.name: sensor for sensor in graph.sensors}
         self._width = graph.width
+        self.measured = rows_of(graph, measured_on_robot(graph, {source.wire.sensor for source in sources}))
         self._states = [
             _State(source, sensors[source.wire.sensor], deque(maxlen=source.wire.median)) for source in sources
         ]
 
     def now(self, time: float) -> FilteredReadings:
         """The readings of a tick that begins at `time`."""
-        readings = np.zeros(self._width, np.float32)
+        readings = np.full(self._width, nan, np.float32)
         faults, ages, why, must_stop = [], [], {}, False
         for state in self._states:
             fault, age, reason = _assess(state, time)

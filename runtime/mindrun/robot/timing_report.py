@@ -59,7 +59,7 @@ def _tick(rows: NDArray[Any], tick: float) -> Iterator[TimingLine]:
 
 
 def _sensor(rows: NDArray[Any], number: int, sensor: Sensor, tick: float) -> Iterator[TimingLine]:
-    if not isinstance(sensor.kind, Physical) or not len(rows):
+    if not isinstance(sensor.kind, Physical) or np.isnan(rows["ages"][:, number]).all():  # simulated, and never late
         return
     fine = rows["faults"][:, number] == FINE
     ages = rows["ages"][fine, number]

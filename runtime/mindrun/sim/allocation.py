@@ -97,8 +97,10 @@ def _sight(tables: Tables, sizes: Sizes, room: _Room) -> Sight:
 def _mind(tables: Tables, sizes: Sizes, room: _Room) -> Mind:
     actuators = len(tables.actuators)
     sinks = actuators + len(tables.memories)
+    readings = room.rows(sizes.readings, np.float32)
+    readings[: len(sizes.measured)][~sizes.measured] = np.nan  # the lanes write none of these
     return Mind(
-        readings=room.rows(sizes.readings, np.float32),
+        readings=readings,
         before=room.rows(sizes.before, np.float32),
         measured=room.rows(sizes.rough, np.float32),
         rings=room.rows(sizes.rings, np.float32),

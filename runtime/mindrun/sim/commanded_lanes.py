@@ -165,8 +165,8 @@ class CommandedLanes:
 def commanded_lanes(graph: Graph, task: str, master: str, lanes: int = 1) -> CommandedLanes:
     """Lanes in which no skill runs, so that none needs its weights or its procedure: what they read is all that counts.
 
-    As in training, a sensor that nobody below the master reads is not measured and reads 0: its noise would draw random
-    numbers.
+    As in training, a sensor that neither a skill below the master nor a reward reads is not measured and reads NaN: its
+    noise would draw random numbers.
     """
     silent = replace(graph, skills=tuple(replace(skill, function=Rule()) for skill in graph.skills))
     return CommandedLanes(Rollout(Policy(silent, {}), task, master), lanes)

@@ -23,7 +23,7 @@ class World:
     """A task's world in one lane, for a mind with `master` (default: its own) in charge.
 
     Under the commands that this mind computes from `readings`, it is bit for bit the run that `Rollout` makes of the
-    seed. As there, a sensor that nobody reads is not measured and reads 0: its noise would draw random numbers.
+    seed. As there, a sensor that nobody reads is not measured and reads NaN: its noise would draw random numbers.
     """
 
     def __init__(self, graph: Graph, task: str, seed: int, master: str | None = None) -> None:
@@ -47,9 +47,9 @@ class World:
         self._lanes.sense()
 
     def readings(self) -> NDArray[np.float32]:
-        """What every sensor reads now [graph.width]; memories and what derives from them are the engine's to fill in.
+        """What every sensor reads now [graph.width], NaN where nobody reads it.
 
-        When the run has ended: what they read last.
+        Memories and what derives from them are the engine's to fill in. When the run has ended: what they read last.
         """
         return self._state.mind.readings[: self.graph.width, 0].copy()
 

@@ -1,14 +1,14 @@
 """The rows of the sensors that somebody reads, and their rays."""
 
-from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from mindrun.expression import leaves, placed
-from mindrun.graph import Graph, Sensor, Skill, Task
+from mindrun.expression import placed
+from mindrun.graph import Graph, Sensor, Task
+from mindrun.measured import Used
 from mindrun.registry import names
 from mindrun.sensors import Physical
 from mindrun.sim.codes import SENSOR, sensor_codes
@@ -19,49 +19,6 @@ from mindrun.sim.task_rows import NOWHERE, boxes_by_name, rows_by_name
 from mindrun.virtual_sensors import scene_of
 
 Array = NDArray[Any]
-
-
-@dataclass(frozen=True, slots=True)
-class Used:
-    """The sensors that are measured: those that `skills` depend on, and those `aside` that only rewards do.
-
-    Sources stand before what derives from them.
-    """
-
-    skills: list[Sensor]
-    aside: list[Sensor]
-
-
-def used_sensors(graph: Graph, reached: Sequence[Skill], task: Task) -> Used:
-    """The sensors that a reached skill or a reward reads."""
-    skills = _measured(graph, {row for skill in reached for row in skill.inputs})
-    rewards = _measured(graph, _rewarded(task))
-    return Used(skills, [sensor for sensor in rewards if sensor not in skills])
-
-
-def _rewarded(task: Task) -> set[int]:
-    """The readings that rewards and ends depend on."""
-    rows = {index for program in task.programs for index in leaves(program, "reading")}
-    for reward in task.rewards:
-        rows |= set(range(reward.each[0], sum(reward.each))) if reward.each else set()
-    return rows
-
-
-def _measured(graph: Graph, rows: set[int]) -> list[Sensor]:
-    """The sensors that have these readings, and what those derive from; sources first."""
-    by_name = {sensor.name: sensor for sensor in graph.sensors}
-    ordered: dict[str, Sensor] = {}
-    for sensor in graph.sensors:
-        if rows.intersection(range(sensor.start, sensor.start + sensor.width)):
-            waiting = [sensor]
-            while waiting:
-                last = waiting[-1]
-                missing = [name for name in last.kind.sources if name in by_name and name not in ordered]
-                if missing:
-                    waiting.append(by_name[missing[0]])
-                else:
-                    ordered.setdefault(last.name, waiting.pop())
-    return list(ordered.values())
 
 
 @dataclass(frozen=True, slots=True)

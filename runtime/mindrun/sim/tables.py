@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mindrun.graph import Graph, Task
+from mindrun.measured import rows_of, used_sensors
 from mindrun.sim.codes import (
     CODE,
     END,
@@ -21,7 +22,7 @@ from mindrun.sim.loose_rows import loose_rows
 from mindrun.sim.mind_rows import actuator_rows, memory_rows, skill_rows
 from mindrun.sim.parameter_rows import Parameters
 from mindrun.sim.programs import Programs
-from mindrun.sim.sensor_rows import sensor_rows, used_sensors
+from mindrun.sim.sensor_rows import sensor_rows
 from mindrun.sim.task_rows import (
     box_count,
     end_row,
@@ -73,7 +74,7 @@ class Tables(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class Sizes:
-    """How much room a lane needs."""
+    """How much room a lane needs; `measured` [graph.width] says which readings anybody writes."""
 
     readings: int
     skills: int
@@ -90,6 +91,7 @@ class Sizes:
     arrivals: int
     boxes: int
     depth: int
+    measured: NDArray[np.bool_]
 
 
 def build(
@@ -108,12 +110,13 @@ def build(
     rewards = [reward_row(reward, codes) for reward in task.rewards]
     ends = [end_row(end, codes) for end in task.ends]
     used = used_sensors(graph, reached, task)
+    all_used = [*used.skills, *used.aside]
     sensed = sensor_rows(graph, used, task, codes, parameters)
     driven, delays = actuator_rows(graph, parameters)
     measured, changes = measure_rows(task)
     noticed, patches, arrivals = event_rows(task)
     tables = Tables(
-        world=world_row(graph, task, parameters, len(sensed.ray_row), [*used.skills, *used.aside], master),
+        world=world_row(graph, task, parameters, len(sensed.ray_row), all_used, master),
         sensors=sensed.rows, rays=sensed.rays, rims=sensed.rims, ray_row=sensed.ray_row,
         passes=sensed.passes, numbers=sensed.numbers,
         skills=skills.rows, inputs=skills.inputs, edges=skills.edges, weights=skills.weights,
@@ -130,6 +133,7 @@ def build(
         skills=len(graph.skills), inputs=skills.most_inputs, width=skills.most_outputs, recurrent=skills.state,
         genome=genome_length(graph, learners), depth=codes.depth, delays=delays,
         changes=changes, patches=patches, arrivals=arrivals, boxes=box_count(task),
+        measured=rows_of(graph, all_used),
     )  # fmt: skip
 
 

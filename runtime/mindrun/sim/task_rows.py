@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from mindrun.arithmetic import BOX_COLUMNS
+from mindrun.arithmetic import BOX_COLUMNS, NAN
 from mindrun.graph import End, Graph, Reward, Sensor, Task, Thing
 from mindrun.registry import names
 from mindrun.sensors import Battery
@@ -184,7 +184,8 @@ def world_row(
         dt, *_body_rows(graph, parameters), body.radius, body.front, body.side, not body.outline, body.axle_distance,
         *(side / 2 for side in scene.sides),
         begin.at is not None, *(begin.at or (0.0, 0.0)), begin.facing is not None, begin.facing or 0.0, task.ticks,
-        battery.start, battery.drain, battery.charge, rays, near, index, graph.claw_reach, powered, cell,
+        battery.start if powered else NAN, battery.drain, battery.charge, rays, near, index, graph.claw_reach, powered,
+        cell,
     )  # fmt: skip
     return np.array([row], WORLD)
 

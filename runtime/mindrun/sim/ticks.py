@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mindrun.arithmetic import LOOSE_ROWS, SIZE, THING_ROWS, TURN
+from mindrun.short_repr import ShortRepr
 from mindrun.sim.rollout import Rollout
 from mindrun.sim.state import Jobs, State
 
@@ -16,15 +17,16 @@ CHUNK_TICKS, CHUNK_BYTES = 256, 1 << 22  # of a run at once, or fewer where a ti
 SCALARS = ("held", "battery", "touching")  # a column each, after the doubles
 
 
-@dataclass(frozen=True, slots=True)
-class Ticks:
+@dataclass(frozen=True, slots=True, repr=False)
+class Ticks(ShortRepr):
     """The world and the mind after each of some ticks; every array has a row for each.
 
     `body` [6] is x, y, angle and their velocities; `things` [things, 3] is x, y and size of each, and `turned` [things]
     how far each has turned, counterclockwise in radians, or the direction of one that wanders; `held` the number of the
-    thing in the claw or −1; `readings` as the skills read them; `acting` the commands with the noise of their
-    actuators, and `grip` the share of its force that each kept; `events` how often each event happened in the tick;
-    `lines` the sum of each reward line so far.
+    thing in the claw or −1; `readings` as the skills read them, NaN of sensors that are not measured; `influence` NaN
+    of skills that are not below the master; `battery` NaN where nobody asks for it; `acting` the commands with the
+    noise of their actuators, and `grip` the share of its force that each kept; `events` how often each event happened
+    in the tick; `lines` the sum of each reward line so far.
     """
 
     body: NDArray[np.float64]
@@ -62,6 +64,7 @@ def written(rollout: Rollout, state: State, jobs: Jobs) -> Ticks:
     tables = rollout.tables
     things, actuators = len(tables.things), len(tables.actuators)
     commands = columns["commands"][:, :actuators]
+    reached = np.isin(np.arange(columns["influence"].shape[1]), tables.skills["index"])
     rough, slipping = (tables.actuators[name].astype(bool) for name in ("is_rough", "is_slipping"))
     return Ticks(
         body=columns["body"],
@@ -71,7 +74,7 @@ def written(rollout: Rollout, state: State, jobs: Jobs) -> Ticks:
         battery=battery,
         touching=touching.astype(bool),
         readings=columns["readings"],
-        influence=columns["influence"],
+        influence=np.where(reached, columns["influence"], np.float32(np.nan)),
         commands=commands,
         acting=np.where(rough, columns["acting"][:, :actuators], commands),
         grip=np.where(slipping, columns["grip"][:, :actuators], 1.0),

@@ -8,14 +8,15 @@ from numpy.typing import NDArray
 
 from mindrun.arithmetic import ANGLE, BOX_COLUMNS, SIZE, THING_ROWS
 from mindrun.changes import Change
+from mindrun.short_repr import ShortRepr
 from mindrun.sim.changed_ticks import Advance, changed
 from mindrun.sim.rollout import Rollout, Tile
 from mindrun.sim.state import Jobs
 from mindrun.sim.ticks import Ticks, turned, with_room, written
 
 
-@dataclass(frozen=True, slots=True)
-class Moment:
+@dataclass(frozen=True, slots=True, repr=False)
+class Moment(ShortRepr):
     """The world and the mind after one tick, as a row of `Ticks`; `tick` counts from 1 since the run began."""
 
     tick: int
@@ -34,8 +35,8 @@ class Moment:
     lines: NDArray[np.float64]
 
 
-@dataclass(frozen=True, slots=True)
-class Trace:
+@dataclass(frozen=True, slots=True, repr=False)
+class Trace(ShortRepr):
     """A run that is about to begin: the obstacles [boxes, 4] as x, y and half of both sides, and its ticks.
 
     `drawn` has what each argument that varies is, and from which tick on, counted from 0, what fails is stuck. The run

@@ -17,6 +17,7 @@ from mindrun.environment_module import module_beside
 from mindrun.errors import BundleError
 from mindrun.functions.procedure import module_source
 from mindrun.graph import Graph, Lesson
+from mindrun.short_repr import full_repr
 from mindrun.strict_json import is_whole, parsed
 from mindrun.train import RunError
 from mindrun.validate import lesson_flaws
@@ -76,7 +77,7 @@ def fingerprint(graph: Graph, lesson: Lesson, procedures: Path | None) -> str:
     ]
     beside = (module_beside(task.scene.environment, procedures) for task in tasks)
     code += [path.read_text(encoding="utf-8", errors="replace") for path in beside if path is not None]
-    return _sha256(repr((scope, code)).encode())
+    return _sha256(f"({full_repr(scope)}, {code!r})".encode())
 
 
 def hashes(weights: Mapping[str, Weights]) -> dict[str, str]:

@@ -3,6 +3,7 @@
 import json
 import socket as sockets  # AF_UNIX by its name: there is none on Windows, where every driver is known all the same
 from dataclasses import dataclass, field
+from math import isnan
 from pathlib import Path
 from struct import Struct, unpack
 from time import monotonic
@@ -14,7 +15,7 @@ from mindrun.named_readings import physical
 from mindrun.quantity import COUNT, Reference
 from mindrun.registry import kind
 from mindrun.robot.simulated_world.protocol import ANSWER, READ, REQUEST, STATUS, WRITE
-from mindrun.wiring import ActuatorWire, SensorWire, Wiring
+from mindrun.wiring import ActuatorWire, SensorWire, Wiring, read_by
 
 EXCHANGE_SECONDS = 0.2  # seconds for a whole exchange
 TEXT = Reference("text")
@@ -87,12 +88,12 @@ class SimulatedSensorDevice:
     sensor: str
     count: int
 
-    def read(self) -> tuple[float, ...]:
-        """Its readings in this tick, as rough as the mind declares them."""
+    def read(self) -> tuple[float | None, ...]:
+        """Its readings in this tick, as rough as the mind declares them; None where no skill there reads it."""
         held = self.link.ask(READ, self.sensor)
         if len(held) != VALUE.size * self.count:
             raise DeviceError(f"{self.sensor} has {len(held) // VALUE.size} readings there, not {self.count}")
-        return unpack(f"<{self.count}d", held)
+        return tuple(None if isnan(reading) else reading for reading in unpack(f"<{self.count}d", held))
 
     def close(self) -> None:
         """Let go of the world."""
@@ -177,12 +178,13 @@ def status(path: str) -> dict[str, Any]:
         link.close()
 
 
-def dry(graph: Graph, path: str) -> Wiring:
-    """A robot all of whose sensors and actuators are those of the simulated world at a socket.
+def dry(graph: Graph, path: str, master: str) -> Wiring:
+    """A robot whose actuators, and the sensors that are read below the master, are those of the world at a socket.
 
     Each sensor is read twice a tick, so that what the loop sees is never much more than half a tick older than in
     training.
     """
+    read = read_by(graph, master)
     rate = min(max(2 / graph.tick, 0.01), 1000.0)
     max_age = min(max(0.25, 5 * graph.tick), 3600.0)  # a computer that simulates has other things to do, too
     return Wiring(
@@ -190,6 +192,7 @@ def dry(graph: Graph, path: str) -> Wiring:
         sensors=tuple(
             SensorWire(name, SimulatedSensor(path, name, sensor.width), 0.0, 1.0, rate=rate, max_age=max_age)
             for name, sensor in physical(graph).items()
+            if name in read
         ),
         actuators=tuple(
             ActuatorWire(actuator.name, SimulatedActuator(path, actuator.name)) for actuator in graph.actuators

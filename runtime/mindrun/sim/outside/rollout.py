@@ -58,6 +58,7 @@ class EnvironmentRollout(Rollout):
         self._stepper = (steppers or stepper_for)(self.task.scene.environment, procedures)
         self.wiring: Wiring = wiring_of(self.graph, self._stepper.spaces)
         self.slice_ticks = SLOW_SLICE_TICKS
+        self._measured = self.sizes.measured[self.wiring.rows]
         self.observed, self.clipped = 0, np.zeros(len(self.wiring.rows), np.int64)
         self._open: set[Run] = set()
         finalize(self, _close, self._open)
@@ -133,7 +134,7 @@ class EnvironmentRollout(Rollout):
         share = (seen - wiring.low[:, None]) / (wiring.high - wiring.low)[:, None]
         self.clipped += ((share < 0) | (share > 1)).sum(axis=1)
         self.observed += lanes
-        readings[wiring.rows, :lanes] = np.clip(share, 0.0, 1.0)
+        readings[wiring.rows[self._measured], :lanes] = np.clip(share[self._measured], 0.0, 1.0)
 
     def conclude(self, tile: Tile, jobs: Jobs) -> None:
         """The second half of a tick: commands, a step of every environment, and what it was worth."""

@@ -1,0 +1,106 @@
+"""A division by what can be 0.
+
+Every reading, command and memory can be 0, and what is divided by 0 is no number: a reward that is none takes the whole
+run out of a training, a sensor that is none makes its skills send nothing, a command that is none is not sent. One tick
+is enough, in which a range finder touches something. A number that is added below keeps it away from 0, and so does a
+condition, `1 / ahead per tick when ahead > 0.05`; that is looked at for readings and numbers alone.
+"""
+
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from math import inf, nextafter
+
+from mindlang.analysis.conditions import TURNED, UPPER
+from mindlang.analysis.intervals import UNIT_INTERVAL, Interval, divisors, formula_divisors, interval, is_constant
+from mindlang.analysis.study import Finding, Found, Study
+from mindlang.analysis.worlds import AnalysedWorld, any_world, world
+from mindlang.compiler.model import Comparison, Expression, Reading, When
+
+READS = """
+sensor eye is range_finder at 0 deg
+skill Go is rule
+  reads eye
+"""
+COURSE = "sensor eye is range_finder at 0 deg\ntask Course in arena\n  lasts 9 s\n"
+RATIO = "sensor near is range_finder at 0 deg\nsensor far is range_finder at 90 deg\n"
+GOOD = (
+    f"{READS}  drives left_wheel at 0.1 / (eye + 0.1)\n",
+    f"{READS}  drives left_wheel at 0.1 / eye when eye > 0 otherwise 1\n",
+    f"{COURSE}  rewards 1 / eye per tick when eye >= 5%\n",
+    f"{COURSE}  rewards eye / 2 per tick\n",
+    f"{RATIO}sensor ratio is computed at near / (near + far + 0.01)\n",
+)
+BAD = (
+    f"{READS}  drives left_wheel at 0.1 / eye\n",
+    f"{READS}  drives left_wheel at 1 when eye > 0.5 otherwise 0.1 / (1 - eye)\n",
+    f"{COURSE}  rewards 1 / eye per tick\n",
+    f"{COURSE}  rewards 1 / eye per tick when eye >= 0\n",
+    f"{COURSE}  ends when 1 / eye > 9\n",
+    f"{RATIO}sensor ratio is computed at near / (near + far)\n",
+)
+MESSAGE = "What is divided by here can be 0, and then this is not a number."
+HINT = "Add a little to it, as in 1 / (ahead + 0.01), or say when: 1 / ahead per tick when ahead > 0.01."
+
+
+def check(study: Study) -> Found:
+    """Divisions in sensors, in what skills send, and in rewards and ends."""
+    place = any_world(study)
+    for part in study.mind.sensors:
+        if _has_zero(formula_divisors(part.kind.formula, place.reading) if part.kind.formula else ()):
+            yield Finding(part.span, MESSAGE, HINT)
+    for each in [*_of_skills(study, place), *_of_tasks(study)]:
+        yield Finding(each.span, MESSAGE, HINT)
+
+
+def _of_skills(study: Study, place: AnalysedWorld) -> Iterator[Expression]:
+    for edge in (edge for skill in study.mind.skills if not skill.like for edge in skill.edges):
+        when = edge.gate.when if edge.gate else None
+        if edge.at and _divides_by_zero(edge.at, place, when):
+            yield edge.at
+        unguarded = (*(when.expressions if when else ()), *(value for value in edge.values if value is not edge.at))
+        yield from (each for each in unguarded if _divides_by_zero(each, place))
+
+
+def _of_tasks(study: Study) -> Iterator[Expression]:
+    for task in study.mind.tasks:
+        place = world(study, task)
+        for reward in task.rewards:
+            each = place.each(reward)
+            if _divides_by_zero(reward.amount, place, reward.when, each):
+                yield reward.amount
+            asked = reward.when.expressions if reward.when else ()
+            yield from (side for side in asked if _divides_by_zero(side, place, None, each))
+        ends = (side for end in task.ends if end.when for side in end.when.expressions)
+        yield from (side for side in ends if _divides_by_zero(side, place))
+
+
+def _divides_by_zero(
+    of: Expression, place: AnalysedWorld, when: When | None = None, each: Interval = UNIT_INTERVAL
+) -> bool:
+    """Whether something in it is divided by what can be 0 while a condition holds."""
+    alternatives = when.alternatives if when else ((),)
+    return any(_has_zero(divisors(of, _narrowed(place, all_), each)) for all_ in alternatives)
+
+
+def _has_zero(found: Iterable[Interval]) -> bool:
+    return any(low <= 0 <= high for low, high in found)
+
+
+def _narrowed(place: AnalysedWorld, all_: Sequence[Comparison]) -> Callable[[str], Interval]:
+    """The ranges of readings while these comparisons hold, of which those of a reading with a number say something."""
+    found: dict[str, Interval] = {}
+    for comparison in all_:
+        for side, number, compare in (
+            (comparison.left, comparison.right, comparison.compare),
+            (comparison.right, comparison.left, TURNED[comparison.compare]),
+        ):
+            match side.terms:
+                case (Reading(name),) if is_constant(number):
+                    found[name] = _within(found.get(name, place.reading(name)), compare, interval(number)[0])
+    return lambda name: found.get(name, place.reading(name))
+
+
+def _within(of: Interval, compare: str, number: float) -> Interval:
+    """The part of a range that is so to a number."""
+    if compare in UPPER:
+        return of[0], min(of[1], nextafter(number, -inf) if compare == "<" else number)
+    return max(of[0], nextafter(number, inf) if compare == ">" else number), of[1]
