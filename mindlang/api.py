@@ -229,8 +229,7 @@ class EditedMind(ShortRepr):
 
         MindError where a file has changed since it was loaded; where another mind would not compile, unless `anyway`.
         """
-        broken = broken_sentences(self.edited)
-        if broken and not anyway:
+        if (broken := broken_sentences(self.edited)) and not anyway:
             raise EditError(f"After this edit {broken[0]}", "write(anyway=True) makes it nevertheless")
         write(self.edited)
         return load(self.path)
