@@ -26,6 +26,11 @@ class Used:
     skills: list[Sensor]
     aside: list[Sensor]
 
+    @property
+    def all(self) -> list[Sensor]:
+        """All of them."""
+        return [*self.skills, *self.aside]
+
 
 def used_sensors(graph: Graph, reached: Iterable[Skill], task: Task) -> Used:
     """The sensors that a reached skill or a reward reads."""
@@ -36,8 +41,7 @@ def used_sensors(graph: Graph, reached: Iterable[Skill], task: Task) -> Used:
 
 def measured_in_world(graph: Graph, master: str, task: Task) -> list[Sensor]:
     """The sensors that a simulated run measures: what skills below the master and rewards depend on."""
-    used = used_sensors(graph, reachable(graph, master), task)
-    return [*used.skills, *used.aside]
+    return used_sensors(graph, reachable(graph, master), task).all
 
 
 def measured_on_robot(graph: Graph, wired: Collection[str]) -> list[Sensor]:

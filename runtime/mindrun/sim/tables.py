@@ -110,13 +110,12 @@ def build(
     rewards = [reward_row(reward, codes) for reward in task.rewards]
     ends = [end_row(end, codes) for end in task.ends]
     used = used_sensors(graph, reached, task)
-    all_used = [*used.skills, *used.aside]
     sensed = sensor_rows(graph, used, task, codes, parameters)
     driven, delays = actuator_rows(graph, parameters)
     measured, changes = measure_rows(task)
     noticed, patches, arrivals = event_rows(task)
     tables = Tables(
-        world=world_row(graph, task, parameters, len(sensed.ray_row), all_used, master),
+        world=world_row(graph, task, parameters, len(sensed.ray_row), used.all, master),
         sensors=sensed.rows, rays=sensed.rays, rims=sensed.rims, ray_row=sensed.ray_row,
         passes=sensed.passes, numbers=sensed.numbers,
         skills=skills.rows, inputs=skills.inputs, edges=skills.edges, weights=skills.weights,
@@ -132,8 +131,7 @@ def build(
         readings=max(1, graph.width), before=sensed.derived, rough=sensed.rough, rings=sensed.rings,
         skills=len(graph.skills), inputs=skills.most_inputs, width=skills.most_outputs, recurrent=skills.state,
         genome=genome_length(graph, learners), depth=codes.depth, delays=delays,
-        changes=changes, patches=patches, arrivals=arrivals, boxes=box_count(task),
-        measured=rows_of(graph, all_used),
+        changes=changes, patches=patches, arrivals=arrivals, boxes=box_count(task), measured=rows_of(graph, used.all),
     )  # fmt: skip
 
 
